@@ -1,0 +1,52 @@
+# `make` or `make help` lists what can be done.
+.DEFAULT_GOAL := help
+.PHONY: help setup generate build run test lint types format baseline clean
+PYTHON := .venv/bin/python
+
+EMITTED := $(wildcard generated/*.pyx generated/c/*)
+
+help: ## Show this list
+	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+
+setup: .venv/.ready ## Create .venv and install everything (also done by the other targets)
+
+.venv/.ready: pyproject.toml setup.py .ci/setup
+	@.ci/setup
+	@touch $@ .venv/.built
+
+build: .venv/.built ## Compile the generated models
+
+.venv/.built: .venv/.ready $(EMITTED)
+	@$(PYTHON) setup.py --quiet build_ext --inplace
+	@touch $@
+
+generate: .venv/.ready ## Derive the equations again and write generated/
+	@$(PYTHON) -m kintrafo.generator generate generated
+
+run: build ## The paper's suspension: topology, Figures 4 to 6, summary, all in out/
+	@$(PYTHON) -m kintrafo.generator topology --picture out/topology.png
+	@$(PYTHON) -m kintrafo paper out
+
+test: build ## Run all tests
+	@$(PYTHON) -m pytest -q -n 2
+
+lint: .venv/.ready ## Check style
+	@.venv/bin/ruff check .
+	@.venv/bin/ruff format --check .
+
+format: .venv/.ready ## Rewrite the sources in the project's style
+	@.venv/bin/ruff check --fix-only --quiet .
+	@.venv/bin/ruff format --quiet .
+
+# mypy follows folders, not the mapping of the three of them onto one package
+types: .venv/.ready ## Check types
+	@mkdir -p build/types/kintrafo
+	@for item in runtime/*; do ln -sfn "../../../$$item" build/types/kintrafo/; done
+	@ln -sfn ../../../generator ../../../generated build/types/kintrafo/
+	@MYPYPATH=build/types .venv/bin/mypy -p kintrafo
+
+baseline: build ## Store the present operation counts as the baseline
+	@$(PYTHON) -m pytest -q tests/test_operation_counts.py --update-baseline
+
+clean: ## Remove everything that can be made again
+	rm -rf .venv build out generated/*.so .pytest_cache .mypy_cache .ruff_cache .hypothesis

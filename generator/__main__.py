@@ -1,0 +1,113 @@
+"""Derive the models that come with the project and write them: ``python -m kintrafo.generator``."""
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+from rich.table import Table
+
+from .emit.c import CPrinter
+from .emit.python import PythonPrinter, shared_files
+from .emit.report import block_diagram, bodies_of, joint_rows, markdown, mobility_line, path_rows
+from .mechanisms import MODELS
+from .outputs import GeneratedModel, generate
+from .topology import Topology
+from .transformer import Plan
+
+app = typer.Typer(help=__doc__, no_args_is_help=True, add_completion=False)
+console = Console(width=None if sys.stdout.isatty() else 110)
+
+
+def files_of(model: GeneratedModel) -> dict[str, str]:
+    """Return the emitted files of a model: path below the output folder to text."""
+    name = model.model.name
+    c, python = CPrinter(model), PythonPrinter(model)
+    return {
+        f"c/{name}.h": c.header(),
+        f"c/{name}.c": c.source(),
+        f"_{name}.pyx": python.addresses(),
+        f"_{name}.pyi": python.addresses_stub(),
+        f"{name}.py": python.module(),
+        f"{name}.md": markdown(model),
+    }
+
+
+def _write(target: Path, text: str) -> bool:
+    """Write a file unless it is the same already, so that nothing is compiled in vain."""
+    if target.exists() and target.read_text(encoding="utf-8") == text:
+        return False
+    target.write_text(text, encoding="utf-8", newline="\n")
+    return True
+
+
+@app.command("generate")
+def generate_all(
+    folder: Annotated[Path, typer.Argument(help="Where to write, usually 'generated'.")],
+) -> None:
+    """Derive every model and write C, Cython and report."""
+    texts = shared_files()
+    columns = SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn()
+    with Progress(*columns, console=console) as progress:
+        for model in MODELS:
+            task = progress.add_task(f"deriving {model.name}", total=1)
+            texts |= files_of(generate(model))
+            progress.advance(task)
+    changed = 0
+    for path, text in texts.items():
+        target = folder / path
+        target.parent.mkdir(parents=True, exist_ok=True)
+        changed += _write(target, text)
+    console.print(f"{len(texts)} files in {folder}, {changed} of them changed")
+
+
+@app.command()
+def topology(
+    picture: Annotated[
+        Path | None, typer.Option(help="Write the joint graph here (PNG, SVG).")
+    ] = None,
+) -> None:
+    """Show mobility, shortest paths, cycles and transformers of the MacPherson suspension."""
+    plan = Plan.of(MODELS[0])
+    show_topology(plan)
+    if picture is not None:
+        from .emit.graph import draw  # noqa: PLC0415 (matplotlib is slow to import)
+
+        draw(plan, picture)
+        console.print(f"joint graph written to {picture}")
+
+
+def show_topology(plan: Plan) -> None:
+    """Print the analysis of a mechanism as tables."""
+    graph: Topology = plan.topology
+    joints = Table(title=f"{graph.mechanism.title}: joints (Table 1)")
+    for column in ("joint", "type", "first body", "second body", "freedoms", "leaves in common"):
+        joints.add_column(column)
+    for row in joint_rows(graph):
+        joints.add_row(*row)
+    console.print(joints)
+    console.print(
+        f"Mobility (Eq. 1): {mobility_line(graph)}; independent loops: {graph.loop_count}"
+    )
+    paths = Table(title="Shortest paths between bodies (Table 2)")
+    for column in ("", *(str(b.number) for b in graph.mechanism.bodies)):
+        paths.add_column(column)
+    for row in path_rows(graph):
+        paths.add_row(*(cell.strip("*") for cell in row))
+    console.print(paths)
+    cycles = Table(title="Cycles (Horton)")
+    for column in ("bodies", "length", "in the basis"):
+        cycles.add_column(column)
+    basis = {t.cycle.key: t.number for t in plan.transformers}
+    for cycle in graph.candidate_cycles:
+        mark = f"transformer {basis[cycle.key]}" if cycle.key in basis else ""
+        cycles.add_row(bodies_of(graph, cycle), str(cycle.length), mark)
+    console.print(cycles)
+    for transformer in plan.transformers:
+        console.print(block_diagram(graph, transformer), highlight=False, soft_wrap=True)
+
+
+if __name__ == "__main__":
+    app()

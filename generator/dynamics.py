@@ -1,0 +1,455 @@
+"""Equations of motion ``M q'' + B = Q`` (Eq. 3 of the paper), as program steps.
+
+Inertia stays in body axes, where it is constant. Three rules shorten the equations without changing
+the model:
+
+* a point mass at the origin that a body shares with its neighbour is counted with the neighbour;
+* the mass and the transverse inertia of a rotor are counted with its carrier, so that only the
+  momentum about the spin axis remains;
+* for a body moved by a single coordinate, ``twist . (twist x* momentum)`` vanishes identically.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from .forces import JointForce, LinearTyre, TelescopeSpring, Weight
+from .geometry import UP
+from .placement import Placed, to_axes
+from .vectors import SymmetricTensor, Twist, Vector
+
+if TYPE_CHECKING:
+    from .kinematics import Kinematics
+    from .mechanism import Body
+
+NONE = sp.Integer(0)
+
+
+@dataclass
+class Inertia:
+    """Mass, first moment and inertia tensor about the body's origin, in body axes."""
+
+    mass: sp.Expr
+    moment: Vector
+    tensor: SymmetricTensor
+
+    @classmethod
+    def none(cls) -> Inertia:
+        """Return the inertia of a massless body."""
+        return cls(NONE, Vector.of(0, 0, 0), SymmetricTensor.zero())
+
+    def add_point(self, mass: sp.Expr, at: Vector) -> None:
+        """Add a point mass."""
+        self.mass += mass
+        self.moment += at * mass
+        self.tensor += SymmetricTensor.of_point_mass(mass, at)
+
+    def linear_momentum(self, twist: Twist) -> Vector:
+        """Return ``m v + omega x mc``."""
+        return twist.linear * self.mass + twist.angular.cross(self.moment)
+
+    def angular_momentum(self, twist: Twist) -> Vector:
+        """Return ``I omega + mc x v``."""
+        return self.tensor @ twist.angular + self.moment.cross(twist.linear)
+
+
+@dataclass(frozen=True)
+class Rotor:
+    """What remains of a body of revolution once its carrier has taken over the rest."""
+
+    coordinate: str
+    body: Body
+    carrier: Placed
+    axis: Vector
+    inertia: sp.Expr
+
+
+class Dynamics:
+    """Mass matrix, bias and generalised forces of a model, and its forward dynamics.
+
+    Attributes
+    ----------
+    mass_matrix, bias, forces
+        M, B and Q in the order of the independent coordinates.
+    accelerations
+        q'' by coordinate name.
+    spring_force, damper_force, tyre_force
+        The signals of the force elements, by joint or carrier name.
+    """
+
+    def __init__(self, kin: Kinematics) -> None:
+        self.kin = kin
+        self.program = kin.program
+        self.names = kin.independent
+        self.inertia: dict[str, Inertia] = {}
+        self.rotors: list[Rotor] = []
+        self.signals: dict[str, sp.Expr] = {}
+        self.program.section("inertia")
+        self._gather_inertia()
+        self._matrix: dict[tuple[str, str], sp.Expr] = {}
+        self._bias: dict[str, sp.Expr] = dict.fromkeys(self.names, NONE)
+        self._force: dict[str, sp.Expr] = dict.fromkeys(self.names, NONE)
+        self._momentum: dict[tuple[str, str], Vector] = {}
+        self._add_bodies()
+        self._add_forces()
+        self.accelerations = self._solve()
+
+    # -- inertia --------------------------------------------------------------------------------
+
+    def _gather_inertia(self) -> None:
+        """Sum up inertia from the last placed body to the first, moving what can be moved."""
+        for name in reversed(self.kin.placed):
+            self.inertia.setdefault(name, Inertia.none())
+        massive = [self.kin.mechanism.body(b) for b in self.kin.model.massive]
+        rotors = {body.name: k for k, body in self.kin.rotors.items()}
+        for body in massive:
+            if body.name in rotors:
+                self._fold_rotor(rotors[body.name], body)
+            else:
+                self._add_rigid(body)
+        for name in reversed(self.kin.placed):
+            placed, inertia = self.kin.placed[name], self.inertia[name]
+            if placed.carrier is not None and inertia.mass != 0:
+                carrier, at = placed.carrier
+                self.inertia[carrier].add_point(inertia.mass, at)
+                inertia.mass = NONE
+        for name, inertia in self.inertia.items():
+            self._name_inertia(name, inertia)
+
+    def _add_rigid(self, body: Body) -> None:
+        """Add a body given by mass, centre and tensor in chassis axes at the design position."""
+        placed = self.kin.placed[body.name]
+        mass = sp.Symbol(f"{body.name}_mass")
+        com = self.kin.local(placed, body.center)
+        own = self.inertia[body.name]
+        own.add_point(mass, com)
+        own.tensor += self._own_tensor(body).in_axes(self._chassis_axes(placed))
+
+    def _own_tensor(self, body: Body) -> SymmetricTensor:
+        if body.rotor_axis is None:
+            return SymmetricTensor(
+                *(
+                    sp.Symbol(f"{body.name}_inertia_{e}")
+                    for e in ("xx", "yy", "zz", "xy", "xz", "yz")
+                )
+            )
+        spin, across = self._rotor_moments(body)
+        axis = self.kin.to_chassis(self.kin.design_direction(body.rotor_axis))
+        axis = self.program.vector(f"{body.name}_rotor_axis", axis)
+        tensor = SymmetricTensor.transverse(across, axis)
+        x, y, z = axis
+        spinning = SymmetricTensor(x * x, y * y, z * z, x * y, x * z, y * z)
+        return tensor + SymmetricTensor(*(spin * element for element in spinning))
+
+    @staticmethod
+    def _rotor_moments(body: Body) -> tuple[sp.Symbol, sp.Symbol]:
+        return (
+            sp.Symbol(f"{body.name}_inertia_spin"),
+            sp.Symbol(f"{body.name}_inertia_diametral"),
+        )
+
+    def _chassis_axes(self, placed: Placed) -> tuple[Vector, Vector, Vector]:
+        """Return the body axes at the design position, in chassis axes."""
+        names = ("first", "second", "third")
+        x, y, z = (
+            self.program.vector(f"{placed.body}_{name}_in_chassis", self.kin.to_chassis(axis))
+            for name, axis in zip(names, placed.design_axes, strict=True)
+        )
+        return x, y, z
+
+    def _fold_rotor(self, coordinate: str, body: Body) -> None:
+        """Give the carrier all but the momentum of a rotor about its own axis."""
+        joint = self.kin.mechanism.joints_of(body.name)[0]
+        carrier = self.kin.placed[joint.other(body.name)]
+        spin, across = self._rotor_moments(body)
+        assert body.rotor_axis is not None
+        axis = self.kin.local_direction(carrier, body.rotor_axis)
+        own = self.inertia[carrier.body]
+        own.add_point(sp.Symbol(f"{body.name}_mass"), self.kin.local(carrier, body.center))
+        own.tensor += SymmetricTensor.transverse(across, axis)
+        self.rotors.append(Rotor(coordinate, body, carrier, axis, spin))
+
+    def _name_inertia(self, name: str, inertia: Inertia) -> None:
+        elements = ("xx", "yy", "zz", "xy", "xz", "yz")
+        inertia.mass = self.program.define(f"{name}_carried_mass", inertia.mass)
+        inertia.moment = self.program.vector(f"{name}_first_moment", inertia.moment, "123")
+        inertia.tensor = SymmetricTensor(
+            *(
+                self.program.define(f"{name}_carried_inertia_{e}", v)
+                for e, v in zip(elements, inertia.tensor, strict=True)
+            )
+        )
+
+    # -- bodies ---------------------------------------------------------------------------------
+
+    def _add_bodies(self) -> None:
+        for name, placed in self.kin.placed.items():
+            if placed.motion and not self._is_rotor(name):
+                self.program.section(f"dynamics: {name}")
+                self._add_body(placed, self.inertia[name])
+        for rotor in self.rotors:
+            self.program.section(f"dynamics: spin of {rotor.body.name}")
+            self._add_rotor(rotor)
+
+    def _is_rotor(self, name: str) -> bool:
+        return any(rotor.body.name == name for rotor in self.rotors)
+
+    def _add_body(self, placed: Placed, inertia: Inertia) -> None:
+        body = placed.body
+        columns = [k for k in self.names if k in placed.motion]
+        angular: dict[str, Vector] = {}
+        for k in columns:
+            twist = placed.motion[k]
+            self._momentum[body, k] = self.program.vector(
+                f"{body}_momentum_{k}", inertia.linear_momentum(twist), "123"
+            )
+            angular[k] = self.program.vector(
+                f"{body}_spin_momentum_{k}", inertia.angular_momentum(twist), "123"
+            )
+        for i, k in enumerate(columns):
+            for other in columns[i:]:
+                twist = placed.motion[k]
+                energy = twist.angular.dot(angular[other]) + twist.linear.dot(
+                    self._momentum[body, other]
+                )
+                self._matrix[k, other] = self._matrix.get((k, other), NONE) + energy
+        if len(columns) == 1 and self.kin.unit_rate:
+            self._add_single_bias(placed, columns[0], angular[columns[0]])
+        else:
+            self._add_full_bias(placed, inertia, columns)
+
+    def _add_single_bias(self, placed: Placed, k: str, angular: Vector) -> None:
+        """B = momentum . (d twist/dq) q'^2; the convective part vanishes identically."""
+        bias, twist = placed.bias(), placed.motion[k]
+        linear = bias.linear - twist.angular.cross(twist.linear)
+        self._bias[k] += angular.dot(bias.angular) + self._momentum[placed.body, k].dot(linear)
+
+    def _add_full_bias(self, placed: Placed, inertia: Inertia, columns: list[str]) -> None:
+        """Newton-Euler at the bias acceleration, projected on each column."""
+        body, program = placed.body, self.program
+        bias, omega = placed.bias(), self.kin.total(placed).angular
+        whirl = program.vector(f"{body}_whirl_moment", omega.cross(inertia.moment), "123")
+        spin = program.vector(f"{body}_spin_now", inertia.tensor @ omega, "123")
+        force = program.vector(
+            f"{body}_inertia_force",
+            bias.linear * inertia.mass + bias.angular.cross(inertia.moment) + omega.cross(whirl),
+            "123",
+        )
+        couple = program.vector(
+            f"{body}_inertia_couple",
+            inertia.tensor @ bias.angular + omega.cross(spin) + inertia.moment.cross(bias.linear),
+            "123",
+        )
+        for k in columns:
+            twist = placed.motion[k]
+            self._bias[k] += twist.angular.dot(couple) + twist.linear.dot(force)
+
+    def _add_rotor(self, rotor: Rotor) -> None:
+        """Gyroscopic part of a rotor on its carrier; the rest is in `_solve` and `full`."""
+        if self.kin.unit_rate:
+            return  # axis x omega is perpendicular to omega, the only direction of motion
+        omega = self.kin.total(rotor.carrier).angular
+        spin = self.kin.true_rate(rotor.coordinate) + rotor.axis.dot(omega)
+        momentum = self.program.define(f"{rotor.body.name}_spin_momentum", rotor.inertia * spin)
+        swing = omega.cross(rotor.axis)
+        couple = self.program.vector(f"{rotor.body.name}_gyroscopic", swing * momentum, "123")
+        for k in self._carried(rotor):
+            self._bias[k] += rotor.carrier.motion[k].angular.dot(couple)
+
+    def _carried(self, rotor: Rotor) -> list[str]:
+        return [k for k in self.names if k in rotor.carrier.motion]
+
+    # -- forces ---------------------------------------------------------------------------------
+
+    def _add_forces(self) -> None:
+        for force in self.kin.mechanism.forces:
+            self.program.section(f"forces: {type(force).__name__}")
+            if isinstance(force, Weight):
+                self._add_weight(force)
+            elif isinstance(force, TelescopeSpring):
+                self._add_telescope_spring(force)
+            elif isinstance(force, LinearTyre):
+                self._add_tyre(force)
+            elif isinstance(force, JointForce):
+                self._add_joint_force(force)
+
+    def up_in(self, placed: Placed) -> Vector:
+        """Return the upward unit vector in body axes."""
+        up = to_axes(placed.axes, self.kin.design_direction(UP))
+        return self.program.vector(f"{placed.body}_up", up, "123")
+
+    def _add_weight(self, force: Weight) -> None:
+        gravity = sp.Symbol(force.gravity)
+        for (body, k), momentum in self._momentum.items():
+            up = self.up_in(self.kin.placed[body])
+            self._force[k] -= gravity * up.dot(momentum)
+
+    def _add_telescope_spring(self, force: TelescopeSpring) -> None:
+        program, line = self.program, self.kin.telescopes[force.joint]
+        joint = self.kin.mechanism.joint(force.joint)
+        slide = program.define(
+            f"slide_{force.joint}",
+            sp.Symbol(joint.length_at_zero_slide) - line.length,  # type: ignore[attr-defined]
+        )
+        rates = [m * self.kin.true_rate(k) for k, m in line.length_motion.items()]
+        length_rate = program.define(f"length_rate_{force.joint}", sum(rates, NONE))
+        spring = program.define(
+            "spring_force", sp.Symbol(force.rate) * (slide - sp.Symbol(force.free_slide))
+        )
+        damper = program.define("damper_force", -sp.Symbol(force.damper) * length_rate)
+        actuator = sp.Symbol(force.actuator) if force.actuator else NONE
+        total = program.define("telescope_force", spring + damper + actuator)
+        self.signals.update(spring_force=spring, damper_force=damper)
+        for k in self.names:
+            if k in line.length_motion:
+                self._force[k] += total * line.length_motion[k]
+
+    def _add_tyre(self, force: LinearTyre) -> None:
+        program, carrier = self.program, self.kin.placed[force.carrier]
+        center = self.kin.local(carrier, force.center)
+        up = self.up_in(carrier)
+        axis = self.kin.local_direction(carrier, force.axis.towards)  # type: ignore[arg-type]
+        lean = program.define("wheel_axis_up", axis.dot(up))
+        ground = self.kin.design_direction(UP)
+        height_of_origin = carrier.origin.dot(ground) + self._origin_height()
+        height = program.define("wheel_height", height_of_origin + center.dot(up))
+        squared = program.guarded(
+            "cos_camber_squared", 1 - lean * lean, "the wheel lies flat on the road"
+        )
+        deflection = sp.Symbol(force.free_height) + sp.Symbol(force.road) - height
+        load = program.define("tyre_load", sp.Symbol(force.rate) * deflection / squared)
+        pull = program.vector("tyre_pull", up - axis * lean, "123")
+        for k in self.names:
+            if k in carrier.motion:
+                velocity = self.wheel_velocity(carrier, center, k)
+                self._force[k] += load * pull.dot(velocity)
+        self.signals.update(
+            wheel_height=height,
+            tyre_force=program.define("tyre_force", load * sp.sqrt(squared)),
+        )
+
+    def wheel_velocity(self, carrier: Placed, center: Vector, k: str) -> Vector:
+        """Return the velocity of the wheel centre per unit rate, in the carrier's axes."""
+        twist = carrier.motion[k]
+        return self.program.vector(
+            f"{carrier.body}_wheel_velocity_{k}",
+            twist.linear + twist.angular.cross(center),
+            "123",
+        )
+
+    def _origin_height(self) -> sp.Expr:
+        return self.kin.work_origin.z
+
+    def _add_joint_force(self, force: JointForce) -> None:
+        if force.joint in self.kin.model.independent:
+            joint = self.kin.mechanism.joint(force.joint)
+            self._force[self.kin.coordinate_of(joint)] += sp.Symbol(force.input)
+
+    # -- equations ------------------------------------------------------------------------------
+
+    def _carried_matrix(self, k: str, other: str) -> sp.Expr:
+        pair = (k, other) if (k, other) in self._matrix else (other, k)
+        return self._matrix.get(pair, NONE)
+
+    def _solve(self) -> dict[str, sp.Expr]:
+        """Forward dynamics: rotors are eliminated first, the rest is a small symmetric system.
+
+        The spin equation ``inertia (axis . omega' + spin') = torque`` has no part in the others:
+        what a rotor adds to M and B there cancels when its coordinate is eliminated.
+        """
+        program = self.program
+        program.section("equations of motion")
+        spins = {rotor.coordinate for rotor in self.rotors}
+        rest = [k for k in self.names if k not in spins]
+        for k in rest:
+            self._bias[k] = program.define(f"bias_of_{k}", self._bias[k])
+            self._force[k] = program.define(f"force_of_{k}", self._force[k])
+        matrix = {
+            (k, other): program.define(f"mass_{k}_{other}", self._carried_matrix(k, other))
+            for i, k in enumerate(rest)
+            for other in rest[i:]
+        }
+        right = {k: program.define(f"net_{k}", self._net(k)) for k in rest}
+        solution = self._cholesky(rest, matrix, right)
+        for rotor in self.rotors:
+            solution[rotor.coordinate] = program.define(
+                f"{rotor.coordinate}_acceleration", -self._spin_bias(rotor, solution)
+            )
+        return {k: solution[k] for k in self.names}
+
+    def _net(self, k: str) -> sp.Expr:
+        return self._force[k] - self._bias[k] * self.kin.pace**2
+
+    def _spin_bias(self, rotor: Rotor, accelerations: dict[str, sp.Expr]) -> sp.Expr:
+        """Return the rate of ``axis . omega`` of the carrier."""
+        total = rotor.axis.dot(rotor.carrier.bias().angular) * self.kin.pace**2
+        for k in self._carried(rotor):
+            total += self._rotor_share(rotor, k) * accelerations.get(k, NONE)
+        return total
+
+    def _rotor_share(self, rotor: Rotor, k: str) -> sp.Expr:
+        return self.program.define(
+            f"{rotor.body.name}_share_{k}", rotor.axis.dot(rotor.carrier.motion[k].angular)
+        )
+
+    def _cholesky(
+        self,
+        names: list[str],
+        matrix: dict[tuple[str, str], sp.Expr],
+        right: dict[str, sp.Expr],
+    ) -> dict[str, sp.Expr]:
+        """Solve the symmetric system by L D L^T, unrolled."""
+        program = self.program
+        work, right = dict(matrix), dict(right)
+        inverse: dict[str, sp.Expr] = {}
+        for i, k in enumerate(names):
+            pivot = program.guarded(
+                f"pivot_{k}", work[k, k], f"the mass matrix is not positive definite at {k}"
+            )
+            inverse[k] = program.define(f"inverse_pivot_{k}", 1 / pivot)
+            for j, row in enumerate(names[i + 1 :], i + 1):
+                factor = program.define(f"factor_{row}_{k}", work[k, row] * inverse[k])
+                for column in names[j:]:
+                    work[row, column] = program.define(
+                        f"reduced_{row}_{column}_{k}", work[row, column] - factor * work[k, column]
+                    )
+                right[row] = program.define(f"reduced_{row}_{k}", right[row] - factor * right[k])
+        solution: dict[str, sp.Expr] = {}
+        for i, k in reversed(list(enumerate(names))):
+            known = sum((work[k, c] * solution[c] for c in names[i + 1 :]), NONE)
+            solution[k] = program.define(f"{k}_acceleration", (right[k] - known) * inverse[k])
+        return solution
+
+    # -- M, B and Q as the paper writes them ----------------------------------------------------
+
+    def full_mass_matrix(self) -> list[list[sp.Expr]]:
+        """Return M of all independent coordinates, rotors included."""
+        self.program.section("mass matrix")
+        matrix = [[self._carried_matrix(k, other) for other in self.names] for k in self.names]
+        for rotor in self.rotors:
+            share = self._rotor_row(rotor)
+            for i, k in enumerate(self.names):
+                for j, other in enumerate(self.names):
+                    matrix[i][j] += rotor.inertia * share[k] * share[other]
+        return matrix
+
+    def _rotor_row(self, rotor: Rotor) -> dict[str, sp.Expr]:
+        share = {k: self._rotor_share(rotor, k) for k in self._carried(rotor)}
+        share[rotor.coordinate] = sp.Integer(1)
+        return {k: share.get(k, NONE) for k in self.names}
+
+    def full_bias(self) -> list[sp.Expr]:
+        """Return B of all independent coordinates, rotors included."""
+        bias = {k: self._bias[k] * self.kin.pace**2 for k in self.names}
+        for rotor in self.rotors:
+            rate = self._spin_bias(rotor, {})
+            for k, share in self._rotor_row(rotor).items():
+                bias[k] += rotor.inertia * share * rate
+        return [bias[k] for k in self.names]
+
+    def full_forces(self) -> list[sp.Expr]:
+        """Return Q of all independent coordinates."""
+        return [self._force[k] for k in self.names]

@@ -1,0 +1,161 @@
+"""Print the Python face of a model: its module, and the Cython file that links it to the C code."""
+
+from __future__ import annotations
+
+import pprint
+import textwrap
+from importlib.resources import files
+from string import Template
+from typing import TYPE_CHECKING
+
+from ..arithmetic import OPERATIONS
+from .c import CPrinter, count_line, mechanism_hash
+
+if TYPE_CHECKING:
+    from ..outputs import Entry, GeneratedModel
+    from ..program import Function
+
+SHARED = ("__init__.py", "_support.py", "_native.pyx", "_native.pyi")
+
+
+def template(name: str) -> Template:
+    """Return a template that lies beside the printers."""
+    return Template(
+        files(__package__).joinpath("templates", f"{name}.in").read_text(encoding="utf-8")
+    )
+
+
+def shared_files() -> dict[str, str]:
+    """Return the files that all models share, by name."""
+    return {name: template(name).template for name in SHARED}
+
+
+class PythonPrinter:
+    """Prints the Python face of one model."""
+
+    def __init__(self, model: GeneratedModel) -> None:
+        self.model = model
+        self.name = model.model.name
+        self._functions = list(model.functions.values())
+
+    def _called(self) -> list[Function]:
+        """Return the functions with the common signature."""
+        return [f for f in self._functions if not CPrinter.reads_given(f)]
+
+    # -- Cython ---------------------------------------------------------------------------------
+
+    def addresses(self) -> str:
+        """Return the text of the ``.pyx`` file."""
+        names = ["prepare", *(f.name for f in self._functions)]
+        prepare = f"    int {self.name}_prepare(const double *parameters, double *constants)"
+        return template("addresses.pyx").substitute(
+            name=self.name,
+            declarations="\n".join([prepare, *map(self._declaration, self._functions)]),
+            addresses="\n".join(f'    "{n}": <uintptr_t> &{self.name}_{n},' for n in names),
+        )
+
+    def addresses_stub(self) -> str:
+        """Return the text of the ``.pyi`` file beside it."""
+        return template("addresses.pyi").template
+
+    def _declaration(self, function: Function) -> str:
+        given = ", const double *given" if CPrinter.reads_given(function) else ""
+        return (
+            f"    int {self.name}_{function.name}(\n"
+            f"        const double *constants, const double *state, const double *inputs{given},\n"
+            "        double *out)"
+        )
+
+    # -- Python ---------------------------------------------------------------------------------
+
+    def module(self) -> str:
+        """Return the text of the ``.py`` file."""
+        model = self.model
+        exports = [
+            "ADDRESSES",
+            "DEFAULT_CONSTANTS",
+            "MECHANISM_HASH",
+            "NAME",
+            *self._tables(),
+            "ClosureError",
+            "ModelError",
+            "ParameterError",
+            "prepare",
+            *(f.name for f in self._functions),
+        ]
+        return template("model.py").substitute(
+            name=self.name,
+            title=model.model.title,
+            hash=mechanism_hash(model),
+            state_count=len(model.state),
+            input_count=len(model.inputs),
+            constant_count=len(model.prepare.results),
+            state_names=_fill(", ".join(e.name for e in model.state), 4).lstrip(),
+            input_names=_fill(", ".join(e.name for e in model.inputs), 4).lstrip(),
+            summary="\n".join(
+                f"``{f.name}``\n    {_fill(f'{f.doc} Result (..., {_shape(f)}).', 4).lstrip()}"
+                for f in self._functions
+            ),
+            exports="\n".join(f'    "{name}",' for name in exports),
+            tables="\n\n".join(
+                f"{name}: Final[{kind}] = {pprint.pformat(table, width=98, sort_dicts=False)}"
+                for name, (kind, table) in self._tables().items()
+            ),
+            functions="\n".join(map(self._function, self._called())),
+        )
+
+    def _tables(self) -> dict[str, tuple[str, object]]:
+        model = self.model
+        defaults = {p.name: p.default for p in model.model.mechanism.parameters}
+        parameters = {
+            e.name: {"default": defaults[e.name], "unit": e.unit, "meaning": e.meaning}
+            for e in model.parameters
+        }
+        described = "dict[str, dict[str, str]]"
+        names = "tuple[str, ...]"
+        topology = model.plan.topology
+        return {
+            "PARAMETERS": ("dict[str, dict[str, Any]]", parameters),
+            "STATE": (described, _described(model.state)),
+            "INPUTS": (described, _described(model.inputs)),
+            "RELATIVE_COORDINATES": (described, _described(model.relative)),
+            "SIGNALS": (described, _described(model.signals)),
+            "BODIES": (names, model.moving_bodies),
+            "MASSIVE_BODIES": (names, model.massive_bodies),
+            "CONSTANTS": (names, model.prepare.labels),
+            "GUARDS": (
+                "tuple[tuple[str, str], ...]",
+                tuple((g.name, g.meaning) for g in model.guards),
+            ),
+            "HELD_VARIANTS": ("dict[str, tuple[str, ...]]", model.held_inputs),
+            "MOBILITY": ("int", topology.mobility),
+            "LOOPS": (
+                "tuple[tuple[str, ...], ...]",
+                tuple(t.cycle.bodies for t in model.plan.transformers),
+            ),
+        }
+
+    def _function(self, function: Function) -> str:
+        counts = function.operations()
+        operations = {name: counts[name] for name in OPERATIONS}
+        labels = pprint.pformat(function.labels, width=88, compact=True)
+        doc = f"{function.doc}\n\nResult (..., {_shape(function)}); {count_line(function)}."
+        return (
+            f'{function.name} = Function(\n    _model,\n    "{function.name}",\n'
+            f'    ADDRESSES["{function.name}"],\n    {function.shape!r},\n'
+            f"{textwrap.indent(labels, '    ')},\n    {operations!r},\n"
+            f'    """{doc}""",\n)'
+        )
+
+
+def _shape(function: Function) -> str:
+    return ", ".join(str(n) for n in function.shape)
+
+
+def _fill(text: str, indent: int) -> str:
+    pad = " " * indent
+    return textwrap.fill(text, 96, initial_indent=pad, subsequent_indent=pad)
+
+
+def _described(entries: tuple[Entry, ...]) -> dict[str, dict[str, str]]:
+    return {e.name: {"unit": e.unit, "meaning": e.meaning} for e in entries}

@@ -1,0 +1,220 @@
+"""The derivation report: what was found, chosen and solved, with operation counts (Markdown)."""
+
+from __future__ import annotations
+
+from itertools import zip_longest
+from typing import TYPE_CHECKING
+
+from ..arithmetic import OPERATIONS
+from ..transformer import SolveTelescope, Transformer
+from .c import mechanism_hash
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from ..outputs import GeneratedModel
+    from ..topology import Cycle, Topology
+
+
+def table(header: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> str:
+    """Return an aligned Markdown table."""
+    widths = [max(len(row[i]) for row in (header, *rows)) for i in range(len(header))]
+
+    def line(cells: tuple[str, ...]) -> str:
+        padded = (c.ljust(w) for c, w in zip(cells, widths, strict=True))
+        return "| " + " | ".join(padded) + " |"
+
+    rule = "|" + "|".join("-" * (w + 2) for w in widths) + "|"
+    return "\n".join([line(header), rule, *(line(row) for row in rows)])
+
+
+def bodies_of(topology: Topology, cycle: Cycle) -> str:
+    """Return a cycle as the numbers and names of its bodies."""
+    named = (f"{topology.mechanism.body(b).number} {b}" for b in cycle.bodies)
+    return " - ".join(named)
+
+
+def joint_rows(topology: Topology) -> list[tuple[str, ...]]:
+    """Return the rows of the joint table (Table 1)."""
+    mechanism = topology.mechanism
+    return [
+        (
+            j.name,
+            j.kind,
+            f"{mechanism.body(j.first).number} {j.first}",
+            f"{mechanism.body(j.second).number} {j.second}",
+            str(j.freedoms),
+            j.common,
+        )
+        for j in mechanism.joints
+    ]
+
+
+def path_rows(topology: Topology) -> list[tuple[str, ...]]:
+    """Return the rows of the table of shortest paths (Table 2), ties included."""
+    bodies = topology.mechanism.bodies
+    rows = []
+    for start in bodies:
+        cells = [f"**{start.number}**"]
+        for end in bodies:
+            paths = topology.shortest_paths(start.name, end.name) if start != end else []
+            numbers = (
+                "".join(str(topology.mechanism.body(b).number) for b in path) for path in paths
+            )
+            cells.append(" or ".join(numbers) or "")
+        rows.append(tuple(cells))
+    return rows
+
+
+def mobility_line(topology: Topology) -> str:
+    """Return Eq. 1 with the numbers of the mechanism."""
+    moving = len(topology.mechanism.bodies) - 1
+    closed = [str(6 - j.freedoms) for j in topology.mechanism.joints]
+    return f"f = 6 x {moving} - ({' + '.join(closed)}) = {topology.mobility}"
+
+
+def equation(transformer: Transformer) -> tuple[str, str]:
+    """Return the closure equation of a transformer and its solution, in words and symbols."""
+    action = transformer.action
+    if isinstance(action, SolveTelescope):
+        ends = f"|{action.end.name} - {action.anchor.name}|"
+        joint = action.joint
+        return (
+            f"{ends} = {joint.length_at_zero_slide} - {joint.name}.slide",
+            "explicit: the length is the root of a sum of squares",
+        )
+    return (
+        f"|{action.end.name} - {action.anchor.name}| = length of {action.rod}",
+        (
+            "a cos x + b sin x = c for the turn of "
+            f"{action.body} about its line, branch as at design"
+        ),
+    )
+
+
+def block_diagram(topology: Topology, transformer: Transformer) -> str:
+    """Draw a transformer as a block with its inputs and outputs."""
+    a, b = transformer.pair.joints
+    closure, solution = equation(transformer)
+    inside = [
+        f"transformer {transformer.number}",
+        f"loop      {bodies_of(topology, transformer.cycle)} (length {transformer.cycle.length})",
+        (
+            f"pair      {a.name} ({a.kind}) and {b.name} ({b.kind}): "
+            f"{transformer.pair.eliminated} of {transformer.unknowns} unknowns eliminated, "
+            f"{transformer.pair.equations} equation left"
+        ),
+        f"equation  {closure}",
+        f"solution  {solution}",
+    ]
+    width = max(map(len, inside))
+    left = max(map(len, transformer.inputs), default=0)
+    rows = list(zip_longest(inside, transformer.inputs, transformer.outputs, fillvalue=""))
+    lines = [f"{'':{left}}     +-{'-' * width}-+"]
+    for text, entering, leaving in rows:
+        arrow_in, arrow_out = ("-->" if entering else ""), (f"--> {leaving}" if leaving else "")
+        lines.append(f"{entering:{left}} {arrow_in:3} | {text:{width}} | {arrow_out}".rstrip())
+    lines.append(f"{'':{left}}     +-{'-' * width}-+")
+    return "\n".join(lines)
+
+
+def preference(topology: Topology, transformer: Transformer) -> str:
+    """Say why a loop was taken before others of the same length."""
+    if not transformer.rivals:
+        return "It is the only shortest cycle that extends the basis."
+    others = "; ".join(
+        f"{bodies_of(topology, cycle)} would leave {unknowns}"
+        for cycle, unknowns in transformer.rivals
+    )
+    return (
+        f"Preferred over cycles of the same length because only {transformer.unknowns} of its "
+        f"relative coordinates are unknown at this point: {others}."
+    )
+
+
+def markdown(model: GeneratedModel) -> str:
+    """Return the whole report."""
+    topology = model.plan.topology
+    sections = [
+        f"# {model.model.title}",
+        (
+            "Generated by kintrafo; do not edit: `make generate` writes it anew. "
+            f"Mechanism `{mechanism_hash(model)}`."
+        ),
+        "## Bodies and joints",
+        table(
+            ("joint", "type", "first body", "second body", "freedoms", "leaves in common"),
+            joint_rows(topology),
+        ),
+        f"Mobility (Grübler, Eq. 1): {mobility_line(topology)}.",
+        (
+            f"Independent loops: {len(topology.mechanism.joints)} - "
+            f"({len(topology.mechanism.bodies)} - 1) = {topology.loop_count}."
+        ),
+        "## Shortest paths in the joint graph",
+        (
+            "An edge is as long as its joint has freedoms. Where several paths are equally short, "
+            "all are listed."
+        ),
+        table(("", *(str(b.number) for b in topology.mechanism.bodies)), path_rows(topology)),
+        "## Cycles",
+        (
+            f"Horton's construction gives {len(topology.horton_candidates())} simple cycles with "
+            f"repetitions, {len(topology.candidate_cycles)} distinct ones:"
+        ),
+        table(
+            ("bodies", "length"),
+            [(bodies_of(topology, c), str(c.length)) for c in topology.candidate_cycles],
+        ),
+        "## Kinematic transformers",
+        *_transformer_sections(model),
+        "## Functions",
+        _counts(model),
+        "A leading sign counts as an addition; guards are comparisons and do not count.",
+        "## Validity",
+        "Each function reports, by a status bit, which of these has left its range:",
+        table(
+            ("quantity, positive where valid", "meaning when it is not"),
+            [(f"`{g.name}`", g.meaning) for g in model.guards],
+        ),
+    ]
+    return "\n\n".join(sections) + "\n"
+
+
+def _transformer_sections(model: GeneratedModel) -> list[str]:
+    topology = model.plan.topology
+    sections = []
+    for transformer in model.plan.transformers:
+        pairs = [
+            (
+                f"{p.joints[0].name}, {p.joints[1].name}",
+                str(p.eliminated),
+                str(p.equations),
+                "chosen" if p == transformer.pair else "",
+            )
+            for p in transformer.candidates
+        ]
+        sections += [
+            f"### Transformer {transformer.number}",
+            f"```text\n{block_diagram(topology, transformer)}\n```",
+            preference(topology, transformer),
+            table(
+                ("pair with a common distance", "unknowns eliminated", "equations left", ""), pairs
+            ),
+        ]
+    return sections
+
+
+def _counts(model: GeneratedModel) -> str:
+    rows = []
+    for function in (model.prepare, *model.functions.values()):
+        counts = function.operations()
+        rows.append(
+            (
+                f"`{function.name}`",
+                " x ".join(map(str, function.shape)),
+                str(counts.total()),
+                *(str(counts[name]) for name in OPERATIONS),
+            )
+        )
+    return table(("function", "results", "operations", *OPERATIONS), rows)

@@ -1,0 +1,64 @@
+"""Points, directions and lines of a mechanism at its design position, in chassis axes.
+
+Chassis axes are ISO 8855: x forward, y left, z up. All components are parameters.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from .vectors import UNIT_X, UNIT_Z, Vector
+
+
+def _symbols(name: str) -> Vector:
+    return Vector(*(sp.Symbol(f"{name}_{axis}") for axis in "xyz"))
+
+
+@dataclass(frozen=True)
+class Point:
+    """A hardpoint, in metres."""
+
+    name: str
+
+    @property
+    def position(self) -> Vector:
+        """Coordinates at the design position, in chassis axes."""
+        return _symbols(self.name)
+
+
+@dataclass(frozen=True)
+class Direction:
+    """A direction: one of the chassis axes, or a parameter of any length."""
+
+    name: str
+    fixed: Vector | None = None
+
+    @property
+    def components(self) -> Vector:
+        """Components at the design position, in chassis axes, not normalised."""
+        return self.fixed if self.fixed is not None else _symbols(self.name)
+
+
+FORWARD = Direction("forward", UNIT_X)
+UP = Direction("up", UNIT_Z)
+
+
+@dataclass(frozen=True)
+class Line:
+    """An oriented line: from one point to another, or through a point along a direction."""
+
+    through: Point
+    towards: Point | Direction
+
+    @property
+    def vector(self) -> Vector:
+        """A vector along the line, not normalised."""
+        if isinstance(self.towards, Point):
+            return self.towards.position - self.through.position
+        return self.towards.components
+
+    def contains(self, point: Point) -> bool:
+        """Tell whether the point lies on the line by declaration."""
+        return point in (self.through, self.towards)

@@ -1,0 +1,163 @@
+"""Joints: their freedoms, and what they leave in common to the two bodies.
+
+Each joint names its relative coordinates (`coordinates`). The sense of a coordinate is that of the
+motion of the second body relative to the first, along or about the axis of the joint.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from .geometry import FORWARD, UP, Direction, Line, Point
+
+
+@dataclass(frozen=True, kw_only=True)
+class Joint:
+    """A connection of two bodies.
+
+    Parameters
+    ----------
+    name
+        As in the joint table of the mechanism.
+    first, second
+        Names of the two bodies.
+    """
+
+    name: str
+    first: str
+    second: str
+
+    kind: ClassVar[str]
+    common: ClassVar[str]
+    coordinates: ClassVar[tuple[str, ...]]
+
+    @property
+    def freedoms(self) -> int:
+        """Number of freedoms that the joint leaves."""
+        return len(self.coordinates)
+
+    @property
+    def bodies(self) -> tuple[str, str]:
+        """The two bodies."""
+        return self.first, self.second
+
+    @property
+    def center(self) -> Point | None:
+        """The point that stays common to both bodies whatever they do, if there is one."""
+        return None
+
+    def other(self, body: str) -> str:
+        """Return the body at the other side."""
+        return self.second if body == self.first else self.first
+
+
+@dataclass(frozen=True, kw_only=True)
+class Revolute(Joint):
+    """A hinge about a line.
+
+    Parameters
+    ----------
+    axis
+        The hinge line; positive rotation of the second body is right-handed about it.
+    angle_from, angle_to
+        The angle is measured from the projection of a direction fixed in the first body to that of
+        a point of the second body, and it lies between 0 and pi at the design position: where the
+        axis as declared would make it negative, the axis is taken the other way round. Without
+        ``angle_to`` the angle is zero at the design position and the axis is as declared.
+    """
+
+    axis: Line
+    angle_from: Direction = UP
+    angle_to: Point | None = None
+
+    kind: ClassVar[str] = "revolute"
+    common: ClassVar[str] = "an axis"
+    coordinates: ClassVar[tuple[str, ...]] = ("angle",)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Prismatic(Joint):
+    """A guide along a direction; the slide is zero at the design position."""
+
+    direction: Direction
+
+    kind: ClassVar[str] = "prismatic"
+    common: ClassVar[str] = "a direction, without rotation"
+    coordinates: ClassVar[tuple[str, ...]] = ("slide",)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cylindrical(Joint):
+    """A telescope: slide along and rotation about a common line.
+
+    Parameters
+    ----------
+    axis
+        The line, from a point of the second body to a point of the first. The slide is positive
+        when the second body moves along it, that is, when the telescope shortens.
+    length_at_zero_slide
+        Name of the parameter that holds the distance of the two points at zero slide.
+    angle_to
+        Point of the second body that defines its rotation about the axis.
+    """
+
+    axis: Line
+    length_at_zero_slide: str
+    angle_to: Point
+
+    kind: ClassVar[str] = "cylindrical"
+    common: ClassVar[str] = "an axis"
+    coordinates: ClassVar[tuple[str, ...]] = ("slide", "angle")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Universal(Joint):
+    """A cross of two perpendicular axes through a point.
+
+    Parameters
+    ----------
+    at
+        The centre.
+    shaft
+        Line of the second body through the centre. The second axis of the cross is fixed in the
+        second body, perpendicular to its shaft and, at the design position, to the first axis.
+    first_axis
+        Direction fixed in the first body.
+
+    Notes
+    -----
+    The two angles that are *reported* are those of the shaft relative to the first body, in the
+    z-x sequence of the paper: the local y axis of ``Rz(azimuth) Rx(elevation)`` lies along the
+    shaft. They say nothing about the cross, which stays regular where this sequence is singular
+    (shaft along z).
+    """
+
+    at: Point
+    shaft: Line
+    first_axis: Direction = FORWARD
+
+    kind: ClassVar[str] = "universal"
+    common: ClassVar[str] = "a point, and two perpendicular axes"
+    coordinates: ClassVar[tuple[str, ...]] = ("azimuth", "elevation")
+
+    @property
+    def center(self) -> Point:
+        """The centre of the cross."""
+        return self.at
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spherical(Joint):
+    """A ball joint."""
+
+    at: Point
+
+    kind: ClassVar[str] = "spherical"
+    common: ClassVar[str] = "a point"
+    coordinates: ClassVar[tuple[str, ...]] = ("x", "y", "z")
+
+    @property
+    def center(self) -> Point:
+        """The centre of the ball."""
+        return self.at

@@ -1,0 +1,416 @@
+"""Carry out a plan: poses, velocities and bias accelerations of all bodies, as program steps."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from . import solutions
+from .arithmetic import SignOf
+from .geometry import UP, Direction, Point
+from .joints import Joint, Prismatic, Revolute
+from .placement import IDENTITY, Axes, OnLine, Placed, PointMotion, from_axes, to_axes
+from .transformer import PlaceByCross, PlaceByJoint, Plan, SolveTelescope, SolveTurn
+from .vectors import NO_TWIST, UNIT_X, UNIT_Z, ZERO, Twist, Vector
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from .mechanism import Body
+    from .program import Program
+
+
+class Kinematics:
+    """The bodies of a model in motion.
+
+    Parameters
+    ----------
+    program
+        Receives the steps.
+    plan
+        What to solve, in which order.
+    held
+        Prescribed joints that stand still in this variant.
+
+    Notes
+    -----
+    *Unit rate.* When a single coordinate moves everything that has inertia (rotors apart), all
+    biases are computed for a unit rate of that coordinate and scaled by the square of the true
+    rate at the very end; `pace` is that factor.
+
+    *Work axes.* The ground-fixed axes in which positions are computed are chosen so that most
+    components vanish: x along the hinge of the first ground-fixed revolute joint, z upward, origin
+    at the ground-fixed point of the first transformer.
+    """
+
+    def __init__(self, program: Program, plan: Plan, held: Iterable[str] = ()) -> None:
+        self.program = program
+        self.plan = plan
+        self.model = plan.model
+        self.mechanism = plan.model.mechanism
+        self.held = frozenset(held)
+        self.coordinates = {
+            self._coordinate_name(j): sp.Symbol(self._coordinate_symbol(j)) for j in self._driven
+        }
+        self.moving = [self._coordinate_name(j) for j in self._driven if j.name not in self.held]
+        self.rotors = self._rotors()
+        pacing = [k for k in self.moving if k not in self.rotors]
+        self.unit_rate = len(pacing) == 1
+        self.pace = self.true_rate(pacing[0]) if self.unit_rate else sp.Integer(1)
+        self.placed: dict[str, Placed] = {}
+        self.on_line: dict[str, OnLine] = {}
+        self.telescopes: dict[str, OnLine] = {}
+        self._points: dict[Point, PointMotion] = {}
+        self._set_work_axes()
+        self._run()
+
+    # -- coordinates ----------------------------------------------------------------------------
+
+    @property
+    def _driven(self) -> list[Joint]:
+        names = (*self.model.independent, *self.model.prescribed)
+        return [self.mechanism.joint(n) for n in names]
+
+    def _coordinate_name(self, joint: Joint) -> str:
+        """Return the key of a driven coordinate: a reported name, or that of the input."""
+        if joint.name in self.model.prescribed:
+            return self.model.prescribed[joint.name]
+        return next(c.name for c in self.mechanism.coordinates if c.joint == joint.name)
+
+    def _coordinate_symbol(self, joint: Joint) -> str:
+        name = self._coordinate_name(joint)
+        return f"{name}_position" if joint.name in self.model.prescribed else name
+
+    @property
+    def independent(self) -> list[str]:
+        """Names of the independent coordinates, in the order of the state."""
+        return [self._coordinate_name(self.mechanism.joint(n)) for n in self.model.independent]
+
+    def coordinate_of(self, joint: Joint) -> str:
+        """Return the name of a driven joint's coordinate."""
+        return self._coordinate_name(joint)
+
+    def true_rate(self, coordinate: str) -> sp.Symbol:
+        """Return the symbol of the rate of a coordinate."""
+        prescribed = coordinate in self.model.prescribed.values()
+        return sp.Symbol(f"{coordinate}_velocity" if prescribed else f"{coordinate}_rate")
+
+    def rate(self, coordinate: str) -> sp.Expr:
+        """Return the rate at which biases are computed (one, in a unit-rate model)."""
+        return sp.Integer(1) if self.unit_rate else self.true_rate(coordinate)
+
+    def acceleration(self, coordinate: str) -> sp.Expr:
+        """Return the part of a coordinate's acceleration that is given: that of an input."""
+        if coordinate in self.model.prescribed.values() and coordinate in self.moving:
+            return sp.Symbol(f"{coordinate}_acceleration")
+        return sp.Integer(0)
+
+    def _rotors(self) -> dict[str, Body]:
+        """Return the bodies of revolution at the end of a chain, by their spin coordinate."""
+        rotors = {}
+        for joint in self._driven:
+            body = self.mechanism.body(joint.second)
+            leaf = len(self.mechanism.joints_of(body.name)) == 1
+            if isinstance(joint, Revolute) and leaf and body.rotor_axis is not None:
+                rotors[self._coordinate_name(joint)] = body
+        return rotors
+
+    # -- design position ------------------------------------------------------------------------
+
+    def _set_work_axes(self) -> None:
+        self.program.section("work axes")
+        self._hinge = next(
+            (
+                j
+                for j in self._driven
+                if isinstance(j, Revolute) and j.first == self.mechanism.ground and j.angle_to
+            ),
+            None,
+        )
+        self.work_origin = self._ground_anchor()
+        self.work_axes = IDENTITY
+        if self._hinge is not None:
+            x, z = self._hinge_axes(self._hinge)
+            self.work_axes = (x, self.program.vector("work_y", z.cross(x)), z)
+        ground = self.mechanism.ground
+        self.placed[ground] = Placed(ground)
+
+    def _ground_anchor(self) -> Vector:
+        for action in self.plan.actions:
+            if isinstance(action, SolveTelescope) and action.anchor_body == self.mechanism.ground:
+                return action.anchor.position
+        return ZERO
+
+    def _hinge_axes(self, hinge: Revolute) -> tuple[Vector, Vector]:
+        """Return the positive hinge axis and the reference of its angle, in chassis axes."""
+        assert hinge.angle_to is not None
+        axis = self.unit("hinge_axis", hinge.axis.vector)
+        reference = hinge.angle_from.components
+        z = self.unit("work_z", reference - axis * reference.dot(axis))
+        arm = hinge.angle_to.position - hinge.axis.through.position
+        sign = self.program.define("hinge_sense", SignOf(axis.dot(z.cross(arm))))
+        return self.program.vector("work_x", axis * sign), z
+
+    def unit(self, name: str, vector: Vector) -> Vector:
+        """Append the unit vector along a constant vector."""
+        v = self.program.vector(f"{name}_vector", vector)
+        length = self.program.define(f"{name}_norm", sp.sqrt(v.dot(v)))
+        return self.program.vector(name, v * (1 / length))
+
+    def design(self, point: Point) -> Vector:
+        """Return the design position of a point in work axes."""
+        offset = self.program.vector(f"offset_{point.name}", point.position - self.work_origin)
+        return self.program.vector(f"design_{point.name}", self.to_work(offset))
+
+    def to_work(self, chassis: Vector) -> Vector:
+        """Return the work components of a vector in chassis axes."""
+        return to_axes(self.work_axes, chassis)
+
+    def to_chassis(self, work: Vector) -> Vector:
+        """Return the chassis components of a vector in work axes."""
+        return from_axes(self.work_axes, work)
+
+    def design_direction(self, direction: Direction) -> Vector:
+        """Return a unit direction in work axes at the design position."""
+        if direction is UP and self._hinge is not None and self._hinge.angle_from is UP:
+            x, _, z = self.work_axes  # y is perpendicular to up by construction
+            return Vector(x.z, sp.Integer(0), z.z)
+        if direction.fixed is not None:
+            vector = direction.components
+        else:
+            vector = self.unit(f"unit_{direction.name}", direction.components)
+        return self.program.vector(f"work_{direction.name}", self.to_work(vector))
+
+    def local(self, placed: Placed, point: Point) -> Vector:
+        """Return the constant body coordinates of a point."""
+        if point not in placed.local:
+            arm = self.program.vector(
+                f"{placed.body}_arm_{point.name}", self.design(point) - placed.design_origin
+            )
+            placed.local[point] = self.program.vector(
+                f"{placed.body}_{point.name}", to_axes(placed.design_axes, arm), "123"
+            )
+        return placed.local[point]
+
+    def local_direction(self, placed: Placed, direction: Direction) -> Vector:
+        """Return the constant body components of a direction fixed in a body."""
+        return self.program.vector(
+            f"{placed.body}_{direction.name}",
+            to_axes(placed.design_axes, self.design_direction(direction)),
+            "123",
+        )
+
+    # -- motion ---------------------------------------------------------------------------------
+
+    def position(self, placed: Placed, point: Point) -> Vector:
+        """Return where a point of a placed body is, in work axes."""
+        offset = from_axes(placed.axes, self.local(placed, point))
+        return self.program.vector(f"at_{point.name}", placed.origin + offset)
+
+    def total(self, placed: Placed) -> Twist:
+        """Return the twist at the rates at which biases are computed."""
+        twist = NO_TWIST
+        for coordinate, motion in placed.motion.items():
+            twist += motion * self.rate(coordinate)
+        return self.define_twist(placed.body, "now", twist)
+
+    def define_twist(self, body: str, label: str, twist: Twist) -> Twist:
+        """Append the components of a twist."""
+        return Twist(
+            self.program.vector(f"{body}_omega_{label}", twist.angular, "123"),
+            self.program.vector(f"{body}_velocity_{label}", twist.linear, "123"),
+        )
+
+    def define_bias(self, body: str, twist: Twist) -> Twist:
+        """Append the components of a bias acceleration."""
+        return Twist(
+            self.program.vector(f"{body}_alpha", twist.angular, "123"),
+            self.program.vector(f"{body}_acceleration", twist.linear, "123"),
+        )
+
+    def point_bias(self, placed: Placed, local: Vector) -> Vector:
+        """Return the bias acceleration of a point of a body, in body axes."""
+        bias, omega = placed.bias(), self.total(placed).angular
+        return bias.linear + bias.angular.cross(local) + omega.cross(omega.cross(local))
+
+    def point_motion(self, body: str, point: Point) -> PointMotion:
+        """Return position, velocities and bias acceleration of a point, in work axes."""
+        if point in self._points:
+            return self._points[point]
+        placed = self.placed[body]
+        local = self.local(placed, point)
+        motion = {}
+        for coordinate, twist in placed.motion.items():
+            velocity = from_axes(placed.axes, twist.linear + twist.angular.cross(local))
+            motion[coordinate] = self.program.vector(f"d_{point.name}_{coordinate}", velocity)
+        bias = self.program.vector(
+            f"bias_{point.name}", from_axes(placed.axes, self.point_bias(placed, local))
+        )
+        self._points[point] = PointMotion(self.position(placed, point), motion, bias)
+        return self._points[point]
+
+    # -- carrying out the plan ------------------------------------------------------------------
+
+    def _run(self) -> None:
+        for action in self.plan.actions:
+            if isinstance(action, PlaceByJoint):
+                self.program.section(f"{action.child}: {action.joint.kind} joint")
+                self._place_by_joint(action)
+            elif isinstance(action, PlaceByCross):
+                self.program.section(f"{action.child}: cross of the universal joint")
+                solutions.place_by_cross(self, action)
+            elif isinstance(action, SolveTelescope):
+                self.program.section(f"transformer: telescope {action.joint.name}")
+                solutions.solve_telescope(self, action)
+            elif isinstance(action, SolveTurn):
+                self.program.section(f"transformer: {action.body} held by {action.rod}")
+                solutions.solve_turn(self, action)
+
+    def _place_by_joint(self, action: PlaceByJoint) -> None:
+        if isinstance(action.joint, Revolute):
+            self._place_revolute(action.joint, action.parent, action.child)
+        else:
+            self._place_prismatic(action.joint, action.parent, action.child)
+
+    def _place_revolute(self, joint: Revolute, parent_name: str, child: str) -> None:
+        parent = self.placed[parent_name]
+        coordinate = self._coordinate_name(joint)
+        angle = self.coordinates[coordinate]
+        frame = self._revolute_frame(joint, parent, child)
+        cosine = self.program.define(f"cos_{angle}", sp.cos(angle))
+        sine = self.program.define(f"sin_{angle}", sp.sin(angle))
+
+        def turn(v: Vector) -> Vector:
+            """From the parent's body axes to the child's."""
+            x, y, z = to_axes(frame.parent_axes, v)
+            return Vector(x, cosine * y + sine * z, cosine * z - sine * y)
+
+        x, y, z = (from_axes(parent.axes, axis) for axis in frame.parent_axes)
+        axes = (x, y * cosine + z * sine, z * cosine - y * sine)
+        placed = Placed(
+            child,
+            origin=self.program.vector(
+                f"{child}_origin", parent.origin + from_axes(parent.axes, frame.origin)
+            ),
+            axes=tuple(  # type: ignore[arg-type]
+                self.program.vector(f"{child}_{name}", axis)
+                for name, axis in zip(("axis", "side", "top"), axes, strict=True)
+            ),
+            design_origin=frame.design_origin,
+            design_axes=frame.design_axes,
+            local=frame.local,
+            carrier=(parent_name, frame.origin),
+        )
+        for k, twist in parent.motion.items():
+            velocity = twist.linear + twist.angular.cross(frame.origin)
+            placed.motion[k] = self.define_twist(
+                child, k, Twist(turn(twist.angular), turn(velocity))
+            )
+        if coordinate in self.moving:
+            placed.motion[coordinate] = Twist(UNIT_X, ZERO)
+
+        def bias() -> Twist:
+            if self.unit_rate and coordinate in self.rotors:
+                message = f"the bias of rotor {child!r} is not available in a unit-rate model"
+                raise ValueError(message)
+            carried = parent.bias()
+            omega = turn(self.total(parent).angular)
+            spin = UNIT_X * (self.rate(coordinate) if coordinate in self.moving else 0)
+            angular = (
+                turn(carried.angular) + omega.cross(spin) + UNIT_X * self.acceleration(coordinate)
+            )
+            linear = turn(self.point_bias(parent, frame.origin))
+            return self.define_bias(child, Twist(angular, linear))
+
+        placed.bias = bias
+        self.placed[child] = placed
+
+    def _revolute_frame(self, joint: Revolute, parent: Placed, child: str) -> _HingeFrame:
+        """Return the axes of a hinge on both of its bodies."""
+        through = self.design(joint.axis.through)
+        if joint is self._hinge:
+            assert joint.angle_to is not None
+            point = self.design(joint.angle_to)
+            axis, z_parent = UNIT_X, UNIT_Z
+            origin = Vector(point.x, through.y, through.z)
+            arm = self.program.vector(f"{child}_arm", point - origin)
+            radius = self.program.define(f"{child}_radius", sp.sqrt(arm.y**2 + arm.z**2))
+            z_child = self.program.vector(f"{child}_top_design", arm * (1 / radius))
+            local = {joint.angle_to: Vector(ZERO.x, ZERO.y, radius)}
+        else:
+            axis = self.unit(f"{child}_axis_design", self.to_work(joint.axis.vector))
+            reference = self.design_direction(joint.angle_from)
+            z_parent = self.unit(f"{child}_top_design", reference - axis * reference.dot(axis))
+            origin, z_child = through, z_parent
+            local = {joint.axis.through: ZERO}
+        design_axes = (
+            axis,
+            self.program.vector(f"{child}_side_design", z_child.cross(axis)),
+            z_child,
+        )
+        start = (axis, self.program.vector(f"{child}_side_zero", z_parent.cross(axis)), z_parent)
+        parent_axes = tuple(
+            self.program.vector(f"{child}_{name}_on_parent", to_axes(parent.design_axes, v), "123")
+            for name, v in zip(("axis", "side", "top"), start, strict=True)
+        )
+        on_parent = self.program.vector(
+            f"{child}_origin_on_parent",
+            to_axes(parent.design_axes, origin - parent.design_origin),
+            "123",
+        )
+        return _HingeFrame(parent_axes, on_parent, origin, design_axes, local)  # type: ignore[arg-type]
+
+    def _place_prismatic(self, joint: Prismatic, parent_name: str, child: str) -> None:
+        parent = self.placed[parent_name]
+        coordinate = self._coordinate_name(joint)
+        slide = self.coordinates[coordinate]
+        direction = self.local_direction(parent, joint.direction)
+        start = parent.design_origin
+        offset = direction * slide
+        placed = Placed(
+            child,
+            origin=self.program.vector(
+                f"{child}_origin", parent.origin + from_axes(parent.axes, offset)
+            ),
+            axes=parent.axes,
+            design_origin=start,
+            design_axes=parent.design_axes,
+        )
+        for k, twist in parent.motion.items():
+            velocity = twist.linear + twist.angular.cross(offset)
+            placed.motion[k] = self.define_twist(child, k, Twist(twist.angular, velocity))
+        if coordinate in self.moving:
+            placed.motion[coordinate] = Twist(ZERO, direction)
+
+        def bias() -> Twist:
+            carried = parent.bias()
+            omega = self.total(parent).angular
+            speed = direction * (self.rate(coordinate) if coordinate in self.moving else 0)
+            linear = (
+                self.point_bias(parent, offset)
+                + omega.cross(speed) * 2
+                + direction * self.acceleration(coordinate)
+            )
+            return self.define_bias(child, Twist(carried.angular, linear))
+
+        placed.bias = bias
+        self.placed[child] = placed
+
+
+class _HingeFrame:
+    """Axes and origin of a hinge: on the parent at angle zero, and on the child at design."""
+
+    def __init__(
+        self,
+        parent_axes: Axes,
+        origin: Vector,
+        design_origin: Vector,
+        design_axes: Axes,
+        local: dict[Point, Vector],
+    ) -> None:
+        self.parent_axes = parent_axes
+        self.origin = origin
+        self.design_origin = design_origin
+        self.design_axes = design_axes
+        self.local = local

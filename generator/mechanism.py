@@ -1,0 +1,131 @@
+"""What a person declares: bodies, joints, forces, parameters, and the models made of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from .joints import Joint, Universal
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from .forces import Force
+    from .geometry import Direction, Point
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A number that a user of the generated code may change.
+
+    Attributes
+    ----------
+    default
+        Value in SI units.
+    unit, meaning
+        For the documentation of the generated code.
+    """
+
+    name: str
+    default: float
+    unit: str
+    meaning: str
+
+
+@dataclass(frozen=True)
+class Body:
+    """A rigid body.
+
+    Attributes
+    ----------
+    name, number
+        The number is that of the paper's or the user's figure.
+    center
+        Centre of mass; its position at design is a parameter.
+    rotor_axis
+        For a body of revolution that spins about a bearing: the direction of its axis. Its inertia
+        then has two parameters, about the axis and across it; other bodies have a full tensor.
+    """
+
+    name: str
+    number: int
+    center: Point
+    rotor_axis: Direction | None = None
+
+
+@dataclass(frozen=True)
+class RelativeCoordinate:
+    """A relative joint coordinate of the report, such as the paper's beta2."""
+
+    name: str
+    joint: str
+    kind: str
+    unit: str
+    meaning: str
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """Bodies and joints with everything that acts on them.
+
+    The first body is the ground. `coordinates` are the relative coordinates of the report, in the
+    numbering of the figure; `inputs` gives unit and meaning of each time-varying input.
+    """
+
+    name: str
+    title: str
+    bodies: tuple[Body, ...]
+    joints: tuple[Joint, ...]
+    forces: tuple[Force, ...]
+    parameters: tuple[Parameter, ...]
+    coordinates: tuple[RelativeCoordinate, ...]
+    inputs: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+
+    @property
+    def ground(self) -> str:
+        """Name of the reference body."""
+        return self.bodies[0].name
+
+    def body(self, name: str) -> Body:
+        """Return a body by its name."""
+        return next(b for b in self.bodies if b.name == name)
+
+    def joint(self, name: str) -> Joint:
+        """Return a joint by its name."""
+        return next(j for j in self.joints if j.name == name)
+
+    def joints_of(self, body: str) -> list[Joint]:
+        """Return the joints at a body."""
+        return [j for j in self.joints if body in j.bodies]
+
+    def universal_at(self, body: str, center: Point) -> Universal | None:
+        """Return the universal joint that holds a shaft at a point, if there is one."""
+        for joint in self.joints_of(body):
+            if isinstance(joint, Universal) and joint.at == center and joint.second == body:
+                return joint
+        return None
+
+
+@dataclass(frozen=True)
+class Model:
+    """One set of equations derived from a mechanism.
+
+    Attributes
+    ----------
+    independent
+        Names of the joints whose coordinates are the state, in order.
+    prescribed
+        Joint name to input name: the coordinate is an input with velocity and acceleration.
+    massive
+        Bodies whose inertia enters the equations.
+    held
+        Variants of the right-hand side: name to the prescribed inputs that stand still in it.
+    """
+
+    name: str
+    title: str
+    mechanism: Mechanism
+    independent: tuple[str, ...]
+    massive: tuple[str, ...]
+    prescribed: Mapping[str, str] = field(default_factory=dict)
+    held: Mapping[str, tuple[str, ...]] = field(default_factory=dict)

@@ -1,0 +1,251 @@
+"""The MacPherson suspension of Góis & Sarzeto (IME, Rio de Janeiro, 2000): their Figure 1, Table 1.
+
+Bodies and joints carry the paper's numbers and names. The paper gives no dimensions: the default
+values are this project's reference car (front right, ISO 8855 axes, ground at z = 0).
+"""
+
+from __future__ import annotations
+
+from ..forces import JointForce, LinearTyre, TelescopeSpring, Weight
+from ..geometry import FORWARD, Direction, Line, Point
+from ..joints import Cylindrical, Prismatic, Revolute, Spherical, Universal
+from ..mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
+
+A = Point("arm_front")
+O = Point("arm_rear")
+B = Point("ball_joint")
+C = Point("strut_top")
+D = Point("tie_rod_outer")
+E = Point("tie_rod_inner")
+G = Point("wheel_center")
+RACK = Direction("rack_axis")
+SPIN = Direction("spin_axis")
+
+BODIES = (
+    Body("chassis", 1, center=C),
+    Body("control_arm", 2, center=Point("control_arm_com")),
+    Body("knuckle", 3, center=Point("knuckle_com")),
+    Body("tie_rod", 4, center=Point("tie_rod_com")),
+    Body("rack", 5, center=Point("rack_com")),
+    Body("upper_strut", 6, center=Point("upper_strut_com")),
+    Body("wheel", 7, center=G, rotor_axis=SPIN),
+)
+
+# Table 1
+JOINTS = (
+    Revolute(name="OA", first="chassis", second="control_arm", axis=Line(O, A), angle_to=B),
+    Spherical(name="B", first="control_arm", second="knuckle", at=B),
+    Cylindrical(
+        name="BC",
+        first="upper_strut",
+        second="knuckle",
+        axis=Line(B, C),
+        length_at_zero_slide="strut_length_max",
+        angle_to=G,
+    ),
+    Universal(
+        name="C", first="chassis", second="upper_strut", at=C, shaft=Line(C, B), first_axis=FORWARD
+    ),
+    Spherical(name="D", first="knuckle", second="tie_rod", at=D),
+    Universal(name="E", first="rack", second="tie_rod", at=E, shaft=Line(E, D), first_axis=FORWARD),
+    Prismatic(name="y", first="chassis", second="rack", direction=RACK),
+    Revolute(name="HG", first="knuckle", second="wheel", axis=Line(G, SPIN)),
+)
+
+# Figure 3; beta6 to beta9 are the second transformer's copies of what the first one gives it
+COORDINATES = (
+    RelativeCoordinate(
+        "beta1",
+        "OA",
+        "angle",
+        "rad",
+        "arm angle from the chassis vertical (Eq. 6); falls as the wheel rises",
+    ),
+    RelativeCoordinate("beta2", "BC", "slide", "m", "strut slide, positive in compression"),
+    RelativeCoordinate("beta3", "C", "elevation", "rad", "sin(beta3) = n_z, n from C to B (Eq. 7)"),
+    RelativeCoordinate(
+        "beta4",
+        "C",
+        "azimuth",
+        "rad",
+        "sin(beta4) cos(beta3) = -n_x, cos(beta4) cos(beta3) = n_y (Eq. 8)",
+    ),
+    RelativeCoordinate(
+        "beta5",
+        "HG",
+        "angle",
+        "rad",
+        "wheel spin angle relative to the knuckle, positive rolling forward",
+    ),
+    RelativeCoordinate("beta6", "BC", "slide", "m", "beta2 in the second transformer (Eq. 9)"),
+    RelativeCoordinate(
+        "beta7", "C", "elevation", "rad", "beta3 in the second transformer (Eq. 10)"
+    ),
+    RelativeCoordinate("beta8", "C", "azimuth", "rad", "beta4 in the second transformer (Eq. 11)"),
+    RelativeCoordinate("beta9", "y", "slide", "m", "rack displacement along its axis (Eq. 12)"),
+    RelativeCoordinate(
+        "beta10",
+        "BC",
+        "angle",
+        "rad",
+        "rotation of the knuckle about BC, from the strut's z-x frame (Eq. 16)",
+    ),
+)
+TIE_ROD_COORDINATES = (
+    RelativeCoordinate(
+        "beta11",
+        "E",
+        "elevation",
+        "rad",
+        "elevation of the tie rod E to D, as beta3; not in the paper",
+    ),
+    RelativeCoordinate(
+        "beta12", "E", "azimuth", "rad", "azimuth of the tie rod, as beta4; not in the paper"
+    ),
+)
+
+FORCES = (
+    Weight(gravity="gravity"),
+    TelescopeSpring(
+        joint="BC",
+        rate="spring_rate",
+        damper="damper_rate",
+        free_slide="spring_free_slide",
+        actuator="strut_force",
+    ),
+    LinearTyre(
+        carrier="knuckle",
+        axis=Line(G, SPIN),
+        rate="tyre_rate",
+        free_height="tyre_free_height",
+        road="road_height",
+    ),
+    JointForce(joint="y", input="rack_force"),
+)
+
+INPUTS = {
+    "rack_position": ("m", "displacement of the rack along its axis"),
+    "rack_velocity": ("m/s", "velocity of the rack along its axis"),
+    "rack_acceleration": ("m/s^2", "acceleration of the rack along its axis"),
+    "road_height": ("m", "height of the road under the tyre, positive up"),
+    "strut_force": ("N", "actuator force in the strut, positive when it pushes its ends apart"),
+    "rack_force": ("N", "force on the rack along its axis"),
+}
+
+
+def _point(name: str, position: tuple[float, float, float], meaning: str) -> list[Parameter]:
+    return [
+        Parameter(f"{name}_{axis}", value, "m", f"{meaning}, {axis} at the design position")
+        for axis, value in zip("xyz", position, strict=True)
+    ]
+
+
+def _direction(name: str, components: tuple[float, float, float], meaning: str) -> list[Parameter]:
+    return [
+        Parameter(f"{name}_{axis}", value, "1", f"{meaning}, {axis} component")
+        for axis, value in zip("xyz", components, strict=True)
+    ]
+
+
+def _rigid_body(
+    name: str,
+    mass: float,
+    com: tuple[float, float, float],
+    inertia: tuple[float, float, float] = (0.0, 0.0, 0.0),
+) -> list[Parameter]:
+    """Mass, centre of mass and inertia tensor (about it, chassis axes, at the design position)."""
+    tensor = (*inertia, 0.0, 0.0, 0.0)
+    return [
+        Parameter(f"{name}_mass", mass, "kg", f"mass of the {name}"),
+        *_point(f"{name}_com", com, f"centre of mass of the {name}"),
+        *(
+            Parameter(
+                f"{name}_inertia_{element}",
+                value,
+                "kg m^2",
+                f"{element} element of the inertia tensor of the {name}",
+            )
+            for element, value in zip(("xx", "yy", "zz", "xy", "xz", "yz"), tensor, strict=True)
+        ),
+    ]
+
+
+PARAMETERS = (
+    *_point("arm_front", (0.17, -0.35, 0.205), "front bush of the control arm"),
+    *_point("arm_rear", (-0.15, -0.35, 0.205), "rear bush of the control arm"),
+    *_point("ball_joint", (0.005, -0.71, 0.18), "lower ball joint"),
+    *_point("strut_top", (-0.028, -0.585, 0.82), "top mount of the strut"),
+    *_point("tie_rod_outer", (-0.13, -0.69, 0.26), "tie rod at the knuckle"),
+    *_point("tie_rod_inner", (-0.14, -0.31, 0.28), "tie rod at the rack"),
+    *_point("wheel_center", (0.0, -0.76, 0.3), "wheel centre"),
+    *_direction("rack_axis", (0.0, 1.0, 0.0), "direction of the rack"),
+    *_direction("spin_axis", (0.0, 1.0, 0.0), "spin axis of the wheel, pointing left"),
+    Parameter("strut_length_max", 0.85, "m", "strut length |BC| at zero slide (p of Eq. 6)"),
+    Parameter("spring_rate", 25000.0, "N/m", "rate of the strut spring (k1)"),
+    Parameter("damper_rate", 1500.0, "N s/m", "rate of the strut damper (c)"),
+    Parameter(
+        "spring_free_slide",
+        0.05255401719941255,
+        "m",
+        "strut slide at which the spring is free of force (l10)",
+    ),
+    Parameter("tyre_rate", 200000.0, "N/m", "radial rate of the tyre (k2)"),
+    Parameter(
+        "tyre_free_height",
+        0.319,
+        "m",
+        "height of the wheel centre at which the tyre is free of force (l20)",
+    ),
+    Parameter("gravity", 9.81, "m/s^2", "acceleration of gravity"),
+    *_rigid_body("control_arm", 5.0, (0.025 / 3, -0.47, 0.59 / 3), (0.06, 0.04, 0.09)),
+    *_rigid_body(
+        "knuckle",
+        15.0,
+        (
+            0.005 - 0.033 * 0.12 / 0.6529272547535444,
+            -0.71 + 0.125 * 0.12 / 0.6529272547535444,
+            0.18 + 0.64 * 0.12 / 0.6529272547535444,
+        ),
+        (0.2, 0.18, 0.08),
+    ),
+    *_rigid_body("tie_rod", 0.0, (-0.135, -0.5, 0.27)),
+    *_rigid_body("rack", 0.0, (-0.14, -0.31, 0.28)),
+    *_rigid_body("upper_strut", 0.0, (-0.028, -0.585, 0.82)),
+    Parameter("wheel_mass", 22.0, "kg", "mass of the wheel"),
+    Parameter("wheel_inertia_spin", 1.1, "kg m^2", "inertia of the wheel about its spin axis"),
+    Parameter("wheel_inertia_diametral", 0.6, "kg m^2", "inertia of the wheel across its axis"),
+)
+
+
+def mechanism(*, free_rack: bool = False) -> Mechanism:
+    """Return the suspension; with a free rack, the tie rod's angles are reported as well."""
+    return Mechanism(
+        name="macpherson",
+        title="MacPherson suspension (Góis & Sarzeto, 2000)",
+        bodies=BODIES,
+        joints=JOINTS,
+        forces=FORCES,
+        parameters=PARAMETERS,
+        coordinates=COORDINATES + (TIE_ROD_COORDINATES if free_rack else ()),
+        inputs=INPUTS,
+    )
+
+
+MODELS = (
+    Model(
+        name="macpherson",
+        title="MacPherson suspension, rack prescribed: arm, knuckle and wheel carry mass",
+        mechanism=mechanism(),
+        independent=("OA", "HG"),
+        prescribed={"y": "rack"},
+        massive=("control_arm", "knuckle", "wheel"),
+        held={"rack_held": ("y",)},
+    ),
+    Model(
+        name="macpherson_free_rack",
+        title="MacPherson suspension, rack free: every moving body carries mass",
+        mechanism=mechanism(free_rack=True),
+        independent=("OA", "HG", "y"),
+        massive=("control_arm", "knuckle", "tie_rod", "rack", "upper_strut", "wheel"),
+    ),
+)

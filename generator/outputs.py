@@ -1,0 +1,447 @@
+"""The functions that a generated model offers, and the arrays that they read and write."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from .arithmetic import SignOf
+from .dynamics import Dynamics
+from .forces import JointForce, LinearTyre, TelescopeSpring
+from .geometry import Direction
+from .kinematics import Kinematics
+from .placement import IDENTITY, Placed, from_axes
+from .program import Function, Guard, Program
+from .relative import RelativeCoordinates
+from .transformer import Plan
+from .vectors import ZERO, Vector
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from .mechanism import Mechanism, Model
+
+AXES = ("x", "y", "z")
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One element of an array: its name, unit and meaning."""
+
+    name: str
+    unit: str
+    meaning: str
+
+
+@dataclass
+class GeneratedModel:
+    """Everything that the emitters need.
+
+    Attributes
+    ----------
+    state, inputs, parameters
+        What the functions read, in order.
+    relative
+        The relative coordinates, in order.
+    functions
+        The emitted functions by name; `prepare` computes the constants that the others read.
+    guards
+        All guards of the model; the bit of a guard in a status word is its position here.
+    moving_bodies, massive_bodies
+        Names in the order of the arrays of poses and of Jacobians.
+    signals
+        The elements of the ``signals`` function.
+    """
+
+    model: Model
+    plan: Plan
+    state: tuple[Entry, ...]
+    inputs: tuple[Entry, ...]
+    parameters: tuple[Entry, ...]
+    relative: tuple[Entry, ...]
+    functions: dict[str, Function]
+    prepare: Function
+    guards: tuple[Guard, ...]
+    moving_bodies: tuple[str, ...]
+    massive_bodies: tuple[str, ...]
+    signals: tuple[Entry, ...]
+    held_inputs: dict[str, tuple[str, ...]] = field(default_factory=dict)
+
+
+def generate(model: Model) -> GeneratedModel:
+    """Derive a model and all of its functions."""
+    return _Builder(model).build()
+
+
+class _Builder:
+    """Collects the functions of one model from one program."""
+
+    def __init__(self, model: Model) -> None:
+        self.model = model
+        self.mechanism: Mechanism = model.mechanism
+        self.plan = Plan.of(model)
+        self.program = Program(tuple(sp.Symbol(p.name) for p in self.mechanism.parameters))
+        self.kin = Kinematics(self.program, self.plan)
+        self.dynamics = Dynamics(self.kin)
+        self.relative = RelativeCoordinates(self.kin)
+        self.functions: dict[str, Function] = {}
+        self.signals: list[Entry] = []
+        self.moving = tuple(b.name for b in self.mechanism.bodies[1:])
+        self.massive = tuple(b for b in self.moving if b in model.massive)
+
+    def build(self) -> GeneratedModel:
+        self._add_dynamics(self.dynamics, "")
+        for variant, joints in self.model.held.items():
+            self.program.variant = variant
+            held = Dynamics(Kinematics(self.program, self.plan, joints))
+            self._add_right_hand_side(held, f"_{variant}")
+        self._add_relative()
+        self._add_poses()
+        self._add_signals()
+        guards = self._acting_guards()
+        self._add(
+            "margins",
+            "Quantities that are positive where the model is valid.",
+            {g.name: g.quantity for g in guards},
+        )
+        prepare = self.program.constants_function(self.functions.values())
+        return GeneratedModel(
+            model=self.model,
+            plan=self.plan,
+            state=self._state_entries(),
+            inputs=tuple(Entry(n, *self.mechanism.inputs[n]) for n in self._input_names()),
+            parameters=tuple(Entry(p.name, p.unit, p.meaning) for p in self.mechanism.parameters),
+            relative=tuple(Entry(c.name, c.unit, c.meaning) for c in self.mechanism.coordinates),
+            functions=self.functions,
+            prepare=prepare,
+            guards=guards,
+            moving_bodies=self.moving,
+            massive_bodies=self.massive,
+            signals=tuple(self.signals),
+            held_inputs={v: self._rate_inputs(j) for v, j in self.model.held.items()},
+        )
+
+    # -- arrays ---------------------------------------------------------------------------------
+
+    def _state_entries(self) -> tuple[Entry, ...]:
+        entries = {c.name: c for c in self.mechanism.coordinates}
+        positions = [entries[k] for k in self.kin.independent]
+        return (
+            *(Entry(c.name, c.unit, c.meaning) for c in positions),
+            *(Entry(f"{c.name}_rate", f"{c.unit}/s", f"rate of {c.name}") for c in positions),
+        )
+
+    def _input_names(self) -> list[str]:
+        names = []
+        for joint, name in self.model.prescribed.items():
+            del joint
+            names += [f"{name}_position", f"{name}_velocity", f"{name}_acceleration"]
+        for force in self.mechanism.forces:
+            if isinstance(force, LinearTyre):
+                names.append(force.road)
+            elif isinstance(force, TelescopeSpring) and force.actuator:
+                names.append(force.actuator)
+            elif isinstance(force, JointForce) and force.joint in self.model.independent:
+                names.append(force.input)
+        return names
+
+    def _rate_inputs(self, joints: Iterable[str]) -> tuple[str, ...]:
+        names = [self.model.prescribed[j] for j in joints]
+        return tuple(f"{n}_{kind}" for n in names for kind in ("velocity", "acceleration"))
+
+    def _acting_guards(self) -> tuple[Guard, ...]:
+        acting = {g for f in self.functions.values() for g in f.guards}
+        return tuple(g for g in self.program.guards.values() if g in acting)
+
+    def _state_symbols(self) -> list[sp.Symbol]:
+        names = self.kin.independent
+        return [sp.Symbol(n) for n in (*names, *(f"{n}_rate" for n in names))]
+
+    def _add(self, name: str, doc: str, results: dict[str, sp.Expr], *shape: int) -> None:
+        self.functions[name] = self.program.function(name, doc, results, shape or None)
+
+    # -- dynamics -------------------------------------------------------------------------------
+
+    def _add_dynamics(self, dynamics: Dynamics, suffix: str) -> None:
+        self._add_right_hand_side(dynamics, suffix)
+        names = self.kin.independent
+        n = len(names)
+        matrix = dynamics.full_mass_matrix()
+        self._add(
+            "mass_matrix",
+            "Mass matrix M(q) of Eq. 3, row-major.",
+            {
+                f"M[{k},{other}]": matrix[i][j]
+                for i, k in enumerate(names)
+                for j, other in enumerate(names)
+            },
+            n,
+            n,
+        )
+        self._add(
+            "bias",
+            "Vector B(q, q') of Eq. 3: inertia terms without accelerations.",
+            dict(zip((f"B[{k}]" for k in names), dynamics.full_bias(), strict=True)),
+        )
+        self._add(
+            "forces",
+            "Generalised applied forces Q(q, q') of Eq. 3.",
+            dict(zip((f"Q[{k}]" for k in names), dynamics.full_forces(), strict=True)),
+        )
+
+    def _add_right_hand_side(self, dynamics: Dynamics, suffix: str) -> None:
+        names = self.kin.independent
+        rates = {f"d({k})/dt": sp.Symbol(f"{k}_rate") for k in names}
+        rates |= {f"d({k}_rate)/dt": dynamics.accelerations[k] for k in names}
+        what = "" if not suffix else f" with {suffix[1:].replace('_', ' ')}"
+        self._add(f"rhs{suffix}", f"Time derivative of the state{what}.", rates)
+        self.program.section("derivatives of the right-hand side")
+        states = self._state_symbols()
+        rows = {label: list[sp.Expr]() for label in rates}
+        for state in states:
+            column = self.program.tangents(state, rates.values(), f"{state}{suffix}")
+            for label, entry in zip(rates, column, strict=True):
+                rows[label].append(entry)
+        self._add(
+            f"rhs_jacobian{suffix}",
+            f"Exact derivative of rhs{suffix} with respect to the state, row-major.",
+            {
+                f"{label} by {state}": entry
+                for label, row in rows.items()
+                for state, entry in zip(states, row, strict=True)
+            },
+            len(states),
+            len(states),
+        )
+
+    # -- relative kinematics ----------------------------------------------------------------------
+
+    def _add_relative(self) -> None:
+        values = self.relative.values
+        names = self.kin.independent
+        self._add("relative_coordinates", "Relative joint coordinates beta (Figure 3).", values)
+        columns = [self.program.tangents(sp.Symbol(k), values.values(), f"by_{k}") for k in names]
+        self._add(
+            "relative_jacobian",
+            "Relative Jacobian, d(beta)/dq at fixed inputs, row-major.",
+            {
+                f"{beta} by {k}": columns[j][i]
+                for i, beta in enumerate(values)
+                for j, k in enumerate(names)
+            },
+            len(values),
+            len(names),
+        )
+        self._add(
+            "residuals",
+            "Closure residuals g(beta, q) of Eqs. 4 to 13 for given beta.",
+            self.relative.residuals(),
+        )
+        self._add_absolute(list(values))
+
+    def _add_absolute(self, betas: list[str]) -> None:
+        results = {}
+        for body in self.massive:
+            columns = self.relative.absolute_jacobian(body)
+            for row, label in enumerate(self._twist_labels(body)):
+                for beta in betas:
+                    angular, linear = columns.get(beta, (ZERO, ZERO))
+                    results[f"{label} by {beta}"] = [*angular, *linear][row]
+        self._add(
+            "absolute_jacobian",
+            "Absolute Jacobian, twists of the massive bodies per relative rate, row-major.",
+            results,
+            6 * len(self.massive),
+            len(betas),
+        )
+        self._add_global()
+
+    @staticmethod
+    def _twist_labels(body: str) -> list[str]:
+        return [f"{body} omega_{a}" for a in AXES] + [f"{body} velocity_{a}" for a in AXES]
+
+    def _add_global(self) -> None:
+        names = self.kin.independent
+        results = {}
+        for body in self.massive:
+            columns = {k: self._chassis_twist(body, k) for k in names}
+            for row, label in enumerate(self._twist_labels(body)):
+                for k in names:
+                    results[f"{label} by {k}"] = columns[k][row]
+        self._add(
+            "global_jacobian",
+            "Global Jacobian, twists of the massive bodies per rate of q, row-major.",
+            results,
+            6 * len(self.massive),
+            len(names),
+        )
+
+    def _chassis_twist(self, body: str, coordinate: str) -> list[sp.Expr]:
+        """Return (omega, velocity of the centre of mass) per unit rate, in chassis axes."""
+        placed = self.kin.placed[body]
+        if coordinate not in placed.motion:
+            return [sp.Integer(0)] * 6
+        twist = placed.motion[coordinate]
+        center = self.kin.local(placed, self.mechanism.body(body).center)
+        velocity = twist.linear + twist.angular.cross(center)
+        parts = (from_axes(placed.axes, v) for v in (twist.angular, velocity))
+        return [c for part in parts for c in self.kin.to_chassis(part)]
+
+    # -- poses ----------------------------------------------------------------------------------
+
+    def _add_poses(self) -> None:
+        self.program.section("poses")
+        positions: dict[str, sp.Expr] = {}
+        orientations: dict[str, sp.Expr] = {}
+        velocities: dict[str, sp.Expr] = {}
+        for body in self.moving:
+            placed = self.kin.placed[body]
+            for axis, value in zip(AXES, self._center(placed), strict=True):
+                positions[f"{body} {axis}"] = value
+            for label, value in self._orientation(placed).items():
+                orientations[f"{body} {label}"] = value
+            labels = self._twist_labels(body)
+            velocities |= dict(zip(labels, self._velocity(body), strict=True))
+        count = len(self.moving)
+        self._add(
+            "positions", "Centres of mass of the moving bodies, chassis axes.", positions, count, 3
+        )
+        self._add(
+            "orientations",
+            "Rotation matrices of the moving bodies from their design orientation, chassis axes.",
+            orientations,
+            count,
+            3,
+            3,
+        )
+        self._add(
+            "velocities",
+            "Angular velocity, then velocity of the centre of mass, of the "
+            "moving bodies, chassis axes.",
+            velocities,
+            count,
+            6,
+        )
+
+    def _center(self, placed: Placed) -> Vector:
+        """Return the centre of mass in chassis axes."""
+        local = self.kin.local(placed, self.mechanism.body(placed.body).center)
+        work = placed.origin + from_axes(placed.axes, local)
+        return self.kin.to_chassis(work) + self.kin.work_origin
+
+    def _orientation(self, placed: Placed) -> dict[str, sp.Expr]:
+        if placed.axes is IDENTITY:
+            return {f"R{a}{b}": sp.Integer(int(a == b)) for a in AXES for b in AXES}
+        now = [self.kin.to_chassis(axis) for axis in placed.axes]
+        design = [self.kin.to_chassis(axis) for axis in placed.design_axes]
+        return {
+            f"R{a}{b}": sum(
+                (getattr(n, a) * getattr(d, b) for n, d in zip(now, design, strict=True)),
+                sp.Integer(0),
+            )
+            for a in AXES
+            for b in AXES
+        }
+
+    def _velocity(self, body: str) -> list[sp.Expr]:
+        total: list[sp.Expr] = [sp.Integer(0)] * 6
+        for coordinate in self.kin.placed[body].motion:
+            rate = self.kin.true_rate(coordinate)
+            column = self._chassis_twist(body, coordinate)
+            total = [t + rate * c for t, c in zip(total, column, strict=True)]
+        return total
+
+    # -- signals --------------------------------------------------------------------------------
+
+    def _add_signals(self) -> None:
+        self.program.section("signals")
+        results: dict[str, sp.Expr] = {}
+        for force in self.mechanism.forces:
+            if isinstance(force, LinearTyre):
+                self._add_wheel_signals(force, results)
+            elif isinstance(force, TelescopeSpring):
+                self._add_telescope_signals(force, results)
+        self._add("signals", "Physical signals, see the enumeration of signals.", results)
+
+    def _signal(
+        self, results: dict[str, sp.Expr], name: str, value: sp.Expr, unit: str, meaning: str
+    ) -> None:
+        self.signals.append(Entry(name, unit, meaning))
+        results[name] = value
+
+    def _add_wheel_signals(self, tyre: LinearTyre, results: dict[str, sp.Expr]) -> None:
+        carrier = self.kin.placed[tyre.carrier]
+        center = self.kin.local(carrier, tyre.center)
+        up = self.dynamics.up_in(carrier)
+        work = carrier.origin + from_axes(carrier.axes, center)
+        position = self.kin.to_chassis(work) + self.kin.work_origin
+        for axis, value in zip(AXES, position, strict=True):
+            self._signal(results, f"wheel_center_{axis}", value, "m", f"wheel centre, {axis}")
+        velocity = acceleration = sp.Integer(0)
+        for k in carrier.motion:
+            share = up.dot(self.dynamics.wheel_velocity(carrier, center, k))
+            velocity += share * self.kin.true_rate(k)
+            acceleration += share * self.dynamics.accelerations.get(k, sp.Integer(0))
+        acceleration += up.dot(self.kin.point_bias(carrier, center)) * self.kin.pace**2
+        self._signal(
+            results,
+            "wheel_velocity",
+            velocity,
+            "m/s",
+            "vertical velocity of the wheel centre, positive up",
+        )
+        self._signal(
+            results,
+            "wheel_acceleration",
+            acceleration,
+            "m/s^2",
+            "vertical acceleration of the wheel centre, positive up",
+        )
+        self._add_wheel_angles(tyre, carrier, results)
+        self._signal(
+            results,
+            "tyre_force",
+            self.dynamics.signals["tyre_force"],
+            "N",
+            "tyre force in the wheel plane, positive in compression",
+        )
+
+    def _add_wheel_angles(
+        self, tyre: LinearTyre, carrier: Placed, results: dict[str, sp.Expr]
+    ) -> None:
+        towards = tyre.axis.towards
+        assert isinstance(towards, Direction)
+        axis = from_axes(carrier.axes, self.kin.local_direction(carrier, towards))
+        a = self.program.vector("spin_axis_now", self.kin.to_chassis(axis))
+        side = self.program.define("wheel_side", SignOf(tyre.center.position.y))
+        self._signal(
+            results,
+            "camber",
+            sp.atan2(-side * a.z, a.y),
+            "rad",
+            "camber, positive with the top of the wheel outboard",
+        )
+        self._signal(results, "toe", sp.atan2(side * a.x, a.y), "rad", "toe angle, positive toe-in")
+        self._signal(
+            results, "steer", sp.atan2(-a.x, a.y), "rad", "steer angle, positive to the left"
+        )
+
+    def _add_telescope_signals(self, spring: TelescopeSpring, results: dict[str, sp.Expr]) -> None:
+        line = self.kin.telescopes[spring.joint]
+        self._signal(results, "strut_length", line.length, "m", "length of the telescope")
+        self._signal(
+            results,
+            "spring_force",
+            self.dynamics.signals["spring_force"],
+            "N",
+            "spring force, positive when it pushes the ends apart",
+        )
+        self._signal(
+            results,
+            "damper_force",
+            self.dynamics.signals["damper_force"],
+            "N",
+            "damper force, positive when it pushes the ends apart",
+        )

@@ -1,0 +1,113 @@
+"""What is known of a body while a mechanism is being solved.
+
+Positions are in the work axes, twists in body axes. *Motion* is velocity per unit rate of one
+coordinate, so it is a column of a Jacobian; *bias* is the acceleration that remains when the
+accelerations of the independent coordinates are zero.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from .vectors import NO_TWIST, UNIT_X, UNIT_Y, UNIT_Z, ZERO, Twist, Vector
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import sympy as sp
+
+    from .geometry import Point
+
+Axes = tuple[Vector, Vector, Vector]
+IDENTITY: Axes = (UNIT_X, UNIT_Y, UNIT_Z)
+
+
+def to_axes(axes: Axes, v: Vector) -> Vector:
+    """Return the components of a work vector along some axes."""
+    return Vector(*(v.dot(axis) for axis in axes))
+
+
+def from_axes(axes: Axes, v: Vector) -> Vector:
+    """Return the work components of a vector given along some axes."""
+    x, y, z = axes
+    return x * v.x + y * v.y + z * v.z
+
+
+@dataclass
+class Placed:
+    """A body whose pose is known.
+
+    Attributes
+    ----------
+    origin, axes
+        Origin of the body axes and their directions.
+    design_origin, design_axes
+        The same at the design position (constants).
+    local
+        Body coordinates of points that are known by construction, with their exact zeros.
+    motion
+        Twist per unit rate of each coordinate that moves the body.
+    carrier
+        Neighbour that shares the origin, with its own coordinates of that point: a point mass
+        there may be counted with either body.
+    """
+
+    body: str
+    origin: Vector = ZERO
+    axes: Axes = IDENTITY
+    design_origin: Vector = ZERO
+    design_axes: Axes = IDENTITY
+    local: dict[Point, Vector] = field(default_factory=dict)
+    motion: dict[str, Twist] = field(default_factory=dict)
+    carrier: tuple[str, Vector] | None = None
+    bias: Callable[[], Twist] = lambda: NO_TWIST
+
+
+@dataclass(frozen=True)
+class PointMotion:
+    """Position, velocity per unit rate, and bias acceleration of a point, in work axes."""
+
+    position: Vector
+    motion: dict[str, Vector]
+    bias: Vector
+
+    def minus(self, other: PointMotion) -> PointMotion:
+        """Return the motion relative to another point."""
+        names = list(dict.fromkeys([*self.motion, *other.motion]))
+        return PointMotion(
+            self.position - other.position,
+            {k: self.motion.get(k, ZERO) - other.motion.get(k, ZERO) for k in names},
+            self.bias - other.bias,
+        )
+
+
+@dataclass(frozen=True)
+class OnLine:
+    """A body (or a telescope of two) with a known line, free to turn about it.
+
+    Attributes
+    ----------
+    anchor, end
+        The two points of the line, which runs from anchor to end.
+    direction
+        Unit vector along it.
+    length, inverse_length
+        Distance of the points.
+    relative
+        Motion of the end relative to the anchor.
+    length_motion
+        Rate of the length per unit rate of each coordinate.
+    """
+
+    anchor: Point
+    end: Point
+    anchor_motion: PointMotion
+    end_motion: PointMotion
+    anchor_body: str
+    end_body: str
+    direction: Vector
+    length: sp.Expr
+    inverse_length: sp.Expr
+    relative: PointMotion
+    length_motion: dict[str, sp.Expr]

@@ -1,0 +1,378 @@
+"""The straight-line program: named steps, no iteration, no branch.
+
+A *step* is a name and a small expression in earlier names. Everything the generator derives is a
+step of one `Program`; an emitted `Function` is the part of the program that its results need.
+
+Two stages are told apart by what a step depends on, not by who wrote it: steps (and parts of
+steps) that depend on parameters only are *constants*, computed once per parameter set; all others
+belong to the right-hand side.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import sympy as sp
+
+from .arithmetic import Guarded, write
+from .vectors import Vector
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+
+
+@dataclass(frozen=True)
+class Guard:
+    """A quantity that must be positive, and what it means when it is not."""
+
+    quantity: sp.Symbol
+    name: str
+    meaning: str
+
+
+@dataclass(frozen=True)
+class Step:
+    """One assignment of the program."""
+
+    symbol: sp.Symbol
+    expression: sp.Expr
+    section: str
+
+
+@dataclass(frozen=True)
+class Function:
+    """An emitted function: the pruned program of some results.
+
+    Attributes
+    ----------
+    name, doc
+        C name without the model's prefix, and one line that says what it returns.
+    steps
+        The assignments, in order.
+    results
+        Expressions of the outputs in the names of the steps, row-major.
+    labels
+        One label for each output.
+    shape
+        Shape of the output array.
+    guards
+        The guards that act in this function.
+    """
+
+    name: str
+    doc: str
+    steps: tuple[Step, ...]
+    results: tuple[sp.Expr, ...]
+    labels: tuple[str, ...]
+    shape: tuple[int, ...]
+    guards: tuple[Guard, ...]
+
+    @property
+    def free_symbols(self) -> set[sp.Symbol]:
+        """Symbols that the function reads: state, inputs, constants."""
+        expressions = [step.expression for step in self.steps]
+        used = set().union(*(e.free_symbols for e in (*expressions, *self.results)))
+        return used - {step.symbol for step in self.steps}
+
+    def operations(self) -> Counter[str]:
+        """Count the arithmetic operations of one call, exactly as they are printed."""
+        total: Counter[str] = Counter()
+        for step in self.steps:
+            total.update(write(step.expression).operations)
+        for result in self.results:
+            total.update(write(result).operations)
+        return total
+
+
+@dataclass
+class Program:
+    """All steps of a mechanism, and the means to extend, differentiate and prune them.
+
+    Parameters
+    ----------
+    parameters
+        Symbols that are fixed for one parameter set.
+    variant
+        Ends the names of steps that differ from those of the same name defined before: a variant
+        of a model is derived into the same program and shares what is equal.
+    """
+
+    parameters: tuple[sp.Symbol, ...]
+    steps: dict[sp.Symbol, Step] = field(default_factory=dict)
+    guards: dict[sp.Symbol, Guard] = field(default_factory=dict)
+    variant: str = "again"
+    _section: str = ""
+    _known: dict[sp.Expr, sp.Expr] = field(default_factory=dict)
+    _constant: set[sp.Symbol] = field(default_factory=set)
+    _collected: int = 0
+
+    def __post_init__(self) -> None:
+        self._constant.update(self.parameters)
+
+    def section(self, title: str) -> None:
+        """Name the part of the derivation that the next steps belong to."""
+        self._section = title
+
+    def is_constant(self, expression: sp.Expr) -> bool:
+        """Tell whether an expression depends on parameters only."""
+        return bool(expression.free_symbols <= self._constant)
+
+    def define(self, name: str, expression: Any) -> sp.Expr:
+        """Append a step and return its symbol.
+
+        Numbers, symbols and their negatives are returned as they are, and an expression that is
+        already a step is not repeated, so that zeros and shared values disappear on the way.
+        """
+        expression = sp.sympify(expression)
+        if expression.is_Atom or (-expression).is_Symbol:
+            return expression
+        if expression in self._known:
+            return self._known[expression]
+        if -expression in self._known:
+            return -self._known[-expression]
+        symbol = self._unused(name)
+        if self.is_constant(expression):
+            self._constant.add(symbol)
+        self.steps[symbol] = Step(symbol, expression, self._section)
+        self._known[expression] = symbol
+        return symbol
+
+    def _unused(self, name: str) -> sp.Symbol:
+        """Return the symbol of a name, or of the name within the present variant."""
+        for candidate in (name, f"{name}_{self.variant}"):
+            symbol = sp.Symbol(candidate)
+            if symbol not in self.steps and symbol not in self._constant:
+                return symbol
+        message = f"the name {name!r} is defined twice"
+        raise ValueError(message)
+
+    def vector(self, name: str, vector: Vector, suffixes: str = "xyz") -> Vector:
+        """Append a step for each component of a vector."""
+        return Vector(
+            *(self.define(f"{name}_{s}", c) for s, c in zip(suffixes, vector, strict=True))
+        )
+
+    def guarded(self, name: str, expression: Any, meaning: str) -> sp.Expr:
+        """Append a step whose value must be positive, and return its guarded form.
+
+        Constants are not guarded: the parameter stage checks them all at once.
+        """
+        symbol = self.define(name, expression)
+        if self.is_constant(symbol):
+            return symbol
+        self.guards.setdefault(symbol, Guard(symbol, name, meaning))
+        return Guarded(symbol)
+
+    # -- differentiation ------------------------------------------------------------------------
+
+    def tangents(self, along: sp.Symbol, targets: Iterable[sp.Expr], label: str) -> list[sp.Expr]:
+        """Differentiate expressions along one symbol, step by step (forward mode).
+
+        Parameters
+        ----------
+        along
+            The symbol to differentiate by.
+        targets
+            Expressions in the names of the program.
+        label
+            Ends the names of the new steps: ``name__label``.
+        """
+        targets = list(targets)
+        needed = self._ancestors(targets)
+        tangent: dict[sp.Symbol, sp.Expr] = {along: sp.Integer(1)}
+        for step in [s for s in self.steps.values() if s.symbol in needed]:
+            derivative = _chain_rule(step.expression, tangent, step.symbol)
+            if derivative != 0:
+                tangent[step.symbol] = self.define(f"{step.symbol}__{label}", derivative)
+        return [_chain_rule(target, tangent) for target in targets]
+
+    def substitute(
+        self, replacements: Mapping[sp.Symbol, sp.Expr], targets: Iterable[sp.Expr], label: str
+    ) -> list[sp.Expr]:
+        """Repeat the steps of some expressions with other symbols in place of given ones.
+
+        Parameters
+        ----------
+        replacements
+            Symbols of the program and what stands in for them.
+        targets
+            Expressions in the names of the program.
+        label
+            Ends the names of the new steps: ``name__label``.
+        """
+        targets = list(targets)
+        needed = self._ancestors(targets)
+        replaced = dict(replacements)
+        for step in [s for s in self.steps.values() if s.symbol in needed]:
+            if step.symbol in self.guards and step.expression.free_symbols & replaced.keys():
+                guard = self.guards[step.symbol]
+                new = self.guarded(
+                    f"{step.symbol}__{label}", step.expression.xreplace(replaced), guard.meaning
+                ).args[0]
+            else:
+                new = self.define(f"{step.symbol}__{label}", step.expression.xreplace(replaced))
+            if new != step.symbol:
+                replaced[step.symbol] = new
+        return [target.xreplace(replaced) for target in targets]
+
+    # -- pruning --------------------------------------------------------------------------------
+
+    def _ancestors(self, expressions: Iterable[sp.Expr]) -> set[sp.Symbol]:
+        """Return the steps that the expressions depend on."""
+        waiting = [s for e in expressions for s in e.free_symbols if s in self.steps]
+        found: set[sp.Symbol] = set()
+        while waiting:
+            symbol = waiting.pop()
+            if symbol not in found:
+                found.add(symbol)
+                waiting += [
+                    s for s in self.steps[symbol].expression.free_symbols if s in self.steps
+                ]
+        return found
+
+    def function(
+        self,
+        name: str,
+        doc: str,
+        results: Mapping[str, sp.Expr],
+        shape: Sequence[int] | None = None,
+    ) -> Function:
+        """Prune the program to some results and share their common subexpressions."""
+        expressions = [self._hoist(e) for e in results.values()]
+        needed = self._ancestors(expressions)
+        steps = [s for s in self.steps.values() if s.symbol in needed]
+        steps = [s for s in steps if not self.is_constant(s.symbol)]
+        steps = [Step(s.symbol, self._hoist(s.expression), s.section) for s in steps]
+        steps, expressions = _drop_dead(steps, expressions)
+        steps, expressions = _share(steps, expressions)
+        acting = set().union(*(e.atoms(Guarded) for e in [s.expression for s in steps]), set())
+        acting |= set().union(*(e.atoms(Guarded) for e in expressions), set())
+        quantities = {g.args[0] for g in acting}
+        guards = tuple(g for q, g in self.guards.items() if q in quantities)
+        return Function(
+            name,
+            doc,
+            tuple(steps),
+            tuple(expressions),
+            tuple(results),
+            tuple(shape) if shape is not None else (len(expressions),),
+            guards,
+        )
+
+    def constants_function(self, functions: Iterable[Function]) -> Function:
+        """Return the parameter stage: all constants that the functions read."""
+        used = set().union(*(f.free_symbols for f in functions)) & self._constant
+        computed = [s for s in self.steps if s in used]
+        plain = [p for p in self.parameters if p in used]
+        results = {str(s): s for s in (*plain, *computed)}
+        needed = self._ancestors(list(results.values()))
+        steps = tuple(s for s in self.steps.values() if s.symbol in needed)
+        return Function(
+            "prepare",
+            "Constants of one parameter set.",
+            steps,
+            tuple(results.values()),
+            tuple(results),
+            (len(results),),
+            (),
+        )
+
+    # -- constants ------------------------------------------------------------------------------
+
+    def _hoist(self, expression: sp.Expr) -> sp.Expr:
+        """Move the parts that depend on parameters only into the constant stage."""
+        if expression.is_Atom:
+            return expression
+        if self.is_constant(expression):
+            return self._hoisted_constant(expression)
+        arguments = [self._hoist(a) for a in expression.args]
+        if isinstance(expression, sp.Add | sp.Mul):
+            constant = [a for a in arguments if self.is_constant(a) and a not in (-1, 1)]
+            if len(constant) > 1:
+                rest = [a for a in arguments if a not in constant]
+                group = self._hoisted_constant(expression.func(*constant))
+                return expression.func(group, *rest)
+        return expression.func(*arguments)
+
+    def _hoisted_constant(self, expression: sp.Expr) -> sp.Expr:
+        """Return the name of a constant expression, defining it when it is new."""
+        if expression.is_Atom or (-expression).is_Symbol or expression.is_Number:
+            return expression
+        if expression.could_extract_minus_sign():
+            return -self._hoisted_constant(-expression)
+        if expression in self._known:
+            return self._known[expression]
+        self.section("constants collected from the equations")
+        self._collected += 1
+        return self.define(f"constant_{self._collected}", expression)
+
+
+def _chain_rule(
+    expression: sp.Expr, tangent: Mapping[sp.Symbol, sp.Expr], symbol: sp.Symbol | None = None
+) -> sp.Expr:
+    """Return the sum of partial derivatives times tangents.
+
+    A root or a reciprocal that is a step of its own is differentiated in terms of its own symbol,
+    so that it is not computed again.
+    """
+    moving = sorted((s for s in expression.free_symbols if s in tangent), key=str)
+    total = sp.Integer(0)
+    for s in moving:
+        if symbol is not None and expression.is_Pow and expression.exp in (sp.Rational(1, 2), -1):
+            inner = expression.base.diff(s)
+            partial = (
+                inner / (2 * symbol)
+                if expression.exp == sp.Rational(1, 2)
+                else (-inner * symbol * symbol)
+            )
+        else:
+            partial = expression.diff(s)
+        total += partial * tangent[s]
+    return total
+
+
+def _drop_dead(steps: list[Step], results: list[sp.Expr]) -> tuple[list[Step], list[sp.Expr]]:
+    """Remove the steps that no result depends on."""
+    wanted = set().union(*(r.free_symbols for r in results), set())
+    alive = []
+    for step in reversed(steps):
+        if step.symbol in wanted:
+            alive.append(step)
+            wanted |= step.expression.free_symbols
+    return alive[::-1], results
+
+
+def _share(steps: list[Step], results: list[sp.Expr]) -> tuple[list[Step], list[sp.Expr]]:
+    """Name the common subexpressions of the whole program (SymPy's ``cse``)."""
+    replacements, reduced = sp.cse(
+        [*(s.expression for s in steps), *results],
+        symbols=(sp.Symbol(f"shared_{i}") for i in range(1, 100_000)),
+        order="canonical",
+        list=True,
+    )
+    waiting = dict(replacements)
+    owner: dict[sp.Symbol, sp.Symbol] = {}
+    shared: list[Step] = []
+
+    def place(expression: sp.Expr, section: str) -> None:
+        for symbol in sorted(expression.free_symbols & waiting.keys(), key=str):
+            definition = waiting.pop(symbol)
+            place(definition, section)
+            shared.append(Step(symbol, definition, section))
+
+    for step, expression in zip(steps, reduced, strict=False):
+        if expression in waiting:  # a whole step is shared: it keeps its own name
+            definition = waiting.pop(expression)
+            place(definition, step.section)
+            owner[expression] = step.symbol
+            shared.append(Step(step.symbol, definition, step.section))
+        else:
+            place(expression, step.section)
+            shared.append(Step(step.symbol, expression, step.section))
+    results = list(reduced[len(steps) :])
+    for result in results:
+        place(result, "results")
+    renamed = [Step(s.symbol, s.expression.xreplace(owner), s.section) for s in shared]
+    return renamed, [r.xreplace(owner) for r in results]

@@ -1,0 +1,374 @@
+"""Relative joint coordinates: their values, the closure residuals, the absolute Jacobian.
+
+These are the quantities of sections 4.1 to 4.3 of the paper. They are derived from the joints, not
+from the closed forms: `residuals` and `absolute_jacobian` follow the chain of joints with explicit
+rotations, and so check what `solutions` solved.
+"""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import networkx as nx
+import sympy as sp
+
+from .geometry import Point
+from .joints import Cylindrical, Joint, Prismatic, Revolute, Universal
+from .placement import IDENTITY, Placed, from_axes, to_axes
+from .transformer import SolveTelescope, SolveTurn
+from .vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Vector
+
+if TYPE_CHECKING:
+    from .kinematics import Kinematics
+    from .mechanism import RelativeCoordinate
+
+
+@dataclass(frozen=True)
+class _Shaft:
+    """A shaft seen from its universal joint, in the z-x sequence: x' and z' beside the line."""
+
+    elevation: sp.Expr
+    azimuth: sp.Expr
+    x: Vector
+    z: Vector
+    up: Vector
+
+
+@dataclass(frozen=True)
+class _Screw:
+    """How a unit rate of one relative coordinate moves what follows in the chain (work axes)."""
+
+    coordinate: str
+    angular: Vector
+    through: Vector
+    linear: Vector
+
+
+def rotate_x(angle: sp.Expr, v: Vector) -> Vector:
+    """Return a vector turned about x."""
+    c, s = sp.cos(angle), sp.sin(angle)
+    return Vector(v.x, c * v.y - s * v.z, s * v.y + c * v.z)
+
+
+def rotate_y(angle: sp.Expr, v: Vector) -> Vector:
+    """Return a vector turned about y."""
+    c, s = sp.cos(angle), sp.sin(angle)
+    return Vector(c * v.x + s * v.z, v.y, c * v.z - s * v.x)
+
+
+def rotate_z(angle: sp.Expr, v: Vector) -> Vector:
+    """Return a vector turned about z."""
+    c, s = sp.cos(angle), sp.sin(angle)
+    return Vector(c * v.x - s * v.y, s * v.x + c * v.y, v.z)
+
+
+class RelativeCoordinates:
+    """The relative coordinates that a mechanism reports.
+
+    Attributes
+    ----------
+    values
+        Coordinate name to expression, in the order of the report.
+    """
+
+    def __init__(self, kin: Kinematics) -> None:
+        self.kin = kin
+        self.program = kin.program
+        self.mechanism = kin.mechanism
+        self._shafts: dict[str, _Shaft] = {}
+        self.program.section("relative coordinates")
+        self.values = {c.name: self._value(c) for c in self.mechanism.coordinates}
+
+    # -- values ---------------------------------------------------------------------------------
+
+    def _value(self, coordinate: RelativeCoordinate) -> sp.Expr:
+        joint = self.mechanism.joint(coordinate.joint)
+        if isinstance(joint, Revolute | Prismatic):
+            return self.kin.coordinates[self.kin.coordinate_of(joint)]
+        if isinstance(joint, Universal):
+            shaft = self._shaft(joint)
+            return shaft.elevation if coordinate.kind == "elevation" else shaft.azimuth
+        if isinstance(joint, Cylindrical) and coordinate.kind == "slide":
+            line = self.kin.telescopes[joint.name]
+            return self.program.define(
+                f"slide_{joint.name}", sp.Symbol(joint.length_at_zero_slide) - line.length
+            )
+        assert isinstance(joint, Cylindrical)
+        return self._telescope_angle(joint)
+
+    def _shaft(self, joint: Universal) -> _Shaft:
+        """Angles of a shaft relative to the first body of its universal joint."""
+        if joint.name in self._shafts:
+            return self._shafts[joint.name]
+        program, name = self.program, joint.name
+        parent = self.kin.placed[joint.first]
+        n = program.vector(
+            f"shaft_{name}", self._in_first_body(parent, self.kin.on_line[joint.second].direction)
+        )
+        squared = program.guarded(
+            f"shaft_level_squared_{name}",
+            n.x**2 + n.y**2,
+            f"the shaft at universal joint {name} is vertical: its azimuth is undefined",
+        )
+        level = program.define(f"shaft_level_{name}", sp.sqrt(squared))
+        x = Vector(n.y / level, -n.x / level, ZERO.z)
+        self._shafts[name] = _Shaft(
+            elevation=program.define(f"elevation_{name}", sp.atan2(n.z, level)),
+            azimuth=program.define(f"azimuth_{name}", sp.atan2(-n.x, n.y)),
+            x=self._from_first_body(parent, f"shaft_x_{name}", x),
+            z=self._from_first_body(parent, f"shaft_z_{name}", x.cross(n)),
+            up=self._from_first_body(parent, f"shaft_up_{name}", UNIT_Z),
+        )
+        return self._shafts[name]
+
+    def _in_first_body(self, parent: Placed, work: Vector) -> Vector:
+        """Return components along the chassis axes as the first body carries them with it."""
+        if parent.axes is IDENTITY:
+            return self.kin.to_chassis(work)
+        axes = tuple(self.kin.to_chassis(axis) for axis in parent.design_axes)
+        return from_axes(axes, to_axes(parent.axes, work))  # type: ignore[arg-type]
+
+    def _from_first_body(self, parent: Placed, name: str, v: Vector) -> Vector:
+        if parent.axes is not IDENTITY:
+            axes = tuple(self.kin.to_chassis(axis) for axis in parent.design_axes)
+            v = from_axes(parent.axes, to_axes(axes, v))  # type: ignore[arg-type]
+            return self.program.vector(name, v)
+        return self.program.vector(name, self.kin.to_work(v))
+
+    def _telescope_angle(self, joint: Cylindrical) -> sp.Expr:
+        """Rotation of the second body about the axis, from the z' axis of the shaft."""
+        shaft = self._shaft(self._holder(joint))
+        placed = self.kin.placed[joint.second]
+        marker = self.program.vector(
+            f"marker_{joint.name}", from_axes(placed.axes, self.kin.local(placed, joint.angle_to))
+        )
+        return self.program.define(
+            f"angle_{joint.name}", sp.atan2(-marker.dot(shaft.x), marker.dot(shaft.z))
+        )
+
+    def _holder(self, joint: Cylindrical) -> Universal:
+        """Return the universal joint that carries the first body of a telescope."""
+        center = joint.axis.towards
+        universal = (
+            self.mechanism.universal_at(joint.first, center) if isinstance(center, Point) else None
+        )
+        if universal is None:
+            message = (
+                f"the angle of joint {joint.name!r} is reported from the frame of a universal "
+                f"joint at {joint.first!r}, which has none"
+            )
+            raise ValueError(message)
+        return universal
+
+    # -- absolute Jacobian ------------------------------------------------------------------------
+
+    def absolute_jacobian(self, body: str) -> dict[str, tuple[Vector, Vector]]:
+        """Return angular velocity and velocity of the centre of mass per relative rate.
+
+        Parameters
+        ----------
+        body
+            Name of a moving body.
+
+        Returns
+        -------
+        dict
+            Coordinate name to (angular, linear), in chassis axes. Where the report has several
+            copies of a coordinate, the first one is used.
+        """
+        placed = self.kin.placed[body]
+        center = self.kin.position(placed, self.mechanism.body(body).center)
+        columns = {}
+        for screw in self._chain(body):
+            linear = screw.linear + screw.angular.cross(center - screw.through)
+            columns[screw.coordinate] = (
+                self.kin.to_chassis(screw.angular),
+                self.kin.to_chassis(linear),
+            )
+        return columns
+
+    def _chain(self, body: str) -> list[_Screw]:
+        """Return the screws from the ground to a body, along joints with reported coordinates."""
+        graph = nx.DiGraph()
+        for joint in self.mechanism.joints:
+            if all(self._reported(joint.name, c) for c in joint.coordinates):
+                graph.add_edge(joint.first, joint.second, joint=joint)
+        path = nx.shortest_path(graph, self.mechanism.ground, body)
+        joints = [graph.edges[a, b]["joint"] for a, b in itertools.pairwise(path)]
+        screws = [screw for joint in joints for screw in self._screws(joint)]
+        if isinstance(joints[-1], Universal):
+            screws = [self._on_cross(body, screw) for screw in screws]
+        return screws
+
+    def _reported(self, joint: str, kind: str) -> str | None:
+        names = [c.name for c in self.mechanism.coordinates if (c.joint, c.kind) == (joint, kind)]
+        return names[0] if names else None
+
+    def _screws(self, joint: Joint) -> list[_Screw]:
+        names = {c: self._reported(joint.name, c) or "" for c in joint.coordinates}
+        if isinstance(joint, Revolute):
+            child = self.kin.placed[joint.second]
+            return [_Screw(names["angle"], child.axes[0], child.origin, ZERO)]
+        if isinstance(joint, Prismatic):
+            direction = self.kin.design_direction(joint.direction)
+            return [_Screw(names["slide"], ZERO, ZERO, direction)]
+        if isinstance(joint, Universal):
+            shaft = self._shaft(joint)
+            center = self.kin.on_line[joint.second].anchor_motion.position
+            return [
+                _Screw(names["azimuth"], shaft.up, center, ZERO),
+                _Screw(names["elevation"], shaft.x, center, ZERO),
+            ]
+        assert isinstance(joint, Cylindrical)
+        line = self.kin.telescopes[joint.name]
+        through = line.anchor_motion.position
+        return [
+            _Screw(names["slide"], ZERO, ZERO, -line.direction),
+            _Screw(names["angle"], -line.direction, through, ZERO),
+        ]
+
+    def _on_cross(self, body: str, screw: _Screw) -> _Screw:
+        """Let a shaft turn about itself as its cross demands, not as the z-x sequence does."""
+        n, second, third = self.kin.placed[body].axes
+        joint = next(j for j in self.mechanism.joints_of(body) if isinstance(j, Universal))
+        parent = self.kin.placed[joint.first]
+        axis = from_axes(parent.axes, self.kin.local_direction(parent, joint.first_axis))
+        if screw.angular.is_zero:
+            return screw
+        hinge = second.cross(axis)
+        across = screw.angular - n * screw.angular.dot(n)
+        turn = -across.dot(hinge) / axis.dot(third)
+        return _Screw(screw.coordinate, across + n * turn, screw.through, screw.linear)
+
+    # -- residuals --------------------------------------------------------------------------------
+
+    def residuals(self) -> dict[str, sp.Expr]:
+        """Return g(beta, q): one residual for each relative coordinate (Eqs. 4 to 13).
+
+        The coordinates are inputs of their own, named ``given_<coordinate>``.
+        """
+        self.program.section("closure residuals")
+        closure = _Closure(self)
+        return {f"g_{c.name}": closure.residual(c) for c in self.mechanism.coordinates}
+
+
+class _Closure:
+    """The closure equations in terms of given relative coordinates."""
+
+    def __init__(self, relative: RelativeCoordinates) -> None:
+        self.relative = relative
+        self.kin = relative.kin
+        self.program = relative.program
+        self.mechanism = relative.mechanism
+
+    def residual(self, coordinate: RelativeCoordinate) -> sp.Expr:
+        """Return what the given coordinate leaves of its own equation."""
+        first = self.relative._reported(coordinate.joint, coordinate.kind)  # noqa: SLF001
+        given = self._given(coordinate.name)
+        if first is not None and first != coordinate.name:
+            return given - self._given(first)
+        joint = self.mechanism.joint(coordinate.joint)
+        if isinstance(joint, Revolute | Prismatic):
+            return given - self.kin.coordinates[self.kin.coordinate_of(joint)]
+        if isinstance(joint, Universal):
+            n = self._shaft_direction(joint)
+            if coordinate.kind == "elevation":
+                return sp.sin(given) - n.z
+            level = self.program.define(f"given_level_{joint.name}", sp.sqrt(n.x**2 + n.y**2))
+            return n.x / level + sp.sin(given)
+        assert isinstance(joint, Cylindrical)
+        if coordinate.kind == "slide":
+            span = self._telescope_span(joint)
+            length = sp.sqrt(span.dot(span))
+            return length - (sp.Symbol(joint.length_at_zero_slide) - given)
+        return self._rod_residual(joint)
+
+    def _given(self, name: str) -> sp.Symbol:
+        return sp.Symbol(f"given_{name}")
+
+    def _last(self, joint: str, kind: str) -> sp.Symbol:
+        """Return the last copy of a coordinate: the one that the later transformers read."""
+        names = [c.name for c in self.mechanism.coordinates if (c.joint, c.kind) == (joint, kind)]
+        return self._given(names[-1])
+
+    def _driven(self) -> dict[sp.Symbol, sp.Expr]:
+        """Return what stands in for the driven coordinates: their given copies."""
+        replaced = {}
+        for coordinate in self.mechanism.coordinates:
+            joint = self.mechanism.joint(coordinate.joint)
+            if isinstance(joint, Revolute | Prismatic):
+                symbol = self.kin.coordinates[self.kin.coordinate_of(joint)]
+                replaced[symbol] = self._given(coordinate.name)
+        return replaced
+
+    def _from_driven(self, name: str, work: Vector) -> Vector:
+        """Return a work vector as a function of the given coordinates, in chassis axes."""
+        given = Vector(*self.program.substitute(self._driven(), work, "given"))
+        return self.program.vector(name, self.kin.to_chassis(given))
+
+    def _telescope_span(self, joint: Cylindrical) -> Vector:
+        line = self.kin.telescopes[joint.name]
+        return self._from_driven(f"given_span_{joint.name}", line.relative.position)
+
+    def _shaft_direction(self, joint: Universal) -> Vector:
+        """Return the unit vector of a shaft, from what holds its far end."""
+        turn = self._turn_of_rod(joint.second)
+        if turn is None:
+            telescope = next(
+                j for j in self.mechanism.joints_of(joint.second) if isinstance(j, Cylindrical)
+            )
+            span = self._telescope_span(telescope)
+        else:
+            span = self._rod_span(turn)
+        length = self.program.define(f"given_length_{joint.name}", sp.sqrt(span.dot(span)))
+        return self.program.vector(f"given_shaft_{joint.name}", span * (1 / length))
+
+    def _turn_of_rod(self, rod: str) -> SolveTurn | None:
+        turns = [a for a in self.kin.plan.actions if isinstance(a, SolveTurn) and a.rod == rod]
+        return turns[0] if turns else None
+
+    def _rod_residual(self, joint: Cylindrical) -> sp.Expr:
+        """Eq. 13: the distance of the rod's ends along the chain, less the length of the rod."""
+        turn = next(
+            a for a in self.kin.plan.actions if isinstance(a, SolveTurn) and a.body == joint.second
+        )
+        span = self._rod_span(turn)
+        return sp.sqrt(span.dot(span)) - sp.Symbol(f"{turn.rod}_length")
+
+    def _rod_span(self, turn: SolveTurn) -> Vector:
+        """Return the vector from the rod's anchor to its end, by explicit rotations (Eq. 17)."""
+        telescope = next(
+            a
+            for a in self.kin.plan.actions
+            if isinstance(a, SolveTelescope) and a.end_link == turn.body
+        )
+        joint = telescope.joint
+        holder = self.relative._holder(joint)  # noqa: SLF001
+        placed = self.kin.placed[turn.body]
+        length = sp.Symbol(joint.length_at_zero_slide) - self._last(joint.name, "slide")
+        end = self._in_marker_axes(placed, turn.end, joint.angle_to)
+        swung = rotate_y(-self._last(joint.name, "angle"), end) + UNIT_Y * length
+        swung = self.program.vector(f"given_{turn.end.name}_in_shaft", swung)
+        lifted = rotate_x(self._last(holder.name, "elevation"), swung)
+        lifted = self.program.vector(f"given_{turn.end.name}_lifted", lifted)
+        from_center = rotate_z(self._last(holder.name, "azimuth"), lifted)
+        center = self._from_driven(
+            f"given_{holder.at.name}", self.kin.point_motion(holder.first, holder.at).position
+        )
+        anchor = self._from_driven(
+            f"given_{turn.anchor.name}",
+            self.kin.point_motion(turn.anchor_body, turn.anchor).position,
+        )
+        return self.program.vector(f"given_{turn.rod}", center + from_center - anchor)
+
+    def _in_marker_axes(self, placed: Placed, point: Point, marker: Point) -> Vector:
+        """Return a point's body coordinates along (x'', line, marker): those of zero angle."""
+        local, mark = self.kin.local(placed, point), self.kin.local(placed, marker)
+        across = self.program.define(f"{placed.body}_marker", sp.sqrt(mark.y**2 + mark.z**2))
+        z = Vector(ZERO.x, mark.y / across, mark.z / across)
+        return self.program.vector(
+            f"{placed.body}_{point.name}_by_marker",
+            Vector(local.dot(UNIT_X.cross(z)), local.x, local.dot(z)),
+        )

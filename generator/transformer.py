@@ -1,0 +1,363 @@
+"""From cycles to kinematic transformers: which pair of joints, which closed form, in which order.
+
+A transformer is one loop of the minimal cycle basis, cut at its *characteristic pair of joints*
+(Hiller & Woernle, 1988): the pair whose own coordinates, taken together, are the most numerous, so
+that the fewest closure equations remain. Everything here is structure; the algebra is in
+`solutions`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from itertools import combinations
+from typing import TYPE_CHECKING
+
+from .joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
+from .topology import Cycle, Topology
+
+if TYPE_CHECKING:
+    from .geometry import Point
+    from .mechanism import Mechanism, Model
+
+
+class NoClosedFormError(ValueError):
+    """A loop has no solution in the catalogue of closed forms."""
+
+
+# -- actions: what the kinematics carries out, in order -------------------------------------------
+
+
+@dataclass(frozen=True)
+class PlaceByJoint:
+    """A body follows from its placed neighbour, because the joint's coordinate is known."""
+
+    joint: Revolute | Prismatic
+    parent: str
+    child: str
+
+
+@dataclass(frozen=True)
+class SolveTelescope:
+    """Two placed points are the ends of a telescope: its length and direction follow."""
+
+    joint: Cylindrical
+    anchor: Point
+    anchor_body: str
+    anchor_link: str
+    end: Point
+    end_body: str
+    end_link: str
+
+
+@dataclass(frozen=True)
+class SolveTurn:
+    """A body known up to a rotation about a line is held by a rod: its rotation follows."""
+
+    body: str
+    rod: str
+    end: Point
+    anchor: Point
+    anchor_body: str
+
+
+@dataclass(frozen=True)
+class PlaceByCross:
+    """A shaft of known direction is turned by the cross of its universal joint."""
+
+    joint: Universal
+    parent: str
+    child: str
+
+
+Action = PlaceByJoint | SolveTelescope | SolveTurn | PlaceByCross
+
+
+@dataclass(frozen=True)
+class PairCandidate:
+    """A pair of joints at which a loop could be cut, and what that eliminates."""
+
+    joints: tuple[Joint, Joint]
+    eliminated: int
+
+    @property
+    def equations(self) -> int:
+        """Number of closure equations that remain of the six of a spatial loop."""
+        return 6 - self.eliminated
+
+
+@dataclass(frozen=True)
+class _CutLoop:
+    """A loop cut at the centres of a pair of joints, seen as two arcs from anchor to end.
+
+    ``joints`` and ``bodies`` are those of one arc, ``others`` the bodies of the other.
+    """
+
+    anchor: Point
+    end: Point
+    joints: tuple[Joint, ...]
+    bodies: tuple[str, ...]
+    others: tuple[str, ...]
+
+
+def _views(cycle: Cycle, pair: PairCandidate) -> list[_CutLoop]:
+    """Return the four ways to look at a cut loop: either arc first, either direction."""
+    i, j = sorted(cycle.joints.index(joint) for joint in pair.joints)
+    anchor, end = cycle.joints[i].center, cycle.joints[j].center
+    if anchor is None or end is None:
+        return []
+    inner = cycle.joints[i + 1 : j], cycle.bodies[i + 1 : j + 1]
+    outer = (
+        (cycle.joints[j + 1 :] + cycle.joints[:i])[::-1],
+        (cycle.bodies[j + 1 :] + cycle.bodies[: i + 1])[::-1],
+    )
+    views = []
+    for (joints, bodies), (_, others) in ((inner, outer), (outer, inner)):
+        views.append(_CutLoop(anchor, end, joints, bodies, others))
+        views.append(_CutLoop(end, anchor, joints[::-1], bodies[::-1], others[::-1]))
+    return views
+
+
+@dataclass(frozen=True)
+class Transformer:
+    """A loop with its characteristic pair, its equation and its place in the order of solution.
+
+    Attributes
+    ----------
+    unknowns
+        Number of relative coordinates of the loop that were unknown before it was solved.
+    candidates
+        All pairs with a common isotropic element (the distance of two points), best first.
+    inputs, outputs
+        Names of coordinates, ``joint.coordinate``.
+    rivals
+        Other cycles of the same length that could have been taken, with their unknowns.
+    """
+
+    number: int
+    cycle: Cycle
+    unknowns: int
+    candidates: tuple[PairCandidate, ...]
+    pair: PairCandidate
+    action: SolveTelescope | SolveTurn
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+    rivals: tuple[tuple[Cycle, int], ...]
+
+
+@dataclass
+class Plan:
+    """The order of solution of a model.
+
+    Attributes
+    ----------
+    transformers
+        The loops in the order in which they are solved.
+    actions
+        Everything the kinematics has to do, in order.
+    """
+
+    model: Model
+    topology: Topology
+    transformers: list[Transformer] = field(default_factory=list)
+    actions: list[Action] = field(default_factory=list)
+    _known: set[tuple[str, str]] = field(default_factory=set)
+    _placed: set[str] = field(default_factory=set)
+    _on_line: set[str] = field(default_factory=set)
+
+    @classmethod
+    def of(cls, model: Model) -> Plan:
+        """Analyse a model: choose the basis, the pairs and the order."""
+        plan = cls(model, Topology(model.mechanism))
+        plan._placed.add(plan._mechanism.ground)
+        for name in (*model.independent, *model.prescribed):
+            joint = plan._mechanism.joint(name)
+            plan._known.update((name, c) for c in joint.coordinates)
+        plan._place_neighbours()
+        chosen: list[Cycle] = []
+        while len(chosen) < plan.topology.loop_count:
+            options = plan.topology.minimal_next(chosen)
+            options.sort(key=plan._unknowns)  # stable: ties keep the order of the figure's numbers
+            chosen.append(options[0])
+            plan._solve(options[0], options[1:])
+        plan._check_complete()
+        return plan
+
+    @property
+    def _mechanism(self) -> Mechanism:
+        return self.model.mechanism
+
+    def is_known(self, joint: Joint, coordinate: str) -> bool:
+        """Tell whether a relative coordinate is given or already solved."""
+        return (joint.name, coordinate) in self._known
+
+    def _unknowns(self, cycle: Cycle) -> int:
+        return sum(self._unknowns_of(joint) for joint in cycle.joints)
+
+    def _unknowns_of(self, joint: Joint) -> int:
+        return sum(not self.is_known(joint, c) for c in joint.coordinates)
+
+    # -- placing bodies -------------------------------------------------------------------------
+
+    def _place_neighbours(self) -> None:
+        """Place every body that follows from a placed one without a closure equation."""
+        progress = True
+        while progress:
+            progress = False
+            for joint in self._mechanism.joints:
+                action = self._follow(joint)
+                if action is not None:
+                    self.actions.append(action)
+                    self._placed.add(action.child)
+                    self._on_line.discard(action.child)
+                    progress = True
+
+    def _follow(self, joint: Joint) -> PlaceByJoint | PlaceByCross | None:
+        placed = [b in self._placed for b in joint.bodies]
+        if placed[0] == placed[1]:
+            return None
+        parent, child = joint.bodies if placed[0] else reversed(joint.bodies)
+        if isinstance(joint, Universal) and child == joint.second and child in self._on_line:
+            return PlaceByCross(joint, parent, child)
+        if isinstance(joint, Revolute | Prismatic) and self._unknowns_of(joint) == 0:
+            if child != joint.second:
+                message = (
+                    f"joint {joint.name!r}: declare {parent!r} first and {child!r} second, "
+                    "since its coordinate drives the second body"
+                )
+                raise NoClosedFormError(message)
+            return PlaceByJoint(joint, parent, child)
+        return None
+
+    # -- solving a loop -------------------------------------------------------------------------
+
+    def _solve(self, cycle: Cycle, rivals: list[Cycle]) -> None:
+        candidates = self._pair_candidates(cycle)
+        for pair in candidates:
+            action = self._closed_form(cycle, pair)
+            if action is None:
+                continue
+            unknowns = self._unknowns(cycle)
+            before = {(j.name, c) for j in cycle.joints for c in j.coordinates} & self._known
+            after = self._accept(action)
+            self.transformers.append(
+                Transformer(
+                    number=len(self.transformers) + 1,
+                    cycle=cycle,
+                    unknowns=unknowns,
+                    candidates=tuple(candidates),
+                    pair=pair,
+                    action=action,
+                    inputs=self._labels(before),
+                    outputs=self._labels(after),
+                    rivals=tuple((c, self._unknowns_before(c, after)) for c in rivals),
+                )
+            )
+            self._place_neighbours()
+            return
+        raise NoClosedFormError(self._refusal(cycle, candidates))
+
+    def _unknowns_before(self, cycle: Cycle, solved: set[tuple[str, str]]) -> int:
+        own = {(j.name, c) for j in cycle.joints for c in j.coordinates}
+        return self._unknowns(cycle) + len(own & solved)
+
+    def _labels(self, coordinates: set[tuple[str, str]]) -> tuple[str, ...]:
+        """Return coordinates by name; those of a ball joint together, as its orientation."""
+        labels = []
+        for joint in self._mechanism.joints:
+            own = [c for c in joint.coordinates if (joint.name, c) in coordinates]
+            if isinstance(joint, Spherical) and own:
+                labels.append(f"{joint.name}.orientation")
+            else:
+                labels += [f"{joint.name}.{c}" for c in own]
+        return tuple(labels)
+
+    def _pair_candidates(self, cycle: Cycle) -> list[PairCandidate]:
+        """Return the pairs of joints that both keep a point in common, most eliminated first."""
+        pairs = [
+            PairCandidate((a, b), self._unknowns_of(a) + self._unknowns_of(b))
+            for a, b in combinations(cycle.joints, 2)
+            if a.center is not None and b.center is not None
+        ]
+        return sorted(pairs, key=lambda p: -p.eliminated)
+
+    def _closed_form(self, cycle: Cycle, pair: PairCandidate) -> SolveTelescope | SolveTurn | None:
+        if pair.equations != 1:
+            return None
+        for view in _views(cycle, pair):
+            action = self._telescope(view) or self._turn(view)
+            if action is not None:
+                return action
+        return None
+
+    def _telescope(self, view: _CutLoop) -> SolveTelescope | None:
+        """Return the action for two links on a common axis, both ends on placed bodies."""
+        if len(view.joints) != 1 or not isinstance(view.joints[0], Cylindrical):
+            return None
+        joint, (anchor_link, end_link) = view.joints[0], view.bodies
+        # the axis of the joint runs from the end (second body) to the anchor (first body)
+        along_axis = (joint.axis.through, joint.axis.towards) == (view.end, view.anchor)
+        placed = {view.others[0], view.others[-1]} <= self._placed
+        if self.is_known(joint, "slide") or not (along_axis and placed):
+            return None
+        if anchor_link != joint.first:
+            return None
+        return SolveTelescope(
+            joint, view.anchor, view.others[0], anchor_link, view.end, view.others[-1], end_link
+        )
+
+    def _turn(self, view: _CutLoop) -> SolveTurn | None:
+        """Return the action for a rod from a placed point to a body that can still turn."""
+        if len(view.bodies) != 1:
+            return None
+        if view.others[0] not in self._placed or view.others[-1] not in self._on_line:
+            return None
+        return SolveTurn(view.others[-1], view.bodies[0], view.end, view.anchor, view.others[0])
+
+    def _accept(self, action: SolveTelescope | SolveTurn) -> set[tuple[str, str]]:
+        """Record what a solution makes known; return the coordinates that are new."""
+        if isinstance(action, SolveTelescope):
+            new = {(action.joint.name, "slide")}
+            self._on_line.update((action.anchor_link, action.end_link))
+            universal = self._mechanism.universal_at(action.anchor_link, action.anchor)
+            joints: list[Joint] = [universal] if universal else []
+        else:
+            new = set()
+            self._on_line.discard(action.body)
+            self._placed.add(action.body)
+            self._on_line.add(action.rod)
+            joints = [
+                *self._mechanism.joints_of(action.rod),
+                *(j for j in self._mechanism.joints_of(action.body) if self._joins_solved(j)),
+            ]
+        self.actions.append(action)
+        new |= {(j.name, c) for j in joints for c in j.coordinates}
+        new -= self._known
+        self._known |= new
+        return new
+
+    def _joins_solved(self, joint: Joint) -> bool:
+        solved = self._placed | self._on_line
+        return all(body in solved for body in joint.bodies)
+
+    # -- refusals -------------------------------------------------------------------------------
+
+    def _refusal(self, cycle: Cycle, candidates: list[PairCandidate]) -> str:
+        loop = " - ".join(cycle.bodies)
+        tried = "; ".join(
+            f"{p.joints[0].name}/{p.joints[1].name} leaves {p.equations} equation(s)"
+            for p in candidates
+        )
+        return (
+            f"the loop {loop} (joints {', '.join(j.name for j in cycle.joints)}) has no closed "
+            f"form in the catalogue. {self._unknowns(cycle)} of its coordinates are unknown. "
+            f"Pairs tried: {tried or 'none, since no two of its joints keep a point in common'}."
+        )
+
+    def _check_complete(self) -> None:
+        missing = [b.name for b in self._mechanism.bodies if b.name not in self._placed]
+        if missing:
+            message = (
+                f"model {self.model.name!r}: nothing determines the pose of {', '.join(missing)}; "
+                "declare one more independent or prescribed joint"
+            )
+            raise NoClosedFormError(message)

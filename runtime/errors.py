@@ -1,0 +1,48 @@
+"""The exceptions that kintrafo raises on purpose.
+
+Each of them derives from `KintrafoError`, so that one ``except`` clause catches them all.
+"""
+
+from collections.abc import Iterable
+
+
+class KintrafoError(Exception):
+    """Base of every exception that kintrafo raises on purpose."""
+
+
+class InputError(KintrafoError, ValueError):
+    """Input data that cannot be used, with everything that is wrong with it.
+
+    Parameters
+    ----------
+    problems : iterable of str
+        One sentence or more for each problem: section and key, value with unit, what is allowed,
+        what to change.
+    source : str, optional
+        Where the data come from, usually the name of the file.
+
+    Attributes
+    ----------
+    problems : tuple of str
+        The problems, in the order of the file's sections.
+    source : str
+        Where the data come from.
+
+    Examples
+    --------
+    >>> print(InputError(["[tyre] rate_N_per_m is missing."], "my_car.toml"))
+    my_car.toml: 1 problem
+      - [tyre] rate_N_per_m is missing.
+    """
+
+    def __init__(self, problems: Iterable[str], source: str = "input data") -> None:
+        self.problems = tuple(problems)
+        self.source = source
+        # The base class gets the arguments unchanged: pickling hands them to __init__ again.
+        super().__init__(self.problems, source)
+
+    def __str__(self) -> str:
+        """Return the source on top and one bullet for each problem."""
+        count = len(self.problems)
+        head = f"{self.source}: {count} problem{'' if count == 1 else 's'}"
+        return "\n".join([head, *(f"  - {problem}" for problem in self.problems)])

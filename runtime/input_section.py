@@ -1,0 +1,101 @@
+"""What every section of an input file shares: its base class and its kinds of values."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, Self
+
+import numpy as np
+from pydantic import AllowInfNan, BaseModel, BeforeValidator, ConfigDict, Field, Strict
+from pydantic import model_validator as validator_of_model
+from pydantic_core import PydanticCustomError
+
+from .toml_units import unit_of
+
+
+@dataclass(frozen=True)
+class Range:
+    """The range of a value in words, for the error message.
+
+    Attributes
+    ----------
+    allowed : str
+        The range, with ``{unit}`` where the unit belongs.
+    remedy : str
+        What to change when the value is outside: a sentence.
+    """
+
+    allowed: str
+    remedy: str
+
+
+def _plain(value: Any) -> Any:
+    """Turn NumPy's numbers and arrays into Python's, which the checks below expect."""
+    return value.tolist() if isinstance(value, (np.generic, np.ndarray)) else value
+
+
+def _three_numbers(value: Any) -> Any:
+    """Refuse anything but three components; each of them is checked afterwards."""
+    value = _plain(value)
+    if not isinstance(value, (list, tuple)) or len(value) != 3:
+        raise PydanticCustomError("three_numbers", "not three numbers")
+    return value
+
+
+# Strict: neither true nor "5" is a number.
+Number = Annotated[float, BeforeValidator(_plain), Strict(), AllowInfNan(False)]
+
+NonNegative = Annotated[
+    Number,
+    Field(ge=0.0),
+    Range("0 {unit} or more", "Remove the minus sign, or enter 0 to leave it out of the model."),
+]
+
+Positive = Annotated[
+    Number,
+    Field(gt=0.0),
+    Range("more than 0 {unit}", "Enter a positive value: no wheel is without it."),
+]
+
+Triple = Annotated[tuple[Number, Number, Number], BeforeValidator(_three_numbers)]
+
+
+class Section(BaseModel):
+    """A section of an input file: immutable, and without keys that it does not know."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    @classmethod
+    def unit_of_key(cls, key: str, table: Mapping[str, Any]) -> str:
+        """Return the unit in which a section of a file gives the value of a key.
+
+        Parameters
+        ----------
+        key : str
+            The key.
+        table : mapping
+            The section's content; not checked yet.
+
+        Returns
+        -------
+        str
+            The unit, as it is printed; empty for a key without one.
+        """
+        del table  # needed only by sections that have one unit for all of their keys
+        return unit_of(key)
+
+    def problems(self) -> list[str]:
+        """Say what cannot be, although each value alone is in its range.
+
+        Returns
+        -------
+        list of str
+            One text for each problem, beginning with the key; empty if there is none.
+        """
+        return []
+
+    @validator_of_model(mode="after")
+    def _refuse_problems(self) -> Self:
+        problems = self.problems()
+        if problems:
+            raise PydanticCustomError("problems", "not possible", {"problems": problems})
+        return self

@@ -1,0 +1,224 @@
+"""The bodies of a MacPherson suspension: masses, centres of mass and inertia tensors."""
+
+from abc import abstractmethod
+
+import numpy as np
+from pydantic import Field
+
+from .input_section import NonNegative, Number, Positive, Section, Triple
+from .suspension_hardpoints import Hardpoints
+from .toml_units import in_metres
+from .vectors import Vector, components
+
+_ELEMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
+
+# Where the knuckle's centre of mass lies on the strut axis, above the ball joint, if not given.
+_DEFAULT_COM_ALONG_STRUT_MM = 120.0
+
+# What rounding may do to a principal moment of inertia, relative to the largest element.
+_ROUNDING = 1e-9
+
+
+class RigidBody(Section):
+    """Mass, centre of mass and inertia of a body at the design position.
+
+    The inertia is the tensor about the body's centre of mass in chassis axes. Its *elements* are
+    given: ``xy`` is the entry of the matrix, ``-integral of x y dm``, which is minus the product of
+    inertia that some programs print. All left out, or zero, make the body a point mass.
+    """
+
+    mass_kg: NonNegative = Field(description="mass of the body")
+    com_mm: Triple | None = Field(
+        default=None, description="centre of mass at design; left out: the body's own rule"
+    )
+    inertia_xx_kg_m2: Number = Field(default=0.0, description="element xx of the inertia tensor")
+    inertia_yy_kg_m2: Number = Field(default=0.0, description="element yy of the inertia tensor")
+    inertia_zz_kg_m2: Number = Field(default=0.0, description="element zz of the inertia tensor")
+    inertia_xy_kg_m2: Number = Field(default=0.0, description="element xy of the inertia tensor")
+    inertia_xz_kg_m2: Number = Field(default=0.0, description="element xz of the inertia tensor")
+    inertia_yz_kg_m2: Number = Field(default=0.0, description="element yz of the inertia tensor")
+
+    def elements(self) -> dict[str, float]:
+        """Return the elements of the inertia tensor by their names, in kg m^2."""
+        return {name: getattr(self, f"inertia_{name}_kg_m2") for name in _ELEMENTS}
+
+    def centre_of_mass(self, points: Hardpoints) -> Vector:
+        """Return the centre of mass at design.
+
+        Parameters
+        ----------
+        points : Hardpoints
+            The hardpoints, from which the body's rule takes it unless it is given.
+
+        Returns
+        -------
+        numpy.ndarray
+            Its coordinates in chassis axes, in m.
+        """
+        if self.com_mm is None:
+            return self.default_centre_of_mass(points)
+        return np.array([in_metres(value, "mm") for value in self.com_mm])
+
+    @abstractmethod
+    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
+        """Return the centre of mass of a body whose file leaves it out, in m."""
+
+    def problems(self) -> list[str]:
+        """Say why no body can have this inertia."""
+        elements = self.elements()
+        scale = max(abs(value) for value in elements.values())
+        if scale == 0.0:
+            return []
+        names = ", ".join(f"inertia_{name}_kg_m2 = {value}" for name, value in elements.items())
+        if self.mass_kg == 0.0:
+            problem = (
+                f"mass_kg = 0.0 kg, but {names} kg m^2: a body without mass has no inertia. "
+                "Enter its mass, or set the inertia to 0."
+            )
+            return [problem]
+        reason = _why_impossible(elements, scale)
+        return [f"{names} kg m^2: {reason}"] if reason else []
+
+
+class ControlArm(RigidBody):
+    """The control arm."""
+
+    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
+        """Return the centroid of the arm's three hardpoints, in m."""
+        bearings = points.metres("arm_front") + points.metres("arm_rear")
+        return (bearings + points.metres("ball_joint")) / 3.0
+
+
+class Knuckle(RigidBody):
+    """The knuckle with the lower tube of the strut."""
+
+    com_along_strut_mm: Number | None = Field(
+        default=None, description="distance of the centre of mass from ball_joint to strut_top"
+    )
+
+    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
+        """Return the point on the strut axis at the given distance above the ball joint, in m."""
+        given = self.com_along_strut_mm
+        distance = in_metres(_DEFAULT_COM_ALONG_STRUT_MM if given is None else given, "mm")
+        return points.metres("ball_joint") + distance * points.strut_axis()
+
+    def problems(self) -> list[str]:
+        """Refuse two places of the centre of mass, besides what holds for every body."""
+        problems = super().problems()
+        if self.com_mm is not None and self.com_along_strut_mm is not None:
+            problems.append(
+                f"com_mm = {list(self.com_mm)} mm and com_along_strut_mm = "
+                f"{self.com_along_strut_mm} mm both place the centre of mass; one is allowed. "
+                "Remove the other."
+            )
+        return problems
+
+
+class TieRod(RigidBody):
+    """The tie rod."""
+
+    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
+        """Return the midpoint of the rod, in m."""
+        return (points.metres("tie_rod_outer") + points.metres("tie_rod_inner")) / 2.0
+
+
+class Rack(RigidBody):
+    """The rack of the steering."""
+
+    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
+        """Return the joint with the tie rod, in m."""
+        return points.metres("tie_rod_inner")
+
+
+class UpperStrut(RigidBody):
+    """The upper strut: the piston rod with what turns with it."""
+
+    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
+        """Return the upper mount, in m."""
+        return points.metres("strut_top")
+
+
+class WheelBody(Section):
+    """The wheel with tyre, hub and disc: symmetric about its spin axis, balanced at its centre."""
+
+    mass_kg: Positive = Field(description="mass of the wheel")
+    inertia_spin_kg_m2: Positive = Field(description="moment of inertia about the spin axis")
+    inertia_diametral_kg_m2: Positive = Field(
+        description="moment of inertia about any diameter through the wheel's centre"
+    )
+
+    def problems(self) -> list[str]:
+        """Say why no body can have this inertia."""
+        spin, diametral = self.inertia_spin_kg_m2, self.inertia_diametral_kg_m2
+        if spin > 2.0 * diametral * (1.0 + _ROUNDING):
+            problem = (
+                f"inertia_spin_kg_m2 = {spin} kg m^2 is more than any wheel with "
+                f"inertia_diametral_kg_m2 = {diametral} kg m^2 can have; allowed is at most twice "
+                f"that, {2.0 * diametral:.4g} kg m^2 (a flat disc). Lower the first or raise the "
+                "second."
+            )
+            return [problem]
+        return []
+
+
+class Bodies(Section):
+    """All bodies that may carry mass. Tie rod, rack and upper strut are massless if left out."""
+
+    control_arm: ControlArm = Field(description="the control arm")
+    knuckle: Knuckle = Field(description="the knuckle with the lower tube of the strut")
+    wheel: WheelBody = Field(description="the wheel")
+    tie_rod: TieRod = Field(default=TieRod(mass_kg=0.0), description="the tie rod")
+    rack: Rack = Field(default=Rack(mass_kg=0.0), description="the rack")
+    upper_strut: UpperStrut = Field(default=UpperStrut(mass_kg=0.0), description="the upper strut")
+
+    def rigid(self) -> dict[str, RigidBody]:
+        """Return all bodies but the wheel, by their names."""
+        names = ("control_arm", "knuckle", "tie_rod", "rack", "upper_strut")
+        return {name: getattr(self, name) for name in names}
+
+    def parameters(self, points: Hardpoints) -> dict[str, float]:
+        """Return masses in kg, centres of mass in m and inertia tensors in kg m^2.
+
+        Parameters
+        ----------
+        points : Hardpoints
+            The hardpoints, for the centres of mass that are not given.
+
+        Returns
+        -------
+        dict of str to float
+            Flat names, such as ``knuckle_com_x`` and ``wheel_mass``.
+        """
+        values: dict[str, float] = {}
+        for name, body in self.rigid().items():
+            values[f"{name}_mass"] = body.mass_kg
+            values |= components(f"{name}_com", body.centre_of_mass(points))
+            for element, value in body.elements().items():
+                values[f"{name}_inertia_{element}"] = value
+        values["wheel_mass"] = self.wheel.mass_kg
+        values["wheel_inertia_spin"] = self.wheel.inertia_spin_kg_m2
+        values["wheel_inertia_diametral"] = self.wheel.inertia_diametral_kg_m2
+        return values
+
+
+def _why_impossible(elements: dict[str, float], scale: float) -> str:
+    """Return why a tensor is no body's inertia; empty if it may be one."""
+    xx, yy, zz, xy, xz, yz = (elements[name] / scale for name in _ELEMENTS)
+    moments = np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    small, middle, large = (float(moment) for moment in moments)
+    listed = ", ".join(f"{scale * moment:.4g}" for moment in (small, middle, large))
+    remedy = (
+        "Check the diagonal, and the signs of xy, xz and yz (elements of the tensor: minus the "
+        "products of inertia); all zero make a point mass."
+    )
+    if small < -_ROUNDING:
+        return (
+            f"the principal moments {listed} kg m^2 include a negative one; allowed is 0 or "
+            f"more (the tensor must be positive definite). {remedy}"
+        )
+    if large > small + middle + _ROUNDING:
+        return (
+            f"the principal moments are {listed} kg m^2; allowed is at most the sum of the other "
+            f"two, {scale * (small + middle):.4g} kg m^2, for the largest. {remedy}"
+        )
+    return ""

@@ -1,0 +1,101 @@
+"""Small helpers for vectors in space."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+Vector = NDArray[np.float64]
+
+
+def unit_vector(vector: Sequence[float] | Vector) -> Vector:
+    """Return the vector of length one in the direction of `vector`.
+
+    Parameters
+    ----------
+    vector : sequence of float
+        Three components, in any unit, not all of them zero.
+
+    Returns
+    -------
+    numpy.ndarray
+        The unit vector (without unit).
+
+    Examples
+    --------
+    >>> unit_vector([0.0, 3.0, 4.0]).tolist()
+    [0.0, 0.6, 0.8]
+    """
+    # hypot neither overflows nor underflows, and is exact along a coordinate axis.
+    return np.asarray(vector, dtype=np.float64) / math.hypot(*vector)
+
+
+def angle_between_lines(first: Vector, second: Vector) -> float:
+    """Return the angle between two lines, whichever way their vectors point.
+
+    Parameters
+    ----------
+    first, second : numpy.ndarray
+        Vectors along the lines, not zero.
+
+    Returns
+    -------
+    float
+        The angle in degrees, 0 to 90.
+
+    Examples
+    --------
+    >>> angle_between_lines(np.array([0.0, 0.0, 1.0]), np.array([0.0, -1.0, -1.0]))
+    45.0
+    """
+    # The arc tangent keeps its accuracy near 0 degrees, where the arc cosine loses it.
+    across = math.hypot(*np.cross(first, second))
+    along = abs(float(first @ second))
+    return math.degrees(math.atan2(across, along))
+
+
+def distance_from_line(point: Vector, start: Vector, end: Vector) -> float:
+    """Return the distance of a point from the line through two others.
+
+    Parameters
+    ----------
+    point : numpy.ndarray
+        The point, in m.
+    start, end : numpy.ndarray
+        Two different points of the line, in m.
+
+    Returns
+    -------
+    float
+        The distance in m.
+
+    Examples
+    --------
+    >>> distance_from_line(np.array([3.0, 4.0, 5.0]), np.zeros(3), np.array([0.0, 0.0, 2.0]))
+    5.0
+    """
+    return math.hypot(*np.cross(point - start, unit_vector(end - start)))
+
+
+def components(name: str, vector: Vector) -> dict[str, float]:
+    """Name the components of a vector.
+
+    Parameters
+    ----------
+    name : str
+        The vector's name.
+    vector : numpy.ndarray
+        The vector, in any unit.
+
+    Returns
+    -------
+    dict of str to float
+        The components as ``name_x``, ``name_y`` and ``name_z``, in the unit of `vector`.
+
+    Examples
+    --------
+    >>> components("strut_top", np.array([-0.028, -0.585, 0.82]))
+    {'strut_top_x': -0.028, 'strut_top_y': -0.585, 'strut_top_z': 0.82}
+    """
+    return {f"{name}_{axis}": float(vector[i]) for i, axis in enumerate("xyz")}

@@ -1,0 +1,598 @@
+"""Dynamics of the suspension in maximal coordinates with Lagrange multipliers.
+
+The equations of Newton and Euler of the six moving bodies are solved together with the joints'
+equations of `oracle.constraints`, differentiated twice:
+
+    [M  G^T] [acceleration]   [applied - gyroscopic]
+    [G   0 ] [multipliers ] = [   - (dG/dt) twist  ]
+
+The accelerations of the independent coordinates are then read off the bodies' accelerations. The
+rack is either free, with a force on it, or its motion is one more constraint.
+
+The independent coordinates are in this order everywhere: beta1 (rad), wheel spin (rad, of the wheel
+relative to the knuckle about the spin axis) and, where the rack is free, rack displacement (m,
+along the unit rack axis). Units are SI, world axes are the chassis axes. Twists and wrenches are
+(velocity of the centre of mass, angular velocity) and (force, moment about the centre of mass).
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.integrate import solve_ivp
+
+from oracle.constraints import ARM, KNUCKLE, RACK, UPPER_STRUT, WHEEL, Array, Pose
+from oracle.newton import Z_AXIS, Mechanism, solve_pose
+
+RackMotion = Callable[[float], tuple[float, float, float]]
+
+
+@dataclass(frozen=True)
+class Solution:
+    """Motion and forces at one instant.
+
+    Attributes
+    ----------
+    coordinate_accelerations : ndarray, shape (3,)
+        Second derivatives of beta1, spin and rack displacement: rad/s², rad/s², m/s². The last is
+        the prescribed one where the rack is not free.
+    twist, acceleration : ndarray, shape (6, 6)
+        Velocity and acceleration of the centre of mass, angular velocity and acceleration, of each
+        body in the order of `oracle.constraints.BODIES`.
+    multipliers : ndarray, shape (33,) or (34,)
+        Of the joints' equations, and of the rack's motion if prescribed: N and N m.
+    rack_drive_force : float
+        Force along the rack axis on the rack that makes it move as prescribed, N; zero where the
+        rack is free.
+    strut_slide_rate : float
+        Rate of beta2, m/s, positive in bump.
+    kinetic_energy : float
+        In J.
+    potential_energy : dict of float
+        Of ``gravity`` (zero at z = 0), ``spring`` and ``tyre`` (half the rate times the square of
+        the vertical deflection), J.
+    power : dict of float
+        Of all that does work on the moving bodies, W: ``gravity``, ``spring``, ``damper``,
+        ``actuator``, ``tyre``, ``rack`` (force on the rack, driving or given). The kinetic energy
+        grows at the rate of their sum. Only gravity and spring are minus the rates of the
+        potential energies; the tyre is not since its force has a part across the wheel's travel.
+    """
+
+    coordinate_accelerations: Array
+    twist: Array
+    acceleration: Array
+    multipliers: Array
+    rack_drive_force: float
+    strut_slide_rate: float
+    kinetic_energy: float
+    potential_energy: dict[str, float]
+    power: dict[str, float]
+
+    @property
+    def beta1_acceleration(self) -> float:
+        """Second derivative of the arm angle, rad/s²."""
+        return float(self.coordinate_accelerations[0])
+
+    @property
+    def spin_acceleration(self) -> float:
+        """Second derivative of the wheel's angle relative to the knuckle, rad/s²."""
+        return float(self.coordinate_accelerations[1])
+
+    @property
+    def rack_acceleration(self) -> float:
+        """Second derivative of the rack displacement, m/s²."""
+        return float(self.coordinate_accelerations[2])
+
+
+@dataclass(frozen=True)
+class ReducedEquations:
+    """The equations M q'' + B = Q of the three independent coordinates, at one instant.
+
+    Attributes
+    ----------
+    mass_matrix : ndarray, shape (3, 3)
+        M; kg m², and kg m and kg in the rack's row and column.
+    inertial : ndarray, shape (3,)
+        B, all that the accelerations at q'' = 0 and the gyroscopic moments contribute: N m, N m, N.
+    applied : ndarray, shape (3,)
+        Q, of all applied forces: N m, N m, N.
+    jacobian : ndarray, shape (6, 6, 3)
+        Twists of the bodies for unit rates of the coordinates.
+    """
+
+    mass_matrix: Array
+    inertial: Array
+    applied: Array
+    jacobian: Array
+
+
+def rate_rows(mechanism: Mechanism, pose: Pose) -> Array:
+    """Return the rates of the independent coordinates as functions of the twists.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The suspension.
+    pose : Pose
+        Current pose.
+
+    Returns
+    -------
+    ndarray, shape (3, 36)
+        Times the twists: rates of beta1, spin and rack displacement.
+    """
+    rows = np.zeros((3, 6, 6))
+    axis = pose.rotation[KNUCKLE - 1] @ mechanism.spin_axis
+    rows[0, ARM - 1, 3:] = -mechanism.hinge[0]
+    rows[1, WHEEL - 1, 3:] = axis
+    rows[1, KNUCKLE - 1, 3:] = -axis
+    rows[2, RACK - 1, :3] = mechanism.rack_axis
+    return rows.reshape(3, 36)
+
+
+def solve_twist(
+    mechanism: Mechanism, pose: Pose, beta1_rate: float, spin_rate: float, rack_rate: float = 0.0
+) -> Array:
+    """Solve the joints' equations at velocity level.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The suspension.
+    pose : Pose
+        Current pose.
+    beta1_rate, spin_rate, rack_rate : float
+        Rates of the independent coordinates, rad/s, rad/s, m/s.
+
+    Returns
+    -------
+    ndarray, shape (6, 6)
+        Twists of the bodies, m/s and rad/s.
+    """
+    rates = np.array([beta1_rate, spin_rate, rack_rate])
+    twist: Array = (_jacobian(mechanism, pose) @ rates).reshape(6, 6)
+    return twist
+
+
+def solve_prescribed(
+    mechanism: Mechanism,
+    pose: Pose,
+    beta1_rate: float,
+    spin_rate: float,
+    rack_velocity: float = 0.0,
+    *,
+    rack_acceleration: float = 0.0,
+    road_height: float = 0.0,
+    strut_force: float = 0.0,
+) -> Solution:
+    """Solve the dynamics with the rack's motion prescribed (its displacement is the pose's).
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The suspension.
+    pose : Pose
+        Current pose.
+    beta1_rate, spin_rate : float
+        Rates of arm angle and wheel spin, rad/s.
+    rack_velocity, rack_acceleration : float
+        Of the rack along its unit axis, m/s and m/s².
+    road_height : float
+        z of the road under the wheel, m.
+    strut_force : float
+        Actuator force that pushes knuckle and chassis apart along the strut, N.
+
+    Returns
+    -------
+    Solution
+        Accelerations, multipliers, energies and powers.
+    """
+    twist = solve_twist(mechanism, pose, beta1_rate, spin_rate, rack_velocity)
+    wrenches = applied_wrenches(
+        mechanism, pose, twist, road_height=road_height, strut_force=strut_force
+    )
+    return _solve(
+        mechanism,
+        pose,
+        twist,
+        wrenches,
+        road_height=road_height,
+        rack_acceleration=rack_acceleration,
+    )
+
+
+def solve_free(
+    mechanism: Mechanism,
+    pose: Pose,
+    beta1_rate: float,
+    spin_rate: float,
+    rack_rate: float = 0.0,
+    *,
+    rack_force: float = 0.0,
+    road_height: float = 0.0,
+    strut_force: float = 0.0,
+) -> Solution:
+    """Solve the dynamics with the rack free to slide.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The suspension.
+    pose : Pose
+        Current pose.
+    beta1_rate, spin_rate, rack_rate : float
+        Rates of the independent coordinates, rad/s, rad/s, m/s.
+    rack_force : float
+        Force on the rack along its unit axis, N.
+    road_height : float
+        z of the road under the wheel, m.
+    strut_force : float
+        Actuator force that pushes knuckle and chassis apart along the strut, N.
+
+    Returns
+    -------
+    Solution
+        Accelerations, multipliers, energies and powers.
+    """
+    twist = solve_twist(mechanism, pose, beta1_rate, spin_rate, rack_rate)
+    wrenches = applied_wrenches(
+        mechanism,
+        pose,
+        twist,
+        road_height=road_height,
+        strut_force=strut_force,
+        rack_force=rack_force,
+    )
+    return _solve(mechanism, pose, twist, wrenches, road_height=road_height, rack_acceleration=None)
+
+
+def applied_wrenches(
+    mechanism: Mechanism,
+    pose: Pose,
+    twist: Array,
+    *,
+    road_height: float = 0.0,
+    strut_force: float = 0.0,
+    rack_force: float = 0.0,
+) -> dict[str, Array]:
+    """Return the applied forces by their cause.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The suspension.
+    pose : Pose
+        Current pose.
+    twist : ndarray, shape (6, 6)
+        Twists of the bodies.
+    road_height, strut_force, rack_force : float
+        Inputs, m, N, N, see `solve_free`.
+
+    Returns
+    -------
+    dict of ndarray, shape (6, 6)
+        For ``gravity``, ``spring``, ``damper``, ``actuator``, ``tyre`` and ``rack``: force (N) and
+        moment about the centre of mass (N m) on each body.
+    """
+    given = mechanism.parameters
+    wrenches = {
+        cause: np.zeros((6, 6))
+        for cause in ("gravity", "spring", "damper", "actuator", "tyre", "rack")
+    }
+    wrenches["gravity"][:, 2] = -given["gravity"] * mechanism.masses
+
+    ball = mechanism.point(pose, "ball_joint", KNUCKLE)
+    top = mechanism.point(pose, "strut_top", UPPER_STRUT)
+    length = float(np.linalg.norm(ball - top))
+    down = (ball - top) / length
+    slide = given["strut_length_max"] - length
+    magnitudes = {
+        "spring": given["spring_rate"] * (slide - given["spring_free_slide"]),
+        "damper": given["damper_rate"] * _slide_rate(mechanism, pose, twist),
+        "actuator": strut_force,
+    }
+    for cause, magnitude in magnitudes.items():
+        for body, place, sign in ((KNUCKLE, ball, 1.0), (UPPER_STRUT, top, -1.0)):
+            force = sign * magnitude * down
+            wrenches[cause][body - 1, :3] = force
+            wrenches[cause][body - 1, 3:] = np.cross(place - pose.position[body - 1], force)
+
+    axis = pose.rotation[WHEEL - 1] @ mechanism.spin_axis
+    deflection = pose.position[WHEEL - 1, 2] - road_height - given["tyre_free_height"]
+    upright = (Z_AXIS - axis[2] * axis) / (1.0 - axis[2] ** 2)
+    wrenches["tyre"][WHEEL - 1, :3] = -given["tyre_rate"] * deflection * upright
+
+    wrenches["rack"][RACK - 1, :3] = rack_force * mechanism.rack_axis
+    return wrenches
+
+
+def reduced_equations(
+    mechanism: Mechanism,
+    pose: Pose,
+    beta1_rate: float,
+    spin_rate: float,
+    rack_rate: float = 0.0,
+    *,
+    rack_force: float = 0.0,
+    road_height: float = 0.0,
+    strut_force: float = 0.0,
+) -> ReducedEquations:
+    """Project the equations of Newton and Euler onto the independent coordinates.
+
+    Parameters
+    ----------
+    mechanism, pose, beta1_rate, spin_rate, rack_rate, rack_force, road_height, strut_force
+        As for `solve_free`.
+
+    Returns
+    -------
+    ReducedEquations
+        Mass matrix, inertial terms, applied forces and Jacobian.
+    """
+    jacobian = _jacobian(mechanism, pose)
+    twist = (jacobian @ np.array([beta1_rate, spin_rate, rack_rate])).reshape(6, 6)
+    drift = _solve_refined(
+        _square(mechanism, pose),
+        np.concatenate((-mechanism.joints.convective(pose, twist), np.zeros(3))),
+    )
+    wrenches = applied_wrenches(
+        mechanism,
+        pose,
+        twist,
+        road_height=road_height,
+        strut_force=strut_force,
+        rack_force=rack_force,
+    )
+    mass, gyroscopic = _inertia(mechanism, pose, twist)
+    return ReducedEquations(
+        mass_matrix=jacobian.T @ mass @ jacobian,
+        inertial=jacobian.T @ (mass @ drift + gyroscopic),
+        applied=jacobian.T @ np.sum(list(wrenches.values()), axis=0).ravel(),
+        jacobian=jacobian.reshape(6, 6, 3),
+    )
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """A motion in time.
+
+    Attributes
+    ----------
+    time : ndarray, shape (n,)
+        In s.
+    coordinates : ndarray, shape (n, 3)
+        beta1, spin, rack displacement: rad, rad, m.
+    rates : ndarray, shape (n, 3)
+        Their time derivatives.
+    work : ndarray, shape (n,)
+        Work done on the moving bodies since the start, J.
+    poses : list of Pose
+        At the times.
+    solutions : list of Solution
+        At the times.
+    """
+
+    time: Array
+    coordinates: Array
+    rates: Array
+    work: Array
+    poses: list[Pose]
+    solutions: list[Solution]
+
+
+def _at_rest(_time: float) -> tuple[float, float, float]:
+    """Hold the rack at design."""
+    return 0.0, 0.0, 0.0
+
+
+def _zero(_time: float) -> float:
+    """Return zero."""
+    return 0.0
+
+
+def simulate(
+    mechanism: Mechanism,
+    time: npt.ArrayLike,
+    coordinates: tuple[float, float, float],
+    rates: tuple[float, float, float],
+    *,
+    rack_motion: RackMotion | None = _at_rest,
+    rack_force: Callable[[float], float] = _zero,
+    road_height: Callable[[float], float] = _zero,
+    strut_force: Callable[[float], float] = _zero,
+    rtol: float = 1e-12,
+) -> Trajectory:
+    """Integrate the independent coordinates with DOP853.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The suspension.
+    time : array_like, shape (n,)
+        Increasing times at which the result is wanted, the first is the start, s.
+    coordinates, rates : tuple of float
+        Initial beta1, spin and rack displacement and their rates; the rack's are only used where
+        the rack is free.
+    rack_motion : callable or None
+        Displacement, velocity and acceleration of the rack over time; None for a free rack.
+    rack_force, road_height, strut_force : callable
+        Inputs over time: N (free rack only), m, N.
+    rtol : float
+        Relative tolerance; the absolute tolerances are the same for angles and rates, and a
+        hundredth of it for the rack.
+
+    Returns
+    -------
+    Trajectory
+        At the given times.
+    """
+    times = np.asarray(time, dtype=float)
+    nearby = mechanism.design
+
+    def instant(t: float, state: Array) -> tuple[Pose, Solution, float, float]:
+        nonlocal nearby
+        beta1, spin, rack, beta1_rate, spin_rate, rack_rate = state[:6]
+        inputs = {"road_height": road_height(t), "strut_force": strut_force(t)}
+        rack_acceleration = 0.0
+        if rack_motion is not None:
+            rack, rack_rate, rack_acceleration = rack_motion(t)
+        pose = nearby = solve_pose(mechanism, beta1, rack, spin, nearby)
+        if rack_motion is None:
+            force = rack_force(t)
+            solution = solve_free(
+                mechanism, pose, beta1_rate, spin_rate, rack_rate, rack_force=force, **inputs
+            )
+        else:
+            solution = solve_prescribed(
+                mechanism,
+                pose,
+                beta1_rate,
+                spin_rate,
+                rack_rate,
+                rack_acceleration=rack_acceleration,
+                **inputs,
+            )
+        return pose, solution, rack, rack_rate
+
+    def derivative(t: float, state: Array) -> Array:
+        _, solution, _, _ = instant(t, state)
+        change = np.concatenate(
+            (state[3:6], solution.coordinate_accelerations, [sum(solution.power.values())])
+        )
+        if rack_motion is not None:
+            change[[2, 5]] = 0.0
+        return change
+
+    initial = np.array([*coordinates, *rates, 0.0])
+    tolerance = rtol * np.array([1.0, 1.0, 0.01, 1.0, 1.0, 0.01, 100.0])
+    result = solve_ivp(
+        derivative,
+        (times[0], times[-1]),
+        initial,
+        method="DOP853",
+        t_eval=times,
+        rtol=rtol,
+        atol=tolerance,
+    )
+    if not result.success:
+        raise RuntimeError(result.message)
+    instants = [instant(t, state) for t, state in zip(times, result.y.T, strict=True)]
+    rack_states = np.array([(rack, rate) for _, _, rack, rate in instants])
+    return Trajectory(
+        time=times,
+        coordinates=np.column_stack((result.y[:2].T, rack_states[:, 0])),
+        rates=np.column_stack((result.y[3:5].T, rack_states[:, 1])),
+        work=result.y[6],
+        poses=[pose for pose, _, _, _ in instants],
+        solutions=[solution for _, solution, _, _ in instants],
+    )
+
+
+def _square(mechanism: Mechanism, pose: Pose) -> Array:
+    """Return the joints' Jacobian with the rate rows below it, shape (36, 36)."""
+    _, constraint = mechanism.joints.evaluate(pose)
+    return np.vstack((constraint, rate_rows(mechanism, pose)))
+
+
+def _jacobian(mechanism: Mechanism, pose: Pose) -> Array:
+    """Return the twists for unit rates of the independent coordinates, shape (36, 3)."""
+    return _solve_refined(_square(mechanism, pose), np.eye(36)[:, 33:])
+
+
+def _inertia(mechanism: Mechanism, pose: Pose, twist: Array) -> tuple[Array, Array]:
+    """Return the mass matrix (36, 36) and the gyroscopic wrenches w x I w, (36,)."""
+    matrix = np.zeros((36, 36))
+    gyroscopic = np.zeros(36)
+    for body in range(6):
+        start = 6 * body
+        rotation = pose.rotation[body]
+        tensor = rotation @ mechanism.inertias[body] @ rotation.T
+        omega = twist[body, 3:]
+        matrix[start : start + 3, start : start + 3] = mechanism.masses[body] * np.eye(3)
+        matrix[start + 3 : start + 6, start + 3 : start + 6] = tensor
+        gyroscopic[start + 3 : start + 6] = np.cross(omega, tensor @ omega)
+    return matrix, gyroscopic
+
+
+def _slide_rate(mechanism: Mechanism, pose: Pose, twist: Array) -> float:
+    """Return the rate of beta2, m/s: how fast knuckle and chassis approach along the strut."""
+    arm = mechanism.point(pose, "ball_joint", KNUCKLE) - pose.position[KNUCKLE - 1]
+    speed = twist[KNUCKLE - 1, :3] + np.cross(twist[KNUCKLE - 1, 3:], arm)
+    span = pose.position[KNUCKLE - 1] + arm - mechanism.points["strut_top"]
+    return float(-(span @ speed) / np.linalg.norm(span))
+
+
+def _solve(
+    mechanism: Mechanism,
+    pose: Pose,
+    twist: Array,
+    wrenches: dict[str, Array],
+    *,
+    road_height: float,
+    rack_acceleration: float | None,
+) -> Solution:
+    """Solve the accelerations and multipliers; the rack is free if its acceleration is None."""
+    _, constraint = mechanism.joints.evaluate(pose)
+    drift = -mechanism.joints.convective(pose, twist)
+    rows = rate_rows(mechanism, pose)
+    if rack_acceleration is not None:
+        constraint = np.vstack((constraint, rows[2]))
+        drift = np.append(drift, rack_acceleration)
+    mass, gyroscopic = _inertia(mechanism, pose, twist)
+    applied = np.sum(list(wrenches.values()), axis=0).ravel()
+
+    count = len(drift)
+    matrix = np.block([[mass, constraint.T], [constraint, np.zeros((count, count))]])
+    unknowns = _solve_refined(matrix, np.concatenate((applied - gyroscopic, drift)))
+    acceleration = unknowns[:36].reshape(6, 6)
+    multipliers = unknowns[36:]
+
+    # The spin axis is fixed in the knuckle; its motion contributes nothing to spin'', since the
+    # relative angular velocity is along it.
+    coordinate_accelerations = rows @ unknowns[:36]
+
+    drive_force = 0.0
+    power = {cause: float(np.sum(wrench * twist)) for cause, wrench in wrenches.items()}
+    if rack_acceleration is not None:
+        drive_force = float(-multipliers[-1])
+        power["rack"] += drive_force * float(mechanism.rack_axis @ twist[RACK - 1, :3])
+
+    given = mechanism.parameters
+    slide = given["strut_length_max"] - float(
+        np.linalg.norm(mechanism.point(pose, "ball_joint", KNUCKLE) - mechanism.points["strut_top"])
+    )
+    height = pose.position[WHEEL - 1, 2] - road_height
+    return Solution(
+        coordinate_accelerations=coordinate_accelerations,
+        twist=twist,
+        acceleration=acceleration,
+        multipliers=multipliers,
+        rack_drive_force=drive_force,
+        strut_slide_rate=_slide_rate(mechanism, pose, twist),
+        kinetic_energy=float(0.5 * twist.ravel() @ mass @ twist.ravel()),
+        potential_energy={
+            "gravity": float(given["gravity"] * mechanism.masses @ pose.position[:, 2]),
+            "spring": 0.5 * given["spring_rate"] * (slide - given["spring_free_slide"]) ** 2,
+            "tyre": 0.5 * given["tyre_rate"] * float(height - given["tyre_free_height"]) ** 2,
+        },
+        power=power,
+    )
+
+
+def _solve_refined(matrix: Array, right: Array) -> Array:
+    """Solve a square system, with refinement by residuals in extended precision.
+
+    Massless bodies leave the mass matrix singular, but the matrix of the equations of motion is
+    not as long as the motions that the joints allow carry inertia. Where it is singular all the
+    same, the solution of least norm is returned.
+    """
+    try:
+        inverse = np.linalg.inv(matrix)
+    except np.linalg.LinAlgError:
+        return np.asarray(np.linalg.lstsq(matrix, right, rcond=None)[0], dtype=float)
+    solution: Array = inverse @ right
+    for _ in range(2):
+        residual = right - matrix.astype(np.longdouble) @ solution.astype(np.longdouble)
+        solution = solution + inverse @ residual.astype(float)
+    return solution

@@ -1,0 +1,1006 @@
+"""The input data of a suspension: values, conversions, and errors that say what to change."""
+
+import math
+import pickle
+from importlib import resources
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from kintrafo.errors import InputError, KintrafoError
+from kintrafo.suspension import Suspension
+
+CAR = Suspension.load("reference_car")
+CAR_TEXT = (resources.files("kintrafo") / "data" / "reference_car.toml").read_text("utf-8")
+POINTS = [key for key in CAR.to_dict()["hardpoints"] if key != "unit"]
+RIGID_BODIES = ["control_arm", "knuckle", "tie_rod", "rack", "upper_strut"]
+ELEMENTS = ["xx", "yy", "zz", "xy", "xz", "yz"]
+
+# A busy machine must not fail a test.
+unhurried = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
+
+# What the equations of motion receive for the reference car, in SI units.
+REFERENCE_PARAMETERS = {
+    "arm_front_x": 0.17,
+    "arm_front_y": -0.35,
+    "arm_front_z": 0.205,
+    "arm_rear_x": -0.15,
+    "arm_rear_y": -0.35,
+    "arm_rear_z": 0.205,
+    "ball_joint_x": 0.005,
+    "ball_joint_y": -0.71,
+    "ball_joint_z": 0.18,
+    "strut_top_x": -0.028,
+    "strut_top_y": -0.585,
+    "strut_top_z": 0.82,
+    "tie_rod_outer_x": -0.13,
+    "tie_rod_outer_y": -0.69,
+    "tie_rod_outer_z": 0.26,
+    "tie_rod_inner_x": -0.14,
+    "tie_rod_inner_y": -0.31,
+    "tie_rod_inner_z": 0.28,
+    "wheel_center_x": 0.0,
+    "wheel_center_y": -0.76,
+    "wheel_center_z": 0.3,
+    "rack_axis_x": 0.0,
+    "rack_axis_y": 1.0,
+    "rack_axis_z": 0.0,
+    "spin_axis_x": 0.0,
+    "spin_axis_y": 1.0,
+    "spin_axis_z": 0.0,
+    "strut_length_max": 0.85,
+    "spring_rate": 25000.0,
+    "damper_rate": 1500.0,
+    "spring_free_slide": 0.05255401719941255,
+    "tyre_rate": 200000.0,
+    "tyre_free_height": 0.319,
+    "gravity": 9.81,
+    "control_arm_mass": 5.0,
+    "control_arm_inertia_xx": 0.06,
+    "control_arm_inertia_yy": 0.04,
+    "control_arm_inertia_zz": 0.09,
+    "knuckle_mass": 15.0,
+    "knuckle_inertia_xx": 0.2,
+    "knuckle_inertia_yy": 0.18,
+    "knuckle_inertia_zz": 0.08,
+    "wheel_mass": 22.0,
+    "wheel_inertia_spin": 1.1,
+    "wheel_inertia_diametral": 0.6,
+    "tie_rod_mass": 0.0,
+    "rack_mass": 0.0,
+    "upper_strut_mass": 0.0,
+}
+
+
+def vector(parameters, name):
+    return np.array([parameters[f"{name}_{axis}"] for axis in "xyz"])
+
+
+def refusal(action, *arguments):
+    """Return the error that an action ends with."""
+    with pytest.raises(InputError) as caught:
+        action(*arguments)
+    return caught.value
+
+
+def only_problem(changes):
+    """Return the one problem that the reference car has with these changes."""
+    problems = refusal(CAR.with_changes, changes).problems
+    assert len(problems) == 1, problems
+    return problems[0]
+
+
+def without(path):
+    """Return the reference car's data without one key or section."""
+    data = CAR.to_dict()
+    *sections, key = path.split(".")
+    table = data
+    for section in sections:
+        table = table[section]
+    del table[key]
+    return data
+
+
+class TestReferenceCar:
+    def test_parameters_are_the_doubles_nearest_to_the_decimal_values(self):
+        parameters = CAR.parameters()
+        given = {name: parameters[name] for name in REFERENCE_PARAMETERS}
+        assert given == REFERENCE_PARAMETERS  # exactly: no tolerance
+
+    def test_parameters_have_exactly_the_documented_names(self):
+        names = {f"{point}_{axis}" for point in POINTS for axis in "xyz"}
+        names |= {f"{direction}_axis_{axis}" for direction in ("rack", "spin") for axis in "xyz"}
+        names |= {"strut_length_max", "spring_rate", "damper_rate", "spring_free_slide"}
+        names |= {"tyre_rate", "tyre_free_height", "gravity"}
+        names |= {"wheel_mass", "wheel_inertia_spin", "wheel_inertia_diametral"}
+        for body in RIGID_BODIES:
+            names |= {f"{body}_mass"} | {f"{body}_com_{axis}" for axis in "xyz"}
+            names |= {f"{body}_inertia_{element}" for element in ELEMENTS}
+        assert set(CAR.parameters()) == names
+
+    def test_parameters_are_plain_floats(self):
+        assert {type(value) for value in CAR.parameters().values()} == {float}
+
+    def test_no_negative_zero_reaches_the_equations(self):
+        assert all(math.copysign(1.0, v) > 0 for v in CAR.parameters().values() if v == 0.0)
+
+    @pytest.mark.parametrize("body", RIGID_BODIES)
+    def test_products_of_inertia_left_out_are_zero(self, body):
+        parameters = CAR.parameters()
+        assert [parameters[f"{body}_inertia_{e}"] for e in ("xy", "xz", "yz")] == [0.0, 0.0, 0.0]
+
+    def test_file_says_whose_numbers_these_are(self):
+        header = CAR_TEXT.split("[vehicle]")[0]
+        assert "gives\n# neither hardpoints nor masses" in header
+        assert "THIS PROJECT'S OWN" in header
+
+
+class TestCentresOfMass:
+    def test_control_arm_is_at_the_centroid_of_its_hardpoints(self):
+        com = vector(CAR.parameters(), "control_arm_com")
+        assert com == pytest.approx([0.025 / 3, -0.47, 0.59 / 3], abs=1e-15)
+
+    def test_knuckle_is_on_the_strut_axis(self):
+        parameters = CAR.parameters()
+        ball_joint = vector(parameters, "ball_joint")
+        strut = vector(parameters, "strut_top") - ball_joint
+        from_ball_joint = vector(parameters, "knuckle_com") - ball_joint
+        assert np.linalg.norm(from_ball_joint) == pytest.approx(0.12, abs=1e-15)
+        assert np.cross(from_ball_joint, strut) == pytest.approx(0.0, abs=1e-16)
+        assert from_ball_joint[2] > 0.0
+
+    def test_tie_rod_is_at_its_midpoint(self):
+        com = vector(CAR.parameters(), "tie_rod_com")
+        assert com == pytest.approx([-0.135, -0.5, 0.27], abs=1e-15)
+
+    @pytest.mark.parametrize(
+        ("body", "point"), [("rack", "tie_rod_inner"), ("upper_strut", "strut_top")]
+    )
+    def test_rack_and_upper_strut_are_at_their_joints(self, body, point):
+        parameters = CAR.parameters()
+        assert list(vector(parameters, f"{body}_com")) == list(vector(parameters, point))
+
+    @pytest.mark.parametrize("body", [body for body in RIGID_BODIES if body != "knuckle"])
+    def test_given_coordinates_replace_the_rule(self, body):
+        car = CAR.with_changes({f"bodies.{body}.com_mm": [10.0, -205.0, 820.0]})
+        assert list(vector(car.parameters(), f"{body}_com")) == [0.01, -0.205, 0.82]
+
+    def test_rule_follows_the_hardpoints(self):
+        car = CAR.with_changes({"hardpoints.ball_joint.z": 183.0})
+        assert car.parameters()["control_arm_com_z"] == pytest.approx(0.593 / 3, abs=1e-15)
+
+    def test_knuckle_rule_without_a_distance_takes_120_mm(self):
+        car = Suspension.from_dict(without("bodies.knuckle.com_along_strut_mm"))
+        assert car.parameters() == CAR.parameters()
+
+    def test_distance_on_the_strut_axis_moves_the_knuckle(self):
+        parameters = CAR.with_changes({"bodies.knuckle.com_along_strut_mm": -30.0}).parameters()
+        offset = vector(parameters, "knuckle_com") - vector(parameters, "ball_joint")
+        assert np.linalg.norm(offset) == pytest.approx(0.03, abs=1e-15)
+        assert offset[2] < 0.0
+
+    def test_knuckle_has_one_centre_of_mass(self):
+        problem = only_problem({"bodies.knuckle.com_mm": [0.0, -700.0, 300.0]})
+        assert problem == (
+            "[bodies.knuckle] com_mm = [0.0, -700.0, 300.0] mm and com_along_strut_mm = 120.0 mm "
+            "both place the centre of mass; one is allowed. Remove the other."
+        )
+
+    def test_none_removes_the_distance_in_favour_of_coordinates(self):
+        changes = {
+            "bodies.knuckle.com_along_strut_mm": None,
+            "bodies.knuckle.com_mm": [0.0, -700.0, 300.0],
+        }
+        parameters = CAR.with_changes(changes).parameters()
+        assert list(vector(parameters, "knuckle_com")) == [0.0, -0.7, 0.3]
+
+    @pytest.mark.parametrize("body", ["tie_rod", "rack", "upper_strut"])
+    def test_bodies_that_may_be_massless_can_be_left_out(self, body):
+        assert Suspension.from_dict(without(f"bodies.{body}")) == CAR
+
+
+class TestUnits:
+    def test_hardpoints_in_metres_give_the_same_parameters(self):
+        data = CAR.to_dict()
+        data["hardpoints"] = {
+            name: [REFERENCE_PARAMETERS[f"{name}_{axis}"] for axis in "xyz"] for name in POINTS
+        } | {"unit": "m"}
+        assert Suspension.from_dict(data).parameters() == CAR.parameters()
+
+    @unhurried
+    @given(st.integers(-19_999, 19_999))
+    def test_whole_millimetres_become_the_nearest_double(self, millimetres):
+        car = CAR.with_changes({"hardpoints.wheel_center.z": millimetres})
+        assert car.parameters()["wheel_center_z"] == float(f"{millimetres}e-3")
+
+    def test_integers_and_numpy_numbers_are_numbers(self):
+        changes = {
+            "hardpoints.ball_joint": np.array([5, -710, 180]),
+            "strut.damper_rate_N_s_per_m": np.float32(1500.0),
+            "gravity.acceleration_m_per_s2": np.float64(9.81),
+            "tyre.rate_N_per_m": 200_000,
+        }
+        assert CAR.with_changes(changes) == CAR
+
+
+class TestSpinAxis:
+    angles = st.floats(-45.0, 45.0)
+
+    @unhurried
+    @given(camber=angles, toe=angles, side=st.sampled_from(["left", "right"]))
+    def test_angles_are_found_again(self, camber, toe, side):
+        car = CAR if side == "right" else CAR.mirrored()
+        sign = 1.0 if side == "left" else -1.0
+        car = car.with_changes({"wheel.camber_deg": camber, "wheel.toe_deg": toe})
+        axis = vector(car.parameters(), "spin_axis")
+        outboard = sign * axis
+        assert np.linalg.norm(axis) == pytest.approx(1.0, abs=1e-15)
+        assert axis[1] > 0.0
+        found_camber = math.degrees(math.atan2(-outboard[2], sign * outboard[1]))
+        found_toe = math.degrees(math.atan2(outboard[0], sign * outboard[1]))
+        assert found_camber == pytest.approx(camber, abs=1e-12)
+        assert found_toe == pytest.approx(toe, abs=1e-12)
+
+    def test_positive_camber_of_a_right_wheel_lowers_the_outer_end_of_the_axis(self):
+        axis = vector(CAR.with_changes({"wheel.camber_deg": 1.0}).parameters(), "spin_axis")
+        # The axis points left, inboard on the right side: with the top outboard it rises inboard.
+        assert axis[2] == pytest.approx(math.sin(math.radians(1.0)), abs=1e-15)
+        assert axis[0] == 0.0
+
+    def test_toe_in_of_a_right_wheel_turns_the_axis_rearward(self):
+        axis = vector(CAR.with_changes({"wheel.toe_deg": 1.0}).parameters(), "spin_axis")
+        assert axis[0] == pytest.approx(-math.sin(math.radians(1.0)), abs=1e-15)
+        assert axis[2] == 0.0
+
+    @pytest.mark.parametrize("car", [CAR, CAR.mirrored()], ids=["right", "left"])
+    def test_it_is_exactly_y_without_camber_and_toe(self, car):
+        assert list(vector(car.parameters(), "spin_axis")) == [0.0, 1.0, 0.0]
+
+
+class TestRackAxis:
+    def test_it_is_normalised(self):
+        axis = vector(CAR.with_changes({"rack.axis": [3.0, 4.0, 0.0]}).parameters(), "rack_axis")
+        assert list(axis) == [0.6, 0.8, 0.0]
+
+    @pytest.mark.parametrize("length", [1e-5, 7.0, 1e300])
+    def test_its_length_does_not_matter(self, length):
+        axis = CAR.with_changes({"rack.axis.y": length}).parameters()
+        assert list(vector(axis, "rack_axis")) == [0.0, 1.0, 0.0]
+
+
+@st.composite
+def suspensions(draw):
+    """Suspensions near the reference car, on both sides, with masses on all bodies."""
+    offset, small = st.floats(-20.0, 20.0), st.floats(-5.0, 5.0)
+    positive = st.floats(0.0, 1e6)
+    changes = {
+        f"hardpoints.{point}": [x + draw(offset) for x in getattr(CAR.hardpoints, point)]
+        for point in POINTS
+    }
+    changes |= {"wheel.camber_deg": draw(small), "wheel.toe_deg": draw(small)}
+    changes |= {"strut.spring_rate_N_per_m": draw(positive), "tyre.rate_N_per_m": draw(positive)}
+    changes |= {"rack.axis": [draw(st.floats(-0.3, 0.3)), 1.0, draw(st.floats(-0.3, 0.3))]}
+    for body in RIGID_BODIES:
+        changes[f"bodies.{body}.mass_kg"] = draw(st.floats(0.1, 50.0))
+        # Smaller products than these cannot make the tensor impossible.
+        for element, around in zip(ELEMENTS, (2.0, 2.0, 2.0, 0.0, 0.0, 0.0), strict=True):
+            changes[f"bodies.{body}.inertia_{element}_kg_m2"] = around + draw(st.floats(-0.2, 0.2))
+        if body != "knuckle" and draw(st.booleans()):
+            changes[f"bodies.{body}.com_mm"] = [draw(st.floats(-1000.0, 1000.0)) for _ in range(3)]
+    car = CAR.with_changes(changes)
+    return car.mirrored() if draw(st.booleans()) else car
+
+
+def toml_text(data, path=""):
+    """Write nested dictionaries as TOML (the standard library only reads it)."""
+    lines = [f"[{path}]"] if path else []
+    tables = {key: value for key, value in data.items() if isinstance(value, dict)}
+    lines += [f"{key} = {value!r}" for key, value in data.items() if key not in tables]
+    texts = [toml_text(table, f"{path}.{key}".lstrip(".")) for key, table in tables.items()]
+    return "\n".join(lines + texts)
+
+
+class TestRoundTrip:
+    @unhurried
+    @given(suspensions())
+    def test_dictionaries(self, car):
+        again = Suspension.from_dict(car.to_dict())
+        assert again == car
+        assert again.parameters() == car.parameters()
+
+    @unhurried
+    @given(suspensions())
+    def test_files(self, tmp_path_factory, car):
+        file = tmp_path_factory.mktemp("cars") / "car.toml"
+        file.write_text(toml_text(car.to_dict()), encoding="utf-8")
+        assert Suspension.load(file) == car
+
+    def test_copies_do_not_share_points(self):
+        CAR.to_dict()["hardpoints"]["ball_joint"][0] = 99.0
+        assert CAR.hardpoints.ball_joint == (5.0, -710.0, 180.0)
+
+    def test_pickle(self):
+        assert pickle.loads(pickle.dumps(CAR)) == CAR
+
+    def test_no_changes(self):
+        assert CAR.with_changes({}) == CAR
+
+
+class TestMirror:
+    @unhurried
+    @given(suspensions())
+    def test_twice_is_the_same(self, car):
+        assert car.mirrored().mirrored() == car
+
+    @unhurried
+    @given(suspensions())
+    def test_every_parameter_is_that_of_the_mirror_image(self, car):
+        before, after = car.parameters(), car.mirrored().parameters()
+        for name, value in before.items():
+            assert after[name] == pytest.approx(self.image(name, value), rel=1e-14, abs=1e-15), name
+
+    @staticmethod
+    def image(name, value):
+        if name.startswith(("rack_axis", "spin_axis")):  # these keep pointing left
+            return value if name.endswith("_y") else -value
+        odd_in_y = name.endswith(("_y", "_xy", "_yz"))
+        return -value if odd_in_y else value
+
+    def test_side_changes(self):
+        assert CAR.mirrored().vehicle.side == "left"
+        assert CAR.mirrored().parameters()["wheel_center_y"] == 0.76
+
+
+class TestWithChanges:
+    def test_original_stays_as_it_is(self):
+        changed = CAR.with_changes({"strut.damper_rate_N_s_per_m": 2000.0})
+        assert changed.parameters()["damper_rate"] == 2000.0
+        assert CAR.parameters()["damper_rate"] == 1500.0
+
+    def test_nothing_else_changes(self):
+        changed = CAR.with_changes({"hardpoints.tie_rod_outer.z": 261.0}).parameters()
+        different = {name for name, value in CAR.parameters().items() if changed[name] != value}
+        assert different == {"tie_rod_outer_z", "tie_rod_com_z"}
+
+    def test_error_names_what_was_changed(self):
+        error = refusal(CAR.with_changes, {"strut.damper_rate_N_s_per_m": -1.0})
+        assert str(error).startswith("suspension with changed strut.damper_rate_N_s_per_m: 1 prob")
+
+    @pytest.mark.parametrize(
+        ("place", "hint"),
+        [
+            ("sturt.length_max_mm", "there is no sturt in the data. Did you mean strut?"),
+            (
+                "hardpoints.ball_jiont.z",
+                "there is no ball_jiont in the data. Did you mean ball_joi",
+            ),
+            ("hardpoints.ball_joint.up", "up is no part of ball_joint. Points have x, y and z"),
+            ("strut.length_max_mm.x", "x is no part of length_max_mm"),
+            ("strut.length_max_mm.x.y", "there is no x in the data"),
+            ("strut.damper_rate", "Did you mean damper_rate_N_s_per_m?"),
+            ("brakes", "brakes is not a known key"),
+        ],
+    )
+    def test_unknown_place(self, place, hint):
+        assert hint in only_problem({place: 1.0})
+
+    def test_all_unknown_places_are_named(self):
+        error = refusal(CAR.with_changes, {"a.b": 1.0, "c.d": 2.0})
+        assert [problem[:4] for problem in error.problems] == ["a.b:", "c.d:"]
+
+    def test_values_cannot_be_assigned(self):
+        with pytest.raises(ValueError, match="frozen"):
+            CAR.strut.length_max_mm = 900.0
+
+
+NOT_NEGATIVE = ("0 {} or more", "Remove the minus sign, or enter 0 to leave it out of the model.")
+POSITIVE = ("more than 0 {}", "Enter a positive value: no wheel is without it.")
+ANGLE = (
+    "-45 {} to 45 {}",
+    "Enter the angle at design in degrees, with the sign that the file states.",
+)
+
+RANGES = [
+    ("strut.spring_rate_N_per_m", -25000.0, "N/m", NOT_NEGATIVE),
+    ("strut.damper_rate_N_s_per_m", -1500.0, "N s/m", NOT_NEGATIVE),
+    ("tyre.rate_N_per_m", -1.0, "N/m", NOT_NEGATIVE),
+    ("gravity.acceleration_m_per_s2", -9.81, "m/s^2", NOT_NEGATIVE),
+    *[(f"bodies.{body}.mass_kg", -0.5, "kg", NOT_NEGATIVE) for body in RIGID_BODIES],
+    ("bodies.wheel.mass_kg", 0.0, "kg", POSITIVE),
+    ("bodies.wheel.inertia_spin_kg_m2", -1.1, "kg m^2", POSITIVE),
+    ("bodies.wheel.inertia_diametral_kg_m2", 0.0, "kg m^2", POSITIVE),
+    ("wheel.camber_deg", 45.5, "deg", ANGLE),
+    ("wheel.toe_deg", -46.0, "deg", ANGLE),
+]
+
+NUMBERS = [
+    "strut.length_max_mm",
+    "strut.spring_rate_N_per_m",
+    "strut.spring_free_slide_mm",
+    "strut.damper_rate_N_s_per_m",
+    "tyre.rate_N_per_m",
+    "tyre.free_height_mm",
+    "wheel.camber_deg",
+    "wheel.toe_deg",
+    "gravity.acceleration_m_per_s2",
+    "bodies.wheel.mass_kg",
+    "bodies.knuckle.com_along_strut_mm",
+    *[f"bodies.{body}.inertia_{element}_kg_m2" for body in RIGID_BODIES for element in ELEMENTS],
+]
+
+
+class TestSingleValues:
+    @pytest.mark.parametrize(("place", "value", "unit", "expectation"), RANGES)
+    def test_range(self, place, value, unit, expectation):
+        section, key = place.rsplit(".", 1)
+        allowed, remedy = expectation
+        assert only_problem({place: value}) == (
+            f"[{section}] {key} = {value} {unit} is out of range: allowed is "
+            f"{allowed.replace('{}', unit)}. {remedy}"
+        )
+
+    @pytest.mark.parametrize("place", NUMBERS)
+    @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+    def test_infinite(self, place, value):
+        section, key = place.rsplit(".", 1)
+        problem = only_problem({place: value})
+        assert problem.startswith(f"[{section}] {key} = {value} ")
+        assert "must be a finite number. Enter" in problem
+
+    @pytest.mark.parametrize("value", [True, "850", [850.0], {"mm": 850.0}, None])
+    def test_something_else_than_a_number(self, value):
+        problem = only_problem({"strut.length_max_mm": value})
+        assert problem.startswith("[strut] length_max_mm = ")
+        assert " mm must be a number. Write digits without quotes" in problem
+
+    def test_number_too_large_for_a_double(self):
+        problem = only_problem({"strut.length_max_mm": 10**400})
+        assert problem.startswith("[strut] length_max_mm = 1000")
+        assert len(problem) < 200
+
+    @pytest.mark.parametrize("point", POINTS)
+    @pytest.mark.parametrize(("component", "value"), [("x", math.nan), ("y", math.inf)])
+    def test_infinite_coordinate(self, point, component, value):
+        assert only_problem({f"hardpoints.{point}.{component}": value}) == (
+            f"[hardpoints] {point}, {component} = {value} mm must be a finite number. "
+            "Enter the measured or estimated value."
+        )
+
+    @pytest.mark.parametrize("value", [[1.0, 2.0], [1.0, 2.0, 3.0, 4.0], 5.0, "1 2 3", {}])
+    @pytest.mark.parametrize(
+        ("place", "unit"),
+        [("hardpoints.strut_top", " mm"), ("bodies.rack.com_mm", " mm"), ("rack.axis", "")],
+    )
+    def test_point_without_three_numbers(self, place, unit, value):
+        section, key = place.rsplit(".", 1)
+        problem = only_problem({place: value})
+        assert problem.startswith(f"[{section}] {key} = {value!r}{unit} must be three numbers")
+        assert "Write them as [x, y, z]" in problem
+
+    def test_unit_of_a_coordinate_is_that_of_the_section(self):
+        data = CAR.to_dict()
+        data["hardpoints"] |= {"unit": "m", "strut_top": ["a", 0.0, 0.0]}
+        (problem,) = refusal(Suspension.from_dict, data).problems
+        assert problem.startswith("[hardpoints] strut_top, x = 'a' m must be a number")
+
+    @pytest.mark.parametrize("value", ["Right", "", 1, None, "front right"])
+    def test_side(self, value):
+        assert only_problem({"vehicle.side": value}) == (
+            f"[vehicle] side = {value!r} must be 'left' or 'right'. Choose one of them."
+        )
+
+    def test_unit(self):
+        problem = only_problem({"hardpoints.unit": "inch"})
+        assert problem == "[hardpoints] unit = 'inch' must be 'mm' or 'm'. Choose one of them."
+
+    def test_zero_rates_are_allowed(self):
+        changes = {
+            "strut.spring_rate_N_per_m": 0.0,
+            "strut.damper_rate_N_s_per_m": 0.0,
+            "tyre.rate_N_per_m": 0,
+            "gravity.acceleration_m_per_s2": 0.0,
+        }
+        assert CAR.with_changes(changes).parameters()["gravity"] == 0.0
+
+    def test_preload_is_a_negative_free_slide(self):
+        car = CAR.with_changes({"strut.spring_free_slide_mm": -20.0})
+        assert car.parameters()["spring_free_slide"] == -0.02
+
+
+class TestKeys:
+    @pytest.mark.parametrize(
+        ("place", "meant"),
+        [
+            ("strut.spring_rate", "spring_rate_N_per_m"),
+            ("strut.damper_rate_Ns_per_m", "damper_rate_N_s_per_m"),
+            ("hardpoints.Arm_Front", "arm_front"),
+            ("hardpoints.wheel_centre", "wheel_center"),
+            ("wheel.camber", "camber_deg"),
+            ("bodies.knuckle.inertia_xx", "inertia_xx_kg_m2"),
+            ("gravity.acceleration", "acceleration_m_per_s2"),
+        ],
+    )
+    def test_unknown_key_is_refused_with_the_nearest_known_one(self, place, meant):
+        section, key = place.rsplit(".", 1)
+        problem = only_problem({place: 1.0})
+        assert problem == f"[{section}] {key} is not a known key. Did you mean {meant}?"
+
+    def test_unknown_key_that_resembles_none_is_refused_with_all(self):
+        problem = only_problem({"tyre.k2": 1.0})
+        assert problem == "[tyre] k2 is not a known key. Known are: rate_N_per_m, free_height_mm."
+
+    @pytest.mark.parametrize(
+        ("place", "section", "meant"),
+        [
+            ("strt", "[strt]", "strut"),
+            ("bodies.control_arms", "[bodies.control_arms]", "control_arm"),
+        ],
+    )
+    def test_unknown_section(self, place, section, meant):
+        problem = only_problem({place: {"mass_kg": 1.0}})
+        assert problem == f"{section} is not a known section. Did you mean {meant}?"
+
+    @pytest.mark.parametrize(
+        ("place", "unit"),
+        [
+            ("vehicle.side", ""),
+            ("hardpoints.unit", ""),
+            ("hardpoints.tie_rod_inner", ", in mm"),
+            ("wheel.toe_deg", ", in deg"),
+            ("strut.length_max_mm", ", in mm"),
+            ("strut.spring_rate_N_per_m", ", in N/m"),
+            ("strut.damper_rate_N_s_per_m", ", in N s/m"),
+            ("gravity.acceleration_m_per_s2", ", in m/s^2"),
+            ("rack.axis", ""),
+            ("bodies.rack.mass_kg", ", in kg"),
+            ("bodies.wheel.inertia_spin_kg_m2", ", in kg m^2"),
+        ],
+    )
+    def test_missing_key_is_named_with_its_meaning_and_unit(self, place, unit):
+        section, key = place.rsplit(".", 1)
+        (problem,) = refusal(Suspension.from_dict, without(place)).problems
+        assert problem.startswith(f"[{section}] {key} is missing: ")
+        assert problem.endswith(f". Add a line `{key} = ...`{unit}.")
+
+    @pytest.mark.parametrize("section", ["tyre", "hardpoints", "bodies", "bodies.wheel"])
+    def test_missing_section_is_named_with_its_keys(self, section):
+        (problem,) = refusal(Suspension.from_dict, without(section)).problems
+        assert problem.startswith(f"[{section}] is missing. Add this section, with at least ")
+
+    def test_misspelt_key_is_one_problem_not_two(self):
+        data = without("strut.spring_rate_N_per_m")
+        data["strut"]["sprnig_rate_N_per_m"] = 25000.0
+        (problem,) = refusal(Suspension.from_dict, data).problems
+        assert problem.endswith(
+            "sprnig_rate_N_per_m is not a known key. Did you mean spring_rate_N_per_m?"
+        )
+
+    def test_section_that_is_a_number(self):
+        problem = only_problem({"gravity": 9.81})
+        assert problem == (
+            "[gravity] = 9.81 must be a section. Write [gravity], below it at least "
+            "acceleration_m_per_s2."
+        )
+
+
+BALL_JOINT = [5.0, -710.0, 180.0]
+GEOMETRY = {
+    "arm without base": (
+        {"hardpoints.arm_rear": [170.0, -350.0, 205.5]},
+        (
+            "arm_front = [170.0, -350.0, 205.0] mm and arm_rear = [170.0, -350.0, 205.5] mm "
+            "are 0.500 mm apart; two points of the control arm must be at least 1 mm apart. "
+            "Move one of them."
+        ),
+    ),
+    "arm without length": (
+        {"hardpoints.arm_front": BALL_JOINT},
+        (
+            "ball_joint = [5.0, -710.0, 180.0] mm are 0.000 mm apart; two points of the "
+            "control arm must be at least 1 mm apart. Move one of them."
+        ),
+    ),
+    "strut without length": (
+        {"hardpoints.strut_top": BALL_JOINT},
+        "two points of the strut must be at least 1 mm apart. Move one of them.",
+    ),
+    "tie rod without length": (
+        {"hardpoints.tie_rod_outer": [-140.0, -310.0, 280.0]},
+        "two points of the tie rod must be at least 1 mm apart. Move one of them.",
+    ),
+    "knuckle: wheel at ball joint": (
+        {"hardpoints.wheel_center": [5.0, -710.9, 180.0]},
+        (
+            "ball_joint = [5.0, -710.0, 180.0] mm and wheel_center = [5.0, -710.9, 180.0] mm "
+            "are 0.900 mm apart; two points of the knuckle must be at least 1 mm apart. Move "
+            "one of them."
+        ),
+    ),
+    "knuckle: tie rod at ball joint": (
+        {"hardpoints.tie_rod_outer": BALL_JOINT},
+        "two points of the knuckle must be at least 1 mm apart. Move one of them.",
+    ),
+    "hinge through ball joint": (
+        {"hardpoints.ball_joint": [5.0, -350.0, 205.25]},
+        (
+            "ball_joint = [5.0, -350.0, 205.25] mm lies 0.250 mm from the hinge axis through "
+            "arm_front and arm_rear; the arm needs at least 1 mm to move the wheel. Move "
+            "ball_joint outboard"
+        ),
+    ),
+    "hinge vertical": (
+        {"hardpoints.arm_rear": [169.0, -350.0, 105.0]},
+        (
+            "the hinge axis is 0.573 deg from the vertical; at least 1 deg are needed for the"
+            " arm to swing up and down. Move arm_front forward or arm_rear rearward."
+        ),
+    ),
+    "bearings swapped": (
+        {
+            "hardpoints.arm_front": [-150.0, -350.0, 205.0],
+            "hardpoints.arm_rear": [170.0, -350.0, 205.0],
+        },
+        (
+            "arm_front = [-150.0, -350.0, 205.0] mm and arm_rear = [170.0, -350.0, 205.0] mm:"
+            " the front bearing must have the greater x (x points forward), which fixes the "
+            "sign of the arm's angle. Swap the two, or correct the sign of x."
+        ),
+    ),
+    "no steering arm": (
+        # halfway between ball joint and strut top, half a millimetre ahead
+        {"hardpoints.tie_rod_outer": [-11.0, -647.5, 500.0]},
+        (
+            "tie_rod_outer = [-11.0, -647.5, 500.0] mm lies 0.499 mm from the strut axis "
+            "through ball_joint and strut_top; the steering arm must be at least 1 mm long. "
+            "Move tie_rod_outer off the axis."
+        ),
+    ),
+    "tie rod at its dead centre": (
+        # half a millimetre above the line from ball_joint through tie_rod_outer
+        {"hardpoints.tie_rod_inner": [-265.0, -670.0, 340.5]},
+        (
+            "the tie rod pulls with a lever of 0.078 mm about the strut axis; at least 1 mm "
+            "are needed, or the linkage is at its dead centre. Move tie_rod_inner, so that "
+            "the rod stands across"
+        ),
+    ),
+    "coordinate in another unit": (
+        {"hardpoints.strut_top.z": 820_000.0},
+        (
+            "strut_top = [-28.0, -585.0, 820000.0] mm: out of range, allowed is -20 m to 20 "
+            'm. Correct the coordinates or `unit = "mm"`.'
+        ),
+    ),
+    "millimetres declared as metres": (
+        {"hardpoints.unit": "m"},
+        "arm_front = [170.0, -350.0, 205.0] m and arm_rear = ",
+    ),
+    "metres declared as millimetres": (
+        {f"hardpoints.{p}": [x / 1000 for x in getattr(CAR.hardpoints, p)] for p in POINTS},
+        (
+            "unit = 'mm': all points lie within 0.687 mm; a suspension measures at least 10 "
+            'mm. Correct the coordinates or `unit = "mm"`.'
+        ),
+    ),
+}
+
+
+class TestGeometry:
+    @pytest.mark.parametrize(("changes", "text"), GEOMETRY.values(), ids=GEOMETRY)
+    def test_impossible(self, changes, text):
+        # With the strut of any length, no other check speaks.
+        problem = only_problem(changes | {"strut.length_max_mm": 1e6})
+        assert problem.startswith("[hardpoints] ")
+        assert text in problem
+
+    @pytest.mark.parametrize(
+        "changes",
+        [
+            {"hardpoints.arm_rear": [168.9, -350.0, 205.0]},  # base of 1.1 mm
+            {"hardpoints.arm_rear": [167.0, -350.0, 105.0]},  # 1.7 degrees from the vertical
+            {"hardpoints.ball_joint": [5.0, -350.0, 206.1]},  # arm of 1.1 mm
+            {"hardpoints.strut_top": [-300.0, -710.0, 180.0]},  # horizontal strut
+            {"hardpoints.strut_top": [5.0, -710.0, 820.0]},  # vertical strut
+            {"hardpoints.wheel_center": [0.0, -1.1, 300.0]},  # just on the right side
+        ],
+    )
+    def test_unusual_but_possible(self, changes):
+        CAR.with_changes(changes | {"strut.length_max_mm": 1e6})
+
+    @pytest.mark.parametrize(
+        ("car", "other", "half"),
+        [(CAR, "left", "above 1 mm"), (CAR.mirrored(), "right", "below -1 mm")],
+        ids=["right", "left"],
+    )
+    def test_wheel_on_the_wrong_side(self, car, other, half):
+        (problem,) = refusal(car.with_changes, {"vehicle.side": other}).problems
+        y = car.hardpoints.wheel_center[1]
+        assert problem == (
+            f'[vehicle] side = "{other}", but [hardpoints] wheel_center = [0.0, {y}, 300.0] mm: y '
+            f"points left, so a {other} wheel must have y {half}. Change side, or the sign of y of "
+            "all hardpoints."
+        )
+
+    def test_wheel_in_the_centre_plane(self):
+        assert "[vehicle] side" in only_problem({"hardpoints.wheel_center.y": 0.0})
+
+    def test_strut_shorter_than_at_design(self):
+        problem = only_problem({"strut.length_max_mm": 652.9})
+        assert problem == (
+            "[strut] length_max_mm = 652.9 mm is less than the length at design; allowed is "
+            "653.0 mm or more, the distance of ball_joint and strut_top. Raise it, or correct "
+            "these hardpoints."
+        )
+        CAR.with_changes({"strut.length_max_mm": 653.0})  # what the message promises
+
+    def test_spin_axis_along_the_strut(self):
+        changes = {"hardpoints.strut_top": [5.0, -69.0, 821.0], "wheel.camber_deg": 45.0}
+        problem = only_problem(changes | {"strut.length_max_mm": 1000.0})
+        assert problem == (
+            "[wheel] camber_deg = 45.0 deg and toe_deg = 0.0 deg put the spin axis within "
+            "0.000 deg of the strut axis; at least 1 deg are needed to steer the wheel. Correct "
+            "the angles, or [hardpoints] ball_joint = [5.0, -710.0, 180.0] mm and strut_top = "
+            "[5.0, -69.0, 821.0] mm."
+        )
+
+    @pytest.mark.parametrize(
+        ("axis", "length"), [([0.0, 0.0, 0.0], "0"), ([0.0, 1e-7, 0.0], "1e-07")]
+    )
+    def test_rack_axis_without_direction(self, axis, length):
+        assert only_problem({"rack.axis": axis}) == (
+            f"[rack] axis = {axis} (without unit) has the length {length} and no direction; "
+            "allowed are lengths of more than 1e-6. Enter [0.0, 1.0, 0.0] for a rack that moves "
+            "to the left."
+        )
+
+
+def inertia(body, **elements):
+    return {f"bodies.{body}.inertia_{name}_kg_m2": value for name, value in elements.items()}
+
+
+def tensor_of_points(positions, masses):
+    """Return the elements of the inertia tensor of point masses about their centre of mass."""
+    centred = positions - masses @ positions / masses.sum()
+    second_moments = np.einsum("i,ij,ik->jk", masses, centred, centred)
+    tensor = np.trace(second_moments) * np.eye(3) - second_moments
+    return {name: float(tensor["xyz".index(name[0]), "xyz".index(name[1])]) for name in ELEMENTS}
+
+
+class TestInertia:
+    @pytest.mark.parametrize("body", RIGID_BODIES)
+    def test_largest_principal_moment_above_the_sum_of_the_others(self, body):
+        values = {"xx": 0.01, "yy": 0.02, "zz": 0.09, "xy": 0.0, "xz": 0.0, "yz": 0.0}
+        problem = only_problem({f"bodies.{body}.mass_kg": 3.0} | inertia(body, **values))
+        assert problem.startswith(
+            f"[bodies.{body}] inertia_xx_kg_m2 = 0.01, inertia_yy_kg_m2 = 0.02"
+        )
+        assert "principal moments are 0.01, 0.02, 0.09 kg m^2; allowed is at most" in problem
+        assert "0.03 kg m^2" in problem
+        assert "Check the diagonal, and the signs of xy, xz and yz" in problem
+
+    def test_negative_principal_moment(self):
+        problem = only_problem(inertia("knuckle", xy=0.3))
+        assert problem.startswith("[bodies.knuckle] inertia_xx_kg_m2 = 0.2")
+        assert "inertia_xy_kg_m2 = 0.3" in problem
+        assert "include a negative one; allowed is 0 or more" in problem
+        assert "positive definite" in problem
+        assert "Check the diagonal" in problem
+
+    def test_inertia_without_mass(self):
+        problem = only_problem(inertia("rack", xx=0.1, yy=0.1, zz=0.1))
+        assert problem.startswith("[bodies.rack] mass_kg = 0.0 kg, but inertia_xx_kg_m2 = 0.1")
+        assert problem.endswith("Enter its mass, or set the inertia to 0.")
+
+    def test_point_mass(self):
+        car = CAR.with_changes(inertia("knuckle", xx=0.0, yy=0.0, zz=0.0))
+        assert car.parameters()["knuckle_mass"] == 15.0
+
+    def test_wheel_flatter_than_a_disc(self):
+        assert only_problem({"bodies.wheel.inertia_spin_kg_m2": 1.3}) == (
+            "[bodies.wheel] inertia_spin_kg_m2 = 1.3 kg m^2 is more than any wheel with "
+            "inertia_diametral_kg_m2 = 0.6 kg m^2 can have; allowed is at most twice that, "
+            "1.2 kg m^2 (a flat disc). Lower the first or raise the second."
+        )
+
+    def test_flat_disc(self):
+        CAR.with_changes({"bodies.wheel.inertia_spin_kg_m2": 1.2})
+
+    coordinates = st.tuples(*[st.floats(-1.0, 1.0)] * 3)
+
+    @unhurried
+    @given(
+        positions=st.lists(coordinates, min_size=2, max_size=6),
+        masses=st.lists(st.floats(0.01, 20.0), min_size=6, max_size=6),
+    )
+    def test_what_a_body_can_have_is_accepted(self, positions, masses):
+        # Two points make a slender rod, points in a plane a disc: the limits of what is possible.
+        elements = tensor_of_points(np.array(positions), np.array(masses[: len(positions)]))
+        parameters = CAR.with_changes(inertia("knuckle", **elements)).parameters()
+        assert all(
+            parameters[f"knuckle_inertia_{name}"] == value for name, value in elements.items()
+        )
+
+    @unhurried
+    @given(
+        small=st.floats(0.0, 1.0),
+        middle=st.floats(0.0, 1.0),
+        excess=st.floats(1e-3, 1.0),
+        axis=coordinates.filter(lambda axis: np.linalg.norm(axis) > 0.1),
+        angle=st.floats(-3.0, 3.0),
+    )
+    def test_what_no_body_can_have_is_refused_in_any_axes(self, small, middle, excess, axis, angle):
+        unit = np.array(axis) / np.linalg.norm(axis)
+        cross = np.cross(np.eye(3), unit)
+        turn = np.eye(3) + math.sin(angle) * cross + (1.0 - math.cos(angle)) * cross @ cross
+        tensor = turn @ np.diag([small, middle, small + middle + excess]) @ turn.T
+        elements = {n: float(tensor["xyz".index(n[0]), "xyz".index(n[1])]) for n in ELEMENTS}
+        problem = only_problem(inertia("knuckle", **elements))
+        assert "principal moments" in problem
+
+
+class TestFiles:
+    def write(self, folder, text, encoding="utf-8"):
+        file = folder / "my_car.toml"
+        file.write_bytes(text.encode(encoding))
+        return file
+
+    def test_name_and_path_give_the_same(self, tmp_path):
+        file = self.write(tmp_path, CAR_TEXT)
+        assert Suspension.load(file) == Suspension.load(str(file)) == CAR
+
+    @pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-8"])
+    @pytest.mark.parametrize("newline", ["\n", "\r\n"])
+    def test_what_windows_editors_write(self, tmp_path, encoding, newline):
+        assert (
+            Suspension.load(self.write(tmp_path, CAR_TEXT.replace("\n", newline), encoding)) == CAR
+        )
+
+    def test_all_problems_of_a_file_stand_in_one_message(self, tmp_path):
+        text = (
+            CAR_TEXT.replace('side = "right"', 'side = "left"')
+            .replace("[ 170.0, -350.0, 205.0]", "[-150.0, -350.0, 205.0]")
+            .replace("length_max_mm = 850.0", "length_max_mm = 600.0")
+            .replace("rate_N_per_m = 200000.0", "rate_N_per_m = -200000.0")
+            .replace("free_height_mm", "free_heigth_mm")
+            .replace("[gravity]", "[gravitation]")
+            .replace("inertia_zz_kg_m2 = 0.09", "inertia_zz_kg_m2 = 0.9")
+        )
+        file = self.write(tmp_path, text)
+        error = refusal(Suspension.load, file)
+        head, *bullets = str(error).split("\n")
+        assert head == f"{file}: 7 problems"
+        assert all(bullet.startswith("  - ") for bullet in bullets)
+        expected = [
+            "[tyre] rate_N_per_m = -200000.0 N/m is out of range",
+            "[tyre] free_heigth_mm is not a known key. Did you mean free_height_mm?",
+            "[bodies.control_arm] inertia_xx_kg_m2 = 0.06",
+            "[gravitation] is not a known section. Did you mean gravity?",
+            "[hardpoints] arm_front = [-150.0, -350.0, 205.0] mm and arm_rear",
+            '[vehicle] side = "left"',
+            "[strut] length_max_mm = 600.0 mm",
+        ]
+        for beginning in expected:
+            assert any(problem.startswith(beginning) for problem in error.problems), beginning
+
+    @pytest.mark.parametrize(
+        ("right", "wrong"),
+        [
+            ('side = "right"', 'side "right"'),
+            ("toe_deg = 0.0", "toe_deg = 0,0"),
+            ("camber_deg = 0.0", "camber_deg = +-0.0"),
+            ("[tyre]", "[strut]"),
+        ],
+    )
+    def test_syntax_error_names_and_shows_the_line(self, tmp_path, right, wrong):
+        text = CAR_TEXT.replace(right, wrong, 1)
+        problem = refusal(Suspension.load, self.write(tmp_path, text)).problems[0]
+        number = text[: text.rindex(wrong)].count("\n") + 1
+        assert problem.startswith(f"Line {number} `{wrong}")
+        assert "is not valid TOML" in problem
+        assert "Write `key = value`" in problem
+
+    @pytest.mark.parametrize("text", ['[vehicle]\nside = "right', "[vehicle]\na = [1,\n\n", "a ="])
+    def test_syntax_error_at_the_end_names_the_last_line(self, tmp_path, text):
+        problem = refusal(Suspension.load, self.write(tmp_path, text)).problems[0]
+        assert problem.startswith(f"Line {len(text.rstrip().splitlines())} `")
+
+    def test_empty_file(self, tmp_path):
+        error = refusal(Suspension.load, self.write(tmp_path, ""))
+        assert len(error.problems) == 8
+        assert all("is missing. Add this section" in problem for problem in error.problems)
+
+    def test_other_encoding_names_the_line(self, tmp_path):
+        file = self.write(tmp_path, "[vehicle]\n# 5° camber\n", "latin-1")
+        (problem,) = refusal(Suspension.load, file).problems
+        assert problem.startswith("Line 2 has a character that is not UTF-8. Save the file")
+
+    def test_no_such_file(self, tmp_path):
+        error = refusal(Suspension.load, tmp_path / "nowhere.toml")
+        assert "nowhere.toml: 1 problem" in str(error)
+        assert "There is no such file. Give the path of a TOML file" in str(error)
+
+    def test_misspelt_name(self):
+        assert "Did you mean reference_car?" in str(refusal(Suspension.load, "refrence_car"))
+
+    def test_folder(self, tmp_path):
+        assert "The file cannot be read" in str(refusal(Suspension.load, tmp_path))
+
+    def test_a_path_is_never_taken_for_a_name(self, tmp_path, monkeypatch):
+        monkeypatch.chdir(tmp_path)
+        assert "There is no such file" in str(refusal(Suspension.load, Path("reference_car")))
+
+
+json_values = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5),
+    lambda inner: (
+        st.lists(inner, max_size=4) | st.dictionaries(st.text(max_size=5), inner, max_size=3)
+    ),
+    max_leaves=6,
+)
+places = st.sampled_from(
+    [*NUMBERS, *[row[0] for row in RANGES], "vehicle.side", "hardpoints.unit", "rack.axis"]
+    + [f"hardpoints.{point}" for point in POINTS]
+    + ["vehicle", "hardpoints", "strut", "bodies", "bodies.knuckle", "bodies.wheel", "tyre"]
+)
+
+
+def outcome(data):
+    """Return the suspension that these data make, or the error."""
+    try:
+        return Suspension.from_dict(data)
+    except InputError as error:
+        return error
+
+
+class TestErrors:
+    @unhurried
+    @given(st.dictionaries(places, json_values, min_size=1, max_size=4))
+    def test_whatever_stands_in_a_file_ends_in_a_readable_error(self, changes):
+        data = CAR.to_dict()
+        for place, value in changes.items():
+            *sections, key = place.split(".")
+            table = data
+            for section in sections:
+                table = table.get(section) if isinstance(table, dict) else None
+            if isinstance(table, dict):
+                table[key] = value
+        result = outcome(data)
+        if isinstance(result, InputError):
+            assert result.problems
+            assert "pydantic" not in str(result)
+            assert "type=" not in str(result)
+            assert result.__cause__ is None
+        else:
+            assert all(math.isfinite(value) for value in result.parameters().values())
+
+    @unhurried
+    @given(st.dictionaries(places, st.floats(allow_nan=False, allow_infinity=False), max_size=5))
+    def test_extreme_numbers_are_refused_or_give_finite_parameters(self, changes):
+        scalars = {place: value for place, value in changes.items() if place in NUMBERS}
+        try:
+            car = CAR.with_changes(scalars)
+        except InputError:
+            return
+        assert all(math.isfinite(value) for value in car.parameters().values())
+
+    def test_constructor_checks_the_same(self):
+        sections = {name: getattr(CAR, name) for name in type(CAR).model_fields}
+        assert Suspension(**sections) == CAR
+        sections["vehicle"] = CAR.mirrored().vehicle
+        assert "[vehicle] side" in str(refusal(lambda: Suspension(**sections)))
+
+    def test_kind(self):
+        error = refusal(Suspension.load, "nothing")
+        assert isinstance(error, KintrafoError)
+        assert isinstance(error, ValueError)
+
+    def test_pickle(self):
+        error = InputError(["[tyre] is missing."], "car.toml")
+        again = pickle.loads(pickle.dumps(error))
+        assert (again.problems, again.source, str(again)) == (
+            ("[tyre] is missing.",),
+            "car.toml",
+            "car.toml: 1 problem\n  - [tyre] is missing.",
+        )
