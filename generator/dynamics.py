@@ -49,7 +49,8 @@ class Inertia:
 
     def linear_momentum(self, twist: Twist) -> Vector:
         """Return ``m v + omega x mc``."""
-        return twist.linear * self.mass + twist.angular.cross(self.moment)
+        momentum: Vector = twist.linear * self.mass + twist.angular.cross(self.moment)
+        return momentum
 
     def angular_momentum(self, twist: Twist) -> Vector:
         """Return ``I omega + mc x v``."""

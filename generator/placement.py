@@ -31,7 +31,8 @@ def to_axes(axes: Axes, v: Vector) -> Vector:
 def from_axes(axes: Axes, v: Vector) -> Vector:
     """Return the work components of a vector given along some axes."""
     x, y, z = axes
-    return x * v.x + y * v.y + z * v.z
+    work: Vector = x * v.x + y * v.y + z * v.z
+    return work
 
 
 @dataclass

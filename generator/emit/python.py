@@ -137,7 +137,7 @@ class PythonPrinter:
 
     def _function(self, function: Function) -> str:
         counts = function.operations()
-        operations = {name: counts[name] for name in OPERATIONS}
+        operations = {"total": counts.total()} | {name: counts[name] for name in OPERATIONS}
         labels = pprint.pformat(function.labels, width=88, compact=True)
         doc = f"{function.doc}\n\nResult (..., {_shape(function)}); {count_line(function)}."
         return (

@@ -197,7 +197,12 @@ PARAMETERS = (
         "height of the wheel centre at which the tyre is free of force (l20)",
     ),
     Parameter("gravity", 9.81, "m/s^2", "acceleration of gravity"),
-    *_rigid_body("control_arm", 5.0, (0.025 / 3, -0.47, 0.59 / 3), (0.06, 0.04, 0.09)),
+    *_rigid_body(
+        "control_arm",
+        5.0,
+        ((0.17 - 0.15 + 0.005) / 3, (-0.35 - 0.35 - 0.71) / 3, 0.59 / 3),
+        (0.06, 0.04, 0.09),
+    ),
     *_rigid_body(
         "knuckle",
         15.0,

@@ -1,0 +1,5 @@
+"""``python -m kintrafo``."""
+
+from .cli import run
+
+run()

@@ -1,0 +1,155 @@
+"""The results of the paper: Figures 4, 5 and 6, and what there is to say about them.
+
+J. A. M. Góis and C. A. P. Sarzeto, "Modelo de suspensão MacPherson utilizando transformadores
+cinemáticos", Instituto Militar de Engenharia, Rio de Janeiro, 2000. The paper gives no hardpoints,
+masses or rates; the reference car is this project's own, so the curves compare in kind.
+"""
+
+import time
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .model import Model
+from .positions import equilibrium, state_at_height
+from .simulation import Simulation, simulate
+
+Array = NDArray[np.float64]
+
+REST_HEIGHT = 0.300  # height of the wheel centre at rest [m]
+TRAVEL = 0.150  # to either side of it [m]
+START_HEIGHT = 0.325  # [m]
+SPIN_RATE = 2.0 * np.pi * 14.8  # 14.8 revolutions per second [rad/s]
+DURATION = 1.0  # [s]
+OUTPUT_INTERVAL = 1e-4  # of the paper's integration routines [s]
+
+PAPER_RUNGE_KUTTA_S = 360.0  # "more than 6 min", IMSL DIVPRK, 233 MHz Pentium
+PAPER_GEAR_S = 13.0  # IMSL DIVPAG, same machine
+
+
+@dataclass(frozen=True)
+class Kinematics:
+    """Figures 4 and 5: the wheel over its travel, rack held at zero.
+
+    Attributes
+    ----------
+    x, y, z : ndarray
+        Wheel centre in chassis axes [m].
+    camber, steer : ndarray
+        [rad]; camber positive with the top outboard, steer positive to the left.
+    side : str
+        'left' or 'right'.
+    """
+
+    x: Array
+    y: Array
+    z: Array
+    camber: Array
+    steer: Array
+    side: str
+
+
+@dataclass(frozen=True)
+class Dynamics:
+    """Figure 6: one second from 0.325 m with the wheel spinning.
+
+    Attributes
+    ----------
+    result : Simulation
+        Output every 1e-4 s, as in the paper.
+    seconds : float
+        Time that the integration took, output included [s].
+    """
+
+    result: Simulation
+    seconds: float
+
+
+def kinematics(model: Model, points: int = 121) -> Kinematics:
+    """Compute Figures 4 and 5.
+
+    Parameters
+    ----------
+    model : Model
+    points : int, optional
+        Number of wheel heights.
+
+    Returns
+    -------
+    Kinematics
+    """
+    ends = (REST_HEIGHT - TRAVEL, REST_HEIGHT + TRAVEL)
+    states = np.array([state_at_height(model, z) for z in np.linspace(*ends, points)])
+    signals = model.signals(states)
+    return Kinematics(
+        x=signals["wheel_center_x"],
+        y=signals["wheel_center_y"],
+        z=signals["wheel_center_z"],
+        camber=signals["camber"],
+        steer=signals["steer"],
+        side=model.suspension.vehicle.side,
+    )
+
+
+def dynamics(model: Model) -> Dynamics:
+    """Compute Figure 6 by Gear's method.
+
+    Parameters
+    ----------
+    model : Model
+
+    Returns
+    -------
+    Dynamics
+    """
+    start = state_at_height(model, START_HEIGHT, spin_rate=SPIN_RATE)
+    times = np.linspace(0.0, DURATION, round(DURATION / OUTPUT_INTERVAL) + 1)
+    before = time.perf_counter()
+    result = simulate(model, (0.0, DURATION), start, t_eval=times, rtol=1e-6, atol=1e-9)
+    return Dynamics(result, time.perf_counter() - before)
+
+
+@dataclass(frozen=True)
+class Rest:
+    """The state of rest and how the suspension moves about it.
+
+    Attributes
+    ----------
+    state : ndarray
+        Equilibrium, the wheel spinning at 14.8 revolutions per second.
+    height : float
+        Of the wheel centre [m].
+    eigenvalue : complex
+        Of the wheel-hop mode, that with positive imaginary part [1/s].
+    """
+
+    state: Array
+    height: float
+    eigenvalue: complex
+
+    @property
+    def natural_frequency(self) -> float:
+        """Undamped natural frequency of the wheel-hop mode [Hz]."""
+        return abs(self.eigenvalue) / (2.0 * np.pi)
+
+    @property
+    def damping_ratio(self) -> float:
+        """Damping ratio of the wheel-hop mode."""
+        return -self.eigenvalue.real / abs(self.eigenvalue)
+
+
+def rest(model: Model) -> Rest:
+    """Find the equilibrium and the eigenvalues of the exact Jacobian there.
+
+    Parameters
+    ----------
+    model : Model
+
+    Returns
+    -------
+    Rest
+    """
+    state = equilibrium(model, spin_rate=SPIN_RATE)
+    height = float(model.signal("wheel_center_z", state))
+    return Rest(state, height, complex(model.eigenvalues(state)[0]))
