@@ -13,7 +13,7 @@ from .forces import JointForce, LinearTyre, TelescopeSpring
 from .geometry import Direction
 from .kinematics import Kinematics
 from .placement import IDENTITY, Placed, from_axes
-from .program import Function, Guard, Program
+from .program import ConstantStage, Function, Guard, Program
 from .relative import RelativeCoordinates
 from .transformer import Plan
 from .vectors import ZERO, Vector
@@ -82,7 +82,8 @@ class _Builder:
         self.model = model
         self.mechanism: Mechanism = model.mechanism
         self.plan = Plan.of(model)
-        self.program = Program(tuple(sp.Symbol(p.name) for p in self.mechanism.parameters))
+        self.constants = ConstantStage(tuple(sp.Symbol(p.name) for p in self.mechanism.parameters))
+        self.program = Program(self.constants)
         self.kin = Kinematics(self.program, self.plan)
         self.dynamics = Dynamics(self.kin)
         self.relative = RelativeCoordinates(self.kin)
@@ -94,8 +95,7 @@ class _Builder:
     def build(self) -> GeneratedModel:
         self._add_dynamics(self.dynamics, "")
         for variant, joints in self.model.held.items():
-            self.program.variant = variant
-            held = Dynamics(Kinematics(self.program, self.plan, joints))
+            held = Dynamics(Kinematics(Program(self.constants), self.plan, joints))
             self._add_right_hand_side(held, f"_{variant}")
         self._add_relative()
         self._add_poses()
@@ -106,7 +106,7 @@ class _Builder:
             "Quantities that are positive where the model is valid.",
             {g.name: g.quantity for g in guards},
         )
-        prepare = self.program.constants_function(self.functions.values())
+        prepare = self.constants.function(self.functions.values())
         return GeneratedModel(
             model=self.model,
             plan=self.plan,
@@ -152,8 +152,9 @@ class _Builder:
         return tuple(f"{n}_{kind}" for n in names for kind in ("velocity", "acceleration"))
 
     def _acting_guards(self) -> tuple[Guard, ...]:
-        acting = {g for f in self.functions.values() for g in f.guards}
-        return tuple(g for g in self.program.guards.values() if g in acting)
+        """Return the guards of all functions; variants have the same ones under the same names."""
+        acting = {g.name for f in self.functions.values() for g in f.guards}
+        return tuple(g for g in self.program.guards.values() if g.name in acting)
 
     def _state_symbols(self) -> list[sp.Symbol]:
         names = self.kin.independent
@@ -192,28 +193,23 @@ class _Builder:
         )
 
     def _add_right_hand_side(self, dynamics: Dynamics, suffix: str) -> None:
-        names = self.kin.independent
+        names, program = self.kin.independent, dynamics.program
         rates = {f"d({k})/dt": sp.Symbol(f"{k}_rate") for k in names}
         rates |= {f"d({k}_rate)/dt": dynamics.accelerations[k] for k in names}
         what = "" if not suffix else f" with {suffix[1:].replace('_', ' ')}"
-        self._add(f"rhs{suffix}", f"Time derivative of the state{what}.", rates)
-        self.program.section("derivatives of the right-hand side")
+        rhs, jacobian = f"rhs{suffix}", f"rhs_jacobian{suffix}"
+        self.functions[rhs] = program.function(rhs, f"Time derivative of the state{what}.", rates)
+        program.section("derivatives of the right-hand side")
         states = self._state_symbols()
-        rows = {label: list[sp.Expr]() for label in rates}
-        for state in states:
-            column = self.program.tangents(state, rates.values(), f"{state}{suffix}")
-            for label, entry in zip(rates, column, strict=True):
-                rows[label].append(entry)
-        self._add(
-            f"rhs_jacobian{suffix}",
-            f"Exact derivative of rhs{suffix} with respect to the state, row-major.",
-            {
-                f"{label} by {state}": entry
-                for label, row in rows.items()
-                for state, entry in zip(states, row, strict=True)
-            },
-            len(states),
-            len(states),
+        columns = {s: program.tangents(s, rates.values(), str(s)) for s in states}
+        entries = {
+            f"{label} by {state}": column[row]
+            for row, label in enumerate(rates)
+            for state, column in columns.items()
+        }
+        doc = f"Exact derivative of {rhs} with respect to the state, row-major."
+        self.functions[jacobian] = program.function(
+            jacobian, doc, entries, (len(states), len(states))
         )
 
     # -- relative kinematics ----------------------------------------------------------------------

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import sympy as sp
@@ -87,37 +88,91 @@ class Function:
 
 
 @dataclass
-class Program:
-    """All steps of a mechanism, and the means to extend, differentiate and prune them.
+class ConstantStage:
+    """Steps that depend on parameters only, shared by all programs of a model.
 
-    Parameters
+    Attributes
     ----------
     parameters
         Symbols that are fixed for one parameter set.
-    variant
-        Ends the names of steps that differ from those of the same name defined before: a variant
-        of a model is derived into the same program and shares what is equal.
+    steps
+        The steps, in order.
     """
 
     parameters: tuple[sp.Symbol, ...]
     steps: dict[sp.Symbol, Step] = field(default_factory=dict)
-    guards: dict[sp.Symbol, Guard] = field(default_factory=dict)
-    variant: str = "again"
-    _section: str = ""
-    _known: dict[sp.Expr, sp.Expr] = field(default_factory=dict)
-    _constant: set[sp.Symbol] = field(default_factory=set)
+    _known: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
     _collected: int = 0
 
-    def __post_init__(self) -> None:
-        self._constant.update(self.parameters)
+    def contains(self, expression: sp.Expr) -> bool:
+        """Tell whether an expression depends on parameters only."""
+        return all(s in self.steps or s in self._given for s in expression.free_symbols)
+
+    @cached_property
+    def _given(self) -> frozenset[sp.Symbol]:
+        return frozenset(self.parameters)
+
+    def define(self, name: str, expression: sp.Expr, section: str) -> sp.Expr:
+        """Append a step and return its symbol, or that of the same step defined before."""
+        if expression in self._known:
+            return self._known[expression]
+        if -expression in self._known:
+            return -self._known[-expression]
+        symbol = sp.Symbol(name)
+        if symbol in self.steps or symbol in self._given:
+            message = f"the constant {name!r} is defined twice"
+            raise ValueError(message)
+        self.steps[symbol] = Step(symbol, expression, section)
+        self._known[expression] = symbol
+        return symbol
+
+    def collect(self, expression: sp.Expr) -> sp.Expr:
+        """Return a name for a constant part of an equation."""
+        if expression.is_Atom or (-expression).is_Symbol:
+            return expression
+        if expression.could_extract_minus_sign():
+            return -self.collect(-expression)
+        if expression not in self._known:
+            self._collected += 1
+        return self.define(
+            f"constant_{self._collected}", expression, "constants collected from the equations"
+        )
+
+    def function(self, functions: Iterable[Function]) -> Function:
+        """Return the parameter stage: all constants that some functions read."""
+        used = set().union(*(f.free_symbols for f in functions))
+        results = [s for s in (*self.parameters, *self.steps) if s in used]
+        needed = ancestors(self.steps, results)
+        return Function(
+            "prepare",
+            "Constants of one parameter set.",
+            tuple(step for step in self.steps.values() if step.symbol in needed),
+            tuple(results),
+            tuple(map(str, results)),
+            (len(results),),
+            (),
+        )
+
+
+@dataclass
+class Program:
+    """The steps of one variant of a model, and the means to extend, differentiate, prune them.
+
+    Parameters
+    ----------
+    constants
+        Where steps go that depend on parameters only.
+    """
+
+    constants: ConstantStage
+    steps: dict[sp.Symbol, Step] = field(default_factory=dict)
+    guards: dict[sp.Symbol, Guard] = field(default_factory=dict)
+    _section: str = ""
+    _known: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
 
     def section(self, title: str) -> None:
         """Name the part of the derivation that the next steps belong to."""
         self._section = title
-
-    def is_constant(self, expression: sp.Expr) -> bool:
-        """Tell whether an expression depends on parameters only."""
-        return bool(expression.free_symbols <= self._constant)
 
     def define(self, name: str, expression: Any) -> sp.Expr:
         """Append a step and return its symbol.
@@ -128,25 +183,19 @@ class Program:
         expression = sp.sympify(expression)
         if expression.is_Atom or (-expression).is_Symbol:
             return expression
+        if self.constants.contains(expression):
+            return self.constants.define(name, expression, self._section)
         if expression in self._known:
             return self._known[expression]
         if -expression in self._known:
             return -self._known[-expression]
-        symbol = self._unused(name)
-        if self.is_constant(expression):
-            self._constant.add(symbol)
+        symbol = sp.Symbol(name)
+        if symbol in self.steps or symbol in self.constants.steps:
+            message = f"the name {name!r} is defined twice"
+            raise ValueError(message)
         self.steps[symbol] = Step(symbol, expression, self._section)
         self._known[expression] = symbol
         return symbol
-
-    def _unused(self, name: str) -> sp.Symbol:
-        """Return the symbol of a name, or of the name within the present variant."""
-        for candidate in (name, f"{name}_{self.variant}"):
-            symbol = sp.Symbol(candidate)
-            if symbol not in self.steps and symbol not in self._constant:
-                return symbol
-        message = f"the name {name!r} is defined twice"
-        raise ValueError(message)
 
     def vector(self, name: str, vector: Vector, suffixes: str = "xyz") -> Vector:
         """Append a step for each component of a vector."""
@@ -160,7 +209,7 @@ class Program:
         Constants are not guarded: the parameter stage checks them all at once.
         """
         symbol = self.define(name, expression)
-        if self.is_constant(symbol):
+        if self.constants.contains(symbol):
             return symbol
         self.guards.setdefault(symbol, Guard(symbol, name, meaning))
         return Guarded(symbol)
@@ -180,7 +229,7 @@ class Program:
             Ends the names of the new steps: ``name__label``.
         """
         targets = list(targets)
-        needed = self._ancestors(targets)
+        needed = ancestors(self.steps, targets)
         tangent: dict[sp.Symbol, sp.Expr] = {along: sp.Integer(1)}
         for step in [s for s in self.steps.values() if s.symbol in needed]:
             derivative = _chain_rule(step.expression, tangent, step.symbol)
@@ -203,7 +252,7 @@ class Program:
             Ends the names of the new steps: ``name__label``.
         """
         targets = list(targets)
-        needed = self._ancestors(targets)
+        needed = ancestors(self.steps, targets)
         replaced = dict(replacements)
         for step in [s for s in self.steps.values() if s.symbol in needed]:
             if step.symbol in self.guards and step.expression.free_symbols & replaced.keys():
@@ -219,19 +268,6 @@ class Program:
 
     # -- pruning --------------------------------------------------------------------------------
 
-    def _ancestors(self, expressions: Iterable[sp.Expr]) -> set[sp.Symbol]:
-        """Return the steps that the expressions depend on."""
-        waiting = [s for e in expressions for s in e.free_symbols if s in self.steps]
-        found: set[sp.Symbol] = set()
-        while waiting:
-            symbol = waiting.pop()
-            if symbol not in found:
-                found.add(symbol)
-                waiting += [
-                    s for s in self.steps[symbol].expression.free_symbols if s in self.steps
-                ]
-        return found
-
     def function(
         self,
         name: str,
@@ -241,10 +277,12 @@ class Program:
     ) -> Function:
         """Prune the program to some results and share their common subexpressions."""
         expressions = [self._hoist(e) for e in results.values()]
-        needed = self._ancestors(expressions)
-        steps = [s for s in self.steps.values() if s.symbol in needed]
-        steps = [s for s in steps if not self.is_constant(s.symbol)]
-        steps = [Step(s.symbol, self._hoist(s.expression), s.section) for s in steps]
+        needed = ancestors(self.steps, expressions)
+        steps = [
+            Step(s.symbol, self._hoist(s.expression), s.section)
+            for s in self.steps.values()
+            if s.symbol in needed
+        ]
         steps, expressions = _drop_dead(steps, expressions)
         steps, expressions = _share(steps, expressions)
         acting = set().union(*(e.atoms(Guarded) for e in [s.expression for s in steps]), set())
@@ -261,52 +299,34 @@ class Program:
             guards,
         )
 
-    def constants_function(self, functions: Iterable[Function]) -> Function:
-        """Return the parameter stage: all constants that the functions read."""
-        used = set().union(*(f.free_symbols for f in functions)) & self._constant
-        computed = [s for s in self.steps if s in used]
-        plain = [p for p in self.parameters if p in used]
-        results = {str(s): s for s in (*plain, *computed)}
-        needed = self._ancestors(list(results.values()))
-        steps = tuple(s for s in self.steps.values() if s.symbol in needed)
-        return Function(
-            "prepare",
-            "Constants of one parameter set.",
-            steps,
-            tuple(results.values()),
-            tuple(results),
-            (len(results),),
-            (),
-        )
-
     # -- constants ------------------------------------------------------------------------------
 
     def _hoist(self, expression: sp.Expr) -> sp.Expr:
         """Move the parts that depend on parameters only into the constant stage."""
         if expression.is_Atom:
             return expression
-        if self.is_constant(expression):
-            return self._hoisted_constant(expression)
+        if self.constants.contains(expression):
+            return self.constants.collect(expression)
         arguments = [self._hoist(a) for a in expression.args]
         if isinstance(expression, sp.Add | sp.Mul):
-            constant = [a for a in arguments if self.is_constant(a) and a not in (-1, 1)]
+            constant = [a for a in arguments if self.constants.contains(a) and a not in (-1, 1)]
             if len(constant) > 1:
                 rest = [a for a in arguments if a not in constant]
-                group = self._hoisted_constant(expression.func(*constant))
+                group = self.constants.collect(expression.func(*constant))
                 return expression.func(group, *rest)
         return expression.func(*arguments)
 
-    def _hoisted_constant(self, expression: sp.Expr) -> sp.Expr:
-        """Return the name of a constant expression, defining it when it is new."""
-        if expression.is_Atom or (-expression).is_Symbol or expression.is_Number:
-            return expression
-        if expression.could_extract_minus_sign():
-            return -self._hoisted_constant(-expression)
-        if expression in self._known:
-            return self._known[expression]
-        self.section("constants collected from the equations")
-        self._collected += 1
-        return self.define(f"constant_{self._collected}", expression)
+
+def ancestors(steps: Mapping[sp.Symbol, Step], expressions: Iterable[sp.Expr]) -> set[sp.Symbol]:
+    """Return the steps that some expressions depend on."""
+    waiting = [s for e in expressions for s in e.free_symbols if s in steps]
+    found: set[sp.Symbol] = set()
+    while waiting:
+        symbol = waiting.pop()
+        if symbol not in found:
+            found.add(symbol)
+            waiting += [s for s in steps[symbol].expression.free_symbols if s in steps]
+    return found
 
 
 def _chain_rule(

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,8 @@ from .suggestions import suggestion
 
 Array = NDArray[np.float64]
 Samples = tuple[NDArray[np.float64], NDArray[np.float64]]
-Signal = float | Samples | Callable[[float], float]
+TimeFunction = Callable[[float], Any]
+Signal = float | Samples | TimeFunction
 
 RACK = "rack_position"
 _DERIVED = {"rack_velocity": 1, "rack_acceleration": 2}
@@ -34,7 +36,7 @@ class TimeInputs:
     """
 
     constant: Array
-    varying: dict[int, Callable[[float], float]]
+    varying: dict[int, TimeFunction]
     rack_held: bool
 
     def __call__(self, time: float) -> Array:
@@ -71,7 +73,7 @@ def time_inputs(
     """
     names = model.input_names
     constant = np.zeros(len(names))
-    varying: dict[int, Callable[[float], float]] = {}
+    varying: dict[int, TimeFunction] = {}
     for name, signal in (signals or {}).items():
         if name not in names or name in _DERIVED:
             raise InputError([_refusal(name, names)], "inputs")
@@ -79,7 +81,7 @@ def time_inputs(
             _check_finite(name, signal)
             constant[names.index(name)] = signal
             continue
-        function: Callable[[float], float]
+        function: TimeFunction
         function = _sampled(name, signal, t_span) if isinstance(signal, tuple) else signal
         varying[names.index(name)] = function
         if name == RACK:
@@ -101,7 +103,7 @@ def _check_finite(name: str, value: float) -> None:
         raise InputError([f"{name!r} = {value}: a finite number is needed."], "inputs")
 
 
-def _sampled(name: str, samples: Samples, t_span: tuple[float, float]) -> Callable[[float], float]:
+def _sampled(name: str, samples: Samples, t_span: tuple[float, float]) -> TimeFunction:
     times, values = (np.asarray(s, dtype=np.float64) for s in samples)
     problems = []
     if times.ndim != 1 or times.shape != values.shape or times.size < 4:
@@ -124,11 +126,11 @@ def _sampled(name: str, samples: Samples, t_span: tuple[float, float]) -> Callab
         )
     if problems:
         raise InputError(problems, "inputs")
-    spline: Callable[[float], float] = CubicSpline(times, values, extrapolate=False)
+    spline: TimeFunction = CubicSpline(times, values, extrapolate=False)
     return spline
 
 
-def _derivative(function: Callable[[float], float], order: int) -> Callable[[float], float]:
+def _derivative(function: TimeFunction, order: int) -> TimeFunction:
     derivative = getattr(function, "derivative", None)
     if derivative is None:
         raise InputError(
@@ -140,5 +142,5 @@ def _derivative(function: Callable[[float], float], order: int) -> Callable[[flo
             ],
             "inputs",
         )
-    result: Callable[[float], float] = derivative(order)
+    result: TimeFunction = derivative(order)
     return result

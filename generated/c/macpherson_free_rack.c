@@ -1733,18 +1733,23 @@ int macpherson_free_rack_rhs(const double *restrict constants, const double *res
     out[4] = beta5_acceleration;                                       /* d(beta5_rate)/dt */
     out[5] = beta9_acceleration;                                       /* d(beta9_rate)/dt */
 
-    return !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC |
-        !(upper_strut_cross_squared > GUARD_FLOOR) *
-        MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED | !(knuckle_reach_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED | !(knuckle_closure >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE | !(tie_rod_cross_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED | !(cos_camber_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_COS_CAMBER_SQUARED | !(mass_beta1_beta1 >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA1 | !(reduced_beta9_beta9_beta1 >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA9 | !(!!isfinite(beta1) &
-        !!isfinite(beta9) & !!isfinite(beta1_rate) & !!isfinite(beta5_rate) & !!isfinite(beta9_rate)
-        & !!isfinite(strut_force) & !!isfinite(road_height) & !!isfinite(rack_force)) *
-        MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    unsigned status = !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC;
+    status |= !(upper_strut_cross_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED;
+    status |= !(knuckle_reach_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED;
+    status |= !(knuckle_closure > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE;
+    status |= !(tie_rod_cross_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED;
+    status |= !(cos_camber_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_COS_CAMBER_SQUARED;
+    status |= !(mass_beta1_beta1 > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA1;
+    status |= !(reduced_beta9_beta9_beta1 > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA9;
+    status |= !isfinite(beta1) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta9) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta1_rate) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta5_rate) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta9_rate) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(strut_force) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(road_height) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(rack_force) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    return (int)status;
 }
 
 int macpherson_free_rack_rhs_jacobian(const double *restrict constants, const double *restrict state,
@@ -4487,18 +4492,23 @@ int macpherson_free_rack_rhs_jacobian(const double *restrict constants, const do
     out[34] = beta9_acceleration__beta5_rate;                          /* d(beta9_rate)/dt by beta5_rate */
     out[35] = beta9_acceleration__beta9_rate;                          /* d(beta9_rate)/dt by beta9_rate */
 
-    return !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC |
-        !(upper_strut_cross_squared > GUARD_FLOOR) *
-        MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED | !(knuckle_reach_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED | !(knuckle_closure >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE | !(tie_rod_cross_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED | !(cos_camber_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_COS_CAMBER_SQUARED | !(mass_beta1_beta1 >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA1 | !(reduced_beta9_beta9_beta1 >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA9 | !(!!isfinite(beta1) &
-        !!isfinite(beta9) & !!isfinite(beta1_rate) & !!isfinite(beta5_rate) & !!isfinite(beta9_rate)
-        & !!isfinite(strut_force) & !!isfinite(road_height) & !!isfinite(rack_force)) *
-        MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    unsigned status = !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC;
+    status |= !(upper_strut_cross_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED;
+    status |= !(knuckle_reach_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED;
+    status |= !(knuckle_closure > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE;
+    status |= !(tie_rod_cross_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED;
+    status |= !(cos_camber_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_COS_CAMBER_SQUARED;
+    status |= !(mass_beta1_beta1 > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA1;
+    status |= !(reduced_beta9_beta9_beta1 > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA9;
+    status |= !isfinite(beta1) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta9) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta1_rate) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta5_rate) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta9_rate) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(strut_force) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(road_height) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(rack_force) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    return (int)status;
 }
 
 int macpherson_free_rack_mass_matrix(const double *restrict constants, const double *restrict state,
@@ -4845,13 +4855,14 @@ int macpherson_free_rack_mass_matrix(const double *restrict constants, const dou
     out[7] = shared_20;                                                /* M[beta9,beta5] */
     out[8] = constant_15 + knuckle_spin_momentum_beta9_1*knuckle_turn_beta9 + tie_rod_momentum_beta9_1*tie_rod_velocity_beta9_1 + tie_rod_momentum_beta9_2*tie_rod_velocity_beta9_2 + tie_rod_momentum_beta9_3*tie_rod_velocity_beta9_3 + tie_rod_omega_beta9_1*tie_rod_spin_momentum_beta9_1 + tie_rod_omega_beta9_2*tie_rod_spin_momentum_beta9_2 + tie_rod_omega_beta9_3*tie_rod_spin_momentum_beta9_3 + wheel_inertia_spin*wheel_share_beta9*wheel_share_beta9; /* M[beta9,beta9] */
 
-    return !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC |
-        !(upper_strut_cross_squared > GUARD_FLOOR) *
-        MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED | !(knuckle_reach_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED | !(knuckle_closure >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE | !(tie_rod_cross_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED | !(!!isfinite(beta1) &
-        !!isfinite(beta9)) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    unsigned status = !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC;
+    status |= !(upper_strut_cross_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED;
+    status |= !(knuckle_reach_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED;
+    status |= !(knuckle_closure > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE;
+    status |= !(tie_rod_cross_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED;
+    status |= !isfinite(beta1) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta9) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    return (int)status;
 }
 
 int macpherson_free_rack_bias(const double *restrict constants, const double *restrict state,
@@ -5328,14 +5339,17 @@ int macpherson_free_rack_bias(const double *restrict constants, const double *re
     out[1] = shared_31;                                                /* B[beta5] */
     out[2] = bias_of_beta9 + shared_31*wheel_share_beta9;              /* B[beta9] */
 
-    return !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC |
-        !(upper_strut_cross_squared > GUARD_FLOOR) *
-        MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED | !(knuckle_reach_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED | !(knuckle_closure >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE | !(tie_rod_cross_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED | !(!!isfinite(beta1) &
-        !!isfinite(beta9) & !!isfinite(beta1_rate) & !!isfinite(beta5_rate) &
-        !!isfinite(beta9_rate)) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    unsigned status = !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC;
+    status |= !(upper_strut_cross_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED;
+    status |= !(knuckle_reach_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED;
+    status |= !(knuckle_closure > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE;
+    status |= !(tie_rod_cross_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED;
+    status |= !isfinite(beta1) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta9) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta1_rate) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta5_rate) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta9_rate) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    return (int)status;
 }
 
 int macpherson_free_rack_forces(const double *restrict constants, const double *restrict state,
@@ -5675,15 +5689,19 @@ int macpherson_free_rack_forces(const double *restrict constants, const double *
     out[1] = 0.0;                                                      /* Q[beta5] */
     out[2] = force_of_beta9;                                           /* Q[beta9] */
 
-    return !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC |
-        !(upper_strut_cross_squared > GUARD_FLOOR) *
-        MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED | !(knuckle_reach_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED | !(knuckle_closure >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE | !(tie_rod_cross_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED | !(cos_camber_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_COS_CAMBER_SQUARED | !(!!isfinite(beta1) &
-        !!isfinite(beta9) & !!isfinite(beta1_rate) & !!isfinite(strut_force) &
-        !!isfinite(road_height) & !!isfinite(rack_force)) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    unsigned status = !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC;
+    status |= !(upper_strut_cross_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED;
+    status |= !(knuckle_reach_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED;
+    status |= !(knuckle_closure > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE;
+    status |= !(tie_rod_cross_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED;
+    status |= !(cos_camber_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_COS_CAMBER_SQUARED;
+    status |= !isfinite(beta1) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta9) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta1_rate) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(strut_force) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(road_height) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(rack_force) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    return (int)status;
 }
 
 int macpherson_free_rack_relative_coordinates(const double *restrict constants, const double *restrict state,
@@ -5861,13 +5879,15 @@ int macpherson_free_rack_relative_coordinates(const double *restrict constants, 
     out[10] = elevation_E;                                             /* beta11 */
     out[11] = azimuth_E;                                               /* beta12 */
 
-    return !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC |
-        !(knuckle_reach_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED |
-        !(knuckle_closure > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE |
-        !(shaft_level_squared_C > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_SHAFT_LEVEL_SQUARED_C |
-        !(shaft_level_squared_E > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_SHAFT_LEVEL_SQUARED_E |
-        !(!!isfinite(beta1) & !!isfinite(beta5) & !!isfinite(beta9)) *
-        MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    unsigned status = !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC;
+    status |= !(knuckle_reach_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED;
+    status |= !(knuckle_closure > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE;
+    status |= !(shaft_level_squared_C > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_SHAFT_LEVEL_SQUARED_C;
+    status |= !(shaft_level_squared_E > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_SHAFT_LEVEL_SQUARED_E;
+    status |= !isfinite(beta1) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta5) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta9) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    return (int)status;
 }
 
 int macpherson_free_rack_relative_jacobian(const double *restrict constants, const double *restrict state,
@@ -6324,12 +6344,14 @@ int macpherson_free_rack_relative_jacobian(const double *restrict constants, con
     out[34] = 0.0;                                                     /* beta12 by beta5 */
     out[35] = azimuth_E__by_beta9;                                     /* beta12 by beta9 */
 
-    return !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC |
-        !(knuckle_reach_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED |
-        !(knuckle_closure > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE |
-        !(shaft_level_squared_C > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_SHAFT_LEVEL_SQUARED_C |
-        !(shaft_level_squared_E > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_SHAFT_LEVEL_SQUARED_E |
-        !(!!isfinite(beta1) & !!isfinite(beta9)) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    unsigned status = !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC;
+    status |= !(knuckle_reach_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED;
+    status |= !(knuckle_closure > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE;
+    status |= !(shaft_level_squared_C > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_SHAFT_LEVEL_SQUARED_C;
+    status |= !(shaft_level_squared_E > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_SHAFT_LEVEL_SQUARED_E;
+    status |= !isfinite(beta1) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta9) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    return (int)status;
 }
 
 int macpherson_free_rack_residuals(const double *restrict constants, const double *restrict state,
@@ -6452,12 +6474,22 @@ int macpherson_free_rack_residuals(const double *restrict constants, const doubl
     out[10] = sin(given_beta11) - given_shaft_E_z;                     /* g_beta11 */
     out[11] = given_shaft_E_x/given_level_E + sin(given_beta12);       /* g_beta12 */
 
-    return !(!!isfinite(beta1) & !!isfinite(beta5) & !!isfinite(beta9) & !!isfinite(given_beta1) &
-        !!isfinite(given_beta2) & !!isfinite(given_beta3) & !!isfinite(given_beta4) &
-        !!isfinite(given_beta5) & !!isfinite(given_beta6) & !!isfinite(given_beta7) &
-        !!isfinite(given_beta8) & !!isfinite(given_beta9) & !!isfinite(given_beta10) &
-        !!isfinite(given_beta11) & !!isfinite(given_beta12)) *
-        MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    unsigned status = !isfinite(beta1) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta5) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta9) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(given_beta1) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(given_beta2) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(given_beta3) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(given_beta4) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(given_beta5) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(given_beta6) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(given_beta7) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(given_beta8) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(given_beta9) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(given_beta10) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(given_beta11) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(given_beta12) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    return (int)status;
 }
 
 int macpherson_free_rack_absolute_jacobian(const double *restrict constants, const double *restrict state,
@@ -6665,7 +6697,7 @@ int macpherson_free_rack_absolute_jacobian(const double *restrict constants, con
     const double shaft_x_E_y = shared_11*work_y_x - shared_12*work_y_y;
     const double shaft_x_E_z = shared_11*work_z_x - shared_12*work_z_y;
 
-    /* constants collected from the equations */
+    /* closure residuals */
     const double at_control_arm_com_y = design_arm_rear_y + control_arm_control_arm_com_2*cos_beta1
         - control_arm_control_arm_com_3*sin_beta1;
     const double at_control_arm_com_z = design_arm_rear_z + control_arm_control_arm_com_2*sin_beta1
@@ -7224,15 +7256,16 @@ int macpherson_free_rack_absolute_jacobian(const double *restrict constants, con
     out[430] = 0.0;                                                    /* wheel velocity_z by beta11 */
     out[431] = 0.0;                                                    /* wheel velocity_z by beta12 */
 
-    return !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC |
-        !(upper_strut_cross_squared > GUARD_FLOOR) *
-        MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED | !(knuckle_reach_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED | !(knuckle_closure >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE | !(tie_rod_cross_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED | !(shaft_level_squared_C >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_SHAFT_LEVEL_SQUARED_C | !(shaft_level_squared_E >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_SHAFT_LEVEL_SQUARED_E | !(!!isfinite(beta1) &
-        !!isfinite(beta9)) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    unsigned status = !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC;
+    status |= !(upper_strut_cross_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED;
+    status |= !(knuckle_reach_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED;
+    status |= !(knuckle_closure > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE;
+    status |= !(tie_rod_cross_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED;
+    status |= !(shaft_level_squared_C > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_SHAFT_LEVEL_SQUARED_C;
+    status |= !(shaft_level_squared_E > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_SHAFT_LEVEL_SQUARED_E;
+    status |= !isfinite(beta1) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta9) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    return (int)status;
 }
 
 int macpherson_free_rack_global_jacobian(const double *restrict constants, const double *restrict state,
@@ -7780,13 +7813,15 @@ int macpherson_free_rack_global_jacobian(const double *restrict constants, const
     out[106] = 0.0;                                                    /* wheel velocity_z by beta5 */
     out[107] = shared_92*work_x_z + shared_93*work_y_z + shared_94*work_z_z; /* wheel velocity_z by beta9 */
 
-    return !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC |
-        !(upper_strut_cross_squared > GUARD_FLOOR) *
-        MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED | !(knuckle_reach_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED | !(knuckle_closure >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE | !(tie_rod_cross_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED | !(!!isfinite(beta1) &
-        !!isfinite(beta5) & !!isfinite(beta9)) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    unsigned status = !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC;
+    status |= !(upper_strut_cross_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED;
+    status |= !(knuckle_reach_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED;
+    status |= !(knuckle_closure > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE;
+    status |= !(tie_rod_cross_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED;
+    status |= !isfinite(beta1) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta5) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta9) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    return (int)status;
 }
 
 int macpherson_free_rack_positions(const double *restrict constants, const double *restrict state,
@@ -8010,13 +8045,14 @@ int macpherson_free_rack_positions(const double *restrict constants, const doubl
     out[16] = strut_top_y + wheel_origin_x*work_x_y + wheel_origin_y*work_y_y + wheel_origin_z*work_z_y; /* wheel y */
     out[17] = strut_top_z + wheel_origin_x*work_x_z + wheel_origin_y*work_y_z + wheel_origin_z*work_z_z; /* wheel z */
 
-    return !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC |
-        !(upper_strut_cross_squared > GUARD_FLOOR) *
-        MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED | !(knuckle_reach_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED | !(knuckle_closure >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE | !(tie_rod_cross_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED | !(!!isfinite(beta1) &
-        !!isfinite(beta9)) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    unsigned status = !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC;
+    status |= !(upper_strut_cross_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED;
+    status |= !(knuckle_reach_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED;
+    status |= !(knuckle_closure > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE;
+    status |= !(tie_rod_cross_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED;
+    status |= !isfinite(beta1) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta9) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    return (int)status;
 }
 
 int macpherson_free_rack_orientations(const double *restrict constants, const double *restrict state,
@@ -8372,13 +8408,15 @@ int macpherson_free_rack_orientations(const double *restrict constants, const do
     out[52] = constant_68*shared_55 + constant_69*shared_56 + constant_70*shared_57; /* wheel Rzy */
     out[53] = constant_71*shared_55 + constant_72*shared_56 + constant_73*shared_57; /* wheel Rzz */
 
-    return !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC |
-        !(upper_strut_cross_squared > GUARD_FLOOR) *
-        MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED | !(knuckle_reach_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED | !(knuckle_closure >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE | !(tie_rod_cross_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED | !(!!isfinite(beta1) &
-        !!isfinite(beta5) & !!isfinite(beta9)) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    unsigned status = !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC;
+    status |= !(upper_strut_cross_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED;
+    status |= !(knuckle_reach_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED;
+    status |= !(knuckle_closure > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE;
+    status |= !(tie_rod_cross_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED;
+    status |= !isfinite(beta1) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta5) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta9) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    return (int)status;
 }
 
 int macpherson_free_rack_velocities(const double *restrict constants, const double *restrict state,
@@ -8857,14 +8895,18 @@ int macpherson_free_rack_velocities(const double *restrict constants, const doub
     out[34] = beta1_rate*(shared_89*work_x_y + shared_90*work_y_y + shared_91*work_z_y) + beta9_rate*(shared_92*work_x_y + shared_93*work_y_y + shared_94*work_z_y); /* wheel velocity_y */
     out[35] = beta1_rate*(shared_89*work_x_z + shared_90*work_y_z + shared_91*work_z_z) + beta9_rate*(shared_92*work_x_z + shared_93*work_y_z + shared_94*work_z_z); /* wheel velocity_z */
 
-    return !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC |
-        !(upper_strut_cross_squared > GUARD_FLOOR) *
-        MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED | !(knuckle_reach_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED | !(knuckle_closure >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE | !(tie_rod_cross_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED | !(!!isfinite(beta1) &
-        !!isfinite(beta5) & !!isfinite(beta9) & !!isfinite(beta1_rate) & !!isfinite(beta5_rate) &
-        !!isfinite(beta9_rate)) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    unsigned status = !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC;
+    status |= !(upper_strut_cross_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED;
+    status |= !(knuckle_reach_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED;
+    status |= !(knuckle_closure > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE;
+    status |= !(tie_rod_cross_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED;
+    status |= !isfinite(beta1) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta5) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta9) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta1_rate) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta5_rate) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta9_rate) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    return (int)status;
 }
 
 int macpherson_free_rack_signals(const double *restrict constants, const double *restrict state,
@@ -9581,18 +9623,23 @@ int macpherson_free_rack_signals(const double *restrict constants, const double 
     out[10] = atan2(-spin_axis_now_x, spin_axis_now_y);                /* steer */
     out[11] = tyre_force;                                              /* tyre_force */
 
-    return !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC |
-        !(upper_strut_cross_squared > GUARD_FLOOR) *
-        MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED | !(knuckle_reach_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED | !(knuckle_closure >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE | !(tie_rod_cross_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED | !(cos_camber_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_COS_CAMBER_SQUARED | !(mass_beta1_beta1 >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA1 | !(reduced_beta9_beta9_beta1 >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA9 | !(!!isfinite(beta1) &
-        !!isfinite(beta9) & !!isfinite(beta1_rate) & !!isfinite(beta5_rate) & !!isfinite(beta9_rate)
-        & !!isfinite(strut_force) & !!isfinite(road_height) & !!isfinite(rack_force)) *
-        MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    unsigned status = !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC;
+    status |= !(upper_strut_cross_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED;
+    status |= !(knuckle_reach_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED;
+    status |= !(knuckle_closure > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE;
+    status |= !(tie_rod_cross_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED;
+    status |= !(cos_camber_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_COS_CAMBER_SQUARED;
+    status |= !(mass_beta1_beta1 > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA1;
+    status |= !(reduced_beta9_beta9_beta1 > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA9;
+    status |= !isfinite(beta1) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta9) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta1_rate) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta5_rate) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta9_rate) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(strut_force) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(road_height) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(rack_force) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    return (int)status;
 }
 
 int macpherson_free_rack_margins(const double *restrict constants, const double *restrict state,
@@ -9978,12 +10025,13 @@ int macpherson_free_rack_margins(const double *restrict constants, const double 
     out[8] = shaft_level_squared_C;                                    /* shaft_level_squared_C */
     out[9] = shaft_level_squared_E;                                    /* shaft_level_squared_E */
 
-    return !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC |
-        !(upper_strut_cross_squared > GUARD_FLOOR) *
-        MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED | !(knuckle_reach_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED | !(knuckle_closure >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE | !(tie_rod_cross_squared >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED | !(mass_beta1_beta1 >
-        GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA1 | !(!!isfinite(beta1) &
-        !!isfinite(beta9)) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    unsigned status = !(length_squared_BC > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC;
+    status |= !(upper_strut_cross_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED;
+    status |= !(knuckle_reach_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED;
+    status |= !(knuckle_closure > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE;
+    status |= !(tie_rod_cross_squared > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED;
+    status |= !(mass_beta1_beta1 > GUARD_FLOOR) * MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA1;
+    status |= !isfinite(beta1) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    status |= !isfinite(beta9) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
+    return (int)status;
 }

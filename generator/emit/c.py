@@ -270,16 +270,10 @@ class CPrinter:
             if g in function.guards
         ]
         if read:
-            finite = " & ".join(f"!!isfinite({name})" for name in read)
-            bits.append((f"!({finite})", self.enumerator("status", "not_finite")))
+            finite = self.enumerator("status", "not_finite")
+            bits += [(f"!isfinite({name})", finite) for name in read]
         if not bits:
             return ["    return 0;"]
-        text = "return " + " | ".join(f"{test} * {bit}" for test, bit in bits) + ";"
-        return textwrap.wrap(
-            text,
-            WIDTH,
-            initial_indent="    ",
-            subsequent_indent="        ",
-            break_long_words=False,
-            break_on_hyphens=False,
-        )
+        lines = [f"    unsigned status = {bits[0][0]} * {bits[0][1]};"]
+        lines += [f"    status |= {test} * {bit};" for test, bit in bits[1:]]
+        return [*lines, "    return (int)status;"]

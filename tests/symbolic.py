@@ -1,0 +1,161 @@
+"""The symbolic program of an emitted function, evaluated with any kind of number.
+
+SymPy's own printer turns each step into Python, so nothing is shared with the project's printers.
+The kinds of number are floats, mpmath's, and `Rounded`, which knows how far a computation in double
+precision may be off.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+import mpmath
+from sympy.printing.pycode import MpmathPrinter
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from kintrafo.generator.outputs import GeneratedModel
+    from kintrafo.generator.program import Function
+
+UNIT = mpmath.mpf(2) ** -53
+"""Relative error of one operation in double precision."""
+
+LIBRARY_UNIT = 2 * UNIT
+"""Relative error of a function of the C library other than the root: one unit in the last place."""
+
+
+@dataclass(frozen=True)
+class Rounded:
+    """A number, and a bound on the error with which double precision computes it.
+
+    The bound is that of the running error analysis (Wilkinson): every operation adds one rounding
+    of its result to what it makes of the errors of its operands, to first order.
+    """
+
+    value: mpmath.mpf
+    error: mpmath.mpf = mpmath.mpf()  # noqa: RUF009 (immutable)
+
+    @staticmethod
+    def of(number: Any) -> Rounded:
+        """Take a number as exact."""
+        return number if isinstance(number, Rounded) else Rounded(mpmath.mpf(number))
+
+    def __add__(self, other: Any) -> Rounded:
+        other = Rounded.of(other)
+        return _rounded(self.value + other.value, self.error + other.error)
+
+    def __mul__(self, other: Any) -> Rounded:
+        other = Rounded.of(other)
+        error = abs(self.value) * other.error + abs(other.value) * self.error
+        return _rounded(self.value * other.value, error)
+
+    def __truediv__(self, other: Any) -> Rounded:
+        other = Rounded.of(other)
+        ratio = self.value / other.value
+        return _rounded(ratio, (self.error + abs(ratio) * other.error) / abs(other.value))
+
+    def __pow__(self, exponent: int) -> Rounded:
+        if exponent < 0:
+            return 1 / self**-exponent
+        product = self
+        for _ in range(exponent - 1):
+            product = product * self
+        return product
+
+    def __neg__(self) -> Rounded:
+        return Rounded(-self.value, self.error)
+
+    def __sub__(self, other: Any) -> Rounded:
+        return self + -Rounded.of(other)
+
+    def __rsub__(self, other: Any) -> Rounded:
+        return Rounded.of(other) - self
+
+    def __rtruediv__(self, other: Any) -> Rounded:
+        return Rounded.of(other) / self
+
+    __radd__ = __add__
+    __rmul__ = __mul__
+
+
+def _rounded(value: mpmath.mpf, error: mpmath.mpf, unit: mpmath.mpf = UNIT) -> Rounded:
+    return Rounded(value, error + unit * abs(value))
+
+
+def _root(x: Any) -> Any:
+    if isinstance(x, Rounded):
+        root = mpmath.sqrt(x.value)
+        return _rounded(root, x.error / (2 * root))
+    return mpmath.sqrt(x)
+
+
+def _sine(x: Any) -> Any:
+    if isinstance(x, Rounded):
+        return _rounded(mpmath.sin(x.value), x.error * abs(mpmath.cos(x.value)), LIBRARY_UNIT)
+    return mpmath.sin(x)
+
+
+def _cosine(x: Any) -> Any:
+    if isinstance(x, Rounded):
+        return _rounded(mpmath.cos(x.value), x.error * abs(mpmath.sin(x.value)), LIBRARY_UNIT)
+    return mpmath.cos(x)
+
+
+def _angle(y: Any, x: Any) -> Any:
+    if isinstance(y, Rounded) or isinstance(x, Rounded):
+        y, x = Rounded.of(y), Rounded.of(x)
+        error = abs(x.value) * y.error + abs(y.value) * x.error
+        square = x.value**2 + y.value**2
+        return _rounded(mpmath.atan2(y.value, x.value), error / square, LIBRARY_UNIT)
+    return mpmath.atan2(y, x)
+
+
+def _guarded(x: Any) -> Any:
+    """Return the quantity itself: the states of the tests are admissible."""
+    assert Rounded.of(x).value > 0
+    return x
+
+
+def _sign(x: Any) -> int:
+    return 1 if Rounded.of(x).value >= 0 else -1
+
+
+class _Printer(MpmathPrinter):
+    """SymPy's printer, with the project's two functions."""
+
+    def _print_Guarded(self, call: Any) -> str:
+        return f"guarded({self._print(call.args[0])})"
+
+    def _print_SignOf(self, call: Any) -> str:
+        return f"sign({self._print(call.args[0])})"
+
+
+@cache
+def python(function: Function) -> Any:
+    """Return a Python function of the values by name: the program of an emitted function."""
+    printer = _Printer({"fully_qualified_modules": False})
+    lines = ["def run(values):"]
+    lines += [f"    {s} = values['{s}']" for s in sorted(function.free_symbols, key=str)]
+    lines += [f"    {s.symbol} = {printer.doprint(s.expression)}" for s in function.steps]
+    results = ", ".join(map(printer.doprint, function.results))
+    lines.append(f"    return [{results}]")
+    names = {
+        "mpf": mpmath.mpf,
+        "sqrt": _root,
+        "sin": _sine,
+        "cos": _cosine,
+        "atan2": _angle,
+        "guarded": _guarded,
+        "sign": _sign,
+    }
+    exec("\n".join(lines), names)
+    return names["run"]
+
+
+def constants_of(model: GeneratedModel, parameters: Mapping[str, float]) -> dict[str, mpmath.mpf]:
+    """Return the constants of a parameter set by name, in mpmath's precision."""
+    values = {name: mpmath.mpf(value) for name, value in parameters.items()}
+    return dict(zip(model.prepare.labels, python(model.prepare)(values), strict=True))
