@@ -2,7 +2,7 @@
 
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, TYPE_CHECKING
 
 import typer
 from rich.console import Console
@@ -14,8 +14,10 @@ from .emit.python import PythonPrinter, shared_files
 from .emit.report import block_diagram, bodies_of, joint_rows, markdown, mobility_line, path_rows
 from .mechanisms import MODELS
 from .outputs import GeneratedModel, generate
-from .topology import Topology
 from .transformer import Plan
+
+if TYPE_CHECKING:
+    from .topology import Topology
 
 app = typer.Typer(help=__doc__, no_args_is_help=True, add_completion=False)
 console = Console(width=None if sys.stdout.isatty() else 110)

@@ -13,10 +13,10 @@ Examples
 
 from .errors import InputError, KintrafoError
 from .generated.macpherson import ClosureError, ModelError, ParameterError
+from .input.suspension import Suspension
 from .model import Model
 from .positions import PositionError, Range, equilibrium, state_at_height, travel_range
 from .simulation import Simulation, SimulationError, simulate
-from .suspension import Suspension
 
 __version__ = "0.1.0"
 

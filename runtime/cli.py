@@ -35,6 +35,7 @@ def paper_command(
     Example: kintrafo paper out --data my_car.toml
     """
     from .figures import write_figures  # noqa: PLC0415 (matplotlib is slow to import)
+    from .overview import write_overview  # noqa: PLC0415
 
     model = Model(data)
     with console.status("kinematics over the travel"):
@@ -43,12 +44,13 @@ def paper_command(
         dynamics = paper.dynamics(model)
     with console.status("figures"):
         files = write_figures(kinematics, dynamics, folder, data)
+        write_overview(model, folder / "overview.png")
     console.print(summary(model, paper.rest(model), dynamics))
     console.print(
         "The paper gives no hardpoints, masses or rates. These are results of "
         f"[bold]{data}[/bold], which is not the paper's car: compare them in kind."
     )
-    for file in files:
+    for file in [*files, folder / "overview.png"]:
         console.print(f"  {file}")
 
 

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .errors import InputError
 from .generated import macpherson, macpherson_free_rack
-from .suspension import Suspension
+from .input.suspension import Suspension
 
 if TYPE_CHECKING:
     from types import ModuleType

@@ -42,10 +42,27 @@ class Range:
     upper_limit: str
 
 
-def _wheel_height(model: Model, arm_angle: float, inputs: Array) -> float:
-    state = model.design_state.copy()
-    state[0] = arm_angle
-    return float(model.signal("wheel_center_z", state, inputs))
+class _Rest:
+    """A suspension at rest with its rack held: everything as a function of the arm angle."""
+
+    def __init__(self, model: Model, rack_position: float) -> None:
+        self.model = model
+        self.rack_position = rack_position
+        given = {} if model.free_rack else {"rack_position": rack_position}
+        self.inputs = model.inputs(given)
+
+    def state(self, arm_angle: float, spin_rate: float = 0.0) -> Array:
+        """Return the state of rest."""
+        rack = {"beta9": self.rack_position} if self.model.free_rack else {}
+        return self.model.state(beta1=arm_angle, beta5_rate=spin_rate, **rack)
+
+    def height(self, arm_angle: float) -> float:
+        """Return the height of the wheel centre [m]."""
+        return float(self.model.signal("wheel_center_z", self.state(arm_angle), self.inputs))
+
+    def moment(self, arm_angle: float) -> float:
+        """Return the generalised force on the arm [N m]."""
+        return float(self.model.evaluate("forces", self.state(arm_angle), self.inputs)[0])
 
 
 def travel_range(model: Model, rack_position: float = 0.0) -> Range:
@@ -61,28 +78,38 @@ def travel_range(model: Model, rack_position: float = 0.0) -> Range:
     -------
     Range
     """
-    inputs = _inputs(model, rack_position)
+    rest = _Rest(model, rack_position)
     # beta1 falls as the wheel rises (Eq. 6)
-    low, low_limit = _search(model, inputs, +1.0)
-    high, high_limit = _search(model, inputs, -1.0)
-    heights = (_wheel_height(model, low, inputs), _wheel_height(model, high, inputs))
-    return Range((float(low), float(high)), heights, low_limit, high_limit)
+    low, low_limit = _search(rest, +1.0)
+    high, high_limit = _search(rest, -1.0)
+    return Range((low, high), (rest.height(low), rest.height(high)), low_limit, high_limit)
 
 
-def _search(model: Model, inputs: Array, direction: float) -> tuple[float, str]:
+def _search(rest: _Rest, direction: float) -> tuple[float, str]:
     """Swing the arm until the wheel turns back or a loop cannot close; return the last angle."""
-    angle = float(model.design_state[0])
-    height = _wheel_height(model, angle, inputs)
+    angle = float(rest.model.design_state[0])
+    height = _design_height(rest, angle)
     for _ in range(int(_LARGEST_SWING / _STEP)):
         following = angle + direction * _STEP
         try:
-            next_height = _wheel_height(model, following, inputs)
+            next_height = rest.height(following)
         except ClosureError as error:
             return angle, "; ".join(error.reasons)
         if (next_height - height) * direction >= 0.0:
             return angle, "the wheel centre turns back there"
         angle, height = following, next_height
     return angle, "the arm has swung by a right angle"
+
+
+def _design_height(rest: _Rest, angle: float) -> float:
+    try:
+        return rest.height(angle)
+    except ClosureError as error:
+        message = (
+            f"the rack cannot be at {rest.rack_position * 1e3:g} mm with the control arm in its "
+            f"design position: {'; '.join(error.reasons)}. Choose a smaller displacement."
+        )
+        raise PositionError(message) from error
 
 
 def state_at_height(
@@ -117,7 +144,7 @@ def state_at_height(
     >>> round(float(model.design_state[0] - state[0]), 10)
     0.068123601
     """
-    inputs = _inputs(model, rack_position)
+    rest = _Rest(model, rack_position)
     reach = travel_range(model, rack_position)
     if not reach.height[0] <= height <= reach.height[1]:
         message = (
@@ -127,8 +154,8 @@ def state_at_height(
             f"{rack_position * 1e3:g} mm. Choose a height within this range."
         )
         raise PositionError(message)
-    angle = _root(lambda a: _wheel_height(model, a, inputs) - height, *reach.arm_angle)
-    return _resting_state(model, angle, rack_position, spin_rate)
+    angle = _root(lambda a: rest.height(a) - height, *reach.arm_angle)
+    return rest.state(angle, spin_rate)
 
 
 def equilibrium(
@@ -170,18 +197,13 @@ def equilibrium(
     >>> round(float(model.signal("wheel_center_z", equilibrium(model))), 10)
     0.3
     """
-    inputs = _inputs(model, rack_position)
+    rest = _Rest(model, rack_position)
     names = model.input_names
-    inputs[names.index("road_height")] = road_height
-    inputs[names.index("strut_force")] = strut_force
+    rest.inputs[names.index("road_height")] = road_height
+    rest.inputs[names.index("strut_force")] = strut_force
     reach = travel_range(model, rack_position)
-
-    def moment(angle: float) -> float:
-        state = _resting_state(model, angle, rack_position, 0.0)
-        return float(model.evaluate("forces", state, inputs)[0])
-
     grid = np.linspace(*reach.arm_angle, 1 + round(abs(np.subtract(*reach.arm_angle)) / _STEP))
-    values = np.array([moment(a) for a in grid])
+    values = np.array([rest.moment(a) for a in grid])
     # from low to high wheel position beta1 falls, so a stable moment goes from negative to positive
     stable = np.flatnonzero((values[:-1] <= 0.0) & (values[1:] > 0.0))
     if stable.size == 0:
@@ -193,21 +215,10 @@ def equilibrium(
         )
         raise PositionError(message)
     nearest = stable[np.argmin(np.abs(grid[stable] - model.design_state[0]))]
-    angle = _root(moment, grid[nearest], grid[nearest + 1])
-    return _resting_state(model, angle, rack_position, spin_rate)
+    angle = _root(rest.moment, grid[nearest], grid[nearest + 1])
+    return rest.state(angle, spin_rate)
 
 
 def _root(function: Callable[[float], float], first: float, last: float) -> float:
     """Return the root between two arguments, to the last digits."""
     return float(brentq(function, first, last, xtol=1e-15, rtol=4 * np.finfo(float).eps))
-
-
-def _inputs(model: Model, rack_position: float) -> Array:
-    return model.inputs({} if model.free_rack else {"rack_position": rack_position})
-
-
-def _resting_state(model: Model, arm_angle: float, rack_position: float, spin_rate: float) -> Array:
-    values = {"beta1": arm_angle, "beta5_rate": spin_rate}
-    if model.free_rack:
-        values["beta9"] = rack_position
-    return model.state(**values)

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from .errors import InputError
+from .input.suggestions import suggestion
 from .model import Model
-from .suggestions import suggestion
 
 Array = NDArray[np.float64]
 Samples = tuple[NDArray[np.float64], NDArray[np.float64]]
@@ -133,14 +133,10 @@ def _sampled(name: str, samples: Samples, t_span: tuple[float, float]) -> TimeFu
 def _derivative(function: TimeFunction, order: int) -> TimeFunction:
     derivative = getattr(function, "derivative", None)
     if derivative is None:
-        raise InputError(
-            [
-                (
-                    f"{RACK!r}: velocity and acceleration are needed too. Give samples (times, values) "
-                    "or a spline with a method derivative(order), as scipy.interpolate.CubicSpline is."
-                )
-            ],
-            "inputs",
+        problem = (
+            f"{RACK!r}: velocity and acceleration are needed too. Give samples (times, values), "
+            "or a spline with a method derivative(order), as scipy.interpolate.CubicSpline has."
         )
+        raise InputError([problem], "inputs")
     result: TimeFunction = derivative(order)
     return result

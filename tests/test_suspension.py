@@ -10,7 +10,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from kintrafo.errors import InputError, KintrafoError
-from kintrafo.suspension import Suspension
+from kintrafo.input.suspension import Suspension
 
 CAR = Suspension.load("reference_car")
 CAR_TEXT = (resources.files("kintrafo") / "data" / "reference_car.toml").read_text("utf-8")

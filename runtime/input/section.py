@@ -9,7 +9,7 @@ from pydantic import AllowInfNan, BaseModel, BeforeValidator, ConfigDict, Field,
 from pydantic import model_validator as validator_of_model
 from pydantic_core import PydanticCustomError
 
-from .toml_units import unit_of
+from .units import unit_of
 
 
 @dataclass(frozen=True)

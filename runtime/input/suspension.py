@@ -16,15 +16,15 @@ from typing import Annotated, Any, Literal, Self, TypeVar
 
 from pydantic import Field, ValidationError
 
-from . import data as packaged_data
-from .errors import InputError
-from .input_messages import messages_of
-from .input_section import NonNegative, Number, Range, Section, Triple
+from .. import data as packaged_data
+from ..errors import InputError
+from .bodies import Bodies
+from .hardpoints import Hardpoints
+from .messages import messages_of
+from .section import NonNegative, Number, Range, Section, Triple
 from .suggestions import suggestion
-from .suspension_bodies import Bodies
-from .suspension_hardpoints import Hardpoints
 from .toml_file import read_toml
-from .toml_units import in_metres
+from .units import in_metres
 from .vectors import Vector, angle_between_lines, components, unit_vector
 
 SectionT = TypeVar("SectionT", bound=Section)
@@ -174,7 +174,7 @@ class Suspension(Section):
 
     Examples
     --------
-    >>> from kintrafo.suspension import Suspension
+    >>> from kintrafo import Suspension
     >>> car = Suspension.load("reference_car")
     >>> car.vehicle.side, car.strut.spring_rate_N_per_m
     ('right', 25000.0)
@@ -283,7 +283,7 @@ class Suspension(Section):
 
         Examples
         --------
-        >>> from kintrafo.suspension import Suspension
+        >>> from kintrafo import Suspension
         >>> car = Suspension.load("reference_car")
         >>> stiffer = car.with_changes(
         ...     {"strut.spring_rate_N_per_m": 30e3, "hardpoints.ball_joint.z": 185.0}
@@ -345,7 +345,7 @@ class Suspension(Section):
 
         Examples
         --------
-        >>> from kintrafo.suspension import Suspension
+        >>> from kintrafo import Suspension
         >>> Suspension.load("reference_car").parameters()["strut_length_max"]
         0.85
         """

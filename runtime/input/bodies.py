@@ -5,9 +5,9 @@ from abc import abstractmethod
 import numpy as np
 from pydantic import Field
 
-from .input_section import NonNegative, Number, Positive, Section, Triple
-from .suspension_hardpoints import Hardpoints
-from .toml_units import in_metres
+from .hardpoints import Hardpoints
+from .section import NonNegative, Number, Positive, Section, Triple
+from .units import in_metres
 from .vectors import Vector, components
 
 _ELEMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")

@@ -7,8 +7,8 @@ from typing import Any, get_args
 import numpy as np
 from pydantic import Field
 
-from .input_section import Section, Triple
-from .toml_units import LengthUnit, in_metres
+from .section import Section, Triple
+from .units import LengthUnit, in_metres
 from .vectors import Vector, angle_between_lines, components, distance_from_line, unit_vector
 
 # Closer than this, two points that define a direction or a rod are taken for one, in m.

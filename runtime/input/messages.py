@@ -7,7 +7,7 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from .input_section import Range, Section
+from .section import Range, Section
 from .suggestions import nearest, suggestion
 
 _EXPECTATIONS = {

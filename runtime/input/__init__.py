@@ -1,0 +1,1 @@
+"""Input data: what a person writes about a suspension, and the checks that it passes."""
