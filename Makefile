@@ -3,7 +3,7 @@
 .PHONY: help setup generate build run test lint types format baseline clean
 PYTHON := .venv/bin/python
 
-EMITTED := $(wildcard generated/*.pyx generated/c/*)
+EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/native/*.pyx runtime/native/*.[ch])
 
 help: ## Show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)

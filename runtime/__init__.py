@@ -12,6 +12,7 @@ Examples
 """
 
 from .errors import InputError, KintrafoError
+from .events import SignalEvent
 from .generated.macpherson import ClosureError, ModelError, ParameterError
 from .input.suspension import Suspension
 from .model import Model
@@ -29,6 +30,7 @@ __all__ = [
     "ParameterError",
     "PositionError",
     "Range",
+    "SignalEvent",
     "Simulation",
     "SimulationError",
     "Suspension",

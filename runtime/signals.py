@@ -1,7 +1,8 @@
-"""Inputs that vary with time: constants, samples, splines, functions."""
+"""Inputs that vary with time, as cubic splines: constants, samples, functions."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -13,42 +14,93 @@ from .input.suggestions import suggestion
 from .model import Model
 
 Array = NDArray[np.float64]
-Samples = tuple[NDArray[np.float64], NDArray[np.float64]]
-TimeFunction = Callable[[float], Any]
-Signal = float | Samples | TimeFunction
+Samples = tuple[Any, Any]
+Signal = float | Samples | Callable[[float], Any]
 
-RACK = "rack_position"
-_DERIVED = {"rack_velocity": 1, "rack_acceleration": 2}
+RACK = "rack"
+_FIRST_GRID = 33
+_LARGEST_GRID = 2**17 + 1
+# A function becomes a spline that reproduces it between its samples to this part of its size; the
+# second derivative, which the rack's acceleration needs, is then good to about the square root.
+_SPLINE_TOLERANCE = 1e-10
+
+
+@dataclass(frozen=True)
+class Spline:
+    """One varying input.
+
+    Attributes
+    ----------
+    curve : CubicSpline
+        With continuous second derivative, of time [s].
+    targets : tuple of int
+        Positions in the array of inputs of the value and its two derivatives; -1 for none.
+    """
+
+    curve: CubicSpline
+    targets: tuple[int, int, int]
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A time between two jumps of the inputs.
+
+    Attributes
+    ----------
+    start, end : float
+        [s]
+    splines : tuple of Spline
+    """
+
+    start: float
+    end: float
+    splines: tuple[Spline, ...] = ()
 
 
 @dataclass(frozen=True)
 class TimeInputs:
-    """The inputs of a model as a function of time.
+    """The inputs of a model over time.
 
     Attributes
     ----------
     constant : ndarray
         Values of those that do not vary.
-    varying : dict
-        Position in the array of inputs to function of time [s].
+    segments : tuple of Segment
+        In the order of time; at their borders an input may jump.
     rack_held : bool
         Whether the rack stands still.
     """
 
     constant: Array
-    varying: dict[int, TimeFunction]
+    segments: tuple[Segment, ...]
     rack_held: bool
 
-    def __call__(self, time: float) -> Array:
-        """Return the array of inputs at a time."""
+    def at(self, time: float, segment: Segment) -> Array:
+        """Return the array of inputs at a time within a segment."""
         values = self.constant.copy()
-        for index, function in self.varying.items():
-            values[index] = function(time)
+        for spline in segment.splines:
+            for order, target in enumerate(spline.targets):
+                if target >= 0:
+                    values[target] = spline.curve(time, order)
         return values
 
-    def at(self, times: Array) -> Array:
-        """Return the inputs at many times, shape (number of times, number of inputs)."""
-        return np.array([self(float(t)) for t in times])
+    def table(self, times: Array, segment: Segment) -> Array:
+        """Return the inputs at many times of a segment, one row each."""
+        values = np.tile(self.constant, (times.size, 1))
+        for spline in segment.splines:
+            for order, target in enumerate(spline.targets):
+                if target >= 0:
+                    values[:, target] = spline.curve(times, order)
+        return values
+
+
+@dataclass
+class _Collected:
+    """What `time_inputs` gathers."""
+
+    constant: Array
+    curves: dict[str, list[CubicSpline]] = field(default_factory=dict)
+    jumps: set[float] = field(default_factory=set)
 
 
 def time_inputs(
@@ -60,10 +112,9 @@ def time_inputs(
     ----------
     model : Model
     signals : mapping, optional
-        Input name to a number, to samples ``(times, values)``, which a cubic spline with continuous
-        second derivative interpolates, or to a function of time; SI units. Velocity and
-        acceleration of the rack follow from its position, so that a function given for it needs a
-        method ``derivative(order)``, as SciPy's splines have.
+        Input name to a number, to samples ``(times, values)``, or to a function of time; SI units.
+        A cubic spline with continuous second derivative goes through the samples; a time that is
+        given twice is a jump. Velocity and acceleration of the rack follow from its position.
     t_span : tuple of float
         First and last time of the simulation, which samples must cover [s].
 
@@ -72,71 +123,184 @@ def time_inputs(
     TimeInputs
     """
     names = model.input_names
-    constant = np.zeros(len(names))
-    varying: dict[int, TimeFunction] = {}
+    derived = _derived(names)
+    collected = _Collected(np.zeros(len(names)))
     for name, signal in (signals or {}).items():
-        if name not in names or name in _DERIVED:
-            raise InputError([_refusal(name, names)], "inputs")
-        if isinstance(signal, int | float):
-            _check_finite(name, signal)
-            constant[names.index(name)] = signal
-            continue
-        function: TimeFunction
-        function = _sampled(name, signal, t_span) if isinstance(signal, tuple) else signal
-        varying[names.index(name)] = function
-        if name == RACK:
-            for derived, order in _DERIVED.items():
-                varying[names.index(derived)] = _derivative(function, order)
-    rack_held = not model.free_rack and names.index(RACK) not in varying
-    return TimeInputs(constant, varying, rack_held)
+        if name not in names or name in derived:
+            raise InputError([_refusal(name, names, derived)], "inputs")
+        _collect(collected, names, name, signal, t_span)
+    segments = _segments(collected, names, t_span)
+    moving = f"{RACK}_position" in collected.curves
+    return TimeInputs(collected.constant, segments, not model.free_rack and not moving)
 
 
-def _refusal(name: str, names: tuple[str, ...]) -> str:
-    if name in _DERIVED:
-        return f"{name!r} follows from {RACK!r}: give the position alone, as samples or a spline."
-    known = [n for n in names if n not in _DERIVED]
-    return f"{name!r} is not an input. {suggestion(name, known)}"
+def _derived(names: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the inputs that follow from another one."""
+    return tuple(n for n in names if n in (f"{RACK}_velocity", f"{RACK}_acceleration"))
 
 
-def _check_finite(name: str, value: float) -> None:
-    if not np.isfinite(value):
-        raise InputError([f"{name!r} = {value}: a finite number is needed."], "inputs")
+def _refusal(name: str, names: tuple[str, ...], derived: tuple[str, ...]) -> str:
+    if name in derived:
+        return (
+            f"{name!r} follows from '{RACK}_position': give the position alone, as samples or as "
+            "a function of time."
+        )
+    return f"{name!r} is not an input. {suggestion(name, [n for n in names if n not in derived])}"
 
 
-def _sampled(name: str, samples: Samples, t_span: tuple[float, float]) -> TimeFunction:
+def _collect(
+    collected: _Collected,
+    names: tuple[str, ...],
+    name: str,
+    signal: Signal,
+    t_span: tuple[float, float],
+) -> None:
+    if isinstance(signal, CubicSpline):
+        _check_samples(name, signal.x, signal(signal.x), t_span)
+        collected.curves[name] = [signal]
+    elif callable(signal):
+        collected.curves[name] = [_fitted(name, signal, t_span)]
+    elif isinstance(signal, tuple):
+        pieces = _sampled(name, signal, t_span)
+        if len(pieces) > 1 and name == f"{RACK}_position":
+            problem = (
+                f"{name!r} jumps at t = {pieces[1].x[0]:g} s: the rack would need an infinite "
+                "velocity. Give one value for each time."
+            )
+            raise InputError([problem], "inputs")
+        collected.curves[name] = pieces
+        collected.jumps.update(float(piece.x[0]) for piece in pieces[1:])
+    else:
+        value = float(signal)
+        if not np.isfinite(value):
+            raise InputError([f"{name!r} = {value}: a finite number is needed."], "inputs")
+        collected.constant[names.index(name)] = value
+
+
+def _segments(
+    collected: _Collected, names: tuple[str, ...], t_span: tuple[float, float]
+) -> tuple[Segment, ...]:
+    """Cut the time at the jumps, and give each part the splines that hold in it."""
+    first, last = (float(t) for t in t_span)
+    inside = sorted(
+        (t for t in collected.jumps if min(t_span) < t < max(t_span)), reverse=last < first
+    )
+    borders = [first, *inside, last]
+    segments = []
+    for start, end in pairwise(borders):
+        middle = (start + end) / 2
+        splines = [
+            Spline(_covering(curves, middle), _targets(name, names))
+            for name, curves in collected.curves.items()
+        ]
+        segments.append(Segment(start, end, tuple(splines)))
+    return tuple(segments)
+
+
+def _covering(curves: list[CubicSpline], time: float) -> CubicSpline:
+    return next(c for c in curves if c.x[0] <= time <= c.x[-1])
+
+
+def _targets(name: str, names: tuple[str, ...]) -> tuple[int, int, int]:
+    if name != f"{RACK}_position":
+        return names.index(name), -1, -1
+    kinds = ("position", "velocity", "acceleration")
+    value, first, second = (names.index(f"{RACK}_{kind}") for kind in kinds)
+    return value, first, second
+
+
+# -- samples ------------------------------------------------------------------------------------
+
+
+def _sampled(name: str, samples: Samples, t_span: tuple[float, float]) -> list[CubicSpline]:
     times, values = (np.asarray(s, dtype=np.float64) for s in samples)
-    problems = []
-    if times.ndim != 1 or times.shape != values.shape or times.size < 4:
-        problems.append(
-            f"{name!r}: times and values must be two rows of the same length, four or more; "
-            f"their shapes are {times.shape} and {values.shape}."
+    _check_samples(name, times, values, t_span)
+    cuts = np.flatnonzero(np.diff(times) == 0.0) + 1
+    parts = zip(np.split(times, cuts), np.split(values, cuts), strict=True)
+    return [_through(t, v) for t, v in parts]
+
+
+def _through(times: Array, values: Array) -> CubicSpline:
+    """Return a spline, also through the two or three samples that may lie between jumps."""
+    if times.size < 4:
+        dense = np.linspace(times[0], times[-1], 4)
+        times, values = dense, np.interp(dense, times, values)
+    return CubicSpline(times, values)
+
+
+def _check_samples(name: str, times: Array, values: Array, t_span: tuple[float, float]) -> None:
+    if times.ndim != 1 or times.shape != values.shape or times.size < 2:
+        problem = (
+            f"{name!r}: times and values must be two rows of the same length, two or more; their "
+            f"shapes are {times.shape} and {values.shape}."
         )
     elif not (np.all(np.isfinite(times)) and np.all(np.isfinite(values))):
-        problems.append(f"{name!r}: times and values must be finite.")
-    elif np.any(np.diff(times) <= 0.0):
-        first = int(np.argmax(np.diff(times) <= 0.0))
-        problems.append(
-            f"{name!r}: times must increase; they do not after element {first} "
-            f"(t = {times[first]:g} s)."
+        problem = f"{name!r}: times and values must be finite."
+    elif _first_disorder(times) is not None:
+        index = _first_disorder(times) or 0
+        problem = (
+            f"{name!r}: times must increase, and a jump is one time given twice; this fails at "
+            f"element {index} (t = {times[index]:g} s)."
         )
     elif times[0] > min(t_span) or times[-1] < max(t_span):
-        problems.append(
+        problem = (
             f"{name!r}: the samples cover {times[0]:g} s to {times[-1]:g} s, the simulation runs "
             f"from {min(t_span):g} s to {max(t_span):g} s. Give samples for the whole time."
         )
-    if problems:
-        raise InputError(problems, "inputs")
-    spline: TimeFunction = CubicSpline(times, values, extrapolate=False)
-    return spline
+    else:
+        return
+    raise InputError([problem], "inputs")
 
 
-def _derivative(function: TimeFunction, order: int) -> TimeFunction:
-    derivative = getattr(function, "derivative", None)
-    if derivative is None:
-        problem = (
-            f"{RACK!r}: velocity and acceleration are needed too. Give samples (times, values), "
-            "or a spline with a method derivative(order), as scipy.interpolate.CubicSpline has."
-        )
+def _first_disorder(times: Array) -> int | None:
+    """Return where times fall, or where one stands alone between jumps or is given three times."""
+    steps = np.diff(times)
+    still = np.concatenate(([False], steps == 0.0, [False]))
+    bad = np.flatnonzero((steps < 0.0) | (still[:-2] & (steps == 0.0)))
+    lonely = [0] if still[1] else [times.size - 1] if still[-2] else []
+    found = [int(i) for i in bad] + lonely
+    return found[0] if found else None
+
+
+# -- functions ----------------------------------------------------------------------------------
+
+
+def _fitted(
+    name: str, function: Callable[[float], Any], t_span: tuple[float, float]
+) -> CubicSpline:
+    """Return a spline through so many values of a function that it follows it in between."""
+    size = _FIRST_GRID
+    times = np.linspace(min(t_span), max(t_span), size)
+    values = _values(name, function, times)
+    while True:
+        spline = CubicSpline(times, values)
+        between = (times[:-1] + times[1:]) / 2
+        middle = _values(name, function, between)
+        error = np.abs(spline(between) - middle)
+        scale = max(np.ptp(values), np.ptp(middle))
+        if error.max() <= _SPLINE_TOLERANCE * scale:
+            return spline
+        if times.size >= _LARGEST_GRID:
+            worst = between[int(np.argmax(error))]
+            problem = (
+                f"{name!r}: a smooth curve does not follow this function near t = {worst:.6g} s "
+                f"(error {error.max():.3g} with {times.size} values). If it jumps or has a kink "
+                "there, give samples (times, values) with the time of the jump twice."
+            )
+            raise InputError([problem], "inputs")
+        times, values = _merged(times, between), _merged(values, middle)
+
+
+def _merged(first: Array, between: Array) -> Array:
+    merged = np.empty(first.size + between.size)
+    merged[::2], merged[1::2] = first, between
+    return merged
+
+
+def _values(name: str, function: Callable[[float], Any], times: Array) -> Array:
+    values = np.array([float(function(float(t))) for t in times])
+    if not np.all(np.isfinite(values)):
+        bad = times[int(np.argmax(~np.isfinite(values)))]
+        problem = f"{name!r} is not finite at t = {bad:.6g} s: {values[~np.isfinite(values)][0]}."
         raise InputError([problem], "inputs")
-    result: TimeFunction = derivative(order)
-    return result
+    return values

@@ -1,23 +1,40 @@
 """Integrate the equations of motion."""
 
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.integrate import solve_ivp
 from scipy.optimize import OptimizeResult
 
 from .errors import InputError, KintrafoError
+from .events import Event, Events, events_of
 from .generated.macpherson import ModelError
+from .input.suggestions import suggestion
 from .model import Model
-from .signals import Signal, TimeInputs, time_inputs
+from .signals import Segment, Signal, TimeInputs, time_inputs
+from .solvers import (
+    SCIPY_METHODS,
+    SUNDIALS_METHODS,
+    Options,
+    Piece,
+    native_available,
+    native_methods,
+    native_version,
+    solve_native,
+    solve_scipy,
+)
 
 Array = NDArray[np.float64]
-Method = Literal["BDF", "Radau", "LSODA", "RK45", "DOP853"]
+Method = Literal[
+    "BDF", "Adams", "Verner", "DormandPrince", "Tsitouras", "Radau", "LSODA", "RK45", "DOP853"
+]
+Backend = Literal["auto", "sundials", "scipy"]
 
-_IMPLICIT = ("BDF", "Radau", "LSODA")
-_METHODS = (*_IMPLICIT, "RK45", "DOP853")
+_SMALLEST_RTOL = 100.0 * np.finfo(float).eps
+_REMEDY = "On Debian, apt-get install libsundials-dev and build again"
+_told = False
 
 
 class SimulationError(KintrafoError, RuntimeError):
@@ -25,19 +42,26 @@ class SimulationError(KintrafoError, RuntimeError):
 
     Attributes
     ----------
+    reason : str
     time : float
         Time at which it happened [s].
     state : ndarray
         State at which it happened.
+    partial : Simulation or None
+        The result up to there.
     """
 
-    def __init__(self, reason: str, time: float, state: Array) -> None:
+    def __init__(
+        self, reason: str, time: float, state: Array, partial: "Simulation | None" = None
+    ) -> None:
+        self.reason = reason
         self.time = time
         self.state = state
-        super().__init__(reason, time, state)
+        self.partial = partial
+        super().__init__(reason, time, state, partial)
 
     def __str__(self) -> str:
-        return f"at t = {self.time:.6g} s: {self.args[0]}"
+        return f"at t = {self.time:.6g} s: {self.reason}"
 
 
 class Simulation(OptimizeResult):
@@ -54,7 +78,51 @@ class Simulation(OptimizeResult):
     inputs : ndarray, shape (n, number of inputs)
     sol, t_events, y_events, nfev, njev, nlu, status, message, success
         As in ``scipy.integrate.solve_ivp``.
+    steps, error_test_failures, order : int
+        Steps taken, steps that failed the error test, last order; with SUNDIALS only.
+    solver : str
+        What integrated.
     """
+
+    t: Array
+    y: Array
+    signals: dict[str, Array]
+    inputs: Array
+    sol: "DenseOutput | None"
+    t_events: list[Array] | None
+    y_events: list[Array] | None
+    nfev: int
+    njev: int
+    nlu: int
+    steps: int
+    error_test_failures: int
+    order: int
+    status: int
+    message: str
+    success: bool
+    solver: str
+
+
+class DenseOutput:
+    """The solution as a function of time, from the polynomials of the steps."""
+
+    def __init__(self, parts: list[tuple[float, float, Callable[[Array], Array]]]) -> None:
+        self._parts = parts
+        self._backward = parts[0][1] < parts[0][0]
+        self._ends = np.array([end for _, end, _ in parts])
+
+    def __call__(self, t: ArrayLike) -> Array:
+        """Return the state, shape (n,), or (n, number of times) for an array of times."""
+        times = np.atleast_1d(np.asarray(t, dtype=np.float64))
+        sign = -1.0 if self._backward else 1.0
+        which = np.searchsorted(sign * self._ends, sign * times, side="left")
+        which = np.clip(which, 0, len(self._parts) - 1)
+        values = np.empty((times.size, self._parts[0][2](times[:1]).shape[1]))
+        for index in np.unique(which):
+            chosen = which == index
+            values[chosen] = self._parts[index][2](times[chosen])
+        result: Array = values[0] if np.ndim(t) == 0 else values.T
+        return result
 
 
 def simulate(
@@ -64,13 +132,16 @@ def simulate(
     *,
     inputs: Mapping[str, Signal] | None = None,
     method: Method = "BDF",
-    t_eval: Sequence[float] | Array | None = None,
+    t_eval: ArrayLike | None = None,
     rtol: float = 1e-6,
-    atol: float | Sequence[float] | Array = 1e-9,
+    atol: ArrayLike = 1e-9,
     max_step: float = np.inf,
     first_step: float | None = None,
+    max_steps: int = 1_000_000,
     dense_output: bool = False,
-    events: Callable[..., float] | Sequence[Callable[..., float]] | None = None,
+    events: Event | Sequence[Event] | None = None,
+    stop_at_outputs: bool = False,
+    backend: Backend = "auto",
 ) -> Simulation:
     """Integrate the equations of motion of a suspension.
 
@@ -83,11 +154,29 @@ def simulate(
         Initial state, see `model.state`, `state_at_height` and `equilibrium`.
     inputs : mapping, optional
         Time-varying inputs by name: numbers, samples ``(times, values)``, or functions of time.
+        They become cubic splines; at a time that is given twice, the input jumps and the
+        integration starts anew.
     method : str, optional
-        'BDF' (Gear's formulas), 'Radau', 'LSODA', 'RK45' or 'DOP853'. The implicit ones use the
-        exact Jacobian.
-    t_eval, rtol, atol, max_step, first_step, dense_output, events
-        As in ``scipy.integrate.solve_ivp``.
+        'BDF' (Gear's formulas) or 'Adams'; Runge-Kutta 'Verner' (8 stages, order 6),
+        'DormandPrince' or 'Tsitouras' (order 5); or SciPy's 'Radau', 'LSODA', 'RK45', 'DOP853'.
+        Implicit methods use the exact Jacobian.
+    t_eval : array_like, optional
+        Times of the output; every step by default.
+    rtol, atol : float, array_like, optional
+        Relative tolerance, and absolute tolerances: one, or one for each element of the state.
+    max_step, first_step : float, optional
+        [s]
+    max_steps : int, optional
+        More end with an error.
+    dense_output : bool, optional
+        Whether to keep the solution as a function of time, ``sol``.
+    events : str, SignalEvent, callable, or sequence of these, optional
+        'wheel_leaves_ground', 'wheel_touches_ground', 'strut_fully_extended'; a signal and a level;
+        or a function of time and state with SciPy's attributes ``terminal`` and ``direction``.
+    stop_at_outputs : bool, optional
+        Whether to step onto every output time instead of interpolating. SUNDIALS only.
+    backend : str, optional
+        'sundials', 'scipy', or 'auto': SUNDIALS where it has the method and is built in.
 
     Returns
     -------
@@ -98,7 +187,8 @@ def simulate(
     InputError
         If an argument cannot be used.
     SimulationError
-        If a loop cannot close on the way, or the solver gives up; says when and where.
+        If a loop cannot close on the way, or the solver gives up; says when, where and what to
+        try, and has the partial result.
 
     Examples
     --------
@@ -110,29 +200,33 @@ def simulate(
     (True, True)
     """
     y0 = np.asarray(y0, dtype=np.float64)
-    _check_arguments(model, t_span, y0, method)
+    times = None if t_eval is None else np.asarray(t_eval, dtype=np.float64)
+    absolute = np.asarray(atol, dtype=np.float64)
+    if absolute.ndim == 0:
+        absolute = np.full(y0.shape, absolute)
+    options = Options(
+        method, rtol, absolute, max_step, first_step, max_steps, dense_output, stop_at_outputs
+    )
+    _check_arguments(model, t_span, y0, times, options)
     given = time_inputs(model, inputs, t_span)
-    right_hand_side = _RightHandSide(model, given)
-    options: dict[str, Any] = {"jac": right_hand_side.jacobian} if method in _IMPLICIT else {}
-    options |= {"t_eval": t_eval, "max_step": max_step, "first_step": first_step}
-    options |= {"rtol": rtol, "atol": atol, "dense_output": dense_output, "events": events}
-    try:
-        result = solve_ivp(right_hand_side, t_span, y0, method, **options)
-    except ModelError as error:
-        raise SimulationError(str(error), right_hand_side.time, right_hand_side.state) from error
-    if not result.success:
-        raise SimulationError(str(result.message), float(result.t[-1]), result.y[:, -1])
-    input_table = given.at(result.t)
-    simulation = Simulation()
-    simulation.update(result)
-    simulation.update(inputs=input_table, signals=model.signals(result.y.T, input_table))
-    return simulation
+    watched = events_of(model, events)
+    run = _Run(model, given, options, watched, times, _choose_backend(method, backend, options))
+    return run.over(y0)
 
 
-def _check_arguments(model: Model, t_span: tuple[float, float], y0: Array, method: str) -> None:
+# -- arguments ----------------------------------------------------------------------------------
+
+
+def _check_arguments(
+    model: Model, t_span: tuple[float, float], y0: Array, times: Array | None, options: Options
+) -> None:
     problems = []
-    if method not in _METHODS:
-        problems.append(f"method {method!r} is not known; there are {', '.join(_METHODS)}.")
+    if options.method not in {**SUNDIALS_METHODS, **SCIPY_METHODS}:
+        known = {**SUNDIALS_METHODS, **SCIPY_METHODS}
+        problems.append(
+            f"method {options.method!r} is not known. {suggestion(options.method, known)} "
+            f"There are {', '.join(known)}."
+        )
     if y0.shape != model.design_state.shape:
         problems.append(
             f"y0 has shape {y0.shape}; the state of {model.equations.NAME} has the elements "
@@ -140,31 +234,230 @@ def _check_arguments(model: Model, t_span: tuple[float, float], y0: Array, metho
         )
     if not (np.all(np.isfinite(t_span)) and t_span[0] != t_span[1]):
         problems.append(f"t_span = {t_span}: two different finite times are needed.")
+    elif times is not None and not _in_order(times, t_span):
+        problems.append(f"t_eval must go from {t_span[0]:g} s to {t_span[1]:g} s, in order.")
+    problems += _tolerance_problems(y0, options)
     if problems:
         raise InputError(problems, "simulate")
 
 
-class _RightHandSide:
-    """The compiled right-hand side and its Jacobian as SciPy calls them.
+def _in_order(times: Array, t_span: tuple[float, float]) -> bool:
+    if times.ndim != 1 or times.size == 0 or not np.all(np.isfinite(times)):
+        return False
+    sign = 1.0 if t_span[1] > t_span[0] else -1.0
+    inside = sign * times[0] >= sign * t_span[0] and sign * times[-1] <= sign * t_span[1]
+    return bool(inside and np.all(sign * np.diff(times) > 0.0))
 
-    Where the rack stands still, the variant without its velocity and acceleration is used.
-    """
 
-    def __init__(self, model: Model, inputs: TimeInputs) -> None:
-        variant = "_rack_held" if inputs.rack_held else ""
-        self._function = getattr(model.equations, f"rhs{variant}")
-        self._derivative = getattr(model.equations, f"rhs_jacobian{variant}")
-        self._constants = model.constants
-        self._inputs = inputs
-        self.time = 0.0
-        self.state: Array = model.design_state
+def _tolerance_problems(y0: Array, options: Options) -> list[str]:
+    problems = []
+    if not _SMALLEST_RTOL <= options.rtol < 1.0:
+        problems.append(
+            f"rtol = {options.rtol:g}: from {_SMALLEST_RTOL:.3g} (what double precision can do) to "
+            "below 1. Try 1e-6."
+        )
+    if options.atol.shape != y0.shape or not np.all(options.atol > 0.0):
+        problems.append(
+            f"atol: one positive number, or one for each of the {y0.size} elements of the state."
+        )
+    for name in ("max_step", "first_step", "max_steps"):
+        value = getattr(options, name)
+        if value is not None and not value > 0:
+            problems.append(f"{name} = {value}: a positive number is needed.")
+    return problems
 
-    def __call__(self, time: float, state: Array) -> Array:
-        self.time, self.state = time, state
-        result: Array = self._function(state, self._inputs(time), self._constants)
-        return result
 
-    def jacobian(self, time: float, state: Array) -> Array:
-        """Return the exact derivative with respect to the state."""
-        result: Array = self._derivative(state, self._inputs(time), self._constants)
-        return result
+def _choose_backend(method: str, backend: Backend, options: Options) -> Callable[..., Piece]:
+    """Return the solver for a method, and say once if it is not the one that was meant."""
+    native = method in native_methods()
+    if backend != "scipy" and native:
+        return solve_native
+    if backend == "sundials" or options.stop_at_outputs or method not in SCIPY_METHODS:
+        raise InputError([_missing(method)], "simulate")
+    if backend == "auto" and method in SUNDIALS_METHODS:
+        _tell_once()
+    return solve_scipy
+
+
+def _missing(method: str) -> str:
+    if method not in SUNDIALS_METHODS:
+        return f"method {method!r} is one of SciPy; SUNDIALS has {', '.join(native_methods())}."
+    if not native_available():
+        return f"method {method!r} needs SUNDIALS. {_REMEDY}, or use 'BDF'."
+    return (
+        f"method {method!r} is not in the installed SUNDIALS {native_version()}, which has "
+        f"{', '.join(native_methods())}."
+    )
+
+
+def _tell_once() -> None:
+    global _told  # noqa: PLW0603 (told once in a process)
+    if not _told:
+        _told = True
+        warnings.warn(
+            "kintrafo was built without SUNDIALS; SciPy integrates instead, with the same results "
+            f"but slower. {_REMEDY}.",
+            RuntimeWarning,
+            stacklevel=4,
+        )
+
+
+# -- running ------------------------------------------------------------------------------------
+
+
+class _Run:
+    """Integrates segment after segment, and puts the pieces together."""
+
+    def __init__(
+        self,
+        model: Model,
+        inputs: TimeInputs,
+        options: Options,
+        events: Events,
+        times: Array | None,
+        solve: Callable[..., Piece],
+    ) -> None:
+        self._model, self._inputs, self._options = model, inputs, options
+        self._events, self._times, self._solve = events, times, solve
+        self._pieces: list[tuple[Segment, Piece]] = []
+
+    def over(self, state: Array) -> Simulation:
+        """Integrate over all segments."""
+        for segment in self._inputs.segments:
+            piece = self._solve(
+                self._model,
+                self._inputs,
+                segment,
+                state,
+                self._asked(segment),
+                every_step=self._times is None,
+                options=self._options,
+                events=self._events,
+            )
+            self._pieces.append((segment, piece))
+            if piece.outcome not in ("done", "event"):
+                self._fail(segment, piece)
+            state = piece.y[-1].copy()
+            if piece.outcome == "event":
+                break
+        return self._assembled()
+
+    def _asked(self, segment: Segment) -> Array:
+        """Return the output times of a segment; its own two ends come first and last."""
+        if self._times is None:
+            return np.array([segment.start, segment.end])
+        low, high = min(segment.start, segment.end), max(segment.start, segment.end)
+        inside = self._times[(self._times > low) & (self._times < high)]
+        return np.array([segment.start, *inside, segment.end])
+
+    def _fail(self, segment: Segment, piece: Piece) -> None:
+        time, state = float(piece.t[-1]), piece.y[-1]
+        if piece.outcome == "state" and piece.refused_state is not None:
+            time, state = piece.refused_time, piece.refused_state
+        reason = self._reason(segment, piece, time, state)
+        raise SimulationError(reason, time, state, self._assembled(reason))
+
+    def _reason(self, segment: Segment, piece: Piece, time: float, state: Array) -> str:
+        options = self._options
+        if piece.outcome == "state":
+            try:
+                self._model.evaluate("rhs", state, self._inputs.at(time, segment))
+            except ModelError as error:
+                return (
+                    f"{error}. Try another initial state, smaller forces, or a simulation that "
+                    "ends earlier."
+                )
+        texts = {
+            "too_many_steps": f"more than {options.max_steps} steps. Raise max_steps, or loosen "
+            f"rtol = {options.rtol:g}.",
+            "too_accurate": f"rtol = {options.rtol:g} and the given atol ask for more accuracy "
+            "than the arithmetic has. Loosen them.",
+            "bad_table": f"method {options.method!r} is not in SUNDIALS {native_version()}.",
+            "memory": "out of memory. Ask for fewer outputs with t_eval.",
+        }
+        failed = f"the solver gave up ({piece.detail}). Loosen rtol, or try another method."
+        return texts.get(piece.outcome, failed)
+
+    # -- assembling -------------------------------------------------------------------------------
+
+    def _assembled(self, failure: str = "") -> Simulation:
+        rows = [self._rows(segment, piece) for segment, piece in self._pieces]
+        t = np.concatenate([r[0] for r in rows])
+        y = np.concatenate([r[1] for r in rows])
+        inputs = np.concatenate([r[2] for r in rows])
+        ended = self._pieces[-1][1].outcome == "event"
+        status = -1 if failure else int(ended)
+        message = failure or (
+            "A termination event occurred." if ended else "The end of the time was reached."
+        )
+        native = self._solve is solve_native
+        simulation = Simulation()
+        simulation.update(
+            t=t,
+            y=y.T,
+            inputs=inputs,
+            status=status,
+            message=message,
+            success=not failure,
+            signals=self._signals(y, inputs, failed=bool(failure)),
+            sol=self._dense(),
+            solver=f"SUNDIALS {native_version()}" if native else "SciPy",
+            **self._crossings(),
+            **self._counts(),
+        )
+        return simulation
+
+    def _signals(self, y: Array, inputs: Array, *, failed: bool) -> dict[str, Array]:
+        """Return the signals; NaN where a failed simulation ended on the edge of the model."""
+        if not failed:
+            return self._model.signals(y, inputs)
+        rows = [
+            self._model.signals(*row) if self._closes(*row) else None
+            for row in zip(y, inputs, strict=True)
+        ]
+        return {
+            name: np.array([np.nan if row is None else float(row[name]) for row in rows])
+            for name in self._model.signal_names
+        }
+
+    def _closes(self, state: Array, inputs: Array) -> bool:
+        try:
+            self._model.evaluate("signals", state, inputs)
+        except ModelError:
+            return False
+        return True
+
+    def _rows(self, segment: Segment, piece: Piece) -> tuple[Array, Array, Array]:
+        """Return times, states and inputs that belong to the output."""
+        keep = np.ones(piece.t.size, dtype=bool)
+        if self._times is not None:
+            keep = np.isin(piece.t, self._times)
+        if self._pieces[0][0] is not segment:
+            keep[0] = False  # the border is the end of the segment before
+        t, y = piece.t[keep], piece.y[keep]
+        return t, y, self._inputs.table(t, segment)
+
+    def _dense(self) -> DenseOutput | None:
+        parts = [part for _, piece in self._pieces for part in piece.interpolants]
+        return DenseOutput(parts) if parts else None
+
+    def _crossings(self) -> dict[str, list[Array] | None]:
+        if not len(self._events):
+            return {"t_events": None, "y_events": None}
+        times: list[list[float]] = [[] for _ in self._events.order]
+        states: list[list[Array]] = [[] for _ in self._events.order]
+        for _, piece in self._pieces:
+            for index, time, state in piece.events:
+                times[self._events.order[index]].append(time)
+                states[self._events.order[index]].append(state)
+        return {
+            "t_events": [np.array(t) for t in times],
+            "y_events": [np.array(s).reshape(-1, self._model.design_state.size) for s in states],
+        }
+
+    def _counts(self) -> dict[str, Any]:
+        names = dict.fromkeys(name for _, piece in self._pieces for name in piece.counts)
+        total = {n: sum(p.counts.get(n, 0) for _, p in self._pieces) for n in names}
+        if "order" in total:
+            total["order"] = self._pieces[-1][1].counts["order"]
+        return {"nfev": 0, "njev": 0, "nlu": 0} | total

@@ -2,7 +2,16 @@
 
 import numpy as np
 import pytest
-from kintrafo import InputError, Model, SimulationError, equilibrium, simulate, state_at_height
+from kintrafo import (
+    InputError,
+    Model,
+    SignalEvent,
+    SimulationError,
+    equilibrium,
+    simulate,
+    state_at_height,
+)
+from kintrafo.solvers import native_available, native_methods
 from oracle import multipliers, newton
 from oracle.reference import DYNAMICS, SPIN_RATE, reference_parameters
 from scipy.interpolate import CubicSpline
@@ -10,6 +19,8 @@ from scipy.interpolate import CubicSpline
 MODEL = Model("reference_car")
 START = state_at_height(MODEL, 0.325, spin_rate=SPIN_RATE)
 TIMES = np.linspace(0.0, 1.0, 60)
+BACKENDS = ["scipy", *(["sundials"] if native_available() else [])]
+needs_sundials = pytest.mark.skipif(not native_available(), reason="built without SUNDIALS")
 
 
 def reference_states():
@@ -18,7 +29,10 @@ def reference_states():
     return times, np.array([arm, spin, -rise_rate, spin_rate])
 
 
-@pytest.mark.parametrize("method", ["BDF", "Radau", "LSODA", "RK45", "DOP853"])
+@pytest.mark.parametrize(
+    "method",
+    [*dict.fromkeys([*native_methods(), "BDF", "Radau", "LSODA", "RK45", "DOP853"])],
+)
 def test_methods_agree_with_the_reference_trajectory(method):
     times, states = reference_states()
     result = simulate(MODEL, (0, 1), START, method=method, t_eval=times, rtol=1e-9, atol=1e-12)
@@ -118,7 +132,20 @@ def test_dense_output_and_events_are_those_of_scipy():
         ({"inputs": {"rod_height": 1.0}}, "Did you mean road_height"),
         ({"inputs": {"road_height": np.nan}}, "road_height.*finite"),
         ({"inputs": {"rack_velocity": 1.0}}, "follows from 'rack_position'"),
-        ({"inputs": {"rack_position": np.sin}}, "derivative"),
+        ({"inputs": {"rack_position": ([0, 0.5, 0.5, 1], [0, 0, 0.01, 0.01])}}, "infinite vel"),
+        ({"inputs": {"road_height": lambda t: 0.0 if t < 0.3 else 0.01}}, r"near t = 0\.(3|2999)"),
+        ({"inputs": {"road_height": lambda t: np.nan if t > 0.1 else 0.0}}, "not finite at t ="),
+        ({"rtol": 1e-18}, "rtol = 1e-18"),
+        ({"rtol": np.nan}, "rtol = nan"),
+        ({"atol": [1e-9, 1e-9]}, "atol.*4 elements"),
+        ({"atol": -1.0}, "atol"),
+        ({"max_step": 0.0}, "max_step = 0"),
+        ({"t_eval": [0.0, 2.0]}, "t_eval"),
+        ({"t_eval": [0.5, 0.2]}, "t_eval"),
+        ({"events": "wheel_leave_ground"}, "Did you mean wheel_leaves_ground"),
+        ({"events": [SignalEvent("tire_force", 0.0)]}, "Did you mean tyre_force"),
+        ({"events": [3]}, "neither a name"),
+        ({"method": "Radau", "backend": "sundials"}, "one of SciPy"),
         ({"inputs": {"road_height": (TIMES, TIMES[:-1])}}, "same length"),
         ({"inputs": {"road_height": (TIMES[::-1], TIMES)}}, "must increase"),
         ({"inputs": {"road_height": (TIMES / 2, TIMES)}}, "cover 0 s to 0.5 s"),
@@ -138,9 +165,32 @@ def test_loop_that_cannot_close_says_when_where_and_which():
     assert np.all(np.isfinite(caught.value.state))
 
 
-def test_input_that_becomes_nan_is_named():
-    with pytest.raises(SimulationError, match="NaN or infinite: road_height"):
-        simulate(MODEL, (0, 1), START, inputs={"road_height": lambda t: np.nan if t > 0.1 else 0.0})
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_partial_result_stays_available(backend):
+    with pytest.raises(SimulationError) as caught:
+        simulate(MODEL, (0, 1), START, inputs={"strut_force": -1e6}, backend=backend)
+    partial = caught.value.partial
+    assert not partial.success
+    assert partial.t[0] == 0.0
+    assert partial.t[-1] <= caught.value.time
+    assert partial.signals["wheel_center_z"][0] == pytest.approx(0.325, abs=1e-12)
+
+
+@needs_sundials
+def test_too_many_steps_is_an_error_with_a_remedy():
+    with pytest.raises(SimulationError, match=r"more than 30 steps\. Raise max_steps") as caught:
+        simulate(MODEL, (0, 1), START, max_steps=30)
+    assert caught.value.partial.t.size == 31
+
+
+def test_scipy_gives_up_too():
+    with pytest.raises(SimulationError, match="Raise max_steps"):
+        simulate(MODEL, (0, 1), START, max_steps=5, backend="scipy")
+
+
+def test_rack_that_drives_over_the_dead_point_ends_soon():
+    with pytest.raises(SimulationError, match="cannot reach knuckle"):
+        simulate(MODEL, (0, 1), START, inputs={"rack_position": np.sin})
 
 
 def test_free_rack_moves_under_its_force():
@@ -151,3 +201,146 @@ def test_free_rack_moves_under_its_force():
     assert np.abs(still.y[:, -1] - start).max() < 1e-6
     moved = simulate(free, (0, 0.2), start, inputs={"rack_force": float(holding) + 20.0})
     assert moved.y[2, -1] > 1e-3
+
+
+# -- the two backends, and what only SUNDIALS does ------------------------------------------------
+
+
+@needs_sundials
+def test_backends_agree():
+    inputs = {
+        "road_height": ([0.0, 0.4, 0.4, 1.0], [0.0, 0.0, 0.02, 0.02]),
+        "strut_force": lambda t: 100.0 * np.sin(20.0 * t),
+        "rack_position": lambda t: 0.01 * np.sin(5.0 * t),
+    }
+    results = [
+        simulate(
+            MODEL, (0, 1), START, inputs=inputs, backend=b, rtol=1e-9, atol=1e-12, t_eval=TIMES
+        )
+        for b in BACKENDS
+    ]
+    assert [r.solver.split()[0] for r in results] == ["SciPy", "SUNDIALS"]
+    scale = np.array([0.07, 93.0, 4.0, 93.0])
+    # each is good to some hundred times its tolerance
+    assert np.abs((results[0].y - results[1].y) / scale[:, None]).max() < 1e-6
+    assert np.array_equal(results[0].inputs, results[1].inputs)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_a_jump_of_the_road_restarts_the_integration(backend):
+    road = ([0.0, 0.2, 0.2, 1.0], [0.0, 0.0, 0.03, 0.03])
+    result = simulate(
+        MODEL, (0, 0.5), equilibrium(MODEL), inputs={"road_height": road}, backend=backend
+    )
+    before, after = result.t < 0.2, result.t > 0.2
+    column = MODEL.input_names.index("road_height")
+    assert np.all(result.inputs[before, column] == 0.0)
+    assert np.all(result.inputs[after, column] == 0.03)
+    # at rest until the jump, to the integration's own tolerance
+    assert np.abs(result.signals["wheel_center_z"][before] - 0.3).max() < 1e-8
+    assert np.ptp(result.signals["wheel_center_z"][after]) > 0.03
+    assert 0.2 in result.t
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_physical_events_by_name(backend):
+    result = simulate(
+        MODEL,
+        (0, 1),
+        START,
+        events=["wheel_touches_ground", "wheel_leaves_ground"],
+        dense_output=True,
+        rtol=1e-9,
+        atol=1e-12,
+        backend=backend,
+    )
+    (touch,), leave = result.t_events
+    assert leave.size == 0  # released above the free height, it lands once
+    assert MODEL.signal("tyre_force", result.sol(touch)) == pytest.approx(0.0, abs=1e-3)
+    assert result.y_events[0].shape == (1, 4)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_terminal_signal_event_ends_at_its_crossing(backend):
+    third = SignalEvent("wheel_center_z", 0.3, terminal=3)
+    result = simulate(MODEL, (0, 1), START, events=third, backend=backend, rtol=1e-9, atol=1e-12)
+    assert result.status == 1
+    assert len(result.t_events[0]) == 3
+    assert result.signals["wheel_center_z"][-1] == pytest.approx(0.3, abs=1e-7)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_error_in_a_users_event_is_passed_on(backend):
+    def broken(_, y):
+        raise ZeroDivisionError(y)
+
+    with pytest.raises(ZeroDivisionError):
+        simulate(MODEL, (0, 1), START, events=broken, backend=backend)
+
+
+@pytest.mark.parametrize("method", ["BDF", "Adams", "DormandPrince", "DOP853"])
+def test_dense_output_is_as_good_as_the_steps(method):
+    if method == "Adams" and not native_available():
+        pytest.skip("built without SUNDIALS")
+    options = {"method": method, "rtol": 1e-8, "atol": 1e-11}
+    dense = simulate(MODEL, (0, 1), START, dense_output=True, **options)
+    reference = simulate(
+        MODEL, (0, 1), START, method="DOP853", t_eval=TIMES, rtol=1e-12, atol=1e-14
+    )
+    assert np.abs(dense.sol(TIMES) - reference.y)[0].max() < 2e-6
+    assert dense.sol(dense.t[5]) == pytest.approx(dense.y[:, 5], abs=1e-12)
+
+
+@needs_sundials
+def test_stopping_at_outputs_takes_a_step_for_each():
+    times = np.linspace(0.0, 0.1, 1001)
+    options = {"method": "Verner", "t_eval": times}
+    stopping = simulate(MODEL, (0, 0.1), START, stop_at_outputs=True, **options)
+    assert stopping.steps >= 1000
+    assert stopping.nfev >= 8 * 1000  # eight stages
+    gear = simulate(MODEL, (0, 0.1), START, t_eval=times)
+    assert gear.nfev < stopping.nfev / 20
+    assert np.abs(gear.y - stopping.y)[0].max() < 1e-5
+
+
+@needs_sundials
+@pytest.mark.parametrize(
+    ("method", "steps", "evaluations"),
+    # a wrong Jacobian still converges, only slower: counts within five per cent of those measured
+    [("BDF", 472, 648), ("Adams", 300, 446), ("DormandPrince", 229, 1543)],
+)
+def test_effort_of_the_standard_run(method, steps, evaluations):
+    result = simulate(MODEL, (0, 1), START, method=method)
+    assert result.steps == pytest.approx(steps, rel=0.05)
+    assert result.nfev == pytest.approx(evaluations, rel=0.05)
+
+
+@needs_sundials
+def test_threads_give_the_same_bits():
+    from concurrent.futures import ThreadPoolExecutor
+
+    with ThreadPoolExecutor(4) as pool:
+        runs = list(pool.map(lambda _: simulate(MODEL, (0, 1), START), range(8)))
+    for run in runs[1:]:
+        assert np.array_equal(run.y, runs[0].y)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_backward_in_time(backend):
+    there = simulate(MODEL, (0, 0.05), START, rtol=1e-10, atol=1e-12, backend=backend)
+    back = simulate(MODEL, (0.05, 0.0), there.y[:, -1], rtol=1e-10, atol=1e-12, backend=backend)
+    assert back.y[:, -1] == pytest.approx(START, abs=1e-6)
+
+
+def test_without_sundials_the_user_is_told_once(monkeypatch):
+    from kintrafo import simulation, solvers
+
+    monkeypatch.setattr(solvers, "_sundials", None)
+    monkeypatch.setattr(simulation, "_told", False)
+    with pytest.warns(RuntimeWarning, match="built without SUNDIALS") as told:  # noqa: PT031
+        first = simulate(MODEL, (0, 0.1), START)
+        second = simulate(MODEL, (0, 0.1), START)
+    assert len(told) == 1
+    assert first.solver == second.solver == "SciPy"
+    with pytest.raises(InputError, match="needs SUNDIALS"):
+        simulate(MODEL, (0, 0.1), START, method="Adams")

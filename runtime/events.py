@@ -1,0 +1,125 @@
+"""Events during a simulation: by physical name, by signal and level, or by a function."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from .errors import InputError
+from .input.suggestions import suggestion
+from .model import Model
+
+
+@dataclass(frozen=True)
+class SignalEvent:
+    """A signal of the model passes a level.
+
+    Attributes
+    ----------
+    signal : str
+        Name, see ``model.signal_names``.
+    level : float
+        SI units.
+    direction : float
+        Negative: falling only; positive: rising only; zero: both.
+    terminal : bool or int
+        Whether, or at which crossing, the simulation ends.
+    """
+
+    signal: str
+    level: float
+    direction: float = 0.0
+    terminal: bool | int = False
+
+
+EventFunction = Callable[..., float]
+Event = str | SignalEvent | EventFunction
+
+NAMED = {
+    "wheel_leaves_ground": "the tyre force falls through zero",
+    "wheel_touches_ground": "the tyre force rises through zero",
+    "strut_fully_extended": "the strut reaches its greatest length",
+}
+
+
+@dataclass(frozen=True)
+class Events:
+    """The events of a simulation: `signal` ones first, then the caller's functions.
+
+    Attributes
+    ----------
+    signal : tuple of SignalEvent
+    functions : tuple of callable
+        Of time and state, with SciPy's attributes ``terminal`` and ``direction``.
+    order : tuple of int
+        Position of each of them in what the caller gave.
+    """
+
+    signal: tuple[SignalEvent, ...]
+    functions: tuple[EventFunction, ...]
+    order: tuple[int, ...]
+
+    @property
+    def directions(self) -> list[int]:
+        """The sense of each event: -1, 0 or +1."""
+        values = [e.direction for e in self.signal]
+        values += [float(getattr(f, "direction", 0.0)) for f in self.functions]
+        return [(v > 0) - (v < 0) for v in values]
+
+    @property
+    def terminal(self) -> list[int]:
+        """At which crossing each event ends the simulation; 0 for never."""
+        values: list[Any] = [e.terminal for e in self.signal]
+        values += [getattr(f, "terminal", False) for f in self.functions]
+        return [int(v) for v in values]
+
+    def __len__(self) -> int:
+        return len(self.order)
+
+
+def events_of(model: Model, given: Event | Sequence[Event] | None) -> Events:
+    """Sort the events that a caller gave.
+
+    Parameters
+    ----------
+    model : Model
+    given : str, SignalEvent, callable, or sequence of these
+
+    Returns
+    -------
+    Events
+    """
+    single = given is None or callable(given) or isinstance(given, str | SignalEvent)
+    listed: list[Any] = ([] if given is None else [given]) if single else list(given)  # type: ignore[arg-type]
+    signal: list[tuple[int, SignalEvent]] = []
+    functions: list[tuple[int, EventFunction]] = []
+    for index, event in enumerate(listed):
+        if isinstance(event, str):
+            signal.append((index, _named(model, event)))
+        elif isinstance(event, SignalEvent):
+            signal.append((index, _checked(model, event)))
+        elif callable(event):
+            functions.append((index, event))
+        else:
+            problem = f"event {event!r} is neither a name, nor a SignalEvent, nor a function."
+            raise InputError([problem], "events")
+    order = tuple(i for i, _ in (*signal, *functions))
+    return Events(tuple(e for _, e in signal), tuple(f for _, f in functions), order)
+
+
+def _named(model: Model, name: str) -> SignalEvent:
+    if name == "wheel_leaves_ground":
+        return SignalEvent("tyre_force", 0.0, direction=-1.0)
+    if name == "wheel_touches_ground":
+        return SignalEvent("tyre_force", 0.0, direction=+1.0)
+    if name == "strut_fully_extended":
+        length = model.suspension.parameters()["strut_length_max"]
+        return SignalEvent("strut_length", length, direction=+1.0, terminal=True)
+    problem = f"event {name!r} is not known. {suggestion(name, NAMED)}"
+    raise InputError([problem], "events")
+
+
+def _checked(model: Model, event: SignalEvent) -> SignalEvent:
+    if event.signal not in model.signal_names:
+        known = suggestion(event.signal, model.signal_names)
+        raise InputError([f"signal {event.signal!r} is not known. {known}"], "events")
+    return event

@@ -1,0 +1,1 @@
+"""Integration in C by SUNDIALS; present only where that library was found at build time."""

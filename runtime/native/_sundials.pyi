@@ -1,0 +1,32 @@
+from collections.abc import Callable, Sequence
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array: TypeAlias = NDArray[np.float64]
+
+def version() -> str: ...
+def integrate(
+    addresses: tuple[int, int, int],
+    constants: Array,
+    inputs: Array,
+    splines: Sequence[tuple[Array, Array, tuple[int, int, int]]],
+    state: Array,
+    times: Array,
+    *,
+    method: str,
+    rtol: float,
+    atol: Array,
+    first_step: float,
+    max_step: float,
+    max_steps: int,
+    every_step: bool,
+    stop_at_outputs: bool,
+    dense: bool,
+    signal_count: int,
+    events: Sequence[tuple[int, float]],
+    roots: Sequence[Callable[[float, Array], float]],
+    directions: NDArray[np.int32],
+    terminal: NDArray[np.int32],
+) -> dict[str, Any]: ...

@@ -1,0 +1,113 @@
+/*
+ * Integrate a generated model with SUNDIALS, from the first step to the last without leaving C.
+ *
+ * One call is independent of all others: it owns its SUNDIALS context and its memory.
+ */
+#ifndef KINTRAFO_INTEGRATE_H
+#define KINTRAFO_INTEGRATE_H
+
+/* A function of a generated model; returns 0, or status bits. */
+typedef int (*kt_function)(const double *constants, const double *state, const double *inputs,
+                           double *out);
+
+/* A root function given by the caller; returns 0, or non-zero to give up. */
+typedef int (*kt_root)(double time, const double *state, double *out, void *data);
+
+/* A time-varying input: a cubic spline, and which inputs get its value and derivatives. */
+typedef struct {
+    int pieces;
+    const double *breaks;       /* pieces + 1 times, increasing */
+    const double *coefficients; /* 4 x pieces, row-major, highest power first, from the left break */
+    int target[3];              /* input for the value and two derivatives; -1: none */
+} kt_spline;
+
+/* A zero crossing of a signal of the model. */
+typedef struct {
+    int signal;
+    double level;
+} kt_event;
+
+typedef struct {
+    kt_function rhs;
+    kt_function jacobian; /* row-major */
+    kt_function signals;
+    int state_count, input_count, signal_count;
+    const double *constants;
+    const double *inputs; /* values of those that do not vary */
+    int spline_count;
+    const kt_spline *splines;
+    int event_count; /* of the model's signals; they come before the caller's */
+    const kt_event *events;
+    int root_count; /* of the caller */
+    kt_root roots;
+    void *root_data;
+    const int *directions; /* of all events: -1 falling, +1 rising, 0 both */
+    const int *terminal;   /* of all events: 0 never, n stops at the n-th crossing */
+} kt_problem;
+
+enum kt_method { KT_BDF, KT_ADAMS, KT_RUNGE_KUTTA };
+
+typedef struct {
+    int method;
+    const char *table; /* Butcher table of a Runge-Kutta method */
+    double rtol;
+    const double *atol;
+    double first_step; /* 0: chosen by the solver */
+    double max_step;   /* 0: unlimited */
+    long max_steps;
+    int stop_at_outputs; /* step onto every output instead of interpolating */
+    int dense;           /* keep the polynomial of every step */
+} kt_options;
+
+typedef struct {
+    long steps, evaluations, jacobians, factorisations, error_test_failures, order;
+} kt_statistics;
+
+/* A growing table of doubles. */
+typedef struct {
+    double *data;
+    long rows, capacity;
+    int width;
+} kt_table;
+
+enum kt_outcome {
+    KT_DONE,
+    KT_EVENT,           /* a terminal event */
+    KT_STATE,           /* the model refused a state: see refused_* */
+    KT_TOO_MANY_STEPS,
+    KT_TOO_ACCURATE,    /* the tolerances are below what the arithmetic can do */
+    KT_CALLER,          /* a root function gave up */
+    KT_BAD_TABLE,       /* the installed SUNDIALS has no such Runge-Kutta table */
+    KT_MEMORY,
+    KT_FAILED           /* anything else: see code */
+};
+
+typedef struct {
+    kt_table output;   /* time, state: at the output times, or of every step */
+    kt_table events;   /* index, time, state */
+    kt_table dense;    /* first time, last time, order, derivatives 0 .. 12 of the state at the end */
+    kt_statistics statistics;
+    double time;       /* reached */
+    double *state;     /* there */
+    int refused_status;
+    double refused_time;
+    double *refused_state;
+    int code;          /* return code of SUNDIALS */
+} kt_result;
+
+enum { KT_MAX_ORDER = 12 };
+
+/*
+ * Integrate from times[0] to times[count - 1]. With `every_step`, the output is every internal step
+ * and only the first and last time matter; else it is exactly at the times.
+ * The result must be freed with kt_free, whatever the outcome.
+ */
+int kt_integrate(const kt_problem *problem, const kt_options *options, const double *state,
+                 const double *times, long count, int every_step, kt_result *result);
+
+void kt_free(kt_result *result);
+
+/* Version of the SUNDIALS library. */
+const char *kt_version(void);
+
+#endif

@@ -1,0 +1,320 @@
+"""The two solvers behind `simulate`: SUNDIALS in C, and SciPy.
+
+Both integrate one segment of time, in which the inputs are smooth, and return the same `Piece`.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import partial
+from math import factorial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+
+from .events import Events
+from .generated.macpherson import ModelError
+from .model import Model
+from .signals import Segment, TimeInputs
+
+try:
+    from .native import _sundials
+except ImportError:  # SUNDIALS was not there when the project was built
+    _sundials = None  # type: ignore[assignment]
+
+Array = NDArray[np.float64]
+
+# Method name to what it is called in SUNDIALS: a multistep family, or a Butcher table.
+SUNDIALS_METHODS = {
+    "BDF": "BDF",
+    "Adams": "Adams",
+    "Verner": "ARKODE_VERNER_8_5_6",
+    "DormandPrince": "ARKODE_DORMAND_PRINCE_7_4_5",
+    "Tsitouras": "ARKODE_TSITOURAS_7_4_5",
+}
+_FIRST_WITH_TSITOURAS = (7, 3)
+# What stands in for them without SUNDIALS; those without an equivalent need it.
+SCIPY_METHODS = {
+    "BDF": "BDF",
+    "DormandPrince": "RK45",
+    "Radau": "Radau",
+    "LSODA": "LSODA",
+    "RK45": "RK45",
+    "DOP853": "DOP853",
+}
+_IMPLICIT = ("BDF", "Radau", "LSODA")
+
+
+@dataclass(frozen=True)
+class Options:
+    """How to integrate; the names are those of SciPy."""
+
+    method: str
+    rtol: float
+    atol: Array
+    max_step: float
+    first_step: float | None
+    max_steps: int
+    dense_output: bool
+    stop_at_outputs: bool
+
+
+@dataclass
+class Piece:
+    """The integration of one segment.
+
+    Attributes
+    ----------
+    t, y
+        Output times, and states with one row each.
+    events
+        (index of the event, time, state), in the order of time.
+    outcome
+        'done', 'event', or what went wrong.
+    counts
+        Statistics by name.
+    interpolants
+        (first time, last time, function of time) of every step, if wanted.
+    refused_time, refused_state
+        Where the model refused a state.
+    """
+
+    t: Array
+    y: Array
+    outcome: str
+    counts: dict[str, int]
+    events: list[tuple[int, float, Array]] = field(default_factory=list)
+    interpolants: list[tuple[float, float, Callable[[Array], Array]]] = field(default_factory=list)
+    refused_time: float = 0.0
+    refused_state: Array | None = None
+    detail: str = ""
+
+
+def native_available() -> bool:
+    """Tell whether SUNDIALS is linked."""
+    return _sundials is not None
+
+
+def native_version() -> str:
+    """Return the version of SUNDIALS, or 'none'."""
+    return _sundials.version() if native_available() else "none"
+
+
+def native_methods() -> tuple[str, ...]:
+    """Return the methods that the linked SUNDIALS has."""
+    if not native_available():
+        return ()
+    release = tuple(int(part) for part in native_version().split(".")[:2])
+    return tuple(
+        m for m in SUNDIALS_METHODS if m != "Tsitouras" or release >= _FIRST_WITH_TSITOURAS
+    )
+
+
+# -- SUNDIALS -----------------------------------------------------------------------------------
+
+
+def solve_native(
+    model: Model,
+    inputs: TimeInputs,
+    segment: Segment,
+    state: Array,
+    times: Array,
+    *,
+    every_step: bool,
+    options: Options,
+    events: Events,
+) -> Piece:
+    """Integrate a segment in C, from the first step to the last."""
+    equations = model.equations
+    variant = "_rack_held" if inputs.rack_held else ""
+    names = (f"rhs{variant}", f"rhs_jacobian{variant}", "signals")
+    signal_index = {name: i for i, name in enumerate(model.signal_names)}
+    raw = _sundials.integrate(
+        tuple(equations.ADDRESSES[name] for name in names),
+        model.constants,
+        inputs.constant,
+        [_contiguous(spline.curve, spline.targets) for spline in segment.splines],
+        np.ascontiguousarray(state),
+        np.ascontiguousarray(times),
+        method=SUNDIALS_METHODS[options.method],
+        rtol=options.rtol,
+        atol=options.atol,
+        first_step=options.first_step or 0.0,
+        max_step=0.0 if np.isinf(options.max_step) else options.max_step,
+        max_steps=options.max_steps,
+        every_step=every_step,
+        stop_at_outputs=options.stop_at_outputs,
+        dense=options.dense_output,
+        signal_count=len(signal_index),
+        events=[(signal_index[e.signal], e.level) for e in events.signal],
+        roots=events.functions,
+        directions=np.array([*events.directions, 0], dtype=np.int32),
+        terminal=np.array([*events.terminal, 0], dtype=np.int32),
+    )
+    counts = ("nfev", "njev", "nlu", "steps", "error_test_failures", "order")
+    output = raw["output"] if len(raw["output"]) else np.array([[segment.start, *state]])
+    return Piece(
+        t=output[:, 0],
+        y=output[:, 1:],
+        outcome=raw["outcome"],
+        counts={name: raw[name] for name in counts},
+        events=[(int(row[0]), float(row[1]), row[2:]) for row in raw["events"]],
+        interpolants=[_taylor(row, state.size) for row in raw["dense"]],
+        refused_time=raw["refused_time"],
+        refused_state=np.array(raw["refused_state"]),
+        detail=f"SUNDIALS {native_version()} returned {raw['code']}",
+    )
+
+
+def _contiguous(curve: Any, targets: tuple[int, int, int]) -> tuple[Array, Array, Any]:
+    return np.ascontiguousarray(curve.x), np.ascontiguousarray(curve.c), targets
+
+
+def _taylor(row: Array, size: int) -> tuple[float, float, Callable[[Array], Array]]:
+    """Return the polynomial of a step from its derivatives at the end of the step."""
+    start, end, order = float(row[0]), float(row[1]), int(row[2])
+    terms = row[3:].reshape(-1, size)[: order + 1]
+    terms = terms / np.array([factorial(k) for k in range(order + 1)])[:, None]
+
+    def polynomial(times: Array) -> Array:
+        powers = (times[:, None] - end) ** np.arange(order + 1)
+        values: Array = powers @ terms
+        return values
+
+    return start, end, polynomial
+
+
+# -- SciPy --------------------------------------------------------------------------------------
+
+
+class _TooManySteps(Exception):  # noqa: N818 (never leaves this module)
+    pass
+
+
+class _RightHandSide:
+    """The compiled functions as SciPy calls them."""
+
+    def __init__(
+        self, model: Model, inputs: TimeInputs, segment: Segment, max_evaluations: float
+    ) -> None:
+        variant = "_rack_held" if inputs.rack_held else ""
+        self._function = getattr(model.equations, f"rhs{variant}")
+        self._derivative = getattr(model.equations, f"rhs_jacobian{variant}")
+        self._model, self._inputs, self._segment = model, inputs, segment
+        self._left = max_evaluations
+        self.time, self.state = segment.start, model.design_state
+
+    def __call__(self, time: float, state: Array) -> Array:
+        self.time, self.state = time, state.copy()
+        self._left -= 1
+        if self._left < 0:
+            raise _TooManySteps
+        given = self._inputs.at(time, self._segment)
+        result: Array = self._function(state, given, self._model.constants)
+        return result
+
+    def jacobian(self, time: float, state: Array) -> Array:
+        """Return the exact derivative with respect to the state."""
+        self.time, self.state = time, state.copy()
+        given = self._inputs.at(time, self._segment)
+        result: Array = self._derivative(state, given, self._model.constants)
+        return result
+
+    def event(self, signal: str, level: float) -> Callable[[float, Array], float]:
+        """Return a signal's distance from a level as a function of time and state."""
+
+        def distance(time: float, state: Array) -> float:
+            given = self._inputs.at(time, self._segment)
+            return float(self._model.signal(signal, state, given)) - level
+
+        return distance
+
+
+def solve_scipy(
+    model: Model,
+    inputs: TimeInputs,
+    segment: Segment,
+    state: Array,
+    times: Array,
+    *,
+    every_step: bool,
+    options: Options,
+    events: Events,
+) -> Piece:
+    """Integrate a segment with SciPy's ``solve_ivp``."""
+    # an explicit method evaluates at most twelve times a step, an implicit one fewer
+    function = _RightHandSide(model, inputs, segment, 12.0 * options.max_steps)
+    method: Any = SCIPY_METHODS[options.method]
+    extra: dict[str, Any] = {"jac": function.jacobian} if method in _IMPLICIT else {}
+    try:
+        result = solve_ivp(
+            function,
+            (segment.start, segment.end),
+            state,
+            method,
+            t_eval=None if every_step else times,
+            rtol=options.rtol,
+            atol=options.atol,
+            max_step=options.max_step,
+            first_step=options.first_step,
+            dense_output=options.dense_output,
+            events=_scipy_events(function, events),
+            **extra,
+        )
+    except (ModelError, _TooManySteps) as error:
+        outcome = "state" if isinstance(error, ModelError) else "too_many_steps"
+        return Piece(
+            t=np.array([segment.start]),
+            y=state[None, :],
+            outcome=outcome,
+            counts={},
+            refused_time=function.time,
+            refused_state=function.state,
+        )
+    return _piece_of(result, events, options)
+
+
+def _scipy_events(function: _RightHandSide, events: Events) -> list[Any]:
+    made: list[Any] = []
+    for index, direction in enumerate(events.directions):
+        if index < len(events.signal):
+            event = events.signal[index]
+            made.append(function.event(event.signal, event.level))
+        else:
+            # a copy, since SciPy reads direction and terminal as attributes of the function
+            made.append(partial(events.functions[index - len(events.signal)]))
+        made[-1].direction = direction
+        made[-1].terminal = events.terminal[index]
+    return made
+
+
+def _piece_of(result: Any, events: Events, options: Options) -> Piece:
+    outcomes = {0: "done", 1: "event", -1: "failed"}
+    crossings = [
+        (index, float(time), state)
+        for index in range(len(events))
+        for time, state in zip(result.t_events[index], result.y_events[index], strict=True)
+    ]
+    counts = {name: int(result[name]) for name in ("nfev", "njev", "nlu")}
+    interpolants = []
+    if options.dense_output:
+        interpolants = [
+            (float(a), float(b), _scipy_polynomial(part))
+            for a, b, part in zip(
+                result.sol.ts[:-1], result.sol.ts[1:], result.sol.interpolants, strict=True
+            )
+        ]
+    return Piece(
+        t=result.t,
+        y=result.y.T,
+        outcome=outcomes[result.status],
+        counts=counts,
+        events=sorted(crossings, key=lambda c: c[1]),
+        interpolants=interpolants,
+        detail=str(result.message),
+    )
+
+
+def _scipy_polynomial(part: Callable[[Array], Array]) -> Callable[[Array], Array]:
+    return lambda times: part(times).T
