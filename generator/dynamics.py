@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from .forces import JointForce, LinearTyre, TelescopeSpring, Weight
+from .forces import JointForce, LinearTyre, LineSpring, TelescopeSpring, Weight
 from .geometry import UP
 from .placement import Placed, to_axes
 from .vectors import SymmetricTensor, Twist, Vector
@@ -272,6 +272,8 @@ class Dynamics:
                 self._add_weight(force)
             elif isinstance(force, TelescopeSpring):
                 self._add_telescope_spring(force)
+            elif isinstance(force, LineSpring):
+                self._add_line_spring(force)
             elif isinstance(force, LinearTyre):
                 self._add_tyre(force)
             elif isinstance(force, JointForce):
@@ -290,11 +292,7 @@ class Dynamics:
 
     def _add_telescope_spring(self, force: TelescopeSpring) -> None:
         program, line = self.program, self.kin.telescopes[force.joint]
-        joint = self.kin.mechanism.joint(force.joint)
-        slide = program.define(
-            f"slide_{force.joint}",
-            sp.Symbol(joint.length_at_zero_slide) - line.length,  # type: ignore[attr-defined]
-        )
+        slide = self.kin.slides[force.joint]
         rates = [m * self.kin.true_rate(k) for k, m in line.length_motion.items()]
         length_rate = program.define(f"length_rate_{force.joint}", sum(rates, NONE))
         spring = program.define(
@@ -308,11 +306,35 @@ class Dynamics:
             if k in line.length_motion:
                 self._force[k] += total * line.length_motion[k]
 
+    def _add_line_spring(self, force: LineSpring) -> None:
+        program, name = self.program, force.name
+        ends = [self.kin.point_motion(body, point) for body, point in (force.first, force.second)]
+        relative = ends[1].minus(ends[0])
+        span = program.vector(f"{name}_span", relative.position)
+        squared = program.guarded(
+            f"{name}_length_squared", span.dot(span), f"the ends of {name} coincide"
+        )
+        length = program.define(f"{name}_length", sp.sqrt(squared))
+        direction = program.vector(f"{name}_direction", span * (1 / length))
+        motion = {
+            k: program.define(f"d_{name}_length_{k}", direction.dot(v))
+            for k, v in relative.motion.items()
+        }
+        rates = [m * self.kin.true_rate(k) for k, m in motion.items()]
+        rate = program.define(f"{name}_length_rate", sum(rates, NONE))
+        spring = program.define(
+            f"{name}_spring_force", sp.Symbol(force.rate) * (sp.Symbol(force.free_length) - length)
+        )
+        damper = program.define(f"{name}_damper_force", -sp.Symbol(force.damper) * rate)
+        for k in self.names:
+            if k in motion:
+                self._force[k] += (spring + damper) * motion[k]
+
     def _add_tyre(self, force: LinearTyre) -> None:
         program, carrier = self.program, self.kin.placed[force.carrier]
         center = self.kin.local(carrier, force.center)
         up = self.up_in(carrier)
-        axis = self.kin.local_direction(carrier, force.axis.towards)  # type: ignore[arg-type]
+        axis = self.kin.local_direction(carrier, force.spin)
         lean = program.define("wheel_axis_up", axis.dot(up))
         ground = self.kin.design_direction(UP)
         height_of_origin = carrier.origin.dot(ground) + self._origin_height()

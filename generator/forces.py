@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from .geometry import Line, Point
+    from .geometry import Direction, Point
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,19 +31,46 @@ class TelescopeSpring:
 
     Parameters
     ----------
+    name
+        Begins the name of the length signal.
     joint
-        Name of the cylindrical or prismatic joint.
+        Name of the cylindrical joint.
     rate, damper, free_slide
         Names of the parameters [N/m, N s/m, m].
     actuator
         Name of an input [N], or None.
     """
 
+    name: str
     joint: str
     rate: str
     damper: str
     free_slide: str
     actuator: str | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class LineSpring:
+    """Spring and damper between a point of one body and a point of another.
+
+    The force pushes the two points apart: ``rate (free_length - length) - damper d(length)/dt``.
+
+    Parameters
+    ----------
+    name
+        Begins the names of its signals.
+    first, second
+        Body and point at either end.
+    rate, damper, free_length
+        Names of the parameters [N/m, N s/m, m].
+    """
+
+    name: str
+    first: tuple[str, Point]
+    second: tuple[str, Point]
+    rate: str
+    damper: str
+    free_length: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,8 +84,10 @@ class LinearTyre:
     ----------
     carrier
         Body that carries the wheel's bearing.
-    axis
-        The spin axis, a line of the carrier through the wheel centre.
+    center
+        The wheel centre, where the force acts.
+    spin
+        Direction of the spin axis, fixed in the carrier.
     rate, free_height
         Names of the parameters [N/m, m].
     road
@@ -66,15 +95,11 @@ class LinearTyre:
     """
 
     carrier: str
-    axis: Line
+    center: Point
+    spin: Direction
     rate: str
     free_height: str
     road: str
-
-    @property
-    def center(self) -> Point:
-        """The wheel centre, where the force acts."""
-        return self.axis.through
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,4 +110,4 @@ class JointForce:
     input: str
 
 
-Force = Weight | TelescopeSpring | LinearTyre | JointForce
+Force = Weight | TelescopeSpring | LineSpring | LinearTyre | JointForce

@@ -61,6 +61,7 @@ class Kinematics:
         self.placed: dict[str, Placed] = {}
         self.on_line: dict[str, OnLine] = {}
         self.telescopes: dict[str, OnLine] = {}
+        self.slides: dict[str, sp.Expr] = {}
         self._points: dict[Point, PointMotion] = {}
         self._set_work_axes()
         self._run()
@@ -293,10 +294,7 @@ class Kinematics:
             origin=self.program.vector(
                 f"{child}_origin", parent.origin + from_axes(parent.axes, frame.origin)
             ),
-            axes=tuple(  # type: ignore[arg-type]
-                self.program.vector(f"{child}_{name}", axis)
-                for name, axis in zip(("axis", "side", "top"), axes, strict=True)
-            ),
+            axes=self.program.axes((f"{child}_axis", f"{child}_side", f"{child}_top"), axes),
             design_origin=frame.design_origin,
             design_axes=frame.design_axes,
             local=frame.local,
@@ -350,16 +348,17 @@ class Kinematics:
             z_child,
         )
         start = (axis, self.program.vector(f"{child}_side_zero", z_parent.cross(axis)), z_parent)
-        parent_axes = tuple(
-            self.program.vector(f"{child}_{name}_on_parent", to_axes(parent.design_axes, v), "123")
-            for name, v in zip(("axis", "side", "top"), start, strict=True)
+        parent_axes = self.program.axes(
+            (f"{child}_axis_on_parent", f"{child}_side_on_parent", f"{child}_top_on_parent"),
+            (to_axes(parent.design_axes, v) for v in start),
+            "123",
         )
         on_parent = self.program.vector(
             f"{child}_origin_on_parent",
             to_axes(parent.design_axes, origin - parent.design_origin),
             "123",
         )
-        return _HingeFrame(parent_axes, on_parent, origin, design_axes, local)  # type: ignore[arg-type]
+        return _HingeFrame(parent_axes, on_parent, origin, design_axes, local)
 
     def _place_prismatic(self, joint: Prismatic, parent_name: str, child: str) -> None:
         parent = self.placed[parent_name]

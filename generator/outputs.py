@@ -10,7 +10,6 @@ import sympy as sp
 from .arithmetic import SignOf
 from .dynamics import Dynamics
 from .forces import JointForce, LinearTyre, TelescopeSpring
-from .geometry import Direction
 from .kinematics import Kinematics
 from .placement import IDENTITY, Placed, from_axes
 from .program import ConstantStage, Function, Guard, Program
@@ -407,9 +406,7 @@ class _Builder:
     def _add_wheel_angles(
         self, tyre: LinearTyre, carrier: Placed, results: dict[str, sp.Expr]
     ) -> None:
-        towards = tyre.axis.towards
-        assert isinstance(towards, Direction)
-        axis = from_axes(carrier.axes, self.kin.local_direction(carrier, towards))
+        axis = from_axes(carrier.axes, self.kin.local_direction(carrier, tyre.spin))
         a = self.program.vector("spin_axis_now", self.kin.to_chassis(axis))
         side = self.program.define("wheel_side", SignOf(tyre.center.position.y))
         self._signal(
@@ -426,7 +423,9 @@ class _Builder:
 
     def _add_telescope_signals(self, spring: TelescopeSpring, results: dict[str, sp.Expr]) -> None:
         line = self.kin.telescopes[spring.joint]
-        self._signal(results, "strut_length", line.length, "m", "length of the telescope")
+        self._signal(
+            results, f"{spring.name}_length", line.length, "m", f"length of the {spring.name}"
+        )
         self._signal(
             results,
             "spring_force",

@@ -203,6 +203,13 @@ class Program:
             *(self.define(f"{name}_{s}", c) for s, c in zip(suffixes, vector, strict=True))
         )
 
+    def axes(
+        self, names: tuple[str, str, str], vectors: Iterable[Vector], suffixes: str = "xyz"
+    ) -> tuple[Vector, Vector, Vector]:
+        """Append a step for each component of three vectors."""
+        x, y, z = (self.vector(n, v, suffixes) for n, v in zip(names, vectors, strict=True))
+        return x, y, z
+
     def guarded(self, name: str, expression: Any, meaning: str) -> sp.Expr:
         """Append a step whose value must be positive, and return its guarded form.
 

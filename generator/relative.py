@@ -16,7 +16,7 @@ import sympy as sp
 
 from .geometry import Point
 from .joints import Cylindrical, Joint, Prismatic, Revolute, Universal
-from .placement import IDENTITY, Placed, from_axes, to_axes
+from .placement import IDENTITY, Axes, Placed, from_axes, to_axes
 from .transformer import SolveTelescope, SolveTurn
 from .vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Vector
 
@@ -91,10 +91,7 @@ class RelativeCoordinates:
             shaft = self._shaft(joint)
             return shaft.elevation if coordinate.kind == "elevation" else shaft.azimuth
         if isinstance(joint, Cylindrical) and coordinate.kind == "slide":
-            line = self.kin.telescopes[joint.name]
-            return self.program.define(
-                f"slide_{joint.name}", sp.Symbol(joint.length_at_zero_slide) - line.length
-            )
+            return self.kin.slides[joint.name]
         assert isinstance(joint, Cylindrical)
         return self._telescope_angle(joint)
 
@@ -127,19 +124,22 @@ class RelativeCoordinates:
         """Return components along the chassis axes as the first body carries them with it."""
         if parent.axes is IDENTITY:
             return self.kin.to_chassis(work)
-        axes = tuple(self.kin.to_chassis(axis) for axis in parent.design_axes)
-        return from_axes(axes, to_axes(parent.axes, work))  # type: ignore[arg-type]
+        return from_axes(self._chassis_axes(parent), to_axes(parent.axes, work))
+
+    def _chassis_axes(self, placed: Placed) -> Axes:
+        """Return the body axes at the design position, in chassis axes."""
+        x, y, z = (self.kin.to_chassis(axis) for axis in placed.design_axes)
+        return x, y, z
 
     def _from_first_body(self, parent: Placed, name: str, v: Vector) -> Vector:
         if parent.axes is not IDENTITY:
-            axes = tuple(self.kin.to_chassis(axis) for axis in parent.design_axes)
-            v = from_axes(parent.axes, to_axes(axes, v))  # type: ignore[arg-type]
+            v = from_axes(parent.axes, to_axes(self._chassis_axes(parent), v))
             return self.program.vector(name, v)
         return self.program.vector(name, self.kin.to_work(v))
 
     def _telescope_angle(self, joint: Cylindrical) -> sp.Expr:
         """Rotation of the second body about the axis, from the z' axis of the shaft."""
-        shaft = self._shaft(self._holder(joint))
+        shaft = self._shaft(self.holder(joint))
         placed = self.kin.placed[joint.second]
         marker = self.program.vector(
             f"marker_{joint.name}", from_axes(placed.axes, self.kin.local(placed, joint.angle_to))
@@ -148,7 +148,7 @@ class RelativeCoordinates:
             f"angle_{joint.name}", sp.atan2(-marker.dot(shaft.x), marker.dot(shaft.z))
         )
 
-    def _holder(self, joint: Cylindrical) -> Universal:
+    def holder(self, joint: Cylindrical) -> Universal:
         """Return the universal joint that carries the first body of a telescope."""
         center = joint.axis.towards
         universal = (
@@ -193,7 +193,7 @@ class RelativeCoordinates:
         """Return the screws from the ground to a body, along joints with reported coordinates."""
         graph = nx.DiGraph()
         for joint in self.mechanism.joints:
-            if all(self._reported(joint.name, c) for c in joint.coordinates):
+            if all(self.reported(joint.name, c) for c in joint.coordinates):
                 graph.add_edge(joint.first, joint.second, joint=joint)
         path = nx.shortest_path(graph, self.mechanism.ground, body)
         joints = [graph.edges[a, b]["joint"] for a, b in itertools.pairwise(path)]
@@ -202,12 +202,13 @@ class RelativeCoordinates:
             screws = [self._on_cross(body, screw) for screw in screws]
         return screws
 
-    def _reported(self, joint: str, kind: str) -> str | None:
+    def reported(self, joint: str, kind: str) -> str | None:
+        """Return the first name under which a joint's coordinate is reported."""
         names = [c.name for c in self.mechanism.coordinates if (c.joint, c.kind) == (joint, kind)]
         return names[0] if names else None
 
     def _screws(self, joint: Joint) -> list[_Screw]:
-        names = {c: self._reported(joint.name, c) or "" for c in joint.coordinates}
+        names = {c: self.reported(joint.name, c) or "" for c in joint.coordinates}
         if isinstance(joint, Revolute):
             child = self.kin.placed[joint.second]
             return [_Screw(names["angle"], child.axes[0], child.origin, ZERO)]
@@ -265,7 +266,7 @@ class _Closure:
 
     def residual(self, coordinate: RelativeCoordinate) -> sp.Expr:
         """Return what the given coordinate leaves of its own equation."""
-        first = self.relative._reported(coordinate.joint, coordinate.kind)  # noqa: SLF001
+        first = self.relative.reported(coordinate.joint, coordinate.kind)
         given = self._given(coordinate.name)
         if first is not None and first != coordinate.name:
             return given - self._given(first)
@@ -345,7 +346,7 @@ class _Closure:
             if isinstance(a, SolveTelescope) and a.end_link == turn.body
         )
         joint = telescope.joint
-        holder = self.relative._holder(joint)  # noqa: SLF001
+        holder = self.relative.holder(joint)
         placed = self.kin.placed[turn.body]
         length = sp.Symbol(joint.length_at_zero_slide) - self._last(joint.name, "slide")
         end = self._in_marker_axes(placed, turn.end, joint.angle_to)

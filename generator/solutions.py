@@ -56,6 +56,9 @@ def solve_telescope(kin: Kinematics, action: SolveTelescope) -> None:
     kin.on_line[action.anchor_link] = record
     kin.on_line[action.end_link] = record
     kin.telescopes[name] = record
+    kin.slides[name] = kin.program.define(
+        f"slide_{name}", sp.Symbol(action.joint.length_at_zero_slide) - length
+    )
 
 
 def _line(

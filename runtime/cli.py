@@ -71,8 +71,8 @@ def summary(model: Model, rest: paper.Rest, dynamics: paper.Dynamics) -> Table:
         f"{rest.damping_ratio:.3f}: not stiff",
         "integration of 1 s": f"Gear's method (BDF of {result.solver}), {result.nfev} evaluations, "
         f"{result.njev} Jacobians, {result.nlu} factorisations, output every 0.1 ms",
-        "time taken": f"{dynamics.seconds * 1e3:.1f} ms, signals included; the paper, on a 233 MHz Pentium: "
-        f"{paper.PAPER_GEAR_S:.0f} s with Gear's method, more than "
+        "time taken": f"{dynamics.seconds * 1e3:.1f} ms, signals included; the paper, on a 233 MHz "
+        f"Pentium: {paper.PAPER_GEAR_S:.0f} s with Gear's method, more than "
         f"{paper.PAPER_RUNGE_KUTTA_S / 60:.0f} min with Runge-Kutta",
     }
     table = Table(title=f"{model.suspension.vehicle.side} MacPherson suspension", show_header=False)

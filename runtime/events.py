@@ -89,7 +89,8 @@ def events_of(model: Model, given: Event | Sequence[Event] | None) -> Events:
     Events
     """
     single = given is None or callable(given) or isinstance(given, str | SignalEvent)
-    listed: list[Any] = ([] if given is None else [given]) if single else list(given)  # type: ignore[arg-type]
+    listed: list[Any] = list(given) if isinstance(given, Sequence) and not single else [given]
+    listed = [event for event in listed if event is not None]
     signal: list[tuple[int, SignalEvent]] = []
     functions: list[tuple[int, EventFunction]] = []
     for index, event in enumerate(listed):

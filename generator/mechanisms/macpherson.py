@@ -107,6 +107,7 @@ TIE_ROD_COORDINATES = (
 FORCES = (
     Weight(gravity="gravity"),
     TelescopeSpring(
+        name="strut",
         joint="BC",
         rate="spring_rate",
         damper="damper_rate",
@@ -115,7 +116,8 @@ FORCES = (
     ),
     LinearTyre(
         carrier="knuckle",
-        axis=Line(G, SPIN),
+        center=G,
+        spin=SPIN,
         rate="tyre_rate",
         free_height="tyre_free_height",
         road="road_height",

@@ -1,0 +1,72 @@
+"""Force elements that can stand in for one another give the same equations."""
+
+import dataclasses
+
+import mpmath
+import numpy as np
+import pytest
+from kintrafo.generator.dynamics import Dynamics
+from kintrafo.generator.forces import LineSpring, TelescopeSpring
+from kintrafo.generator.kinematics import Kinematics
+from kintrafo.generator.mechanism import Parameter
+from kintrafo.generator.mechanisms import macpherson
+from kintrafo.generator.program import ConstantStage, Program
+from kintrafo.generator.transformer import Plan
+from oracle.reference import perturbed_parameters
+from symbolic import python
+from sympy import Symbol
+
+STATE = {"beta1": 1.5, "beta5": 0.3, "beta1_rate": 2.0, "beta5_rate": 90.0}
+INPUTS = {
+    "rack_position": 0.01,
+    "rack_velocity": 0.2,
+    "rack_acceleration": -1.0,
+    "strut_force": 0.0,
+    "road_height": 0.005,
+}
+
+
+def accelerations(model, parameters):
+    """Derive a model and evaluate its accelerations with mpmath."""
+    symbols = tuple(Symbol(p.name) for p in model.mechanism.parameters)
+    constants = ConstantStage(symbols)
+    program = Program(constants)
+    dynamics = Dynamics(Kinematics(program, Plan.of(model)))
+    function = program.function("rhs", "", dict(dynamics.accelerations))
+    prepare = constants.function([function])
+    given = {name: mpmath.mpf(value) for name, value in parameters.items()}
+    values = dict(zip(prepare.labels, python(prepare)(given), strict=True))
+    moving = {name: mpmath.mpf(value) for name, value in (STATE | INPUTS).items()}
+    return [float(a) for a in python(function)(values | moving)]
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_line_spring_along_the_strut_is_the_telescope_spring(seed):
+    (model, _) = macpherson.MODELS
+    parameters = perturbed_parameters(np.random.default_rng(seed))
+    line = LineSpring(
+        name="coil",
+        first=("chassis", macpherson.C),
+        second=("control_arm", macpherson.B),
+        rate="spring_rate",
+        damper="damper_rate",
+        free_length="coil_free_length",
+    )
+    forces = tuple(
+        line if isinstance(force, TelescopeSpring) else force for force in model.mechanism.forces
+    )
+    mechanism = dataclasses.replace(
+        model.mechanism,
+        forces=forces,
+        parameters=(
+            *model.mechanism.parameters,
+            Parameter("coil_free_length", 0.8, "m", "length at which the spring is free"),
+        ),
+    )
+    free_length = parameters["strut_length_max"] - parameters["spring_free_slide"]
+    by_line = accelerations(
+        dataclasses.replace(model, mechanism=mechanism),
+        parameters | {"coil_free_length": free_length},
+    )
+    # both are evaluated with 15 digits of mpmath; the forces are large differences of lengths
+    assert by_line == pytest.approx(accelerations(model, parameters), rel=1e-11)
