@@ -14,8 +14,6 @@ from ._native import call_margins, call_prepare, call_residuals
 Array = NDArray[np.float64]
 Described = Mapping[str, Mapping[str, Any]]
 
-NOT_FINITE = 1 << 30
-
 
 class ModelError(ValueError):
     """A generated function cannot give a result."""
@@ -161,13 +159,18 @@ class CompiledModel:
         where = f"{self.name}.{function}"
         names = (*self.state_names, *self.input_names)
         coordinates = dict(zip(names, map(float, (*state, *inputs)), strict=True))
-        if status & NOT_FINITE:
-            bad = [n for n, v in coordinates.items() if not np.isfinite(v)]
+        bad = [n for n, v in coordinates.items() if not np.isfinite(v)]
+        bad += [n for n, v in zip(self.constant_names, constants, strict=True) if not np.isfinite(v)]
+        if bad:
             message = f"{where}: NaN or infinite: {', '.join(bad)}{_place(index)}"
             raise ModelError(message)
         margins = np.empty(len(self.guards))
         call_margins(self.addresses["margins"], constants, state, inputs, margins)
         hit = [bit for bit in range(len(self.guards)) if status >> bit & 1]
+        if not hit:
+            shown = ", ".join(f"{name} = {value:.6g}" for name, value in coordinates.items())
+            message = f"{where}: the result overflows double precision, at {shown}{_place(index)}"
+            raise ModelError(message)
         raise ClosureError(
             where,
             [self.guards[bit][1] for bit in hit],
@@ -206,6 +209,10 @@ class Residuals:
             model.widths[0],
             "constants",
         )
+        bad = [n for n, v in zip(model.relative_names, beta, strict=True) if not np.isfinite(v)]
+        if bad:
+            message = f"{model.name}.residuals: NaN or infinite: {', '.join(bad)}"
+            raise ModelError(message)
         out = np.empty(width)
         status = call_residuals(model.addresses["residuals"], c, y, u, beta, out)
         if status:

@@ -95,7 +95,7 @@ def write(expression: sp.Expr, dialect: Dialect = C) -> Written:
     """Write an expression and count its operations."""
     if expression.is_Symbol:
         return Written(expression.name, _ATOM, Counter())
-    if expression.is_Number:
+    if expression.is_Number or expression is sp.pi:
         return _write_number(expression)
     if expression.is_Add:
         return _write_sum(expression, dialect)

@@ -339,12 +339,13 @@ class Dynamics:
         ground = self.kin.design_direction(UP)
         height_of_origin = carrier.origin.dot(ground) + self._origin_height()
         height = program.define("wheel_height", height_of_origin + center.dot(up))
+        pull = program.vector("tyre_pull", up - axis * lean, "123")
+        # not 1 - lean^2: of a wheel that lies flat, rounding would leave something positive
         squared = program.guarded(
-            "cos_camber_squared", 1 - lean * lean, "the wheel lies flat on the road"
+            "cos_camber_squared", pull.dot(pull), "the wheel lies flat on the road"
         )
         deflection = sp.Symbol(force.free_height) + sp.Symbol(force.road) - height
         load = program.define("tyre_load", sp.Symbol(force.rate) * deflection / squared)
-        pull = program.vector("tyre_pull", up - axis * lean, "123")
         for k in self.names:
             if k in carrier.motion:
                 velocity = self.wheel_velocity(carrier, center, k)

@@ -190,7 +190,7 @@ class Program:
         if -expression in self._known:
             return -self._known[-expression]
         symbol = sp.Symbol(name)
-        if symbol in self.steps or symbol in self.constants.steps:
+        if symbol in self.steps or self.constants.contains(symbol):
             message = f"the name {name!r} is defined twice"
             raise ValueError(message)
         self.steps[symbol] = Step(symbol, expression, self._section)

@@ -5,6 +5,7 @@ after the paper: beta1 the arm angle, beta5 the spin angle, beta9 or an input th
 """
 
 from dataclasses import dataclass
+from types import ModuleType
 
 import numpy as np
 from kintrafo.generated import macpherson, macpherson_free_rack
@@ -35,15 +36,15 @@ class Instant:
     strut_force: float = 0.0
     rack_force: float = 0.0
 
-    def state(self, model) -> Array:
+    def state(self, model: ModuleType) -> Array:
         """Return the state array of a compiled model."""
         return np.array([self._named()[name] for name in model.STATE])
 
-    def inputs(self, model) -> Array:
+    def inputs(self, model: ModuleType) -> Array:
         """Return the input array of a compiled model."""
         return np.array([self._named()[name] for name in model.INPUTS])
 
-    def arrays(self, model) -> tuple[Array, Array]:
+    def arrays(self, model: ModuleType) -> tuple[Array, Array]:
         """Return state and inputs of a compiled model."""
         return self.state(model), self.inputs(model)
 
@@ -61,7 +62,7 @@ class Instant:
         """Solve the joints with the oracle."""
         return solve_pose(car, self.beta1, self.rack, self.spin, start)
 
-    def solution(self, model, car: Mechanism) -> Solution:
+    def solution(self, model: ModuleType, car: Mechanism) -> Solution:
         """Solve the dynamics of a model's kind with the oracle."""
         rates = self.beta1_rate, self.spin_rate, self.rack_rate
         inputs = {"road_height": self.road_height, "strut_force": self.strut_force}
@@ -70,6 +71,34 @@ class Instant:
             return solve_prescribed(car, self.pose(car), *rates, **inputs)
         inputs["rack_force"] = self.rack_force
         return solve_free(car, self.pose(car), *rates, **inputs)
+
+
+@dataclass(frozen=True)
+class At:
+    """A compiled model at a state, inputs and constants."""
+
+    model: ModuleType
+    instant: Instant
+    constants: Array
+
+    @property
+    def state(self) -> Array:
+        """State array."""
+        return self.instant.state(self.model)
+
+    @property
+    def inputs(self) -> Array:
+        """Input array."""
+        return self.instant.inputs(self.model)
+
+    @property
+    def size(self) -> int:
+        """Number of independent coordinates."""
+        return len(self.model.STATE) // 2
+
+    def __call__(self, function: str) -> Array:
+        """Evaluate a function of the model."""
+        return getattr(self.model, function)(self.state, self.inputs, self.constants)
 
 
 def random_instants(rng: np.random.Generator, car: Mechanism, count: int) -> list[Instant]:
@@ -98,7 +127,7 @@ def car_parameters(seed: int) -> Parameters:
     return perturbed_parameters(np.random.default_rng(seed))
 
 
-def counted_by(model, parameters: Parameters) -> Parameters:
+def counted_by(model: ModuleType, parameters: Parameters) -> Parameters:
     """Return the parameters of what a model describes: the prescribed one leaves masses out."""
     counted = dict(parameters)
     if model is macpherson:

@@ -1,5 +1,8 @@
 """Options and fixtures of all tests."""
 
+from collections.abc import Callable
+from functools import cache
+
 import pytest
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.outputs import GeneratedModel, generate
@@ -14,6 +17,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 @pytest.fixture(scope="session")
-def derived() -> dict[str, GeneratedModel]:
-    """Every model that comes with the project, derived anew, by name (a few seconds)."""
-    return {model.name: generate(model) for model in MODELS}
+def derived() -> Callable[[str], GeneratedModel]:
+    """Derive a model that comes with the project, by name; each takes a few seconds, once."""
+    models = {model.name: model for model in MODELS}
+    return cache(lambda name: generate(models[name]))

@@ -47,6 +47,18 @@ def mechanism_hash(model: GeneratedModel) -> str:
     return digest.hexdigest()[:16]
 
 
+NOT_FINITE = """\
+/* Whether any of some values is NaN or infinite. */
+static unsigned not_finite(const double *values, int count)
+{
+    unsigned found = 0;
+    for (int i = 0; i < count; ++i) {
+        found |= !isfinite(values[i]);
+    }
+    return found;
+}"""
+
+
 class CPrinter:
     """Prints the header and the source of one model."""
 
@@ -138,8 +150,8 @@ class CPrinter:
             name = self.enumerator("status", guard.name)
             lines.append(f"    {name} = 1 << {bit}, /* {guard.meaning} */")
         lines.append(
-            f"    {self.enumerator('status', 'not_finite')} = 1 << 30 /* a state or an input is "
-            "NaN or infinite */"
+            f"    {self.enumerator('status', 'not_finite')} = 1 << 30 /* a result is NaN or "
+            "infinite */"
         )
         return "\n".join([*lines, "};"])
 
@@ -183,6 +195,7 @@ class CPrinter:
                 "/* The smallest value that a guarded quantity is given; see the status bits. */\n"
                 f"#define GUARD_FLOOR {GUARD_FLOOR}"
             ),
+            NOT_FINITE,
             self._prepare_body(),
             *(self._body(f) for f in self.model.functions.values()),
         ]
@@ -239,7 +252,7 @@ class CPrinter:
         ):
             text = f"    out[{index}] = {write(result).text};"
             lines.append(f"{text:<70} /* {label} */")
-        lines += ["", *self._return(function, [*state, *inputs, *(f"given_{n}" for n in given)])]
+        lines += ["", *self._return(function)]
         return "\n".join([*lines, "}"])
 
     def _loads(self, kind: str, array: str, names: Iterable[str]) -> list[str]:
@@ -262,18 +275,18 @@ class CPrinter:
             )
         return lines
 
-    def _return(self, function: Function, read: Sequence[str]) -> list[str]:
-        """Collect the status: comparisons only, no branch."""
+    def _return(self, function: Function) -> list[str]:
+        """Collect the status: comparisons only, no branch.
+
+        A NaN or infinity that goes in comes out as one, or is caught by a guard.
+        """
         bits = [
             (f"!({g.quantity} > GUARD_FLOOR)", self.enumerator("status", g.name))
             for g in self.model.guards
             if g in function.guards
         ]
-        if read:
-            finite = self.enumerator("status", "not_finite")
-            bits += [(f"!isfinite({name})", finite) for name in read]
-        if not bits:
-            return ["    return 0;"]
+        finite = self.enumerator("status", "not_finite")
+        bits.append((f"not_finite(out, {len(function.results)})", finite))
         lines = [f"    unsigned status = {bits[0][0]} * {bits[0][1]};"]
         lines += [f"    status |= {test} * {bit};" for test, bit in bits[1:]]
         return [*lines, "    return (int)status;"]

@@ -1,0 +1,232 @@
+"""Expressions as text: what is written means the expression, and has the operations counted."""
+
+import ast
+from collections import Counter
+from typing import ClassVar
+
+import mpmath
+import pytest
+import sympy as sp
+from c_text import count, tokens
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from kintrafo.generator.arithmetic import NUMPY, Guarded, SignOf, write
+
+SYMBOLS = sp.symbols("x y z")
+VALUES = dict(zip(SYMBOLS, (1.37, -0.58, 2.91), strict=True))
+
+calm = settings(deadline=None, max_examples=150)
+
+
+def positive(expression: sp.Expr) -> sp.Expr:
+    """Return an expression that is positive whatever the symbols are."""
+    return 1 + expression**2
+
+
+def compound(parts: st.SearchStrategy[sp.Expr]) -> st.SearchStrategy[sp.Expr]:
+    """Return what the derivations build from smaller expressions."""
+    several = st.lists(parts, min_size=2, max_size=4)
+    pairs = st.tuples(parts, parts)
+    halves = st.sampled_from([sp.Rational(n, 2) for n in (-5, -3, -1, 1, 3)])
+    return st.one_of(
+        several.map(lambda terms: sp.Add(*terms)),
+        several.map(lambda factors: sp.Mul(*factors)),
+        parts.map(lambda part: -part),
+        pairs.map(lambda pair: pair[0] / positive(pair[1])),
+        st.tuples(parts, st.integers(2, 4)).map(lambda pair: pair[0] ** pair[1]),
+        st.tuples(parts, halves).map(lambda pair: positive(pair[0]) ** pair[1]),
+        parts.map(sp.sin),
+        parts.map(sp.cos),
+        pairs.map(lambda pair: sp.atan2(pair[0], positive(pair[1]))),
+        parts.map(lambda part: Guarded(positive(part))),
+        parts.map(lambda part: SignOf(positive(part))),
+    )
+
+
+numbers = st.one_of(
+    st.integers(-5, 5).map(sp.Integer),
+    st.sampled_from([sp.Rational(1, 2), sp.Rational(-3, 4), sp.Rational(1, 3)]),
+)
+
+
+KNOWN = (sp.sin, sp.cos, sp.atan2, Guarded, SignOf)
+
+
+def is_written(expression: sp.Expr) -> bool:
+    """Tell whether the expression, as SymPy has simplified it, is one that derivations have.
+
+    SymPy turns angles between numbers into pi and arc tangents, and products into high powers.
+    """
+    powers = [power.exp for power in expression.atoms(sp.Pow)]
+    low = all(exponent.is_Rational and abs(exponent) < 5 for exponent in powers)
+    known = all(isinstance(call, KNOWN) for call in expression.atoms(sp.Function))
+    return low and known and not expression.has(sp.pi)
+
+
+expressions = st.recursive(
+    st.one_of(st.sampled_from(SYMBOLS), numbers), compound, max_leaves=8
+).filter(is_written)
+
+
+class _Exact(ast.NodeTransformer):
+    """Makes every number of a Python expression one of mpmath's."""
+
+    def visit_Constant(self, node: ast.Constant) -> ast.expr:
+        return ast.Call(ast.Name("mpf", ast.Load()), [node], [])
+
+
+class _Functions:
+    """What the written text calls ``np``, in mpmath's precision."""
+
+    sin, cos, arcsin, arctan2, sqrt = mpmath.sin, mpmath.cos, mpmath.asin, mpmath.atan2, mpmath.sqrt
+    fmax = staticmethod(max)
+
+    @staticmethod
+    def copysign(size: mpmath.mpf, sign: mpmath.mpf) -> mpmath.mpf:
+        return size if sign >= 0 else -size
+
+
+def evaluate(text: str) -> mpmath.mpf:
+    """Evaluate written text in mpmath's precision."""
+    tree = ast.fix_missing_locations(_Exact().visit(ast.parse(text, mode="eval")))
+    names = {symbol.name: mpmath.mpf(value) for symbol, value in VALUES.items()}
+    known = {"np": _Functions, "mpf": mpmath.mpf, "GUARD_FLOOR": 1e-24, **names}
+    return mpmath.mpf(eval(compile(tree, "text", "eval"), known))
+
+
+def meaning(expression: sp.Expr) -> sp.Expr:
+    """Return the expression with the project's two functions replaced by what they mean."""
+    return expression.replace(Guarded, lambda x: x).replace(SignOf, lambda _: sp.Integer(1))
+
+
+@given(expressions)
+@calm
+def test_text_means_the_expression(expression: sp.Expr) -> None:
+    plain = meaning(expression)
+    subs = {symbol: sp.Float(value, 60) for symbol, value in VALUES.items()}
+    sizes = [abs(part.evalf(20, subs=subs)) for part in sp.preorder_traversal(plain)]
+    with mpmath.workdps(50):
+        found = evaluate(write(expression, NUMPY).text)
+        exact = mpmath.mpf(str(plain.evalf(40, subs=subs)))
+        # Nothing is rounded but numbers, which are written with the digits of a double: a few
+        # roundings of 1e-16, times what the operations behind them make of those.
+        assert abs(found - exact) <= 1e-13 * mpmath.mpf(str(max([1, *sizes])))
+
+
+class _Counting(ast.NodeVisitor):
+    """Counts operations by the syntax tree, in the words of the project."""
+
+    kinds: ClassVar = {ast.Add: "add", ast.Sub: "add", ast.Mult: "multiply", ast.Div: "divide"}
+    calls: ClassVar = {
+        "sqrt": "root",
+        "sin": "trigonometric",
+        "cos": "trigonometric",
+        "arcsin": "trigonometric",
+        "arctan2": "trigonometric",
+    }
+
+    def __init__(self) -> None:
+        self.total: Counter[str] = Counter()
+
+    @staticmethod
+    def is_number(node: ast.AST) -> bool:
+        signed = isinstance(node, ast.UnaryOp) and isinstance(node.operand, ast.Constant)
+        return signed or isinstance(node, ast.Constant)
+
+    def visit_alone(self, node: ast.AST) -> None:
+        """Count what is the whole of the text or of an argument: not the sign of a number."""
+        if not self.is_number(node):
+            self.visit(node)
+
+    def visit_Expression(self, node: ast.Expression) -> None:
+        self.visit_alone(node.body)
+
+    def visit_BinOp(self, node: ast.BinOp) -> None:
+        operands = node.left, node.right
+        if isinstance(node.op, ast.Div) and all(map(self.is_number, operands)):
+            return  # a fraction
+        self.total[self.kinds[type(node.op)]] += 1
+        self.generic_visit(node)
+
+    def visit_UnaryOp(self, node: ast.UnaryOp) -> None:
+        self.total["add"] += 1
+        self.generic_visit(node)
+
+    def visit_Call(self, node: ast.Call) -> None:
+        assert isinstance(node.func, ast.Attribute)
+        if node.func.attr in self.calls:
+            self.total[self.calls[node.func.attr]] += 1
+        for argument in node.args:
+            self.visit_alone(argument)
+
+
+def operations_by_ast(text: str) -> Counter[str]:
+    """Count the operations of Python text."""
+    counting = _Counting()
+    counting.visit(ast.parse(text, mode="eval"))
+    return counting.total
+
+
+@given(expressions)
+@calm
+def test_count_is_that_of_the_text(expression: sp.Expr) -> None:
+    written = write(expression, NUMPY)
+    assert +written.operations == operations_by_ast(written.text)
+
+
+@given(expressions)
+@calm
+def test_c_is_the_same_arithmetic(expression: sp.Expr) -> None:
+    """The dialects differ in the names of functions only, so what holds for one holds for C."""
+    in_c, in_numpy = write(expression), write(expression, NUMPY)
+    assert in_c.operations == in_numpy.operations
+    renamed = in_numpy.text.replace("np.arc", "a").replace("np.", "")
+    assert in_c.text == renamed
+
+
+x, y, z = SYMBOLS
+
+
+@pytest.mark.parametrize(
+    ("expression", "text"),
+    [
+        (x**2, "x*x"),
+        (x**3, "x*x*x"),
+        (sp.sqrt(x), "sqrt(x)"),
+        (x ** sp.Rational(3, 2), "x*sqrt(x)"),
+        (1 / x, "1.0/x"),
+        (1 / sp.sqrt(x), "1.0/sqrt(x)"),
+        (y / x**2, "y/(x*x)"),
+        (y - x, "y - x"),
+        (-x - y, "-x - y"),
+        (-x * y, "-x*y"),
+        (x - (y + z) * 2, "x - 2.0*y - 2.0*z"),
+        (z * (x - y), "z*(x - y)"),
+        (sp.Rational(1, 3) * x, "(1.0/3.0)*x"),
+        (x / 2, "0.5*x"),
+        (Guarded(x), "fmax(x, GUARD_FLOOR)"),
+        (SignOf(x - y), "copysign(1.0, x - y)"),
+        (sp.atan2(y, x), "atan2(y, x)"),
+        (sp.asin(x), "asin(x)"),
+    ],
+    ids=str,
+)
+def test_written_examples(expression: sp.Expr, text: str) -> None:
+    written = write(expression)
+    assert written.text == text
+    assert count(tokens(f"out[0] = {text};")) == +written.operations
+
+
+@pytest.mark.parametrize("exponent", [5, sp.Rational(1, 3), y, -7], ids=str)
+def test_powers_without_products_are_refused(exponent: sp.Expr) -> None:
+    """There is no pow in the emitted code, and no long product in its place."""
+    with pytest.raises((ValueError, TypeError)):
+        write(x**exponent)
+
+
+def test_pi() -> None:
+    assert write(sp.pi * x).text == "3.14159265358979323846*x"
+
+
+def test_guard_is_differentiated_as_the_identity() -> None:
+    assert Guarded(x**2).diff(x) == 2 * x

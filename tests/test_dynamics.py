@@ -1,0 +1,201 @@
+"""Equations of motion against maximal coordinates with Lagrange multipliers.
+
+The oracle refines its solutions in extended precision, so that its accelerations are good to about
+1e-12; the closed form loses as much in differences of its terms. 1e-10 is asked for.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+from cases import MODELS, At, Instant, car_parameters, counted_by, random_instants
+from kintrafo.generated import macpherson
+from oracle.multipliers import ReducedEquations, Solution, reduced_equations
+from oracle.newton import Mechanism
+from oracle.reference import BETA1_DESIGN, EIGENVALUES_AT_REST, SPIN_RATE, set_inertia
+
+SEEDS = range(8)  # 0 is the reference car; the others have full tensors and general hardpoints
+POINTS = 4  # for each car
+
+
+@dataclass(frozen=True)
+class Compared(At):
+    """A model at an instant, and what the oracle says of it."""
+
+    solution: Solution
+    reduced: ReducedEquations
+
+
+@pytest.fixture(
+    scope="module",
+    params=[(name, seed) for name in MODELS for seed in SEEDS],
+    ids=lambda value: f"{value[0]}-car{value[1]}",
+)
+def compared(request: pytest.FixtureRequest) -> list[Compared]:
+    name, seed = request.param
+    model, parameters = MODELS[name], car_parameters(seed)
+    car = Mechanism(counted_by(model, parameters))
+    constants = model.prepare(parameters)
+    result = []
+    for instant in random_instants(np.random.default_rng(100 + seed), car, POINTS):
+        reduced = reduced_equations(
+            car,
+            instant.pose(car),
+            instant.beta1_rate,
+            instant.spin_rate,
+            instant.rack_rate,
+            rack_force=instant.rack_force,
+            road_height=instant.road_height,
+            strut_force=instant.strut_force,
+        )
+        solution = instant.solution(model, car)
+        result.append(Compared(model, instant, constants, solution, reduced))
+    return result
+
+
+def test_accelerations(compared: list[Compared]) -> None:
+    for case in compared:
+        expected = case.solution.coordinate_accelerations[: case.size]
+        found = case("rhs")[case.size :]
+        # Relative to the acceleration itself, or to 1 rad/s² or m/s² where it happens to be small
+        # beside the usual hundreds and thousands.
+        assert found == pytest.approx(expected, rel=1e-10, abs=1e-10)
+
+
+def test_rates(compared: list[Compared]) -> None:
+    """The first half of the right-hand side is the second half of the state, bit for bit."""
+    for case in compared:
+        assert case("rhs")[: case.size].tolist() == case.state[case.size :].tolist()
+
+
+def test_mass_matrix(compared: list[Compared]) -> None:
+    for case in compared:
+        matrix = case("mass_matrix")
+        expected = case.reduced.mass_matrix[: case.size, : case.size]
+        # some hundred roundings of the largest element
+        assert matrix == pytest.approx(expected, rel=1e-13, abs=1e-13 * np.abs(expected).max())
+        assert matrix.tolist() == matrix.T.tolist()
+        assert np.linalg.eigvalsh(matrix).min() > 0.0
+
+
+def test_bias(compared: list[Compared]) -> None:
+    for case in compared:
+        expected = case.reduced.inertial[: case.size].copy()
+        if case.model is macpherson:  # the prescribed acceleration of the rack is part of B
+            column = case.reduced.mass_matrix[: case.size, 2]
+            expected += column * case.instant.rack_acceleration
+        # the terms of B are of the size of its largest element, which all elements share
+        assert case("bias") == pytest.approx(expected, rel=0.0, abs=1e-11 * np.abs(expected).max())
+
+
+def test_forces(compared: list[Compared]) -> None:
+    for case in compared:
+        expected = case.reduced.applied[: case.size]
+        # Spring and tyre, up to 30 kN at an arm of 0.4 m, may nearly balance (3e-11 N m at worst).
+        assert case("forces") == pytest.approx(expected, rel=1e-11, abs=1e-9)
+
+
+def test_equations_of_motion(compared: list[Compared]) -> None:
+    """M q'' + B = Q: forward dynamics solves what M, B and Q say."""
+    for case in compared:
+        inertia = case("mass_matrix") @ case("rhs")[case.size :]
+        bias, forces = case("bias"), case("forces")
+        size = max(np.abs(inertia).max(), np.abs(bias).max(), np.abs(forces).max())
+        # two derivations of the same sums: some hundred roundings of the largest term
+        assert np.abs(inertia + bias - forces).max() < 1e-13 * size
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_held_rack(seed: int) -> None:
+    """With the rack held, its velocity and acceleration are zero whatever the inputs say."""
+    parameters = car_parameters(seed)
+    constants = macpherson.prepare(parameters)
+    rng = np.random.default_rng(seed)
+    for instant in random_instants(rng, Mechanism(parameters), POINTS):
+        state, inputs = instant.arrays(macpherson)
+        still = replace(instant, rack_rate=0.0, rack_acceleration=0.0).inputs(macpherson)
+        for function in ("rhs", "rhs_jacobian"):
+            general = getattr(macpherson, function)(state, still, constants)
+            held = getattr(macpherson, f"{function}_rack_held")(state, inputs, constants)
+            # Another order of the same operations. Elements that are small beside the largest
+            # (the tyre's rigidity over the mass) are differences of terms of its size.
+            assert held == pytest.approx(general, rel=1e-11, abs=1e-13 * np.abs(general).max())
+
+
+@pytest.mark.parametrize("seed", range(1, 4))
+def test_masses_left_out(seed: int) -> None:
+    """The model with a prescribed rack does not ask for masses that it leaves out."""
+    parameters = car_parameters(seed)
+    constants = macpherson.prepare(parameters)
+    state, inputs = Instant(BETA1_DESIGN, 0.0, 0.01, 2.0, 50.0, 0.3).arrays(macpherson)
+    without = macpherson.prepare(counted_by(macpherson, parameters))
+    assert (
+        macpherson.rhs(state, inputs, constants).tolist()
+        == macpherson.rhs(state, inputs, without).tolist()
+    )
+
+
+@pytest.mark.parametrize("element", ["xx", "yy", "zz", "xy", "xz", "yz"])
+@pytest.mark.parametrize("body", ["control_arm", "knuckle", "tie_rod", "rack", "upper_strut"])
+def test_every_element_of_inertia_counts(body: str, element: str) -> None:
+    """Each element by itself changes M as the oracle says, where the body turns about it.
+
+    The rack only slides, and the arm only turns about its hinge (here along x): the other elements
+    must not matter.
+    """
+    model = MODELS["macpherson_free_rack"]
+    parameters = car_parameters(0)
+    instant = Instant(BETA1_DESIGN - 0.2, 0.0, 0.02)
+    tensor = np.diag([0.3, 0.3, 0.3])
+    matrices = []
+    for addition in (0.0, 0.1):
+        i, j = ("xyz".index(axis) for axis in element)
+        tensor[i, j] += addition
+        tensor[j, i] = tensor[i, j]
+        set_inertia(parameters, body, tensor)
+        found = model.mass_matrix(*instant.arrays(model), model.prepare(parameters))
+        car = Mechanism(parameters)
+        expected = reduced_equations(car, instant.pose(car), 0.0, 0.0).mass_matrix
+        # some hundred roundings of elements of up to 10 kg m²
+        assert found == pytest.approx(expected, rel=1e-12, abs=1e-12)
+        matrices.append(found)
+    change = np.abs(matrices[1] - matrices[0]).max()
+    idle = body == "rack" or (body == "control_arm" and element != "xx")
+    assert (change == 0.0) if idle else (change > 1e-6)
+
+
+def test_reference_car_rests_at_design() -> None:
+    """Spring and tyre carry the car at a wheel height of 0.3 m, whatever the wheel's speed."""
+    for spin_rate in (0.0, SPIN_RATE):
+        state = Instant(BETA1_DESIGN, spin_rate=spin_rate).state(macpherson)
+        # Lengths of 1 m are rounded by 1e-16 m, times a tyre rate of 2e5 N/m at 0.4 m over an
+        # inertia of 5 kg m²: some 1e-12 rad/s² remain.
+        assert np.abs(macpherson.rhs_rack_held(state)[2:]).max() < 1e-11
+
+
+def test_eigenvalues_at_rest() -> None:
+    state = Instant(BETA1_DESIGN, spin_rate=SPIN_RATE).state(macpherson)
+    matrix = macpherson.rhs_jacobian_rack_held(state)
+    found = np.linalg.eigvals(matrix)
+    vertical = found[np.abs(found) > 1.0]
+    # given with eight decimals
+    assert sorted(vertical, key=lambda value: -value.imag) == pytest.approx(
+        EIGENVALUES_AT_REST, abs=1e-8
+    )
+    # Nothing depends on the spin angle, nor anything but the spin angle on the spin rate.
+    rest = found[np.abs(found) <= 1.0]
+    assert rest.tolist() == [0.0, 0.0]
+    assert matrix[:, 1].tolist() == [0.0] * 4
+    assert matrix[:, 3].tolist() == [0.0, 1.0, 0.0, 0.0]
+
+
+def test_gyroscopic_couple() -> None:
+    """A turning steer adds to the arm's acceleration in proportion to the spin rate."""
+    accelerations = [
+        macpherson.rhs(*Instant(BETA1_DESIGN, 0.0, 0.01, 0.0, rate, 0.5).arrays(macpherson))[2]
+        for rate in (0.0, 50.0, 100.0)
+    ]
+    first, second = np.diff(accelerations)
+    assert abs(first) > 0.1
+    # a difference of accelerations of some 10 rad/s², each good to 1e-13
+    assert second == pytest.approx(first, rel=1e-10)

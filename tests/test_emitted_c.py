@@ -1,0 +1,260 @@
+"""The emitted C: its values, its text, its operation counts, and what a compiler says of it."""
+
+import itertools
+import re
+import shutil
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import mpmath
+import numpy as np
+import pytest
+from c_text import FOLDER, count, functions, header
+from cases import MODELS, car_parameters, random_instants
+from kintrafo.generator.outputs import GeneratedModel
+from oracle.newton import Mechanism
+from symbolic import Rounded, python
+
+DIGITS = 50
+SEEDS = range(3)  # 0 is the reference car
+POINTS = 2  # for each car
+
+each_model = pytest.mark.parametrize("name", MODELS)
+every_function = pytest.mark.parametrize(
+    ("name", "function"),
+    [(name, function) for name in MODELS for function in functions(name)],
+    ids=lambda value: value,
+)
+
+every_equation = pytest.mark.parametrize(
+    ("name", "function"),
+    [(name, f) for name in MODELS for f in functions(name) if f != "prepare"],
+    ids=lambda value: value,
+)
+
+
+def compare(label: str, exact: list[Rounded], found: np.ndarray, size: mpmath.mpf) -> None:
+    """Demand two things of each element that C computed.
+
+    - Its error is at most 1e-13 of the size given, which is that of the largest element (the
+      worst measured is 4e-14).
+    - Its error is at most the bound that a running error analysis of the same program gives; this
+      is the honest measure for an element that is a small difference of large terms, where a
+      relative error of 1e-13 is out of reach. The factor 2 stands for the order of sums, which
+      the analysis does not know (the worst measured is 0.9 times the bound).
+    """
+    for index, (element, value) in enumerate(zip(exact, found.ravel().tolist(), strict=True)):
+        error = abs(element.value - mpmath.mpf(value))
+        assert error <= 1e-13 * size, f"{label}[{index}]: {value} for {element.value}"
+        assert error <= 2 * element.error, f"{label}[{index}]: {value} for {element.value}"
+
+
+def given_names(compiled) -> list[str]:
+    return [f"given_{name}" for name in compiled.RELATIVE_COORDINATES]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@each_model
+def test_functions_against_the_symbolic_program(
+    derived: Callable[[str], GeneratedModel], name: str, seed: int
+) -> None:
+    model, compiled = derived(name), MODELS[name]
+    parameters = car_parameters(seed)
+    constants = compiled.prepare(parameters)
+    # the constants as C computed them are exact inputs of the other functions
+    given = dict(zip(model.prepare.labels, constants.tolist(), strict=True))
+    rng = np.random.default_rng(seed)
+    with mpmath.workdps(DIGITS):
+        for instant in random_instants(rng, Mechanism(parameters), POINTS):
+            state, inputs = instant.arrays(compiled)
+            # relative coordinates that miss the closed loops, so that the residuals are not zero
+            beta = compiled.relative_coordinates(state, inputs, constants)
+            beta += 0.01 * rng.standard_normal(beta.shape)
+            values = (
+                given
+                | dict(zip(compiled.STATE, state.tolist(), strict=True))
+                | dict(zip(compiled.INPUTS, inputs.tolist(), strict=True))
+                | dict(zip(given_names(compiled), beta.tolist(), strict=True))
+            )
+            exact_values = {key: Rounded.of(value) for key, value in values.items()}
+            for label, function in model.functions.items():
+                call = getattr(compiled, label)
+                arguments = (beta,) if label == "residuals" else ()
+                found = call(*arguments, state, inputs, constants)
+                exact = [Rounded.of(r) for r in python(function)(exact_values)]
+                # residuals are differences of lengths of about 1 m, and of sines
+                size = mpmath.mpf(1) if label == "residuals" else max(abs(r.value) for r in exact)
+                compare(f"{name}.{label}", exact, found, size)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@each_model
+def test_constants_against_the_symbolic_program(
+    derived: Callable[[str], GeneratedModel], name: str, seed: int
+) -> None:
+    parameters = car_parameters(seed)
+    found = MODELS[name].prepare(parameters)
+    prepare = derived(name).prepare
+    assert prepare.labels == MODELS[name].CONSTANTS
+    with mpmath.workdps(DIGITS):
+        values = {key: Rounded.of(value) for key, value in parameters.items()}
+        exact = [Rounded.of(result) for result in python(prepare)(values)]
+        # each constant by itself: they have many units
+        for label, element, value in zip(prepare.labels, exact, found, strict=True):
+            size = abs(element.value) + element.error / mpmath.mpf(2) ** -53
+            compare(label, [element], np.array([value]), size)
+
+
+def run(command: list[str]) -> None:
+    """Run a compiler, which must have nothing to say."""
+    if shutil.which(command[0]) is None:
+        pytest.skip(f"{command[0]} is not installed")
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+
+
+STRICT = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"]
+
+
+@each_model
+def test_compiles_silently(name: str, tmp_path: Path) -> None:
+    # with optimisation, since some warnings come from the analysis of data flow
+    source = str(FOLDER / f"{name}.c")
+    run(["gcc", "-std=c99", *STRICT, "-O1", "-c", source, "-o", str(tmp_path / "object.o")])
+
+
+def test_headers_are_cpp(tmp_path: Path) -> None:
+    """Both headers together, twice, in C++."""
+    source = tmp_path / "all.cpp"
+    includes = "".join(f'#include "{name}.h"\n' for name in (*MODELS, *MODELS))
+    calls = "".join(f"    sum += {name}_rhs(nullptr, nullptr, nullptr, &x);\n" for name in MODELS)
+    source.write_text(
+        f"{includes}int use(double x);\n"
+        f"int use(double x)\n{{\n    int sum = 0;\n{calls}    return sum;\n}}\n",
+        encoding="utf-8",
+    )
+    run(["g++", "-std=c++11", *STRICT, f"-I{FOLDER}", "-fsyntax-only", str(source)])
+
+
+BRANCHES = {"if", "else", "for", "while", "do", "goto", "switch", "case", "?", ":", "&&", "||"}
+LIBRARY = {"sqrt", "sin", "cos", "asin", "atan2", "fmax", "copysign", "isfinite"}
+OWN = {"not_finite"}  # looks at the results, after the arithmetic
+
+
+@every_function
+def test_straight_line(name: str, function: str) -> None:
+    """No branch and no loop, but for the one check of all constants at the end of prepare."""
+    body = functions(name)[function]
+    if function == "prepare":
+        check = body.index("for")
+        assert {"if", "return"} <= set(body[check:])
+        body = body[:check]
+    assert not BRANCHES & set(body)
+
+
+@every_function
+def test_calls_only_cheap_functions(name: str, function: str) -> None:
+    """Of the C library only these: no pow above all, and nothing that keeps a state."""
+    body = functions(name)[function]
+    called = {f for f, after in itertools.pairwise(body) if after == "(" and f.isidentifier()}
+    assert called - {"return", "for", "if"} <= LIBRARY | OWN
+
+
+@every_function
+def test_every_step_is_used(name: str, function: str) -> None:
+    """The program is pruned: what is computed has an effect."""
+    body = functions(name)[function]
+    names = [body[i + 2] for i, token in enumerate(body) if token == "const"]
+    assert [n for n in names if body.count(n) < 2] == []
+
+
+COUNTED = re.compile(r"(\d+) operations? \(([^)]*)\)")
+
+
+def described_counts(text: str) -> dict[str, int]:
+    """Return the counts of a comment: the total and the kinds."""
+    match = COUNTED.search(re.sub(r"\s+", " ", text))
+    assert match is not None
+    if match[2] == "none":
+        return {"total": int(match[1])}
+    kinds = {kind: int(number) for number, kind in (item.split() for item in match[2].split(", "))}
+    return kinds | {"total": int(match[1])}
+
+
+def counted(name: str, function: str) -> dict[str, int]:
+    """Return the counts of the C text, as `described_counts` does."""
+    counts = count(functions(name)[function])
+    return dict(counts) | {"total": counts.total()}
+
+
+@every_equation
+def test_counts_in_the_header(name: str, function: str) -> None:
+    match = re.search(rf"/\*((?:(?!\*/).)*)\*/\s*int {name}_{function}\(", header(name), re.DOTALL)
+    assert match is not None
+    assert described_counts(match[1]) == counted(name, function)
+
+
+@each_model
+def test_count_at_the_head_of_the_files(name: str) -> None:
+    for text in (header(name), (FOLDER / f"{name}.c").read_text(encoding="utf-8")):
+        head = text[: text.index("*/")]
+        assert described_counts(head.split("rhs:")[1]) == counted(name, "rhs")
+
+
+@pytest.mark.parametrize(
+    ("name", "function"),
+    [
+        (name, function)
+        for name, model in MODELS.items()
+        for function in functions(name)
+        if hasattr(getattr(model, function), "operations")
+    ],
+    ids=lambda value: value,
+)
+def test_counts_in_python(name: str, function: str) -> None:
+    call = getattr(MODELS[name], function)
+    assert {kind: n for kind, n in call.operations.items() if n} == counted(name, function)
+
+
+@every_function
+def test_counts_in_the_report(name: str, function: str) -> None:
+    report = (FOLDER.parent / f"{name}.md").read_text(encoding="utf-8")
+    table = report.split("## Functions")[1]
+    columns, row = (
+        [cell.strip() for cell in line.strip("|").split("|")]
+        for line in table.splitlines()
+        if line.startswith(("| function", f"| `{function}`"))
+    )
+    cells = dict(zip(columns, row, strict=True))
+    counts = counted(name, function)
+    expected = {column: counts.get(column, 0) for column in columns[3:]}
+    assert {column: int(cells[column]) for column in columns[3:]} == expected
+    assert int(cells["operations"]) == counts["total"]
+
+
+@each_model
+@pytest.mark.parametrize(
+    ("kind", "table"),
+    [
+        ("parameter", "PARAMETERS"),
+        ("state", "STATE"),
+        ("input", "INPUTS"),
+        ("relative", "RELATIVE_COORDINATES"),
+        ("signal", "SIGNALS"),
+        ("body", "BODIES"),
+        ("massive", "MASSIVE_BODIES"),
+        ("constant", "CONSTANTS"),
+    ],
+)
+def test_enums_are_the_order_of_the_arrays(name: str, kind: str, table: str) -> None:
+    entries = getattr(MODELS[name], table)
+    match = re.search(rf"enum {name}_{kind} \{{(.*?)\}};", header(name), re.DOTALL)
+    assert match is not None
+    found = re.findall(r"(\w+) = (\d+)", re.sub(r"/\*.*?\*/", "", match[1], flags=re.DOTALL))
+    prefix = f"{name}_{kind}_".upper()
+    expected = [(f"{prefix}{entry.upper()}", str(i)) for i, entry in enumerate(entries)]
+    assert found == [*expected, (f"{prefix}COUNT", str(len(entries)))]
+    if isinstance(entries, dict):  # units and meanings stand beside the indices
+        for entry in entries.values():
+            assert f"/* [{entry['unit']}] {entry['meaning']} */" in match[1]

@@ -1,0 +1,93 @@
+"""Deriving again gives the same bytes, anywhere and at any time: those in generated/."""
+
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from kintrafo import generated
+from kintrafo.generator.__main__ import files_of
+from kintrafo.generator.emit.python import shared_files
+from kintrafo.generator.mechanisms import MODELS
+from kintrafo.generator.outputs import GeneratedModel, generate
+
+COMMITTED = Path(generated.__file__).parent
+
+
+def read(folder: Path) -> dict[str, bytes]:
+    """Return the bytes of all emitted files below a folder, without what a build adds."""
+    endings = {".py", ".pyx", ".pyi", ".md", ".c", ".h"}
+    files = (path for path in folder.rglob("*") if path.suffix in endings)
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}
+
+
+def differing(ones: dict[str, bytes], others: dict[str, bytes]) -> dict[str, str]:
+    """Return the files that differ, with the first line that does."""
+    result = {}
+    for name in sorted({*ones, *others}):
+        one, other = (files.get(name, b"").split(b"\n") for files in (ones, others))
+        if one != other:
+            pairs = zip([*one, b""], [*other, b""], strict=False)
+            number, lines = next((i, p) for i, p in enumerate(pairs, 1) if p[0] != p[1])
+            result[name] = f"line {number}: {lines[0]!r} and {lines[1]!r}"
+    return result
+
+
+def emitted(models: list[GeneratedModel]) -> dict[str, bytes]:
+    texts = dict(shared_files())
+    for model in models:
+        texts |= files_of(model)
+    return {name: text.encode() for name, text in texts.items()}
+
+
+@pytest.fixture(scope="module")
+def files(derived: Callable[[str], GeneratedModel]) -> dict[str, bytes]:
+    """Return what the models emit that the whole session derived once."""
+    return emitted([derived(model.name) for model in MODELS])
+
+
+def test_files_are_those_committed(files: dict[str, bytes]) -> None:
+    """If this fails, run ``make generate``."""
+    assert differing(files, read(COMMITTED)) == {}
+
+
+@pytest.mark.slow
+def test_deriving_again_in_this_process(files: dict[str, bytes]) -> None:
+    """What is left in memory of the first time (SymPy caches a lot) makes no difference."""
+    again = [generate(model) for model in reversed(MODELS)]
+    assert differing(emitted(again[::-1]), files) == {}
+
+
+@pytest.mark.slow
+def test_deriving_in_another_process(tmp_path: Path) -> None:
+    """With other hashes sets come in another order; the locale and the time zone matter no more."""
+    environment = {**os.environ, "PYTHONHASHSEED": "4242", "LC_ALL": "C", "TZ": "Asia/Tokyo"}
+    done = subprocess.run(
+        [sys.executable, "-m", "kintrafo.generator", "generate", str(tmp_path)],
+        env=environment,
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=60,  # the project's promise for deriving everything; it takes about ten seconds
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert differing(read(tmp_path), read(COMMITTED)) == {}
+
+
+def test_no_trace_of_machine_or_day() -> None:
+    """Neither dates nor paths stand in the emitted files, and lines end alike."""
+    for name, text in read(COMMITTED).items():
+        assert not re.search(rb"\b20\d\d-\d\d-\d\d\b|/(home|tmp|work|Users)/", text), name
+        assert b"\r" not in text, name
+        assert text.endswith(b"\n"), name
+        text.decode("utf-8")
+
+
+def test_difference_is_told() -> None:
+    same, other = {"a": b"1\n2\n", "b": b"x\n"}, {"a": b"1\n3\n", "b": b"x\n"}
+    assert differing(same, other) == {"a": "line 2: b'2' and b'3'"}
+    assert list(differing(same, {"a": b"1\n2\n"})) == ["b"]

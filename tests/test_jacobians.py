@@ -1,0 +1,240 @@
+"""Jacobians: against differentiation of the program, of the compiled functions, and the oracle.
+
+Complex steps cannot be taken through compiled real arithmetic. Instead the symbolic program is
+differentiated in 50 digits by a central difference with a step of 1e-15, whose own error is below
+1e-20 of the derivative: that comparison is as sharp as the arithmetic of the compiled function.
+Differences of the compiled functions themselves are coarser, but see the whole path.
+"""
+
+from collections.abc import Callable
+
+import mpmath
+import numpy as np
+import pytest
+from cases import MODELS, At, Instant, car_parameters, random_instants
+from kintrafo.generated import macpherson
+from kintrafo.generator.outputs import GeneratedModel
+from oracle.constraints import BODIES, Array
+from oracle.multipliers import reduced_equations, solve_twist
+from oracle.newton import Mechanism
+from symbolic import python
+
+SEEDS = range(4)  # 0 is the reference car
+POINTS = 3  # for each car
+
+
+def places(name: str, seed: int) -> tuple[Mechanism, list[At]]:
+    """Return the oracle of a car, and a model of it at random instants."""
+    model, parameters = MODELS[name], car_parameters(seed)
+    car, constants = Mechanism(parameters), model.prepare(parameters)
+    instants = random_instants(np.random.default_rng(seed), car, POINTS)
+    return car, [At(model, instant, constants) for instant in instants]
+
+
+@pytest.fixture(
+    scope="module",
+    params=[(name, seed) for name in MODELS for seed in SEEDS],
+    ids=lambda value: f"{value[0]}-car{value[1]}",
+)
+def car_and_places(request: pytest.FixtureRequest) -> tuple[Mechanism, list[At]]:
+    return places(*request.param)
+
+
+DERIVATIVES = {
+    "relative_jacobian": "relative_coordinates",
+    "rhs_jacobian": "rhs",
+    "rhs_jacobian_rack_held": "rhs_rack_held",
+}
+
+
+@pytest.fixture(
+    scope="module",
+    params=[
+        (name, jacobian, seed)
+        for name, model in MODELS.items()
+        for jacobian in DERIVATIVES
+        if hasattr(model, jacobian)
+        for seed in SEEDS
+    ],
+    ids=lambda value: "-".join(map(str, value)),
+)
+def jacobian_and_places(request: pytest.FixtureRequest) -> tuple[str, list[At]]:
+    name, jacobian, seed = request.param
+    return jacobian, places(name, seed)[1]
+
+
+def difference(function: Callable[[float], Array], step: float) -> Array:
+    """Differentiate at zero with an error of the order of step**8."""
+    total = np.zeros_like(function(0.0))
+    for k, weight in enumerate((672.0, -168.0, 32.0, -3.0), 1):
+        total += weight * (function(k * step) - function(-k * step))
+    return total / (840.0 * step)
+
+
+def gradient(function: Callable[[Array], Array], steps: Array) -> Array:
+    """Differentiate at zero by each argument with its own step, along the last axis."""
+
+    def along(direction: Array, step: float) -> Array:
+        return difference(lambda h: function(h * direction), step)
+
+    columns = [along(row, step) for row, step in zip(np.eye(len(steps)), steps, strict=True)]
+    return np.stack(columns, axis=-1)
+
+
+def gradient_of_program(model: GeneratedModel, function: str, at: At, names: list[str]) -> Array:
+    """Differentiate the symbolic program of a function by elements of the state."""
+    run = python(model.functions[function])
+    values: dict[str, mpmath.mpf] = {}
+    for keys, array in (
+        (at.model.CONSTANTS, at.constants),
+        (at.model.STATE, at.state),
+        (at.model.INPUTS, at.inputs),
+    ):
+        values |= {key: mpmath.mpf(v) for key, v in zip(keys, array.tolist(), strict=True)}
+    step = mpmath.mpf(10) ** -15
+    columns = []
+    for name in names:
+        ahead, behind = (run(values | {name: values[name] + h}) for h in (step, -step))
+        columns.append([float((a - b) / (2 * step)) for a, b in zip(ahead, behind, strict=True)])
+    return np.array(columns).T
+
+
+def test_derivatives_of_the_program(
+    derived: Callable[[str], GeneratedModel], jacobian_and_places: tuple[str, list[At]]
+) -> None:
+    jacobian, at_places = jacobian_and_places
+    for at in at_places:
+        found = at(jacobian)
+        names = list(at.model.STATE)[: found.shape[1]]
+        model = derived(at.model.NAME)
+        with mpmath.workdps(50):
+            expected = gradient_of_program(model, DERIVATIVES[jacobian], at, names)
+        # Row by row, since a row has one unit: some hundred roundings of its largest element.
+        size = np.abs(expected).max(axis=1, keepdims=True)
+        assert (np.abs(found - expected) <= 1e-12 * size).all()
+
+
+def test_derivatives_of_the_compiled_functions(
+    jacobian_and_places: tuple[str, list[At]],
+) -> None:
+    jacobian, at_places = jacobian_and_places
+    for at in at_places:
+        found, state = at(jacobian), at.state
+        function = getattr(at.model, DERIVATIVES[jacobian])
+        width = found.shape[1]
+
+        def moved(change: Array, at: At = at, function=function, width: int = width) -> Array:
+            state = at.state
+            state[:width] += change
+            return function(state, at.inputs, at.constants)
+
+        expected = gradient(moved, 2e-3 * np.maximum(1.0, np.abs(state[:width])))
+        # The function's roundings over the step, some 1e-15 / 2e-3, and the ninth derivative times
+        # the eighth power of the step.
+        size = np.maximum(np.abs(expected).max(axis=1, keepdims=True), 1.0)
+        assert (np.abs(found - expected) <= 1e-9 * size).all()
+
+
+def test_derivatives_of_the_closure(car_and_places: tuple[Mechanism, list[At]]) -> None:
+    """The equations g(beta, q) = 0 differentiated implicitly: g_beta beta' + g_q = 0."""
+    for at in car_and_places[1]:
+        beta = at("relative_coordinates")
+
+        def by_beta(change: Array, at: At = at, beta: Array = beta) -> Array:
+            return at.model.residuals(beta + change, at.state, at.inputs, at.constants)
+
+        def by_coordinates(change: Array, at: At = at, beta: Array = beta) -> Array:
+            state = at.state
+            state[: at.size] += change
+            return at.model.residuals(beta, state, at.inputs, at.constants)
+
+        of_beta = gradient(by_beta, np.full(len(beta), 1e-3))
+        of_coordinates = gradient(by_coordinates, np.full(at.size, 1e-3))
+        # roundings of the residuals, 1e-16, over the step, times rates of up to about 5
+        assert np.abs(of_beta @ at("relative_jacobian") + of_coordinates).max() < 1e-11
+
+
+def test_absolute_times_relative_is_global(car_and_places: tuple[Mechanism, list[At]]) -> None:
+    for at in car_and_places[1]:
+        product = at("absolute_jacobian") @ at("relative_jacobian")
+        # two ways of ten products each, of rates of up to about 5
+        assert np.abs(product - at("global_jacobian")).max() < 1e-13
+
+
+def test_global_jacobian_is_the_oracles(car_and_places: tuple[Mechanism, list[At]]) -> None:
+    car, at_places = car_and_places
+    for at in at_places:
+        reduced = reduced_equations(car, at.instant.pose(car), 0.0, 0.0)
+        expected = [
+            np.vstack((block[3:], block[:3]))[:, : at.size]
+            for body, block in zip(BODIES, reduced.jacobian, strict=True)
+            if body in at.model.MASSIVE_BODIES
+        ]
+        # a linear system of 36 equations, refined, against some hundred operations
+        assert at("global_jacobian") == pytest.approx(np.concatenate(expected), rel=0.0, abs=1e-12)
+
+
+def test_velocities_are_the_oracles(car_and_places: tuple[Mechanism, list[At]]) -> None:
+    car, at_places = car_and_places
+    for at in at_places:
+        instant = at.instant
+        rates = instant.beta1_rate, instant.spin_rate, instant.rack_rate
+        twist = solve_twist(car, instant.pose(car), *rates)
+        expected = np.concatenate((twist[:, 3:], twist[:, :3]), axis=1)
+        # spin rates of 100 rad/s and more
+        assert at("velocities") == pytest.approx(expected, rel=1e-12, abs=1e-11)
+
+
+def test_velocities_are_the_rates_of_the_poses(car_and_places: tuple[Mechanism, list[At]]) -> None:
+    """Along a motion of all coordinates at once, the rack included."""
+    for at in car_and_places[1]:
+
+        def later(function: str, time: float, at: At = at) -> Array:
+            now = at.instant
+            moved = Instant(
+                now.beta1 + time * now.beta1_rate,
+                now.spin + time * now.spin_rate,
+                now.rack + time * now.rack_rate,
+            )
+            return At(at.model, moved, at.constants)(function)
+
+        # the wheel turns by 0.02 rad in a step
+        step = 0.02 / max(100.0, abs(at.instant.spin_rate))
+        linear = difference(lambda t, later=later: later("positions", t), step)
+        turning = difference(lambda t, later=later: later("orientations", t), step)
+        cross = turning @ at("orientations").swapaxes(1, 2)
+        angular = np.stack((cross[:, 2, 1], cross[:, 0, 2], cross[:, 1, 0]), axis=1)
+        found = at("velocities")
+        # roundings of the poses, 1e-15, over a step of 1e-4 s
+        assert found[:, :3] == pytest.approx(angular, rel=0.0, abs=1e-9)
+        assert found[:, 3:] == pytest.approx(linear, rel=0.0, abs=1e-9)
+
+
+def test_global_jacobian_gives_the_velocities(car_and_places: tuple[Mechanism, list[At]]) -> None:
+    """With the rack at rest the twists of the massive bodies are the Jacobian times the rates."""
+    for at in car_and_places[1]:
+        model, state, inputs = at.model, at.state, at.inputs
+        if model is macpherson:
+            inputs[list(model.INPUTS).index("rack_velocity")] = 0.0
+        rows = [model.BODIES.index(body) for body in model.MASSIVE_BODIES]
+        twists = model.velocities(state, inputs, at.constants)[rows].ravel()
+        # sums of a few products of up to 300 rad/s
+        assert at("global_jacobian") @ state[at.size :] == pytest.approx(twists, rel=0, abs=1e-12)
+
+
+def test_mass_matrix_from_the_global_jacobian(
+    car_and_places: tuple[Mechanism, list[At]],
+) -> None:
+    """Eq. 3: M is the sum of J^T Xi J over the bodies that carry mass."""
+    car, at_places = car_and_places
+    for at in at_places:
+        jacobians = at("global_jacobian").reshape(-1, 6, at.size)
+        total = np.zeros((at.size, at.size))
+        for name, jacobian in zip(at.model.MASSIVE_BODIES, jacobians, strict=True):
+            body = BODIES.index(name)
+            rotation = at("orientations")[body]
+            tensor = rotation @ car.inertias[body] @ rotation.T
+            angular, linear = jacobian[:3], jacobian[3:]
+            total += car.masses[body] * linear.T @ linear + angular.T @ tensor @ angular
+        # some hundred roundings of elements of up to 50 kg
+        assert at("mass_matrix") == pytest.approx(total, rel=1e-13, abs=1e-13)

@@ -1,0 +1,92 @@
+"""Operation counts of the emitted C against a stored baseline, so that none grows unnoticed.
+
+The counts are exact and the same on every machine. ``make baseline`` stores the present ones.
+"""
+
+import json
+from pathlib import Path
+
+import pytest
+from c_text import count, functions
+from cases import MODELS
+
+BASELINE = Path(__file__).with_name("operation_counts.json")
+KINDS = ("add", "multiply", "divide", "root", "trigonometric")
+Counts = dict[str, dict[str, dict[str, int]]]
+
+
+def present_counts() -> Counts:
+    """Return model, function and kind of operation to their number, as the C text shows it."""
+    counts: Counts = {}
+    for model in MODELS:
+        counts[model] = {}
+        for function, body in functions(model).items():
+            found = count(body)
+            counts[model][function] = {kind: found[kind] for kind in KINDS}
+    return counts
+
+
+def rows(counts: Counts) -> dict[str, str]:
+    """Return one line for each function."""
+    return {
+        f"{model}.{function}": f"{sum(kinds.values())} = "
+        + " + ".join(f"{number} {kind}" for kind, number in kinds.items())
+        for model, functions_ in counts.items()
+        for function, kinds in functions_.items()
+    }
+
+
+def difference(stored: Counts, present: Counts) -> list[str]:
+    """Return one line for each function whose counts differ."""
+    before, now = rows(stored), rows(present)
+    return [
+        f"{name}: stored {before.get(name, 'none')}; now {now.get(name, 'none')}"
+        for name in dict.fromkeys([*before, *now])
+        if before.get(name) != now.get(name)
+    ]
+
+
+def test_counts_are_those_of_the_baseline(request: pytest.FixtureRequest) -> None:
+    present = present_counts()
+    if request.config.getoption("--update-baseline"):
+        BASELINE.write_text(json.dumps(present, indent=2) + "\n", encoding="utf-8")
+    changes = difference(json.loads(BASELINE.read_text(encoding="utf-8")), present)
+    assert not changes, "operation counts changed ('make baseline' stores them):\n" + "\n".join(
+        changes
+    )
+
+
+@pytest.mark.parametrize(
+    ("model", "function", "limit"),
+    [
+        ("macpherson", "rhs_rack_held", 550),
+        ("macpherson", "rhs", 700),
+    ],
+)
+def test_limits_that_no_baseline_may_pass(model: str, function: str, limit: int) -> None:
+    """The limit with the rack held is what a careful derivation by hand came to (569), beaten."""
+    assert count(functions(model)[function]).total() <= limit
+
+
+def test_a_changed_count_is_named() -> None:
+    present = present_counts()
+    stored = json.loads(json.dumps(present))
+    stored["macpherson"]["rhs"]["divide"] += 1
+    del stored["macpherson"]["margins"]
+    name, gone = difference(stored, present)
+    assert name.startswith("macpherson.rhs: stored ")
+    assert f"{present['macpherson']['rhs']['divide'] + 1} divide" in name
+    assert gone.startswith("macpherson.margins: stored none; now ")
+
+
+def test_counting_by_hand() -> None:
+    """The counter itself, on a text that can be counted by eye."""
+    from c_text import tokens
+
+    body = tokens(
+        "const double a = constants[MODEL_A]; (void)inputs;"
+        "const double b = -a*a/2.0 + sqrt(1.0 - a) - atan2(-1.0, a);"
+        "out[0] = -(b + a)*fmax(a, FLOOR); out[1] = -2.0;"
+        "return !(a > FLOOR) * BAD | !(!!isfinite(a) & !!isfinite(b)) * BAD;"
+    )
+    assert count(body) == {"add": 6, "multiply": 2, "divide": 1, "root": 1, "trigonometric": 1}

@@ -1,0 +1,254 @@
+"""The straight-line program: steps are shared, differentiated, pruned and staged without loss."""
+
+from collections.abc import Mapping
+
+import pytest
+import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from kintrafo.generator.arithmetic import Guarded, write
+from kintrafo.generator.program import ConstantStage, Function, Program
+
+A, B = sp.symbols("a b")  # parameters
+X, Y = sp.symbols("x y")  # variables
+
+calm = settings(deadline=None, max_examples=60)
+
+
+def new_program(*parameters: sp.Symbol) -> Program:
+    return Program(ConstantStage(parameters))
+
+
+def expanded(program: Program, expression: sp.Expr) -> sp.Expr:
+    """Return an expression in parameters and variables only."""
+    for stage in (program, program.constants):
+        for step in reversed(stage.steps.values()):
+            expression = expression.xreplace({step.symbol: step.expression})
+    return expression.replace(Guarded, lambda q: q)
+
+
+def run(function: Function, values: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Expr]:
+    """Carry out a function's steps in order, reading only what was given or computed before."""
+    known = dict(values)
+    for step in function.steps:
+        assert step.expression.free_symbols <= known.keys()
+        assert step.symbol not in known
+        known[step.symbol] = step.expression.replace(Guarded, lambda q: q).xreplace(known)
+    return [result.replace(Guarded, lambda q: q).xreplace(known) for result in function.results]
+
+
+# -- defining -------------------------------------------------------------------------------------
+
+
+def test_a_step_is_defined_once() -> None:
+    program = new_program(A, B)
+    first = program.define("product", A * X)
+    assert first == sp.Symbol("product")
+    assert program.define("same", X * A) == first
+    assert program.define("opposite", -A * X) == -first
+    assert list(program.steps) == [first]
+
+
+def test_trivial_expressions_are_no_steps() -> None:
+    program = new_program(A, B)
+    for expression in (sp.Integer(0), sp.Rational(1, 2), X, -X, A):
+        assert program.define("trivial", expression) == expression
+    assert program.define("number", 2.0) == 2.0
+    assert not program.steps
+
+
+def test_names_are_unique() -> None:
+    program = new_program(A, B)
+    program.define("step", X + A)
+    program.define("constant", A + B)
+    for name in ("step", "constant"):
+        with pytest.raises(ValueError, match=f"'{name}' is defined twice"):
+            program.define(name, X + Y)
+    for name in ("constant", "a"):
+        with pytest.raises(ValueError, match=f"'{name}' is defined twice"):
+            program.define(name, A * B)
+
+
+def test_parameters_keep_their_names() -> None:
+    program = new_program(A, B)
+    with pytest.raises(ValueError, match="'a' is defined twice"):
+        program.define("a", X * Y)
+
+
+def test_constants_are_what_depends_on_parameters_only() -> None:
+    program = new_program(A, B)
+    constant = program.define("constant", A + B)
+    further = program.define("further", sp.sqrt(constant))
+    variable = program.define("variable", constant * X)
+    assert list(program.constants.steps) == [constant, further]
+    assert list(program.steps) == [variable]
+    assert program.constants.contains(further * A + 1)
+    assert not program.constants.contains(variable)
+
+
+def test_variants_share_their_constants() -> None:
+    """Two variants of a model may name different steps alike, but have one parameter stage."""
+    stage = ConstantStage((A, B))
+    one, other = Program(stage), Program(stage)
+    assert one.define("sum", A + B) == other.define("sum", A + B)
+    one.define("step", X + A)
+    other.define("step", X + B)
+    functions = [
+        program.function("f", "Any.", {"r": sp.Symbol("step")}) for program in (one, other)
+    ]
+    assert [function.free_symbols for function in functions] == [{X, A}, {X, B}]
+    assert stage.function(functions).labels == ("a", "b")
+
+
+# -- random programs ------------------------------------------------------------------------------
+
+
+@st.composite
+def programs(draw: st.DrawFn) -> tuple[Program, list[sp.Symbol]]:
+    """Programs of up to eight steps, each of which reads parameters, variables or other steps."""
+    program = new_program(A, B)
+    known: list[sp.Expr] = [A, B, X, Y]
+    for index in range(draw(st.integers(1, 8))):
+        one, other = draw(st.sampled_from(known)), draw(st.sampled_from(known))
+        expression = draw(
+            st.sampled_from(
+                [
+                    one + other,
+                    one * other - A,
+                    2 * one - 3 * other,
+                    one / (1 + other**2),
+                    sp.sqrt(1 + one**2),
+                    sp.sin(one) * other,
+                    sp.cos(one + other),
+                    sp.atan2(one, 2 + other**2),
+                    1 / (3 + one**2),
+                    A * B * one + A * other,
+                ]
+            )
+        )
+        known.append(program.define(f"step_{index}", expression))
+    return program, [s for s in known[4:] if s in program.steps]
+
+
+VALUES = {A: sp.Float("0.7", 40), B: sp.Float("-1.3", 40), X: sp.Float("0.4", 40)}
+VALUES |= {Y: sp.Float("1.9", 40)}
+
+
+def assert_equal(one: sp.Expr, other: sp.Expr) -> None:
+    """Compare two numbers of forty digits; thirty must agree."""
+    assert abs(one - other) <= sp.Float("1e-30", 40) * (1 + abs(other)), f"{one} is not {other}"
+
+
+@given(programs())
+@calm
+def test_functions_compute_the_results(case: tuple[Program, list[sp.Symbol]]) -> None:
+    """Pruning, sharing and the constant stage together leave the values as they are."""
+    program, steps = case
+    results = {str(s): s for s in steps}
+    results["sum"] = sum(steps, A * B * X)
+    expected = [expanded(program, r).xreplace(VALUES).evalf(40) for r in results.values()]
+    function = program.function("f", "Any.", results)
+    prepare = program.constants.function([function])
+    assert function.labels == tuple(results)
+    assert function.free_symbols <= {X, Y, *(sp.Symbol(label) for label in prepare.labels)}
+    constants = run(prepare, {A: VALUES[A], B: VALUES[B]})
+    given_values = {X: VALUES[X], Y: VALUES[Y]}
+    given_values |= {sp.Symbol(k): v for k, v in zip(prepare.labels, constants, strict=True)}
+    for found, value in zip(run(function, given_values), expected, strict=True):
+        assert_equal(sp.sympify(found).evalf(40), value)
+
+
+@given(programs())
+@calm
+def test_functions_are_pruned(case: tuple[Program, list[sp.Symbol]]) -> None:
+    """Every step is read later on, and none depends on parameters only (but for a shared sign)."""
+    program, steps = case
+    if not steps:
+        return
+    function = program.function("f", "Any.", {"last": steps[-1]})
+    read = set().union(*(s.expression.free_symbols for s in function.steps), set())
+    read |= set().union(*(r.free_symbols for r in function.results))
+    assert {s.symbol for s in function.steps} <= read
+    for step in function.steps:
+        sign = (-step.expression).is_Symbol
+        assert sign or not program.constants.contains(step.expression)
+
+
+@given(programs(), st.sampled_from([X, Y]))
+@calm
+def test_tangents_are_derivatives(case: tuple[Program, list[sp.Symbol]], along: sp.Symbol) -> None:
+    program, steps = case
+    targets = [*steps, sum(steps, X * Y)]
+    expected = [expanded(program, target).diff(along) for target in targets]
+    found = program.tangents(along, targets, "tangent")
+    for tangent, derivative in zip(found, expected, strict=True):
+        value = expanded(program, sp.sympify(tangent)).xreplace(VALUES).evalf(40)
+        assert_equal(value, derivative.xreplace(VALUES).evalf(40))
+
+
+@given(programs())
+@calm
+def test_substitution_repeats_the_steps(case: tuple[Program, list[sp.Symbol]]) -> None:
+    program, steps = case
+    stand_in = sp.Symbol("given_x")
+    expected = [expanded(program, step).xreplace({X: stand_in}) for step in steps]
+    found = program.substitute({X: stand_in}, steps, "given")
+    values = VALUES | {stand_in: VALUES[X] + 1}
+    for new, old in zip(found, expected, strict=True):
+        assert X not in expanded(program, new).free_symbols
+        value = expanded(program, new).xreplace(values).evalf(40)
+        assert_equal(value, old.xreplace(values).evalf(40))
+
+
+# -- particulars ----------------------------------------------------------------------------------
+
+
+def test_common_subexpressions_are_computed_once() -> None:
+    program = new_program()
+    results = {"one": (X + Y) * sp.sin(X + Y), "two": (X + Y) ** 2}
+    counts = program.function("f", "Any.", results).operations()
+    assert counts == {"add": 1, "multiply": 2, "trigonometric": 1}
+
+
+def test_constant_parts_of_sums_and_products_are_computed_once() -> None:
+    """Of a*b*x + a + b only one product and one sum are left for every call."""
+    program = new_program(A, B)
+    function = program.function("f", "Any.", {"value": A * B * X + A + B})
+    assert function.operations() == {"multiply": 1, "add": 1}
+    prepare = program.constants.function([function])
+    assert prepare.free_symbols == {A, B}
+    assert prepare.operations() == {"multiply": 1, "add": 1}
+
+
+def test_roots_are_not_taken_again_for_their_derivative() -> None:
+    program = new_program()
+    root = program.define("root", sp.sqrt(1 + X**2))
+    (tangent,) = program.tangents(X, [root], "tangent")
+    function = program.function("f", "Any.", {"root": root, "tangent": tangent})
+    assert function.operations()["root"] == 1
+
+
+def test_guards_follow_what_they_guard() -> None:
+    program = new_program(A)
+    used = program.guarded("used", X - A, "x is not above a")
+    unused = program.guarded("unused", Y - A, "y is not above a")
+    inverse = program.define("inverse", 1 / used)
+    root = program.define("root", sp.sqrt(unused))
+    assert [g.name for g in program.function("f", "Any.", {"r": inverse}).guards] == ["used"]
+    assert [g.name for g in program.function("g", "Any.", {"r": root}).guards] == ["unused"]
+    # what is not read in its guarded form cannot fail
+    assert program.function("h", "Any.", {"r": sp.Symbol("used")}).guards == ()
+    constant = program.guarded("constant", A**2 + 1, "never")
+    assert constant == sp.Symbol("constant")
+
+
+def test_operations_of_a_function_are_those_of_its_steps() -> None:
+    program = new_program()
+    step = program.define("step", X * Y + X)
+    function = program.function("f", "Any.", {"one": step * X, "two": sp.cos(step)})
+    total = sum(
+        (write(s.expression).operations for s in function.steps), start=type(write(X).operations)()
+    )
+    for result in function.results:
+        total.update(write(result).operations)
+    assert function.operations() == total == {"multiply": 2, "add": 1, "trigonometric": 1}

@@ -1,0 +1,131 @@
+"""The wheel as a rotor folded into its carrier, against the wheel as any other rigid body.
+
+A wheel that is declared with a rotor axis gives its mass and its transverse inertia to the knuckle,
+and only its spin is kept apart. Declared without one, it is a body with a full tensor that turns
+with the spin angle. Where the tensor is that of a body of revolution both must be equal, exactly;
+where it is not, the unfolded equations must still be those of the oracle.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+
+import mpmath
+import numpy as np
+import pytest
+from cases import MODELS, Instant, car_parameters, counted_by, random_instants
+from kintrafo.generator.mechanism import Model, Parameter
+from kintrafo.generator.mechanisms import MODELS as DECLARED
+from kintrafo.generator.outputs import GeneratedModel, generate
+from oracle.constraints import WHEEL, Array
+from oracle.newton import Mechanism
+from oracle.reference import INERTIA_ELEMENTS, Parameters, inertia
+from symbolic import constants_of, python
+
+SEEDS = range(3)  # 0 is the reference car
+POINTS = 2  # for each car
+
+pytestmark = pytest.mark.slow
+
+
+def without_rotor(model: Model) -> Model:
+    """Return a model whose wheel is a body with a full inertia tensor."""
+    mechanism = model.mechanism
+    tensor = [
+        Parameter(f"wheel_inertia_{element}", 0.0, "kg m^2", "of the wheel")
+        for element in INERTIA_ELEMENTS
+    ]
+    kept = [p for p in mechanism.parameters if not p.name.startswith("wheel_inertia")]
+    return replace(
+        model,
+        mechanism=replace(
+            mechanism,
+            bodies=tuple(replace(body, rotor_axis=None) for body in mechanism.bodies),
+            parameters=(*kept, *tensor),
+        ),
+    )
+
+
+@cache
+def unfolded(name: str) -> GeneratedModel:
+    """Derive a model without the rotor."""
+    return generate(without_rotor(next(model for model in DECLARED if model.name == name)))
+
+
+def with_tensor(parameters: Parameters, tensor: list[list]) -> Parameters:
+    """Return parameters whose wheel has a tensor (chassis axes at design) instead of moments."""
+    given = {k: v for k, v in parameters.items() if not k.startswith("wheel_inertia")}
+    for element in INERTIA_ELEMENTS:
+        row, column = ("xyz".index(axis) for axis in element)
+        given[f"wheel_inertia_{element}"] = tensor[row][column]
+    return given
+
+
+def exact_tensor(parameters: Parameters) -> list[list[mpmath.mpf]]:
+    """Return the tensor of the wheel of revolution in mpmath's precision."""
+    axis = mpmath.matrix([parameters[f"spin_axis_{a}"] for a in "xyz"])
+    axis /= mpmath.norm(axis)
+    spin, across = (parameters[f"wheel_inertia_{kind}"] for kind in ("spin", "diametral"))
+    tensor = across * mpmath.eye(3) + (mpmath.mpf(spin) - across) * axis * axis.T
+    return tensor.tolist()
+
+
+def evaluate(
+    model: GeneratedModel, function: str, parameters: Parameters, state: Array, inputs: Array
+) -> list[mpmath.mpf]:
+    """Evaluate a function of a derived model in mpmath's precision."""
+    values = constants_of(model, parameters)
+    values |= zip([e.name for e in model.state], map(mpmath.mpf, state.tolist()), strict=True)
+    values |= zip([e.name for e in model.inputs], map(mpmath.mpf, inputs.tolist()), strict=True)
+    return python(model.functions[function])(values)
+
+
+def instants(seed: int) -> tuple[Parameters, list[Instant]]:
+    parameters = car_parameters(seed)
+    car = Mechanism(parameters)
+    return parameters, random_instants(np.random.default_rng(50 + seed), car, POINTS)
+
+
+@pytest.mark.parametrize("function", ["rhs", "mass_matrix", "bias", "forces"])
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("name", MODELS)
+def test_folding_is_exact(
+    derived: Callable[[str], GeneratedModel],
+    name: str,
+    function: str,
+    seed: int,
+) -> None:
+    parameters, at_instants = instants(seed)
+    for instant in at_instants:
+        arrays = instant.arrays(MODELS[name])
+        with mpmath.workdps(50):
+            folded = evaluate(derived(name), function, parameters, *arrays)
+            tensor = exact_tensor(parameters)
+            general = evaluate(unfolded(name), function, with_tensor(parameters, tensor), *arrays)
+            size = max(map(abs, folded))
+            # fifty digits, of which the differences of terms take a few
+            assert all(
+                abs(one - other) <= mpmath.mpf(10) ** -40 * size
+                for one, other in zip(folded, general, strict=True)
+            )
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("name", MODELS)
+def test_unbalanced_wheel(name: str, seed: int) -> None:
+    """A wheel that is no body of revolution: the equations depend on the spin angle."""
+    parameters, at_instants = instants(seed)
+    tensor = inertia(parameters, "wheel") + np.array(
+        [[0.10, 0.03, -0.05], [0.03, 0.02, 0.04], [-0.05, 0.04, 0.15]]
+    )
+    car = Mechanism(counted_by(MODELS[name], parameters))
+    car.inertias[WHEEL - 1] = tensor
+    given = with_tensor(parameters, tensor.tolist())
+    for instant in at_instants:
+        arrays = instant.arrays(MODELS[name])
+        found = evaluate(unfolded(name), "rhs", given, *arrays)
+        count = len(found) // 2
+        solution = instant.solution(MODELS[name], car)
+        expected = solution.coordinate_accelerations[:count]
+        # as for the other comparisons of accelerations with the oracle
+        assert np.array(found[count:], dtype=float) == pytest.approx(expected, rel=1e-10, abs=1e-10)

@@ -1,0 +1,588 @@
+"""What the generated functions say where they have no result: never a silent NaN."""
+
+import pickle
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from types import ModuleType
+
+import numpy as np
+import pytest
+from c_text import functions
+from cases import MODELS, Instant, car_parameters
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from kintrafo.generated import macpherson, macpherson_free_rack
+from kintrafo.generated._support import ClosureError, ModelError, ParameterError
+from oracle.constraints import Array
+from oracle.newton import Mechanism, rotation_matrix
+from oracle.reference import (
+    BETA1_DESIGN,
+    HARDPOINTS,
+    SPIN_RATE,
+    Parameters,
+    reference_parameters,
+    set_inertia,
+    set_vector,
+    vector,
+)
+
+UP = np.array([0.0, 0.0, 1.0])
+FORWARD = np.array([1.0, 0.0, 0.0])
+
+each_model = pytest.mark.parametrize("model", MODELS.values(), ids=MODELS.keys())
+
+# the functions with the common signature
+COMMON = {
+    name: [f for f in functions(name) if f not in ("prepare", "residuals")] for name in MODELS
+}
+every_function = pytest.mark.parametrize(
+    ("model", "function"),
+    [(model, function) for name, model in MODELS.items() for function in COMMON[name]],
+    ids=lambda value: getattr(value, "NAME", value),
+)
+
+
+# -- loops that cannot close ----------------------------------------------------------------------
+
+
+@every_function
+def test_a_rod_that_does_not_reach(model, function: str) -> None:
+    """Beyond the dead point every function names the loop, the coordinates and their values."""
+    instant = Instant(BETA1_DESIGN, 0.5, 0.31, 1.5, SPIN_RATE)
+    state, inputs = instant.arrays(model)
+    with pytest.raises(ClosureError) as caught:
+        getattr(model, function)(state, inputs)
+    error = caught.value
+    message = str(error)
+    assert message.startswith(f"{model.NAME}.{function}: ")
+    assert "the rod tie_rod cannot reach knuckle" in message
+    assert "knuckle_closure = -" in message
+    assert error.margins["knuckle_closure"] < 0.0
+    expected = dict(zip((*model.STATE, *model.INPUTS), (*state, *inputs), strict=True))
+    assert error.coordinates == expected
+    for name, value in expected.items():
+        assert f"{name} = {value:.6g}" in message
+    assert error.index == ()
+
+
+@each_model
+def test_residuals_do_not_need_the_loops_to_close(model) -> None:
+    """They are functions of given coordinates: that they do not vanish is their result."""
+    state, inputs = Instant(BETA1_DESIGN, 0.0, 0.31).arrays(model)
+    beta = model.relative_coordinates(Instant(BETA1_DESIGN).state(model))
+    beta[list(model.RELATIVE_COORDINATES).index("beta9")] = 0.31
+    assert np.abs(model.residuals(beta, state, inputs)).max() > 0.1
+
+
+@every_function
+def test_the_element_of_an_array_is_named(model, function: str) -> None:
+    good, bad = (Instant(BETA1_DESIGN, 0.0, rack) for rack in (0.0, -0.31))
+    states = np.tile(good.state(model), (2, 3, 1))
+    inputs = np.tile(good.inputs(model), (2, 3, 1))
+    states[1, 2], inputs[1, 2] = bad.arrays(model)
+    with pytest.raises(ClosureError, match=re.escape("element [1, 2] of the arrays")) as caught:
+        getattr(model, function)(states, inputs)
+    assert caught.value.index == (1, 2)
+    named = {**dict(zip(model.INPUTS, inputs[1, 2], strict=True))}
+    named |= dict(zip(model.STATE, states[1, 2], strict=True))
+    assert caught.value.coordinates == named
+
+
+@each_model
+def test_the_element_of_broadcast_arrays_is_named(model) -> None:
+    """The index is that of the broadcast result; the values are those of the element."""
+    lengths = np.array([0.0, 0.0, -0.31, 0.0])
+    states = np.array([Instant(BETA1_DESIGN, 0.0, rack).state(model) for rack in lengths])
+    inputs = np.array([Instant(BETA1_DESIGN, 0.0, rack).inputs(model) for rack in lengths])
+    constants = np.stack([model.DEFAULT_CONSTANTS] * 3)[:, None]
+    with pytest.raises(ClosureError) as caught:
+        model.rhs(states, inputs, constants)
+    assert caught.value.index == (0, 2)
+    assert -0.31 in caught.value.coordinates.values()
+
+
+def test_errors_travel_between_processes() -> None:
+    with pytest.raises(ClosureError) as caught:
+        macpherson.rhs(*Instant(BETA1_DESIGN, rack=0.31).arrays(macpherson))
+    copy = pickle.loads(pickle.dumps(caught.value))
+    assert str(copy) == str(caught.value)
+    assert (copy.margins, copy.coordinates) == (caught.value.margins, caught.value.coordinates)
+
+
+# -- every guard ----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Edge:
+    """A car and an instant at which exactly one thing is wrong, seen by one function."""
+
+    guard: str
+    function: str
+    build: Callable[[], tuple[Parameters, Instant]]
+    model: ModuleType = macpherson
+
+
+def ball_joint_at(parameters: Parameters, beta1: float) -> Array:
+    """Return where the arm carries the ball joint; the strut top does not matter for it."""
+    car = Mechanism(parameters)
+    _, h_y, h_z = car.hinge
+    radius = np.linalg.norm(car.points["ball_joint"] - car.hinge_foot)
+    return car.hinge_foot + radius * (np.sin(beta1) * h_y + np.cos(beta1) * h_z)
+
+
+def strut_along(direction: Array) -> tuple[Parameters, Instant]:
+    """Return a car whose strut has a given vector (m) from ball joint to top, off the design."""
+    parameters = reference_parameters()
+    instant = Instant(BETA1_DESIGN - 0.3)
+    set_vector(parameters, "strut_top", ball_joint_at(parameters, instant.beta1) + direction)
+    return parameters, instant
+
+
+def rod_end_on_the_strut() -> tuple[Parameters, Instant]:
+    parameters = reference_parameters()
+    instant = Instant(BETA1_DESIGN, rack=0.1)
+    ball, top = vector(parameters, "ball_joint"), vector(parameters, "strut_top")
+    on_strut = ball + 0.2 * (top - ball)
+    set_vector(
+        parameters,
+        "tie_rod_inner",
+        on_strut - instant.rack * vector(parameters, "rack_axis"),
+    )
+    return parameters, instant
+
+
+def rod_along(direction: Array) -> tuple[Parameters, Instant]:
+    """Return a car whose tie rod has a given direction once the rack has moved."""
+    parameters = reference_parameters()
+    instant = Instant(BETA1_DESIGN, rack=-0.05)
+    ball, top = vector(parameters, "ball_joint"), vector(parameters, "strut_top")
+    strut = (top - ball) / np.linalg.norm(top - ball)
+    outer = vector(parameters, "tie_rod_outer")
+    turned = ball + rotation_matrix(0.2 * strut) @ (outer - ball)
+    # With the inner end at turned - length * direction, and the rack back at design, the rod must
+    # have the same length: |outer - turned + rack + length * direction| = length.
+    step = outer - turned + instant.rack * vector(parameters, "rack_axis")
+    length = -(step @ step) / (2.0 * step @ direction)
+    inner = turned - length * direction
+    set_vector(parameters, "tie_rod_inner", inner - instant.rack * vector(parameters, "rack_axis"))
+    return parameters, instant
+
+
+def massless(*but: str) -> tuple[Parameters, Instant]:
+    parameters = reference_parameters()
+    for body in ("control_arm", "knuckle", "tie_rod", "rack", "upper_strut"):
+        if body not in but:
+            parameters[f"{body}_mass"] = 0.0
+            set_inertia(parameters, body, np.zeros((3, 3)))
+    for name in ("wheel_mass", "wheel_inertia_spin", "wheel_inertia_diametral"):
+        parameters[name] = 0.0
+    return parameters, Instant(BETA1_DESIGN)
+
+
+def flat_wheel(beta1: float) -> tuple[Parameters, Instant]:
+    """Return a car whose spin axis is vertical once the arm has turned."""
+    parameters = reference_parameters()
+    instant = Instant(beta1)
+    knuckle = macpherson.orientations(instant.state(macpherson))[macpherson.BODIES.index("knuckle")]
+    set_vector(parameters, "spin_axis", knuckle.T @ UP)
+    return parameters, instant
+
+
+EDGES = [
+    Edge("length_squared_BC", "rhs", lambda: strut_along(0.0 * UP)),
+    Edge("upper_strut_cross_squared", "positions", lambda: strut_along(0.6 * FORWARD)),
+    Edge("knuckle_reach_squared", "rhs", rod_end_on_the_strut),
+    Edge(
+        "knuckle_closure",
+        "rhs",
+        lambda: (reference_parameters(), Instant(BETA1_DESIGN, rack=-0.31)),
+    ),
+    Edge("tie_rod_cross_squared", "orientations", lambda: rod_along(FORWARD)),
+    Edge("cos_camber_squared", "rhs", lambda: flat_wheel(BETA1_DESIGN - 0.3)),
+    Edge("pivot_beta1", "rhs", massless),
+    Edge("pivot_beta9", "rhs", lambda: massless("control_arm"), macpherson_free_rack),
+    Edge("shaft_level_squared_C", "relative_coordinates", lambda: strut_along(0.6 * UP)),
+    Edge(
+        "shaft_level_squared_E",
+        "relative_coordinates",
+        lambda: rod_along(UP),
+        macpherson_free_rack,
+    ),
+]
+
+
+@pytest.mark.parametrize("edge", EDGES, ids=lambda edge: edge.guard)
+def test_every_guard_acts_at_its_edge(edge: Edge) -> None:
+    parameters, instant = edge.build()
+    constants = edge.model.prepare(parameters)
+    arrays = *instant.arrays(edge.model), constants
+    with pytest.raises(ClosureError) as caught:
+        getattr(edge.model, edge.function)(*arrays)
+    meaning = dict(edge.model.GUARDS)[edge.guard]
+    assert meaning in caught.value.reasons
+    assert meaning in str(caught.value)
+    # The quantity vanishes to the roundings of its own computation, or is negative.
+    assert caught.value.margins[edge.guard] < 1e-15
+
+
+def test_every_guard_has_an_edge() -> None:
+    guards = {guard for model in MODELS.values() for guard, _ in model.GUARDS}
+    assert guards == {edge.guard for edge in EDGES}
+
+
+@each_model
+def test_margins_are_positive_on_the_reference_car(model) -> None:
+    margins = model.margins(Instant(BETA1_DESIGN).state(model))
+    assert len(margins) == len(model.GUARDS)
+    assert (margins > 0.0).all()
+
+
+def test_every_flat_wheel_is_refused() -> None:
+    for turn in np.linspace(-0.3, 0.3, 31):
+        parameters, instant = flat_wheel(BETA1_DESIGN + turn)
+        with pytest.raises(ClosureError, match="lies flat"):
+            macpherson.rhs(instant.state(macpherson), None, macpherson.prepare(parameters))
+
+
+# -- numbers that are none ------------------------------------------------------------------------
+
+
+def reads(model: ModuleType, function: str) -> set[str]:
+    """Return the state and inputs that a function depends on, as the C text shows it."""
+    prefix = f"{model.NAME}_".upper()
+    used = set()
+    for token in functions(model.NAME)[function]:
+        for kind in ("STATE_", "INPUT_"):
+            if token.startswith(prefix + kind):
+                used.add(token.removeprefix(prefix + kind).lower())
+    return used
+
+
+@pytest.mark.parametrize("wrong", [np.nan, np.inf, -np.inf])
+@every_function
+def test_nan_and_infinity_are_named(model, function: str, wrong: float) -> None:
+    """Where a function reads an element it refuses it, and else ignores it."""
+    names = (*model.STATE, *model.INPUTS)
+    arrays = Instant(BETA1_DESIGN, 0.0, 0.01).arrays(model)
+    expected = getattr(model, function)(*arrays)
+    for position, name in enumerate(names):
+        state, inputs = (array.copy() for array in arrays)
+        if position < len(state):
+            state[position] = wrong
+        else:
+            inputs[position - len(state)] = wrong
+        if name in reads(model, function):
+            with pytest.raises(ModelError, match=rf"{function}: NaN or infinite: {name}$"):
+                getattr(model, function)(state, inputs)
+        else:
+            found = getattr(model, function)(state, inputs)
+            assert found.tolist() == expected.tolist()
+
+
+@each_model
+def test_nan_in_an_array_is_placed(model) -> None:
+    states = np.tile(Instant(BETA1_DESIGN).state(model), (4, 1))
+    states[2, 0] = np.nan
+    with pytest.raises(ModelError, match=r"NaN or infinite: beta1 \(element \[2\]"):
+        model.rhs(states)
+
+
+@each_model
+def test_nan_in_given_coordinates_is_named(model) -> None:
+    state = Instant(BETA1_DESIGN).state(model)
+    beta = model.relative_coordinates(state)
+    beta[3] = np.nan
+    with pytest.raises(ModelError, match="beta4"):
+        model.residuals(beta, state)
+
+
+@each_model
+@pytest.mark.parametrize("index", range(10))
+def test_nan_in_given_coordinates_is_refused(model, index: int) -> None:
+    state = Instant(BETA1_DESIGN).state(model)
+    beta = model.relative_coordinates(state)
+    beta[index] = np.nan
+    with pytest.raises(ModelError, match="NaN or infinite"):
+        model.residuals(beta, state)
+
+
+@each_model
+@pytest.mark.parametrize("rate", [1e160, 1e308])
+def test_overflow_is_no_silent_nan(model, rate: float) -> None:
+    with pytest.raises(ModelError):
+        model.rhs(*Instant(BETA1_DESIGN, beta1_rate=rate, spin_rate=rate).arrays(model))
+
+
+@each_model
+def test_nan_among_the_constants_is_no_silent_nan(model) -> None:
+    constants = model.DEFAULT_CONSTANTS.copy()
+    constants[model.CONSTANTS.index("spring_rate")] = np.nan
+    with pytest.raises(ModelError):
+        model.rhs(Instant(BETA1_DESIGN).state(model), None, constants)
+
+
+# -- parameters -----------------------------------------------------------------------------------
+
+
+@each_model
+@pytest.mark.parametrize("wrong", [np.nan, np.inf])
+def test_parameters_that_are_no_numbers(model, wrong: float) -> None:
+    parameters = reference_parameters() | {"tyre_rate": wrong, "gravity": wrong}
+    with pytest.raises(ParameterError, match=r"NaN or infinite: tyre_rate, gravity$"):
+        model.prepare(parameters)
+
+
+@each_model
+def test_parameters_by_wrong_names(model) -> None:
+    parameters = reference_parameters() | {"sprung_rate": 1.0}
+    del parameters["spring_rate"]
+    message = "unknown parameters: sprung_rate; missing parameters: spring_rate"
+    with pytest.raises(ParameterError, match=message):
+        model.prepare(parameters)
+
+
+@each_model
+def test_parameters_in_an_array(model) -> None:
+    parameters = car_parameters(1)
+    values = [parameters[name] for name in model.PARAMETERS]
+    assert model.prepare(values).tolist() == model.prepare(parameters).tolist()
+    for wrong in (values[:-1], [values], 1.0):
+        with pytest.raises(ParameterError, match=f"{len(values)} parameters expected"):
+            model.prepare(wrong)
+
+
+def coincident(first: str, second: str) -> Parameters:
+    parameters = reference_parameters()
+    set_vector(parameters, first, vector(parameters, second))
+    return parameters
+
+
+def moved(name: str, place: tuple[float, float, float]) -> Parameters:
+    parameters = reference_parameters()
+    set_vector(parameters, name, place)
+    return parameters
+
+
+DEGENERATE = {
+    "hinge points coincide": coincident("arm_front", "arm_rear"),
+    "vertical hinge": moved("arm_front", (-0.15, -0.35, 0.6)),
+    "ball joint on the hinge": moved("ball_joint", (0.01, -0.35, 0.205)),
+    "strut without length": coincident("strut_top", "ball_joint"),
+    "tie rod without length": coincident("tie_rod_inner", "tie_rod_outer"),
+    "tie rod at the ball joint": coincident("tie_rod_outer", "ball_joint"),
+    "tie rod at the strut top": coincident("tie_rod_outer", "strut_top"),
+    "wheel centre at the ball joint": coincident("wheel_center", "ball_joint"),
+    "no rack axis": moved("rack_axis", (0.0, 0.0, 0.0)),
+    "no spin axis": moved("spin_axis", (0.0, 0.0, 0.0)),
+    "vertical spin axis": moved("spin_axis", (0.0, 0.0, 1.0)),
+    "points at the end of the world": moved("ball_joint", (1e200, -0.7, 0.2)),
+}
+
+
+@each_model
+@pytest.mark.parametrize("case", DEGENERATE)
+def test_degenerate_geometry(model, case: str) -> None:
+    with pytest.raises(ParameterError, match="design position is degenerate"):
+        model.prepare(DEGENERATE[case])
+
+
+# -- shapes ---------------------------------------------------------------------------------------
+
+
+@every_function
+def test_wrong_shapes(model, function: str) -> None:
+    call = getattr(model, function)
+    state, inputs = Instant(BETA1_DESIGN).arrays(model)
+    constants = model.DEFAULT_CONSTANTS
+    for wrong in (state[:-1], np.append(state, 0.0), state[:, None], 1.0, []):
+        with pytest.raises(ValueError, match=rf"{function}: the last dimension of state must be"):
+            call(wrong)
+    with pytest.raises(ValueError, match=rf"{function}: the last dimension of inputs must be"):
+        call(state, inputs[:-1])
+    with pytest.raises(ValueError, match=rf"{function}: the last dimension of constants must be"):
+        call(state, inputs, constants[1:])
+    with pytest.raises(ValueError, match="broadcast"):
+        call(np.tile(state, (2, 1)), np.tile(inputs, (3, 1)))
+
+
+@each_model
+def test_wrong_shapes_of_residuals(model) -> None:
+    state, inputs = Instant(BETA1_DESIGN).arrays(model)
+    beta = model.relative_coordinates(state)
+    for arguments, name in (
+        ((beta[1:], state), "given"),
+        ((beta, state[1:]), "state"),
+        ((beta, state, inputs[1:]), "inputs"),
+        ((beta, state, inputs, model.DEFAULT_CONSTANTS[1:]), "constants"),
+        (([beta], state), "given"),
+    ):
+        with pytest.raises(ValueError, match=rf"^{name}: \d+ elements expected"):
+            model.residuals(*arguments)
+
+
+@every_function
+def test_arrays_are_single_states_side_by_side(model, function: str) -> None:
+    """Leading dimensions broadcast, and each element is what a call by itself gives."""
+    call = getattr(model, function)
+    instants = [Instant(BETA1_DESIGN + 0.1 * k, 0.3, 0.01, 1.0, 50.0, 0.1) for k in (-1, 0, 1)]
+    states = np.array([instant.state(model) for instant in instants])
+    inputs = np.array([[i.inputs(model)] for i in (instants[0], replace(instants[0], rack=-0.02))])
+    constants = [model.prepare(car_parameters(seed)) for seed in (0, 1)]
+    found = call(states, inputs, np.array(constants)[:, None, None])
+    assert found.shape == (2, 2, 3, *call.shape)
+    for i, j, k in np.ndindex(2, 2, 3):
+        single = call(states[k], inputs[j, 0], constants[i])
+        assert single.shape == call.shape
+        assert found[i, j, k].tolist() == single.tolist()
+
+
+@every_function
+def test_nothing_in_nothing_out(model, function: str) -> None:
+    call = getattr(model, function)
+    assert call(np.empty((0, len(model.STATE)))).shape == (0, *call.shape)
+
+
+@each_model
+def test_results_are_new_and_constants_are_fixed(model) -> None:
+    """A second call does not change the first result, and shared constants cannot be changed."""
+    state = Instant(BETA1_DESIGN).state(model)
+    first = model.rhs(state)
+    copy = first.copy()
+    model.rhs(state + 0.1)
+    assert first.tolist() == copy.tolist()
+    with pytest.raises(ValueError, match="read-only"):
+        model.DEFAULT_CONSTANTS[0] = 1.0
+    with pytest.raises(ValueError, match="read-only"):
+        model.prepare(reference_parameters())[0] = 1.0
+
+
+# -- anything -------------------------------------------------------------------------------------
+
+calm = settings(deadline=None, max_examples=100)
+
+
+def attempt(call: Callable[[], Array]) -> tuple[Array | None, ModelError | None]:
+    """Return the result of a call, or its error; other errors are failures."""
+    try:
+        return call(), None
+    except ModelError as error:
+        return None, error
+
+
+def finite_or_refused(model: ModuleType, instant: Instant, constants: Array) -> set[str]:
+    """Demand a finite result or a clear error of every function, and closed loops with a result.
+
+    Returns the functions that gave a result.
+    """
+    arrays = *instant.arrays(model), constants
+    done = set()
+    for function in COMMON[model.NAME]:
+        result, error = attempt(lambda f=function: getattr(model, f)(*arrays))
+        if error is None:
+            assert np.isfinite(result).all(), function
+            done.add(function)
+        else:
+            assert isinstance(error, ClosureError)
+            assert error.reasons
+            assert set(error.reasons) <= {meaning for _, meaning in model.GUARDS}
+            assert "must be positive" in str(error)
+    if "relative_coordinates" in done:
+        beta = model.relative_coordinates(*arrays)
+        # Lengths of up to 2 m, and angles of up to 1e3 rad; close to a dead point the turn of the
+        # knuckle is badly conditioned, but the rod has its length all the same.
+        assert np.abs(model.residuals(beta, *arrays)).max() < 1e-12
+    return done
+
+
+def number(largest: float) -> st.SearchStrategy[float]:
+    return st.floats(-largest, largest)
+
+
+wild_instants = st.builds(
+    Instant,
+    beta1=number(1e3),
+    spin=number(1e3),
+    rack=number(0.5),
+    beta1_rate=number(1e4),
+    spin_rate=number(1e4),
+    rack_rate=number(1e3),
+    rack_acceleration=number(1e6),
+    road_height=number(10.0),
+    strut_force=number(1e7),
+    rack_force=number(1e7),
+)
+
+
+@given(wild_instants)
+@calm
+@each_model
+def test_wild_states(model, instant: Instant) -> None:
+    finite_or_refused(model, instant, model.DEFAULT_CONSTANTS)
+
+
+@st.composite
+def plausible_cars(draw: st.DrawFn) -> Parameters:
+    """The reference car with every hardpoint moved by up to 0.2 m, and any directions."""
+    parameters = reference_parameters()
+    shift = number(0.2)
+    for name in HARDPOINTS:
+        moved_by = np.array([draw(shift) for _ in "xyz"])
+        set_vector(parameters, name, vector(parameters, name) + moved_by)
+    for name in ("rack_axis", "spin_axis"):
+        set_vector(parameters, name, [draw(number(0.5)), draw(st.floats(0.5, 2.0)), draw(shift)])
+    for name in ("spring_rate", "damper_rate", "tyre_rate", "wheel_mass", "rack_mass"):
+        parameters[name] = draw(st.floats(0.1, 1e5))
+    return parameters
+
+
+@given(plausible_cars(), number(0.6), number(0.1), number(20.0), number(200.0))
+@calm
+@each_model
+def test_plausible_cars(
+    model, parameters: Parameters, turn: float, rack: float, rate: float, spin_rate: float
+) -> None:
+    constants, error = attempt(lambda: model.prepare(parameters))
+    if error is not None:
+        assert "degenerate" in str(error)
+        return
+    beta1 = Mechanism(parameters).beta1_design
+    instant = Instant(beta1 + turn, 0.3, rack, rate, spin_rate, 0.1 * rate, road_height=0.01)
+    finite_or_refused(model, instant, constants)
+    # the design position itself always closes
+    at_design = Instant(beta1)
+    model.rhs(*at_design.arrays(model), constants)
+    # by roundings of coordinates of up to 1 m
+    for body, position in zip(
+        model.BODIES, model.positions(*at_design.arrays(model), constants), strict=True
+    ):
+        name = "wheel_center" if body == "wheel" else f"{body}_com"
+        assert position == pytest.approx(vector(parameters, name), abs=1e-12)
+
+
+@each_model
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_both_sides_of_a_dead_point(model, side: float) -> None:
+    """The rack is moved to where the rod just reaches, by bisection down to the last digit."""
+    reached, missed = 0.0, 0.31 * side
+    constants = model.DEFAULT_CONSTANTS
+
+    def instant_at(rack: float) -> Instant:
+        return Instant(BETA1_DESIGN, 0.0, rack, 1.0, 50.0, 0.1)
+
+    while True:
+        middle = 0.5 * (reached + missed)
+        if middle in (reached, missed):
+            break
+        done = finite_or_refused(model, instant_at(middle), constants)
+        if "rhs" in done:
+            assert done == set(COMMON[model.NAME])
+            reached = middle
+        else:
+            assert not done
+            missed = middle
+    assert 0.05 < abs(reached) < 0.31
+    values = model.margins(*instant_at(reached).arrays(model), constants)
+    margins = dict(zip((guard for guard, _ in model.GUARDS), values, strict=True))
+    # roundings of areas of 0.1 m²
+    assert 0.0 < margins["knuckle_closure"] < 1e-15

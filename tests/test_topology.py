@@ -1,0 +1,291 @@
+"""Mobility, shortest paths, cycles and characteristic pairs, against the paper and at large."""
+
+import random
+from dataclasses import replace
+from itertools import combinations
+
+import networkx as nx
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from kintrafo.generator.geometry import FORWARD, Direction, Line, Point
+from kintrafo.generator.joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
+from kintrafo.generator.mechanism import Body, Mechanism, Model
+from kintrafo.generator.mechanisms import MODELS
+from kintrafo.generator.topology import Cycle, Topology, TopologyError
+from kintrafo.generator.transformer import NoClosedFormError, Plan
+
+MODEL = MODELS[0]
+SUSPENSION = MODEL.mechanism
+
+
+@pytest.fixture(scope="module")
+def topology() -> Topology:
+    return Topology(SUSPENSION)
+
+
+@pytest.fixture(scope="module", params=MODELS, ids=lambda model: model.name)
+def plan(request: pytest.FixtureRequest) -> Plan:
+    return Plan.of(request.param)
+
+
+def numbers(cycle: Cycle) -> set[int]:
+    return {SUSPENSION.body(name).number for name in cycle.bodies}
+
+
+# -- the paper's suspension -----------------------------------------------------------------------
+
+
+def test_mobility_and_loops(topology: Topology) -> None:
+    """Eq. 1, f = 6 x 6 - (5 + 3 + 4 + 4 + 3 + 4 + 5 + 5) = 3, and section 4, 8 - (7 - 1) = 2."""
+    freedoms = {joint.name: joint.freedoms for joint in SUSPENSION.joints}
+    assert freedoms == {"OA": 1, "B": 3, "BC": 2, "C": 2, "D": 3, "E": 2, "y": 1, "HG": 1}
+    assert topology.mobility == 3
+    assert topology.loop_count == 2
+
+
+# Table 2, row by row: the edges of one shortest path, from each body to the bodies 1 to 7
+TABLE_2 = """
+-         12        12,23     15,54     15        16        16,63,37
+21        -         23        21,15,54  21,15     21,16     23,37
+32,21     32        -         34        34,45     36        37
+45,51     45,51,12  43        -         45        43,36     43,37
+51        51,12     54,43     54        -         51,16     54,43,37
+61        61,12     63        63,34     61,15     -         63,37
+73,36,61  73,32     73        73,34     73,34,45  73,36     -
+"""
+PATHS = {
+    (start, end): edges
+    for start, row in enumerate(TABLE_2.split("\n")[1:-1], 1)
+    for end, edges in enumerate(row.split(), 1)
+    if start != end
+}
+
+
+@pytest.mark.parametrize(("ends", "edges"), PATHS.items(), ids=str)
+def test_table_2(topology: Topology, ends: tuple[int, int], edges: str) -> None:
+    """The paper shows one shortest path of each pair; it must be among all that we find."""
+    by_number = {body.number: body.name for body in SUSPENSION.bodies}
+    steps = edges.split(",")
+    path = [by_number[int(steps[0][0])], *(by_number[int(step[1])] for step in steps)]
+    start, end = (by_number[number] for number in ends)
+    paths = topology.shortest_paths(start, end)
+    assert (path[0], path[-1]) == (start, end)
+    assert tuple(path) in paths
+    assert len({topology.path_length(p) for p in paths}) == 1
+    # no simple path of the graph is shorter, and none of that length is missing
+    simple = list(nx.all_simple_paths(topology.graph, start, end))
+    least = min(map(topology.path_length, simple))
+    assert sorted(paths) == sorted(tuple(p) for p in simple if topology.path_length(p) == least)
+
+
+def test_three_cycles(topology: Topology) -> None:
+    found = [(numbers(cycle), cycle.length) for cycle in topology.candidate_cycles]
+    assert found[0] == ({1, 2, 3, 6}, 8)
+    assert len(found) == 3
+    assert ({1, 6, 3, 4, 5}, 10) in found
+    assert ({1, 2, 3, 4, 5}, 10) in found
+
+
+def test_basis(plan: Plan) -> None:
+    assert [(numbers(t.cycle), t.cycle.length) for t in plan.transformers] == [
+        ({1, 6, 3, 2}, 8),
+        ({1, 6, 3, 4, 5}, 10),
+    ]
+
+
+def test_why_the_second_loop_is_preferred(plan: Plan) -> None:
+    """Of the two loops of length 10 the one with the strut has two unknowns fewer by then."""
+    first, second = plan.transformers
+    assert first.rivals == ()
+    ((rival, unknowns),) = second.rivals
+    assert (numbers(rival), rival.length) == ({1, 2, 3, 4, 5}, 10)
+    assert (second.unknowns, unknowns) == (6, 8)
+
+
+def test_characteristic_pairs(plan: Plan) -> None:
+    pairs = [{joint.name for joint in t.pair.joints} for t in plan.transformers]
+    assert pairs == [{"B", "C"}, {"D", "E"}]
+    for transformer in plan.transformers:
+        assert transformer.pair.equations == 1
+        # the pair is the one that eliminates most
+        assert transformer.pair.eliminated == max(c.eliminated for c in transformer.candidates)
+
+
+def test_blocks_hand_on_what_they_solve(plan: Plan) -> None:
+    """Figure 3: the strut's slide and direction go from the first transformer to the second."""
+    first, second = plan.transformers
+    assert first.inputs == ("OA.angle",)
+    assert first.outputs == ("BC.slide", "C.azimuth", "C.elevation")
+    assert second.inputs == (*first.outputs, "y.slide")
+    assert "BC.angle" in second.outputs
+    assert not set(first.outputs) & set(second.outputs)
+
+
+# -- any mechanism --------------------------------------------------------------------------------
+
+P, Q = Point("p"), Point("q")
+
+
+def joint_between(kind: type[Joint], name: str, first: str, second: str) -> Joint:
+    """Return a joint of a kind; topology does not ask where it is."""
+    geometry = {
+        Revolute: {"axis": Line(P, Q)},
+        Prismatic: {"direction": FORWARD},
+        Cylindrical: {"axis": Line(P, Q), "length_at_zero_slide": "length", "angle_to": Q},
+        Universal: {"at": P, "shaft": Line(P, Q)},
+        Spherical: {"at": P},
+    }
+    return kind(name=name, first=first, second=second, **geometry[kind])
+
+
+def mechanism_of(count: int, joints: list[Joint]) -> Mechanism:
+    return Mechanism(
+        name="any",
+        title="any",
+        bodies=tuple(Body(f"body_{i}", i, center=P) for i in range(count)),
+        joints=tuple(joints),
+        forces=(),
+        parameters=(),
+        coordinates=(),
+    )
+
+
+KINDS = (Revolute, Prismatic, Cylindrical, Universal, Spherical)
+
+
+@st.composite
+def mechanisms(draw: st.DrawFn) -> Mechanism:
+    """Connected joint graphs with up to eight bodies and five loops."""
+    count = draw(st.integers(2, 8))
+    tree = [(draw(st.integers(0, i - 1)), i) for i in range(1, count)]
+    others = [edge for edge in combinations(range(count), 2) if edge not in tree]
+    extra = draw(st.lists(st.sampled_from(others), max_size=5, unique=True)) if others else []
+    joints = [
+        joint_between(draw(st.sampled_from(KINDS)), f"j{k}", f"body_{a}", f"body_{b}")
+        for k, (a, b) in enumerate([*tree, *extra])
+    ]
+    return mechanism_of(count, joints)
+
+
+@given(mechanisms(), st.randoms(use_true_random=False))
+@settings(deadline=None, max_examples=60)
+def test_minimal_cycle_basis(mechanism: Mechanism, choice: random.Random) -> None:
+    """Any choice among the shortest extensions ends at a basis as short as networkx's."""
+    topology = Topology(mechanism)
+    chosen: list[Cycle] = []
+    while options := topology.minimal_next(chosen):
+        chosen.append(choice.choice(options))
+    assert len(chosen) == topology.loop_count
+    assert topology.independent(chosen)
+    reference = nx.minimum_cycle_basis(topology.graph, weight="length")
+    lengths = [topology.cycle(nodes).length for nodes in in_order(topology.graph, reference)]
+    assert sorted(c.length for c in chosen) == sorted(lengths)
+
+
+def in_order(graph: nx.Graph, cycles: list[list[str]]) -> list[list[str]]:
+    """Return networkx's cycles with their bodies in the order of a walk."""
+    ordered = []
+    for nodes in cycles:
+        inside = graph.subgraph(nodes)
+        best = min(
+            (c for c in nx.simple_cycles(inside) if len(c) == len(nodes)),
+            key=lambda c: sum(
+                inside.edges[a, b]["length"] for a, b in zip(c, [*c[1:], c[0]], strict=True)
+            ),
+        )
+        ordered.append(best)
+    return ordered
+
+
+@given(mechanisms())
+@settings(deadline=None, max_examples=60)
+def test_sum_of_two_cycles_is_dependent(mechanism: Mechanism) -> None:
+    """Independence is that of the edges modulo two."""
+    topology = Topology(mechanism)
+    for a, b in combinations(topology.candidate_cycles, 2):
+        both = a.key ^ b.key
+        third = [c for c in topology.candidate_cycles if c.key == both]
+        assert topology.independent([a, b])
+        for c in third:
+            assert not topology.independent([a, b, c])
+
+
+# -- what cannot be analysed ----------------------------------------------------------------------
+
+
+def test_unknown_body() -> None:
+    stray = joint_between(Spherical, "stray", "knuckle", "caliper")
+    with pytest.raises(TopologyError, match=r"'stray'.*'caliper'.*no declared body"):
+        Topology(replace(SUSPENSION, joints=(*SUSPENSION.joints, stray)))
+
+
+def test_unreachable_body() -> None:
+    loose = Body("caliper", 8, center=P)
+    with pytest.raises(TopologyError, match=r"no joint path.*caliper"):
+        Topology(replace(SUSPENSION, bodies=(*SUSPENSION.bodies, loose)))
+
+
+def test_two_joints_between_the_same_bodies() -> None:
+    second = joint_between(Spherical, "second", "control_arm", "chassis")
+    with pytest.raises(TopologyError, match=r"control_arm.*chassis.*two joints"):
+        Topology(replace(SUSPENSION, joints=(*SUSPENSION.joints, second)))
+
+
+def loop_of(*kinds: type[Joint]) -> Model:
+    """Return a single loop whose first joint is driven."""
+    count = len(kinds)
+    joints = [
+        joint_between(kind, f"j{i}", f"body_{i}", f"body_{(i + 1) % count}")
+        for i, kind in enumerate(kinds)
+    ]
+    mechanism = mechanism_of(count, joints)
+    return Model("loop", "loop", mechanism, independent=("j0",), massive=())
+
+
+def test_loop_without_closed_form() -> None:
+    """Two universal joints leave two equations with three revolute joints: none in general."""
+    with pytest.raises(NoClosedFormError) as caught:
+        Plan.of(loop_of(Revolute, Revolute, Universal, Universal, Revolute))
+    message = str(caught.value)
+    assert "body_0 - body_1 - body_2 - body_3 - body_4" in message
+    assert "j0, j1, j2, j3, j4" in message
+    assert "j2/j3 leaves 2 equation(s)" in message
+
+
+def test_loop_of_hinges_has_no_closed_form() -> None:
+    """The seven hinges of a general loop are a polynomial of degree 16: nothing to cut at."""
+    with pytest.raises(NoClosedFormError, match="none, since no two of its joints"):
+        Plan.of(loop_of(*[Revolute] * 7))
+
+
+def test_undetermined_body() -> None:
+    """Without the spin coordinate nothing says how the wheel is turned."""
+    model = replace(MODEL, independent=("OA",))
+    with pytest.raises(NoClosedFormError, match="nothing determines the pose of wheel"):
+        Plan.of(model)
+
+
+def test_too_few_coordinates_for_a_loop() -> None:
+    """Without the rack coordinate the steering loop cannot be solved, and is named."""
+    model = replace(MODEL, prescribed={})
+    with pytest.raises(NoClosedFormError, match="upper_strut - knuckle - tie_rod - rack"):
+        Plan.of(model)
+
+
+def test_driven_joint_declared_the_wrong_way_round() -> None:
+    joints = tuple(
+        replace(joint, first=joint.second, second=joint.first) if joint.name == "HG" else joint
+        for joint in SUSPENSION.joints
+    )
+    model = replace(MODEL, mechanism=replace(SUSPENSION, joints=joints))
+    with pytest.raises(NoClosedFormError, match="'HG': declare 'knuckle' first and 'wheel' second"):
+        Plan.of(model)
+
+
+def test_directions_and_points_are_values() -> None:
+    """The same declaration twice is the same geometry, so joints may be declared on other pages."""
+    assert Point("p") == P
+    assert Direction("d") == Direction("d")
+    assert Line(P, Q).contains(Q)
+    assert not Line(P, Q).contains(Point("r"))
