@@ -1,12 +1,13 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
-.PHONY: help setup generate build run test lint types format baseline clean
+.PHONY: help setup generate build run test lint types format baseline clean \
+	benchmark benchmark-page benchmark-peers
 PYTHON := .venv/bin/python
 
 EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/native/*.pyx runtime/native/*.[ch])
 
 help: ## Show this list
-	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 setup: .venv/.ready ## Create .venv and install everything (also done by the other targets)
 
@@ -44,6 +45,16 @@ types: .venv/.ready ## Check types
 	@for item in runtime/*; do ln -sfn "../../../$$item" build/types/kintrafo/; done
 	@ln -sfn ../../../generator ../../../generated build/types/kintrafo/
 	@MYPYPATH=build/types .venv/bin/mypy -p kintrafo
+
+benchmark: build ## Gear against Runge-Kutta: tables and plots in out/benchmark/
+	@$(PYTHON) -m benchmarks --out out/benchmark
+
+benchmark-page: build ## The same, and its page in docs/
+	@$(PYTHON) -m benchmarks --out out/benchmark --page docs/gear-against-runge-kutta.md
+
+benchmark-peers: build ## The same suspension in CasADi, Exudyn, SymPy and Pinocchio
+	@.venv/bin/pip install -q -e ".[peers]" --no-build-isolation
+	@$(PYTHON) -m benchmarks.peers --out out/benchmark
 
 baseline: build ## Store the present operation counts as the baseline
 	@$(PYTHON) -m pytest -q tests/test_operation_counts.py --update-baseline

@@ -52,10 +52,6 @@ class Inertia:
         momentum: Vector = twist.linear * self.mass + twist.angular.cross(self.moment)
         return momentum
 
-    def angular_momentum(self, twist: Twist) -> Vector:
-        """Return ``I omega + mc x v``."""
-        return self.tensor @ twist.angular + self.moment.cross(twist.linear)
-
 
 @dataclass(frozen=True)
 class Rotor:
@@ -202,20 +198,27 @@ class Dynamics:
         body = placed.body
         columns = [k for k in self.names if k in placed.motion]
         angular: dict[str, Vector] = {}
+        offset: dict[str, Vector] = {}
         for k in columns:
             twist = placed.motion[k]
             self._momentum[body, k] = self.program.vector(
                 f"{body}_momentum_{k}", inertia.linear_momentum(twist), "123"
             )
+            offset[k] = self.program.vector(
+                f"{body}_offset_momentum_{k}", inertia.moment.cross(twist.linear), "123"
+            )
             angular[k] = self.program.vector(
-                f"{body}_spin_momentum_{k}", inertia.angular_momentum(twist), "123"
+                f"{body}_spin_momentum_{k}", inertia.tensor @ twist.angular + offset[k], "123"
             )
         for i, k in enumerate(columns):
             for other in columns[i:]:
-                twist = placed.motion[k]
-                energy = twist.angular.dot(angular[other]) + twist.linear.dot(
-                    self._momentum[body, other]
-                )
+                # v . (omega x mc) of the one column is omega . (mc x v) of the other
+                one, two = placed.motion[k], placed.motion[other]
+                if k == other:
+                    energy = one.angular.dot(angular[k] + offset[k])
+                else:
+                    energy = one.angular.dot(angular[other]) + two.angular.dot(offset[k])
+                energy += inertia.mass * one.linear.dot(two.linear)
                 self._matrix[k, other] = self._matrix.get((k, other), NONE) + energy
         if len(columns) == 1 and self.kin.unit_rate:
             self._add_single_bias(placed, columns[0], angular[columns[0]])

@@ -306,11 +306,17 @@ def test_stopping_at_outputs_takes_a_step_for_each():
 @needs_sundials
 @pytest.mark.parametrize(
     ("method", "steps", "evaluations", "band"),
-    # a wrong Jacobian still converges, only slower; the step sizes of Adams depend on rounding
-    [("BDF", 472, 648, 0.05), ("DormandPrince", 229, 1528, 0.05), ("Adams", 325, 465, 0.15)],
+    # A wrong Jacobian still converges, only slower. The bands are a little wider than what changing
+    # the spring rate by parts in 1e13 makes of the counts.
+    [
+        ("BDF", 219, 309, 0.08),
+        ("DormandPrince", 106, 753, 0.04),
+        ("Verner", 96, 907, 0.06),
+        ("Adams", 126, 203, 0.2),
+    ],
 )
 def test_effort_of_the_standard_run(method, steps, evaluations, band):
-    result = simulate(MODEL, (0, 1), START, method=method)
+    result = simulate(MODEL, (0, 0.3), START, method=method)
     assert result.steps == pytest.approx(steps, rel=band)
     assert result.nfev == pytest.approx(evaluations, rel=band)
 

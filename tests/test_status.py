@@ -3,7 +3,7 @@
 import pickle
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from types import ModuleType
 
 import numpy as np
@@ -482,6 +482,8 @@ def finite_or_refused(model: ModuleType, instant: Instant, constants: Array) -> 
         if error is None:
             assert np.isfinite(result).all(), function
             done.add(function)
+        elif "overflows" in str(error):
+            assert "the result overflows double precision, at beta1 = " in str(error)
         else:
             assert isinstance(error, ClosureError)
             assert error.reasons
@@ -519,6 +521,27 @@ wild_instants = st.builds(
 @each_model
 def test_wild_states(model, instant: Instant) -> None:
     finite_or_refused(model, instant, model.DEFAULT_CONSTANTS)
+
+
+anything = st.floats(allow_nan=False, allow_infinity=False)
+any_instants = st.builds(Instant, *[anything] * len(fields(Instant)))
+
+
+@given(any_instants)
+@calm
+@each_model
+def test_any_finite_state(model, instant: Instant) -> None:
+    """Up to 1e308, where squares overflow."""
+    finite_or_refused(model, instant, model.DEFAULT_CONSTANTS)
+
+
+@given(any_instants, number(0.6), number(0.1))
+@calm
+@each_model
+def test_any_finite_rates(model, instant: Instant, turn: float, rack: float) -> None:
+    """The same where the loops close, so that the dynamics have something to compute."""
+    reachable = replace(instant, beta1=BETA1_DESIGN + turn, rack=rack)
+    finite_or_refused(model, reachable, model.DEFAULT_CONSTANTS)
 
 
 @st.composite

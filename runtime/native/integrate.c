@@ -1,9 +1,11 @@
 #include "integrate.h"
 
 #include <math.h>
+#include <stdio.h> /* FILE, which SUNDIALS 6.4 uses undeclared */
 #include <stdlib.h>
 #include <string.h>
 
+#include <arkode/arkode_butcher_erk.h>
 #include <arkode/arkode_erkstep.h>
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
@@ -212,6 +214,42 @@ static int set_up_cvode(worker *w, double start)
     return bad ? KT_FAILED : KT_DONE;
 }
 
+/*
+ * ERKStep of SUNDIALS 6.4 takes every method whose last stage is at the end of the step for one whose
+ * last stage is the first of the next step. Where that is not so, an added stage makes it so: it
+ * is at the step's end, with no weight. The method stays the same, and evaluates as often.
+ */
+static ARKodeButcherTable table_of(const char *name)
+{
+    ARKodeButcherTable short_one = ARKodeButcherTable_LoadERKByName(name), table;
+    if (!short_one) {
+        return NULL;
+    }
+    int n = short_one->stages, same = fabs(short_one->c[n - 1] - 1.0) < 1e-12;
+    for (int i = 0; i < n; ++i) {
+        same = same && fabs(short_one->A[n - 1][i] - short_one->b[i]) < 1e-12;
+    }
+    if (same) {
+        return short_one;
+    }
+    table = ARKodeButcherTable_Alloc(n + 1, SUNTRUE);
+    if (table) {
+        table->q = short_one->q;
+        table->p = short_one->p;
+        for (int i = 0; i < n; ++i) {
+            table->c[i] = short_one->c[i];
+            table->A[n][i] = table->b[i] = short_one->b[i];
+            table->d[i] = short_one->d[i];
+            for (int j = 0; j < n; ++j) {
+                table->A[i][j] = short_one->A[i][j];
+            }
+        }
+        table->c[n] = 1.0;
+    }
+    ARKodeButcherTable_Free(short_one);
+    return table;
+}
+
 static int set_up_runge_kutta(worker *w, double start)
 {
     const kt_options *o = w->options;
@@ -222,11 +260,17 @@ static int set_up_runge_kutta(worker *w, double start)
 #if SUNDIALS_VERSION_MAJOR < 7
     ERKStepSetErrHandlerFn(w->solver, be_silent, NULL);
 #endif
-    if (ERKStepSetTableName(w->solver, o->table)) {
+    ARKodeButcherTable table = table_of(o->table);
+    int unknown = !table || ERKStepSetTable(w->solver, table); /* copies it */
+    ARKodeButcherTable_Free(table);
+    if (unknown) {
         return KT_BAD_TABLE;
     }
     int roots = w->problem->event_count + w->problem->root_count;
+    /* Nothing is interpolated then, and a cubic needs no evaluations of its own. */
+    int exact = o->stop_at_outputs && !o->dense && !roots;
     int bad = ERKStepSetUserData(w->solver, w)
+        || (exact && ERKStepSetInterpolantDegree(w->solver, 3))
         || ERKStepSVtolerances(w->solver, o->rtol, w->tolerance)
         || ERKStepSetMaxNumSteps(w->solver, -1)
         || (o->first_step > 0.0 && ERKStepSetInitStep(w->solver, o->first_step))

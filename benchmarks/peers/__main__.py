@@ -1,0 +1,118 @@
+"""Run the comparison: ``python -m benchmarks.peers --out out/benchmark``."""
+
+import argparse
+import importlib
+import json
+import platform
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+from rich.console import Console
+from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+from . import simulations, timing
+from .agreement import DisagreementError
+from .case import instant, start
+from .models import candidates
+from .report import markdown
+
+METHODS = ("BDF", "Adams", "DOP853", "DormandPrince", "Verner", "Tsitouras", "LSODA")
+"""Methods of ``kintrafo.simulate`` that are tried; those that it does not have are left out."""
+
+
+def main() -> None:
+    """Build, check, time and write the report."""
+    arguments = _arguments()
+    console = Console()
+    timing.use_one_core()
+    with Progress(
+        SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn(), console=console
+    ) as progress:
+        task = progress.add_task("starting", total=None)
+
+        def report(text: str) -> None:
+            progress.update(task, description=text)
+            if not console.is_terminal:
+                console.print(text)
+
+        entries, skipped = timing.compile_all(candidates(), report)
+        timing.time_evaluations(entries, report)
+        seconds = _seconds(entries, arguments.native, skipped, report)
+    evaluations = [entry.evaluation for entry in entries]
+    text = markdown(evaluations, seconds, skipped, _machine())
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    (arguments.out / "peers.md").write_text(text)
+    data = timing.as_data(evaluations, seconds, skipped) | {"machine": _machine()}
+    (arguments.out / "peers.json").write_text(json.dumps(data, indent=1) + "\n")
+    print(text)
+    print(f"written: {arguments.out / 'peers.md'}, {arguments.out / 'peers.json'}")
+
+
+def _arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.peers", description=__doc__)
+    parser.add_argument("--out", type=Path, default=Path("out/benchmark"), help="folder to write")
+    parser.add_argument(
+        "--native",
+        action="append",
+        default=[],
+        metavar="MODULE:FUNCTION",
+        help="a solver: (state, time span, sample times, tolerance) to the arm angle there",
+    )
+    return parser.parse_args()
+
+
+def _seconds(
+    entries: list[timing.Entry],
+    hooks: list[str],
+    skipped: dict[str, str],
+    report: timing.Report,
+) -> list[timing.Second]:
+    seconds = []
+    for simulator in _simulators(entries, hooks, skipped):
+        report(f"the second: {simulator.name}")
+        try:
+            seconds.append(timing.time_second(simulator))
+        except DisagreementError as error:
+            skipped[simulator.name] = str(error)
+    return seconds
+
+
+def _simulators(
+    entries: list[timing.Entry], hooks: list[str], skipped: dict[str, str]
+) -> Iterator[simulations.Simulator]:
+    for hook in hooks:
+        module, _, function = hook.partition(":")
+        yield simulations.hooked(hook, getattr(importlib.import_module(module), function))
+    for method in METHODS:
+        yield simulations.kintrafo(method)
+    begin = instant(start())
+    for entry in entries:
+        if entry.evaluation.flags == "native" and entry.library.source.is_derivative:
+            name = f"{entry.evaluation.name} ({entry.evaluation.parameters})"
+            yield simulations.runge_kutta(name, entry.library, entry.built.state(begin))
+    for package, tool in (
+        ("casadi", simulations.casadi_cvodes),
+        ("exudyn", simulations.exudyn),
+    ):
+        if simulations.installed(package):
+            yield from tool()
+        else:
+            skipped[package] = f"not installed: {package}"
+
+
+def _machine() -> str:
+    name = platform.processor() or platform.machine()
+    information = Path("/proc/cpuinfo")
+    if information.exists():
+        for line in information.read_text().splitlines():
+            if line.startswith("model name"):
+                name = line.partition(":")[2].strip()
+                break
+    return (
+        f"{name}, {platform.system()}, Python {platform.python_version()}, NumPy {np.__version__}"
+    )
+
+
+if __name__ == "__main__":
+    main()

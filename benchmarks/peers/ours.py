@@ -1,0 +1,28 @@
+"""The right-hand side of this project in the same timing loops: the emitted C as it is."""
+
+from kintrafo.generated import macpherson
+
+from .case import REPOSITORY, Array, parameters
+from .compiled import Source
+
+_ADAPTER = """
+KT_RHS(const double *p, const double *x, double *out) {
+    static const double inputs[5] = {0.0};
+    macpherson_rhs_rack_held(p, x, inputs, out);
+}
+"""
+
+
+def source() -> Source:
+    """Return ``macpherson_rhs_rack_held`` with the adapter; parameters are prepared constants."""
+    folder = REPOSITORY / "generated" / "c"
+    # The texts themselves, so that what is compiled follows them.
+    header = (folder / "macpherson.h").read_text()
+    emitted = (folder / "macpherson.c").read_text().replace('#include "macpherson.h"', header)
+    code = emitted + _ADAPTER
+    return Source("kintrafo", code, 4, 4, slice(2, 4), is_derivative=True)
+
+
+def constants() -> Array:
+    """Return the prepared constants of the reference car."""
+    return macpherson.prepare(parameters())

@@ -1,0 +1,170 @@
+"""The second of simulation in each tool, with settings from loose to tight."""
+
+import importlib.util
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .case import SAMPLES, Array, instant, start
+from .compiled import FLAGS, Library
+
+Run = Callable[[], Array]
+"""Simulates the second and returns beta1 at the samples."""
+
+Solve = Callable[[Array, tuple[float, float], Array, float], Array]
+"""(state, time span, sample times, tolerance) to beta1 at the samples: a solver to be hooked in."""
+
+TOLERANCES: Array = 10.0 ** -np.arange(4.0, 11.1, 0.25)
+"""From loose to tight."""
+
+
+@dataclass(frozen=True)
+class Simulator:
+    """One way to simulate the second.
+
+    Attributes
+    ----------
+    name : str
+        Tool and method.
+    settings : tuple
+        From loose to tight.
+    prepare : callable
+        From a setting to a `Run`; its time is build time.
+    """
+
+    name: str
+    settings: tuple[Any, ...]
+    prepare: Callable[[Any], Run]
+
+
+def hooked(name: str, solve: Solve) -> Simulator:
+    """Return a simulator made of a function.
+
+    Parameters
+    ----------
+    name : str
+        To be shown.
+    solve : callable
+        See `Solve`.
+    """
+    span = (float(SAMPLES[0]), float(SAMPLES[-1]))
+    return Simulator(
+        name,
+        tuple(TOLERANCES.tolist()),
+        lambda tolerance: lambda: solve(start(), span, SAMPLES, tolerance),
+    )
+
+
+def kintrafo(method: str) -> Simulator:
+    """Return this project's ``simulate`` as its users call it."""
+    from kintrafo import Model, simulate  # noqa: PLC0415
+
+    model = Model("reference_car")
+
+    def solve(state: Array, span: tuple[float, float], times: Array, tolerance: float) -> Array:
+        options = {"rtol": tolerance, "atol": tolerance}
+        result = simulate(model, span, state, method=method, t_eval=times, **options)
+        return np.asarray(result.y[0])
+
+    return hooked(f"kintrafo.simulate, {method}", solve)
+
+
+def runge_kutta(name: str, library: Library, begin: Array) -> Simulator:
+    """Return classical Runge-Kutta with fixed steps in C around a compiled right-hand side."""
+    interval = float(SAMPLES[1])
+
+    def prepare(steps: int) -> Run:
+        return lambda: library.runge_kutta(begin, len(SAMPLES), steps, interval / steps)
+
+    return Simulator(f"{name}, RK4 in C", tuple(range(1, 41)), prepare)
+
+
+def casadi_cvodes() -> Iterator[Simulator]:
+    """Yield CasADi's CVODES: multistep method, iteration, interpreted or compiled functions."""
+    from . import casadi_tree  # noqa: PLC0415
+
+    for formulation in ("routh", "implicit"):
+        model = casadi_tree.build(formulation, literal=False)
+        for multistep, iteration in (
+            ("bdf", "newton"),
+            ("adams", "newton"),
+            ("adams", "functional"),
+        ):
+            for compiled in (False, True):
+                options: dict[str, Any] = {
+                    "linear_multistep_method": multistep,
+                    "nonlinear_solver_iteration": iteration,
+                    "max_num_steps": 100000,
+                }
+                if compiled:
+                    options |= {"jit": True, "compiler": "shell"}
+                    options["jit_options"] = {"flags": list(FLAGS["native"])}
+                yield Simulator(
+                    f"CasADi CVODES, {formulation}, {multistep}-{iteration}"
+                    f"{', jit' if compiled else ''}",
+                    tuple(TOLERANCES[4:].tolist()),
+                    _cvodes(model, options),
+                )
+
+
+def _cvodes(model: Any, options: dict[str, Any]) -> Callable[[float], Run]:
+    import casadi as ca  # noqa: PLC0415
+
+    state, given = ca.SX.sym("x", 4), ca.SX.sym("p", model.constants.size)
+    equations = {"x": state, "p": given, "ode": model.function(state, given)}
+    begin = ca.DM(start())
+    constants = ca.DM(model.constants)
+
+    def prepare(tolerance: float) -> Run:
+        chosen = {**options, "reltol": tolerance, "abstol": tolerance}
+        times = SAMPLES[1:].tolist()
+        solver = ca.integrator("second", "cvodes", equations, 0.0, times, chosen)
+
+        def run() -> Array:
+            result = solver(x0=begin, p=constants)["xf"]
+            return np.append(start()[0], np.asarray(result)[0])
+
+        return run
+
+    return prepare
+
+
+def exudyn() -> Iterator[Simulator]:
+    """Yield Exudyn's generalised-alpha method, directly and with Richardson's extrapolation."""
+    from . import exudyn_model as peer  # noqa: PLC0415
+
+    def direct(setting: peer.Setting) -> Run:
+        system = peer.Exudyn(instant(start()))
+        return lambda: system.run(setting)
+
+    def extrapolated(setting: peer.Setting) -> Run:
+        system = peer.Exudyn(instant(start()))
+        return lambda: peer.extrapolated(system, setting)
+
+    for radius, modified in ((0.9, True), (0.9, False), (0.6, True), (0.6, False)):
+        newton = "modified Newton" if modified else "Newton"
+        name = f"Exudyn generalised-alpha {radius}, {newton}"
+        for steps, ending, prepare in (
+            ((6000, 8000, 10000, 12000), "", direct),
+            ((800, 1000, 1200, 1600), ", extrapolated", extrapolated),
+        ):
+            settings = tuple(peer.Setting(count, radius, modified) for count in steps)
+            yield Simulator(name + ending, settings, prepare)
+
+
+def installed(package: str) -> bool:
+    """Return whether a package can be imported."""
+    return importlib.util.find_spec(package) is not None
+
+
+def seconds_of(run: Run, repeats: int) -> tuple[float, float]:
+    """Return least and median time of a run, s."""
+    times = []
+    for _ in range(repeats):
+        begin = time.perf_counter()
+        run()
+        times.append(time.perf_counter() - begin)
+    return min(times), float(np.median(times))

@@ -1,0 +1,113 @@
+"""The benchmark scripts in a reduced mode: they run, their results have the right structure."""
+
+import json
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from kintrafo import solvers
+from kintrafo.solvers import native_available
+
+from benchmarks import paper_timing, report, work_precision
+
+ROOT = Path(__file__).parents[1]
+
+NEEDS_SUNDIALS = pytest.mark.skipif(not native_available(), reason="SUNDIALS is not built in")
+PAGE = ROOT / "docs/gear-against-runge-kutta.md"
+
+
+@pytest.fixture(scope="module")
+def case():
+    return paper_timing.standard_case()
+
+
+def columns(table):
+    return {line.count("|") for line in table.splitlines()}
+
+
+@NEEDS_SUNDIALS
+def test_command_writes_everything(tmp_path):
+    page = tmp_path / "docs" / "page.md"
+    (page.parent / "images").mkdir(parents=True)
+    shutil.copy(PAGE, page)
+    command = [sys.executable, "-m", "benchmarks", "--quick", "--out", tmp_path, "--page", page]
+    subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
+    results = json.loads((tmp_path / "gear_against_runge_kutta.json").read_text())
+    assert set(results) == {"environment", "stiffness", "paper_timing", "work_precision"}
+    assert {"processor", "compiler", "SUNDIALS", "SciPy"} <= set(results["environment"])
+    for name in ("work_precision.png", "work_precision.svg", "gear_against_runge_kutta.md"):
+        assert (tmp_path / name).stat().st_size > 1000
+    assert (page.parent / "images/work_precision.png").exists()
+    assert page.read_text().count("| Verner 6(5)") >= 1
+
+
+@NEEDS_SUNDIALS
+def test_paper_protocol(case):
+    result = paper_timing.measure(case, interval=1e-3, rounds=1)
+    runge_kutta, gear = result.entries[:2]
+    assert (runge_kutta.method, runge_kutta.stops) == ("Verner", True)
+    assert (gear.method, gear.stops) == ("BDF", False)
+    assert result.paper_ratio == pytest.approx(27.7, abs=0.01)
+    # eight stages onto every output; Gear's steps are far fewer than the outputs
+    assert runge_kutta.evaluations >= 8 * result.outputs
+    assert gear.evaluations < result.outputs
+    assert all(e.error < 1e-4 for e in result.entries)
+    assert columns(paper_timing.methods_table(result)) == {10}
+    assert columns(paper_timing.ratio_table(result)) == {3}
+
+
+def test_work_precision(case):
+    points = work_precision.measure(case, (1e-4, 1e-7), passes=1, budget=0.0)
+    assert len(points) == 2 * len(work_precision.curves())
+    for coarse, fine in zip(points[::2], points[1::2], strict=True):
+        assert fine.error < coarse.error < 1e-2
+        assert fine.evaluations > coarse.evaluations
+    assert columns(work_precision.points_table(points)) == {10}
+    costs = work_precision.cost_at(points, 1e-5)
+    assert costs
+    assert columns(work_precision.cost_table(costs)) == {5}
+    assert len(work_precision.draw(points, "a processor").axes) == 2
+
+
+def test_cost_lies_between_the_tolerances():
+    def point(error, evaluations):
+        timing = report.timing_of([evaluations * 1e-6])
+        return work_precision.Point("SciPy", "RK45", 1e-3, error, 0, evaluations, 0, timing)
+
+    (cost,) = work_precision.cost_at([point(1e-4, 100), point(1e-8, 10_000)], 1e-6)
+    assert cost.evaluations == pytest.approx(1000)
+    assert cost.seconds == pytest.approx(1e-3)
+
+
+def test_stiffness(case):
+    result = work_precision.stiffness(case)
+    assert np.max(result.eigenvalues.imag) == pytest.approx(75.48, abs=0.01)
+    growth = np.abs(np.max(np.abs(result.eigenvalues)) * result.stable_step)
+    assert 2.0 < growth < 4.0  # the region of Dormand-Prince reaches about as far
+
+
+def test_without_sundials_scipy_remains(monkeypatch, case):
+    monkeypatch.setattr(solvers, "_sundials", None)
+    assert {library for library, _ in work_precision.curves()} == {"SciPy"}
+    points = work_precision.measure(case, (1e-4,), passes=1, budget=0.0)
+    assert len(points) == len(work_precision.SCIPY)
+    assert report.environment()["SUNDIALS"] == "not built in"
+    assert work_precision.draw(points, "a processor").legends
+
+
+def test_page_names_only_known_blocks():
+    found = re.findall(r"<!-- begin (\w+) -->", PAGE.read_text())
+    assert found == ["machine", "methods", "ratios", "stiffness", "costs"]
+
+
+def test_table_and_page(tmp_path):
+    table = report.markdown_table(["a", "b"], [["one", "2"], ["three", "44"]])
+    assert table.splitlines()[1] == "|:------|----:|"
+    page = tmp_path / "page.md"
+    page.write_text("x\n<!-- begin a -->\nold\n<!-- end a -->\ny\n")
+    report.fill_page(page, {"a": "new \\1", "b": "not there"})
+    assert page.read_text() == "x\n<!-- begin a -->\nnew \\1\n<!-- end a -->\ny\n"
