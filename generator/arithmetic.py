@@ -103,6 +103,9 @@ def write(expression: sp.Expr, dialect: Dialect = C) -> Written:
         return _write_product(expression, dialect)
     if expression.is_Pow:
         return _write_power(expression, dialect)
+    if type(expression) not in dialect.functions:
+        message = f"{expression} cannot be written: {type(expression).__name__} has no spelling"
+        raise ValueError(message)
     arguments = [write(a, dialect) for a in expression.args]
     trigonometric = not isinstance(expression, Guarded | SignOf)
     text = dialect.functions[type(expression)].format(", ".join(a.text for a in arguments))

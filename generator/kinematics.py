@@ -133,7 +133,10 @@ class Kinematics:
         self.work_axes = IDENTITY
         if self._hinge is not None:
             x, z = self._hinge_axes(self._hinge)
-            self.work_axes = (x, self.program.vector("work_y", z.cross(x)), z)
+            y = self.program.vector("work_y", z.cross(x))
+            if self._hinge.angle_from is UP:  # z leans from up towards x: y stays level
+                y = Vector(y.x, y.y, sp.Integer(0))
+            self.work_axes = (x, y, z)
         ground = self.mechanism.ground
         self.placed[ground] = Placed(ground)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import sympy as sp
@@ -100,11 +100,13 @@ class _Builder:
         self._add_poses()
         self._add_signals()
         guards = self._acting_guards()
-        self._add(
+        margins = self.program.function(
             "margins",
-            "Quantities that are positive where the model is valid.",
+            "Quantities that are positive where the model is valid; where one is not, those "
+            "behind it mean nothing.",
             {g.name: g.quantity for g in guards},
         )
+        self.functions["margins"] = replace(margins, guards=())  # it reports, and does not refuse
         prepare = self.constants.function(self.functions.values())
         return GeneratedModel(
             model=self.model,

@@ -234,7 +234,15 @@ class Program:
             Expressions in the names of the program.
         label
             Ends the names of the new steps: ``name__label``.
+
+        Raises
+        ------
+        ValueError
+            If the symbol is a parameter: the constant stage is not differentiated.
         """
+        if self.constants.contains(along):
+            message = f"{along} is a parameter; only what varies in time is differentiated by"
+            raise ValueError(message)
         targets = list(targets)
         needed = ancestors(self.steps, targets)
         tangent: dict[sp.Symbol, sp.Expr] = {along: sp.Integer(1)}
