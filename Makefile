@@ -1,6 +1,6 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
-.PHONY: help setup generate build run test lint types format baseline clean \
+.PHONY: help setup generate build run test package lint types format baseline clean \
 	benchmark benchmark-page benchmark-peers
 PYTHON := .venv/bin/python
 
@@ -56,8 +56,16 @@ benchmark-peers: build ## The same suspension in CasADi, Exudyn, SymPy and Pinoc
 	@.venv/bin/pip install -q -e ".[peers]" --no-build-isolation
 	@$(PYTHON) -m benchmarks.peers --out out/benchmark
 
+package: .venv/.ready ## Build a source package and a wheel from it, and import that
+	@rm -rf build/package && mkdir -p build
+	@$(PYTHON) -m build --no-isolation --outdir build/package . >build/package.log 2>&1 \
+		|| { tail -n 20 build/package.log; exit 1; }
+	@$(PYTHON) -m pip install -q --no-deps --target build/package/site build/package/*.whl
+	@cd build/package/site && ../../../$(PYTHON) -P -c "import sys; sys.path.insert(0, '.'); \
+		import kintrafo; print('packaged:', kintrafo.Model('reference_car'))"
+
 baseline: build ## Store the present operation counts as the baseline
 	@$(PYTHON) -m pytest -q tests/test_operation_counts.py --update-baseline
 
 clean: ## Remove everything that can be made again
-	rm -rf .venv build out generated/*.so .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf .venv build out dist *.egg-info generated/*.so runtime/native/*.so .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -101,6 +101,8 @@ class Build(build_ext):
                 )
 
 
+if not list(GENERATED.glob("*.pyx")):
+    sys.exit("kintrafo: no generated models in generated/; run `make generate` first")
 EXTENSIONS = [model_extension(path) for path in sorted(GENERATED.glob("*.pyx"))]
 SOLVER = solver_extension()
 setup(

@@ -15,7 +15,11 @@ Array = NDArray[np.float64]
 Described = Mapping[str, Mapping[str, Any]]
 
 
-class ModelError(ValueError):
+class KintrafoError(Exception):
+    """Base of every exception that kintrafo raises on purpose."""
+
+
+class ModelError(KintrafoError, ValueError):
     """A generated function cannot give a result."""
 
 
@@ -45,15 +49,18 @@ class ClosureError(ModelError):
         margins: Mapping[str, float],
         coordinates: Mapping[str, float],
         index: tuple[int, ...],
+        units: Mapping[str, str],
     ) -> None:
         self.reasons = tuple(reasons)
         self.margins = dict(margins)
         self.coordinates = dict(coordinates)
         self.index = index
-        self._arguments = (function, self.reasons, self.margins, self.coordinates, index)
+        self._arguments = (
+            function, self.reasons, self.margins, self.coordinates, index, dict(units)
+        )
         shown = ", ".join(f"{name} = {value:.6g}" for name, value in self.coordinates.items())
         wrong = "; ".join(
-            f"{reason} ({name} = {value:.3g}, must be positive)"
+            f"{reason} ({name} = {value:.3g} {units.get(name, '')}, must be positive)"
             for reason, (name, value) in zip(self.reasons, self.margins.items(), strict=True)
         )
         super().__init__(f"{function}: {wrong}, at {shown}{_place(index)}")
@@ -79,7 +86,9 @@ class CompiledModel:
         guards: Sequence[tuple[str, str]],
         relative: Described,
         addresses: Mapping[str, int],
+        guard_units: Mapping[str, str],
     ) -> None:
+        self.guard_units = guard_units
         self.name = name
         self.parameter_names = tuple(parameters)
         self.state_names = tuple(state)
@@ -177,15 +186,16 @@ class CompiledModel:
             {self.guards[bit][0]: float(margins[bit]) for bit in hit},
             coordinates,
             index,
+            self.guard_units,
         )
 
 
 class Residuals:
     """Closure residuals g(beta, q) of given relative coordinates (Eqs. 4 to 13).
 
-    Called as ``residuals(given, state, inputs=None, constants=None)`` for one state; ``given`` and
-    the result are in the order and units of ``RELATIVE_COORDINATES``. For an angle that the paper
-    gives by its sine, the residual is that of the sine.
+    Called as ``residuals(given, state, inputs=None, constants=None)``; ``given`` and the result are
+    in the order and units of ``RELATIVE_COORDINATES``, behind the leading dimensions. For an angle
+    that the paper gives by its sine, the residual is that of the sine.
     """
 
     def __init__(self, model: CompiledModel) -> None:
@@ -198,31 +208,41 @@ class Residuals:
         inputs: ArrayLike | None = None,
         constants: ArrayLike | None = None,
     ) -> Array:
-        """Return the residuals."""
+        """Return the residuals, shape (..., number of relative coordinates)."""
         model = self._model
-        width = len(model.relative_names)
-        beta = _row(given, width, "given")
-        y = _row(state, model.widths[1], "state")
-        u = _row(model.no_inputs if inputs is None else inputs, model.widths[2], "inputs")
-        c = _row(
-            model.default_constants if constants is None else constants,
-            model.widths[0],
-            "constants",
-        )
+        arrays = {
+            "given": (given, len(model.relative_names)),
+            "constants": (model.default_constants if constants is None else constants,
+                          model.widths[0]),
+            "state": (state, model.widths[1]),
+            "inputs": (model.no_inputs if inputs is None else inputs, model.widths[2]),
+        }
+        rows = {what: _rows(values, width, what) for what, (values, width) in arrays.items()}
+        lead = np.broadcast_shapes(*(array.shape[:-1] for array in rows.values()))
+        rows = {what: np.broadcast_to(a, (*lead, a.shape[-1])) for what, a in rows.items()}
+        result = np.empty((*lead, len(model.relative_names)))
+        for index in np.ndindex(lead):
+            one = {what: np.ascontiguousarray(array[index]) for what, array in rows.items()}
+            result[index] = self._one(one, tuple(map(int, index)))
+        return result
+
+    def _one(self, row: Mapping[str, Array], index: tuple[int, ...]) -> Array:
+        model, beta = self._model, row["given"]
         bad = [n for n, v in zip(model.relative_names, beta, strict=True) if not np.isfinite(v)]
         if bad:
-            message = f"{model.name}.residuals: NaN or infinite: {', '.join(bad)}"
+            message = f"{model.name}.residuals: NaN or infinite: {', '.join(bad)}{_place(index)}"
             raise ModelError(message)
-        out = np.empty(width)
+        c, y, u = row["constants"], row["state"], row["inputs"]
+        out = np.empty(len(model.relative_names))
         status = call_residuals(model.addresses["residuals"], c, y, u, beta, out)
         if status:
-            model.refuse("residuals", status, c, y, u, ())
+            model.refuse("residuals", status, c, y, u, index)
         return out
 
 
-def _row(values: ArrayLike, width: int, what: str) -> Array:
-    array = np.ascontiguousarray(values, dtype=np.float64)
-    if array.shape != (width,):
-        message = f"{what}: {width} elements expected, an array of shape {array.shape} given"
+def _rows(values: ArrayLike, width: int, what: str) -> Array:
+    array = np.asarray(values, dtype=np.float64)
+    if array.shape[-1:] != (width,):
+        message = f"{what}: the last dimension must be {width}, the shape is {array.shape}"
         raise ValueError(message)
     return array

@@ -73,8 +73,8 @@ class Dynamics:
         M, B and Q in the order of the independent coordinates.
     accelerations
         q'' by coordinate name.
-    spring_force, damper_force, tyre_force
-        The signals of the force elements, by joint or carrier name.
+    signals
+        What the force elements show, by name.
     """
 
     def __init__(self, kin: Kinematics) -> None:
@@ -295,16 +295,17 @@ class Dynamics:
 
     def _add_telescope_spring(self, force: TelescopeSpring) -> None:
         program, line = self.program, self.kin.telescopes[force.joint]
+        prefix = self.kin.mechanism.prefix(force)
         slide = self.kin.slides[force.joint]
         rates = [m * self.kin.true_rate(k) for k, m in line.length_motion.items()]
         length_rate = program.define(f"length_rate_{force.joint}", sum(rates, NONE))
         spring = program.define(
-            "spring_force", sp.Symbol(force.rate) * (slide - sp.Symbol(force.free_slide))
+            f"{prefix}spring_force", sp.Symbol(force.rate) * (slide - sp.Symbol(force.free_slide))
         )
-        damper = program.define("damper_force", -sp.Symbol(force.damper) * length_rate)
+        damper = program.define(f"{prefix}damper_force", -sp.Symbol(force.damper) * length_rate)
         actuator = sp.Symbol(force.actuator) if force.actuator else NONE
-        total = program.define("telescope_force", spring + damper + actuator)
-        self.signals.update(spring_force=spring, damper_force=damper)
+        total = program.define(f"{prefix}telescope_force", spring + damper + actuator)
+        self.signals |= {f"{prefix}spring_force": spring, f"{prefix}damper_force": damper}
         for k in self.names:
             if k in line.length_motion:
                 self._force[k] += total * line.length_motion[k]
@@ -315,7 +316,7 @@ class Dynamics:
         relative = ends[1].minus(ends[0])
         span = program.vector(f"{name}_span", relative.position)
         squared = program.guarded(
-            f"{name}_length_squared", span.dot(span), f"the ends of {name} coincide"
+            f"{name}_length_squared", span.dot(span), f"the ends of {name} coincide", "m^2"
         )
         length = program.define(f"{name}_length", sp.sqrt(squared))
         direction = program.vector(f"{name}_direction", span * (1 / length))
@@ -332,30 +333,35 @@ class Dynamics:
         for k in self.names:
             if k in motion:
                 self._force[k] += (spring + damper) * motion[k]
+        self.signals |= {
+            f"{name}_length": length,
+            f"{name}_spring_force": spring,
+            f"{name}_damper_force": damper,
+        }
 
     def _add_tyre(self, force: LinearTyre) -> None:
         program, carrier = self.program, self.kin.placed[force.carrier]
+        prefix = self.kin.mechanism.prefix(force)
         center = self.kin.local(carrier, force.center)
         up = self.up_in(carrier)
         axis = self.kin.local_direction(carrier, force.spin)
-        lean = program.define("wheel_axis_up", axis.dot(up))
+        lean = program.define(f"{prefix}wheel_axis_up", axis.dot(up))
         ground = self.kin.design_direction(UP)
         height_of_origin = carrier.origin.dot(ground) + self._origin_height()
-        height = program.define("wheel_height", height_of_origin + center.dot(up))
-        pull = program.vector("tyre_pull", up - axis * lean, "123")
+        height = program.define(f"{prefix}wheel_height", height_of_origin + center.dot(up))
+        pull = program.vector(f"{prefix}tyre_pull", up - axis * lean, "123")
         # not 1 - lean^2: of a wheel that lies flat, rounding would leave something positive
         squared = program.guarded(
-            "cos_camber_squared", pull.dot(pull), "the wheel lies flat on the road"
+            f"{prefix}cos_camber_squared", pull.dot(pull), "the wheel lies flat on the road", "1"
         )
         deflection = sp.Symbol(force.free_height) + sp.Symbol(force.road) - height
-        load = program.define("tyre_load", sp.Symbol(force.rate) * deflection / squared)
+        load = program.define(f"{prefix}tyre_load", sp.Symbol(force.rate) * deflection / squared)
         for k in self.names:
             if k in carrier.motion:
                 velocity = self.wheel_velocity(carrier, center, k)
                 self._force[k] += load * pull.dot(velocity)
-        self.signals.update(
-            wheel_height=height,
-            tyre_force=program.define("tyre_force", load * sp.sqrt(squared)),
+        self.signals[f"{prefix}tyre_force"] = program.define(
+            f"{prefix}tyre_force", load * sp.sqrt(squared)
         )
 
     def wheel_velocity(self, carrier: Placed, center: Vector, k: str) -> Vector:
@@ -434,7 +440,10 @@ class Dynamics:
         inverse: dict[str, sp.Expr] = {}
         for i, k in enumerate(names):
             pivot = program.guarded(
-                f"pivot_{k}", work[k, k], f"the mass matrix is not positive definite at {k}"
+                f"pivot_{k}",
+                work[k, k],
+                f"the mass matrix is not positive definite at {k}",
+                "kg m^2 or kg",
             )
             inverse[k] = program.define(f"inverse_pivot_{k}", 1 / pivot)
             for j, row in enumerate(names[i + 1 :], i + 1):

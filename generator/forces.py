@@ -82,6 +82,8 @@ class LinearTyre:
 
     Parameters
     ----------
+    name
+        Begins the names of its signals where there are several tyres.
     carrier
         Body that carries the wheel's bearing.
     center
@@ -94,6 +96,7 @@ class LinearTyre:
         Name of the input: height of the road under the tyre [m].
     """
 
+    name: str
     carrier: str
     center: Point
     spin: Direction

@@ -156,6 +156,11 @@ class Kinematics:
         sign = self.program.define("hinge_sense", SignOf(axis.dot(z.cross(arm))))
         return self.program.vector("work_x", axis * sign), z
 
+    def loop_of(self, action: SolveTelescope | SolveTurn) -> str:
+        """Return the bodies of the loop that an action solves, for messages."""
+        transformer = next(t for t in self.plan.transformers if t.action == action)
+        return f"the loop {' - '.join(transformer.cycle.bodies)}"
+
     def unit(self, name: str, vector: Vector) -> Vector:
         """Append the unit vector along a constant vector."""
         v = self.program.vector(f"{name}_vector", vector)

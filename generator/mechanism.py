@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from .checks import check_mechanism, check_model
 from .joints import Joint, Universal
 
 if TYPE_CHECKING:
@@ -81,6 +82,9 @@ class Mechanism:
     coordinates: tuple[RelativeCoordinate, ...]
     inputs: Mapping[str, tuple[str, str]] = field(default_factory=dict)
 
+    def __post_init__(self) -> None:
+        check_mechanism(self)
+
     @property
     def ground(self) -> str:
         """Name of the reference body."""
@@ -93,6 +97,11 @@ class Mechanism:
     def joint(self, name: str) -> Joint:
         """Return a joint by its name."""
         return next(j for j in self.joints if j.name == name)
+
+    def prefix(self, force: Force) -> str:
+        """Return what begins the names of a force's signals: nothing, where it is alone."""
+        alike = [f for f in self.forces if type(f) is type(force)]
+        return "" if len(alike) == 1 else f"{getattr(force, 'name', '')}_"
 
     def joints_of(self, body: str) -> list[Joint]:
         """Return the joints at a body."""
@@ -129,3 +138,6 @@ class Model:
     massive: tuple[str, ...]
     prescribed: Mapping[str, str] = field(default_factory=dict)
     held: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        check_model(self)

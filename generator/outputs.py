@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from .arithmetic import SignOf
+from .checks import check_symbols
 from .dynamics import Dynamics
-from .forces import JointForce, LinearTyre, TelescopeSpring
+from .forces import JointForce, LinearTyre, LineSpring, TelescopeSpring
 from .kinematics import Kinematics
 from .placement import IDENTITY, Placed, from_axes
 from .program import ConstantStage, Function, Guard, Program
@@ -108,6 +109,7 @@ class _Builder:
         )
         self.functions["margins"] = replace(margins, guards=())  # it reports, and does not refuse
         prepare = self.constants.function(self.functions.values())
+        self._check_symbols(prepare)
         return GeneratedModel(
             model=self.model,
             plan=self.plan,
@@ -122,6 +124,23 @@ class _Builder:
             massive_bodies=self.massive,
             signals=tuple(self.signals),
             held_inputs={v: self._rate_inputs(j) for v, j in self.model.held.items()},
+        )
+
+    def _check_symbols(self, prepare: Function) -> None:
+        """See that the equations read nothing but what is declared."""
+        check_symbols(
+            self.mechanism.name,
+            {s.name for s in prepare.free_symbols},
+            [p.name for p in self.mechanism.parameters],
+        )
+        varying = {s.name for f in self.functions.values() for s in f.free_symbols}
+        varying -= set(prepare.labels)
+        given = {f"given_{c.name}" for c in self.mechanism.coordinates}
+        states = {e.name for e in self._state_entries()}
+        check_symbols(
+            self.model.name,
+            varying - given - states - set(self._input_names()),
+            [p.name for p in self.mechanism.parameters],
         )
 
     # -- arrays ---------------------------------------------------------------------------------
@@ -360,6 +379,8 @@ class _Builder:
                 self._add_wheel_signals(force, results)
             elif isinstance(force, TelescopeSpring):
                 self._add_telescope_signals(force, results)
+            elif isinstance(force, LineSpring):
+                self._add_line_signals(force, results)
         self._add("signals", "Physical signals, see the enumeration of signals.", results)
 
     def _signal(
@@ -369,13 +390,16 @@ class _Builder:
         results[name] = value
 
     def _add_wheel_signals(self, tyre: LinearTyre, results: dict[str, sp.Expr]) -> None:
+        prefix = self.mechanism.prefix(tyre)
         carrier = self.kin.placed[tyre.carrier]
         center = self.kin.local(carrier, tyre.center)
         up = self.dynamics.up_in(carrier)
         work = carrier.origin + from_axes(carrier.axes, center)
         position = self.kin.to_chassis(work) + self.kin.work_origin
         for axis, value in zip(AXES, position, strict=True):
-            self._signal(results, f"wheel_center_{axis}", value, "m", f"wheel centre, {axis}")
+            self._signal(
+                results, f"{prefix}wheel_center_{axis}", value, "m", f"wheel centre, {axis}"
+            )
         velocity = acceleration = sp.Integer(0)
         for k in carrier.motion:
             share = up.dot(self.dynamics.wheel_velocity(carrier, center, k))
@@ -384,14 +408,14 @@ class _Builder:
         acceleration += up.dot(self.kin.point_bias(carrier, center)) * self.kin.pace**2
         self._signal(
             results,
-            "wheel_velocity",
+            f"{prefix}wheel_velocity",
             velocity,
             "m/s",
             "vertical velocity of the wheel centre, positive up",
         )
         self._signal(
             results,
-            "wheel_acceleration",
+            f"{prefix}wheel_acceleration",
             acceleration,
             "m/s^2",
             "vertical acceleration of the wheel centre, positive up",
@@ -399,8 +423,8 @@ class _Builder:
         self._add_wheel_angles(tyre, carrier, results)
         self._signal(
             results,
-            "tyre_force",
-            self.dynamics.signals["tyre_force"],
+            f"{prefix}tyre_force",
+            self.dynamics.signals[f"{prefix}tyre_force"],
             "N",
             "tyre force in the wheel plane, positive in compression",
         )
@@ -408,37 +432,56 @@ class _Builder:
     def _add_wheel_angles(
         self, tyre: LinearTyre, carrier: Placed, results: dict[str, sp.Expr]
     ) -> None:
+        prefix = self.mechanism.prefix(tyre)
         axis = from_axes(carrier.axes, self.kin.local_direction(carrier, tyre.spin))
-        a = self.program.vector("spin_axis_now", self.kin.to_chassis(axis))
-        side = self.program.define("wheel_side", SignOf(tyre.center.position.y))
+        a = self.program.vector(f"{prefix}spin_axis_now", self.kin.to_chassis(axis))
+        side = self.program.define(f"{prefix}wheel_side", SignOf(tyre.center.position.y))
         self._signal(
             results,
-            "camber",
+            f"{prefix}camber",
             sp.atan2(-side * a.z, a.y),
             "rad",
             "camber, positive with the top of the wheel outboard",
         )
-        self._signal(results, "toe", sp.atan2(side * a.x, a.y), "rad", "toe angle, positive toe-in")
         self._signal(
-            results, "steer", sp.atan2(-a.x, a.y), "rad", "steer angle, positive to the left"
+            results, f"{prefix}toe", sp.atan2(side * a.x, a.y), "rad", "toe angle, positive toe-in"
+        )
+        self._signal(
+            results,
+            f"{prefix}steer",
+            sp.atan2(-a.x, a.y),
+            "rad",
+            "steer angle, positive to the left",
         )
 
     def _add_telescope_signals(self, spring: TelescopeSpring, results: dict[str, sp.Expr]) -> None:
+        prefix = self.mechanism.prefix(spring)
         line = self.kin.telescopes[spring.joint]
         self._signal(
             results, f"{spring.name}_length", line.length, "m", f"length of the {spring.name}"
         )
         self._signal(
             results,
-            "spring_force",
-            self.dynamics.signals["spring_force"],
+            f"{prefix}spring_force",
+            self.dynamics.signals[f"{prefix}spring_force"],
             "N",
             "spring force, positive when it pushes the ends apart",
         )
         self._signal(
             results,
-            "damper_force",
-            self.dynamics.signals["damper_force"],
+            f"{prefix}damper_force",
+            self.dynamics.signals[f"{prefix}damper_force"],
             "N",
             "damper force, positive when it pushes the ends apart",
         )
+
+    def _add_line_signals(self, spring: LineSpring, results: dict[str, sp.Expr]) -> None:
+        for kind, unit, meaning in (
+            ("length", "m", "length"),
+            ("spring_force", "N", "spring force, positive when it pushes the ends apart"),
+            ("damper_force", "N", "damper force, positive when it pushes the ends apart"),
+        ):
+            name = f"{spring.name}_{kind}"
+            self._signal(
+                results, name, self.dynamics.signals[name], unit, f"{spring.name}: {meaning}"
+            )

@@ -26,11 +26,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Guard:
-    """A quantity that must be positive, and what it means when it is not."""
+    """A quantity that must be positive, its unit, and what it means when it is not positive."""
 
     quantity: sp.Symbol
     name: str
     meaning: str
+    unit: str
 
 
 @dataclass(frozen=True)
@@ -210,7 +211,7 @@ class Program:
         x, y, z = (self.vector(n, v, suffixes) for n, v in zip(names, vectors, strict=True))
         return x, y, z
 
-    def guarded(self, name: str, expression: Any, meaning: str) -> sp.Expr:
+    def guarded(self, name: str, expression: Any, meaning: str, unit: str) -> sp.Expr:
         """Append a step whose value must be positive, and return its guarded form.
 
         Constants are not guarded: the parameter stage checks them all at once.
@@ -218,7 +219,7 @@ class Program:
         symbol = self.define(name, expression)
         if self.constants.contains(symbol):
             return symbol
-        self.guards.setdefault(symbol, Guard(symbol, name, meaning))
+        self.guards.setdefault(symbol, Guard(symbol, name, meaning, unit))
         return Guarded(symbol)
 
     # -- differentiation ------------------------------------------------------------------------
@@ -273,7 +274,10 @@ class Program:
             if step.symbol in self.guards and step.expression.free_symbols & replaced.keys():
                 guard = self.guards[step.symbol]
                 new = self.guarded(
-                    f"{step.symbol}__{label}", step.expression.xreplace(replaced), guard.meaning
+                    f"{step.symbol}__{label}",
+                    step.expression.xreplace(replaced),
+                    guard.meaning,
+                    guard.unit,
                 ).args[0]
             else:
                 new = self.define(f"{step.symbol}__{label}", step.expression.xreplace(replaced))

@@ -108,6 +108,7 @@ class RelativeCoordinates:
             f"shaft_level_squared_{name}",
             n.x**2 + n.y**2,
             f"the shaft at universal joint {name} is vertical: its azimuth is undefined",
+            "1",
         )
         level = program.define(f"shaft_level_{name}", sp.sqrt(squared))
         x = Vector(n.y / level, -n.x / level, ZERO.z)

@@ -41,7 +41,9 @@ def solve_telescope(kin: Kinematics, action: SolveTelescope) -> None:
     squared = kin.program.guarded(
         f"length_squared_{name}",
         span.dot(span),
-        f"the ends {action.anchor.name} and {action.end.name} of telescope {name} coincide",
+        f"{kin.loop_of(action)}: the ends {action.anchor.name} and {action.end.name} of telescope "
+        f"{name} coincide",
+        "m^2",
     )
     length = kin.program.define(f"length_{name}", sp.sqrt(squared))
     record = _line(
@@ -163,7 +165,9 @@ def _turned_axes(
     squared = program.guarded(
         f"{body}_reach_squared",
         w_p.dot(w_p),
-        f"point {action.anchor.name} lies on the line of {body}: its rotation is undetermined",
+        f"{kin.loop_of(action)}: point {action.anchor.name} lies on the line of {body}, whose "
+        "rotation is undetermined",
+        "m^2",
     )
     k = program.define(
         f"{body}_reach_needed",
@@ -172,7 +176,9 @@ def _turned_axes(
     room = program.guarded(
         f"{body}_closure",
         squared - k**2,
-        f"the rod {action.rod} cannot reach {body}: the loop is beyond its dead point",
+        f"{kin.loop_of(action)} cannot close: the rod {action.rod} cannot reach {body}, beyond its "
+        "dead point",
+        "m^2",
     )
     height = program.define(f"{body}_rod_height", constants.branch * sp.sqrt(room))
     inverse = program.define(f"{body}_reach_inverse", 1 / squared)
@@ -304,6 +310,7 @@ def place_by_cross(kin: Kinematics, action: PlaceByCross) -> None:
         f"{body}_cross_squared",
         cross.dot(cross),
         f"the shaft {body} lies along the first axis of universal joint {joint.name}",
+        "1",
     )
     lever = program.define(f"{body}_lever", sp.sqrt(squared))
     second = program.vector(f"{body}_second_axis", cross * (1 / lever))

@@ -11,15 +11,20 @@ Examples
 ['camber', 'damper_force', 'spring_force']
 """
 
-from .errors import InputError, KintrafoError
-from .events import SignalEvent
-from .generated.macpherson import ClosureError, ModelError, ParameterError
-from .input.suspension import Suspension
-from .model import Model
-from .positions import PositionError, Range, equilibrium, state_at_height, travel_range
-from .simulation import Simulation, SimulationError, simulate
+from importlib import import_module
+from importlib.metadata import version
+from typing import TYPE_CHECKING, Any
 
-__version__ = "0.1.0"
+if TYPE_CHECKING:
+    from .errors import InputError, KintrafoError
+    from .events import SignalEvent
+    from .generated._support import ClosureError, ModelError, ParameterError
+    from .input.suspension import Suspension
+    from .model import Model
+    from .positions import PositionError, Range, equilibrium, state_at_height, travel_range
+    from .simulation import Simulation, SimulationError, simulate
+
+__version__ = version("kintrafo")
 
 __all__ = [
     "ClosureError",
@@ -39,3 +44,27 @@ __all__ = [
     "state_at_height",
     "travel_range",
 ]
+
+# Names are loaded when they are first used: the generator is part of this package, and must run
+# where no model has been generated or compiled yet.
+_MODULES = {
+    ".errors": ("InputError", "KintrafoError"),
+    ".events": ("SignalEvent",),
+    ".generated._support": ("ClosureError", "ModelError", "ParameterError"),
+    ".input.suspension": ("Suspension",),
+    ".model": ("Model",),
+    ".positions": ("PositionError", "Range", "equilibrium", "state_at_height", "travel_range"),
+    ".simulation": ("Simulation", "SimulationError", "simulate"),
+}
+_HOMES = {name: module for module, names in _MODULES.items() for name in names}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        message = f"module {__name__!r} has no attribute {name!r}"
+        raise AttributeError(message)
+    return getattr(import_module(_HOMES[name], __name__), name)
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -2,15 +2,16 @@
 
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, NoReturn
 
 import typer
 from rich.console import Console
 from rich.table import Table
 
-from . import paper
+from . import __version__, paper
 from .errors import KintrafoError
 from .model import Model
+from .solvers import native_version
 
 app = typer.Typer(
     help="Closed-form equations of motion for mechanisms with loops, compiled and simulated.",
@@ -20,9 +21,22 @@ app = typer.Typer(
 console = Console(width=None if sys.stdout.isatty() else 110)
 
 
+def _show_version(*, wanted: bool) -> None:
+    if wanted:
+        console.print(f"kintrafo {__version__}, SUNDIALS {native_version()}")
+        raise typer.Exit
+
+
 @app.callback()
-def main() -> None:
-    """Keep subcommands, even while there is only one."""
+def main(
+    *,
+    version: Annotated[
+        bool,
+        typer.Option("--version", callback=lambda v: _show_version(wanted=v), is_eager=True),
+    ] = False,
+) -> None:
+    """Closed-form equations of motion for mechanisms with loops, compiled and simulated."""
+    del version
 
 
 @app.command("paper")
@@ -38,6 +52,7 @@ def paper_command(
     from .overview import write_overview  # noqa: PLC0415
 
     model = Model(data)
+    folder.mkdir(parents=True, exist_ok=True)
     with console.status("kinematics over the travel"):
         kinematics = paper.kinematics(model)
     with console.status("one second of motion"):
@@ -48,10 +63,11 @@ def paper_command(
     console.print(summary(model, paper.rest(model), dynamics))
     console.print(
         "The paper gives no hardpoints, masses or rates. These are results of "
-        f"[bold]{data}[/bold], which is not the paper's car: compare them in kind."
+        f"{data}, which is not the paper's car: compare them in kind.",
+        markup=False,
     )
     for file in [*files, folder / "overview.png"]:
-        console.print(f"  {file}")
+        console.print(f"  {file}", markup=False)
 
 
 def summary(model: Model, rest: paper.Rest, dynamics: paper.Dynamics) -> Table:
@@ -65,10 +81,8 @@ def summary(model: Model, rest: paper.Rest, dynamics: paper.Dynamics) -> Table:
         "with the rack held, "
         f"{equations.rhs.operations['total']} with the rack moving",
         "equilibrium": f"wheel centre at {rest.height * 1e3:.3f} mm",
-        "eigenvalues there": f"{rest.eigenvalue.real:.4f} +- {rest.eigenvalue.imag:.4f} i 1/s, "
-        "and two zeros (wheel spin)",
-        "wheel-hop mode": f"{rest.natural_frequency:.2f} Hz, damping ratio "
-        f"{rest.damping_ratio:.3f}: not stiff",
+        "eigenvalues there": f"{rest.eigenvalues_text} 1/s, and two zeros (wheel spin)",
+        "wheel-hop mode": rest.mode_text,
         "integration of 1 s": f"Gear's method (BDF of {result.solver}), {result.nfev} evaluations, "
         f"{result.njev} Jacobians, {result.nlu} factorisations, output every 0.1 ms",
         "time taken": f"{dynamics.seconds * 1e3:.1f} ms, signals included; the paper, on a 233 MHz "
@@ -86,5 +100,13 @@ def run() -> None:
     try:
         app()
     except KintrafoError as error:
-        Console(stderr=True).print(f"[bold red]error:[/bold red] {error}", highlight=False)
-        raise SystemExit(2) from None
+        _refuse(str(error))
+    except OSError as error:
+        _refuse(f"{error.filename}: {error.strerror}")
+
+
+def _refuse(message: str) -> NoReturn:
+    # no markup: the names of sections stand in brackets
+    printer = Console(stderr=True)
+    printer.print(f"error: {message}", style="red", highlight=False, markup=False, soft_wrap=True)
+    raise SystemExit(2)

@@ -5,9 +5,10 @@ Each of them derives from `KintrafoError`, so that one ``except`` clause catches
 
 from collections.abc import Iterable
 
+# The generated code raises errors too, and must not depend on anything: the base class is there.
+from .generated._support import KintrafoError
 
-class KintrafoError(Exception):
-    """Base of every exception that kintrafo raises on purpose."""
+__all__ = ["InputError", "KintrafoError"]
 
 
 class InputError(KintrafoError, ValueError):

@@ -109,8 +109,8 @@ def wheel_angles(kinematics: Kinematics) -> Figure:
 
 
 def _mark_design(axes: Axes, x: Array, y: Array, kinematics: Kinematics) -> None:
-    middle = int(np.argmin(np.abs(kinematics.z - 0.3)))
-    axes.plot(x[middle], y[middle], "o", color="black", markersize=5, label="design position")
+    index = kinematics.design
+    axes.plot(x[index], y[index], "o", color="black", markersize=5, label="design position")
     axes.legend(frameon=False, fontsize=9, loc="best")
 
 

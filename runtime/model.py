@@ -1,6 +1,8 @@
 """A suspension together with its compiled equations of motion."""
 
 from collections.abc import Mapping
+from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,7 +26,7 @@ class Model:
 
     Parameters
     ----------
-    suspension : Suspension or str
+    suspension : Suspension, str or Path
         The data, or the name of a packaged data set or path of a TOML file.
     free_rack : bool, optional
         False: the rack follows a prescribed motion; arm, knuckle and wheel carry mass, as in the
@@ -50,9 +52,8 @@ class Model:
     0.3
     """
 
-    def __init__(self, suspension: Suspension | str, *, free_rack: bool = False) -> None:
-        if isinstance(suspension, str):
-            suspension = Suspension.load(suspension)
+    def __init__(self, suspension: Suspension | str | Path, *, free_rack: bool = False) -> None:
+        suspension = _suspension_of(suspension)
         parameters = suspension.parameters()
         if not free_rack:
             _refuse_neglected_mass(parameters)
@@ -61,6 +62,9 @@ class Model:
         self.equations: ModuleType = macpherson_free_rack if free_rack else macpherson
         self.constants: Array = self.equations.prepare(parameters)
         self.design_state = self._design_state(parameters)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return partial(Model, free_rack=self.free_rack), (self.suspension,)
 
     def __repr__(self) -> str:
         side = self.suspension.vehicle.side
@@ -196,6 +200,15 @@ def _assign(array: Array, names: tuple[str, ...], values: Mapping[str, Any], wha
         )
     for name, value in values.items():
         array[names.index(name)] = value
+
+
+def _suspension_of(given: Any) -> Suspension:
+    if isinstance(given, str | Path):
+        return Suspension.load(given)
+    if isinstance(given, Suspension):
+        return given
+    problem = f"a Suspension, a name or a path is needed, not {type(given).__name__}."
+    raise InputError([problem], "Model")
 
 
 def _refuse_neglected_mass(parameters: Mapping[str, float]) -> None:

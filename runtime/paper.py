@@ -40,6 +40,8 @@ class Kinematics:
         [rad]; camber positive with the top outboard, steer positive to the left.
     side : str
         'left' or 'right'.
+    design : int
+        Index of the design position, which is one of the points.
     """
 
     x: Array
@@ -48,6 +50,7 @@ class Kinematics:
     camber: Array
     steer: Array
     side: str
+    design: int
 
 
 @dataclass(frozen=True)
@@ -73,14 +76,18 @@ def kinematics(model: Model, points: int = 121) -> Kinematics:
     ----------
     model : Model
     points : int, optional
-        Number of wheel heights.
+        Number of equally spaced wheel heights; the design position comes besides.
 
     Returns
     -------
     Kinematics
     """
     ends = (REST_HEIGHT - TRAVEL, REST_HEIGHT + TRAVEL)
-    states = np.array([state_at_height(model, z) for z in np.linspace(*ends, points)])
+    design_height = float(model.signal("wheel_center_z", model.design_state))
+    heights = np.linspace(*ends, points)
+    # the design position is one of them: an equally spaced one where that is the same
+    heights = np.union1d(heights[np.abs(heights - design_height) > 1e-9], design_height)
+    states = np.array([state_at_height(model, z) for z in heights])
     signals = model.signals(states)
     return Kinematics(
         x=signals["wheel_center_x"],
@@ -89,6 +96,7 @@ def kinematics(model: Model, points: int = 121) -> Kinematics:
         camber=signals["camber"],
         steer=signals["steer"],
         side=model.suspension.vehicle.side,
+        design=int(np.searchsorted(heights, design_height)),
     )
 
 
@@ -120,23 +128,46 @@ class Rest:
         Equilibrium, the wheel spinning at 14.8 revolutions per second.
     height : float
         Of the wheel centre [m].
-    eigenvalue : complex
-        Of the wheel-hop mode, that with positive imaginary part [1/s].
+    eigenvalues : tuple of complex
+        The two of the wheel-hop mode [1/s].
     """
 
     state: Array
     height: float
-    eigenvalue: complex
+    eigenvalues: tuple[complex, complex]
+
+    @property
+    def oscillates(self) -> bool:
+        """Whether the wheel-hop mode is underdamped."""
+        return self.eigenvalues[0].imag != 0.0
 
     @property
     def natural_frequency(self) -> float:
         """Undamped natural frequency of the wheel-hop mode [Hz]."""
-        return abs(self.eigenvalue) / (2.0 * np.pi)
+        return float(np.sqrt(abs(self.eigenvalues[0] * self.eigenvalues[1]))) / (2.0 * np.pi)
 
     @property
     def damping_ratio(self) -> float:
-        """Damping ratio of the wheel-hop mode."""
-        return -self.eigenvalue.real / abs(self.eigenvalue)
+        """Damping ratio of the wheel-hop mode; above one where it does not oscillate."""
+        total = self.eigenvalues[0] + self.eigenvalues[1]
+        return -total.real / (2.0 * 2.0 * np.pi * self.natural_frequency)
+
+    @property
+    def eigenvalues_text(self) -> str:
+        """The eigenvalues for a person to read."""
+        first, second = self.eigenvalues
+        if self.oscillates:
+            return f"{first.real:.4f} +- {abs(first.imag):.4f} i"
+        return f"{first.real:.4f} and {second.real:.4f}"
+
+    @property
+    def mode_text(self) -> str:
+        """The wheel-hop mode for a person to read."""
+        text = f"{self.natural_frequency:.2f} Hz, damping ratio {self.damping_ratio:.3f}"
+        if self.oscillates:
+            return text
+        times = " and ".join(f"{-1e3 / value.real:.3g} ms" for value in self.eigenvalues)
+        return f"{text}: overdamped, time constants {times}"
 
 
 def rest(model: Model) -> Rest:
@@ -152,4 +183,7 @@ def rest(model: Model) -> Rest:
     """
     state = equilibrium(model, spin_rate=SPIN_RATE)
     height = float(model.signal("wheel_center_z", state))
-    return Rest(state, height, complex(model.eigenvalues(state)[0]))
+    values = model.eigenvalues(state)
+    hop = sorted(values, key=abs)[-2:]  # the other two are the zeros of the spin
+    first, second = sorted(map(complex, hop), key=lambda v: (-v.imag, v.real))
+    return Rest(state, height, (first, second))

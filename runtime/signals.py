@@ -14,7 +14,7 @@ from .input.suggestions import suggestion
 from .model import Model
 
 Array = NDArray[np.float64]
-Samples = tuple[Any, Any]
+Samples = tuple[Any, Any] | list[Any]
 Signal = float | Samples | Callable[[float], Any]
 
 RACK = "rack"
@@ -160,7 +160,7 @@ def _collect(
         collected.curves[name] = [signal]
     elif callable(signal):
         collected.curves[name] = [_fitted(name, signal, t_span)]
-    elif isinstance(signal, tuple):
+    elif isinstance(signal, tuple | list):
         pieces = _sampled(name, signal, t_span)
         if len(pieces) > 1 and name == f"{RACK}_position":
             problem = (
@@ -171,10 +171,22 @@ def _collect(
         collected.curves[name] = pieces
         collected.jumps.update(float(piece.x[0]) for piece in pieces[1:])
     else:
-        value = float(signal)
-        if not np.isfinite(value):
-            raise InputError([f"{name!r} = {value}: a finite number is needed."], "inputs")
+        value = _number(name, signal)
         collected.constant[names.index(name)] = value
+
+
+def _number(name: str, value: Any) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = np.nan
+    if not np.isfinite(number):
+        problem = (
+            f"{name!r} = {value!r}: a finite number, samples (times, values) or a function of time "
+            "is needed."
+        )
+        raise InputError([problem], "inputs")
+    return number
 
 
 def _segments(
@@ -213,6 +225,8 @@ def _targets(name: str, names: tuple[str, ...]) -> tuple[int, int, int]:
 
 
 def _sampled(name: str, samples: Samples, t_span: tuple[float, float]) -> list[CubicSpline]:
+    if len(samples) != 2:
+        raise InputError([f"{name!r}: samples are a pair (times, values)."], "inputs")
     times, values = (np.asarray(s, dtype=np.float64) for s in samples)
     _check_samples(name, times, values, t_span)
     cuts = np.flatnonzero(np.diff(times) == 0.0) + 1
@@ -298,9 +312,4 @@ def _merged(first: Array, between: Array) -> Array:
 
 
 def _values(name: str, function: Callable[[float], Any], times: Array) -> Array:
-    values = np.array([float(function(float(t))) for t in times])
-    if not np.all(np.isfinite(values)):
-        bad = times[int(np.argmax(~np.isfinite(values)))]
-        problem = f"{name!r} is not finite at t = {bad:.6g} s: {values[~np.isfinite(values)][0]}."
-        raise InputError([problem], "inputs")
-    return values
+    return np.array([_number(f"{name} at t = {t:.6g} s", function(float(t))) for t in times])

@@ -161,7 +161,8 @@ def simulate(
         'DormandPrince' or 'Tsitouras' (order 5); or SciPy's 'Radau', 'LSODA', 'RK45', 'DOP853'.
         Implicit methods use the exact Jacobian.
     t_eval : array_like, optional
-        Times of the output; every step by default.
+        Times of the output; every step by default. As in SciPy, the point of a terminal event is in
+        ``t_events`` and not in the output then.
     rtol, atol : float, array_like, optional
         Relative tolerance, and absolute tolerances: one, or one for each element of the state.
     max_step, first_step : float, optional
@@ -189,6 +190,11 @@ def simulate(
     SimulationError
         If a loop cannot close on the way, or the solver gives up; says when, where and what to
         try, and has the partial result.
+
+    Notes
+    -----
+    The strut has no stops: it may become longer than its greatest length, or very short. The event
+    'strut_fully_extended' watches the former, a `SignalEvent` of ``strut_length`` the latter.
 
     Examples
     --------
@@ -227,6 +233,9 @@ def _check_arguments(
             f"method {options.method!r} is not known. {suggestion(options.method, known)} "
             f"There are {', '.join(known)}."
         )
+    if not np.all(np.isfinite(y0)):
+        bad = [n for n, v in zip(model.state_names, y0.ravel(), strict=False) if not np.isfinite(v)]
+        problems.append(f"y0 is NaN or infinite in {', '.join(bad)}.")
     if y0.shape != model.design_state.shape:
         problems.append(
             f"y0 has shape {y0.shape}; the state of {model.equations.NAME} has the elements "
@@ -270,8 +279,11 @@ def _tolerance_problems(y0: Array, options: Options) -> list[str]:
 def _choose_backend(method: str, backend: Backend, options: Options) -> Callable[..., Piece]:
     """Return the solver for a method, and say once if it is not the one that was meant."""
     native = method in native_methods()
-    if backend != "scipy" and native:
+    if backend in ("auto", "sundials") and native:
         return solve_native
+    if backend not in ("auto", "sundials", "scipy"):
+        known = "'auto', 'sundials' and 'scipy'"
+        raise InputError([f"backend {backend!r} is not known; there are {known}."], "simulate")
     if backend == "sundials" or options.stop_at_outputs or method not in SCIPY_METHODS:
         raise InputError([_missing(method)], "simulate")
     if backend == "auto" and method in SUNDIALS_METHODS:

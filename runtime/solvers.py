@@ -202,13 +202,14 @@ class _RightHandSide:
         self._function = getattr(model.equations, f"rhs{variant}")
         self._derivative = getattr(model.equations, f"rhs_jacobian{variant}")
         self._model, self._inputs, self._segment = model, inputs, segment
-        self._left = max_evaluations
+        self.evaluations = 0
+        self._most = max_evaluations
         self.time, self.state = segment.start, model.design_state
 
     def __call__(self, time: float, state: Array) -> Array:
         self.time, self.state = time, state.copy()
-        self._left -= 1
-        if self._left < 0:
+        self.evaluations += 1
+        if self.evaluations > self._most:
             raise _TooManySteps
         given = self._inputs.at(time, self._segment)
         result: Array = self._function(state, given, self._model.constants)
@@ -245,6 +246,7 @@ def solve_scipy(
     """Integrate a segment with SciPy's ``solve_ivp``."""
     # an explicit method evaluates at most twelve times a step, an implicit one fewer
     function = _RightHandSide(model, inputs, segment, 12.0 * options.max_steps)
+    steps: list[tuple[float, Array]] = []
     method: Any = SCIPY_METHODS[options.method]
     extra: dict[str, Any] = {"jac": function.jacobian} if method in _IMPLICIT else {}
     try:
@@ -259,16 +261,16 @@ def solve_scipy(
             max_step=options.max_step,
             first_step=options.first_step,
             dense_output=options.dense_output,
-            events=_scipy_events(function, events),
+            events=[*_scipy_events(function, events), _recorder(steps)],
             **extra,
         )
     except (ModelError, _TooManySteps) as error:
         outcome = "state" if isinstance(error, ModelError) else "too_many_steps"
         return Piece(
-            t=np.array([segment.start]),
-            y=state[None, :],
+            t=np.array([time for time, _ in steps] or [segment.start]),
+            y=np.array([y for _, y in steps] or [state]),
             outcome=outcome,
-            counts={},
+            counts={"nfev": function.evaluations},
             refused_time=function.time,
             refused_state=function.state,
         )
@@ -287,6 +289,16 @@ def _scipy_events(function: _RightHandSide, events: Events) -> list[Any]:
         made[-1].direction = direction
         made[-1].terminal = events.terminal[index]
     return made
+
+
+def _recorder(steps: list[tuple[float, Array]]) -> Callable[[float, Array], float]:
+    """Return an event that never happens, and notes every accepted step."""
+
+    def note(time: float, state: Array) -> float:
+        steps.append((time, state.copy()))
+        return 1.0
+
+    return note
 
 
 def _piece_of(result: Any, events: Events, options: Options) -> Piece:

@@ -1,6 +1,7 @@
 """``kintrafo paper`` and ``python -m kintrafo.generator``: what they write and say."""
 
 import xml.etree.ElementTree as ET
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from matplotlib.image import imread
 from typer.testing import CliRunner
 
 MODEL = Model("reference_car")
+REFERENCE = Path(__file__).parent.parent / "runtime/data/reference_car.toml"
 
 
 def test_paper_writes_figures_and_a_summary(tmp_path):
@@ -32,6 +34,52 @@ def test_users_mistake_has_no_traceback(monkeypatch, capsys, tmp_path):
     error = capsys.readouterr().err
     assert "no_such_car" in error
     assert "Traceback" not in error
+
+
+def test_error_keeps_the_brackets_of_section_names(monkeypatch, capsys, tmp_path):
+    path = tmp_path / "my_car.toml"
+    text = (Path(__file__).parent.parent / "runtime/data/reference_car.toml").read_text(
+        encoding="utf-8"
+    )
+    path.write_text(text.replace("spring_rate_N", "sprng_rate_N"), encoding="utf-8")
+    monkeypatch.setattr("sys.argv", ["kintrafo", "paper", str(tmp_path), "--data", str(path)])
+    with pytest.raises(SystemExit):
+        cli.run()
+    assert "[strut] sprng_rate_N_per_m is not a known key" in capsys.readouterr().err
+
+
+def test_file_in_the_way_of_the_folder(monkeypatch, capsys, tmp_path):
+    (tmp_path / "out").write_text("in the way", encoding="utf-8")
+    monkeypatch.setattr("sys.argv", ["kintrafo", "paper", str(tmp_path / "out")])
+    with pytest.raises(SystemExit):
+        cli.run()
+    assert "File exists" in capsys.readouterr().err
+
+
+def test_version_names_the_solver():
+    result = CliRunner().invoke(cli.app, ["--version"])
+    assert result.exit_code == 0
+    assert "kintrafo" in result.output
+    assert "SUNDIALS" in result.output
+
+
+def test_overdamped_wheel_hop_is_said_to_be_so():
+    stiff = Model(MODEL.suspension.with_changes({"strut.damper_rate_N_s_per_m": 60000.0}))
+    rest = paper.rest(stiff)
+    assert not rest.oscillates
+    assert "overdamped" in rest.mode_text
+    # two real roots of s^2 + 2 zeta w s + w^2
+    first, second = (value.real for value in rest.eigenvalues)
+    frequency = 2 * np.pi * rest.natural_frequency
+    assert first * second == pytest.approx(frequency**2)
+    assert -(first + second) == pytest.approx(2 * rest.damping_ratio * frequency)
+
+
+def test_design_position_is_that_of_the_car():
+    higher = Model(MODEL.suspension.with_changes({"hardpoints.wheel_center.z": 310.0}))
+    curves = paper.kinematics(higher, points=7)
+    assert curves.z[curves.design] == pytest.approx(0.31, abs=1e-12)
+    assert curves.camber[curves.design] == pytest.approx(0.0, abs=1e-12)
 
 
 def test_figures_show_what_the_paper_describes():

@@ -5,7 +5,7 @@ import pytest
 from cases import MODELS, At, car_parameters, counted_by, random_instants
 from oracle.constraints import ARM, KNUCKLE, RACK, WHEEL, Array, unit
 from oracle.multipliers import reduced_equations
-from oracle.newton import X_AXIS, Mechanism
+from oracle.newton import X_AXIS, Z_AXIS, Mechanism
 
 SEEDS = range(4)  # 0 is the reference car
 POINTS = 3  # for each car
@@ -33,7 +33,7 @@ def measured(car: Mechanism, at: At) -> dict[str, float]:
         "upper_strut_cross_squared": squared(np.cross(X_AXIS, strut)),
         "knuckle_reach_squared": squared(np.cross(strut, reach)),
         "knuckle_closure": float((outer - inner) @ normal) ** 2,
-        "tie_rod_cross_squared": squared(np.cross(X_AXIS, rod)),
+        "tie_rod_cross_squared": squared(np.cross(Z_AXIS, rod)),
         "cos_camber_squared": 1.0 - axis[2] ** 2,
         "pivot_beta1": rest[0, 0],
         "pivot_beta9": rest[1, 1] - rest[0, 1] ** 2 / rest[0, 0],

@@ -123,3 +123,25 @@ def test_mass_that_the_equations_neglect_is_refused():
     with pytest.raises(kintrafo.InputError, match=r"\[bodies.rack\].*free_rack=True"):
         Model(heavy)
     assert Model(heavy, free_rack=True).free_rack
+
+
+def test_models_travel_between_processes():
+    import pickle
+
+    copy = pickle.loads(pickle.dumps(Model("reference_car", free_rack=True)))
+    assert copy.free_rack
+    assert np.array_equal(copy.constants, Model("reference_car", free_rack=True).constants)
+
+
+def test_model_takes_a_path_and_refuses_what_is_none():
+    from pathlib import Path
+
+    path = Path(__file__).parent.parent / "runtime/data/reference_car.toml"
+    assert np.array_equal(Model(path).constants, MODEL.constants)
+    with pytest.raises(kintrafo.InputError, match="not dict"):
+        Model({})
+
+
+def test_one_class_catches_all_errors():
+    for error in (kintrafo.ClosureError, kintrafo.ModelError, PositionError, kintrafo.InputError):
+        assert issubclass(error, kintrafo.KintrafoError)

@@ -230,15 +230,15 @@ def test_roots_are_not_taken_again_for_their_derivative() -> None:
 
 def test_guards_follow_what_they_guard() -> None:
     program = new_program(A)
-    used = program.guarded("used", X - A, "x is not above a")
-    unused = program.guarded("unused", Y - A, "y is not above a")
+    used = program.guarded("used", X - A, "x is not above a", "m")
+    unused = program.guarded("unused", Y - A, "y is not above a", "m")
     inverse = program.define("inverse", 1 / used)
     root = program.define("root", sp.sqrt(unused))
     assert [g.name for g in program.function("f", "Any.", {"r": inverse}).guards] == ["used"]
     assert [g.name for g in program.function("g", "Any.", {"r": root}).guards] == ["unused"]
     # what is not read in its guarded form cannot fail
     assert program.function("h", "Any.", {"r": sp.Symbol("used")}).guards == ()
-    constant = program.guarded("constant", A**2 + 1, "never")
+    constant = program.guarded("constant", A**2 + 1, "never", "m")
     assert constant == sp.Symbol("constant")
 
 

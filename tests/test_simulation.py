@@ -134,7 +134,10 @@ def test_dense_output_and_events_are_those_of_scipy():
         ({"inputs": {"rack_velocity": 1.0}}, "follows from 'rack_position'"),
         ({"inputs": {"rack_position": ([0, 0.5, 0.5, 1], [0, 0, 0.01, 0.01])}}, "infinite vel"),
         ({"inputs": {"road_height": lambda t: 0.0 if t < 0.3 else 0.01}}, r"near t = 0\.(3|2999)"),
-        ({"inputs": {"road_height": lambda t: np.nan if t > 0.1 else 0.0}}, "not finite at t ="),
+        (
+            {"inputs": {"road_height": lambda t: np.nan if t > 0.1 else 0.0}},
+            r"road_height at t = .*nan",
+        ),
         ({"rtol": 1e-18}, "rtol = 1e-18"),
         ({"rtol": np.nan}, "rtol = nan"),
         ({"atol": [1e-9, 1e-9]}, "atol.*4 elements"),

@@ -701,7 +701,7 @@ class TestGeometry:
             {"hardpoints.arm_rear": [168.9, -350.0, 205.0]},  # base of 1.1 mm
             {"hardpoints.arm_rear": [167.0, -350.0, 105.0]},  # 1.7 degrees from the vertical
             {"hardpoints.ball_joint": [5.0, -350.0, 206.1]},  # arm of 1.1 mm
-            {"hardpoints.strut_top": [-300.0, -710.0, 180.0]},  # horizontal strut
+            {"hardpoints.strut_top": [-150.0, -450.0, 180.0]},  # horizontal strut
             {"hardpoints.strut_top": [5.0, -710.0, 820.0]},  # vertical strut
             {"hardpoints.wheel_center": [0.0, -1.1, 300.0]},  # just on the right side
         ],
@@ -1004,3 +1004,17 @@ class TestErrors:
             "car.toml",
             "car.toml: 1 problem\n  - [tyre] is missing.",
         )
+
+
+@pytest.mark.parametrize(
+    ("point", "position", "words"),
+    [
+        ("strut_top", [405.0, -710.0, 180.0], "strut is 0.000 deg from the x axis; at least 1 deg"),
+        ("tie_rod_inner", [-130.0, -690.0, -40.0], "tie rod is 0.000 deg from the vertical"),
+    ],
+)
+def test_link_along_the_axis_of_its_universal_joint_is_refused(point, position, words):
+    car = Suspension.load("reference_car")
+    changes = {f"hardpoints.{point}.{axis}": v for axis, v in zip("xyz", position, strict=True)}
+    with pytest.raises(InputError, match=words):
+        car.with_changes(changes)

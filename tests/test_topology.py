@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo.generator.geometry import FORWARD, Direction, Line, Point
 from kintrafo.generator.joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
-from kintrafo.generator.mechanism import Body, Mechanism, Model
+from kintrafo.generator.mechanism import Body, Mechanism, Model, RelativeCoordinate
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.topology import Cycle, Topology, TopologyError
 from kintrafo.generator.transformer import NoClosedFormError, Plan
@@ -239,7 +239,8 @@ def loop_of(*kinds: type[Joint]) -> Model:
         joint_between(kind, f"j{i}", f"body_{i}", f"body_{(i + 1) % count}")
         for i, kind in enumerate(kinds)
     ]
-    mechanism = mechanism_of(count, joints)
+    driven = RelativeCoordinate("q", "j0", joints[0].coordinates[0], "rad", "drive")
+    mechanism = replace(mechanism_of(count, joints), coordinates=(driven,))
     return Model("loop", "loop", mechanism, independent=("j0",), massive=())
 
 
@@ -268,7 +269,7 @@ def test_undetermined_body() -> None:
 
 def test_too_few_coordinates_for_a_loop() -> None:
     """Without the rack coordinate the steering loop cannot be solved, and is named."""
-    model = replace(MODEL, prescribed={})
+    model = replace(MODEL, prescribed={}, held={})
     with pytest.raises(NoClosedFormError, match="upper_strut - knuckle - tie_rod - rack"):
         Plan.of(model)
 

@@ -127,6 +127,7 @@ class PythonPrinter:
                 "tuple[tuple[str, str], ...]",
                 tuple((g.name, g.meaning) for g in model.guards),
             ),
+            "GUARD_UNITS": ("dict[str, str]", {g.name: g.unit for g in model.guards}),
             "HELD_VARIANTS": ("dict[str, tuple[str, ...]]", model.held_inputs),
             "MOBILITY": ("int", topology.mobility),
             "LOOPS": (

@@ -118,6 +118,16 @@ def block_diagram(topology: Topology, transformer: Transformer) -> str:
     return "\n".join(lines)
 
 
+def mermaid(topology: Topology) -> str:
+    """Return the joint graph as a Mermaid diagram, which forges draw as a picture."""
+    bodies = [f'    {b.name}(["{b.number} {b.name}"])' for b in topology.mechanism.bodies]
+    joints = [
+        f'    {j.first} ---|"{j.name}: {j.kind}, {j.freedoms}"| {j.second}'
+        for j in topology.mechanism.joints
+    ]
+    return "\n".join(["graph LR", *bodies, *joints])
+
+
 def preference(topology: Topology, transformer: Transformer) -> str:
     """Say why a loop was taken before others of the same length."""
     if not transformer.rivals:
@@ -151,6 +161,8 @@ def markdown(model: GeneratedModel) -> str:
             f"Independent loops: {len(topology.mechanism.joints)} - "
             f"({len(topology.mechanism.bodies)} - 1) = {topology.loop_count}."
         ),
+        "Joint graph: bodies, joints, and on each joint its number of freedoms (Figure 2).",
+        f"```mermaid\n{mermaid(topology)}\n```",
         "## Shortest paths in the joint graph",
         (
             "An edge is as long as its joint has freedoms. Where several paths are equally short, "
@@ -174,8 +186,8 @@ def markdown(model: GeneratedModel) -> str:
         "## Validity",
         "Each function reports, by a status bit, which of these has left its range:",
         table(
-            ("quantity, positive where valid", "meaning when it is not"),
-            [(f"`{g.name}`", g.meaning) for g in model.guards],
+            ("quantity, positive where valid", "unit", "meaning when it is not"),
+            [(f"`{g.name}`", g.unit, g.meaning) for g in model.guards],
         ),
     ]
     return "\n\n".join(sections) + "\n"

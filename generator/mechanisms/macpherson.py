@@ -7,7 +7,7 @@ values are this project's reference car (front right, ISO 8855 axes, ground at z
 from __future__ import annotations
 
 from ..forces import JointForce, LinearTyre, TelescopeSpring, Weight
-from ..geometry import FORWARD, Direction, Line, Point
+from ..geometry import FORWARD, UP, Direction, Line, Point
 from ..joints import Cylindrical, Prismatic, Revolute, Spherical, Universal
 from ..mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
 
@@ -47,7 +47,7 @@ JOINTS = (
         name="C", first="chassis", second="upper_strut", at=C, shaft=Line(C, B), first_axis=FORWARD
     ),
     Spherical(name="D", first="knuckle", second="tie_rod", at=D),
-    Universal(name="E", first="rack", second="tie_rod", at=E, shaft=Line(E, D), first_axis=FORWARD),
+    Universal(name="E", first="rack", second="tie_rod", at=E, shaft=Line(E, D), first_axis=UP),
     Prismatic(name="y", first="chassis", second="rack", direction=RACK),
     Revolute(name="HG", first="knuckle", second="wheel", axis=Line(G, SPIN)),
 )
@@ -115,6 +115,7 @@ FORCES = (
         actuator="strut_force",
     ),
     LinearTyre(
+        name="front",
         carrier="knuckle",
         center=G,
         spin=SPIN,

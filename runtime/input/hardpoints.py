@@ -17,6 +17,7 @@ _SMALLEST_DISTANCE = 0.001
 _SMALLEST_SUSPENSION = 0.01
 _LARGEST_COORDINATE = 20.0
 # Nearer to the vertical than this, the hinge axis has no upper side, in degrees.
+_SMALLEST_CROSS_ANGLE = 1.0
 _SMALLEST_HINGE_ANGLE = 1.0
 
 # The points that belong to one body; strut_top moves along the strut, so that it stands apart.
@@ -147,6 +148,24 @@ class Hardpoints(Section):
             problems += self._hinge()
         if not coinciding.keys() & _DIRECTIONS_OF_STEERING:
             problems += self._steering_arm()
+            problems += self._cross_axes()
+        return problems
+
+    def _cross_axes(self) -> list[str]:
+        """Check that no link lies along the axis of its universal joint on the car's side."""
+        problems = []
+        for ends, link, axis, name in (
+            (("strut_top", "ball_joint"), "strut", (1.0, 0.0, 0.0), "the x axis"),
+            (("tie_rod_inner", "tie_rod_outer"), "tie rod", (0.0, 0.0, 1.0), "the vertical"),
+        ):
+            first, second = (self.metres(end) for end in ends)
+            angle = angle_between_lines(second - first, np.array(axis))
+            if angle < _SMALLEST_CROSS_ANGLE:
+                problems.append(
+                    f"{self.text(*ends)}: the {link} is {angle:.3f} deg from {name}; at least "
+                    f"{_SMALLEST_CROSS_ANGLE:g} deg are needed for its universal joint to hold "
+                    "it. Move one of the two points."
+                )
         return problems
 
     def _hinge(self) -> list[str]:

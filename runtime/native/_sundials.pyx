@@ -131,7 +131,7 @@ def integrate(
     bint every_step, bint stop_at_outputs, bint dense, int signal_count, events, roots,
     const int[::1] directions, const int[::1] terminal,
 ):
-    """Integrate; see `kintrafo.native_solver` for the arguments and the result."""
+    """Integrate; ``integrate.h`` explains the arguments, `kintrafo.solvers` uses the result."""
     cdef kt_problem problem
     cdef kt_options options
     cdef kt_result result

@@ -33,6 +33,7 @@ from oracle.reference import Parameters, inertia, vector
 
 X_AXIS = np.array([1.0, 0.0, 0.0])
 Z_AXIS = np.array([0.0, 0.0, 1.0])
+Z_AXIS = np.array([0.0, 0.0, 1.0])
 
 # A continuation step moves the arm and the rack by at most these (rad, m).
 ARM_STEP = 0.1
@@ -154,7 +155,7 @@ class Mechanism:
         joints.cylindrical(KNUCKLE, UPPER_STRUT, strut, (point["ball_joint"], point["strut_top"]))
         joints.universal(CHASSIS, UPPER_STRUT, point["strut_top"], X_AXIS, np.cross(X_AXIS, strut))
         joints.spherical(KNUCKLE, TIE_ROD, point["tie_rod_outer"])
-        joints.universal(RACK, TIE_ROD, point["tie_rod_inner"], X_AXIS, np.cross(X_AXIS, rod))
+        joints.universal(RACK, TIE_ROD, point["tie_rod_inner"], Z_AXIS, np.cross(Z_AXIS, rod))
         joints.prismatic(CHASSIS, RACK, self.rack_axis, point["tie_rod_inner"])
         joints.revolute(KNUCKLE, WHEEL, point["wheel_center"], self.spin_axis)
         return joints.equations()

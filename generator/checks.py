@@ -1,0 +1,107 @@
+"""Find mistakes in a declaration before anything is derived from it."""
+
+from __future__ import annotations
+
+import difflib
+from collections import Counter
+from typing import TYPE_CHECKING
+
+from .forces import JointForce, LinearTyre, TelescopeSpring, Weight
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from .mechanism import Mechanism, Model
+
+
+class DeclarationError(ValueError):
+    """A mechanism or model that contradicts itself, with everything that is wrong with it."""
+
+    def __init__(self, name: str, problems: list[str]) -> None:
+        self.problems = tuple(problems)
+        super().__init__("\n".join([f"{name}:", *(f"  - {problem}" for problem in problems)]))
+
+
+def check_mechanism(mechanism: Mechanism) -> None:
+    """Raise `DeclarationError` if names of a mechanism are repeated or unknown."""
+    problems = []
+    for kind, names in (
+        ("body", [b.name for b in mechanism.bodies]),
+        ("joint", [j.name for j in mechanism.joints]),
+        ("parameter", [p.name for p in mechanism.parameters]),
+        ("coordinate", [c.name for c in mechanism.coordinates]),
+        ("weight", ["Weight" for f in mechanism.forces if isinstance(f, Weight)]),
+    ):
+        problems += [
+            f"{kind} {n!r} is declared {c} times" for n, c in Counter(names).items() if c > 1
+        ]
+    joints = {j.name: j.coordinates for j in mechanism.joints}
+    for coordinate in mechanism.coordinates:
+        problems += _unknown(f"coordinate {coordinate.name!r}: joint", [coordinate.joint], joints)
+        problems += _unknown(
+            f"coordinate {coordinate.name!r}: kind",
+            [coordinate.kind],
+            joints.get(coordinate.joint, (coordinate.kind,)),
+        )
+    problems += _force_problems(mechanism)
+    if problems:
+        raise DeclarationError(mechanism.name, problems)
+
+
+def _force_problems(mechanism: Mechanism) -> list[str]:
+    joints = [j.name for j in mechanism.joints]
+    bodies = [b.name for b in mechanism.bodies]
+    problems = []
+    for force in mechanism.forces:
+        what = type(force).__name__
+        if isinstance(force, JointForce | TelescopeSpring):
+            problems += _unknown(f"{what}: joint", [force.joint], joints)
+        if isinstance(force, LinearTyre):
+            problems += _unknown(f"{what}: body", [force.carrier], bodies)
+        needed = [getattr(force, field, None) for field in ("input", "actuator", "road")]
+        problems += _unknown(f"{what}: input", filter(None, needed), mechanism.inputs)
+    return problems
+
+
+def check_model(model: Model) -> None:
+    """Raise `DeclarationError` if a model names what its mechanism does not have."""
+    mechanism = model.mechanism
+    joints = [j.name for j in mechanism.joints]
+    problems = _unknown("independent joint", model.independent, joints)
+    problems += _unknown("prescribed joint", model.prescribed, joints)
+    problems += _unknown("massive body", model.massive, [b.name for b in mechanism.bodies])
+    for variant, held in model.held.items():
+        problems += _unknown(f"held joint of {variant!r}", held, model.prescribed)
+    reported = [c.joint for c in mechanism.coordinates]
+    problems += _unknown("independent joint without a coordinate:", model.independent, reported)
+    both = sorted(set(model.independent) & set(model.prescribed))
+    problems += [f"joint {name!r} is both independent and prescribed" for name in both]
+    inputs = [f"{n}_{k}" for n in model.prescribed.values() for k in _RATES]
+    problems += _unknown("prescribed motion: input", inputs, mechanism.inputs)
+    if problems:
+        raise DeclarationError(model.name, problems)
+
+
+_RATES = ("position", "velocity", "acceleration")
+
+
+def check_symbols(name: str, used: Iterable[str], declared: Iterable[str]) -> None:
+    """Raise `DeclarationError` if the equations use a parameter that is not declared."""
+    problems = _unknown("parameter", sorted(used), list(declared))
+    if problems:
+        raise DeclarationError(name, problems)
+
+
+def _unknown(
+    what: str, names: Iterable[str], known: Iterable[str] | Mapping[str, object]
+) -> list[str]:
+    known = list(known)
+    problems = []
+    for name in names:
+        if name not in known:
+            near = difflib.get_close_matches(name, known, n=1)
+            hint = (
+                f"did you mean {near[0]!r}?" if near else f"there are {', '.join(known) or 'none'}"
+            )
+            problems.append(f"{what} {name!r} is not declared; {hint}")
+    return problems
