@@ -54,7 +54,7 @@ benchmark-page: build ## The same, and its page in docs/
 
 benchmark-peers: build ## The same suspension in CasADi, Exudyn, SymPy and Pinocchio
 	@.venv/bin/pip install -q -e ".[peers]" --no-build-isolation
-	@$(PYTHON) -m benchmarks.peers --out out/benchmark
+	@PYTHONPATH=tests $(PYTHON) -m benchmarks.peers --out out/benchmark
 
 package: .venv/.ready ## Build a source package and a wheel from it, and import that
 	@rm -rf build/package && mkdir -p build

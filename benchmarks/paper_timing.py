@@ -22,16 +22,11 @@ from kintrafo.paper import (
     START_HEIGHT,
     rest,
 )
-from kintrafo.solvers import SUNDIALS_METHODS
+from kintrafo.solvers import SUNDIALS_METHODS, sundials
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from .report import Timing, count, markdown_table, milliseconds, power, seconds_of, timing_of
-
-try:
-    from kintrafo.native import _sundials
-except ImportError:
-    _sundials = None  # type: ignore[assignment]
 
 Array = NDArray[np.float64]
 
@@ -129,7 +124,7 @@ def native_call(
     none = np.zeros(1, dtype=np.int32)
 
     def call() -> dict[str, Any]:
-        raw: dict[str, Any] = _sundials.integrate(
+        raw: dict[str, Any] = sundials.integrate(
             addresses,
             case.model.constants,
             case.inputs,

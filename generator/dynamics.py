@@ -19,7 +19,7 @@ import sympy as sp
 from .forces import JointForce, LinearTyre, LineSpring, TelescopeSpring, Weight
 from .geometry import UP
 from .placement import Placed, to_axes
-from .vectors import SymmetricTensor, Twist, Vector
+from .vectors import ELEMENTS, SymmetricTensor, Twist, Vector
 
 if TYPE_CHECKING:
     from .kinematics import Kinematics
@@ -69,8 +69,6 @@ class Dynamics:
 
     Attributes
     ----------
-    mass_matrix, bias, forces
-        M, B and Q in the order of the independent coordinates.
     accelerations
         q'' by coordinate name.
     signals
@@ -127,12 +125,7 @@ class Dynamics:
 
     def _own_tensor(self, body: Body) -> SymmetricTensor:
         if body.rotor_axis is None:
-            return SymmetricTensor(
-                *(
-                    sp.Symbol(f"{body.name}_inertia_{e}")
-                    for e in ("xx", "yy", "zz", "xy", "xz", "yz")
-                )
-            )
+            return SymmetricTensor(*(sp.Symbol(f"{body.name}_inertia_{e}") for e in ELEMENTS))
         spin, across = self._rotor_moments(body)
         axis = self.kin.to_chassis(self.kin.design_direction(body.rotor_axis))
         axis = self.program.vector(f"{body.name}_rotor_axis", axis)
@@ -170,13 +163,12 @@ class Dynamics:
         self.rotors.append(Rotor(coordinate, body, carrier, axis, spin))
 
     def _name_inertia(self, name: str, inertia: Inertia) -> None:
-        elements = ("xx", "yy", "zz", "xy", "xz", "yz")
         inertia.mass = self.program.define(f"{name}_carried_mass", inertia.mass)
         inertia.moment = self.program.vector(f"{name}_first_moment", inertia.moment, "123")
         inertia.tensor = SymmetricTensor(
             *(
                 self.program.define(f"{name}_carried_inertia_{e}", v)
-                for e, v in zip(elements, inertia.tensor, strict=True)
+                for e, v in zip(ELEMENTS, inertia.tensor, strict=True)
             )
         )
 

@@ -51,9 +51,9 @@ class Kinematics:
         self.mechanism = plan.model.mechanism
         self.held = frozenset(held)
         self.coordinates = {
-            self._coordinate_name(j): sp.Symbol(self._coordinate_symbol(j)) for j in self._driven
+            self.coordinate_of(j): sp.Symbol(self._coordinate_symbol(j)) for j in self._driven
         }
-        self.moving = [self._coordinate_name(j) for j in self._driven if j.name not in self.held]
+        self.moving = [self.coordinate_of(j) for j in self._driven if j.name not in self.held]
         self.rotors = self._rotors()
         pacing = [k for k in self.moving if k not in self.rotors]
         self.unit_rate = len(pacing) == 1
@@ -73,24 +73,20 @@ class Kinematics:
         names = (*self.model.independent, *self.model.prescribed)
         return [self.mechanism.joint(n) for n in names]
 
-    def _coordinate_name(self, joint: Joint) -> str:
+    def coordinate_of(self, joint: Joint) -> str:
         """Return the key of a driven coordinate: a reported name, or that of the input."""
         if joint.name in self.model.prescribed:
             return self.model.prescribed[joint.name]
         return next(c.name for c in self.mechanism.coordinates if c.joint == joint.name)
 
     def _coordinate_symbol(self, joint: Joint) -> str:
-        name = self._coordinate_name(joint)
+        name = self.coordinate_of(joint)
         return f"{name}_position" if joint.name in self.model.prescribed else name
 
     @property
     def independent(self) -> list[str]:
         """Names of the independent coordinates, in the order of the state."""
-        return [self._coordinate_name(self.mechanism.joint(n)) for n in self.model.independent]
-
-    def coordinate_of(self, joint: Joint) -> str:
-        """Return the name of a driven joint's coordinate."""
-        return self._coordinate_name(joint)
+        return [self.coordinate_of(self.mechanism.joint(n)) for n in self.model.independent]
 
     def true_rate(self, coordinate: str) -> sp.Symbol:
         """Return the symbol of the rate of a coordinate."""
@@ -114,7 +110,7 @@ class Kinematics:
             body = self.mechanism.body(joint.second)
             leaf = len(self.mechanism.joints_of(body.name)) == 1
             if isinstance(joint, Revolute) and leaf and body.rotor_axis is not None:
-                rotors[self._coordinate_name(joint)] = body
+                rotors[self.coordinate_of(joint)] = body
         return rotors
 
     # -- design position ------------------------------------------------------------------------
@@ -284,7 +280,7 @@ class Kinematics:
 
     def _place_revolute(self, joint: Revolute, parent_name: str, child: str) -> None:
         parent = self.placed[parent_name]
-        coordinate = self._coordinate_name(joint)
+        coordinate = self.coordinate_of(joint)
         angle = self.coordinates[coordinate]
         frame = self._revolute_frame(joint, parent, child)
         cosine = self.program.define(f"cos_{angle}", sp.cos(angle))
@@ -370,7 +366,7 @@ class Kinematics:
 
     def _place_prismatic(self, joint: Prismatic, parent_name: str, child: str) -> None:
         parent = self.placed[parent_name]
-        coordinate = self._coordinate_name(joint)
+        coordinate = self.coordinate_of(joint)
         slide = self.coordinates[coordinate]
         direction = self.local_direction(parent, joint.direction)
         start = parent.design_origin

@@ -224,9 +224,7 @@ def _turn_motion(
     )
     for k in names:
         base = to_body(f"velocity_{k}", constants.base_motion.motion.get(k, ZERO))
-        across = _line_omega(
-            kin, record, to_body(f"swing_{k}", record.relative.motion.get(k, ZERO))
-        )
+        across = _line_omega(record, to_body(f"swing_{k}", record.relative.motion.get(k, ZERO)))
         across = program.vector(f"{body}_omega_{k}", across, "123")
         anchor = to_body(f"rod_anchor_{k}", rod_anchor.motion.get(k, ZERO))
         slip = base - anchor + across.cross(arm)
@@ -250,12 +248,11 @@ def _turn_motion(
     placed.bias = _once(bias)
 
 
-def _line_omega(kin: Kinematics, record: OnLine, swing: Vector) -> Vector:
+def _line_omega(record: OnLine, swing: Vector) -> Vector:
     """Return the angular velocity of a line across itself, in body axes (line first).
 
     From ``d(span)/dt = length' n + length (omega x n)``.
     """
-    del kin
     return Vector(ZERO.x, -swing.z * record.inverse_length, swing.y * record.inverse_length)
 
 
@@ -264,12 +261,12 @@ def _line_alpha(kin: Kinematics, record: OnLine, omega: Vector, swing: Vector) -
 
     The second derivative of ``span = length n``, in its two components across the line.
     """
-    rate = sum((motion * kin.rate(k) for k, motion in record.length_motion.items()), sp.Integer(0))
-    rate = 2 * rate
+    rates = (motion * kin.rate(k) for k, motion in record.length_motion.items())
+    twice = 2 * sum(rates, sp.Integer(0))
     return Vector(
         ZERO.x,
-        omega.x * omega.z - (swing.z + rate * omega.y) * record.inverse_length,
-        (swing.y - rate * omega.z) * record.inverse_length - omega.x * omega.y,
+        omega.x * omega.z - (swing.z + twice * omega.y) * record.inverse_length,
+        (swing.y - twice * omega.z) * record.inverse_length - omega.x * omega.y,
     )
 
 
@@ -355,9 +352,7 @@ def _cross_motion(
     names = dict.fromkeys([*record.anchor_motion.motion, *record.relative.motion, *parent.motion])
     for k in names:
         base = to_body(f"velocity_{k}", record.anchor_motion.motion.get(k, ZERO))
-        across = _line_omega(
-            kin, record, to_body(f"swing_{k}", record.relative.motion.get(k, ZERO))
-        )
+        across = _line_omega(record, to_body(f"swing_{k}", record.relative.motion.get(k, ZERO)))
         carried = parent_omega(
             f"carried_{k}", parent.motion[k].angular if k in parent.motion else ZERO
         )

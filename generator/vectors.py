@@ -93,6 +93,10 @@ class Twist:
 NO_TWIST = Twist(ZERO, ZERO)
 
 
+# Elements of a symmetric tensor, in the order of `SymmetricTensor`.
+ELEMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
+
+
 @dataclass(frozen=True)
 class SymmetricTensor:
     """A symmetric 3 x 3 tensor, such as an inertia, in some axes."""

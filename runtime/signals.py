@@ -75,6 +75,11 @@ class TimeInputs:
     segments: tuple[Segment, ...]
     rack_held: bool
 
+    @property
+    def variant(self) -> str:
+        """What ends the names of the functions that leave out what stands still."""
+        return "_rack_held" if self.rack_held else ""
+
     def at(self, time: float, segment: Segment) -> Array:
         """Return the array of inputs at a time within a segment."""
         values = self.constant.copy()

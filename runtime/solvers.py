@@ -19,9 +19,9 @@ from .model import Model
 from .signals import Segment, TimeInputs
 
 try:
-    from .native import _sundials
+    from .native import _sundials as sundials
 except ImportError:  # SUNDIALS was not there when the project was built
-    _sundials = None  # type: ignore[assignment]
+    sundials = None  # type: ignore[assignment]  # a module where it is
 
 Array = NDArray[np.float64]
 
@@ -93,12 +93,12 @@ class Piece:
 
 def native_available() -> bool:
     """Tell whether SUNDIALS is linked."""
-    return _sundials is not None
+    return sundials is not None
 
 
 def native_version() -> str:
     """Return the version of SUNDIALS, or 'none'."""
-    return _sundials.version() if native_available() else "none"
+    return sundials.version() if native_available() else "none"
 
 
 def native_methods() -> tuple[str, ...]:
@@ -127,10 +127,9 @@ def solve_native(
 ) -> Piece:
     """Integrate a segment in C, from the first step to the last."""
     equations = model.equations
-    variant = "_rack_held" if inputs.rack_held else ""
-    names = (f"rhs{variant}", f"rhs_jacobian{variant}", "signals")
+    names = (f"rhs{inputs.variant}", f"rhs_jacobian{inputs.variant}", "signals")
     signal_index = {name: i for i, name in enumerate(model.signal_names)}
-    raw = _sundials.integrate(
+    raw = sundials.integrate(
         tuple(equations.ADDRESSES[name] for name in names),
         model.constants,
         inputs.constant,
@@ -198,9 +197,8 @@ class _RightHandSide:
     def __init__(
         self, model: Model, inputs: TimeInputs, segment: Segment, max_evaluations: float
     ) -> None:
-        variant = "_rack_held" if inputs.rack_held else ""
-        self._function = getattr(model.equations, f"rhs{variant}")
-        self._derivative = getattr(model.equations, f"rhs_jacobian{variant}")
+        self._function = getattr(model.equations, f"rhs{inputs.variant}")
+        self._derivative = getattr(model.equations, f"rhs_jacobian{inputs.variant}")
         self._model, self._inputs, self._segment = model, inputs, segment
         self.evaluations = 0
         self._most = max_evaluations

@@ -91,7 +91,7 @@ def test_stiffness(case):
 
 
 def test_without_sundials_scipy_remains(monkeypatch, case):
-    monkeypatch.setattr(solvers, "_sundials", None)
+    monkeypatch.setattr(solvers, "sundials", None)
     assert {library for library, _ in work_precision.curves()} == {"SciPy"}
     points = work_precision.measure(case, (1e-4,), passes=1, budget=0.0)
     assert len(points) == len(work_precision.SCIPY)

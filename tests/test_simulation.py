@@ -344,7 +344,7 @@ def test_backward_in_time(backend):
 def test_without_sundials_the_user_is_told_once(monkeypatch):
     from kintrafo import simulation, solvers
 
-    monkeypatch.setattr(solvers, "_sundials", None)
+    monkeypatch.setattr(solvers, "sundials", None)
     monkeypatch.setattr(simulation, "_told", False)
     with pytest.warns(RuntimeWarning, match="built without SUNDIALS") as told:  # noqa: PT031
         first = simulate(MODEL, (0, 0.1), START)

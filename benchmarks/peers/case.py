@@ -1,6 +1,5 @@
 """What all peers model: the reference car, the standard start and the reference trajectory."""
 
-import sys
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -8,17 +7,13 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 from kintrafo.generated import macpherson
+from oracle.constraints import ARM, KNUCKLE, WHEEL, Pose
+from oracle.multipliers import solve_prescribed, solve_twist
+from oracle.newton import Mechanism, solve_pose
+from oracle.reference import DYNAMICS, SPIN_RATE, Parameters, reference_parameters
 from scipy.integrate import solve_ivp
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-if str(REPOSITORY / "tests") not in sys.path:
-    sys.path.append(str(REPOSITORY / "tests"))
-
-from oracle.constraints import ARM, KNUCKLE, WHEEL, Pose  # noqa: E402
-from oracle.multipliers import solve_prescribed, solve_twist  # noqa: E402
-from oracle.newton import Mechanism, solve_pose  # noqa: E402
-from oracle.reference import DYNAMICS, SPIN_RATE, Parameters, reference_parameters  # noqa: E402
-
 Array = npt.NDArray[np.float64]
 
 ACCURACY = 1e-6

@@ -11,14 +11,14 @@ from typing import Any
 
 import numpy as np
 
-from .case import ARM, KNUCKLE, SAMPLES, WHEEL, Array, Instant, car, instant, parameters, start
+from .case import ARM, KNUCKLE, SAMPLES, WHEEL, Array, Instant, car, parameters
 from .geometry import strut_frame
 
 sys.exudynFast = True  # type: ignore[attr-defined]  # its module without range checks
-import exudyn as exu  # noqa: E402
-import exudyn.itemInterface as items  # noqa: E402, N813
-from exudyn.advancedUtilities import CreateSymbolicUserFunction  # noqa: E402
-from exudyn.rigidBodyUtilities import RigidBodyInertia  # noqa: E402
+import exudyn as exu
+import exudyn.itemInterface as items
+from exudyn.advancedUtilities import CreateSymbolicUserFunction
+from exudyn.rigidBodyUtilities import RigidBodyInertia
 
 esym = exu.symbolic
 exu.config.printToConsole = False
@@ -207,11 +207,6 @@ def _tyre_force(rate: float) -> Any:
         return esym.Vector([along * axis_x, along * axis_y, pull, 0.0, 0.0, 0.0])
 
     return force
-
-
-def standard() -> Exudyn:
-    """Return the system at the standard start."""
-    return Exudyn(instant(start()))
 
 
 def extrapolated(system: Exudyn, setting: Setting) -> Array:

@@ -99,7 +99,7 @@ def _last_two(_: Instant, out: Array) -> Array:
 
 def _casadi_tree(formulation: str, literal: bool) -> Callable[[], Built]:
     def make() -> Built:
-        from . import casadi_tree as peer  # noqa: PLC0415
+        from . import casadi_tree as peer
 
         model = peer.build(formulation, literal=literal)
         source, seconds = peer.source(model.function, slice(2, 4), starts_with_beta1=True)
@@ -110,8 +110,8 @@ def _casadi_tree(formulation: str, literal: bool) -> Callable[[], Built]:
 
 def _casadi_maximal(literal: bool) -> Callable[[], Built]:
     def make() -> Built:
-        from . import casadi_maximal as peer  # noqa: PLC0415
-        from .casadi_tree import source as generate  # noqa: PLC0415
+        from . import casadi_maximal as peer
+        from .casadi_tree import source as generate
 
         model = peer.build(literal=literal)
         source, seconds = generate(model.function, peer.ACCELERATIONS, starts_with_beta1=False)
@@ -123,7 +123,7 @@ def _casadi_maximal(literal: bool) -> Callable[[], Built]:
 
 def _sympy(literal: bool) -> Callable[[], Built]:
     def make() -> Built:
-        from . import sympy_kane as peer  # noqa: PLC0415
+        from . import sympy_kane as peer
 
         source, derived, printed = peer.build(literal=literal)
         constants = np.zeros(0) if literal else peer.constants()
@@ -133,7 +133,7 @@ def _sympy(literal: bool) -> Callable[[], Built]:
 
 
 def _pinocchio() -> Built:
-    from . import pinocchio_model as peer  # noqa: PLC0415
+    from . import pinocchio_model as peer
 
     begin = time.perf_counter()
     source = peer.source()

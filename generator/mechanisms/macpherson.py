@@ -10,6 +10,7 @@ from ..forces import JointForce, LinearTyre, TelescopeSpring, Weight
 from ..geometry import FORWARD, UP, Direction, Line, Point
 from ..joints import Cylindrical, Prismatic, Revolute, Spherical, Universal
 from ..mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
+from ..vectors import ELEMENTS
 
 A = Point("arm_front")
 O = Point("arm_rear")
@@ -168,7 +169,7 @@ def _rigid_body(
                 "kg m^2",
                 f"{element} element of the inertia tensor of the {name}",
             )
-            for element, value in zip(("xx", "yy", "zz", "xy", "xz", "yz"), tensor, strict=True)
+            for element, value in zip(ELEMENTS, tensor, strict=True)
         ),
     ]
 

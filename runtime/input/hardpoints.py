@@ -17,8 +17,9 @@ _SMALLEST_DISTANCE = 0.001
 _SMALLEST_SUSPENSION = 0.01
 _LARGEST_COORDINATE = 20.0
 # Nearer to the vertical than this, the hinge axis has no upper side, in degrees.
-_SMALLEST_CROSS_ANGLE = 1.0
 _SMALLEST_HINGE_ANGLE = 1.0
+# Nearer to the first axis of its universal joint than this, a link is not held, in degrees.
+_SMALLEST_CROSS_ANGLE = 1.0
 
 # The points that belong to one body; strut_top moves along the strut, so that it stands apart.
 _POINTS_OF_BODIES = {
