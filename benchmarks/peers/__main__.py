@@ -1,4 +1,4 @@
-"""Run the comparison: ``python -m benchmarks.peers --out out/benchmark``."""
+"""Run the comparison: ``make benchmark-peers``."""
 
 import argparse
 import importlib
