@@ -28,12 +28,11 @@ LIBRARIES = ["cvode", "arkode", "nvecserial", "sunmatrixdense", "sunlinsoldense"
 
 
 def model_extension(wrapper: Path) -> Extension:
-    """Return an extension module: a Cython file, with the C source of its model if it has one."""
-    sources, headers = [wrapper.as_posix()], []
-    model = SOURCES / f"{wrapper.stem.removeprefix('_')}.c"
-    if model.exists():
-        sources.append(model.as_posix())
-        headers.append(model.with_suffix(".h").as_posix())
+    """Return an extension module: a Cython file, with the C sources of its model if it has any."""
+    name = wrapper.stem.removeprefix("_")
+    parts = [SOURCES / f"{name}.c", SOURCES / f"{name}_derivatives.c"]
+    sources = [wrapper.as_posix(), *(part.as_posix() for part in parts if part.exists())]
+    headers = [path.as_posix() for path in [SOURCES / f"{name}.h"] if path.exists()]
     return Extension(
         f"kintrafo.generated.{wrapper.stem}",
         sources,

@@ -12,6 +12,9 @@ cdef extern from "macpherson.h" nogil:
     int macpherson_rhs_jacobian(
         const double *constants, const double *state, const double *inputs,
         double *out)
+    int macpherson_rhs_input_jacobian(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
     int macpherson_mass_matrix(
         const double *constants, const double *state, const double *inputs,
         double *out)
@@ -54,6 +57,12 @@ cdef extern from "macpherson.h" nogil:
     int macpherson_signals(
         const double *constants, const double *state, const double *inputs,
         double *out)
+    int macpherson_signals_jacobian(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int macpherson_signals_input_jacobian(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
     int macpherson_margins(
         const double *constants, const double *state, const double *inputs,
         double *out)
@@ -62,6 +71,7 @@ ADDRESSES = {
     "prepare": <uintptr_t> &macpherson_prepare,
     "rhs": <uintptr_t> &macpherson_rhs,
     "rhs_jacobian": <uintptr_t> &macpherson_rhs_jacobian,
+    "rhs_input_jacobian": <uintptr_t> &macpherson_rhs_input_jacobian,
     "mass_matrix": <uintptr_t> &macpherson_mass_matrix,
     "bias": <uintptr_t> &macpherson_bias,
     "forces": <uintptr_t> &macpherson_forces,
@@ -76,5 +86,7 @@ ADDRESSES = {
     "orientations": <uintptr_t> &macpherson_orientations,
     "velocities": <uintptr_t> &macpherson_velocities,
     "signals": <uintptr_t> &macpherson_signals,
+    "signals_jacobian": <uintptr_t> &macpherson_signals_jacobian,
+    "signals_input_jacobian": <uintptr_t> &macpherson_signals_input_jacobian,
     "margins": <uintptr_t> &macpherson_margins,
 }

@@ -12,6 +12,9 @@ cdef extern from "macpherson_free_rack.h" nogil:
     int macpherson_free_rack_rhs_jacobian(
         const double *constants, const double *state, const double *inputs,
         double *out)
+    int macpherson_free_rack_rhs_input_jacobian(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
     int macpherson_free_rack_mass_matrix(
         const double *constants, const double *state, const double *inputs,
         double *out)
@@ -48,6 +51,12 @@ cdef extern from "macpherson_free_rack.h" nogil:
     int macpherson_free_rack_signals(
         const double *constants, const double *state, const double *inputs,
         double *out)
+    int macpherson_free_rack_signals_jacobian(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int macpherson_free_rack_signals_input_jacobian(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
     int macpherson_free_rack_margins(
         const double *constants, const double *state, const double *inputs,
         double *out)
@@ -56,6 +65,7 @@ ADDRESSES = {
     "prepare": <uintptr_t> &macpherson_free_rack_prepare,
     "rhs": <uintptr_t> &macpherson_free_rack_rhs,
     "rhs_jacobian": <uintptr_t> &macpherson_free_rack_rhs_jacobian,
+    "rhs_input_jacobian": <uintptr_t> &macpherson_free_rack_rhs_input_jacobian,
     "mass_matrix": <uintptr_t> &macpherson_free_rack_mass_matrix,
     "bias": <uintptr_t> &macpherson_free_rack_bias,
     "forces": <uintptr_t> &macpherson_free_rack_forces,
@@ -68,5 +78,7 @@ ADDRESSES = {
     "orientations": <uintptr_t> &macpherson_free_rack_orientations,
     "velocities": <uintptr_t> &macpherson_free_rack_velocities,
     "signals": <uintptr_t> &macpherson_free_rack_signals,
+    "signals_jacobian": <uintptr_t> &macpherson_free_rack_signals_jacobian,
+    "signals_input_jacobian": <uintptr_t> &macpherson_free_rack_signals_input_jacobian,
     "margins": <uintptr_t> &macpherson_free_rack_margins,
 }

@@ -29,7 +29,7 @@ def files_of(model: GeneratedModel) -> dict[str, str]:
     c, python = CPrinter(model), PythonPrinter(model)
     return {
         f"c/{name}.h": c.header(),
-        f"c/{name}.c": c.source(),
+        **{f"c/{c.file_name(part)}": c.source(part) for part in c.parts},
         f"_{name}.pyx": python.addresses(),
         f"_{name}.pyi": python.addresses_stub(),
         f"{name}.py": python.module(),

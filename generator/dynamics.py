@@ -297,7 +297,11 @@ class Dynamics:
         damper = program.define(f"{prefix}damper_force", -sp.Symbol(force.damper) * length_rate)
         actuator = sp.Symbol(force.actuator) if force.actuator else NONE
         total = program.define(f"{prefix}telescope_force", spring + damper + actuator)
-        self.signals |= {f"{prefix}spring_force": spring, f"{prefix}damper_force": damper}
+        self.signals |= {
+            f"{force.name}_velocity": length_rate,
+            f"{prefix}spring_force": spring,
+            f"{prefix}damper_force": damper,
+        }
         for k in self.names:
             if k in line.length_motion:
                 self._force[k] += total * line.length_motion[k]
@@ -327,6 +331,7 @@ class Dynamics:
                 self._force[k] += (spring + damper) * motion[k]
         self.signals |= {
             f"{name}_length": length,
+            f"{name}_velocity": rate,
             f"{name}_spring_force": spring,
             f"{name}_damper_force": damper,
         }

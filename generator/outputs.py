@@ -19,11 +19,14 @@ from .transformer import Plan
 from .vectors import ZERO, Vector
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from .mechanism import Mechanism, Model
 
 AXES = ("x", "y", "z")
+
+DERIVATIVES = "derivatives"
+"""Part of the emitted code that holds derivatives by state and inputs, as long as all the rest."""
 
 
 @dataclass(frozen=True)
@@ -219,18 +222,38 @@ class _Builder:
         what = "" if not suffix else f" with {suffix[1:].replace('_', ' ')}"
         rhs, jacobian = f"rhs{suffix}", f"rhs_jacobian{suffix}"
         self.functions[rhs] = program.function(rhs, f"Time derivative of the state{what}.", rates)
-        program.section("derivatives of the right-hand side")
-        states = self._state_symbols()
-        columns = {s: program.tangents(s, rates.values(), str(s)) for s in states}
-        entries = {
-            f"{label} by {state}": column[row]
-            for row, label in enumerate(rates)
-            for state, column in columns.items()
-        }
-        doc = f"Exact derivative of {rhs} with respect to the state, row-major."
-        self.functions[jacobian] = program.function(
-            jacobian, doc, entries, (len(states), len(states))
+        self._add_derivatives(
+            dynamics.program, jacobian, f"of {rhs}", rates.values(), list(rates), "state"
         )
+        if not suffix:
+            self._add_derivatives(
+                program, "rhs_input_jacobian", "of rhs", rates.values(), list(rates), "inputs"
+            )
+
+    def _add_derivatives(
+        self,
+        program: Program,
+        name: str,
+        what: str,
+        values: Iterable[sp.Expr],
+        labels: Sequence[str],
+        by: str,
+    ) -> None:
+        """Add the exact derivatives of some results with respect to the state or the inputs."""
+        program.section(f"derivatives {what}")
+        values = list(values)
+        symbols = (
+            self._state_symbols() if by == "state" else [sp.Symbol(n) for n in self._input_names()]
+        )
+        columns = {s: program.tangents(s, values, str(s)) for s in symbols}
+        entries = {
+            f"{label} by {symbol}": column[row]
+            for row, label in enumerate(labels)
+            for symbol, column in columns.items()
+        }
+        doc = f"Exact derivative {what} with respect to the {by}, row-major."
+        function = program.function(name, doc, entries, (len(values), len(symbols)))
+        self.functions[name] = replace(function, part=DERIVATIVES)
 
     # -- relative kinematics ----------------------------------------------------------------------
 
@@ -382,6 +405,10 @@ class _Builder:
             elif isinstance(force, LineSpring):
                 self._add_line_signals(force, results)
         self._add("signals", "Physical signals, see the enumeration of signals.", results)
+        for by, name in (("state", "signals_jacobian"), ("inputs", "signals_input_jacobian")):
+            self._add_derivatives(
+                self.program, name, "of the signals", results.values(), list(results), by
+            )
 
     def _signal(
         self, results: dict[str, sp.Expr], name: str, value: sp.Expr, unit: str, meaning: str
@@ -462,6 +489,13 @@ class _Builder:
         )
         self._signal(
             results,
+            f"{spring.name}_velocity",
+            self.dynamics.signals[f"{spring.name}_velocity"],
+            "m/s",
+            f"rate of the {spring.name}'s length, positive in rebound",
+        )
+        self._signal(
+            results,
             f"{prefix}spring_force",
             self.dynamics.signals[f"{prefix}spring_force"],
             "N",
@@ -478,6 +512,7 @@ class _Builder:
     def _add_line_signals(self, spring: LineSpring, results: dict[str, sp.Expr]) -> None:
         for kind, unit, meaning in (
             ("length", "m", "length"),
+            ("velocity", "m/s", "rate of the length, positive when the ends part"),
             ("spring_force", "N", "spring force, positive when it pushes the ends apart"),
             ("damper_force", "N", "damper force, positive when it pushes the ends apart"),
         ):

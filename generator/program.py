@@ -61,6 +61,8 @@ class Function:
         Shape of the output array.
     guards
         The guards that act in this function.
+    part
+        What the file that it is printed in adds to the model's name; empty: nothing.
     """
 
     name: str
@@ -70,6 +72,7 @@ class Function:
     labels: tuple[str, ...]
     shape: tuple[int, ...]
     guards: tuple[Guard, ...]
+    part: str = ""
 
     @property
     def free_symbols(self) -> set[sp.Symbol]:

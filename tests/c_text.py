@@ -41,10 +41,20 @@ def header(model: str) -> str:
     return (FOLDER / f"{model}.h").read_text(encoding="utf-8")
 
 
+def sources(model: str) -> list[Path]:
+    """Return a model's C files, in the order in which they are documented."""
+    return [FOLDER / f"{model}.c", FOLDER / f"{model}_derivatives.c"]
+
+
 @cache
 def functions(model: str) -> dict[str, list[str]]:
     """Return the tokens of every function's body, by name without the model's prefix."""
-    text = _LAYOUT.sub("", (FOLDER / f"{model}.c").read_text(encoding="utf-8"))
+    texts = (path.read_text(encoding="utf-8") for path in sources(model))
+    return {name: body for text in texts for name, body in _bodies(model, text).items()}
+
+
+def _bodies(model: str, text: str) -> dict[str, list[str]]:
+    text = _LAYOUT.sub("", text)
     starts = [*_SIGNATURE.finditer(text)]
     ends = [*(match.start() for match in starts[1:]), len(text)]
     return {

@@ -10,7 +10,7 @@ from pathlib import Path
 import mpmath
 import numpy as np
 import pytest
-from c_text import FOLDER, count, functions, header
+from c_text import FOLDER, count, functions, header, sources
 from cases import MODELS, car_parameters, random_instants
 from kintrafo.generator.outputs import GeneratedModel
 from oracle.newton import Mechanism
@@ -120,8 +120,8 @@ STRICT = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"]
 @each_model
 def test_compiles_silently(name: str, tmp_path: Path) -> None:
     # with optimisation, since some warnings come from the analysis of data flow
-    source = str(FOLDER / f"{name}.c")
-    run(["gcc", "-std=c99", *STRICT, "-O1", "-c", source, "-o", str(tmp_path / "object.o")])
+    for source in map(str, sources(name)):
+        run(["gcc", "-std=c99", *STRICT, "-O1", "-c", source, "-o", str(tmp_path / "object.o")])
 
 
 def test_headers_are_cpp(tmp_path: Path) -> None:
@@ -197,7 +197,7 @@ def test_counts_in_the_header(name: str, function: str) -> None:
 
 @each_model
 def test_count_at_the_head_of_the_files(name: str) -> None:
-    for text in (header(name), (FOLDER / f"{name}.c").read_text(encoding="utf-8")):
+    for text in (header(name), *(p.read_text(encoding="utf-8") for p in sources(name))):
         head = text[: text.index("*/")]
         assert described_counts(head.split("rhs:")[1]) == counted(name, "rhs")
 

@@ -25,6 +25,7 @@ def test_signals(model, seed: int) -> None:
         deflection = parameters["tyre_free_height"] + instant.road_height - seen.wheel_center[2]
         expected = {
             "strut_length": seen.strut_length,
+            "strut_velocity": -solution.strut_slide_rate,
             "spring_force": spring,
             "damper_force": parameters["damper_rate"] * solution.strut_slide_rate,
             "wheel_velocity": solution.twist[WHEEL - 1, 2],

@@ -5,6 +5,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from c_text import sources
 from cases import MODELS
 from kintrafo import Model, state_at_height
 from kintrafo.solvers import native_available
@@ -107,11 +108,11 @@ def assignments(model):
     return " ".join(f"parameters[{i}] = {value!r};" for i, value in values)
 
 
-def run_clean(folder, text, sources, *libraries):
+def run_clean(folder, text, files, *libraries):
     program = folder / "program.c"
     program.write_text(text, encoding="utf-8")
     include = [f"-I{ROOT / 'generated/c'}", f"-I{ROOT / 'runtime/native'}"]
-    command = ["gcc", *FLAGS, *include, program, *sources, "-o", folder / "program", *libraries]
+    command = ["gcc", *FLAGS, *include, program, *files, "-o", folder / "program", *libraries]
     built = subprocess.run([*map(str, command), "-lm"], capture_output=True, text=True, check=False)
     if "cannot find" in built.stderr and "asan" in built.stderr:
         pytest.skip("the compiler's sanitizer library is not installed")
@@ -139,7 +140,7 @@ def test_generated_functions(tmp_path, name):
         parameters=assignments(model),
         calls="\n        ".join(calls),
     )
-    run_clean(tmp_path, text, [ROOT / f"generated/c/{name}.c"])
+    run_clean(tmp_path, text, sources(name))
 
 
 @needs_gcc
@@ -151,8 +152,8 @@ def test_native_solver(tmp_path):
         parameters=assignments(MODELS["macpherson"]),
         state=", ".join(repr(float(v)) for v in start),
     )
-    sources = [ROOT / "generated/c/macpherson.c", ROOT / "runtime/native/integrate.c"]
-    run_clean(tmp_path, text, sources, *(f"-lsundials_{name}" for name in SUNDIALS))
+    files = [*sources("macpherson"), ROOT / "runtime/native/integrate.c"]
+    run_clean(tmp_path, text, files, *(f"-lsundials_{name}" for name in SUNDIALS))
 
 
 @needs_gcc

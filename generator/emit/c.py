@@ -186,8 +186,18 @@ class CPrinter:
 
     # -- source ---------------------------------------------------------------------------------
 
-    def source(self) -> str:
-        """Return the text of the source file."""
+    @property
+    def parts(self) -> list[str]:
+        """The source files of the model, by what their names add to the model's."""
+        return list(dict.fromkeys(["", *(f.part for f in self.model.functions.values())]))
+
+    def file_name(self, part: str) -> str:
+        """Return the name of a source file."""
+        return "_".join(filter(None, (self.prefix, part))) + ".c"
+
+    def source(self, part: str = "") -> str:
+        """Return the text of a source file."""
+        functions = [f for f in self.model.functions.values() if f.part == part]
         blocks = [
             self._banner(),
             f'#include "{self.prefix}.h"\n\n#include <math.h>',
@@ -196,8 +206,8 @@ class CPrinter:
                 f"#define GUARD_FLOOR {GUARD_FLOOR}"
             ),
             NOT_FINITE,
-            self._prepare_body(),
-            *(self._body(f) for f in self.model.functions.values()),
+            *([] if part else [self._prepare_body()]),
+            *(self._body(f) for f in functions),
         ]
         return "\n\n".join(blocks) + "\n"
 
