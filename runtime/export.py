@@ -1,0 +1,106 @@
+"""Datasets as files: CSV for people, netCDF and Parquet for programs.
+
+CSV has one line of names with units, such as ``camber [deg]``, and values in the units that people
+read. netCDF and Parquet keep SI units, all digits, and the description of every variable.
+"""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from .errors import InputError
+from .files import replacing
+from .optional import require
+from .quantities import bracketed, display_of
+
+# Enough for a micrometre in a kilometre, and still short enough to read.
+_CSV_DIGITS = "%.9g"
+# What is smaller than this part of its column is a rounding error, and a zero for people.
+_ROUNDING = 1e-12
+
+
+def write(dataset: xr.Dataset, path: str | Path) -> Path:
+    """Write a dataset; the ending of the file's name is its format.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Variables over one dimension or more.
+    path : str or pathlib.Path
+        ``.csv``, ``.nc`` (netCDF) or ``.parquet``.
+
+    Returns
+    -------
+    pathlib.Path
+        The file, which is there only when it is complete.
+
+    Raises
+    ------
+    InputError
+        If the ending is not known.
+    MissingPackageError
+        If the format needs a package that is not installed.
+    """
+    writer = _WRITERS[check_format(path)]
+    with replacing(path) as temporary:
+        writer(dataset, temporary)
+    return Path(path)
+
+
+def check_format(path: str | Path) -> str:
+    """Return the ending of a file's name, or refuse it where no such file can be written."""
+    ending = Path(path).suffix.lower()
+    if ending not in _WRITERS:
+        found = f"{ending} is no format" if ending else "the name has no ending"
+        problem = f"{found} of data files. Use .csv, .nc (netCDF) or .parquet."
+        raise InputError([problem], str(path))
+    if ending == ".parquet":
+        require("pyarrow.parquet", purpose="Writing Parquet", extra="parquet")
+    return ending
+
+
+def _flat(dataset: xr.Dataset) -> Any:
+    """Return a data frame with one row for each point, coordinates first."""
+    frame = dataset.to_dataframe(dim_order=list(dataset.sizes)).reset_index()
+    scalars = [name for name in dataset.coords if name not in dataset.sizes]
+    return frame[[*dataset.sizes, *scalars, *dataset.data_vars]]
+
+
+def _write_csv(dataset: xr.Dataset, path: Path) -> None:
+    frame = _flat(dataset)
+    for name in frame.select_dtypes("number").columns:
+        values = frame[name] * display_of(dataset[name].attrs).factor
+        frame[name] = values.where(values.abs() > _ROUNDING * values.abs().max(), 0.0)
+    frame.columns = [bracketed(name, dataset[name].attrs) for name in frame.columns]
+    frame.to_csv(path, index=False, float_format=_CSV_DIGITS, lineterminator="\n")
+
+
+def _write_netcdf(dataset: xr.Dataset, path: Path) -> None:
+    dataset.to_netcdf(path, engine="scipy", format="NETCDF3_64BIT")
+
+
+def _write_parquet(dataset: xr.Dataset, path: Path) -> None:
+    pyarrow = require("pyarrow", purpose="Writing Parquet", extra="parquet")
+    parquet = require("pyarrow.parquet", purpose="Writing Parquet", extra="parquet")
+    frame = _flat(dataset)
+    fields = [
+        pyarrow.field(name, pyarrow.array(frame[name]).type, metadata=_texts(dataset[name].attrs))
+        for name in frame.columns
+    ]
+    schema = pyarrow.schema(fields, metadata=_texts(dataset.attrs))
+    columns = [np.asarray(frame[name]) for name in frame.columns]
+    parquet.write_table(pyarrow.Table.from_arrays(columns, schema=schema), path)
+
+
+def _texts(attrs: dict[Any, Any]) -> dict[str, str]:
+    return {str(name): str(value) for name, value in attrs.items()}
+
+
+_WRITERS: dict[str, Callable[[xr.Dataset, Path], None]] = {
+    ".csv": _write_csv,
+    ".nc": _write_netcdf,
+    ".parquet": _write_parquet,
+}

@@ -1,0 +1,102 @@
+"""How quantities are described and shown: SI inside, degrees and millimetres for people.
+
+A variable of a dataset carries its description as attributes: ``units`` (SI), ``long_name``,
+``sign``, and the unit in which a person reads it, ``display_units = units * display_factor``.
+"""
+
+import math
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+class Display(NamedTuple):
+    """A unit for people.
+
+    Attributes
+    ----------
+    units : str
+        As it is printed.
+    factor : float
+        What a value in SI units is multiplied with.
+    """
+
+    units: str
+    factor: float
+
+
+_DEGREES = 180.0 / math.pi
+_DISPLAYS = {
+    "m": Display("mm", 1e3),
+    "rad": Display("deg", _DEGREES),
+    "rad/s": Display("deg/s", _DEGREES),
+    "N/m": Display("N/mm", 1e-3),
+}
+
+
+def attributes(meaning: str, units: str) -> dict[str, Any]:
+    """Return the attributes of a variable.
+
+    Parameters
+    ----------
+    meaning : str
+        What it is; behind a comma and the word "positive", its sign.
+    units : str
+        SI unit; "1" for a pure number.
+
+    Returns
+    -------
+    dict
+        Of ``long_name``, ``sign``, ``units``, ``display_units`` and ``display_factor``.
+
+    Examples
+    --------
+    >>> attributes("toe angle, positive toe-in", "rad")["sign"]
+    'positive toe-in'
+    """
+    name, mark, sign = meaning.partition(", positive")
+    shown = _DISPLAYS.get(units, Display(units, 1.0))
+    return {
+        "long_name": name,
+        "sign": f"positive{sign}" if mark else "",
+        "units": units,
+        "display_units": shown.units,
+        "display_factor": shown.factor,
+    }
+
+
+def variable(
+    dimensions: str | tuple[str, ...], values: Any, meaning: str, units: str
+) -> xr.Variable:
+    """Return a variable over some dimensions, with its description as `attributes` makes it."""
+    return xr.Variable(dimensions, values, attributes(meaning, units))
+
+
+def display_of(attrs: Mapping[str, Any]) -> Display:
+    """Return the unit in which a person reads a variable with these attributes."""
+    units = str(attrs.get("units", ""))
+    known = _DISPLAYS.get(units, Display(units, 1.0))
+    given = attrs.get("display_units", known.units), attrs.get("display_factor", known.factor)
+    return Display(str(given[0]), float(given[1]))
+
+
+def displayed(data: xr.DataArray) -> Array:
+    """Return the values of a variable in the unit for people."""
+    values: Array = np.asarray(data.values, dtype=np.float64) * display_of(data.attrs).factor
+    return values
+
+
+def bracketed(name: str, attrs: Mapping[str, Any]) -> str:
+    """Return a name with its unit for people, ``camber [deg]``; pure numbers have none."""
+    units = display_of(attrs).units
+    return name if units in ("", "1") else f"{name} [{units}]"
+
+
+def long_name(data: xr.DataArray) -> str:
+    """Return what a variable is called in words."""
+    return str(data.attrs.get("long_name") or str(data.name).replace("_", " "))

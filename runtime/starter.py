@@ -1,0 +1,64 @@
+"""The first file of a new project: an annotated copy of a packaged data set."""
+
+from importlib import resources
+from pathlib import Path
+
+from . import data
+from .errors import InputError
+from .files import replacing
+from .input.suggestions import suggestion
+
+_ENDING = ".toml"
+
+
+def packaged() -> tuple[str, ...]:
+    """Return the names of the data sets that come with kintrafo.
+
+    Examples
+    --------
+    >>> "reference_car" in packaged()
+    True
+    """
+    files = (file.name for file in resources.files(data).iterdir())
+    return tuple(sorted(name.removesuffix(_ENDING) for name in files if name.endswith(_ENDING)))
+
+
+def write_starter(
+    path: str | Path, *, template: str = "reference_car", force: bool = False
+) -> Path:
+    """Write an input file to begin with: all keys, with units, signs and comments.
+
+    Parameters
+    ----------
+    path : str or pathlib.Path
+        A name that ends in ``.toml``.
+    template : str, optional
+        Name of the packaged data set that is copied.
+    force : bool, optional
+        Whether a file that is there already is replaced.
+
+    Returns
+    -------
+    pathlib.Path
+
+    Raises
+    ------
+    InputError
+        If there is a file already, or the name cannot be used.
+    """
+    path = Path(path)
+    if template not in packaged():
+        problem = (
+            f"no data set {template!r} comes with kintrafo. {suggestion(template, packaged())}"
+        )
+        raise InputError([problem], "template")
+    if path.suffix != _ENDING:
+        problem = f"an input file ends in {_ENDING}. Write {path.with_suffix(_ENDING)}."
+        raise InputError([problem], str(path))
+    if path.exists() and not force:
+        problem = "this file is there already. Choose another name, or force it to be replaced."
+        raise InputError([problem], str(path))
+    text = resources.files(data).joinpath(f"{template}{_ENDING}").read_text(encoding="utf-8")
+    with replacing(path) as temporary:
+        temporary.write_text(text, encoding="utf-8", newline="\n")
+    return path

@@ -1,0 +1,334 @@
+"""Positions over wheel travel and rack displacement: where the wheel and the joints go.
+
+Wheel travel is the height of the wheel centre above its design position [m], positive in bump; the
+rack is displaced along its axis [m]. Both are zero at design.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import brentq
+
+from .errors import InputError
+from .hardpoints import hardpoints
+from .model import Model
+from .positions import PositionError, Range, travel_range
+from .quantities import variable
+
+Array = NDArray[np.float64]
+Progress = Callable[[float], None]
+
+TRAVEL, RACK = "wheel_travel", "rack_position"
+
+# What a sweep covers where nothing is said, as far as it can be reached.
+USUAL_TRAVEL = 0.080  # bump and rebound of a passenger car [m]
+USUAL_RACK = 0.060  # to either side [m]
+# A sweep that is not told otherwise keeps clear of the ends of the motion by this part of them.
+_CLEARANCE = 0.02
+_MOST_POINTS = 100_000
+# Joints that move with the wheel; the names are those of the input file.
+_MOVING = ("ball_joint", "tie_rod_outer", "tie_rod_inner")
+# Signals in these units follow from the position alone; forces and rates need more.
+_OF_POSITION = ("m", "rad")
+_BRACKETS = 241
+
+
+def positions(
+    model: Model,
+    travel: ArrayLike | None = None,
+    rack: ArrayLike | None = None,
+    *,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Return wheel and joint positions over travel, over the rack, or over both.
+
+    Parameters
+    ----------
+    model : Model
+    travel : array_like, optional
+        Wheel travel [m]: one value or many, by default what `usual_travel` returns.
+    rack : array_like, optional
+        Displacement of the rack [m]: one value or many, by default zero.
+    progress : callable, optional
+        Called with the part that is done, up to 1.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``wheel_travel`` and ``rack_position``, of which one that is a single number is a
+        scalar coordinate. Variables: the signals of the model that the position decides (wheel
+        centre, camber, toe, steer angle, strut length, ...), the moving hardpoints
+        (``ball_joint_x``, ...) and the arm angle; SI units, chassis axes.
+
+    Raises
+    ------
+    PositionError
+        If a position is out of reach; the message states the range.
+
+    Examples
+    --------
+    >>> curves = positions(Model("reference_car"), [-0.05, 0.0, 0.05])
+    >>> curves["camber"].values[[0, 2]].round(4).tolist()
+    [0.0231, -0.016]
+    """
+    travels = _numbers(usual_travel(model) if travel is None else travel, "travel")
+    racks = _numbers(0.0 if rack is None else rack, "rack")
+    rows = []
+    for index, displacement in enumerate(racks.ravel()):
+        angles = _Row(model, float(displacement)).angles(travels.ravel())
+        rows.append(_evaluated(model, angles, float(displacement)))
+        if progress is not None:
+            progress((index + 1) / racks.size)
+    columns = {name: np.stack([row[name] for row in rows]).T for name in rows[0]}
+    return _dataset(model, travels, racks, columns)
+
+
+def grid(lowest: float, highest: float, step: float) -> Array:
+    """Return equally spaced values that include zero, with the two ends.
+
+    Parameters
+    ----------
+    lowest, highest : float
+        Ends of the range; zero lies between them or is one of them.
+    step : float
+        Distance of the values.
+
+    Returns
+    -------
+    ndarray
+
+    Examples
+    --------
+    >>> grid(-0.025, 0.02, 0.01).tolist()
+    [-0.025, -0.02, -0.01, 0.0, 0.01, 0.02]
+    """
+    if not (np.isfinite([lowest, highest, step]).all() and step > 0.0 and lowest <= 0.0 <= highest):
+        problem = (
+            f"from {lowest * 1e3:g} mm to {highest * 1e3:g} mm by {step * 1e3:g} mm: the ends must "
+            "lie on either side of zero (the design position), and the step be more than 0 mm."
+        )
+        raise InputError([problem], "sweep")
+    if (highest - lowest) / step > _MOST_POINTS:
+        problem = (
+            f"a step of {step * 1e3:g} mm makes more than {_MOST_POINTS} positions from "
+            f"{lowest * 1e3:g} mm to {highest * 1e3:g} mm. Choose a larger step."
+        )
+        raise InputError([problem], "sweep")
+    # a step that fits up to rounding ends at the end itself
+    below, above = (int(np.floor(abs(end) / step + 1e-9)) for end in (lowest, highest))
+    values = np.arange(-below, above + 1) * step
+    near = 1e-9 * step
+    inner = values[(values > lowest + near) & (values < highest - near)]
+    return np.union1d(inner, [lowest, 0.0, highest])
+
+
+def usual_travel(
+    model: Model,
+    *,
+    rebound: float | None = None,
+    bump: float | None = None,
+    step: float = 0.002,
+    rack: float = 0.0,
+) -> Array:
+    """Return wheel travels for a sweep.
+
+    Parameters
+    ----------
+    model : Model
+    rebound, bump : float, optional
+        How far down and up, both positive [m]; by default 80 mm, or less where the suspension
+        cannot go so far.
+    step : float, optional
+        Distance of the positions [m].
+    rack : float, optional
+        Displacement of the rack at which the range is looked up [m].
+
+    Returns
+    -------
+    ndarray
+        From ``-rebound`` to ``bump``, the design position included [m].
+    """
+    _check_amounts(rebound=rebound, bump=bump)
+    if rebound is None or bump is None:
+        reach = travel_range(model, rack)
+        design = design_height(model)
+        down, up = ((1.0 - _CLEARANCE) * abs(height - design) for height in reach.height)
+        rebound = min(USUAL_TRAVEL, down) if rebound is None else rebound
+        bump = min(USUAL_TRAVEL, up) if bump is None else bump
+    return grid(-rebound, bump, step)
+
+
+def usual_rack(
+    model: Model, *, extent: float | None = None, step: float = 0.002, travel: float = 0.0
+) -> Array:
+    """Return displacements of the rack for a sweep.
+
+    Parameters
+    ----------
+    model : Model
+    extent : float, optional
+        How far to either side [m]; by default 60 mm, or less where the steering cannot go so far.
+    step : float, optional
+        Distance of the positions [m].
+    travel : float, optional
+        Wheel travel at which the range is looked up [m].
+
+    Returns
+    -------
+    ndarray
+        From ``-extent`` to ``extent``, zero included [m].
+    """
+    _check_amounts(extent=extent)
+    if extent is None:
+        extent = _reachable_rack(model, travel)
+    return grid(-extent, extent, step)
+
+
+def design_height(model: Model) -> float:
+    """Return the height of the wheel centre at the design position [m]."""
+    return float(model.signal("wheel_center_z", model.design_state))
+
+
+def _reachable_rack(model: Model, travel: float) -> float:
+    """Return the usual extent of the rack, halved until the wheel gets there on both sides."""
+    extent = USUAL_RACK
+    while extent > 1e-3:
+        if all(_reaches(model, travel, sign * extent) for sign in (-1.0, 1.0)):
+            return extent
+        extent /= 2.0
+    message = (
+        f"at {travel * 1e3:g} mm of wheel travel the rack moves by less than 1 mm to either side. "
+        "Choose another travel, or check the tie rod's hardpoints."
+    )
+    raise PositionError(message)
+
+
+def _reaches(model: Model, travel: float, rack: float) -> bool:
+    try:
+        _Row(model, rack).angles(np.array([travel]))
+    except PositionError:
+        return False
+    return True
+
+
+def _check_amounts(**amounts: float | None) -> None:
+    problems = [
+        f"{name} = {value * 1e3:g} mm: a distance of 0 mm or more is needed, without a sign."
+        for name, value in amounts.items()
+        if value is not None and not (np.isfinite(value) and value >= 0.0)
+    ]
+    if problems:
+        raise InputError(problems, "sweep")
+
+
+def _numbers(given: ArrayLike, name: str) -> Array:
+    values = np.asarray(given, dtype=np.float64)
+    if values.ndim > 1 or values.size == 0 or not np.isfinite(values).all():
+        problem = f"{name}: one finite number or a row of them is needed, in metres."
+        raise InputError([problem], "sweep")
+    return values
+
+
+class _Row:
+    """The suspension with its rack at one place: arm angles by wheel travel."""
+
+    def __init__(self, model: Model, rack: float) -> None:
+        self._model, self._rack = model, rack
+        self._reach = travel_range(model, rack)
+        # the height is monotonic between the ends, so that a table brackets every root
+        self._angles = np.linspace(*self._reach.arm_angle, _BRACKETS)
+        self._travels = self._travel(self._angles)
+
+    def angles(self, travels: Array) -> Array:
+        """Return the arm angles at which the wheel has made these travels [rad]."""
+        ends = self._travels[0], self._travels[-1]
+        beyond = travels[(travels < ends[0]) | (travels > ends[1])]
+        if beyond.size:
+            raise PositionError(_out_of_reach(float(beyond[0]), ends, self._reach, self._rack))
+        return np.array([self._angle(float(travel)) for travel in travels])
+
+    def _angle(self, travel: float) -> float:
+        right = int(np.clip(np.searchsorted(self._travels, travel), 1, _BRACKETS - 1))
+        bracket = self._angles[right - 1], self._angles[right]
+
+        def excess(angle: float) -> float:
+            return float(self._travel(np.array([angle]))[0]) - travel
+
+        return float(brentq(excess, *bracket, xtol=1e-15, rtol=4 * np.finfo(float).eps))
+
+    def _travel(self, angles: Array) -> Array:
+        signals = self._model.signals(*arrays_at(self._model, angles, self._rack))
+        return signals["wheel_center_z"] - design_height(self._model)
+
+
+def arrays_at(model: Model, angles: Array, rack: float) -> tuple[Array, Array]:
+    """Return states of rest and inputs at arm angles, with the rack at one place.
+
+    Parameters
+    ----------
+    model : Model
+    angles : ndarray, shape (n,)
+        Arm angles [rad].
+    rack : float
+        Displacement of the rack [m].
+
+    Returns
+    -------
+    states, inputs : ndarray
+        For the functions of the compiled module.
+    """
+    states = np.tile(model.design_state, (angles.size, 1))
+    states[:, 0] = angles
+    if model.free_rack:
+        states[:, model.state_names.index("beta9")] = rack
+        return states, model.inputs()
+    return states, model.inputs({"rack_position": rack})
+
+
+def _out_of_reach(travel: float, ends: tuple[float, float], reach: Range, rack: float) -> str:
+    return (
+        f"{travel * 1e3:g} mm of wheel travel is out of reach: from {ends[0] * 1e3:.1f} mm "
+        f"({reach.lower_limit}) to {ends[1] * 1e3:+.1f} mm ({reach.upper_limit}) with the rack at "
+        f"{rack * 1e3:g} mm. Choose a travel within this range."
+    )
+
+
+def _evaluated(model: Model, angles: Array, rack: float) -> dict[str, Array]:
+    """Return everything that the position decides, by name."""
+    states, inputs = arrays_at(model, angles, rack)
+    signals = model.signals(states, inputs)
+    described = model.equations.SIGNALS
+    columns = {n: v for n, v in signals.items() if described[n]["unit"] in _OF_POSITION}
+    points = hardpoints(model, states, inputs)
+    for point in _MOVING:
+        columns |= {f"{point}_{axis}": points[point][:, i] for i, axis in enumerate("xyz")}
+    return columns | {"arm_angle": angles}
+
+
+def _dataset(model: Model, travels: Array, racks: Array, columns: dict[str, Array]) -> xr.Dataset:
+    """Put the columns, of shape (travels, racks), into a dataset."""
+    along = (TRAVEL,) * travels.ndim
+    across = (RACK,) * racks.ndim
+    meaning = "wheel travel from design, positive in bump"
+    coordinates = {TRAVEL: variable(along, travels, meaning, "m")}
+    meaning = "displacement of the rack, positive along its axis"
+    coordinates[RACK] = variable(across, racks, meaning, "m")
+    shape = travels.shape + racks.shape
+    data = {
+        name: variable(along + across, values.reshape(shape), *_described(name, model))
+        for name, values in columns.items()
+    }
+    return xr.Dataset(data, coordinates, {"title": "positions of the suspension"})
+
+
+def _described(name: str, model: Model) -> tuple[str, str]:
+    """Return meaning and SI unit of a column."""
+    if name in model.signal_names:
+        signal = model.equations.SIGNALS[name]
+        return signal["meaning"], signal["unit"]
+    if name == "arm_angle":
+        return "arm angle beta1 from the chassis vertical", "rad"
+    point, _, axis = name.rpartition("_")
+    return f"{point.replace('_', ' ')}, {axis} in chassis axes", "m"
