@@ -1,0 +1,158 @@
+"""The grid on which a model is sampled, and the interpolation between its points.
+
+The page interpolates in the browser; `Grid.interpolate` does the same arithmetic here, so that its
+error can be measured against the compiled model before the page is written.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+
+# Points of the cubic through which each direction is interpolated.
+ORDER = 4
+
+
+@dataclass(frozen=True)
+class Axis:
+    """Equally spaced values of one coordinate.
+
+    Attributes
+    ----------
+    first, step : float
+        First value and distance of two neighbours, in the coordinate's SI unit.
+    count : int
+        Number of values, at least four.
+    """
+
+    first: float
+    step: float
+    count: int
+
+    @classmethod
+    def around_zero(cls, low: float, high: float, step: float) -> "Axis":
+        """Return the multiples of a step from a lower to an upper limit, zero among them.
+
+        Parameters
+        ----------
+        low, high : float
+            Limits, on either side of zero.
+        step : float
+            Wanted distance; it becomes smaller where fewer than four values would be left.
+
+        Returns
+        -------
+        Axis
+        """
+        step = min(step, (high - low) / ORDER)
+        # a limit that is a multiple but for rounding counts as one
+        below, above = int(-low / step + 1e-9), int(high / step + 1e-9)
+        return cls(-below * step, step, below + above + 1)
+
+    @property
+    def values(self) -> Array:
+        """The values in ascending order, shape (count,)."""
+        return self.first + self.step * np.arange(self.count, dtype=np.float64)
+
+    @property
+    def last(self) -> float:
+        """The greatest value."""
+        return self.first + self.step * (self.count - 1)
+
+    @property
+    def middles(self) -> Array:
+        """The values half way between neighbours, where interpolation is worst."""
+        return self.values[:-1] + 0.5 * self.step
+
+    @property
+    def zero(self) -> int:
+        """Index of the value zero."""
+        return round(-self.first / self.step)
+
+    def weights(self, where: ArrayLike) -> tuple[NDArray[np.int64], Array]:
+        """Return which values interpolate, and with which weights.
+
+        Parameters
+        ----------
+        where : array_like, shape (n,)
+            Coordinates within the axis.
+
+        Returns
+        -------
+        first : ndarray of int, shape (n,)
+            Index of the first of four neighbours.
+        weights : ndarray, shape (n, 4)
+            Lagrange's cubic polynomials at these coordinates.
+        """
+        place = (np.asarray(where, dtype=np.float64) - self.first) / self.step
+        first = np.clip(np.floor(place).astype(np.int64) - 1, 0, self.count - ORDER)
+        s = place - first
+        weights = np.stack(
+            [
+                (s - 1.0) * (s - 2.0) * (s - 3.0) / -6.0,
+                s * (s - 2.0) * (s - 3.0) / 2.0,
+                s * (s - 1.0) * (s - 3.0) / -2.0,
+                s * (s - 1.0) * (s - 2.0) / 6.0,
+            ],
+            axis=-1,
+        )
+        return first, weights
+
+    def interpolate(self, samples: Array, where: ArrayLike) -> Array:
+        """Interpolate samples over this axis alone.
+
+        Parameters
+        ----------
+        samples : ndarray, shape (count, ...)
+        where : array_like, shape (n,)
+
+        Returns
+        -------
+        ndarray, shape (n, ...)
+        """
+        first, weights = self.weights(where)
+        near = samples[first[:, None] + np.arange(ORDER)]
+        result: Array = np.einsum("nk,nk...->n...", weights, near)
+        return result
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Wheel travel by rack displacement.
+
+    Attributes
+    ----------
+    travel : Axis
+        Height of the wheel centre above its design height [m], positive in bump.
+    rack : Axis
+        Displacement of the rack along its axis [m].
+    """
+
+    travel: Axis
+    rack: Axis
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Number of travels and of rack displacements."""
+        return self.travel.count, self.rack.count
+
+    def interpolate(self, samples: Array, travel: ArrayLike, rack: ArrayLike) -> Array:
+        """Interpolate samples at every combination of travels and rack displacements.
+
+        Parameters
+        ----------
+        samples : ndarray, shape (travels, racks, ...)
+            Values on the grid.
+        travel : array_like, shape (n,)
+        rack : array_like, shape (m,)
+            Coordinates within the grid [m].
+
+        Returns
+        -------
+        ndarray, shape (n, m, ...)
+        """
+        along = self.travel.interpolate(samples, travel)
+        across = self.rack.interpolate(np.moveaxis(along, 1, 0), rack)
+        return np.moveaxis(across, 0, 1)

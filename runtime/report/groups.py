@@ -1,0 +1,64 @@
+"""Which characteristic belongs beside which others on the page."""
+
+from collections.abc import Hashable
+
+STEERING = "Steering"
+OTHER = "Further characteristics"
+
+# In the order of the page. The longest of these with which a name begins decides, so that
+# quantities that are added later find their place.
+_PREFIXES = {
+    "Wheel angles": ("camber", "toe", "steer", "bump_steer", "spin_axis"),
+    "Steering axis": (
+        "caster",
+        "kingpin",
+        "trail",
+        "hub_trail",
+        "mechanical_trail",
+        "scrub",
+        "spindle",
+        "steering_axis",
+    ),
+    "Wheel path": ("half_track", "track", "wheelbase", "contact", "wheel_center", "wheel_path"),
+    "Springs and rates": (
+        "motion_ratio",
+        "spring",
+        "damper",
+        "strut",
+        "wheel_rate",
+        "ride_",
+        "tyre",
+        "wheel_force",
+        "wheel_load",
+    ),
+    "Roll and pitch centres": ("roll_", "swing_arm", "side_view", "instant", "anti_", "pitch"),
+}
+
+ORDER = (*_PREFIXES, OTHER, STEERING)
+
+
+def group_of(name: Hashable) -> str:
+    """Return the group of a characteristic over wheel travel.
+
+    Parameters
+    ----------
+    name : str
+        Name of the variable.
+
+    Returns
+    -------
+    str
+        One of `ORDER`.
+
+    Examples
+    --------
+    >>> group_of("caster_gradient"), group_of("lateral_something")
+    ('Steering axis', 'Further characteristics')
+    """
+    fitting = [
+        (len(prefix), group)
+        for group, prefixes in _PREFIXES.items()
+        for prefix in prefixes
+        if str(name).startswith(prefix)
+    ]
+    return max(fitting, default=(0, OTHER))[1]

@@ -1,0 +1,180 @@
+"""The HTML report: one file that opens anywhere, without a network."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib import resources
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+
+from ..files import replacing
+from ..model import Model
+from ..paper import SPIN_RATE
+from .accuracy import Accuracy, as_encoded, measure
+from .curves import Curve, curves
+from .grid import Grid
+from .groups import ORDER, STEERING
+from .motion import DROP, Motion, NoMotion, simulated_second
+from .payload import curve_data, page_data
+from .plotted import decimals, shown_range
+from .poses import Poses, poses, reachable_grid
+from .tables import input_tables, summary
+
+
+@dataclass(frozen=True)
+class _Samples:
+    """Everything that was computed for a report."""
+
+    grid: Grid
+    poses: Poses
+    curves: list[Curve]
+    ranges: dict[str, tuple[float, float]]
+    accuracy: Accuracy
+    decimals: dict[str, int]
+    motion: Motion | NoMotion
+
+
+def write(
+    model: Model,
+    path: Path,
+    *,
+    title: str | None = None,
+    progress: Callable[[str], None] | None = None,
+) -> Path:
+    """Write an HTML report of a suspension.
+
+    The mechanism in three dimensions to be moved by hand, its characteristics, a simulated second
+    and the input data, in one file without references to others.
+
+    Parameters
+    ----------
+    model : Model
+    path : Path
+        The file to write; it appears when it is complete. Folders are made.
+    title : str, optional
+        Heading of the page; by default it says what the suspension is.
+    progress : callable, optional
+        Called with a few words on what is being done.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    Raises
+    ------
+    PositionError
+        If the suspension cannot move.
+    """
+    tell = progress or (lambda _: None)
+    text = render(model, title=title, tell=tell)
+    tell("writing the page")
+    with replacing(path) as temporary:
+        temporary.write_text(text, encoding="utf-8", newline="\n")
+    return path
+
+
+def render(
+    model: Model, *, title: str | None = None, tell: Callable[[str], None] = lambda _: None
+) -> str:
+    """Return the report as text; see `write`."""
+    samples = _sample(model, tell)
+    side = model.suspension.vehicle.side
+    template = _environment().get_template("page.html.jinja")
+    return template.render(
+        title=title or f"MacPherson suspension, front {side}",
+        side=side,
+        version=version("kintrafo"),
+        samples=samples,
+        chapters=_chapters(samples.curves),
+        steering=STEERING,
+        rows=summary(samples.curves, samples.grid, samples.decimals),
+        inputs=input_tables(model.suspension),
+        drop=DROP,
+        spin=SPIN_RATE / (2.0 * np.pi),
+        data=Markup(_data(model, samples)),  # noqa: S704 (page_data leaves no end tag in it)
+        script=_asset("report.js"),
+        style=_asset("report.css"),
+    )
+
+
+def _sample(model: Model, tell: Callable[[str], None]) -> _Samples:
+    tell("reach of the mechanism")
+    grid = reachable_grid(model)
+    travel, rack = grid.travel.values, grid.rack.values
+    tell("positions over wheel travel and rack displacement")
+    sampled = poses(model, travel, rack)
+    drawn = curves(model, travel, rack, tell=tell)
+    ranges = {curve.key: shown_range(as_encoded(grid, curve.values)) for curve in drawn}
+    accuracy = measure(model, grid, sampled, drawn, ranges, tell=tell)
+    tell("one second of motion")
+    return _Samples(
+        grid=grid,
+        poses=sampled,
+        curves=drawn,
+        ranges=ranges,
+        accuracy=accuracy,
+        decimals={curve.key: _decimals(curve, grid, accuracy) for curve in drawn},
+        motion=simulated_second(model, grid),
+    )
+
+
+def _decimals(curve: Curve, grid: Grid, accuracy: Accuracy) -> int:
+    """Return how many decimals tell the values of the curve through the design position apart."""
+    values = curve.through_design(grid)
+    drawn = values if np.isfinite(values).any() else curve.values
+    low, high = (end * curve.factor for end in shown_range(drawn))
+    return decimals(low, high, accuracy.curves[curve.key])
+
+
+def _chapters(drawn: list[Curve]) -> dict[str, list[Curve]]:
+    """Return the curves under their headings, in the order of the page."""
+    found = {name: [curve for curve in drawn if curve.group == name] for name in ORDER}
+    return {name: group for name, group in found.items() if group}
+
+
+def _data(model: Model, samples: _Samples) -> str:
+    described = [
+        curve_data(curve, samples.grid, samples.ranges[curve.key], samples.decimals[curve.key])
+        for curve in samples.curves
+    ]
+    return page_data(model.suspension, samples.grid, samples.poses, described, samples.motion)
+
+
+def _environment() -> Environment:
+    environment = Environment(
+        loader=PackageLoader(__package__, "."),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["fixed"] = _fixed
+    environment.filters["upper_limit"] = _upper_limit
+    return environment
+
+
+def _fixed(value: float, places: int) -> str:
+    """Write a number with a true minus sign; a dash where there is none."""
+    if not np.isfinite(value):
+        return "\u2013"
+    text = f"{abs(value):.{places}f}"
+    return f"\u2212{text}" if value < 0.0 and float(text) != 0.0 else text
+
+
+def _upper_limit(error: float) -> str:
+    """Write an error with one digit, rounded up."""
+    if error == 0.0:
+        return "0"
+    size = 10.0 ** np.floor(np.log10(error))
+    rounded = np.ceil(error / size * (1.0 - 1e-12)) * size
+    return np.format_float_positional(rounded, precision=1, fractional=False, trim="-")
+
+
+def _asset(name: str) -> Markup:
+    """Return a file that was bundled from web/, which is trusted."""
+    text = resources.files(__package__).joinpath("assets", name).read_text(encoding="utf-8")
+    return Markup(text)  # noqa: S704

@@ -1,0 +1,150 @@
+"""The tables of the page: characteristics at design, and the input data."""
+
+import tomllib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from importlib import resources
+from typing import Any
+
+from ..input.section import Section
+from ..input.suspension import Suspension
+from .curves import Curve
+from .grid import Grid
+
+
+@dataclass(frozen=True)
+class Row:
+    """One characteristic at design.
+
+    Attributes
+    ----------
+    key, group, label, unit : str
+        Of the curve.
+    value : float
+        At design, in that unit.
+    decimals : int
+        With how many it is written.
+    typical : str
+        Range in which it usually lies, or nothing.
+    source : str
+        Who says so.
+    verdict : {"", "within", "outside"}
+        How the value compares.
+    """
+
+    key: str
+    group: str
+    label: str
+    unit: str
+    value: float
+    decimals: int
+    typical: str = ""
+    source: str = ""
+    verdict: str = ""
+
+
+@dataclass(frozen=True)
+class InputTable:
+    """One section of the input file.
+
+    Attributes
+    ----------
+    name : str
+        As in the file.
+    meaning : str
+        What the section is.
+    rows : list of tuple of str
+        Key, value as text, and what it is.
+    """
+
+    name: str
+    meaning: str
+    rows: list[tuple[str, str, str]]
+
+
+def summary(drawn: list[Curve], grid: Grid, decimals: dict[str, int]) -> list[Row]:
+    """Return the characteristics over travel at the design position.
+
+    Parameters
+    ----------
+    drawn : list of Curve
+        All that are plotted.
+    grid : Grid
+    decimals : dict
+        How each is written, by its key.
+
+    Returns
+    -------
+    list of Row
+    """
+    ranges = typical_ranges()
+    return [
+        _row(curve, curve.values[grid.travel.zero, grid.rack.zero], decimals[curve.key], ranges)
+        for curve in drawn
+        if curve.over == "travel"
+    ]
+
+
+def typical_ranges() -> dict[str, dict[str, Any]]:
+    """Return the usual ranges of front suspensions by the name of the characteristic."""
+    text = resources.files(__package__).joinpath("typical.toml").read_text(encoding="utf-8")
+    return tomllib.loads(text)
+
+
+def _row(curve: Curve, value: float, decimals: int, ranges: dict[str, dict[str, Any]]) -> Row:
+    shown = value * curve.factor
+    plain = Row(curve.key, curve.group, curve.label, curve.unit, shown, decimals)
+    usual = ranges.get(curve.name)
+    # a range in another unit than the curve's would be compared wrongly
+    if usual is None or usual["unit"] != curve.unit:
+        return plain
+    within = usual["low"] <= round(shown, decimals) <= usual["high"]
+    return Row(
+        curve.key,
+        curve.group,
+        curve.label,
+        curve.unit,
+        shown,
+        decimals,
+        typical=f"{usual['low']:g} to {usual['high']:g}".replace("-", "\u2212"),
+        source=usual["source"],
+        verdict="within" if within else "outside",
+    )
+
+
+def input_tables(suspension: Suspension) -> list[InputTable]:
+    """Return the input data as they stand in the file, section by section.
+
+    Parameters
+    ----------
+    suspension : Suspension
+
+    Returns
+    -------
+    list of InputTable
+    """
+    return list(_tables(suspension, ""))
+
+
+def _tables(section: Section, path: str) -> Iterator[InputTable]:
+    for name, field in type(section).model_fields.items():
+        value = getattr(section, name)
+        if not isinstance(value, Section):
+            continue
+        rows = [
+            (key, _text(item), inner.description or "")
+            for key, inner in type(value).model_fields.items()
+            if (item := getattr(value, key)) is not None and not isinstance(item, Section)
+        ]
+        if rows:
+            yield InputTable(f"{path}{name}", field.description or "", rows)
+        yield from _tables(value, f"{path}{name}.")
+
+
+def _text(value: Any) -> str:
+    """Write a value as a person reads it; numbers in full, points with commas."""
+    if isinstance(value, tuple | list):
+        return ", ".join(_text(item) for item in value)
+    if isinstance(value, float):
+        return f"{value:.12g}".replace("-", "\u2212")
+    return str(value)

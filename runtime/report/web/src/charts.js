@@ -1,0 +1,256 @@
+// Small charts, one for each characteristic. A marker follows the position; the curve follows the
+// slider that is not its abscissa.
+
+import uPlot from "uplot";
+
+import { number, quantity } from "./format.js";
+import { colour, onSchemeChange } from "./theme.js";
+
+const HEIGHT = 172;
+const MARGIN = 0.07; // above and below a curve, as part of its range
+const MOST_FLATTENED = 2.5; // by what a curve may be flattened to show the reference beside it
+const FONT = "11px system-ui, sans-serif";
+
+/** What a chart is drawn over. */
+function abscissas({ grid, motion }) {
+  const millimetres = (axis) => ({
+    values: Array.from(axis.values, (v) => v * 1e3),
+    decimals: 1,
+    signed: true,
+    unit: "mm",
+  });
+  return {
+    travel: { ...millimetres(grid.travel), name: "wheel travel", key: "travel", factor: 1e3 },
+    rack: { ...millimetres(grid.rack), name: "rack displacement", key: "rack", factor: 1e3 },
+    time: motion && {
+      values: Array.from(motion.axis.values),
+      decimals: 3,
+      signed: false,
+      unit: "s",
+      name: "time",
+      key: "time",
+      factor: 1,
+    },
+  };
+}
+
+export function connectCharts(data, position, move) {
+  const along = abscissas(position);
+  const { grid } = position;
+  const described = new Map(data.curves.map((curve) => [curve.key, curve]));
+  for (const signal of data.motion?.signals ?? []) described.set(signal.key, signal);
+  const charts = [...document.querySelectorAll("figure[data-curve]")].map((figure) => {
+    const curve = described.get(figure.dataset.curve);
+    return new Chart(figure, curve, along[curve.over], sampler(curve, grid, position.motion), move);
+  });
+  const update = () => charts.forEach((chart) => chart.update(position));
+  position.onChange(update);
+  onSchemeChange(() => charts.forEach((chart) => chart.rebuild()));
+  return charts;
+}
+
+/** How to get a curve, and one value of it, in the unit of the reader. */
+function sampler(curve, grid, motion) {
+  const scaled = (values) => Array.from(values, (v) => v * curve.factor);
+  if (curve.over === "time") {
+    const values = scaled(curve.values);
+    return {
+      moving: false,
+      line: () => values,
+      value: ({ time }) => motion.axis.interpolate(curve.values, time) * curve.factor,
+    };
+  }
+  const value = ({ travel, rack }) => grid.at(curve.values, travel, rack) * curve.factor;
+  if (curve.over === "rack") {
+    return { moving: "travel", line: ({ travel }) => scaled(grid.overRack(curve.values, travel)), value };
+  }
+  return { moving: "rack", line: ({ rack }) => scaled(grid.overTravel(curve.values, rack)), value };
+}
+
+class Chart {
+  #visible = false;
+  #drawnAt = null;
+  #plot = null;
+
+  constructor(figure, curve, along, samples, move) {
+    Object.assign(this, { figure, curve, along, samples, move });
+    this.output = figure.querySelector("output");
+    this.host = figure.querySelector(".plot");
+    this.marker = element("div", "marker");
+    this.tip = element("div", "tip");
+    this.position = null;
+    this.shown = null;
+    new IntersectionObserver(([entry]) => this.#look(entry.isIntersecting), {
+      rootMargin: "200px",
+    }).observe(figure);
+    new ResizeObserver(() => this.#resize()).observe(this.host);
+  }
+
+  update(position) {
+    this.position = position;
+    if (this.#visible) this.#draw();
+  }
+
+  /** Build anew, with the colours of the present scheme. */
+  rebuild() {
+    this.#plot?.destroy();
+    this.#plot = null;
+    this.#drawnAt = null;
+    if (this.#visible) this.#draw();
+  }
+
+  #look(visible) {
+    this.#visible = visible;
+    if (visible && this.position) this.#draw();
+  }
+
+  #resize() {
+    const width = this.host.clientWidth;
+    if (!this.#plot || width === 0) return;
+    this.#plot.setSize({ width, height: HEIGHT });
+    this.#place();
+  }
+
+  #draw() {
+    if (!this.#plot) this.#build();
+    const { moving, line } = this.samples;
+    const at = moving ? this.position[moving] : 0;
+    if (at !== this.#drawnAt) {
+      this.#drawnAt = at;
+      this.line = line(this.position).map((v) => this.#inRange(v));
+      this.#plot.setData([this.along.values, this.reference, this.line]);
+    }
+    this.shown = this.samples.value(this.position);
+    this.output.textContent = quantity(this.shown, this.curve.decimals, this.curve.unit);
+    this.#place();
+  }
+
+  /** Beyond the plotted range, at a pole for example, the line is interrupted. */
+  #inRange(value) {
+    const [low, high] = this.curve.range;
+    return value >= low && value <= high ? value : null;
+  }
+
+  #build() {
+    const { moving, line } = this.samples;
+    const atDesign = { travel: 0, rack: 0, time: 0 };
+    // where the curve moves, the one at design stays behind it, faintly
+    this.reference = moving ? line(atDesign).map((v) => this.#inRange(v)) : [];
+    if (!moving) this.reference = this.along.values.map(() => null);
+    const axis = {
+      stroke: colour("muted"),
+      font: FONT,
+      grid: { stroke: colour("grid"), width: 1 },
+      ticks: { show: false },
+      values: (_, ticks) => ticks.map(plain),
+    };
+    const curve = { points: { show: false }, pxAlign: 0 };
+    this.line = [];
+    this.#plot = new uPlot(
+      {
+        width: Math.max(this.host.clientWidth, 1),
+        height: HEIGHT,
+        padding: [8, 10, 0, 0],
+        legend: { show: false },
+        scales: {
+          x: { time: false, range: [this.along.values[0], this.along.values.at(-1)] },
+          y: { range: () => this.#verticalRange() },
+        },
+        axes: [
+          { ...axis, size: 18, gap: 4, label: `${this.along.name} [${this.along.unit}]`, labelSize: 16, labelGap: 0, labelFont: FONT },
+          { ...axis, size: 46, gap: 5 },
+        ],
+        series: [
+          {},
+          { stroke: colour("faint"), width: 1.25, ...curve },
+          { stroke: colour("line"), width: 1.75, ...curve },
+        ],
+        cursor: {
+          drag: { x: false, y: false, setScale: false },
+          points: { show: false },
+          y: false,
+        },
+        hooks: { setCursor: [() => this.#hover()], draw: [() => this.#place()] },
+      },
+      [this.along.values, this.reference, this.along.values.map(() => null)],
+      this.host,
+    );
+    const over = this.#plot.over;
+    over.append(this.marker, this.tip);
+    over.addEventListener("pointerdown", (event) => {
+      over.setPointerCapture(event.pointerId);
+      this.#drag(event);
+    });
+    over.addEventListener("pointermove", (event) => {
+      if (over.hasPointerCapture(event.pointerId)) this.#drag(event);
+    });
+  }
+
+  #drag(event) {
+    const left = event.clientX - this.#plot.over.getBoundingClientRect().left;
+    this.move(this.along.key, this.#plot.posToVal(left, "x") / this.along.factor);
+  }
+
+  /** Around the curve, and around the reference too if that does not press the curve flat. */
+  #verticalRange() {
+    const { least } = this.curve;
+    let [low, high] = extent(this.line, least);
+    const [lowest, highest] = extent([...this.line, ...this.reference], least);
+    if (highest - lowest <= MOST_FLATTENED * (high - low)) [low, high] = [lowest, highest];
+    const margin = MARGIN * (high - low);
+    return [low - margin, high + margin];
+  }
+
+  #place() {
+    if (!this.#plot || !this.position) return;
+    const x = this.position[this.along.key] * this.along.factor;
+    const inside = this.#inRange(this.shown) !== null;
+    this.marker.hidden = !inside;
+    if (!inside) return;
+    const [left, top] = [this.#plot.valToPos(x, "x"), this.#plot.valToPos(this.shown, "y")];
+    this.marker.style.transform = `translate(${left}px, ${top}px)`;
+  }
+
+  #hover() {
+    const { left } = this.#plot.cursor;
+    this.tip.hidden = left === undefined || left < 0;
+    if (this.tip.hidden) return;
+    const x = this.#plot.posToVal(left, "x");
+    const value = this.samples.value({ ...this.#values(), [this.along.key]: x / this.along.factor });
+    const place = quantity(x, this.along.decimals, this.along.unit, { signed: this.along.signed });
+    this.tip.textContent = `${place}: ${quantity(value, this.curve.decimals, this.curve.unit)}`;
+    const width = this.#plot.over.clientWidth;
+    this.tip.style.left = `${Math.min(Math.max(left, 62), width - 62)}px`;
+  }
+
+  #values() {
+    const { travel, rack, time } = this.position;
+    return { travel, rack, time };
+  }
+}
+
+/** Least and greatest value, at least so far apart. */
+function extent(values, least) {
+  const known = values.filter((value) => value !== null);
+  if (known.length === 0) return [-least / 2, least / 2];
+  const [low, high] = [Math.min(...known), Math.max(...known)];
+  const missing = Math.max(least - (high - low), 0) / 2;
+  return [low - missing, high + missing];
+}
+
+function element(name, className) {
+  const made = document.createElement(name);
+  made.className = className;
+  made.hidden = true;
+  return made;
+}
+
+/** A tick as short as it can be written. */
+function plain(value) {
+  return number(value, decimalsOf(value));
+}
+
+function decimalsOf(value) {
+  const text = String(Number(value.toPrecision(6)));
+  return text.includes("e") ? 6 : (text.split(".")[1]?.length ?? 0);
+}

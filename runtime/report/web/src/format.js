@@ -1,0 +1,14 @@
+// Numbers for people: fixed decimals, a true minus sign, "–" where a quantity is not defined.
+
+export function number(value, decimals, { signed = false } = {}) {
+  if (!Number.isFinite(value)) return "–";
+  const text = Math.abs(value).toFixed(decimals);
+  const zero = Number(text) === 0;
+  if (value < 0 && !zero) return `\u2212${text}`;
+  return signed && !zero ? `+${text}` : text;
+}
+
+export function quantity(value, decimals, unit, options) {
+  const text = number(value, decimals, options);
+  return unit && text !== "–" ? `${text}\u00a0${unit}` : text;
+}

@@ -1,0 +1,80 @@
+// The report's page comes alive: one position, shown by the 3D view, the charts and the table.
+//
+// For scripts there is `window.kintrafo`, in SI units:
+//   state()  { travel, rack, time, playing, byHand, wheelCenter, curves: { name: value } };
+//            wheelCenter is that of the drawn wheel, null without WebGL
+//   set({ travel, rack }) or set({ time })   moves as the sliders do
+//   play(), pause(), look("corner" | "front" | "side" | "top")
+
+import { connectCharts } from "./charts.js";
+import { connectControls } from "./controls.js";
+import { number } from "./format.js";
+import { Axis, Grid } from "./grid.js";
+import { readPayload } from "./payload.js";
+import { Player } from "./player.js";
+import { Position } from "./position.js";
+import { View, hasWebGL } from "./view.js";
+
+const data = readPayload();
+if (data.motion) data.motion.axis = new Axis(data.motion.time);
+const position = new Position(new Grid(data.grid), data.motion);
+const player = new Player(position);
+const view = makeView();
+
+connectControls(position, player);
+connectCharts(data, position, (key, value) => {
+  if (key === "time") position.setTime(value);
+  else position.setByHand({ [key]: value });
+});
+connectTable();
+position.setByHand({});
+document.documentElement.classList.add("alive");
+
+function makeView() {
+  const host = document.getElementById("view");
+  if (!hasWebGL()) {
+    host.classList.add("flat");
+    return null;
+  }
+  const made = new View(host, data, position);
+  for (const button of document.querySelectorAll("[data-look]")) {
+    button.addEventListener("click", () => {
+      made.moved = false;
+      made.look(button.dataset.look);
+    });
+  }
+  return made;
+}
+
+/** The column of the summary that follows the position. */
+function connectTable() {
+  const cells = [...document.querySelectorAll("[data-now]")].map((cell) => [
+    cell,
+    data.curves.find(({ key }) => key === cell.dataset.now),
+  ]);
+  position.onChange(() => {
+    for (const [cell, curve] of cells) {
+      cell.textContent = number(value(curve) * curve.factor, curve.decimals);
+    }
+  });
+}
+
+function value(curve) {
+  return position.grid.at(curve.values, position.travel, position.rack);
+}
+
+window.kintrafo = {
+  state: () => ({
+    travel: position.travel,
+    rack: position.rack,
+    time: position.time,
+    playing: player.playing,
+    byHand: position.byHand,
+    wheelCenter: view?.wheelCenter() ?? null,
+    curves: Object.fromEntries(data.curves.map((curve) => [curve.key, value(curve)])),
+  }),
+  set: (wanted) => ("time" in wanted ? position.setTime(wanted.time) : position.setByHand(wanted)),
+  play: () => player.play(),
+  pause: () => player.pause(),
+  look: (from) => view?.look(from),
+};

@@ -1,0 +1,277 @@
+// The bodies of the suspension as simple solids, in metres, in the axes of the chassis.
+
+import {
+  BoxGeometry,
+  BufferGeometry,
+  CatmullRomCurve3,
+  CylinderGeometry,
+  Float32BufferAttribute,
+  Group,
+  LatheGeometry,
+  Line,
+  LineBasicMaterial,
+  Mesh,
+  MeshStandardMaterial,
+  Quaternion,
+  SphereGeometry,
+  TubeGeometry,
+  Vector2,
+  Vector3,
+} from "three";
+
+import { colour } from "./theme.js";
+
+const UP = new Vector3(0, 1, 0); // the axis of three's cylinders and of the wheel's own axes
+
+// Drawing only: what the model does not know about the shape of its bodies [m].
+const ARM = 0.012;
+const ROD = 0.009;
+const JOINT = 0.017;
+const TUBE = 0.023;
+const PISTON = 0.01;
+const COIL = 0.058;
+const WIRE = 0.006;
+const TURNS = 5.5;
+// parts of the strut's design length
+const TUBE_FROM = 0.13;
+const TUBE_TO = 0.66;
+
+const MATERIALS = ["arm", "knuckle", "strut", "spring", "rod", "rack", "tyre", "rim", "chassis", "pad"];
+
+export class Mechanism extends Group {
+  #solids = {};
+  #unit = new CylinderGeometry(1, 1, 1, 24);
+  #ball = new SphereGeometry(1, 24, 16);
+
+  constructor(data) {
+    super();
+    this.data = data;
+    this.materials = Object.fromEntries(
+      MATERIALS.map((name) => [name, new MeshStandardMaterial({ roughness: 0.65, metalness: 0.05 })]),
+    );
+    this.lines = { axis: new LineBasicMaterial(), path: new LineBasicMaterial() };
+    this.recolour();
+    this.#buildLinks();
+    this.#buildStrut();
+    this.wheel = this.#buildWheel(data.tyre);
+    this.pad = this.#solid("pad", new BoxGeometry(0.46, 0.34, 0.012));
+    this.axis = this.#line("axis", 2);
+    this.path = this.#line("path", data.grid.travel.count);
+  }
+
+  recolour() {
+    for (const [name, material] of Object.entries(this.materials)) material.color.set(colour(name));
+    this.lines.axis.color.set(colour("muted"));
+    this.lines.path.color.set(colour("accent"));
+  }
+
+  /** Put everything where it is: points by name and the wheel's axis, all as Vector3. */
+  pose(points, spinAxis, spin, roadHeight) {
+    this.#poseLinks(points);
+    this.#poseStrut(points);
+    this.#poseWheel(points.wheel_center, spinAxis, spin);
+    this.pad.position.set(points.wheel_center.x, points.wheel_center.y, roadHeight - 0.006);
+    this.#poseSteeringAxis(points, roadHeight);
+  }
+
+  /** Draw the path of the wheel centre. */
+  showPath(values) {
+    this.path.geometry.setAttribute("position", new Float32BufferAttribute(values, 3));
+    this.path.geometry.computeBoundingSphere();
+  }
+
+  // -- building ---------------------------------------------------------------------------------
+
+  #solid(material, geometry) {
+    const mesh = new Mesh(geometry, this.materials[material]);
+    this.add(mesh);
+    return mesh;
+  }
+
+  #cylinder(name, material, radius) {
+    const mesh = this.#solid(material, this.#unit);
+    mesh.userData.radius = radius;
+    this.#solids[name] = mesh;
+  }
+
+  #joint(name, material, radius = JOINT) {
+    const mesh = this.#solid(material, this.#ball);
+    mesh.scale.setScalar(radius);
+    this.#solids[name] = mesh;
+  }
+
+  #line(material, count) {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new Float32BufferAttribute(new Float32Array(3 * count), 3));
+    const line = new Line(geometry, this.lines[material]);
+    line.frustumCulled = false;
+    this.add(line);
+    return line;
+  }
+
+  #buildLinks() {
+    for (const name of ["arm_front", "arm_rear"]) {
+      this.#cylinder(name, "arm", ARM);
+      this.#cylinder(`${name}_bearing`, "chassis", 0.02);
+    }
+    this.#joint("ball_joint", "arm", 0.019);
+    for (const name of ["upright", "spindle", "lower_web", "steering_arm"]) {
+      this.#cylinder(name, "knuckle", 0.013);
+    }
+    this.#solids.spindle.userData.radius = 0.021;
+    this.#joint("hub", "knuckle", 0.034);
+    this.#cylinder("tie_rod", "rod", ROD);
+    this.#joint("tie_rod_outer", "rod");
+    this.#joint("tie_rod_inner", "rod");
+    this.#cylinder("rack", "rack", 0.012);
+    this.#cylinder("rack_housing", "chassis", 0.021);
+  }
+
+  #buildStrut() {
+    this.#cylinder("tube", "strut", TUBE);
+    this.#cylinder("piston", "strut", PISTON);
+    this.#cylinder("seat", "strut", COIL + 0.01);
+    this.#cylinder("top_mount", "chassis", COIL + 0.014);
+    this.spring = this.#solid("spring", coil());
+  }
+
+  #buildWheel({ radius, width }) {
+    const wheel = new Group();
+    const rim = radius - 0.105;
+    const tyre = new Mesh(tyreGeometry(radius, rim, width), this.materials.tyre);
+    tyre.userData.handle = true;
+    wheel.add(tyre);
+    const barrel = new Mesh(
+      new CylinderGeometry(rim, rim, width * 0.86, 64, 1, true),
+      this.materials.rim,
+    );
+    this.materials.rim.side = 2; // the barrel is seen from inside too
+    barrel.userData.handle = true;
+    wheel.add(barrel);
+    for (let k = 0; k < 5; k += 1) wheel.add(this.#spoke(k, rim, width));
+    this.add(wheel);
+    return wheel;
+  }
+
+  /** A spoke near the outer face: spinning can be seen. */
+  #spoke(k, rim, width) {
+    const outboard = this.data.side_sign; // the wheel's own y axis points left
+    const spoke = new Mesh(new BoxGeometry(0.045, 0.018, rim), this.materials.rim);
+    const turned = new Group();
+    spoke.position.set(0, outboard * width * 0.34, rim / 2);
+    spoke.userData.handle = true;
+    turned.add(spoke);
+    turned.rotation.y = (2 * Math.PI * k) / 5;
+    return turned;
+  }
+
+  // -- posing -----------------------------------------------------------------------------------
+
+  #span(name, from, to) {
+    place(this.#solids[name], from, to, this.#solids[name].userData.radius);
+  }
+
+  #poseLinks(points) {
+    const hinge = points.arm_front.clone().sub(points.arm_rear).normalize();
+    for (const name of ["arm_front", "arm_rear"]) {
+      this.#span(name, points[name], points.ball_joint);
+      const half = hinge.clone().multiplyScalar(0.028);
+      this.#span(`${name}_bearing`, points[name].clone().sub(half), points[name].clone().add(half));
+    }
+    for (const name of ["ball_joint", "tie_rod_outer", "tie_rod_inner"]) {
+      this.#solids[name].position.copy(points[name]);
+    }
+    this.#solids.hub.position.copy(points.wheel_center);
+    this.#span("tie_rod", points.tie_rod_outer, points.tie_rod_inner);
+    const clamp = nearestOnLine(points.wheel_center, points.ball_joint, points.strut_top);
+    this.#span("upright", points.ball_joint, clamp);
+    this.#span("spindle", clamp, points.wheel_center);
+    this.#span("lower_web", points.ball_joint, points.wheel_center);
+    this.#span("steering_arm", clamp, points.tie_rod_outer);
+    const inward = new Vector3(...this.data.rack_inward);
+    const inner = points.tie_rod_inner;
+    this.#span("rack", inner, inner.clone().addScaledVector(inward, 0.2));
+    const housing = new Vector3(...this.data.points.tie_rod_inner.design);
+    this.#span(
+      "rack_housing",
+      housing.clone().addScaledVector(inward, 0.1),
+      housing.clone().addScaledVector(inward, 0.3),
+    );
+  }
+
+  #poseStrut({ ball_joint: foot, strut_top: top }) {
+    const along = top.clone().sub(foot).normalize();
+    const at = (part) => foot.clone().addScaledVector(along, part * this.data.strut_length);
+    const seat = at(TUBE_TO - 0.1);
+    this.#span("tube", at(TUBE_FROM), at(TUBE_TO));
+    this.#span("piston", at(TUBE_TO), top);
+    this.#span("seat", seat.clone().addScaledVector(along, -0.008), seat);
+    const under = top.clone().addScaledVector(along, -0.02);
+    this.#span("top_mount", under, top);
+    place(this.spring, seat, under, 1);
+  }
+
+  #poseWheel(center, spinAxis, spin) {
+    const aligned = new Quaternion().setFromUnitVectors(UP, spinAxis);
+    const spun = new Quaternion().setFromAxisAngle(UP, spin);
+    this.wheel.position.copy(center);
+    this.wheel.quaternion.copy(aligned).multiply(spun);
+  }
+
+  #poseSteeringAxis({ ball_joint: foot, strut_top: top }, roadHeight) {
+    const along = top.clone().sub(foot);
+    const ground = foot.clone().addScaledVector(along, (roadHeight - foot.z) / along.z);
+    const above = top.clone().addScaledVector(along.normalize(), 0.08);
+    const ends = this.axis.geometry.attributes.position;
+    ends.setXYZ(0, ...ground.toArray());
+    ends.setXYZ(1, ...above.toArray());
+    ends.needsUpdate = true;
+  }
+}
+
+/** Stretch a solid of unit length between two points. */
+function place(mesh, from, to, radius) {
+  const along = to.clone().sub(from);
+  const length = along.length();
+  mesh.position.copy(from).addScaledVector(along, 0.5);
+  mesh.quaternion.setFromUnitVectors(UP, along.divideScalar(length));
+  mesh.scale.set(radius, length, radius);
+}
+
+function nearestOnLine(point, from, to) {
+  const along = to.clone().sub(from).normalize();
+  return from.clone().addScaledVector(along, point.clone().sub(from).dot(along));
+}
+
+/** A spring of unit length; stretching it flattens its wire, which nobody sees. */
+function coil() {
+  const points = [];
+  const count = Math.round(TURNS * 16);
+  const length = 0.22; // about that of the drawn one, so that its wire is round
+  for (let i = 0; i <= count; i += 1) {
+    const angle = (2 * Math.PI * TURNS * i) / count;
+    points.push(new Vector3(COIL * Math.cos(angle), (i / count - 0.5) * length, COIL * Math.sin(angle)));
+  }
+  const geometry = new TubeGeometry(new CatmullRomCurve3(points), 5 * count, WIRE, 8);
+  return geometry.scale(1, 1 / length, 1);
+}
+
+/** The section of the tyre, turned about the wheel's axis. */
+function tyreGeometry(radius, rim, width) {
+  const half = width / 2;
+  const section = [
+    [rim, -0.86 * half],
+    [rim + 0.25 * (radius - rim), -0.98 * half],
+    [rim + 0.62 * (radius - rim), -half],
+    [radius - 0.018, -0.93 * half],
+    [radius - 0.005, -0.82 * half],
+    [radius, -0.6 * half],
+    [radius, 0.6 * half],
+    [radius - 0.005, 0.82 * half],
+    [radius - 0.018, 0.93 * half],
+    [rim + 0.62 * (radius - rim), half],
+    [rim + 0.25 * (radius - rim), 0.98 * half],
+    [rim, 0.86 * half],
+  ];
+  return new LatheGeometry(section.map(([r, y]) => new Vector2(r, y)), 96);
+}

@@ -1,0 +1,11 @@
+// Colours live in the style sheet; canvases ask for them here and redraw when the scheme changes.
+
+const scheme = window.matchMedia("(prefers-color-scheme: dark)");
+
+export function colour(name) {
+  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+}
+
+export function onSchemeChange(action) {
+  scheme.addEventListener("change", action);
+}
