@@ -529,7 +529,9 @@ class TestKeys:
 
     def test_unknown_key_that_resembles_none_is_refused_with_all(self):
         problem = only_problem({"tyre.k2": 1.0})
-        assert problem == "[tyre] k2 is not a known key. Known are: rate_N_per_m, free_height_mm."
+        assert problem == (
+            "[tyre] k2 is not a known key. Known are: rate_N_per_m, free_height_mm, radius_mm."
+        )
 
     @pytest.mark.parametrize(
         ("place", "section", "meant"),

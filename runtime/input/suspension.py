@@ -21,7 +21,7 @@ from ..errors import InputError
 from .bodies import Bodies
 from .hardpoints import Hardpoints
 from .messages import messages_of
-from .section import NonNegative, Number, Range, Section, Triple
+from .section import NonNegative, Number, Positive, Range, Section, Triple
 from .suggestions import suggestion
 from .toml_file import read_toml
 from .units import in_metres
@@ -31,6 +31,8 @@ SectionT = TypeVar("SectionT", bound=Section)
 
 # A wheel nearer to the vehicle's centre plane than this is on neither side, in m.
 _SMALLEST_HALF_TRACK = 0.001
+# A wheel centre lower than this above z = 0 says that z = 0 is not the ground, in m.
+_SMALLEST_WHEEL_RADIUS = 0.1
 # Nearer to the strut axis than this, the spin axis would make the wheel turn instead of steer.
 _SMALLEST_SPIN_AXIS_ANGLE = 1.0
 
@@ -46,10 +48,29 @@ Angle = Annotated[
 ]
 
 
+Share = Annotated[
+    Number,
+    Field(ge=0.0, le=1.0),
+    Range("0 to 1", "Enter the part of the whole: 0.7 for 70 %."),
+]
+
+
 class Vehicle(Section):
-    """Where the suspension is mounted."""
+    """The side that the suspension is on, and what the whole vehicle adds to its characteristics.
+
+    Only the side enters the equations of motion.
+    """
 
     side: Literal["left", "right"] = Field(description="the vehicle's side, left or right")
+    wheelbase_mm: Positive | None = Field(
+        default=None, description="distance of front and rear wheel centres along x"
+    )
+    center_of_gravity_height_mm: Positive | None = Field(
+        default=None, description="height of the whole vehicle's centre of gravity above the ground"
+    )
+    front_brake_share: Share | None = Field(
+        default=None, description="part of the braking force that acts at the front wheels"
+    )
 
     @property
     def sign(self) -> float:
@@ -123,6 +144,11 @@ class Tyre(Section):
         description="rate of the tyre"
     )
     free_height_mm: Number = Field(description="z of wheel_center with the tyre force-free")
+    radius_mm: Positive | None = Field(
+        default=None,
+        description="radius of the wheel as a thin disc that touches the ground; only for "
+        "characteristics, left out: the height of wheel_center above z = 0",
+    )
 
     def parameters(self) -> dict[str, float]:
         """Return the rate in N/m and the height in m by the names in the equations."""
@@ -136,6 +162,9 @@ class Steering(Section):
     """The steering rack."""
 
     axis: Triple = Field(description="direction in which the rack moves for positive displacement")
+    travel_per_turn_mm: Positive | None = Field(
+        default=None, description="rack travel for one turn of the steering wheel"
+    )
 
     def problems(self) -> list[str]:
         """Refuse an axis that points nowhere."""
@@ -297,6 +326,21 @@ class Suspension(Section):
         if problems:
             raise InputError(problems, source)
         return self.from_dict(data, source)
+
+    def tyre_radius(self) -> float | None:
+        """Return the radius of the wheel as a thin disc.
+
+        Returns
+        -------
+        float or None
+            ``tyre.radius_mm`` in m where it is given. Otherwise the height of the wheel centre at
+            design above z = 0, which is the ground in files that follow the conventions; None where
+            that is less than 100 mm, as no car has such wheels.
+        """
+        if self.tyre.radius_mm is not None:
+            return in_metres(self.tyre.radius_mm, "mm")
+        height = float(self.hardpoints.metres("wheel_center")[2])
+        return height if height >= _SMALLEST_WHEEL_RADIUS else None
 
     def mirrored(self) -> Self:
         """Return the same suspension on the other side of the vehicle.
