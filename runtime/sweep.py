@@ -311,9 +311,9 @@ def _dataset(model: Model, travels: Array, racks: Array, columns: dict[str, Arra
     """Put the columns, of shape (travels, racks), into a dataset."""
     along = (TRAVEL,) * travels.ndim
     across = (RACK,) * racks.ndim
-    meaning = "wheel travel from design, positive in bump"
+    meaning = "wheel travel, positive in bump"
     coordinates = {TRAVEL: variable(along, travels, meaning, "m")}
-    meaning = "displacement of the rack, positive along its axis"
+    meaning = "rack displacement, positive along its axis"
     coordinates[RACK] = variable(across, racks, meaning, "m")
     shape = travels.shape + racks.shape
     data = {

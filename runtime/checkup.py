@@ -1,0 +1,212 @@
+"""A first look at a suspension: geometry, reachable travel, static equilibrium, wheel hop."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import paper
+from .model import Model
+from .positions import PositionError, Range, equilibrium, travel_range
+from .sweep import design_height
+
+Array = NDArray[np.float64]
+
+# Less travel than this between design and an end is worth a word [m].
+_LITTLE_TRAVEL = 0.040
+# So far from design, the wheel's place at rest is worth a word [m].
+_FAR_FROM_DESIGN = 0.005
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """The suspension at rest on level road.
+
+    Attributes
+    ----------
+    height : float
+        Of the wheel centre, chassis axes [m].
+    travel : float
+        From design, positive in bump [m].
+    signals : dict
+        All signals of the model there, SI units.
+    frequency : float
+        Undamped natural frequency of the wheel-hop mode [Hz].
+    damping_ratio : float
+        Of that mode; above one where it does not oscillate.
+    """
+
+    height: float
+    travel: float
+    signals: dict[str, float]
+    frequency: float
+    damping_ratio: float
+
+
+@dataclass(frozen=True)
+class Checkup:
+    """What a first look shows; lengths in m, angles in rad, ISO 8855 chassis axes.
+
+    Attributes
+    ----------
+    side : str
+        'left' or 'right'.
+    geometry : dict
+        Lengths and angles at design, by name; those that end in ``_angle`` are angles.
+    reach : Range
+        Wheel heights that can be reached with the rack in its middle, and what ends them.
+    travel : tuple of float
+        The same as travel from design: lowest and highest.
+    extension_travel : float or None
+        Travel at which the strut is fully extended; None if it is never.
+    equilibrium : Equilibrium or None
+        None if there is no stable one.
+    problems : tuple of str
+        What keeps the suspension from working.
+    notes : tuple of str
+        What works but is unusual.
+    """
+
+    side: str
+    geometry: dict[str, float]
+    reach: Range
+    travel: tuple[float, float]
+    extension_travel: float | None
+    equilibrium: Equilibrium | None
+    problems: tuple[str, ...]
+    notes: tuple[str, ...]
+
+
+def checkup(model: Model) -> Checkup:
+    """Look at a suspension.
+
+    Parameters
+    ----------
+    model : Model
+
+    Returns
+    -------
+    Checkup
+
+    Examples
+    --------
+    >>> found = checkup(Model("reference_car"))
+    >>> found.problems, round(found.equilibrium.frequency, 2)
+    ((), 12.35)
+    """
+    reach = travel_range(model)
+    design = design_height(model)
+    travel = reach.height[0] - design, reach.height[1] - design
+    problems: list[str] = []
+    rest = None
+    try:
+        rest = _equilibrium(model)
+    except PositionError as error:
+        problems.append(str(error))
+    extension = _extension_travel(model, reach)
+    return Checkup(
+        side=model.suspension.vehicle.side,
+        geometry=_geometry(model),
+        reach=reach,
+        travel=travel,
+        extension_travel=extension,
+        equilibrium=rest,
+        problems=tuple(problems),
+        notes=tuple(_notes(travel, rest, extension)),
+    )
+
+
+def _equilibrium(model: Model) -> Equilibrium:
+    state = equilibrium(model)
+    signals = {name: float(value) for name, value in model.signals(state).items()}
+    mode = paper.rest(model)
+    height = signals["wheel_center_z"]
+    return Equilibrium(
+        height=height,
+        travel=height - design_height(model),
+        signals=signals,
+        frequency=mode.natural_frequency,
+        damping_ratio=mode.damping_ratio,
+    )
+
+
+def _geometry(model: Model) -> dict[str, float]:
+    points = model.suspension.hardpoints
+    strut = points.strut_axis()
+    side = model.suspension.vehicle.sign
+    wheel = points.metres("wheel_center")
+    outer, ball = points.metres("tie_rod_outer"), points.metres("ball_joint")
+    return {
+        "half_track": abs(float(wheel[1])),
+        "wheel_center_height": float(wheel[2]),
+        "strut_length": points.distance("ball_joint", "strut_top"),
+        "strut_length_max": model.suspension.parameters()["strut_length_max"],
+        "tie_rod_length": points.distance("tie_rod_outer", "tie_rod_inner"),
+        "steering_arm_length": float(np.linalg.norm(np.cross(outer - ball, strut))),
+        # seen from the side and from the front: the strut axis is the steering axis
+        "caster_angle": float(np.arctan2(-strut[0], strut[2])),
+        "kingpin_inclination_angle": float(np.arctan2(-side * strut[1], strut[2])),
+    }
+
+
+def _extension_travel(model: Model, reach: Range) -> float | None:
+    """Return the travel at which the strut has its greatest length, looked up in a table."""
+    angles = np.linspace(*reach.arm_angle, 721)
+    states = np.tile(model.design_state, (angles.size, 1))
+    states[:, 0] = angles
+    signals: dict[str, Array] = model.signals(states)
+    longer = signals["strut_length"] - model.suspension.parameters()["strut_length_max"]
+    # from low to high positions the strut becomes shorter
+    below = np.flatnonzero((longer[:-1] > 0.0) & (longer[1:] <= 0.0))
+    if below.size == 0:
+        return None
+    first = int(below[-1])
+    height = signals["wheel_center_z"][first : first + 2]
+    crossing = np.interp(0.0, -longer[first : first + 2], height)
+    return float(crossing) - design_height(model)
+
+
+def _notes(
+    travel: tuple[float, float], rest: Equilibrium | None, extension: float | None
+) -> list[str]:
+    notes = [
+        f"only {abs(end) * 1e3:.1f} mm of {name} can be reached from design."
+        for end, name in zip(travel, ("rebound", "bump"), strict=True)
+        if abs(end) < _LITTLE_TRAVEL
+    ]
+    if rest is None:
+        return notes
+    if abs(rest.travel) > _FAR_FROM_DESIGN:
+        notes.append(
+            f"the wheel rests {rest.travel * 1e3:+.1f} mm from design. [strut] "
+            "spring_free_slide_mm and [tyre] free_height_mm decide where."
+        )
+    if extension is not None and rest.travel < extension:
+        notes.append("at rest, the strut is longer than [strut] length_max_mm.")
+    if rest.signals["tyre_force"] <= 0.0:
+        notes.append("the tyre carries nothing at rest: check [tyre] free_height_mm.")
+    if rest.damping_ratio <= 0.0:
+        notes.append("the wheel-hop mode is not damped.")
+    if rest.damping_ratio >= 1.0:
+        notes.append("the wheel-hop mode is overdamped.")
+    return notes
+
+
+def as_dict(found: Checkup) -> dict[str, Any]:
+    """Return a checkup as plain numbers, texts and nested dictionaries, SI units."""
+    rest = found.equilibrium
+    return {
+        "side": found.side,
+        "geometry": dict(found.geometry),
+        "travel": {
+            "rebound": found.travel[0],
+            "rebound_limit": found.reach.lower_limit,
+            "bump": found.travel[1],
+            "bump_limit": found.reach.upper_limit,
+            "strut_fully_extended": found.extension_travel,
+        },
+        "equilibrium": None if rest is None else vars(rest),
+        "problems": list(found.problems),
+        "notes": list(found.notes),
+    }
