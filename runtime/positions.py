@@ -1,115 +1,88 @@
-"""Positions of a suspension: its reachable range, a given wheel height, static equilibrium."""
+"""Positions of a suspension: at a given wheel height, and at rest under its forces."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
-from .errors import KintrafoError
-from .generated.macpherson import ClosureError
+from .errors import InputError
 from .model import Model
+from .reach import (
+    Branch,
+    PositionError,
+    Range,
+    at_rest,
+    branch,
+    height_and_slope,
+    travel_range,
+)
+
+__all__ = [
+    "PositionError",
+    "Range",
+    "arm_angles",
+    "design_height",
+    "equilibrium",
+    "road_under_load",
+    "state_at_height",
+    "travel_range",
+]
 
 Array = NDArray[np.float64]
 
-# Arm angles are searched in steps of this size [rad], up to a right angle from the design position.
-_STEP = np.deg2rad(0.5)
-_LARGEST_SWING = np.deg2rad(90.0)
+# Newton's method needs five steps where the height is smooth; where it takes longer, every other
+# step halves the bracket, which is two degrees at first.
+_NEWTON_STEPS = 10
+_MOST_STEPS = 120
+_EPSILON = float(np.finfo(np.float64).eps)
+_STEP = np.deg2rad(0.5)  # of the search for an equilibrium [rad]
 
 
-class PositionError(KintrafoError, ValueError):
-    """A position that the suspension cannot take."""
+def design_height(model: Model) -> float:
+    """Return the height of the wheel centre at the design position [m]."""
+    return float(model.signal("wheel_center_z", model.design_state))
 
 
-@dataclass(frozen=True)
-class Range:
-    """Arm angles over which the wheel height changes monotonically, the design position inside.
-
-    Attributes
-    ----------
-    arm_angle : tuple of float
-        At the lowest and at the highest wheel position [rad].
-    height : tuple of float
-        Lowest and highest height of the wheel centre [m].
-    lower_limit, upper_limit : str
-        What ends the range.
-    """
-
-    arm_angle: tuple[float, float]
-    height: tuple[float, float]
-    lower_limit: str
-    upper_limit: str
-
-
-class _Rest:
-    """A suspension at rest with its rack held: everything as a function of the arm angle."""
-
-    def __init__(self, model: Model, rack_position: float) -> None:
-        self.model = model
-        self.rack_position = rack_position
-        given = {} if model.free_rack else {"rack_position": rack_position}
-        self.inputs = model.inputs(given)
-
-    def state(self, arm_angle: float, spin_rate: float = 0.0) -> Array:
-        """Return the state of rest."""
-        rack = {"beta9": self.rack_position} if self.model.free_rack else {}
-        return self.model.state(beta1=arm_angle, beta5_rate=spin_rate, **rack)
-
-    def height(self, arm_angle: float) -> float:
-        """Return the height of the wheel centre [m]."""
-        return float(self.model.signal("wheel_center_z", self.state(arm_angle), self.inputs))
-
-    def moment(self, arm_angle: float) -> float:
-        """Return the generalised force on the arm [N m]."""
-        return float(self.model.evaluate("forces", self.state(arm_angle), self.inputs)[0])
-
-
-def travel_range(model: Model, rack_position: float = 0.0) -> Range:
-    """Return the travel that the wheel can make from the design position.
+def arm_angles(model: Model, height: ArrayLike, rack_position: ArrayLike = 0.0) -> Array:
+    """Return the arm angles at which the wheel centre has given heights.
 
     Parameters
     ----------
     model : Model
-    rack_position : float, optional
-        Displacement of the rack [m].
+    height : array_like
+        Heights of the wheel centre, chassis axes [m].
+    rack_position : array_like, optional
+        Displacements of the rack [m]; broadcast with the heights.
 
     Returns
     -------
-    Range
+    ndarray
+        Arm angles [rad], of the broadcast shape. The heights are met to rounding.
+
+    Raises
+    ------
+    PositionError
+        If a height is out of reach; the message states the range.
+    InputError
+        If a value is not finite.
+
+    Examples
+    --------
+    >>> model = Model("reference_car")
+    >>> (model.design_state[0] - arm_angles(model, [0.3, 0.325])).round(9).tolist()
+    [0.0, 0.068123601]
     """
-    rest = _Rest(model, rack_position)
-    # beta1 falls as the wheel rises (Eq. 6)
-    low, low_limit = _search(rest, +1.0)
-    high, high_limit = _search(rest, -1.0)
-    return Range((low, high), (rest.height(low), rest.height(high)), low_limit, high_limit)
-
-
-def _search(rest: _Rest, direction: float) -> tuple[float, str]:
-    """Swing the arm until the wheel turns back or a loop cannot close; return the last angle."""
-    angle = float(rest.model.design_state[0])
-    height = _design_height(rest, angle)
-    for _ in range(int(_LARGEST_SWING / _STEP)):
-        following = angle + direction * _STEP
-        try:
-            next_height = rest.height(following)
-        except ClosureError as error:
-            return angle, "; ".join(error.reasons)
-        if (next_height - height) * direction >= 0.0:
-            return angle, "the wheel centre turns back there"
-        angle, height = following, next_height
-    return angle, "the arm has swung by a right angle"
-
-
-def _design_height(rest: _Rest, angle: float) -> float:
-    try:
-        return rest.height(angle)
-    except ClosureError as error:
-        message = (
-            f"the rack cannot be at {rest.rack_position * 1e3:g} mm with the control arm in its "
-            f"design position: {'; '.join(error.reasons)}. Choose a smaller displacement."
-        )
-        raise PositionError(message) from error
+    heights, racks = np.broadcast_arrays(
+        _finite(height, "wheel height"), _finite(rack_position, "rack position")
+    )
+    if heights.size == 0:
+        return np.empty(heights.shape)
+    distinct, index = np.unique(racks.ravel(), return_inverse=True)
+    table = branch(model, distinct)
+    _refuse_out_of_reach(model, heights.ravel(), distinct[index], table, index)
+    angles = _solve(model, heights.ravel(), distinct[index], table, index)
+    return angles.reshape(heights.shape)
 
 
 def state_at_height(
@@ -144,18 +117,7 @@ def state_at_height(
     >>> round(float(model.design_state[0] - state[0]), 10)
     0.068123601
     """
-    rest = _Rest(model, rack_position)
-    reach = travel_range(model, rack_position)
-    if not reach.height[0] <= height <= reach.height[1]:
-        message = (
-            f"wheel height {height * 1e3:.6g} mm is out of reach: from "
-            f"{reach.height[0] * 1e3:.1f} mm ({reach.lower_limit}) to "
-            f"{reach.height[1] * 1e3:.1f} mm ({reach.upper_limit}) with the rack at "
-            f"{rack_position * 1e3:g} mm. Choose a height within this range."
-        )
-        raise PositionError(message)
-    angle = _root(lambda a: rest.height(a) - height, *reach.arm_angle)
-    return rest.state(angle, spin_rate)
+    return _state(model, float(arm_angles(model, height, rack_position)), rack_position, spin_rate)
 
 
 def equilibrium(
@@ -163,6 +125,7 @@ def equilibrium(
     *,
     rack_position: float = 0.0,
     road_height: float = 0.0,
+    wheel_load: float | None = None,
     strut_force: float = 0.0,
     spin_rate: float = 0.0,
 ) -> Array:
@@ -176,6 +139,9 @@ def equilibrium(
         the third generalised force (``forces`` of the compiled module).
     road_height : float, optional
         Height of the road under the tyre [m].
+    wheel_load : float, optional
+        Instead of a road: the vertical force that the road exerts on the wheel, positive up [N].
+        `road_under_load` returns where the road then is.
     strut_force : float, optional
         Actuator force in the strut [N].
     spin_rate : float, optional
@@ -196,14 +162,134 @@ def equilibrium(
     >>> model = Model("reference_car")
     >>> round(float(model.signal("wheel_center_z", equilibrium(model))), 10)
     0.3
+    >>> round(float(model.signal("wheel_center_z", equilibrium(model, wheel_load=3000.0))), 4)
+    0.2665
     """
-    rest = _Rest(model, rack_position)
-    names = model.input_names
-    rest.inputs[names.index("road_height")] = road_height
-    rest.inputs[names.index("strut_force")] = strut_force
-    reach = travel_range(model, rack_position)
+    if wheel_load is not None and road_height != 0.0:
+        problem = "road_height and wheel_load are both given. Give the one that is known."
+        raise InputError([problem], "equilibrium")
+
+    def moment(arm_angle: ArrayLike) -> Array:
+        states, inputs = at_rest(model, arm_angle, rack_position)
+        loaded = wheel_load is not None
+        road = road_under_load(model, wheel_load, states, inputs) if loaded else road_height
+        inputs[..., model.input_names.index("road_height")] = road
+        inputs[..., model.input_names.index("strut_force")] = strut_force
+        return model.evaluate("forces", states, inputs)[..., 0]
+
+    angle = _stable_root(moment, travel_range(model, rack_position), model.design_state[0])
+    return _state(model, angle, rack_position, spin_rate)
+
+
+def road_under_load(
+    model: Model, wheel_load: float, state: ArrayLike, inputs: ArrayLike | None = None
+) -> Array:
+    """Return how high the road is when it carries a wheel at rest with a given load.
+
+    Parameters
+    ----------
+    model : Model
+    wheel_load : float
+        Vertical force of the road on the wheel, positive up [N].
+    state, inputs : array_like
+        One or many, as in the compiled module.
+
+    Returns
+    -------
+    ndarray
+        Heights for the input ``road_height`` [m].
+
+    Raises
+    ------
+    InputError
+        If the load is not a finite number of 0 N or more, or the tyre has no stiffness.
+    """
+    if not (np.isfinite(wheel_load) and wheel_load >= 0.0):
+        problem = f"wheel_load = {wheel_load:g} N; 0 N or more is needed: a road only pushes."
+        raise InputError([problem], "wheel load")
+    tyre = model.suspension.tyre.parameters()
+    if tyre["tyre_rate"] == 0.0:
+        problem = (
+            "[tyre] rate_N_per_m = 0 N/m: a tyre without stiffness carries no load. Enter its rate."
+        )
+        raise InputError([problem], "wheel load")
+    deflection = wheel_load / tyre["tyre_rate"]
+    height = model.signal("wheel_center_z", state, inputs)
+    return height + deflection - tyre["tyre_free_height"]
+
+
+def _state(model: Model, angle: float, rack_position: float, spin_rate: float) -> Array:
+    state, _ = at_rest(model, angle, rack_position)
+    state[model.state_names.index("beta5_rate")] = spin_rate
+    return state
+
+
+def _finite(values: ArrayLike, name: str) -> Array:
+    array = np.asarray(values, dtype=np.float64)
+    bad = array[~np.isfinite(array)]
+    if bad.size:
+        problem = f"{name} = {bad[0]:g}: a finite number is needed, in metres."
+        raise InputError([problem], "positions")
+    return array
+
+
+def _refuse_out_of_reach(
+    model: Model, heights: Array, racks: Array, table: Branch, index: NDArray[np.int64]
+) -> None:
+    beyond = (heights < table.height[index, 0]) | (heights > table.height[index, -1])
+    if not beyond.any():
+        return
+    height, rack = heights[beyond][0], float(racks[beyond][0])
+    reach = travel_range(model, rack)
+    ends = [1e3 * end for end in reach.height]
+    travels = [end - 1e3 * design_height(model) for end in ends]
+    message = (
+        f"wheel height {height * 1e3:.6g} mm is out of reach: from {ends[0]:.1f} mm "
+        f"({reach.lower_limit}) to {ends[1]:.1f} mm ({reach.upper_limit}) with the rack at "
+        f"{rack * 1e3:g} mm; that is {travels[0]:+.1f} mm to {travels[1]:+.1f} mm of wheel travel "
+        "from design. Choose a height within this range."
+    )
+    raise PositionError(message)
+
+
+def _solve(
+    model: Model, heights: Array, racks: Array, table: Branch, index: NDArray[np.int64]
+) -> Array:
+    """Newton's method with the exact slope, which falls back on halving the bracket.
+
+    Beside a dead point the height is no smooth function of the angle, and Newton's step may leave
+    the bracket there.
+    """
+    points = table.height.shape[1]
+    right = np.clip((table.height[index] < heights[:, None]).sum(axis=1), 1, points - 1)
+    low, high = table.angle[index, right - 1], table.angle[index, right]
+    angle = 0.5 * (low + high)
+    found, error = angle.copy(), np.full(heights.size, np.inf)
+    rows = np.arange(heights.size)
+    for count in range(_MOST_STEPS):
+        at = angle[rows]
+        height, slope = height_and_slope(model, at, racks[rows])
+        excess = height - heights[rows]
+        better = np.abs(excess) < error[rows]
+        found[rows[better]], error[rows[better]] = at[better], np.abs(excess[better])
+        # the height rises as the angle falls
+        low[rows] = np.where(excess <= 0.0, at, low[rows])
+        high[rows] = np.where(excess >= 0.0, at, high[rows])
+        newton = at - excess / slope
+        halve = (newton > low[rows]) | (newton < high[rows])
+        if count >= _NEWTON_STEPS:
+            halve |= count % 2 == 0
+        angle[rows] = np.where(halve, 0.5 * (low[rows] + high[rows]), newton)
+        rows = rows[(excess != 0.0) & (np.abs(angle[rows] - at) > 4.0 * _EPSILON * at)]
+        if rows.size == 0:
+            break
+    return found
+
+
+def _stable_root(moment: Callable[[ArrayLike], Array], reach: Range, design: float) -> float:
+    """Return the arm angle nearest to design at which the moment vanishes and pushes back."""
     grid = np.linspace(*reach.arm_angle, 1 + round(abs(np.subtract(*reach.arm_angle)) / _STEP))
-    values = np.array([rest.moment(a) for a in grid])
+    values = moment(grid)
     # from low to high wheel position beta1 falls, so a stable moment goes from negative to positive
     stable = np.flatnonzero((values[:-1] <= 0.0) & (values[1:] > 0.0))
     if stable.size == 0:
@@ -211,14 +297,11 @@ def equilibrium(
             "no stable equilibrium between wheel heights "
             f"{reach.height[0] * 1e3:.1f} mm and {reach.height[1] * 1e3:.1f} mm: the moment about "
             f"the arm's hinge is {values[0]:.4g} N m at the lower and {values[-1]:.4g} N m at the "
-            "upper end. Check spring rate, spring_free_slide, tyre rate and free height."
+            "upper end. Check spring rate, spring_free_slide, tyre rate and free height, or the "
+            "wheel load."
         )
         raise PositionError(message)
-    nearest = stable[np.argmin(np.abs(grid[stable] - model.design_state[0]))]
-    angle = _root(rest.moment, grid[nearest], grid[nearest + 1])
-    return rest.state(angle, spin_rate)
-
-
-def _root(function: Callable[[float], float], first: float, last: float) -> float:
-    """Return the root between two arguments, to the last digits."""
-    return float(brentq(function, first, last, xtol=1e-15, rtol=4 * np.finfo(float).eps))
+    nearest = stable[np.argmin(np.abs(grid[stable] - design))]
+    ends = float(grid[nearest]), float(grid[nearest + 1])
+    # to the last digits
+    return float(brentq(lambda a: float(moment(a)), *ends, xtol=1e-15, rtol=4 * _EPSILON))

@@ -34,7 +34,9 @@ def test_range_ends_where_the_loop_or_the_wheel_turns_back():
     assert high > 0.45
     assert "dead point" in reach.upper_limit
     for wanted in reach.height:
-        assert height(state_at_height(MODEL, wanted)) == pytest.approx(wanted, abs=1e-12)
+        # at the dead point the height has a vertical tangent: 3e4 m/rad at the last angle, which
+        # is rounded to 5e-17 rad
+        assert height(state_at_height(MODEL, wanted)) == pytest.approx(wanted, abs=2e-11)
 
 
 @pytest.mark.parametrize("beyond", [-0.5, 0.7])

@@ -1,0 +1,255 @@
+"""How far the wheel travels: the arm angles that belong to the design position's assembly.
+
+From the design position the arm is swung either way until a loop cannot close or the wheel centre
+turns back. In between, the height of the wheel centre is a monotonic function of the arm angle, so
+that every height within reach has exactly one position.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .errors import KintrafoError
+from .model import Model
+
+Array = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+# Arm angles are looked at in steps of this size [rad], up to a right angle from design.
+_STEP = np.deg2rad(2.0)
+_STEPS = 45
+# Halvings of one step that locate the end of the travel: to 1e-16 rad, the rounding of the angle.
+_HALVINGS = 48
+_CHUNK = 500  # racks that are looked at together, to bound the memory
+
+_TURNS_BACK = "the wheel centre turns back there"
+_RIGHT_ANGLE = "the arm has swung by a right angle"
+
+
+class PositionError(KintrafoError, ValueError):
+    """A position that the suspension cannot take."""
+
+
+@dataclass(frozen=True)
+class Range:
+    """Arm angles over which the wheel height changes monotonically, the design position inside.
+
+    Attributes
+    ----------
+    arm_angle : tuple of float
+        At the lowest and at the highest wheel position [rad].
+    height : tuple of float
+        Lowest and highest height of the wheel centre [m].
+    lower_limit, upper_limit : str
+        What ends the range.
+    """
+
+    arm_angle: tuple[float, float]
+    height: tuple[float, float]
+    lower_limit: str
+    upper_limit: str
+
+
+def travel_range(model: Model, rack_position: float = 0.0) -> Range:
+    """Return the travel that the wheel can make from the design position.
+
+    Parameters
+    ----------
+    model : Model
+    rack_position : float, optional
+        Displacement of the rack [m].
+
+    Returns
+    -------
+    Range
+        Its ends are the last positions, to the rounding of the arm angle, before the limit.
+
+    Raises
+    ------
+    PositionError
+        If the rack cannot be there with the arm in its design position.
+
+    Examples
+    --------
+    >>> reach = travel_range(Model("reference_car"))
+    >>> [round(1e3 * height, 1) for height in reach.height]
+    [-65.6, 615.9]
+    """
+    racks = np.array([rack_position], dtype=np.float64)
+    low, low_limits = _ends(model, racks, +1.0)
+    high, high_limits = _ends(model, racks, -1.0)
+    heights, _ = height_and_slope(model, np.append(low, high), rack_position)
+    return Range(
+        (float(low[0]), float(high[0])),
+        (float(heights[0]), float(heights[1])),
+        _in_words(model, low_limits[0]),
+        _in_words(model, high_limits[0]),
+    )
+
+
+@dataclass(frozen=True)
+class Branch:
+    """Arm angles and wheel heights over the reach, for each of several rack positions.
+
+    Attributes
+    ----------
+    angle : ndarray, shape (racks, points)
+        Falling [rad]; repeated where the reach ends earlier.
+    height : ndarray, shape (racks, points)
+        Height of the wheel centre, rising [m].
+    """
+
+    angle: Array
+    height: Array
+
+
+def branch(model: Model, rack_positions: ArrayLike) -> Branch:
+    """Tabulate the reach for each rack position.
+
+    Parameters
+    ----------
+    model : Model
+    rack_positions : array_like, shape (racks,)
+        Displacements of the rack [m].
+
+    Returns
+    -------
+    Branch
+
+    Raises
+    ------
+    PositionError
+        If the rack cannot be there with the arm in its design position.
+    """
+    racks = np.asarray(rack_positions, dtype=np.float64)
+    chunks = [_tabulate(model, racks[i : i + _CHUNK]) for i in range(0, racks.size, _CHUNK)]
+    return Branch(
+        np.concatenate([chunk.angle for chunk in chunks]),
+        np.concatenate([chunk.height for chunk in chunks]),
+    )
+
+
+def _tabulate(model: Model, racks: Array) -> Branch:
+    low, _ = _ends(model, racks, +1.0)
+    high, _ = _ends(model, racks, -1.0)
+    grid = model.design_state[0] - _STEP * np.arange(-_STEPS, _STEPS + 1)
+    angles = np.clip(grid, high[:, None], low[:, None])
+    heights, _ = height_and_slope(model, angles, racks[:, None])
+    return Branch(angles, heights)
+
+
+def at_rest(
+    model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0, *, arm_rate: float = 0.0
+) -> tuple[Array, Array]:
+    """Return states and inputs with everything at rest but, if wanted, the arm.
+
+    Parameters
+    ----------
+    model : Model
+    arm_angle, rack_position : array_like
+        [rad] and [m]; they are broadcast.
+    arm_rate : float, optional
+        Rate of the arm angle [rad/s].
+
+    Returns
+    -------
+    states, inputs : ndarray
+        For the compiled functions.
+    """
+    angles, racks = np.broadcast_arrays(np.asarray(arm_angle, float), rack_position)
+    names = model.state_names
+    states = np.broadcast_to(model.design_state, (*angles.shape, len(names))).copy()
+    inputs = np.zeros((*angles.shape, len(model.input_names)))
+    states[..., names.index("beta1")] = angles
+    states[..., names.index("beta1_rate")] = arm_rate
+    if model.free_rack:
+        states[..., names.index("beta9")] = racks
+    else:
+        inputs[..., model.input_names.index("rack_position")] = racks
+    return states, inputs
+
+
+def height_and_slope(
+    model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0
+) -> tuple[Array, Array]:
+    """Return the height of the wheel centre and its exact derivative by the arm angle.
+
+    Parameters
+    ----------
+    model : Model
+    arm_angle, rack_position : array_like
+        [rad] and [m]; they are broadcast.
+
+    Returns
+    -------
+    height, slope : ndarray
+        [m] and [m/rad].
+    """
+    # velocities are linear in the rates: that at unit rate is the derivative
+    states, inputs = at_rest(model, arm_angle, rack_position, arm_rate=1.0)
+    signals = model.signals(states, inputs)
+    return signals["wheel_center_z"], signals["wheel_velocity"]
+
+
+def _ends(model: Model, racks: Array, direction: float) -> tuple[Array, list[int]]:
+    """Swing the arm as far as it goes, for each rack position.
+
+    Returns
+    -------
+    angle : ndarray, shape (racks,)
+        The last angle within reach [rad].
+    limits : list of int
+        What ends the reach: index of a guard, or minus one for the wheel that turns back, or minus
+        two for a right angle.
+    """
+    start = model.design_state[0]
+    angles = start + direction * _STEP * np.arange(_STEPS + 1)
+    usable, limits = _look(model, angles, racks[:, None])
+    _refuse_design_that_cannot_close(model, racks, usable[:, 0], limits[:, 0])
+    good = np.logical_and.accumulate(usable, axis=1)
+    last = np.maximum(good.sum(axis=1) - 1, 0)
+    first_bad = np.minimum(last + good[:, 0], _STEPS)
+    inside, outside = angles[last], angles[first_bad]
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (inside + outside)
+        fine, _ = _look(model, middle, racks)
+        inside, outside = np.where(fine, middle, inside), np.where(fine, outside, middle)
+    _, limits = _look(model, outside, racks)
+    complete = good.all(axis=1)
+    limits = np.where(complete, -2, limits)
+    return np.where(complete, angles[-1], inside), limits.tolist()
+
+
+def _look(model: Model, angles: Array, racks: Array) -> tuple[Bools, NDArray[np.int64]]:
+    """Return whether positions are usable, and what is wrong with the others (see `_ends`)."""
+    states, inputs = at_rest(model, angles, racks, arm_rate=1.0)
+    # the azimuth of a vertical shaft is undefined, and nothing here depends on it
+    watched = [not name.startswith("shaft_level") for name, _ in model.equations.GUARDS]
+    # a NaN behind a failed guard must not pass
+    failed = ~(model.evaluate("margins", states, inputs) > 0.0) & watched
+    closes = ~failed.any(axis=-1)
+    falling = np.zeros_like(closes)
+    slopes = model.signals(states[closes], inputs[closes])["wheel_velocity"]
+    falling[closes] = slopes < 0.0  # beta1 falls as the wheel rises (Eq. 6)
+    return closes & falling, np.where(closes, -1, failed.argmax(axis=-1))
+
+
+def _in_words(model: Model, limit: int) -> str:
+    reasons = {-1: _TURNS_BACK, -2: _RIGHT_ANGLE}
+    return reasons[limit] if limit < 0 else model.equations.GUARDS[limit][1]
+
+
+def _refuse_design_that_cannot_close(
+    model: Model, racks: Array, usable: Bools, limits: NDArray[np.int64]
+) -> None:
+    """Refuse racks with which a loop does not close at the arm's design position."""
+    refused = np.flatnonzero(~usable & (limits >= 0))
+    if refused.size == 0:
+        return
+    first = refused[0]
+    message = (
+        f"the rack cannot be at {racks[first] * 1e3:g} mm with the control arm in its design "
+        f"position: {_in_words(model, int(limits[first]))}. Choose a smaller displacement."
+    )
+    raise PositionError(message)
