@@ -39,6 +39,43 @@ class SignOf(sp.Function):  # type: ignore[misc]  # SymPy has no types
     nargs = 1
 
 
+class Positive(sp.Function):  # type: ignore[misc]
+    """The argument where it is positive, zero elsewhere."""
+
+    nargs = 1
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """Differentiate: one where the argument is positive, zero elsewhere."""
+        del argindex
+        return IsPositive(self.args[0])
+
+
+class IsPositive(sp.Function):  # type: ignore[misc]
+    """One where the argument is positive, zero elsewhere."""
+
+    nargs = 1
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """Differentiate: zero, but for the jump, which no derivative can show."""
+        del argindex
+        return sp.Integer(0)
+
+
+class Clamped(sp.Function):  # type: ignore[misc]
+    """The argument between zero and one, the nearer of the two outside."""
+
+    nargs = 1
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """Differentiate: one between the limits, zero outside."""
+        del argindex
+        return IsPositive(self.args[0]) * IsPositive(1 - self.args[0])
+
+
+# Comparisons, not arithmetic: they are not counted as operations.
+_SELECTIONS = (Guarded, SignOf, Positive, IsPositive, Clamped)
+
+
 @dataclass(frozen=True)
 class Dialect:
     """How a target language spells functions."""
@@ -55,6 +92,9 @@ C = Dialect(
         sp.atan2: "atan2({})",
         Guarded: "fmax({}, GUARD_FLOOR)",
         SignOf: "copysign(1.0, {})",
+        Positive: "fmax({}, 0.0)",
+        IsPositive: "(double)({} > 0.0)",
+        Clamped: "fmin(fmax({}, 0.0), 1.0)",
     },
     root="sqrt({})",
 )
@@ -66,6 +106,9 @@ NUMPY = Dialect(
         sp.atan2: "np.arctan2({})",
         Guarded: "np.fmax({}, GUARD_FLOOR)",
         SignOf: "np.copysign(1.0, {})",
+        Positive: "np.fmax({}, 0.0)",
+        IsPositive: "1.0*({} > 0.0)",
+        Clamped: "np.clip({}, 0.0, 1.0)",
     },
     root="np.sqrt({})",
 )
@@ -78,8 +121,8 @@ _SUM, _NEGATIVE, _PRODUCT, _ATOM = range(4)
 class Written:
     """An expression as text, with the operations in it.
 
-    A sign in front counts as an addition; guards and the choice of a branch are comparisons and
-    do not count.
+    A sign in front counts as an addition; guards, limits and the choice of a branch are comparisons
+    and do not count.
     """
 
     text: str
@@ -107,7 +150,7 @@ def write(expression: sp.Expr, dialect: Dialect = C) -> Written:
         message = f"{expression} cannot be written: {type(expression).__name__} has no spelling"
         raise ValueError(message)
     arguments = [write(a, dialect) for a in expression.args]
-    trigonometric = not isinstance(expression, Guarded | SignOf)
+    trigonometric = not isinstance(expression, _SELECTIONS)
     text = dialect.functions[type(expression)].format(", ".join(a.text for a in arguments))
     return Written(text, _ATOM, _total(arguments, trigonometric=int(trigonometric)))
 

@@ -6,7 +6,8 @@ import difflib
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from .forces import JointForce, LinearTyre, TelescopeSpring, Weight
+from .forces import AlongTelescope, ForceElement, JointForce, LinearTyre, Weight
+from .laws import Actuator, LinearSpring
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -54,12 +55,36 @@ def _force_problems(mechanism: Mechanism) -> list[str]:
     problems = []
     for force in mechanism.forces:
         what = type(force).__name__
-        if isinstance(force, JointForce | TelescopeSpring):
+        if isinstance(force, JointForce):
             problems += _unknown(f"{what}: joint", [force.joint], joints)
-        if isinstance(force, LinearTyre):
+            problems += _unknown(f"{what}: input", [force.input], mechanism.inputs)
+        elif isinstance(force, LinearTyre):
             problems += _unknown(f"{what}: body", [force.carrier], bodies)
-        needed = [getattr(force, field, None) for field in ("input", "actuator", "road")]
-        problems += _unknown(f"{what}: input", filter(None, needed), mechanism.inputs)
+            inputs = [i for i in (force.road, force.road_velocity) if i is not None]
+            problems += _unknown(f"{what}: input", inputs, mechanism.inputs)
+            if (force.damper is None) != (force.road_velocity is None):
+                problems.append(f"{what} {force.name!r}: give damper and road_velocity, or neither")
+        elif isinstance(force, ForceElement):
+            problems += _element_problems(mechanism, force)
+    return problems
+
+
+def _element_problems(mechanism: Mechanism, element: ForceElement) -> list[str]:
+    what, path = f"ForceElement {element.name!r}", element.path
+    telescopic = isinstance(path, AlongTelescope)
+    if isinstance(path, AlongTelescope):
+        problems = _unknown(f"{what}: joint", [path.joint], [j.name for j in mechanism.joints])
+    else:
+        bodies = [body for body, _ in (path.first, path.second)]
+        problems = _unknown(f"{what}: body", bodies, [b.name for b in mechanism.bodies])
+    for law in element.laws:
+        if isinstance(law, Actuator):
+            problems += _unknown(f"{what}: input", [law.input], mechanism.inputs)
+        elif isinstance(law, LinearSpring):
+            if (law.free_slide is None) == (law.free_length is None):
+                problems.append(f"{what}: give its spring a free_slide or a free_length")
+            elif law.free_slide is not None and not telescopic:
+                problems.append(f"{what}: a free_slide needs a telescope; give a free_length")
     return problems
 
 

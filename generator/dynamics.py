@@ -16,13 +16,16 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from .forces import JointForce, LinearTyre, LineSpring, TelescopeSpring, Weight
+from .arithmetic import IsPositive, Positive
+from .forces import AlongTelescope, ForceElement, JointForce, LinearTyre, Weight
 from .geometry import UP
+from .laws import Stretch
 from .placement import Placed, to_axes
 from .vectors import ELEMENTS, SymmetricTensor, Twist, Vector
 
 if TYPE_CHECKING:
     from .kinematics import Kinematics
+    from .laws import Law
     from .mechanism import Body
 
 NONE = sp.Integer(0)
@@ -265,10 +268,8 @@ class Dynamics:
             self.program.section(f"forces: {type(force).__name__}")
             if isinstance(force, Weight):
                 self._add_weight(force)
-            elif isinstance(force, TelescopeSpring):
-                self._add_telescope_spring(force)
-            elif isinstance(force, LineSpring):
-                self._add_line_spring(force)
+            elif isinstance(force, ForceElement):
+                self._add_element(force)
             elif isinstance(force, LinearTyre):
                 self._add_tyre(force)
             elif isinstance(force, JointForce):
@@ -285,31 +286,46 @@ class Dynamics:
             up = self.up_in(self.kin.placed[body])
             self._force[k] -= gravity * up.dot(momentum)
 
-    def _add_telescope_spring(self, force: TelescopeSpring) -> None:
-        program, line = self.program, self.kin.telescopes[force.joint]
-        prefix = self.kin.mechanism.prefix(force)
-        slide = self.kin.slides[force.joint]
-        rates = [m * self.kin.true_rate(k) for k, m in line.length_motion.items()]
-        length_rate = program.define(f"length_rate_{force.joint}", sum(rates, NONE))
-        spring = program.define(
-            f"{prefix}spring_force", sp.Symbol(force.rate) * (slide - sp.Symbol(force.free_slide))
-        )
-        damper = program.define(f"{prefix}damper_force", -sp.Symbol(force.damper) * length_rate)
-        actuator = sp.Symbol(force.actuator) if force.actuator else NONE
-        total = program.define(f"{prefix}telescope_force", spring + damper + actuator)
-        self.signals |= {
-            f"{force.name}_velocity": length_rate,
-            f"{prefix}spring_force": spring,
-            f"{prefix}damper_force": damper,
-        }
+    def _add_element(self, element: ForceElement) -> None:
+        """Sum up the laws of an element; what pushes its ends apart does work on its length."""
+        name, program = element.name, self.program
+        length, motion = self._path_of(element)
+        rates = [m * self.kin.true_rate(k) for k, m in motion.items()]
+        velocity = program.define(f"{name}_velocity", sum(rates, NONE))
+        slide = None
+        if isinstance(element.path, AlongTelescope):
+            slide = self.kin.slides[element.path.joint]
+        stretch = Stretch(program, name, length, velocity, slide)
+        self.signals |= {f"{name}_length": length, f"{name}_velocity": velocity}
+        total = NONE
+        for signal, laws in self._by_signal(element).items():
+            shown = self.kin.mechanism.signal_name(element, signal)
+            own = sum((law.force(stretch) for law in laws), NONE)
+            self.signals[shown] = program.define(shown, own)
+            total += self.signals[shown]
+        total = program.define(f"{name}_total_force", total)
         for k in self.names:
-            if k in line.length_motion:
-                self._force[k] += total * line.length_motion[k]
+            if k in motion:
+                self._force[k] += total * motion[k]
 
-    def _add_line_spring(self, force: LineSpring) -> None:
-        program, name = self.program, force.name
-        ends = [self.kin.point_motion(body, point) for body, point in (force.first, force.second)]
-        relative = ends[1].minus(ends[0])
+    @staticmethod
+    def _by_signal(element: ForceElement) -> dict[str, list[Law]]:
+        groups: dict[str, list[Law]] = {}
+        for law in element.laws:
+            groups.setdefault(law.signal, []).append(law)
+        return groups
+
+    def _path_of(self, element: ForceElement) -> tuple[sp.Expr, dict[str, sp.Expr]]:
+        """Return the length of an element's path, and its rate per unit rate of each coordinate."""
+        if isinstance(element.path, AlongTelescope):
+            line = self.kin.telescopes[element.path.joint]
+            return line.length, line.length_motion
+        program, name = self.program, element.name
+        first, second = (
+            self.kin.point_motion(body, point)
+            for body, point in (element.path.first, element.path.second)
+        )
+        relative = second.minus(first)
         span = program.vector(f"{name}_span", relative.position)
         squared = program.guarded(
             f"{name}_length_squared", span.dot(span), f"the ends of {name} coincide", "m^2"
@@ -320,21 +336,7 @@ class Dynamics:
             k: program.define(f"d_{name}_length_{k}", direction.dot(v))
             for k, v in relative.motion.items()
         }
-        rates = [m * self.kin.true_rate(k) for k, m in motion.items()]
-        rate = program.define(f"{name}_length_rate", sum(rates, NONE))
-        spring = program.define(
-            f"{name}_spring_force", sp.Symbol(force.rate) * (sp.Symbol(force.free_length) - length)
-        )
-        damper = program.define(f"{name}_damper_force", -sp.Symbol(force.damper) * rate)
-        for k in self.names:
-            if k in motion:
-                self._force[k] += (spring + damper) * motion[k]
-        self.signals |= {
-            f"{name}_length": length,
-            f"{name}_velocity": rate,
-            f"{name}_spring_force": spring,
-            f"{name}_damper_force": damper,
-        }
+        return length, motion
 
     def _add_tyre(self, force: LinearTyre) -> None:
         program, carrier = self.program, self.kin.placed[force.carrier]
@@ -352,7 +354,8 @@ class Dynamics:
             f"{prefix}cos_camber_squared", pull.dot(pull), "the wheel lies flat on the road", "1"
         )
         deflection = sp.Symbol(force.free_height) + sp.Symbol(force.road) - height
-        load = program.define(f"{prefix}tyre_load", sp.Symbol(force.rate) * deflection / squared)
+        load = self._tyre_load(force, carrier, center, deflection)
+        load = program.define(f"{prefix}tyre_load", load / squared)
         for k in self.names:
             if k in carrier.motion:
                 velocity = self.wheel_velocity(carrier, center, k)
@@ -360,6 +363,28 @@ class Dynamics:
         self.signals[f"{prefix}tyre_force"] = program.define(
             f"{prefix}tyre_force", load * sp.sqrt(squared)
         )
+
+    def _tyre_load(
+        self, force: LinearTyre, carrier: Placed, center: Vector, deflection: sp.Expr
+    ) -> sp.Expr:
+        """Return the load of a tyre of some deflection: spring, damper, contact."""
+        program, prefix = self.program, self.kin.mechanism.prefix(force)
+        load = sp.Symbol(force.rate) * deflection
+        if force.damper is not None:
+            up = self.up_in(carrier)
+            rise = sum(
+                (
+                    up.dot(self.wheel_velocity(carrier, center, k)) * self.kin.true_rate(k)
+                    for k in carrier.motion
+                ),
+                NONE,
+            )
+            load += sp.Symbol(force.damper) * (sp.Symbol(str(force.road_velocity)) - rise)
+        if force.lifts_off:
+            deflection = program.define(f"{prefix}tyre_deflection", deflection)
+            pressed = program.define(f"{prefix}tyre_pressure", load)
+            load = IsPositive(deflection) * Positive(pressed)
+        return load
 
     def wheel_velocity(self, carrier: Placed, center: Vector, k: str) -> Vector:
         """Return the velocity of the wheel centre per unit rate, in the carrier's axes."""

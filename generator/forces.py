@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from .geometry import Direction, Point
+    from .laws import Law
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,55 +23,50 @@ class Weight:
     gravity: str
 
 
-@dataclass(frozen=True, kw_only=True)
-class TelescopeSpring:
-    """Spring, damper and actuator along a telescope (Eq. 23 of the paper).
-
-    The force pushes the two ends apart:
-    ``rate (slide - free_slide) + damper d(slide)/dt + actuator``.
+@dataclass(frozen=True)
+class AlongTelescope:
+    """From one end of a telescope to the other.
 
     Parameters
     ----------
-    name
-        Begins the name of the length signal.
     joint
         Name of the cylindrical joint.
-    rate, damper, free_slide
-        Names of the parameters [N/m, N s/m, m].
-    actuator
-        Name of an input [N], or None.
     """
 
-    name: str
     joint: str
-    rate: str
-    damper: str
-    free_slide: str
-    actuator: str | None = None
+
+
+@dataclass(frozen=True)
+class AlongLine:
+    """From a point of one body to a point of another.
+
+    Parameters
+    ----------
+    first, second
+        Body and point at either end.
+    """
+
+    first: tuple[str, Point]
+    second: tuple[str, Point]
 
 
 @dataclass(frozen=True, kw_only=True)
-class LineSpring:
-    """Spring and damper between a point of one body and a point of another.
-
-    The force pushes the two points apart: ``rate (free_length - length) - damper d(length)/dt``.
+class ForceElement:
+    """Springs, dampers and stops that act along one path between two bodies (Eq. 23).
 
     Parameters
     ----------
     name
-        Begins the names of its signals.
-    first, second
-        Body and point at either end.
-    rate, damper, free_length
-        Names of the parameters [N/m, N s/m, m].
+        Begins the names of its signals: ``<name>_length``, ``<name>_velocity``.
+    path
+        What it acts along.
+    laws
+        What it does; the forces add up.
     """
 
     name: str
-    first: tuple[str, Point]
-    second: tuple[str, Point]
-    rate: str
-    damper: str
-    free_length: str
+    path: AlongTelescope | AlongLine
+    laws: tuple[Law, ...]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,7 +74,10 @@ class LinearTyre:
     """A radial tyre spring in the wheel plane (Eq. 24 of the paper).
 
     With ``a`` the spin axis and ``e_z`` up, the force on the wheel at its centre is
-    ``rate (free_height + road - height) (e_z - a a_z) / (1 - a_z^2)``.
+    ``load (e_z - a a_z) / (1 - a_z^2)``, with ``load = rate x``, x = free_height + road - height.
+
+    With a damper the load is ``rate x + damper x'``. A tyre that lifts off neither pulls nor damps
+    in the air: its load is zero where x or the load itself would be negative.
 
     Parameters
     ----------
@@ -94,6 +93,10 @@ class LinearTyre:
         Names of the parameters [N/m, m].
     road
         Name of the input: height of the road under the tyre [m].
+    damper, road_velocity
+        Names of the parameter [N s/m] and of the input [m/s]; both or neither.
+    lifts_off
+        Whether the tyre can leave the road; without, as in the paper, it holds on to it.
     """
 
     name: str
@@ -103,6 +106,9 @@ class LinearTyre:
     rate: str
     free_height: str
     road: str
+    damper: str | None = None
+    road_velocity: str | None = None
+    lifts_off: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -113,4 +119,4 @@ class JointForce:
     input: str
 
 
-Force = Weight | TelescopeSpring | LineSpring | LinearTyre | JointForce
+Force = Weight | ForceElement | LinearTyre | JointForce

@@ -10,7 +10,7 @@ from . import solutions
 from .arithmetic import SignOf
 from .geometry import UP, Direction, Point
 from .joints import Joint, Prismatic, Revolute
-from .placement import IDENTITY, Axes, OnLine, Placed, PointMotion, from_axes, to_axes
+from .placement import IDENTITY, Axes, OffLine, OnLine, Placed, PointMotion, from_axes, to_axes
 from .transformer import PlaceByCross, PlaceByJoint, Plan, SolveTelescope, SolveTurn
 from .vectors import NO_TWIST, UNIT_X, UNIT_Z, ZERO, Twist, Vector
 
@@ -60,6 +60,7 @@ class Kinematics:
         self.pace = self.true_rate(pacing[0]) if self.unit_rate else sp.Integer(1)
         self.placed: dict[str, Placed] = {}
         self.on_line: dict[str, OnLine] = {}
+        self.off_line: dict[str, OffLine] = {}
         self.telescopes: dict[str, OnLine] = {}
         self.slides: dict[str, sp.Expr] = {}
         self._points: dict[Point, PointMotion] = {}

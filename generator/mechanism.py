@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from .checks import check_mechanism, check_model
+from .forces import ForceElement, LinearTyre
 from .joints import Joint, Universal
 
 if TYPE_CHECKING:
@@ -98,10 +99,20 @@ class Mechanism:
         """Return a joint by its name."""
         return next(j for j in self.joints if j.name == name)
 
-    def prefix(self, force: Force) -> str:
-        """Return what begins the names of a force's signals: nothing, where it is alone."""
-        alike = [f for f in self.forces if type(f) is type(force)]
-        return "" if len(alike) == 1 else f"{getattr(force, 'name', '')}_"
+    def prefix(self, tyre: LinearTyre) -> str:
+        """Return what begins the names of a tyre's signals: nothing, where it is alone."""
+        alone = sum(isinstance(f, LinearTyre) for f in self.forces) == 1
+        return "" if alone else f"{tyre.name}_"
+
+    def signal_name(self, element: ForceElement, signal: str) -> str:
+        """Return the name of a force signal, with the element's where others have it too."""
+        having = [e for e in self.elements if any(law.signal == signal for law in e.laws)]
+        return signal if len(having) == 1 else f"{element.name}_{signal}"
+
+    @property
+    def elements(self) -> list[ForceElement]:
+        """The springs, dampers and stops."""
+        return [f for f in self.forces if isinstance(f, ForceElement)]
 
     def joints_of(self, body: str) -> list[Joint]:
         """Return the joints at a body."""

@@ -10,8 +10,9 @@ import sympy as sp
 from .arithmetic import SignOf
 from .checks import check_symbols
 from .dynamics import Dynamics
-from .forces import JointForce, LinearTyre, LineSpring, TelescopeSpring
+from .forces import ForceElement, JointForce, LinearTyre
 from .kinematics import Kinematics
+from .laws import Actuator
 from .placement import IDENTITY, Placed, from_axes
 from .program import ConstantStage, Function, Guard, Program
 from .relative import RelativeCoordinates
@@ -164,8 +165,9 @@ class _Builder:
         for force in self.mechanism.forces:
             if isinstance(force, LinearTyre):
                 names.append(force.road)
-            elif isinstance(force, TelescopeSpring) and force.actuator:
-                names.append(force.actuator)
+                names += [force.road_velocity] if force.road_velocity else []
+            elif isinstance(force, ForceElement):
+                names += [law.input for law in force.laws if isinstance(law, Actuator)]
             elif isinstance(force, JointForce) and force.joint in self.model.independent:
                 names.append(force.input)
         return names
@@ -400,10 +402,8 @@ class _Builder:
         for force in self.mechanism.forces:
             if isinstance(force, LinearTyre):
                 self._add_wheel_signals(force, results)
-            elif isinstance(force, TelescopeSpring):
-                self._add_telescope_signals(force, results)
-            elif isinstance(force, LineSpring):
-                self._add_line_signals(force, results)
+            elif isinstance(force, ForceElement):
+                self._add_element_signals(force, results)
         self._add("signals", "Physical signals, see the enumeration of signals.", results)
         for by, name in (("state", "signals_jacobian"), ("inputs", "signals_input_jacobian")):
             self._add_derivatives(
@@ -481,42 +481,15 @@ class _Builder:
             "steer angle, positive to the left",
         )
 
-    def _add_telescope_signals(self, spring: TelescopeSpring, results: dict[str, sp.Expr]) -> None:
-        prefix = self.mechanism.prefix(spring)
-        line = self.kin.telescopes[spring.joint]
-        self._signal(
-            results, f"{spring.name}_length", line.length, "m", f"length of the {spring.name}"
-        )
-        self._signal(
-            results,
-            f"{spring.name}_velocity",
-            self.dynamics.signals[f"{spring.name}_velocity"],
-            "m/s",
-            f"rate of the {spring.name}'s length, positive in rebound",
-        )
-        self._signal(
-            results,
-            f"{prefix}spring_force",
-            self.dynamics.signals[f"{prefix}spring_force"],
-            "N",
-            "spring force, positive when it pushes the ends apart",
-        )
-        self._signal(
-            results,
-            f"{prefix}damper_force",
-            self.dynamics.signals[f"{prefix}damper_force"],
-            "N",
-            "damper force, positive when it pushes the ends apart",
-        )
-
-    def _add_line_signals(self, spring: LineSpring, results: dict[str, sp.Expr]) -> None:
-        for kind, unit, meaning in (
-            ("length", "m", "length"),
-            ("velocity", "m/s", "rate of the length, positive when the ends part"),
-            ("spring_force", "N", "spring force, positive when it pushes the ends apart"),
-            ("damper_force", "N", "damper force, positive when it pushes the ends apart"),
-        ):
-            name = f"{spring.name}_{kind}"
-            self._signal(
-                results, name, self.dynamics.signals[name], unit, f"{spring.name}: {meaning}"
-            )
+    def _add_element_signals(self, element: ForceElement, results: dict[str, sp.Expr]) -> None:
+        name = element.name
+        described = {
+            f"{name}_length": ("m", f"length of the {name}"),
+            f"{name}_velocity": ("m/s", f"rate of the {name}'s length, positive in rebound"),
+        }
+        for law in element.laws:
+            if not isinstance(law, Actuator):
+                shown = self.mechanism.signal_name(element, law.signal)
+                described[shown] = ("N", f"{law.meaning}, positive when it pushes the ends apart")
+        for signal, (unit, meaning) in described.items():
+            self._signal(results, signal, self.dynamics.signals[signal], unit, meaning)

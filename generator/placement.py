@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     import sympy as sp
 
     from .geometry import Point
+    from .transformer import SolveTelescope
 
 Axes = tuple[Vector, Vector, Vector]
 IDENTITY: Axes = (UNIT_X, UNIT_Y, UNIT_Z)
@@ -110,5 +111,43 @@ class OnLine:
     direction: Vector
     length: sp.Expr
     inverse_length: sp.Expr
+    relative: PointMotion
+    length_motion: dict[str, sp.Expr]
+
+
+@dataclass(frozen=True)
+class OffLine:
+    """A link of a telescope whose axis misses the link's known point: its turn is still open.
+
+    Attributes
+    ----------
+    action
+        What was solved: the telescope with the names of its points and bodies.
+    axis, offset
+        At the design position: unit vector of the axis from anchor to end, and what leads from
+        the axis to the end, across it (constants, work axes).
+    span, span_squared
+        From anchor to end, and the square of that distance.
+    reach, inverse_reach
+        Part of the span along the axis.
+    length
+        Length of the telescope: the reach and the constant `lead`.
+    relative
+        Motion of the end relative to the anchor.
+    length_motion
+        Rate of the length per unit rate of each coordinate.
+    """
+
+    action: SolveTelescope
+    anchor_motion: PointMotion
+    end_motion: PointMotion
+    axis: Vector
+    offset: Vector
+    span: Vector
+    span_squared: sp.Expr
+    reach: sp.Expr
+    inverse_reach: sp.Expr
+    length: sp.Expr
+    lead: sp.Expr
     relative: PointMotion
     length_motion: dict[str, sp.Expr]

@@ -142,12 +142,16 @@ class RelativeCoordinates:
         """Rotation of the second body about the axis, from the z' axis of the shaft."""
         shaft = self._shaft(self.holder(joint))
         placed = self.kin.placed[joint.second]
-        marker = self.program.vector(
-            f"marker_{joint.name}", from_axes(placed.axes, self.kin.local(placed, joint.angle_to))
-        )
+        local = self.from_axis(placed, joint, joint.angle_to)
+        marker = self.program.vector(f"marker_{joint.name}", from_axes(placed.axes, local))
         return self.program.define(
             f"angle_{joint.name}", sp.atan2(-marker.dot(shaft.x), marker.dot(shaft.z))
         )
+
+    def from_axis(self, placed: Placed, joint: Cylindrical, point: Point) -> Vector:
+        """Return a point of a telescope's second body from where the axis passes through it."""
+        assert isinstance(joint.axis.through, Point)
+        return self.kin.local(placed, point) - self.kin.local(placed, joint.axis.through)
 
     def holder(self, joint: Cylindrical) -> Universal:
         """Return the universal joint that carries the first body of a telescope."""
@@ -256,6 +260,10 @@ class RelativeCoordinates:
         return {f"g_{c.name}": closure.residual(c) for c in self.mechanism.coordinates}
 
 
+# Which component of the closure at the end of an offset telescope stands for which coordinate.
+_AXIS_OF_CLOSURE = {"azimuth": "x", "slide": "y", "elevation": "z"}
+
+
 class _Closure:
     """The closure equations in terms of given relative coordinates."""
 
@@ -274,18 +282,26 @@ class _Closure:
         joint = self.mechanism.joint(coordinate.joint)
         if isinstance(joint, Revolute | Prismatic):
             return given - self.kin.coordinates[self.kin.coordinate_of(joint)]
+        offset = self._offset_telescope(joint)
+        if offset is not None and coordinate.kind in _AXIS_OF_CLOSURE:
+            gap = self._gap_at_end(offset)
+            return dict(zip("xyz", gap, strict=True))[_AXIS_OF_CLOSURE[coordinate.kind]]
         if isinstance(joint, Universal):
-            n = self._shaft_direction(joint)
-            if coordinate.kind == "elevation":
-                return sp.sin(given) - n.z
-            level = self.program.define(f"given_level_{joint.name}", sp.sqrt(n.x**2 + n.y**2))
-            return n.x / level + sp.sin(given)
+            return self._shaft_residual(joint, coordinate.kind, given)
         assert isinstance(joint, Cylindrical)
         if coordinate.kind == "slide":
             span = self._telescope_span(joint)
             length = sp.sqrt(span.dot(span))
             return length - (sp.Symbol(joint.length_at_zero_slide) - given)
         return self._rod_residual(joint)
+
+    def _shaft_residual(self, joint: Universal, kind: str, given: sp.Symbol) -> sp.Expr:
+        """Eqs. 7 and 8: the angles of a shaft against its direction."""
+        n = self._shaft_direction(joint)
+        if kind == "elevation":
+            return sp.sin(given) - n.z
+        level = self.program.define(f"given_level_{joint.name}", sp.sqrt(n.x**2 + n.y**2))
+        return n.x / level + sp.sin(given)
 
     def _given(self, name: str) -> sp.Symbol:
         return sp.Symbol(f"given_{name}")
@@ -339,35 +355,56 @@ class _Closure:
         span = self._rod_span(turn)
         return sp.sqrt(span.dot(span)) - sp.Symbol(f"{turn.rod}_length")
 
+    def _telescopes(self) -> list[SolveTelescope]:
+        return [a for a in self.kin.plan.actions if isinstance(a, SolveTelescope)]
+
     def _rod_span(self, turn: SolveTurn) -> Vector:
         """Return the vector from the rod's anchor to its end, by explicit rotations (Eq. 17)."""
-        telescope = next(
-            a
-            for a in self.kin.plan.actions
-            if isinstance(a, SolveTelescope) and a.end_link == turn.body
-        )
-        joint = telescope.joint
-        holder = self.relative.holder(joint)
-        placed = self.kin.placed[turn.body]
-        length = sp.Symbol(joint.length_at_zero_slide) - self._last(joint.name, "slide")
-        end = self._in_marker_axes(placed, turn.end, joint.angle_to)
-        swung = rotate_y(-self._last(joint.name, "angle"), end) + UNIT_Y * length
-        swung = self.program.vector(f"given_{turn.end.name}_in_shaft", swung)
-        lifted = rotate_x(self._last(holder.name, "elevation"), swung)
-        lifted = self.program.vector(f"given_{turn.end.name}_lifted", lifted)
-        from_center = rotate_z(self._last(holder.name, "azimuth"), lifted)
-        center = self._from_driven(
-            f"given_{holder.at.name}", self.kin.point_motion(holder.first, holder.at).position
-        )
+        telescope = next(a for a in self._telescopes() if a.end_link == turn.body)
+        end = self._by_chain(telescope, turn.end)
         anchor = self._from_driven(
             f"given_{turn.anchor.name}",
             self.kin.point_motion(turn.anchor_body, turn.anchor).position,
         )
-        return self.program.vector(f"given_{turn.rod}", center + from_center - anchor)
+        return self.program.vector(f"given_{turn.rod}", end - anchor)
 
-    def _in_marker_axes(self, placed: Placed, point: Point, marker: Point) -> Vector:
+    def _by_chain(self, telescope: SolveTelescope, point: Point) -> Vector:
+        """Return where the chain through a telescope puts a point of its second body."""
+        joint = telescope.joint
+        holder = self.relative.holder(joint)
+        length = sp.Symbol(joint.length_at_zero_slide) - self._last(joint.name, "slide")
+        local = self._in_marker_axes(joint, point)
+        swung = rotate_y(-self._last(joint.name, "angle"), local) + UNIT_Y * length
+        swung = self.program.vector(f"given_{point.name}_in_shaft", swung)
+        lifted = rotate_x(self._last(holder.name, "elevation"), swung)
+        lifted = self.program.vector(f"given_{point.name}_lifted", lifted)
+        from_center = rotate_z(self._last(holder.name, "azimuth"), lifted)
+        center = self._from_driven(
+            f"given_{holder.at.name}", self.kin.point_motion(holder.first, holder.at).position
+        )
+        return center + from_center
+
+    def _offset_telescope(self, joint: Joint) -> SolveTelescope | None:
+        """Return the telescope whose axis misses its end, if the joint is part of it."""
+        for action in self._telescopes():
+            if action.misses_end and joint in (action.joint, self.relative.holder(action.joint)):
+                return action
+        return None
+
+    def _gap_at_end(self, telescope: SolveTelescope) -> Vector:
+        """Return how far the chain through a telescope ends from the point it should reach."""
+        end = self._from_driven(
+            f"given_{telescope.end.name}",
+            self.kin.point_motion(telescope.end_body, telescope.end).position,
+        )
+        gap = self._by_chain(telescope, telescope.end) - end
+        return self.program.vector(f"given_gap_{telescope.end.name}", gap)
+
+    def _in_marker_axes(self, joint: Cylindrical, point: Point) -> Vector:
         """Return a point's body coordinates along (x'', line, marker): those of zero angle."""
-        local, mark = self.kin.local(placed, point), self.kin.local(placed, marker)
+        placed = self.kin.placed[joint.second]
+        local = self.relative.from_axis(placed, joint, point)
+        mark = self.relative.from_axis(placed, joint, joint.angle_to)
         across = self.program.define(f"{placed.body}_marker", sp.sqrt(mark.y**2 + mark.z**2))
         z = Vector(ZERO.x, mark.y / across, mark.z / across)
         return self.program.vector(

@@ -12,11 +12,11 @@ from dataclasses import dataclass, field
 from itertools import combinations
 from typing import TYPE_CHECKING
 
+from .geometry import Point
 from .joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
 from .topology import Cycle, Topology
 
 if TYPE_CHECKING:
-    from .geometry import Point
     from .mechanism import Mechanism, Model
 
 
@@ -38,7 +38,11 @@ class PlaceByJoint:
 
 @dataclass(frozen=True)
 class SolveTelescope:
-    """Two placed points are the ends of a telescope: its length and direction follow."""
+    """Two placed points are the ends of a telescope: its length follows.
+
+    Its direction follows too, unless the axis misses the end: then the rod that holds the body at
+    the end decides.
+    """
 
     joint: Cylindrical
     anchor: Point
@@ -47,6 +51,17 @@ class SolveTelescope:
     end: Point
     end_body: str
     end_link: str
+
+    @property
+    def axis_point(self) -> Point:
+        """The point of the end's link that the axis passes through."""
+        assert isinstance(self.joint.axis.through, Point)
+        return self.joint.axis.through
+
+    @property
+    def misses_end(self) -> bool:
+        """Whether the axis passes beside the end point."""
+        return self.axis_point != self.end
 
 
 @dataclass(frozen=True)
@@ -294,8 +309,8 @@ class Plan:
         if len(view.joints) != 1 or not isinstance(view.joints[0], Cylindrical):
             return None
         joint, (anchor_link, end_link) = view.joints[0], view.bodies
-        # the axis of the joint runs from the end (second body) to the anchor (first body)
-        along_axis = (joint.axis.through, joint.axis.towards) == (view.end, view.anchor)
+        # the axis of the joint runs from the second body to the anchor, a point of the first
+        along_axis = joint.axis.towards == view.anchor
         placed = {view.others[0], view.others[-1]} <= self._placed
         if self.is_known(joint, "slide") or not (along_axis and placed):
             return None
@@ -317,15 +332,20 @@ class Plan:
         """Record what a solution makes known; return the coordinates that are new."""
         if isinstance(action, SolveTelescope):
             new = {(action.joint.name, "slide")}
-            self._on_line.update((action.anchor_link, action.end_link))
-            universal = self._mechanism.universal_at(action.anchor_link, action.anchor)
-            joints: list[Joint] = [universal] if universal else []
+            self._on_line.add(action.end_link)
+            joints = [] if action.misses_end else self._aim(action)
         else:
             new = set()
             self._on_line.discard(action.body)
             self._placed.add(action.body)
             self._on_line.add(action.rod)
+            aimed = [
+                a
+                for a in self.actions
+                if isinstance(a, SolveTelescope) and a.misses_end and a.end_link == action.body
+            ]
             joints = [
+                *(joint for a in aimed for joint in self._aim(a)),
                 *self._mechanism.joints_of(action.rod),
                 *(j for j in self._mechanism.joints_of(action.body) if self._joins_solved(j)),
             ]
@@ -334,6 +354,12 @@ class Plan:
         new -= self._known
         self._known |= new
         return new
+
+    def _aim(self, action: SolveTelescope) -> list[Joint]:
+        """Record that the direction of a telescope is known; return what that settles."""
+        self._on_line.add(action.anchor_link)
+        universal = self._mechanism.universal_at(action.anchor_link, action.anchor)
+        return [universal] if universal else []
 
     def _joins_solved(self, joint: Joint) -> bool:
         solved = self._placed | self._on_line

@@ -4,12 +4,20 @@ from dataclasses import replace
 
 import pytest
 from kintrafo.generator.checks import DeclarationError
-from kintrafo.generator.forces import JointForce, LineSpring, TelescopeSpring, Weight
+from kintrafo.generator.forces import (
+    AlongLine,
+    AlongTelescope,
+    ForceElement,
+    JointForce,
+    LinearTyre,
+    Weight,
+)
+from kintrafo.generator.laws import Actuator, LinearDamper, LinearSpring
 from kintrafo.generator.mechanism import Body, RelativeCoordinate
 from kintrafo.generator.mechanisms import macpherson
 from kintrafo.generator.outputs import generate
 
-MODEL, FREE = macpherson.MODELS
+MODEL, FREE, GENERAL = macpherson.MODELS
 MECHANISM = MODEL.mechanism
 
 
@@ -49,6 +57,34 @@ def test_mechanisms(changes, words):
         replace(MECHANISM, **changes)
 
 
+SPRING = LinearSpring(rate="spring_rate", free_slide="spring_free_slide")
+STRUT = ForceElement(name="strut", path=AlongTelescope("BC"), laws=(SPRING,))
+(TYRE,) = (force for force in MECHANISM.forces if isinstance(force, LinearTyre))
+
+
+@pytest.mark.parametrize(
+    ("force", "words"),
+    [
+        (replace(STRUT, path=AlongTelescope("CB")), "'strut': joint 'CB' is not declared"),
+        (
+            replace(STRUT, path=AlongLine(("chassi", macpherson.C), ("knuckle", macpherson.B))),
+            "body 'chassi' .*\n.*a free_slide needs a telescope",
+        ),
+        (replace(STRUT, laws=(Actuator(input="push"),)), "input 'push' is not declared"),
+        (
+            replace(STRUT, laws=(replace(SPRING, free_length="strut_length_max"),)),
+            "a free_slide or a free_length",
+        ),
+        (replace(STRUT, laws=(replace(SPRING, free_slide=None),)), "a free_slide or a free_length"),
+        (replace(TYRE, damper="tyre_damper"), "'front': give damper and road_velocity, or neither"),
+        (replace(TYRE, road="rod_height"), "did you mean 'road_height'"),
+    ],
+)
+def test_force_elements(force, words):
+    with pytest.raises(DeclarationError, match=words):
+        replace(MECHANISM, forces=(force,))
+
+
 def test_parameter_that_the_equations_need_is_missing():
     parameters = tuple(p for p in MECHANISM.parameters if p.name != "damper_rate")
     mechanism = replace(MECHANISM, parameters=parameters)
@@ -63,15 +99,15 @@ def test_all_problems_are_listed():
 
 
 def test_several_force_elements_of_a_kind_have_names_of_their_own():
-    (spring,) = (f for f in MECHANISM.forces if isinstance(f, TelescopeSpring))
-    second = replace(spring, name="helper", actuator=None)
-    line = LineSpring(
+    (spring,) = MECHANISM.elements
+    second = replace(spring, name="helper", laws=spring.laws[:2])
+    line = ForceElement(
         name="coil",
-        first=("chassis", macpherson.C),
-        second=("control_arm", macpherson.B),
-        rate="spring_rate",
-        damper="damper_rate",
-        free_length="strut_length_max",
+        path=AlongLine(("chassis", macpherson.C), ("control_arm", macpherson.B)),
+        laws=(
+            LinearSpring(rate="spring_rate", free_length="strut_length_max"),
+            LinearDamper(rate="damper_rate"),
+        ),
     )
     mechanism = replace(MECHANISM, forces=(*MECHANISM.forces, second, line))
     model = generate(replace(MODEL, mechanism=mechanism, held={}))

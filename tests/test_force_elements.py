@@ -6,8 +6,9 @@ import mpmath
 import numpy as np
 import pytest
 from kintrafo.generator.dynamics import Dynamics
-from kintrafo.generator.forces import LineSpring, TelescopeSpring
+from kintrafo.generator.forces import AlongLine, ForceElement
 from kintrafo.generator.kinematics import Kinematics
+from kintrafo.generator.laws import LinearDamper, LinearSpring
 from kintrafo.generator.mechanism import Parameter
 from kintrafo.generator.mechanisms import macpherson
 from kintrafo.generator.program import ConstantStage, Program
@@ -42,18 +43,18 @@ def accelerations(model, parameters):
 
 @pytest.mark.parametrize("seed", [1, 2])
 def test_line_spring_along_the_strut_is_the_telescope_spring(seed):
-    (model, _) = macpherson.MODELS
+    model = macpherson.MODELS[0]
     parameters = perturbed_parameters(np.random.default_rng(seed))
-    line = LineSpring(
+    line = ForceElement(
         name="coil",
-        first=("chassis", macpherson.C),
-        second=("control_arm", macpherson.B),
-        rate="spring_rate",
-        damper="damper_rate",
-        free_length="coil_free_length",
+        path=AlongLine(("chassis", macpherson.C), ("control_arm", macpherson.B)),
+        laws=(
+            LinearSpring(rate="spring_rate", free_length="coil_free_length"),
+            LinearDamper(rate="damper_rate"),
+        ),
     )
     forces = tuple(
-        line if isinstance(force, TelescopeSpring) else force for force in model.mechanism.forces
+        line if isinstance(force, ForceElement) else force for force in model.mechanism.forces
     )
     mechanism = dataclasses.replace(
         model.mechanism,

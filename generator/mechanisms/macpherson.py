@@ -6,9 +6,10 @@ values are this project's reference car (front right, ISO 8855 axes, ground at z
 
 from __future__ import annotations
 
-from ..forces import JointForce, LinearTyre, TelescopeSpring, Weight
+from ..forces import AlongLine, AlongTelescope, ForceElement, JointForce, LinearTyre, Weight
 from ..geometry import FORWARD, UP, Direction, Line, Point
-from ..joints import Cylindrical, Prismatic, Revolute, Spherical, Universal
+from ..joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
+from ..laws import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
 from ..mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
 from ..vectors import ELEMENTS
 
@@ -19,6 +20,9 @@ C = Point("strut_top")
 D = Point("tie_rod_outer")
 E = Point("tie_rod_inner")
 G = Point("wheel_center")
+STRUT_LOWER = Point("strut_lower")
+SPRING_TOP = Point("spring_top")
+SPRING_SEAT = Point("spring_seat")
 RACK = Direction("rack_axis")
 SPIN = Direction("spin_axis")
 
@@ -32,26 +36,34 @@ BODIES = (
     Body("wheel", 7, center=G, rotor_axis=SPIN),
 )
 
-# Table 1
-JOINTS = (
-    Revolute(name="OA", first="chassis", second="control_arm", axis=Line(O, A), angle_to=B),
-    Spherical(name="B", first="control_arm", second="knuckle", at=B),
-    Cylindrical(
-        name="BC",
-        first="upper_strut",
-        second="knuckle",
-        axis=Line(B, C),
-        length_at_zero_slide="strut_length_max",
-        angle_to=G,
-    ),
-    Universal(
-        name="C", first="chassis", second="upper_strut", at=C, shaft=Line(C, B), first_axis=FORWARD
-    ),
-    Spherical(name="D", first="knuckle", second="tie_rod", at=D),
-    Universal(name="E", first="rack", second="tie_rod", at=E, shaft=Line(E, D), first_axis=UP),
-    Prismatic(name="y", first="chassis", second="rack", direction=RACK),
-    Revolute(name="HG", first="knuckle", second="wheel", axis=Line(G, SPIN)),
-)
+
+def _joints(axis: Line) -> tuple[Joint, ...]:
+    """Return the joints of Table 1 for an axis of the strut, from its lower to its upper end."""
+    return (
+        Revolute(name="OA", first="chassis", second="control_arm", axis=Line(O, A), angle_to=B),
+        Spherical(name="B", first="control_arm", second="knuckle", at=B),
+        Cylindrical(
+            name="BC",
+            first="upper_strut",
+            second="knuckle",
+            axis=axis,
+            length_at_zero_slide="strut_length_max",
+            angle_to=G,
+        ),
+        Universal(
+            name="C",
+            first="chassis",
+            second="upper_strut",
+            at=C,
+            shaft=Line(C, axis.through),
+            first_axis=FORWARD,
+        ),
+        Spherical(name="D", first="knuckle", second="tie_rod", at=D),
+        Universal(name="E", first="rack", second="tie_rod", at=E, shaft=Line(E, D), first_axis=UP),
+        Prismatic(name="y", first="chassis", second="rack", direction=RACK),
+        Revolute(name="HG", first="knuckle", second="wheel", axis=Line(G, SPIN)),
+    )
+
 
 # Figure 3; beta6 to beta9 are the second transformer's copies of what the first one gives it
 COORDINATES = (
@@ -107,13 +119,14 @@ TIE_ROD_COORDINATES = (
 
 FORCES = (
     Weight(gravity="gravity"),
-    TelescopeSpring(
+    ForceElement(
         name="strut",
-        joint="BC",
-        rate="spring_rate",
-        damper="damper_rate",
-        free_slide="spring_free_slide",
-        actuator="strut_force",
+        path=AlongTelescope("BC"),
+        laws=(
+            LinearSpring(rate="spring_rate", free_slide="spring_free_slide"),
+            LinearDamper(rate="damper_rate"),
+            Actuator(input="strut_force"),
+        ),
     ),
     LinearTyre(
         name="front",
@@ -127,11 +140,58 @@ FORCES = (
     JointForce(joint="y", input="rack_force"),
 )
 
+# What cars have beyond the paper: see `general`.
+DAMPER_TABLE = DamperTable(name="damper_table", segments=10)
+GENERAL_FORCES = (
+    Weight(gravity="gravity"),
+    ForceElement(
+        name="spring",
+        path=AlongLine(("chassis", SPRING_TOP), ("knuckle", SPRING_SEAT)),
+        laws=(LinearSpring(rate="spring_rate", free_length="spring_free_length"),),
+    ),
+    ForceElement(
+        name="strut",
+        path=AlongTelescope("BC"),
+        laws=(
+            LinearDamper(rate="damper_rate"),
+            DAMPER_TABLE,
+            Friction(level="strut_friction", speed="strut_friction_speed"),
+            Stop(
+                side="bump",
+                length="bump_stop_length",
+                rate="bump_stop_rate",
+                progression="bump_stop_progression",
+            ),
+            Stop(
+                side="rebound",
+                length="rebound_stop_length",
+                rate="rebound_stop_rate",
+                progression="rebound_stop_progression",
+            ),
+            Actuator(input="strut_force"),
+        ),
+    ),
+    LinearTyre(
+        name="front",
+        carrier="knuckle",
+        center=G,
+        spin=SPIN,
+        rate="tyre_rate",
+        free_height="tyre_free_height",
+        road="road_height",
+        damper="tyre_damper_rate",
+        road_velocity="road_velocity",
+        lifts_off=True,
+    ),
+    JointForce(joint="y", input="rack_force"),
+)
+
 INPUTS = {
     "rack_position": ("m", "displacement of the rack along its axis"),
     "rack_velocity": ("m/s", "velocity of the rack along its axis"),
     "rack_acceleration": ("m/s^2", "acceleration of the rack along its axis"),
     "road_height": ("m", "height of the road under the tyre, positive up"),
+    "road_velocity": ("m/s", "rate of the road's height"),
     "strut_force": ("N", "actuator force in the strut, positive when it pushes its ends apart"),
     "rack_force": ("N", "force on the rack along its axis"),
 }
@@ -174,7 +234,7 @@ def _rigid_body(
     ]
 
 
-PARAMETERS = (
+_COMMON_PARAMETERS = (
     *_point("arm_front", (0.17, -0.35, 0.205), "front bush of the control arm"),
     *_point("arm_rear", (-0.15, -0.35, 0.205), "rear bush of the control arm"),
     *_point("ball_joint", (0.005, -0.71, 0.18), "lower ball joint"),
@@ -187,12 +247,6 @@ PARAMETERS = (
     Parameter("strut_length_max", 0.85, "m", "strut length |BC| at zero slide (p of Eq. 6)"),
     Parameter("spring_rate", 25000.0, "N/m", "rate of the strut spring (k1)"),
     Parameter("damper_rate", 1500.0, "N s/m", "rate of the strut damper (c)"),
-    Parameter(
-        "spring_free_slide",
-        0.05255401719941255,
-        "m",
-        "strut slide at which the spring is free of force (l10)",
-    ),
     Parameter("tyre_rate", 200000.0, "N/m", "radial rate of the tyre (k2)"),
     Parameter(
         "tyre_free_height",
@@ -224,6 +278,41 @@ PARAMETERS = (
     Parameter("wheel_inertia_spin", 1.1, "kg m^2", "inertia of the wheel about its spin axis"),
     Parameter("wheel_inertia_diametral", 0.6, "kg m^2", "inertia of the wheel across its axis"),
 )
+PARAMETERS = (
+    *_COMMON_PARAMETERS,
+    Parameter(
+        "spring_free_slide",
+        0.05255401719941255,
+        "m",
+        "strut slide at which the spring is free of force (l10)",
+    ),
+)
+GENERAL_PARAMETERS = (
+    *_COMMON_PARAMETERS,
+    *_point("strut_lower", (0.005, -0.71, 0.18), "lower end of the strut, on its axis"),
+    *_point("spring_top", (-0.028, -0.585, 0.82), "upper seat of the spring, on the chassis"),
+    *_point("spring_seat", (0.005, -0.71, 0.18), "lower seat of the spring, on the knuckle"),
+    Parameter(
+        "spring_free_length",
+        0.85 - 0.05255401719941255,
+        "m",
+        "distance of the spring's seats at which it is free of force",
+    ),
+    *(Parameter(*entry) for entry in DAMPER_TABLE.parameters()),
+    Parameter("strut_friction", 0.0, "N", "friction of the strut in full sliding"),
+    Parameter(
+        "strut_friction_speed", 0.01, "m/s", "velocity at which 71 % of the friction is reached"
+    ),
+    Parameter("bump_stop_length", 0.0, "m", "strut length at which the bump stop is touched"),
+    Parameter("bump_stop_rate", 0.0, "N/m", "rate of the bump stop at first touch"),
+    Parameter("bump_stop_progression", 0.0, "N/m^3", "cubic term of the bump stop"),
+    Parameter(
+        "rebound_stop_length", 0.85, "m", "strut length at which the rebound stop is touched"
+    ),
+    Parameter("rebound_stop_rate", 0.0, "N/m", "rate of the rebound stop at first touch"),
+    Parameter("rebound_stop_progression", 0.0, "N/m^3", "cubic term of the rebound stop"),
+    Parameter("tyre_damper_rate", 0.0, "N s/m", "radial damping of the tyre"),
+)
 
 
 def mechanism(*, free_rack: bool = False) -> Mechanism:
@@ -232,10 +321,29 @@ def mechanism(*, free_rack: bool = False) -> Mechanism:
         name="macpherson",
         title="MacPherson suspension (Góis & Sarzeto, 2000)",
         bodies=BODIES,
-        joints=JOINTS,
+        joints=_joints(Line(B, C)),
         forces=FORCES,
         parameters=PARAMETERS,
         coordinates=COORDINATES + (TIE_ROD_COORDINATES if free_rack else ()),
+        inputs=INPUTS,
+    )
+
+
+def general() -> Mechanism:
+    """Return the suspension as it is on cars.
+
+    The strut's axis may miss the ball joint, the spring has seats of its own, the damper a curve,
+    the strut friction and stops, and the tyre damps and lifts off. With the defaults of all these
+    it is the paper's suspension, at a higher price.
+    """
+    return Mechanism(
+        name="macpherson_general",
+        title="MacPherson suspension with an offset strut",
+        bodies=BODIES,
+        joints=_joints(Line(STRUT_LOWER, C)),
+        forces=GENERAL_FORCES,
+        parameters=GENERAL_PARAMETERS,
+        coordinates=COORDINATES,
         inputs=INPUTS,
     )
 
@@ -256,5 +364,14 @@ MODELS = (
         mechanism=mechanism(free_rack=True),
         independent=("OA", "HG", "y"),
         massive=("control_arm", "knuckle", "tie_rod", "rack", "upper_strut", "wheel"),
+    ),
+    Model(
+        name="macpherson_general",
+        title="MacPherson suspension with an offset strut, spring seats, stops; rack prescribed",
+        mechanism=general(),
+        independent=("OA", "HG"),
+        prescribed={"y": "rack"},
+        massive=("control_arm", "knuckle", "wheel"),
+        held={"rack_held": ("y",)},
     ),
 )

@@ -1,0 +1,95 @@
+"""What the closed forms share: lines between points of known motion, and bodies about them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ..placement import OnLine, Placed, PointMotion, to_axes
+from ..vectors import ZERO, Twist, Vector
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from ..geometry import Point
+    from ..kinematics import Kinematics
+    from ..transformer import SolveTurn
+
+
+def line_between(
+    kin: Kinematics,
+    name: str,
+    points: tuple[Point, Point],
+    motions: tuple[PointMotion, PointMotion],
+    bodies: tuple[str, str],
+    span: Vector,
+    length: sp.Expr,
+) -> OnLine:
+    """Describe the line between two points of known motion."""
+    inverse = kin.program.define(f"inverse_length_{name}", 1 / length)
+    direction = kin.program.vector(f"direction_{name}", span * inverse)
+    relative = motions[1].minus(motions[0])
+    motion = {
+        k: kin.program.define(f"d_length_{name}_{k}", direction.dot(v))
+        for k, v in relative.motion.items()
+    }
+    return OnLine(*points, *motions, *bodies, direction, length, inverse, relative, motion)
+
+
+def place_rod(kin: Kinematics, action: SolveTurn, rod_anchor: PointMotion, length: sp.Expr) -> None:
+    """Record the line of the rod, from its anchor to the body that it holds."""
+    end = kin.point_motion(action.body, action.end)
+    span = kin.program.vector(f"span_{action.rod}", end.position - rod_anchor.position)
+    kin.on_line[action.rod] = line_between(
+        kin,
+        action.rod,
+        (action.anchor, action.end),
+        (rod_anchor, end),
+        (action.anchor_body, action.body),
+        span,
+        length,
+    )
+
+
+def line_omega(record: OnLine, swing: Vector) -> Vector:
+    """Return the angular velocity of a line across itself, in body axes (line first).
+
+    From ``d(span)/dt = length' n + length (omega x n)``.
+    """
+    return Vector(ZERO.x, -swing.z * record.inverse_length, swing.y * record.inverse_length)
+
+
+def line_alpha(kin: Kinematics, record: OnLine, omega: Vector, swing: Vector) -> Vector:
+    """Return the angular bias acceleration of a line across itself, in body axes (line first).
+
+    The second derivative of ``span = length n``, in its two components across the line.
+    """
+    rates = (motion * kin.rate(k) for k, motion in record.length_motion.items())
+    twice = 2 * sum(rates, sp.Integer(0))
+    return Vector(
+        ZERO.x,
+        omega.x * omega.z - (swing.z + twice * omega.y) * record.inverse_length,
+        (swing.y - twice * omega.z) * record.inverse_length - omega.x * omega.y,
+    )
+
+
+def projector(kin: Kinematics, placed: Placed) -> Callable[[str, Vector], Vector]:
+    """Return a function that appends the body components of a work vector."""
+
+    def to_body(label: str, v: Vector) -> Vector:
+        return kin.program.vector(f"{placed.body}_{label}", to_axes(placed.axes, v), "123")
+
+    return to_body
+
+
+def once(compute: Callable[[], Twist]) -> Callable[[], Twist]:
+    """Compute a bias on first use only: many functions never need it."""
+    cache: list[Twist] = []
+
+    def bias() -> Twist:
+        if not cache:
+            cache.append(compute())
+        return cache[0]
+
+    return bias

@@ -1,0 +1,113 @@
+"""Distance along a telescope."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ..placement import OffLine
+from .lines import line_between
+
+if TYPE_CHECKING:
+    from ..kinematics import Kinematics
+    from ..transformer import SolveTelescope
+
+
+def solve_telescope(kin: Kinematics, action: SolveTelescope) -> None:
+    """Length and direction of a telescope between two known points (Eqs. 6 to 8).
+
+    Equation: ``|P_end - P_anchor| = length``, explicit in the slide, ``slide = p - length``.
+    Branch: the positive length. Singular set: the two points coincide. Where the axis misses the
+    end, `_solve_offset` takes over.
+    """
+    if action.misses_end:
+        _solve_offset(kin, action)
+        return
+    anchor = kin.point_motion(action.anchor_body, action.anchor)
+    end = kin.point_motion(action.end_body, action.end)
+    name = action.joint.name
+    relative = end.minus(anchor)
+    span = kin.program.vector(f"span_{name}", relative.position)
+    squared = kin.program.guarded(
+        f"length_squared_{name}",
+        span.dot(span),
+        f"{kin.loop_of(action)}: the ends {action.anchor.name} and {action.end.name} of telescope "
+        f"{name} coincide",
+        "m^2",
+    )
+    length = kin.program.define(f"length_{name}", sp.sqrt(squared))
+    record = line_between(
+        kin,
+        name,
+        (action.anchor, action.end),
+        (anchor, end),
+        (action.anchor_body, action.end_body),
+        span,
+        length,
+    )
+    kin.on_line[action.anchor_link] = record
+    kin.on_line[action.end_link] = record
+    kin.telescopes[name] = record
+    kin.slides[name] = kin.program.define(
+        f"slide_{name}", sp.Symbol(action.joint.length_at_zero_slide) - length
+    )
+
+
+def _solve_offset(kin: Kinematics, action: SolveTelescope) -> None:
+    r"""Length of a telescope whose axis misses the end at a constant distance.
+
+    Let S = P_end - P_anchor, and d the distance of the end from the axis. The reach h, which is the
+    part of S along the axis, follows from \|S\|^2 = h^2 + d^2, a quadratic in the slide:
+
+        slide = p - (h + lead),    h = sqrt(\|S\|^2 - d^2),
+
+    where `lead` is how far the point that gives the telescope its length lies beyond the end.
+    Branch: h > 0. Singular set: \|S\| = d. The direction of the axis is known only when the body
+    at the end has found its orientation, see `offset_turn`.
+    """
+    joint, program = action.joint, kin.program
+    name, lower = joint.name, action.axis_point
+    anchor = kin.point_motion(action.anchor_body, action.anchor)
+    end = kin.point_motion(action.end_body, action.end)
+    axis = kin.unit(f"{name}_axis_design", kin.design(lower) - kin.design(action.anchor))
+    span_design = program.vector(
+        f"{name}_span_design", kin.design(action.end) - kin.design(action.anchor)
+    )
+    along = program.define(f"{name}_reach_design", span_design.dot(axis))
+    offset = program.vector(f"{name}_offset_design", span_design - axis * along)
+    lead = program.define(f"{name}_lead", (kin.design(lower) - kin.design(action.end)).dot(axis))
+    relative = end.minus(anchor)
+    span = program.vector(f"span_{name}", relative.position)
+    span_squared = program.define(f"span_squared_{name}", span.dot(span))
+    squared = program.guarded(
+        f"length_squared_{name}",
+        span_squared - offset.dot(offset),
+        f"{kin.loop_of(action)} cannot close: {action.anchor.name} would be nearer to "
+        f"{action.end.name} than the axis of telescope {name}",
+        "m^2",
+    )
+    reach = program.define(f"reach_{name}", sp.sqrt(squared))
+    inverse = program.define(f"inverse_reach_{name}", 1 / reach)
+    kin.off_line[action.end_link] = OffLine(
+        action,
+        anchor,
+        end,
+        axis,
+        offset,
+        span,
+        span_squared,
+        reach,
+        inverse,
+        program.define(f"length_{name}", reach + lead),
+        lead,
+        relative,
+        {
+            k: program.define(f"d_length_{name}_{k}", span.dot(v) * inverse)
+            for k, v in relative.motion.items()
+        },
+    )
+    kin.slides[name] = program.define(
+        f"slide_{name}",
+        sp.Symbol(joint.length_at_zero_slide) - kin.off_line[action.end_link].length,
+    )
