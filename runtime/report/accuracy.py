@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Accuracy:
-    """Largest differences, measured half way between the grid's points, where they are largest.
+    """Largest differences, measured between the grid's points, where they are largest.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ def measure(
     Accuracy
         With the rounding of the encoding.
     """
-    travel, rack = grid.travel.middles, grid.rack.middles
+    travel, rack = grid.travel.between, grid.rack.between
     tell("accuracy of the interpolation")
     exact = poses(model, travel, rack)
     return Accuracy(
@@ -86,12 +86,12 @@ def as_encoded(grid: Grid, samples: Array) -> Array:
 
 
 def _distance(grid: Grid, samples: Array, exact: Array) -> float:
-    near = grid.interpolate(as_encoded(grid, samples), grid.travel.middles, grid.rack.middles)
+    near = grid.interpolate(as_encoded(grid, samples), grid.travel.between, grid.rack.between)
     return float(np.linalg.norm(near - exact, axis=-1).max())
 
 
 def _angle(grid: Grid, samples: Array, exact: Array) -> float:
-    near = grid.interpolate(as_encoded(grid, samples), grid.travel.middles, grid.rack.middles)
+    near = grid.interpolate(as_encoded(grid, samples), grid.travel.between, grid.rack.between)
     near /= np.linalg.norm(near, axis=-1, keepdims=True)
     # from the sine: the cosine of a small angle has no digits left
     return float(np.arcsin(np.linalg.norm(np.cross(near, exact), axis=-1).max()))
@@ -104,7 +104,7 @@ def _of_curves(
     errors = {}
     for curve in drawn:
         samples = as_encoded(grid, curve.values)
-        near = grid.interpolate(samples, grid.travel.middles, grid.rack.middles)
+        near = grid.interpolate(samples, grid.travel.between, grid.rack.between)
         low, high = ranges[curve.key]
         true = between[curve.key]
         shown = np.isfinite(near) & (true >= low) & (true <= high) & (near >= low) & (near <= high)

@@ -13,6 +13,8 @@ Array = NDArray[np.float64]
 
 # Points of the cubic through which each direction is interpolated.
 ORDER = 4
+# Between the first two of its four points, a cubic's error is largest here, in steps.
+_WORST = 0.5 * (3.0 - 5.0**0.5)
 
 
 @dataclass(frozen=True)
@@ -62,9 +64,15 @@ class Axis:
         return self.first + self.step * (self.count - 1)
 
     @property
-    def middles(self) -> Array:
-        """The values half way between neighbours, where interpolation is worst."""
-        return self.values[:-1] + 0.5 * self.step
+    def between(self) -> Array:
+        """One coordinate between each two neighbours, where interpolation is worst.
+
+        The error of a cubic goes with s (s - 1) (s - 2) (s - 3): half way within the axis, nearer
+        to the end in the first and in the last interval.
+        """
+        parts = np.full(self.count - 1, 0.5)
+        parts[0], parts[-1] = _WORST, 1.0 - _WORST
+        return self.values[:-1] + parts * self.step
 
     @property
     def zero(self) -> int:

@@ -8,12 +8,11 @@ from numpy.typing import NDArray
 from ..errors import KintrafoError
 from ..model import Model
 from ..paper import DURATION, REST_HEIGHT, SPIN_RATE, START_HEIGHT
-from ..positions import state_at_height
+from ..positions import design_height, state_at_height
 from ..quantities import attributes
 from ..simulation import simulate
 from .curves import printed
 from .grid import Axis, Grid
-from .poses import design_height
 
 Array = NDArray[np.float64]
 

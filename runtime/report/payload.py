@@ -13,8 +13,9 @@ from .motion import Motion, NoMotion, TimeCurve
 from .plotted import decimals, shown_range
 from .poses import Poses
 
-# Of the drawing only [m].
+# Of the drawing only [m]; the radius where the data do not tell it.
 TYRE_WIDTH = 0.205
+TYRE_RADIUS = 0.3
 
 
 def page_data(
@@ -116,15 +117,16 @@ def _drawing(suspension: Suspension, grid: Grid, sampled: Poses) -> dict[str, An
         name: values[grid.travel.zero, grid.rack.zero] for name, values in sampled.points.items()
     }
     parameters = suspension.parameters()
-    # the tyre as a thin disc that just touches the road where it is free of force
-    radius = parameters["tyre_free_height"]
     rack = np.array([parameters[f"rack_axis_{c}"] for c in "xyz"])
     x, y, z = at_design["wheel_center"]
-    corners = np.array([*at_design.values(), [x, y, z + radius], [x, y, 0.0]])
+    loaded = suspension.tyre_radius() or TYRE_RADIUS
+    # free of force, the tyre is larger by what it is compressed at design
+    radius = loaded + float(np.clip(parameters["tyre_free_height"] - z, 0.0, 0.2 * loaded))
+    corners = np.array([*at_design.values(), [x, y, z + radius], [x, y, z - loaded]])
     low, high = corners.min(axis=0), corners.max(axis=0)
     return {
         "side_sign": suspension.vehicle.sign,
-        "road_height": 0.0,
+        "road_height": float(z) - loaded,
         "tyre": {"radius": radius, "width": TYRE_WIDTH},
         "strut_length": float(np.linalg.norm(at_design["strut_top"] - at_design["ball_joint"])),
         "rack_inward": (-suspension.vehicle.sign * np.sign(rack[1] or 1.0) * rack).tolist(),

@@ -25,8 +25,9 @@ def shown_range(values: Array) -> tuple[float, float]:
     Returns
     -------
     tuple of float
-        All of it and a little more, unless a pole (such as that of a swing arm's length as the wheel moves straight)
-        would press everything else flat: then what surrounds the middle of the values.
+        All of it and a little more, unless a pole (such as that of a swing arm's length as the
+        wheel moves straight) would press everything else flat: then what surrounds the middle of
+        the values.
     """
     finite = values[np.isfinite(values)]
     low, high = float(finite.min()), float(finite.max())

@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 
 from ..hardpoints import hardpoints
 from ..model import Model
-from ..positions import PositionError, travel_range
+from ..positions import PositionError, arm_angles, design_height, travel_range
+from ..reach import at_rest
 from .grid import Axis, Grid
 
 Array = NDArray[np.float64]
@@ -19,7 +20,6 @@ RACK_STEP = 0.005  # [m]
 
 # What the wheel must keep from the end of its reach, where its path turns back [m].
 _MARGIN = 0.002
-_NEWTON_STEPS = 50
 
 
 @dataclass(frozen=True)
@@ -84,11 +84,6 @@ def _common_reach(model: Model, rack: float) -> tuple[float, float] | None:
     return max(low for low, _ in reaches), min(high for _, high in reaches)
 
 
-def design_height(model: Model) -> float:
-    """Return the height of the wheel centre at design [m]."""
-    return float(model.signal("wheel_center_z", model.design_state))
-
-
 def poses(model: Model, travel: Array, rack: Array) -> Poses:
     """Compute poses at every combination of travels and rack displacements.
 
@@ -105,34 +100,11 @@ def poses(model: Model, travel: Array, rack: Array) -> Poses:
     Poses
         Arrays of shape (n, m, 3).
     """
-    states, inputs = _states(model, travel, rack)
+    heights = design_height(model) + travel[:, None]
+    states, inputs = at_rest(model, arm_angles(model, heights, rack), rack)
     points = hardpoints(model, states, inputs)
     parameters = model.suspension.parameters()
     axis = np.array([parameters[f"spin_axis_{c}"] for c in "xyz"])
     rotations = model.evaluate("orientations", states, inputs)
     knuckle = rotations[..., model.equations.BODIES.index("knuckle"), :, :]
     return Poses({name: np.array(p) for name, p in points.items()}, knuckle @ axis)
-
-
-def _states(model: Model, travel: Array, rack: Array) -> tuple[Array, Array]:
-    """Return states of rest and inputs, by Newton's method on all of them at once."""
-    shape = (travel.size, rack.size)
-    wanted = design_height(model) + np.broadcast_to(travel[:, None], shape)
-    states = np.broadcast_to(model.design_state, (*shape, model.design_state.size)).copy()
-    inputs = np.zeros((*shape, len(model.input_names)))
-    if model.free_rack:
-        states[..., model.state_names.index("beta9")] = rack
-    else:
-        inputs[..., model.input_names.index("rack_position")] = rack
-    # with the arm turning at 1 rad/s, the wheel's velocity is its height's derivative by the angle
-    turning = states.copy()
-    turning[..., model.state_names.index("beta1_rate")] = 1.0
-    for _ in range(_NEWTON_STEPS):
-        turning[..., 0] = states[..., 0]
-        signals = model.signals(turning, inputs)
-        step = (signals["wheel_center_z"] - wanted) / signals["wheel_velocity"]
-        # a tenth of a radian at most, so that a start far away does not jump over the reach
-        states[..., 0] -= np.clip(step, -0.1, 0.1)
-        if np.abs(step).max() < 1e-14:
-            break
-    return states, inputs

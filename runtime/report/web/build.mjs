@@ -1,6 +1,8 @@
-// Bundle the page's script and style into ../assets, with the licences of what they contain.
+// Bundle the page's script and style into ../assets, with the licences of what they contain and the
+// checksums of what they were made from.
 
-import { readFileSync, writeFileSync } from "node:fs";
+import { createHash } from "node:crypto";
+import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 
 import { build } from "esbuild";
 
@@ -19,20 +21,26 @@ const options = {
   charset: "utf8",
   legalComments: "none", // the whole licences are in the banner
   logLevel: "warning",
+  target: "es2022",
 };
 
 await build({
   ...options,
   entryPoints: ["src/main.js"],
   format: "iife",
-  target: "es2022",
   outfile: `${ASSETS}/report.js`,
   banner: { js: `/* Contains these libraries:\n\n${licences}\n*/` },
 });
-await build({
-  ...options,
-  entryPoints: ["src/style.css"],
-  target: "es2022",
-  outfile: `${ASSETS}/report.css`,
-});
+await build({ ...options, entryPoints: ["src/style.css"], outfile: `${ASSETS}/report.css` });
 writeFileSync(`${ASSETS}/LICENSES.txt`, `${licences}\n`);
+
+// A test compares these: a source that was changed without bundling again is noticed without Node.
+const sources = readdirSync("src")
+  .sort()
+  .map((name) => `web/src/${name}`);
+const files = ["assets/report.css", "assets/report.js", "web/package-lock.json", ...sources];
+const line = (file) =>
+  `${createHash("sha256")
+    .update(readFileSync(`../${file}`))
+    .digest("hex")}  ${file}\n`;
+writeFileSync(`${ASSETS}/checksums.txt`, files.map(line).join(""));

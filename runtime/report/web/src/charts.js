@@ -62,7 +62,11 @@ function sampler(curve, grid, motion) {
   }
   const value = ({ travel, rack }) => grid.at(curve.values, travel, rack) * curve.factor;
   if (curve.over === "rack") {
-    return { moving: "travel", line: ({ travel }) => scaled(grid.overRack(curve.values, travel)), value };
+    return {
+      moving: "travel",
+      line: ({ travel }) => scaled(grid.overRack(curve.values, travel)),
+      value,
+    };
   }
   return { moving: "rack", line: ({ rack }) => scaled(grid.overTravel(curve.values, rack)), value };
 }
@@ -157,7 +161,15 @@ class Chart {
           y: { range: () => this.#verticalRange() },
         },
         axes: [
-          { ...axis, size: 18, gap: 4, label: `${this.along.name} [${this.along.unit}]`, labelSize: 16, labelGap: 0, labelFont: FONT },
+          {
+            ...axis,
+            size: 18,
+            gap: 4,
+            label: `${this.along.name} [${this.along.unit}]`,
+            labelSize: 16,
+            labelGap: 0,
+            labelFont: FONT,
+          },
           { ...axis, size: 46, gap: 5 },
         ],
         series: [
@@ -216,7 +228,10 @@ class Chart {
     this.tip.hidden = left === undefined || left < 0;
     if (this.tip.hidden) return;
     const x = this.#plot.posToVal(left, "x");
-    const value = this.samples.value({ ...this.#values(), [this.along.key]: x / this.along.factor });
+    const value = this.samples.value({
+      ...this.#values(),
+      [this.along.key]: x / this.along.factor,
+    });
     const place = quantity(x, this.along.decimals, this.along.unit, { signed: this.along.signed });
     this.tip.textContent = `${place}: ${quantity(value, this.curve.decimals, this.curve.unit)}`;
     const width = this.#plot.over.clientWidth;

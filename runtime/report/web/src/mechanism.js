@@ -36,7 +36,18 @@ const TURNS = 5.5;
 const TUBE_FROM = 0.13;
 const TUBE_TO = 0.66;
 
-const MATERIALS = ["arm", "knuckle", "strut", "spring", "rod", "rack", "tyre", "rim", "chassis", "pad"];
+const MATERIALS = [
+  "arm",
+  "knuckle",
+  "strut",
+  "spring",
+  "rod",
+  "rack",
+  "tyre",
+  "rim",
+  "chassis",
+  "pad",
+];
 
 export class Mechanism extends Group {
   #solids = {};
@@ -47,7 +58,10 @@ export class Mechanism extends Group {
     super();
     this.data = data;
     this.materials = Object.fromEntries(
-      MATERIALS.map((name) => [name, new MeshStandardMaterial({ roughness: 0.65, metalness: 0.05 })]),
+      MATERIALS.map((name) => [
+        name,
+        new MeshStandardMaterial({ roughness: 0.65, metalness: 0.05 }),
+      ]),
     );
     this.lines = { axis: new LineBasicMaterial(), path: new LineBasicMaterial() };
     this.recolour();
@@ -250,7 +264,9 @@ function coil() {
   const length = 0.22; // about that of the drawn one, so that its wire is round
   for (let i = 0; i <= count; i += 1) {
     const angle = (2 * Math.PI * TURNS * i) / count;
-    points.push(new Vector3(COIL * Math.cos(angle), (i / count - 0.5) * length, COIL * Math.sin(angle)));
+    points.push(
+      new Vector3(COIL * Math.cos(angle), (i / count - 0.5) * length, COIL * Math.sin(angle)),
+    );
   }
   const geometry = new TubeGeometry(new CatmullRomCurve3(points), 5 * count, WIRE, 8);
   return geometry.scale(1, 1 / length, 1);
@@ -273,5 +289,8 @@ function tyreGeometry(radius, rim, width) {
     [rim + 0.25 * (radius - rim), 0.98 * half],
     [rim, 0.86 * half],
   ];
-  return new LatheGeometry(section.map(([r, y]) => new Vector2(r, y)), 96);
+  return new LatheGeometry(
+    section.map(([r, y]) => new Vector2(r, y)),
+    96,
+  );
 }

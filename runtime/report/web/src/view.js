@@ -61,7 +61,9 @@ export class View {
     for (const [name, { values }] of Object.entries(this.data.points)) {
       points[name] = new Vector3(...grid.vectorAt(values, travel, rack));
     }
-    const axis = new Vector3(...grid.vectorAt(this.data.spin_axis.values, travel, rack)).normalize();
+    const axis = new Vector3(
+      ...grid.vectorAt(this.data.spin_axis.values, travel, rack),
+    ).normalize();
     // by hand the plate lifts the wheel, as on a test rig; in the simulation it is the road
     const plate = byHand ? travel : 0;
     this.mechanism.pose(points, axis, spin, this.data.road_height + plate);
@@ -128,7 +130,11 @@ export class View {
     if (this.floor) this.scene.remove(this.floor);
     this.floor = new GridHelper(2, 20, colour("floor"), colour("floor"));
     this.floor.rotation.x = Math.PI / 2;
-    this.floor.position.set(0, this.data.points.wheel_center.design[1], this.data.road_height - 0.014);
+    this.floor.position.set(
+      0,
+      this.data.points.wheel_center.design[1],
+      this.data.road_height - 0.014,
+    );
     this.scene.add(this.floor);
   }
 
@@ -171,7 +177,11 @@ export class View {
     const hit = this.#hit(event);
     if (!hit) return;
     this.controls.enabled = false;
-    this.#grabbed = { y: event.clientY, travel: this.position.travel, scale: this.#metresPerPixel(hit) };
+    this.#grabbed = {
+      y: event.clientY,
+      travel: this.position.travel,
+      scale: this.#metresPerPixel(hit),
+    };
     this.renderer.domElement.setPointerCapture(event.pointerId);
   }
 
