@@ -1,14 +1,17 @@
 """A first look at a suspension: geometry, reachable travel, static equilibrium, wheel hop."""
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import paper
+from .input.suspension import Suspension
 from .model import Model
 from .positions import PositionError, Range, equilibrium, travel_range
+from .starter import packaged
 from .sweep import design_height
 
 Array = NDArray[np.float64]
@@ -210,3 +213,20 @@ def as_dict(found: Checkup) -> dict[str, Any]:
         "problems": list(found.problems),
         "notes": list(found.notes),
     }
+
+
+def readable(file: str) -> None:
+    """Refuse a file that is not there, so that what a check says is about its content.
+
+    Parameters
+    ----------
+    file : str
+        Path of a TOML file, or name of a packaged data set.
+
+    Raises
+    ------
+    InputError
+        If there is neither.
+    """
+    if file not in packaged() and not Path(file).is_file():
+        Suspension.load(file)  # says so, and what was probably meant

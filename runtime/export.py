@@ -62,6 +62,30 @@ def check_format(path: str | Path) -> str:
     return ending
 
 
+def as_dict(dataset: xr.Dataset) -> dict[str, Any]:
+    """Return a dataset as nested dictionaries of plain lists and texts, in SI units.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+
+    Returns
+    -------
+    dict
+        ``coordinates`` and ``variables``, each by name: ``units``, ``long_name``, ``sign``,
+        ``dimensions`` and ``values``.
+    """
+
+    def described(data: xr.DataArray) -> dict[str, Any]:
+        texts = {key: data.attrs.get(key, "") for key in ("units", "long_name", "sign")}
+        return {**texts, "dimensions": list(data.dims), "values": data.values.tolist()}
+
+    return {
+        "coordinates": {str(name): described(data) for name, data in dataset.coords.items()},
+        "variables": {str(name): described(data) for name, data in dataset.items()},
+    }
+
+
 def _flat(dataset: xr.Dataset) -> Any:
     """Return a data frame with one row for each point, coordinates first."""
     frame = dataset.to_dataframe(dim_order=list(dataset.sizes)).reset_index()

@@ -37,7 +37,7 @@ _WITH_DESIGN = ("wheel_travel", "rack_position")
 _MOST_LINES = 7
 _COLUMNS = 3
 # Round values only, and never an offset that must be added in the head.
-_TICKS = {"nbins": 7, "steps": [1, 2, 2.5, 5, 10]}
+_TICK_STEPS = [1, 2, 2.5, 5, 10]
 # Less variation than this part of its size is rounding, and the curve a constant.
 _CONSTANT = 1e-6
 # A curve whose extremes are so many times farther apart than nine tenths of it passes a pole.
@@ -56,7 +56,7 @@ def write(
     *,
     formats: Sequence[str] = ("png",),
     title: str = "",
-    prefix: str = "",
+    suffix: str = "",
     progress: Callable[[float], None] | None = None,
 ) -> list[Path]:
     """Write one figure for each curve, and an overview of each group.
@@ -71,29 +71,23 @@ def write(
         Of 'png', 'svg' and 'pdf'.
     title : str, optional
         Stands above each figure, usually the name of the data.
-    prefix : str, optional
-        Begins the name of each file.
+    suffix : str, optional
+        Ends the name of each file, before its ending.
     progress : callable, optional
         Called with the part that is done, up to 1.
 
     Returns
     -------
     list of pathlib.Path
-        ``<prefix>overview_<group>.<format>`` and ``<prefix><variable>.<format>``.
+        ``overview_<group><suffix>.<format>`` and ``<variable><suffix>.<format>``.
     """
-    problems = [
-        f"{name!r} is no format of figures; there are {', '.join(FORMATS)}."
-        for name in formats
-        if name not in FORMATS
-    ]
-    if problems:
-        raise InputError(problems, "plot")
+    check_formats(formats=formats)
     pages = {f"overview_{_slug(group)}": names for group, names in grouped(dataset).items()}
     single = {str(name): (name,) for name in _curves(dataset)}
     files = []
     for index, (name, variables) in enumerate({**pages, **single}.items()):
         for ending in formats:
-            path = Path(folder) / f"{prefix}{name}.{ending}"
+            path = Path(folder) / f"{name}{suffix}.{ending}"
             files.append(_saved(dataset, variables, path, title, alone=name in single))
         if progress is not None:
             progress((index + 1) / (len(pages) + len(single)))
@@ -117,16 +111,23 @@ def write_overview(
     -------
     pathlib.Path
     """
-    check_format(path)
+    check_formats([path])
     chosen = tuple(names) or tuple(name for page in grouped(dataset).values() for name in page)
     return _saved(dataset, chosen, Path(path), title, alone=False)
 
 
-def check_format(path: str | Path) -> None:
-    """Refuse the name of a file whose ending is no format of figures."""
-    if Path(path).suffix.lower().removeprefix(".") not in FORMATS:
-        known = ", ".join(f".{name}" for name in FORMATS)
-        raise InputError([f"a figure ends in one of {known}."], str(path))
+def check_formats(paths: Sequence[str | Path] = (), formats: Sequence[str] = ()) -> None:
+    """Refuse names of files, and formats, in which no figure can be written."""
+    endings = {str(path): Path(path).suffix.lower().removeprefix(".") for path in paths}
+    wrong = [given for given, ending in endings.items() if ending not in FORMATS]
+    problems = [f"{given}: a figure ends in .{', .'.join(FORMATS)}." for given in wrong]
+    problems += [
+        f"{name!r} is no format of figures; there are {', '.join(FORMATS)}."
+        for name in formats
+        if name not in FORMATS
+    ]
+    if problems:
+        raise InputError(problems, "figures")
 
 
 def grouped(dataset: xr.Dataset) -> dict[str, tuple[Hashable, ...]]:
@@ -222,7 +223,7 @@ def _draw(axes: Axes, data: xr.DataArray) -> str:
     if low < 0.0 < high:
         axes.axhline(0.0, color="#888888", linewidth=0.8, zorder=1)
     for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_locator(MaxNLocator(**_TICKS))
+        axis.set_major_locator(MaxNLocator(nbins=7, steps=_TICK_STEPS))
         axis.set_major_formatter(ScalarFormatter(useOffset=False))
     return along
 

@@ -5,7 +5,7 @@ A variable of a dataset carries its description as attributes: ``units`` (SI), `
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -100,3 +100,17 @@ def bracketed(name: str, attrs: Mapping[str, Any]) -> str:
 def long_name(data: xr.DataArray) -> str:
     """Return what a variable is called in words."""
     return str(data.attrs.get("long_name") or str(data.name).replace("_", " "))
+
+
+def distinct(labels: Sequence[str]) -> list[str]:
+    """Return labels that differ: one that came before gets a number.
+
+    Examples
+    --------
+    >>> distinct(["car", "car", "van"])
+    ['car', 'car (2)', 'van']
+    """
+    return [
+        label if label not in labels[:index] else f"{label} ({1 + labels[:index].count(label)})"
+        for index, label in enumerate(labels)
+    ]

@@ -1,0 +1,80 @@
+"""The command line: ``kintrafo``. One file a command; each is a thin door to a Python function."""
+
+from typing import Annotated
+
+import typer
+
+from . import (
+    characteristics,
+    check,
+    compare,
+    generate,
+    kinematics,
+    new,
+    paper,
+    report,
+    simulate,
+    topology,
+)
+from .exits import guarded
+
+__all__ = ["app", "run"]
+
+_EXIT_CODES = (
+    "Exit codes: 0 done; 1 the suspension cannot do what was asked, or [bold]check[/bold] found a "
+    "problem; 2 a mistake in the arguments or in a file; 3 a package that is needed is not "
+    "installed."
+)
+
+app = typer.Typer(
+    help="Suspensions with kinematic loops, in closed form: checked, moved, simulated, compared.",
+    epilog=_EXIT_CODES,
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode="rich",
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+# In the order in which an engineer needs them.
+_PANELS = {
+    "Begin": (new, check, topology),
+    "Compute": (kinematics, characteristics, simulate, compare),
+    "Hand over": (report, paper, generate),
+}
+for panel, modules in _PANELS.items():
+    for module in modules:
+        name = module.__name__.rpartition(".")[2]
+        examples = "\n\n".join(("Examples:", *module.EXAMPLES))
+        app.command(name, epilog=examples, rich_help_panel=panel)(module.command)
+
+
+def _show_version(*, wanted: bool) -> None:
+    if wanted:
+        from .. import __version__
+        from ..solvers import native_version
+
+        typer.echo(f"kintrafo {__version__}, SUNDIALS {native_version()}")
+        raise typer.Exit
+
+
+@app.callback()
+def main(
+    *,
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version",
+            callback=lambda v: _show_version(wanted=v),
+            is_eager=True,
+            help="Show the versions of kintrafo and of its solver.",
+        ),
+    ] = False,
+) -> None:
+    """Suspensions with kinematic loops, in closed form: checked, moved, simulated, compared."""
+    del version
+
+
+def run() -> None:
+    """Run the command line; a user's mistake ends with a message, not with a traceback."""
+    with guarded():
+        app()

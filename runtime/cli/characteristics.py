@@ -1,0 +1,82 @@
+"""``kintrafo characteristics``: all characteristics over wheel travel and over the rack."""
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.markup import escape
+from rich.table import Table
+
+from .console import console, number, print_json
+from .options import Bump, File, Json, RackExtent, Rebound, Step, load, metres
+from .outputs import Figures, Formats, Out, Outputs, Plot
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+EXAMPLES = (
+    "kintrafo characteristics reference_car",
+    "kintrafo characteristics my_car.toml -o curves.csv --plot curves.pdf",
+    "kintrafo characteristics my_car.toml --figures figures --format svg",
+)
+
+
+def command(
+    file: File,
+    *,
+    rebound: Rebound = None,
+    bump: Bump = None,
+    rack_extent: RackExtent = None,
+    step: Step = 2.0,
+    travel: Annotated[
+        float, typer.Option(metavar="MM", help="Wheel travel, where the rack varies.")
+    ] = 0.0,
+    rack: Annotated[
+        float, typer.Option(metavar="MM", help="Rack displacement, where the travel varies.")
+    ] = 0.0,
+    out: Out = None,
+    plot: Plot = None,
+    figures: Figures = None,
+    formats: Formats = None,
+    json: Json = False,
+) -> None:
+    """All characteristics over wheel travel, and over the rack; a table of them at design.
+
+    Each data file and page is written twice, with _travel and _rack behind its name.
+    """
+    from .. import characteristics, export, sweep
+
+    outputs = Outputs.of(out, plot, figures, formats)
+    model = load(file)
+    ends: dict[str, Any] = {"rebound": metres(rebound), "bump": metres(bump)}
+    at_travel, at_rack, spacing = travel / 1e3, rack / 1e3, step / 1e3
+    travels = sweep.usual_travel(model, **ends, step=spacing, rack=at_rack)
+    racks = sweep.usual_rack(model, extent=metres(rack_extent), step=spacing, travel=at_travel)
+    curves = {
+        "travel": characteristics.travel(model, travels, rack_position=at_rack),
+        "rack": characteristics.steering(model, racks, travel=at_travel),
+    }
+    if json:
+        print_json({f"over_{over}": export.as_dict(curves[over]) for over in curves})
+    else:
+        for over, dataset in curves.items():
+            console.print(_at_design(dataset, f"{file}: characteristics over {over}, at zero"))
+    for over, dataset in curves.items():
+        outputs.write(dataset, title=file, suffix=f"_{over}", silent=json)
+
+
+def _at_design(dataset: "Dataset", title: str) -> Table:
+    """Return the table of all variables at zero of the dataset's dimension."""
+    from ..quantities import display_of, displayed, long_name
+
+    (along,) = dataset.sizes
+    index = int(abs(dataset[along].values).argmin())
+    table = Table(title=escape(title))
+    table.add_column("characteristic")
+    table.add_column("value", justify="right")
+    table.add_column("unit")
+    table.add_column("sign")
+    for data in dataset.values():
+        unit = display_of(data.attrs).units
+        value = number(float(displayed(data)[index]))
+        table.add_row(long_name(data), value, unit, str(data.attrs.get("sign", "")))
+    return table

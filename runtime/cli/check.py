@@ -1,0 +1,88 @@
+"""``kintrafo check``: what is wrong with a hardpoint file, or what the suspension is like."""
+
+from typing import TYPE_CHECKING
+
+import typer
+from rich.markup import escape
+from rich.table import Table
+
+from .console import console, print_json, say
+from .exits import Exit
+from .options import File, Json, load
+
+if TYPE_CHECKING:
+    from ..checkup import Checkup
+
+EXAMPLES = ("kintrafo check reference_car", "kintrafo check my_car.toml --json")
+
+
+def command(file: File, *, json: Json = False) -> None:
+    """Say what is wrong with a hardpoint file, or sum the suspension up.
+
+    Geometry at design, reachable travel and what limits it, static equilibrium, wheel-hop mode.
+    The exit code is 1 if there is a problem.
+    """
+    from ..checkup import as_dict, checkup, readable
+    from ..errors import InputError
+
+    readable(file)
+    try:
+        found = checkup(load(file))
+    except InputError as error:
+        if json:
+            print_json({"problems": list(error.problems)})
+        else:
+            say(str(error))
+        raise typer.Exit(Exit.REFUSED) from None
+    if json:
+        print_json(as_dict(found))
+    else:
+        console.print(_table(found, file))
+        for kind, texts in (("problem", found.problems), ("note", found.notes)):
+            for text in texts:
+                say(f"{kind}: {text}")
+        if not found.problems:
+            say("No problems found.")
+    if found.problems:
+        raise typer.Exit(Exit.REFUSED)
+
+
+def _table(found: "Checkup", file: str) -> Table:
+    table = Table(title=f"{escape(file)}: {found.side} MacPherson suspension", show_header=False)
+    for name, text in {**_geometry(found), **_travel(found), **_rest(found)}.items():
+        table.add_row(name, text)
+    return table
+
+
+def _geometry(found: "Checkup") -> dict[str, str]:
+    from ..quantities import display_of
+
+    rows = {}
+    for name, value in found.geometry.items():
+        shown = display_of({"units": "rad" if name.endswith("_angle") else "m"})
+        rows[name.replace("_", " ")] = f"{value * shown.factor:.3f} {shown.units}"
+    return rows
+
+
+def _travel(found: "Checkup") -> dict[str, str]:
+    low, high = (1e3 * end for end in found.travel)
+    rows = {
+        "travel down to": f"{low:.1f} mm: {found.reach.lower_limit}",
+        "travel up to": f"{high:.1f} mm: {found.reach.upper_limit}",
+    }
+    if found.extension_travel is not None:
+        rows["strut fully extended"] = f"at {1e3 * found.extension_travel:.1f} mm of travel"
+    return rows
+
+
+def _rest(found: "Checkup") -> dict[str, str]:
+    rest = found.equilibrium
+    if rest is None:
+        return {"equilibrium": "none"}
+    forces = rest.signals
+    return {
+        "equilibrium": f"wheel centre at {rest.height * 1e3:.3f} mm, "
+        f"{rest.travel * 1e3 + 0.0:+.3f} mm from design",
+        "forces there": f"tyre {forces['tyre_force']:.0f} N, spring {forces['spring_force']:.0f} N",
+        "wheel-hop mode": f"{rest.frequency:.2f} Hz, damping ratio {rest.damping_ratio:.3f}",
+    }

@@ -1,0 +1,79 @@
+"""``kintrafo compare``: curves of several suspensions over each other, and what differs."""
+
+from typing import TYPE_CHECKING, Annotated, Literal
+
+import typer
+from rich.markup import escape
+from rich.table import Table
+
+from .console import console, number, print_json, progress_bar
+from .options import Files, Json, load
+from .outputs import Figures, Formats, Out, Outputs, Plot
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+    from ..compare import Difference
+
+EXAMPLES = (
+    "kintrafo compare reference_car my_car.toml",
+    "kintrafo compare before.toml after.toml --over rack --plot difference.png -o both.csv",
+)
+
+
+def command(
+    files: Files,
+    *,
+    over: Annotated[Literal["travel", "rack"], typer.Option(help="What varies.")] = "travel",
+    out: Out = None,
+    plot: Plot = None,
+    figures: Figures = None,
+    formats: Formats = None,
+    json: Json = False,
+) -> None:
+    """Compare the characteristics of two or more suspensions.
+
+    Differences are those from the first file: at design, and where they are largest.
+    """
+    from .. import compare
+    from ..quantities import distinct
+
+    outputs = Outputs.of(out, plot, figures, formats)
+    models = dict(zip(distinct(files), map(load, files), strict=True))
+    with progress_bar("characteristics") as progress:
+        dataset = compare.compare(models, over=over, progress=progress)
+    found = compare.differences(dataset)
+    if json:
+        print_json(
+            [vars(difference) | {"units": _units(dataset, difference)} for difference in found]
+        )
+    else:
+        for name in list(models)[1:]:
+            chosen = [difference for difference in found if difference.data_set == name]
+            console.print(_table(dataset, chosen, next(iter(models)), name))
+    outputs.write(dataset, title=f"over {over}", silent=json)
+
+
+def _units(dataset: "Dataset", difference: "Difference") -> str:
+    return str(dataset[difference.name].attrs.get("units", ""))
+
+
+def _table(dataset: "Dataset", found: list["Difference"], first: str, other: str) -> Table:
+    from ..quantities import bracketed, display_of, long_name
+
+    along = next(str(name) for name in dataset.sizes if name != "data_set")
+    where = bracketed(long_name(dataset[along]), dataset[along].attrs)
+    table = Table(title=escape(f"{other} compared with {first}"))
+    table.add_column("characteristic")
+    for column in (first, other, "difference", "largest", f"at {where}"):
+        table.add_column(escape(column), justify="right")
+    for difference in found:
+        data = dataset[difference.name]
+        factor = display_of(data.attrs).factor
+        values = difference.first, difference.other, difference.at_design, difference.largest
+        table.add_row(
+            escape(bracketed(long_name(data), data.attrs)),
+            *(number(value * factor) for value in values),
+            f"{difference.where * display_of(dataset[along].attrs).factor + 0.0:g}",
+        )
+    return table

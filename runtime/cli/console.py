@@ -1,0 +1,98 @@
+"""What the commands print: results on stdout, everything else on stderr."""
+
+import json
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from rich.console import Console
+from rich.markup import escape
+from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.table import Table
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+# Where the output goes into a file, it is wide enough for the tables.
+_WIDTH_OF_FILES = 110
+# Every so many positions are in a table, so that round distances stay round.
+_STRIDES = [factor * 10**power for power in range(9) for factor in (1, 2, 5)]
+
+console = Console(width=None if sys.stdout.isatty() else _WIDTH_OF_FILES)
+problems = Console(stderr=True, soft_wrap=True)
+
+
+def print_json(result: Any) -> None:
+    """Print a result for scripts: JSON and nothing else; what is not defined is null."""
+    sys.stdout.write(json.dumps(_plain(result), indent=2, allow_nan=False) + "\n")
+
+
+def _plain(value: Any) -> Any:
+    """Return a value as JSON has it."""
+    if isinstance(value, dict):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if isinstance(value, float):
+        return float(value) if abs(value) < float("inf") else None
+    return value
+
+
+def say(text: str) -> None:
+    """Print a line in which brackets mean nothing."""
+    console.print(text, markup=False, highlight=False, soft_wrap=True)
+
+
+@contextmanager
+def progress_bar(text: str) -> Iterator[Callable[[float], None]]:
+    """Show on stderr how much is done of something that may take long."""
+    columns = TextColumn("{task.description}"), BarColumn(), TimeRemainingColumn()
+    with Progress(*columns, console=problems, transient=True) as progress:
+        task = progress.add_task(text, total=1.0)
+        yield lambda done: progress.update(task, completed=done)
+
+
+def curve_table(dataset: "Dataset", names: Sequence[str], title: str) -> Table:
+    """Return a table of some variables at some of the positions of a dataset.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Over one dimension.
+    names : sequence of str
+        Variables, one column each.
+    title : str
+
+    Returns
+    -------
+    rich.table.Table
+        With 17 rows at most, zero among them where it is a position.
+    """
+    from ..quantities import bracketed, displayed
+
+    (along,) = dataset.sizes
+    table = Table(title=escape(title))
+    columns = [dataset[str(along)], *(dataset[name] for name in names)]
+    for column in columns:
+        name = bracketed(str(column.name).replace("_", " "), column.attrs)
+        table.add_column(escape(name), justify="right")
+    values = [displayed(column) for column in columns]
+    for row in _rows(values[0]):
+        table.add_row(*(number(float(column[row])) for column in values))
+    return table
+
+
+def _rows(positions: Any) -> list[int]:
+    """Return the indices of at most 17 positions, equally spaced about zero."""
+    count = len(positions)
+    stride = next(n for n in _STRIDES if count <= 17 * n)
+    zero = int(abs(positions).argmin())
+    return list(range(zero % stride, count, stride))
+
+
+def number(value: float) -> str:
+    """Return a number for a table: three decimals, without the sign of a zero."""
+    if value != value:  # noqa: PLR0124 (only a NaN differs from itself)
+        return "not defined"
+    return f"{value + 0.0:.3f}" if abs(value) >= 5e-4 else "0.000"

@@ -1,0 +1,80 @@
+"""Arguments that several commands share."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from ..model import Model
+
+
+def complete_file(incomplete: str) -> list[str]:
+    """Return packaged names and TOML files that begin like this."""
+    from ..starter import packaged
+
+    parent = Path(incomplete).parent if "/" in incomplete else Path()
+    files = sorted(str(path) for path in parent.glob("*.toml"))
+    return [name for name in (*files, *packaged()) if name.startswith(incomplete)]
+
+
+File = Annotated[
+    str,
+    typer.Argument(
+        metavar="FILE",
+        help="Hardpoint file (TOML), or the name of a packaged data set: reference_car.",
+        autocompletion=complete_file,
+    ),
+]
+Files = Annotated[
+    list[str],
+    typer.Argument(
+        metavar="FILE FILE...",
+        help="Two or more hardpoint files or packaged names; the first is the reference.",
+        autocompletion=complete_file,
+    ),
+]
+Json = Annotated[
+    bool, typer.Option("--json", help="Print the result as JSON, in SI units, and nothing else.")
+]
+Rebound = Annotated[
+    float | None, typer.Option(metavar="MM", help="Wheel travel downward. Default: 80, if reached.")
+]
+Bump = Annotated[
+    float | None, typer.Option(metavar="MM", help="Wheel travel upward. Default: 80, if reached.")
+]
+RackExtent = Annotated[
+    float | None,
+    typer.Option(
+        "--rack-extent", metavar="MM", help="Rack to either side. Default: 60, if reached."
+    ),
+]
+Step = Annotated[float, typer.Option(metavar="MM", help="Distance of the positions.")]
+
+
+def load(file: str) -> "Model":
+    """Return the model of a file: the one in which every body that has mass counts.
+
+    Parameters
+    ----------
+    file : str
+        Path of a TOML file, or name of a packaged data set.
+
+    Returns
+    -------
+    Model
+    """
+    from ..generated import macpherson
+    from ..input.suspension import Suspension
+    from ..model import Model
+
+    suspension = Suspension.load(file)
+    parameters = suspension.parameters()
+    neglected = set(macpherson.BODIES) - set(macpherson.MASSIVE_BODIES)
+    free_rack = any(parameters[f"{body}_mass"] > 0.0 for body in neglected)
+    return Model(suspension, free_rack=free_rack)
+
+
+def metres(millimetres: float | None) -> float | None:
+    """Return a length from the command line in metres."""
+    return None if millimetres is None else millimetres / 1e3

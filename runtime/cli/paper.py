@@ -1,0 +1,71 @@
+"""``kintrafo paper``: the paper's results."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.table import Table
+
+from .console import console, problems, say
+
+if TYPE_CHECKING:
+    from .. import paper
+    from ..model import Model
+
+EXAMPLES = ("kintrafo paper out", "kintrafo paper out --data my_car.toml")
+
+
+def command(
+    folder: Annotated[Path, typer.Argument(help="Where the figures go.")] = Path("out"),
+    data: Annotated[str, typer.Option(help="Data set, by name, or a TOML file.")] = "reference_car",
+) -> None:
+    """Show the paper's results: Figures 4, 5 and 6 and a summary."""
+    from .. import paper
+    from ..figures import write_figures
+    from ..model import Model
+    from ..overview import write_overview
+
+    model = Model(data)
+    folder.mkdir(parents=True, exist_ok=True)
+    with problems.status("kinematics over the travel"):
+        kinematics = paper.kinematics(model)
+    with problems.status("one second of motion"):
+        dynamics = paper.dynamics(model)
+    with problems.status("figures"):
+        files = write_figures(kinematics, dynamics, folder, data)
+        write_overview(model, folder / "overview.png")
+    console.print(summary(model, paper.rest(model), dynamics))
+    console.print(
+        "The paper gives no hardpoints, masses or rates. These are results of "
+        f"{data}, which is not the paper's car: compare them in kind.",
+        markup=False,
+    )
+    for file in [*files, folder / "overview.png"]:
+        say(f"  {file}")
+
+
+def summary(model: "Model", rest: "paper.Rest", dynamics: "paper.Dynamics") -> Table:
+    """Return the table of what was found."""
+    from ..paper import PAPER_GEAR_S, PAPER_RUNGE_KUTTA_S
+
+    equations, result = model.equations, dynamics.result
+    loops = "; ".join(" - ".join(bodies) for bodies in equations.LOOPS)
+    rows = {
+        "mobility (Eq. 1)": f"{equations.MOBILITY}",
+        "independent loops": f"{len(equations.LOOPS)}: {loops}",
+        "operations of the right-hand side": f"{equations.rhs_rack_held.operations['total']} "
+        "with the rack held, "
+        f"{equations.rhs.operations['total']} with the rack moving",
+        "equilibrium": f"wheel centre at {rest.height * 1e3:.3f} mm",
+        "eigenvalues there": f"{rest.eigenvalues_text} 1/s, and two zeros (wheel spin)",
+        "wheel-hop mode": rest.mode_text,
+        "integration of 1 s": f"Gear's method (BDF of {result.solver}), {result.nfev} evaluations, "
+        f"{result.njev} Jacobians, {result.nlu} factorisations, output every 0.1 ms",
+        "time taken": f"{dynamics.seconds * 1e3:.1f} ms, signals included; the paper, on a 233 MHz "
+        f"Pentium: {PAPER_GEAR_S:.0f} s with Gear's method, more than "
+        f"{PAPER_RUNGE_KUTTA_S / 60:.0f} min with Runge-Kutta",
+    }
+    table = Table(title=f"{model.suspension.vehicle.side} MacPherson suspension", show_header=False)
+    for name, text in rows.items():
+        table.add_row(name, text)
+    return table

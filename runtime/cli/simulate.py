@@ -1,0 +1,232 @@
+"""``kintrafo simulate``: the motion over a road."""
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.markup import escape
+from rich.table import Table
+
+from .console import console, number, print_json, problems, say
+from .options import File, Json, load, metres
+from .outputs import Figures, Formats, Out, Outputs, Plot
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+    from ..model import Model
+    from ..scenario import Scenario
+    from ..simulation import Simulation
+
+EXAMPLES = (
+    "kintrafo simulate reference_car --height 325",
+    "kintrafo simulate my_car.toml --road-step 20 --road-step-at 0.1 -o bump.csv --plot bump.png",
+    "kintrafo simulate my_car.toml --road-sine 10 --road-frequency 2 --duration 5",
+    "kintrafo simulate my_car.toml --measured road.csv --speed 60 -o ride.nc",
+)
+
+# On the page of curves, in this order; what stands still is left out.
+_DRAWN = (
+    "road_height",
+    "rack_position",
+    "wheel_center_z",
+    "wheel_acceleration",
+    "tyre_force",
+    "spring_force",
+    "damper_force",
+    "strut_length",
+    "camber",
+    "toe",
+)
+
+
+def command(
+    file: File,
+    *,
+    height: Annotated[
+        float | None,
+        typer.Option(metavar="MM", help="Wheel centre at the start. Default: at rest."),
+    ] = None,
+    spin: Annotated[
+        float, typer.Option(metavar="REV/S", help="Wheel spin, positive rolling forward.")
+    ] = 0.0,
+    road_step: Annotated[
+        float | None, typer.Option(metavar="MM", help="The road rises by this at once.")
+    ] = None,
+    road_step_at: Annotated[float, typer.Option(metavar="S", help="When it does.")] = 0.1,
+    road_sine: Annotated[
+        float | None, typer.Option(metavar="MM", help="Amplitude of a harmonic road.")
+    ] = None,
+    road_frequency: Annotated[float, typer.Option(metavar="HZ", help="Its frequency.")] = 1.0,
+    measured: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="CSV",
+            help="Measured road or rack: time_s or distance_m, road_height_mm, rack_position_mm.",
+        ),
+    ] = None,
+    speed: Annotated[
+        float | None, typer.Option(metavar="KM/H", help="Speed on a road given over distance_m.")
+    ] = None,
+    rack: Annotated[float | None, typer.Option(metavar="MM", help="Rack held there.")] = None,
+    rack_sine: Annotated[
+        float | None, typer.Option(metavar="MM", help="Amplitude of a harmonic rack motion.")
+    ] = None,
+    rack_frequency: Annotated[float, typer.Option(metavar="HZ", help="Its frequency.")] = 1.0,
+    duration: Annotated[
+        float | None,
+        typer.Option(metavar="S", help="Default: 1, or as long as what was measured."),
+    ] = None,
+    output_step: Annotated[float, typer.Option(metavar="MS", help="Time between outputs.")] = 1.0,
+    method: Annotated[
+        str,
+        typer.Option(
+            help="BDF, Adams, Verner, DormandPrince, Tsitouras, Radau, LSODA, RK45, DOP853."
+        ),
+    ] = "BDF",
+    rtol: Annotated[float, typer.Option(help="Relative tolerance.")] = 1e-6,
+    atol: Annotated[float, typer.Option(help="Absolute tolerance, SI units.")] = 1e-9,
+    out: Out = None,
+    plot: Plot = None,
+    figures: Figures = None,
+    formats: Formats = None,
+    json: Json = False,
+) -> None:
+    """Simulate the suspension over a step, a sine or a measured road, with its rack moving.
+
+    Without --height it starts from rest on the road as it is at the beginning.
+    """
+    from ..excitation import Course, excitation
+    from ..measurement import measured as read
+    from ..scenario import Scenario
+
+    outputs = Outputs.of(out, plot, figures, formats)
+    model = load(file)
+    recording = None if measured is None else read(measured, speed=_per_second(speed))
+    end = duration or (recording.duration if recording else 1.0)
+    courses = {
+        "road_height": Course(
+            step=metres(road_step),
+            step_at=road_step_at,
+            sine=metres(road_sine),
+            frequency=road_frequency,
+        ),
+        "rack_position": Course(
+            held=metres(rack), sine=metres(rack_sine), frequency=rack_frequency
+        ),
+    }
+    scenario = Scenario(
+        duration=end,
+        output_step=output_step / 1e3,
+        height=metres(height),
+        spin_rate=spin * math.tau,
+        inputs=excitation(courses, end, recording),
+    )
+    options = {"method": method, "rtol": rtol, "atol": atol}
+    result, motion = _played(model, scenario, options, outputs, file)
+    if json:
+        print_json(_summary(result, motion))
+    else:
+        console.print(_table(motion, file))
+        for line in _told(result):
+            say(line)
+    outputs.write(motion, title=file, names=_drawn(motion), silent=json)
+
+
+def _per_second(speed: float | None) -> float | None:
+    """Return a speed given in km/h in m/s."""
+    return None if speed is None else speed / 3.6
+
+
+def _played(
+    model: "Model",
+    scenario: "Scenario",
+    options: dict[str, Any],
+    outputs: Outputs,
+    title: str,
+) -> "tuple[Simulation, Dataset]":
+    """Simulate; where that cannot be finished, write the motion up to there."""
+    from ..recording import dataset_of
+    from ..scenario import play
+    from ..simulation import SimulationError
+
+    try:
+        with problems.status("integrating"):
+            return play(model, scenario, **options)
+    except SimulationError as error:
+        if error.partial is not None and error.partial.t.size > 1:
+            motion = dataset_of(model, error.partial)
+            outputs.write(motion, title=f"{title}, unfinished", names=_drawn(motion))
+        raise
+
+
+def _drawn(motion: "Dataset") -> list[str]:
+    """Return the curves of the page that are not constant."""
+    return [
+        name
+        for name in _DRAWN
+        if name in motion and float(motion[name].max() - motion[name].min()) > 0.0
+    ]
+
+
+def _counts(result: "Simulation") -> dict[str, int]:
+    names = ("steps", "nfev", "njev", "nlu", "error_test_failures", "order")
+    return {name: int(result[name]) for name in names if name in result}
+
+
+def _summary(result: "Simulation", motion: "Dataset") -> dict[str, Any]:
+    from ..recording import statistics
+
+    left, back = (list(map(float, times)) for times in result.t_events or ([], []))
+    return {
+        "duration": float(result.t[-1]),
+        "message": result.message,
+        "solver": {"name": result.solver, **_counts(result)},
+        "wheel_leaves_ground": left,
+        "wheel_touches_ground": back,
+        "statistics": {
+            name: {"units": motion[name].attrs["units"], **vars(found)}
+            for name, found in statistics(motion).items()
+        },
+    }
+
+
+def _table(motion: "Dataset", file: str) -> Table:
+    from ..quantities import bracketed, display_of, long_name
+    from ..recording import statistics
+
+    table = Table(title=f"{escape(file)}: motion from 0 s to {float(motion['time'][-1]):g} s")
+    table.add_column("signal")
+    for column in ("smallest", "largest", "mean", "rms about it", "last"):
+        table.add_column(column, justify="right")
+    found = statistics(motion)
+    for name in (name for name in _DRAWN if name in motion):
+        data = motion[name]
+        factor = display_of(data.attrs).factor
+        values = vars(found[name]).values()
+        label = escape(bracketed(long_name(data), data.attrs))
+        table.add_row(label, *(number(value * factor) for value in values))
+    return table
+
+
+def _told(result: "Simulation") -> list[str]:
+    """Return what happened, and what it took."""
+    left, _ = result.t_events or ([], [])
+    counts = _counts(result)
+    lines = [f"{result.solver}: " + ", ".join(f"{v} {_WORDS[n]}" for n, v in counts.items())]
+    if len(left):
+        times = ", ".join(f"{time:.4g} s" for time in left[:5])
+        more = ", ..." if len(left) > 5 else ""
+        lines.append(f"The wheel leaves the ground {len(left)} times: {times}{more}")
+    return lines
+
+
+_WORDS = {
+    "steps": "steps",
+    "nfev": "evaluations",
+    "njev": "Jacobians",
+    "nlu": "factorisations",
+    "error_test_failures": "failed error tests",
+    "order": "the last order",
+}

@@ -1,0 +1,53 @@
+"""``kintrafo topology``: bodies, joints, mobility, loops and how they were solved."""
+
+import re
+from typing import Annotated
+
+import typer
+from rich.table import Table
+
+from .console import console, print_json, say
+from .options import Json, complete_file, load
+
+EXAMPLES = ("kintrafo topology", "kintrafo topology my_car.toml --json")
+
+_FREE_RACK = "macpherson_free_rack"
+
+
+def command(
+    file: Annotated[
+        str | None,
+        typer.Argument(
+            metavar="FILE",
+            help="Hardpoint file, which decides between rack prescribed and rack free.",
+            autocompletion=complete_file,
+        ),
+    ] = None,
+    *,
+    free_rack: Annotated[
+        bool, typer.Option("--free-rack", help="The mechanism with the rack as a coordinate.")
+    ] = False,
+    json: Json = False,
+) -> None:
+    """Show bodies, joints, mobility, loops and characteristic pairs of the mechanism.
+
+    They were found when the equations were derived, and come with the compiled model.
+    """
+    from ..topology import topology
+
+    name = _FREE_RACK if free_rack else "macpherson"
+    found = topology(load(file).equations.NAME if file else name)
+    if json:
+        kept = ("title", "bodies", "joints", "mobility", "loops", "pairs")
+        print_json({key: getattr(found, key) for key in kept})
+        return
+    joints = Table(title=f"{found.title}: joints")
+    for column in found.joints[0]:
+        joints.add_column(column)
+    for joint in found.joints:
+        joints.add_row(*joint.values())
+    console.print(joints)
+    say(f"Mobility {found.mobility}; {len(found.loops)} independent loops, solved in this order.")
+    for text in (found.sections["Cycles"], found.sections["Kinematic transformers"]):
+        # the tables and boxes are drawn in text, and only the fences around them are Markdown
+        say("\n" + re.sub(r"^```.*\n?", "", text, flags=re.MULTILINE).replace("### ", ""))
