@@ -59,7 +59,13 @@ _MODULES = {
 _HOMES = {name: module for module, names in _MODULES.items() for name in names}
 
 
+# Modules that are themselves part of the interface.
+_INTERFACES = ("characteristics",)
+
+
 def __getattr__(name: str) -> Any:
+    if name in _INTERFACES:
+        return import_module(f".{name}", __name__)
     if name not in _HOMES:
         message = f"module {__name__!r} has no attribute {name!r}"
         raise AttributeError(message)
@@ -67,4 +73,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    return sorted({*globals(), *__all__, *_INTERFACES})

@@ -1,0 +1,158 @@
+"""One corner of a vehicle as its characteristics see it: points, directions and first motions.
+
+Nothing here knows which mechanism guides the wheel. Every array has the same leading dimensions,
+one element for each position; vectors have three components behind them, in chassis axes
+(ISO 8855: x forward, y left, z up). SI units.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+UP = np.array([0.0, 0.0, 1.0])
+
+
+@dataclass(frozen=True)
+class Motion:
+    """How the wheel carrier moves first, per unit of what moves it.
+
+    Attributes
+    ----------
+    velocity : ndarray, shape (..., 3)
+        Of the wheel centre [m per unit].
+    turning : ndarray, shape (..., 3)
+        Angular velocity [rad per unit].
+    lower, upper : ndarray, shape (..., 3)
+        Velocities of the two points on the steering axis [m per unit].
+    """
+
+    velocity: Array
+    turning: Array
+    lower: Array
+    upper: Array
+
+    def minus(self, other: "Motion", times: Array) -> "Motion":
+        """Return this motion less a multiple of another."""
+        return Motion(
+            **{
+                name: part - times[..., None] * vars(other)[name]
+                for name, part in vars(self).items()
+            }
+        )
+
+    def per(self, unit: Array) -> "Motion":
+        """Return the motion for one of another unit, given how many of them one of these makes."""
+        return Motion(**{name: part / unit[..., None] for name, part in vars(self).items()})
+
+
+@dataclass(frozen=True)
+class Plane:
+    """A plane through a point.
+
+    Attributes
+    ----------
+    point, normal : ndarray, shape (..., 3)
+        [m], and any length but zero.
+    """
+
+    point: Array
+    normal: Array
+
+
+@dataclass(frozen=True)
+class Spring:
+    """Length and force of the spring over wheel travel.
+
+    Attributes
+    ----------
+    length : ndarray
+        [m].
+    slope, curvature : ndarray
+        First and second derivative of the length by wheel travel [1], [1/m].
+    force : ndarray
+        Positive when it pushes its ends apart [N].
+    force_slope : ndarray
+        Derivative of the force by wheel travel [N/m].
+    """
+
+    length: Array
+    slope: Array
+    curvature: Array
+    force: Array
+    force_slope: Array
+
+
+@dataclass(frozen=True)
+class Vehicle:
+    """What the vehicle adds; None where it is not known.
+
+    Attributes
+    ----------
+    side : float
+        +1 left, -1 right.
+    tyre_radius : float or None
+        Of the wheel as a thin disc [m].
+    tyre_rate : float or None
+        Vertical stiffness of the tyre [N/m].
+    wheelbase, center_of_gravity_height : float or None
+        [m].
+    front_brake_share : float or None
+        Part of the braking force at the front wheels.
+    travel_per_turn : float or None
+        Rack travel for one turn of the steering wheel [m].
+    """
+
+    side: float
+    tyre_radius: float | None = None
+    tyre_rate: float | None = None
+    wheelbase: float | None = None
+    center_of_gravity_height: float | None = None
+    front_brake_share: float | None = None
+    travel_per_turn: float | None = None
+
+
+@dataclass(frozen=True)
+class Corner:
+    """A wheel, its steering axis and its first motions, at many positions.
+
+    Attributes
+    ----------
+    vehicle : Vehicle
+    center : ndarray, shape (..., 3)
+        Wheel centre [m].
+    design_center : ndarray, shape (3,)
+        The same at design [m].
+    axis : ndarray, shape (..., 3)
+        Unit vector along the spin axis, pointing outboard.
+    design_axis : ndarray, shape (3,)
+        The same at design.
+    lower, upper : ndarray, shape (..., 3)
+        Two points on the steering axis, the upper one above the lower [m].
+    travel : Motion
+        Per unit of wheel travel (height of the wheel centre) with the steering held [per m].
+    steering : Motion
+        Per unit of rack travel with the wheel centre held at its height [per m].
+    links : tuple of Plane
+        The two planes whose common line is the axis about which the carrier turns first when it
+        is held by the links in them: for a wishbone the plane of its three joints, for a strut the
+        plane across it through its upper mount.
+    spring : Spring
+    arm_angle : ndarray
+        Angle of the lower link, zero at design, positive with the wheel up [rad].
+    """
+
+    vehicle: Vehicle
+    center: Array
+    design_center: Array
+    axis: Array
+    design_axis: Array
+    lower: Array
+    upper: Array
+    travel: Motion
+    steering: Motion
+    links: tuple[Plane, Plane]
+    spring: Spring
+    arm_angle: Array
