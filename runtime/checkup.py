@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 from . import paper
 from .input.suspension import Suspension
 from .model import Model
-from .positions import PositionError, Range, equilibrium, travel_range
+from .positions import PositionError, Range, design_height, equilibrium, travel_range
 from .starter import packaged
-from .sweep import design_height
 
 Array = NDArray[np.float64]
 

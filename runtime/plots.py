@@ -95,7 +95,7 @@ def write(
 
 
 def write_overview(
-    dataset: xr.Dataset, path: str | Path, names: Sequence[str] = (), title: str = ""
+    dataset: xr.Dataset, path: str | Path, names: Sequence[Hashable] = (), title: str = ""
 ) -> Path:
     """Write one page with the curves of some variables; all that vary if none is named.
 

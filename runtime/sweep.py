@@ -4,21 +4,18 @@ Wheel travel is the height of the wheel centre above its design position [m], po
 rack is displaced along its axis [m]. Both are zero at design.
 """
 
-from collections.abc import Callable
-
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq
 
 from .errors import InputError
 from .hardpoints import hardpoints
 from .model import Model
-from .positions import PositionError, Range, travel_range
+from .positions import PositionError, arm_angles, design_height, travel_range
 from .quantities import variable
+from .reach import at_rest
 
 Array = NDArray[np.float64]
-Progress = Callable[[float], None]
 
 TRAVEL, RACK = "wheel_travel", "rack_position"
 
@@ -32,15 +29,12 @@ _MOST_POINTS = 100_000
 _MOVING = ("ball_joint", "tie_rod_outer", "tie_rod_inner")
 # Signals in these units follow from the position alone; forces and rates need more.
 _OF_POSITION = ("m", "rad")
-_BRACKETS = 241
 
 
 def positions(
     model: Model,
     travel: ArrayLike | None = None,
     rack: ArrayLike | None = None,
-    *,
-    progress: Progress | None = None,
 ) -> xr.Dataset:
     """Return wheel and joint positions over travel, over the rack, or over both.
 
@@ -51,8 +45,6 @@ def positions(
         Wheel travel [m]: one value or many, by default what `usual_travel` returns.
     rack : array_like, optional
         Displacement of the rack [m]: one value or many, by default zero.
-    progress : callable, optional
-        Called with the part that is done, up to 1.
 
     Returns
     -------
@@ -75,14 +67,10 @@ def positions(
     """
     travels = _numbers(usual_travel(model) if travel is None else travel, "travel")
     racks = _numbers(0.0 if rack is None else rack, "rack")
-    rows = []
-    for index, displacement in enumerate(racks.ravel()):
-        angles = _Row(model, float(displacement)).angles(travels.ravel())
-        rows.append(_evaluated(model, angles, float(displacement)))
-        if progress is not None:
-            progress((index + 1) / racks.size)
-    columns = {name: np.stack([row[name] for row in rows]).T for name in rows[0]}
-    return _dataset(model, travels, racks, columns)
+    # travels go down, racks across; a single one of either has no dimension
+    heights = design_height(model) + (travels[:, None] if travels.ndim and racks.ndim else travels)
+    angles = arm_angles(model, heights, racks)
+    return _dataset(model, travels, racks, _evaluated(model, angles, racks))
 
 
 def grid(lowest: float, highest: float, step: float) -> Array:
@@ -186,11 +174,6 @@ def usual_rack(
     return grid(-extent, extent, step)
 
 
-def design_height(model: Model) -> float:
-    """Return the height of the wheel centre at the design position [m]."""
-    return float(model.signal("wheel_center_z", model.design_state))
-
-
 def _reachable_rack(model: Model, travel: float) -> float:
     """Return the usual extent of the rack, halved until the wheel gets there on both sides."""
     extent = USUAL_RACK
@@ -207,7 +190,7 @@ def _reachable_rack(model: Model, travel: float) -> float:
 
 def _reaches(model: Model, travel: float, rack: float) -> bool:
     try:
-        _Row(model, rack).angles(np.array([travel]))
+        arm_angles(model, design_height(model) + travel, rack)
     except PositionError:
         return False
     return True
@@ -231,93 +214,28 @@ def _numbers(given: ArrayLike, name: str) -> Array:
     return values
 
 
-class _Row:
-    """The suspension with its rack at one place: arm angles by wheel travel."""
-
-    def __init__(self, model: Model, rack: float) -> None:
-        self._model, self._rack = model, rack
-        self._reach = travel_range(model, rack)
-        # the height is monotonic between the ends, so that a table brackets every root
-        self._angles = np.linspace(*self._reach.arm_angle, _BRACKETS)
-        self._travels = self._travel(self._angles)
-
-    def angles(self, travels: Array) -> Array:
-        """Return the arm angles at which the wheel has made these travels [rad]."""
-        ends = self._travels[0], self._travels[-1]
-        beyond = travels[(travels < ends[0]) | (travels > ends[1])]
-        if beyond.size:
-            raise PositionError(_out_of_reach(float(beyond[0]), ends, self._reach, self._rack))
-        return np.array([self._angle(float(travel)) for travel in travels])
-
-    def _angle(self, travel: float) -> float:
-        right = int(np.clip(np.searchsorted(self._travels, travel), 1, _BRACKETS - 1))
-        bracket = self._angles[right - 1], self._angles[right]
-
-        def excess(angle: float) -> float:
-            return float(self._travel(np.array([angle]))[0]) - travel
-
-        return float(brentq(excess, *bracket, xtol=1e-15, rtol=4 * np.finfo(float).eps))
-
-    def _travel(self, angles: Array) -> Array:
-        signals = self._model.signals(*arrays_at(self._model, angles, self._rack))
-        return signals["wheel_center_z"] - design_height(self._model)
-
-
-def arrays_at(model: Model, angles: Array, rack: float) -> tuple[Array, Array]:
-    """Return states of rest and inputs at arm angles, with the rack at one place.
-
-    Parameters
-    ----------
-    model : Model
-    angles : ndarray, shape (n,)
-        Arm angles [rad].
-    rack : float
-        Displacement of the rack [m].
-
-    Returns
-    -------
-    states, inputs : ndarray
-        For the functions of the compiled module.
-    """
-    states = np.tile(model.design_state, (angles.size, 1))
-    states[:, 0] = angles
-    if model.free_rack:
-        states[:, model.state_names.index("beta9")] = rack
-        return states, model.inputs()
-    return states, model.inputs({"rack_position": rack})
-
-
-def _out_of_reach(travel: float, ends: tuple[float, float], reach: Range, rack: float) -> str:
-    return (
-        f"{travel * 1e3:g} mm of wheel travel is out of reach: from {ends[0] * 1e3:.1f} mm "
-        f"({reach.lower_limit}) to {ends[1] * 1e3:+.1f} mm ({reach.upper_limit}) with the rack at "
-        f"{rack * 1e3:g} mm. Choose a travel within this range."
-    )
-
-
-def _evaluated(model: Model, angles: Array, rack: float) -> dict[str, Array]:
+def _evaluated(model: Model, angles: Array, racks: Array) -> dict[str, Array]:
     """Return everything that the position decides, by name."""
-    states, inputs = arrays_at(model, angles, rack)
+    states, inputs = at_rest(model, angles, racks)
     signals = model.signals(states, inputs)
     described = model.equations.SIGNALS
     columns = {n: v for n, v in signals.items() if described[n]["unit"] in _OF_POSITION}
     points = hardpoints(model, states, inputs)
     for point in _MOVING:
-        columns |= {f"{point}_{axis}": points[point][:, i] for i, axis in enumerate("xyz")}
+        columns |= {f"{point}_{axis}": points[point][..., i] for i, axis in enumerate("xyz")}
     return columns | {"arm_angle": angles}
 
 
 def _dataset(model: Model, travels: Array, racks: Array, columns: dict[str, Array]) -> xr.Dataset:
-    """Put the columns, of shape (travels, racks), into a dataset."""
+    """Put columns over travels and racks into a dataset."""
     along = (TRAVEL,) * travels.ndim
     across = (RACK,) * racks.ndim
     meaning = "wheel travel, positive in bump"
     coordinates = {TRAVEL: variable(along, travels, meaning, "m")}
     meaning = "rack displacement, positive along its axis"
     coordinates[RACK] = variable(across, racks, meaning, "m")
-    shape = travels.shape + racks.shape
     data = {
-        name: variable(along + across, values.reshape(shape), *_described(name, model))
+        name: variable(along + across, values, *_described(name, model))
         for name, values in columns.items()
     }
     return xr.Dataset(data, coordinates, {"title": "positions of the suspension"})

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from .console import console, curve_table, print_json, progress_bar, say
+from .console import console, curve_table, print_json, say
 from .options import Bump, File, Json, RackExtent, Rebound, Step, load, metres
 from .outputs import Figures, Formats, Out, Outputs, Plot
 
@@ -57,8 +57,7 @@ def command(
         racks = sweep.usual_rack(
             model, extent=metres(rack_extent), step=step / 1e3, travel=travel / 1e3
         )
-    with progress_bar("positions") as progress:
-        dataset = sweep.positions(model, travels, racks, progress=progress)
+    dataset = sweep.positions(model, travels, racks)
     if json:
         print_json(export.as_dict(dataset))
     elif over == "both":

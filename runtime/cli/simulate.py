@@ -170,6 +170,12 @@ def _drawn(motion: "Dataset") -> list[str]:
     ]
 
 
+def _crossings(result: "Simulation") -> tuple[list[float], list[float]]:
+    """Return the times at which the wheel left the ground, and at which it came back."""
+    left, back = result.t_events or ([], [])
+    return [float(t) for t in left], [float(t) for t in back]
+
+
 def _counts(result: "Simulation") -> dict[str, int]:
     names = ("steps", "nfev", "njev", "nlu", "error_test_failures", "order")
     return {name: int(result[name]) for name in names if name in result}
@@ -178,7 +184,7 @@ def _counts(result: "Simulation") -> dict[str, int]:
 def _summary(result: "Simulation", motion: "Dataset") -> dict[str, Any]:
     from ..recording import statistics
 
-    left, back = (list(map(float, times)) for times in result.t_events or ([], []))
+    left, back = _crossings(result)
     return {
         "duration": float(result.t[-1]),
         "message": result.message,
@@ -212,7 +218,7 @@ def _table(motion: "Dataset", file: str) -> Table:
 
 def _told(result: "Simulation") -> list[str]:
     """Return what happened, and what it took."""
-    left, _ = result.t_events or ([], [])
+    left, _ = _crossings(result)
     counts = _counts(result)
     lines = [f"{result.solver}: " + ", ".join(f"{v} {_WORDS[n]}" for n, v in counts.items())]
     if len(left):
