@@ -5,7 +5,7 @@ lines: several suspensions, or several positions of the rack. Names, units and s
 the variables' attributes, see `kintrafo.quantities`.
 """
 
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from pathlib import Path
 from textwrap import fill
 from typing import Any
@@ -14,6 +14,7 @@ import numpy as np
 import xarray as xr
 from matplotlib import colormaps, rc_context
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator, ScalarFormatter
 from numpy.typing import NDArray
@@ -22,6 +23,7 @@ from .errors import InputError
 from .figures import BLUE, GREEN, ORANGE, STYLE
 from .files import replacing
 from .quantities import bracketed, display_of, displayed, long_name
+from .report.groups import ORDER, group_of
 
 Array = NDArray[np.float64]
 
@@ -97,7 +99,7 @@ def write(
 def write_overview(
     dataset: xr.Dataset, path: str | Path, names: Sequence[Hashable] = (), title: str = ""
 ) -> Path:
-    """Write one page with the curves of some variables; all that vary if none is named.
+    """Write the curves of some variables on one page; a PDF has a page for each group.
 
     Parameters
     ----------
@@ -105,6 +107,7 @@ def write_overview(
     path : str or pathlib.Path
         The ending is the format: ``.png``, ``.svg`` or ``.pdf``.
     names : sequence of str, optional
+        By default all that vary.
     title : str, optional
 
     Returns
@@ -112,8 +115,26 @@ def write_overview(
     pathlib.Path
     """
     check_formats([path])
-    chosen = tuple(names) or tuple(name for page in grouped(dataset).values() for name in page)
+    pages = {"": tuple(names)} if names else grouped(dataset)
+    if Path(path).suffix.lower() == ".pdf":
+        return _document(dataset, pages, Path(path), title)
+    chosen = tuple(name for page in pages.values() for name in page)
     return _saved(dataset, chosen, Path(path), title, alone=False)
+
+
+def _document(
+    dataset: xr.Dataset, pages: Mapping[str, Sequence[Hashable]], path: Path, title: str
+) -> Path:
+    """Write a PDF with one page for each group."""
+    with (
+        rc_context(STYLE),
+        replacing(path) as temporary,
+        PdfPages(temporary, metadata=_METADATA["pdf"]) as document,
+    ):
+        for group, names in pages.items():
+            heading = ": ".join(text for text in (title, group) if text)
+            document.savefig(figure(dataset, names, title=heading, alone=False))
+    return path
 
 
 def check_formats(paths: Sequence[str | Path] = (), formats: Sequence[str] = ()) -> None:
@@ -133,20 +154,24 @@ def check_formats(paths: Sequence[str | Path] = (), formats: Sequence[str] = ())
 def grouped(dataset: xr.Dataset) -> dict[str, tuple[Hashable, ...]]:
     """Return the variables that belong on one page, by the name of their group.
 
-    The attribute ``group`` of a variable decides, and where there is none, its unit. What does not
-    vary is left out, unless nothing varies.
+    What does not vary is left out, unless nothing varies.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+
+    Returns
+    -------
+    dict of str to tuple of str
+        In the order of the report.
     """
     groups: dict[str, tuple[Hashable, ...]] = {}
     names = _curves(dataset)
     varying = tuple(name for name in names if not _is_constant(displayed(dataset[name])))
     for name in varying or names:
-        attrs = dataset[name].attrs
-        group = str(attrs.get("group") or _KINDS.get(display_of(attrs).units, "rates and ratios"))
+        group = group_of(name)
         groups[group] = (*groups.get(group, ()), name)
-    return groups
-
-
-_KINDS = {"deg": "angles", "mm": "lengths", "N": "forces"}
+    return {group: groups[group] for group in ORDER if group in groups}
 
 
 def _slug(text: str) -> str:
@@ -236,7 +261,7 @@ def _describe_alone(axes: Axes, data: xr.DataArray) -> None:
 
 def _describe_panel(axes: Axes, data: xr.DataArray) -> None:
     sign = str(data.attrs.get("sign", ""))
-    axes.set_title(fill(_typeset(bracketed(long_name(data), data.attrs)), 44), fontsize=9.5)
+    axes.set_title(fill(_typeset(bracketed(long_name(data), data.attrs)), 40), fontsize=9.5)
     if sign:
         axes.set_ylabel(fill(sign, 34), fontsize=8, color="#555555")
 

@@ -6,7 +6,7 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
-from .console import console, number, print_json
+from .console import console, print_json, significant
 from .options import Bump, File, Json, RackExtent, Rebound, Step, load, metres
 from .outputs import Figures, Formats, Out, Outputs, Plot
 
@@ -59,7 +59,7 @@ def command(
         print_json({f"over_{over}": export.as_dict(curves[over]) for over in curves})
     else:
         for over, dataset in curves.items():
-            console.print(_at_design(dataset, f"{file}: characteristics over {over}, at zero"))
+            console.print(_at_design(dataset, f"{file}: characteristics over {over}, at design"))
     for over, dataset in curves.items():
         outputs.write(dataset, title=file, suffix=f"_{over}", silent=json)
 
@@ -76,7 +76,7 @@ def _at_design(dataset: "Dataset", title: str) -> Table:
     table.add_column("unit")
     table.add_column("sign")
     for data in dataset.values():
-        unit = display_of(data.attrs).units
-        value = number(float(displayed(data)[index]))
+        unit = display_of(data.attrs).units.replace("1", "-")
+        value = significant(float(displayed(data)[index]))
         table.add_row(long_name(data), value, unit, str(data.attrs.get("sign", "")))
     return table

@@ -6,7 +6,7 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
-from .console import console, number, print_json, progress_bar
+from .console import console, print_json, progress_bar, significant
 from .options import Files, Json, load
 from .outputs import Figures, Formats, Out, Outputs, Plot
 
@@ -73,7 +73,7 @@ def _table(dataset: "Dataset", found: list["Difference"], first: str, other: str
         values = difference.first, difference.other, difference.at_design, difference.largest
         table.add_row(
             escape(bracketed(long_name(data), data.attrs)),
-            *(number(value * factor) for value in values),
+            *(significant(value * factor) for value in values),
             f"{difference.where * display_of(dataset[along].attrs).factor + 0.0:g}",
         )
     return table

@@ -1,6 +1,7 @@
 """What the commands print: results on stdout, everything else on stderr."""
 
 import json
+import math
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
 
 # Where the output goes into a file, it is wide enough for the tables.
 _WIDTH_OF_FILES = 110
+# Smaller than this, a number is a rounding error in every unit of the tables.
+_ROUNDING = 1e-9
 # Every so many positions are in a table, so that round distances stay round.
 _STRIDES = [factor * 10**power for power in range(9) for factor in (1, 2, 5)]
 
@@ -35,7 +38,7 @@ def _plain(value: Any) -> Any:
     if isinstance(value, list | tuple):
         return [_plain(item) for item in value]
     if isinstance(value, float):
-        return float(value) if abs(value) < float("inf") else None
+        return float(value) if math.isfinite(value) else None
     return value
 
 
@@ -92,7 +95,16 @@ def _rows(positions: Any) -> list[int]:
 
 
 def number(value: float) -> str:
-    """Return a number for a table: three decimals, without the sign of a zero."""
-    if value != value:  # noqa: PLR0124 (only a NaN differs from itself)
-        return "not defined"
-    return f"{value + 0.0:.3f}" if abs(value) >= 5e-4 else "0.000"
+    """Return a number for a column of a table: three decimals, and no minus before a zero."""
+    return _special(value) or (f"{value:.3f}" if abs(value) >= 5e-4 else "0.000")
+
+
+def significant(value: float) -> str:
+    """Return a number of unknown size for a table: five digits; what is rounding is zero."""
+    return _special(value) or (f"{value:.5g}" if abs(value) > _ROUNDING else "0")
+
+
+def _special(value: float) -> str:
+    if math.isnan(value):
+        return "-"
+    return "infinite" if math.isinf(value) else ""

@@ -24,7 +24,9 @@ Out = Annotated[
 Plot = Annotated[
     list[Path] | None,
     typer.Option(
-        "--plot", metavar="PATH", help="Write one page of curves: .png, .svg or .pdf. Repeatable."
+        "--plot",
+        metavar="PATH",
+        help="Write the curves: .pdf (a page a group), .png or .svg. May be repeated.",
     ),
 ]
 Figures = Annotated[
@@ -33,7 +35,9 @@ Figures = Annotated[
 ]
 Formats = Annotated[
     list[str] | None,
-    typer.Option("--format", metavar="NAME", help="Of --figures: png, svg, pdf. Repeatable."),
+    typer.Option(
+        "--format", metavar="NAME", help="Of --figures: png, svg or pdf. May be repeated."
+    ),
 ]
 
 

@@ -57,8 +57,8 @@ def summary(model: "Model", rest: "paper.Rest", dynamics: "paper.Dynamics") -> T
         "with the rack held, "
         f"{equations.rhs.operations['total']} with the rack moving",
         "equilibrium": f"wheel centre at {rest.height * 1e3:.3f} mm",
-        "eigenvalues there": f"{rest.eigenvalues_text} 1/s, and two zeros (wheel spin)",
-        "wheel-hop mode": rest.mode_text,
+        "eigenvalues there": f"{rest.hop.eigenvalues_text} 1/s, and two zeros (wheel spin)",
+        "wheel-hop mode": rest.hop.text,
         "integration of 1 s": f"Gear's method (BDF of {result.solver}), {result.nfev} evaluations, "
         f"{result.njev} Jacobians, {result.nlu} factorisations, output every 0.1 ms",
         "time taken": f"{dynamics.seconds * 1e3:.1f} ms, signals included; the paper, on a 233 MHz "
