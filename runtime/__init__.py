@@ -20,7 +20,9 @@ if TYPE_CHECKING:
     from .events import SignalEvent
     from .generated._support import ClosureError, ModelError, ParameterError
     from .input.suspension import Suspension
+    from .linearisation import Linearisation, linearise
     from .model import Model
+    from .modes import Mode
     from .positions import PositionError, Range, equilibrium, state_at_height, travel_range
     from .simulation import Simulation, SimulationError, simulate
 
@@ -30,6 +32,8 @@ __all__ = [
     "ClosureError",
     "InputError",
     "KintrafoError",
+    "Linearisation",
+    "Mode",
     "Model",
     "ModelError",
     "ParameterError",
@@ -40,6 +44,7 @@ __all__ = [
     "SimulationError",
     "Suspension",
     "equilibrium",
+    "linearise",
     "simulate",
     "state_at_height",
     "travel_range",
@@ -52,7 +57,9 @@ _MODULES = {
     ".events": ("SignalEvent",),
     ".generated._support": ("ClosureError", "ModelError", "ParameterError"),
     ".input.suspension": ("Suspension",),
+    ".linearisation": ("Linearisation", "linearise"),
     ".model": ("Model",),
+    ".modes": ("Mode",),
     ".positions": ("PositionError", "Range", "equilibrium", "state_at_height", "travel_range"),
     ".simulation": ("Simulation", "SimulationError", "simulate"),
 }

@@ -122,7 +122,7 @@ def checkup(model: Model) -> Checkup:
 def _equilibrium(model: Model) -> Equilibrium:
     state = equilibrium(model)
     signals = {name: float(value) for name, value in model.signals(state).items()}
-    mode = paper.rest(model)
+    mode = paper.rest(model).hop
     height = signals["wheel_center_z"]
     return Equilibrium(
         height=height,

@@ -11,8 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .linearisation import linearise
 from .model import Model
-from .positions import equilibrium, state_at_height
+from .modes import Mode
+from .positions import arm_angles, equilibrium, state_at_height
+from .reach import at_rest
 from .simulation import Simulation, simulate
 
 Array = NDArray[np.float64]
@@ -87,8 +90,7 @@ def kinematics(model: Model, points: int = 121) -> Kinematics:
     heights = np.linspace(*ends, points)
     # the design position is one of them: an equally spaced one where that is the same
     heights = np.union1d(heights[np.abs(heights - design_height) > 1e-9], design_height)
-    states = np.array([state_at_height(model, z) for z in heights])
-    signals = model.signals(states)
+    signals = model.signals(*at_rest(model, arm_angles(model, heights)))
     return Kinematics(
         x=signals["wheel_center_x"],
         y=signals["wheel_center_y"],
@@ -128,50 +130,17 @@ class Rest:
         Equilibrium, the wheel spinning at 14.8 revolutions per second.
     height : float
         Of the wheel centre [m].
-    eigenvalues : tuple of complex
-        The two of the wheel-hop mode [1/s].
+    hop : Mode
+        The wheel-hop mode.
     """
 
     state: Array
     height: float
-    eigenvalues: tuple[complex, complex]
-
-    @property
-    def oscillates(self) -> bool:
-        """Whether the wheel-hop mode is underdamped."""
-        return self.eigenvalues[0].imag != 0.0
-
-    @property
-    def natural_frequency(self) -> float:
-        """Undamped natural frequency of the wheel-hop mode [Hz]."""
-        return float(np.sqrt(abs(self.eigenvalues[0] * self.eigenvalues[1]))) / (2.0 * np.pi)
-
-    @property
-    def damping_ratio(self) -> float:
-        """Damping ratio of the wheel-hop mode; above one where it does not oscillate."""
-        total = self.eigenvalues[0] + self.eigenvalues[1]
-        return -total.real / (2.0 * 2.0 * np.pi * self.natural_frequency)
-
-    @property
-    def eigenvalues_text(self) -> str:
-        """The eigenvalues for a person to read."""
-        first, second = self.eigenvalues
-        if self.oscillates:
-            return f"{first.real:.4f} +- {abs(first.imag):.4f} i"
-        return f"{first.real:.4f} and {second.real:.4f}"
-
-    @property
-    def mode_text(self) -> str:
-        """The wheel-hop mode for a person to read."""
-        text = f"{self.natural_frequency:.2f} Hz, damping ratio {self.damping_ratio:.3f}"
-        if self.oscillates:
-            return text
-        times = " and ".join(f"{-1e3 / value.real:.3g} ms" for value in self.eigenvalues)
-        return f"{text}: overdamped, time constants {times}"
+    hop: Mode
 
 
 def rest(model: Model) -> Rest:
-    """Find the equilibrium and the eigenvalues of the exact Jacobian there.
+    """Find the equilibrium and the wheel-hop mode there.
 
     Parameters
     ----------
@@ -183,7 +152,4 @@ def rest(model: Model) -> Rest:
     """
     state = equilibrium(model, spin_rate=SPIN_RATE)
     height = float(model.signal("wheel_center_z", state))
-    values = model.eigenvalues(state)
-    hop = sorted(values, key=abs)[-2:]  # the other two are the zeros of the spin
-    first, second = sorted(map(complex, hop), key=lambda v: (-v.imag, v.real))
-    return Rest(state, height, (first, second))
+    return Rest(state, height, linearise(model, state).wheel_hop)

@@ -171,9 +171,11 @@ def equilibrium(
 
     def moment(arm_angle: ArrayLike) -> Array:
         states, inputs = at_rest(model, arm_angle, rack_position)
-        loaded = wheel_load is not None
-        road = road_under_load(model, wheel_load, states, inputs) if loaded else road_height
-        inputs[..., model.input_names.index("road_height")] = road
+        road = inputs[..., model.input_names.index("road_height")]
+        if wheel_load is None:
+            road[...] = road_height
+        else:
+            road[...] = road_under_load(model, wheel_load, states, inputs)
         inputs[..., model.input_names.index("strut_force")] = strut_force
         return model.evaluate("forces", states, inputs)[..., 0]
 
@@ -214,7 +216,7 @@ def road_under_load(
         )
         raise InputError([problem], "wheel load")
     deflection = wheel_load / tyre["tyre_rate"]
-    height = model.signal("wheel_center_z", state, inputs)
+    height: Array = model.signal("wheel_center_z", state, inputs)
     return height + deflection - tyre["tyre_free_height"]
 
 
@@ -264,7 +266,8 @@ def _solve(
     right = np.clip((table.height[index] < heights[:, None]).sum(axis=1), 1, points - 1)
     low, high = table.angle[index, right - 1], table.angle[index, right]
     angle = 0.5 * (low + high)
-    found, error = angle.copy(), np.full(heights.size, np.inf)
+    found: Array = angle.copy()
+    error = np.full(heights.size, np.inf)
     rows = np.arange(heights.size)
     for count in range(_MOST_STEPS):
         at = angle[rows]
@@ -288,7 +291,8 @@ def _solve(
 
 def _stable_root(moment: Callable[[ArrayLike], Array], reach: Range, design: float) -> float:
     """Return the arm angle nearest to design at which the moment vanishes and pushes back."""
-    grid = np.linspace(*reach.arm_angle, 1 + round(abs(np.subtract(*reach.arm_angle)) / _STEP))
+    low, high = reach.arm_angle
+    grid = np.linspace(low, high, 1 + round(abs(high - low) / _STEP))
     values = moment(grid)
     # from low to high wheel position beta1 falls, so a stable moment goes from negative to positive
     stable = np.flatnonzero((values[:-1] <= 0.0) & (values[1:] > 0.0))

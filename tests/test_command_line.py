@@ -65,9 +65,9 @@ def test_version_names_the_solver():
 
 def test_overdamped_wheel_hop_is_said_to_be_so():
     stiff = Model(MODEL.suspension.with_changes({"strut.damper_rate_N_s_per_m": 60000.0}))
-    rest = paper.rest(stiff)
+    rest = paper.rest(stiff).hop
     assert not rest.oscillates
-    assert "overdamped" in rest.mode_text
+    assert "overdamped" in rest.text
     # two real roots of s^2 + 2 zeta w s + w^2
     first, second = (value.real for value in rest.eigenvalues)
     frequency = 2 * np.pi * rest.natural_frequency

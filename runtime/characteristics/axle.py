@@ -4,6 +4,7 @@ Steer angles are positive to the left [rad], as arrays over the positions of the
 """
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .corner import Array
 
@@ -89,5 +90,5 @@ def _ideal_outer(inner: Array, wheelbase: float, track: float) -> Array:
     return np.arctan2(wheelbase * across, wheelbase * along + track * across)
 
 
-def _turning(left: Array, right: Array) -> Array:
+def _turning(left: Array, right: Array) -> NDArray[np.bool_]:
     return np.abs(left + right) > 2.0 * _STRAIGHT

@@ -62,9 +62,9 @@ def travel(
 
     Examples
     --------
-    >>> curves = travel(Model("reference_car"), [-0.05, 0.0, 0.05])
+    >>> curves = travel(Model("reference_car"), [-0.05, 0.05])
     >>> np.rad2deg(curves["camber"].values).round(4).tolist()
-    [1.0526, 0.0, -0.3524]
+    [1.3246, -0.9139]
     >>> curves["motion_ratio"].attrs["definition"]
     'compression of the spring per wheel travel; some programs print the inverse'
     """
@@ -103,9 +103,9 @@ def steering(model: Model, rack: ArrayLike | None = None, *, travel: float = 0.0
 
     Examples
     --------
-    >>> curves = steering(Model("reference_car"), [-0.04, 0.0, 0.04])
+    >>> curves = steering(Model("reference_car"), [-0.04, 0.04])
     >>> np.rad2deg(curves["steer_left"].values).round(3).tolist()
-    [17.717, 0.0, -17.15]
+    [18.174, -17.836]
     """
     racks = _row(usual_rack(model, travel=travel) if rack is None else rack, "rack")
     own = _at_height(model, travel, racks)

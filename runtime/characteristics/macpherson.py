@@ -81,7 +81,8 @@ def _design_axis(suspension: Suspension) -> Array:
 
 
 def _knuckle(model: Model) -> int:
-    return model.equations.BODIES.index("knuckle")
+    index: int = model.equations.BODIES.index("knuckle")
+    return index
 
 
 def _motion(

@@ -9,9 +9,6 @@ import numpy as np
 
 from .corner import UP, Array, Corner, Motion
 
-_PARALLEL = {"divide": "ignore", "invalid": "ignore", "over": "ignore"}
-
-
 # -- angles of the wheel --------------------------------------------------------------------------
 
 
@@ -105,12 +102,14 @@ def contact(corner: Corner) -> Array:
 def half_track_change(corner: Corner) -> Array:
     """Return how much farther outboard the contact is than at design [m]."""
     design = _lowest_point(corner.design_center, corner.design_axis, _radius(corner))
-    return corner.vehicle.side * (contact(corner)[..., 1] - design[1])
+    change: Array = corner.vehicle.side * (contact(corner)[..., 1] - design[1])
+    return change
 
 
 def wheelbase_change(corner: Corner) -> Array:
     """Return how much farther forward the wheel centre is than at design [m]."""
-    return corner.center[..., 0] - corner.design_center[0]
+    change: Array = corner.center[..., 0] - corner.design_center[0]
+    return change
 
 
 def roll_center_height_kinematic(corner: Corner) -> Array:
@@ -120,36 +119,33 @@ def roll_center_height_kinematic(corner: Corner) -> Array:
     front.
     """
     velocity = _contact_velocity(corner)
-    with np.errstate(**_PARALLEL):
-        return contact(corner)[..., 1] * velocity[..., 1] / velocity[..., 2]
+    return _quotient(contact(corner)[..., 1] * velocity[..., 1], velocity[..., 2])
 
 
 def swing_arm_length_kinematic(corner: Corner) -> Array:
     """Return the lateral distance of contact and instant centre in front view [m]."""
     velocity, turning = _contact_velocity(corner), corner.travel.turning
-    with np.errstate(**_PARALLEL):
-        return corner.vehicle.side * velocity[..., 2] / turning[..., 0]
+    return _quotient(corner.vehicle.side * velocity[..., 2], turning[..., 0])
 
 
 def roll_center_height_geometric(corner: Corner) -> Array:
     """Return the height above the contact of the line to the links' instant centre at y = 0 [m]."""
     y, z, scale = _instant_center(corner)
     at = contact(corner)
-    with np.errstate(**_PARALLEL):
-        return -at[..., 1] * (z - at[..., 2] * scale) / (y - at[..., 1] * scale)
+    return _quotient(-at[..., 1] * (z - at[..., 2] * scale), y - at[..., 1] * scale)
 
 
 def swing_arm_length_geometric(corner: Corner) -> Array:
     """Return the lateral distance of contact and the links' instant centre in front view [m]."""
     y, _, scale = _instant_center(corner)
-    with np.errstate(**_PARALLEL):
-        return corner.vehicle.side * (contact(corner)[..., 1] - y / scale)
+    return _quotient(corner.vehicle.side * (contact(corner)[..., 1] * scale - y), scale)
 
 
 def side_view_swing_arm_angle(corner: Corner) -> Array:
     """Return the slope of the contact's path in side view, wheel locked [rad]."""
     velocity = _contact_velocity(corner)
-    return np.arctan2(velocity[..., 0], velocity[..., 2])
+    angle: Array = np.arctan2(velocity[..., 0], velocity[..., 2])
+    return angle
 
 
 def side_view_hub_angle(corner: Corner) -> Array:
@@ -165,7 +161,7 @@ def anti_dive(corner: Corner) -> Array:
     if wheelbase is None or height is None or share is None:
         raise _missing("wheelbase, center_of_gravity_height and front_brake_share")
     velocity = _contact_velocity(corner)
-    return share * wheelbase / height * velocity[..., 0] / velocity[..., 2]
+    return _quotient(share * wheelbase / height * velocity[..., 0], velocity[..., 2])
 
 
 # -- springs --------------------------------------------------------------------------------------
@@ -192,11 +188,16 @@ def ride_rate(corner: Corner) -> Array:
     if tyre is None:
         raise _missing("tyre_rate")
     wheel = wheel_rate(corner)
-    with np.errstate(**_PARALLEL):
-        return wheel * tyre / (wheel + tyre)
+    return _quotient(wheel * tyre, wheel + tyre)
 
 
 # -- what the formulas share ----------------------------------------------------------------------
+
+
+def _quotient(numerator: Array, denominator: Array) -> Array:
+    """Divide without a warning: what is divided by zero is infinite."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return numerator / denominator
 
 
 def _camber_sides(corner: Corner, axis: Array) -> tuple[Array, Array]:
@@ -247,7 +248,8 @@ def _offsets(corner: Corner, point: Array) -> tuple[Array, Array]:
 def _heading(corner: Corner) -> Array:
     """Return the horizontal unit vector in which the wheel rolls forward."""
     heading = np.cross(corner.vehicle.side * corner.axis, UP)
-    return heading / np.linalg.norm(heading, axis=-1, keepdims=True)
+    length: Array = np.linalg.norm(heading, axis=-1, keepdims=True)
+    return heading / length
 
 
 def _instant_center(corner: Corner) -> tuple[Array, Array, Array]:

@@ -1,0 +1,170 @@
+"""Modes of linear equations ``x' = A x``: eigenvalues, frequencies, damping, shapes."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import cast
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import eig
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+@dataclass(frozen=True)
+class Mode:
+    """One eigenvalue, or two that belong together: a conjugate pair, or an overdamped one.
+
+    Attributes
+    ----------
+    eigenvalues : tuple of complex
+        One or two [1/s]; that with positive imaginary part first, or else the faster one.
+    shape : ndarray of complex, shape (states,)
+        Eigenvector of the first eigenvalue, its largest element being one. Elements are in the
+        units of the state.
+    state_names : tuple of str
+    """
+
+    eigenvalues: tuple[complex, ...]
+    shape: Complex
+    state_names: tuple[str, ...]
+
+    @property
+    def oscillates(self) -> bool:
+        """Whether the mode is underdamped."""
+        return self.eigenvalues[0].imag != 0.0
+
+    @property
+    def natural_frequency(self) -> float:
+        """Undamped natural frequency [Hz]; that of the geometric mean of real eigenvalues."""
+        size = math.prod(map(abs, self.eigenvalues))
+        mean: float = size ** (1.0 / len(self.eigenvalues))
+        return mean / (2.0 * math.pi)
+
+    @property
+    def damping_ratio(self) -> float:
+        """Damping ratio; above one for an overdamped pair, NaN for an eigenvalue that is zero."""
+        total = sum(self.eigenvalues).real
+        size = len(self.eigenvalues) * 2.0 * math.pi * self.natural_frequency
+        return -total / size if size > 0.0 else float("nan")
+
+    @property
+    def eigenvalues_text(self) -> str:
+        """The eigenvalues for a person to read."""
+        first = self.eigenvalues[0]
+        if self.oscillates:
+            return f"{first.real:.4f} +- {abs(first.imag):.4f} i"
+        return " and ".join(f"{value.real:.4f}" for value in self.eigenvalues)
+
+    @property
+    def text(self) -> str:
+        """Frequency and damping for a person to read."""
+        text = f"{self.natural_frequency:.2f} Hz, damping ratio {self.damping_ratio:.3f}"
+        if self.oscillates:
+            return text
+        times = " and ".join(f"{-1e3 / value.real:.3g} ms" for value in self.eigenvalues)
+        return f"{text}: overdamped, time constants {times}"
+
+
+def eigenvalues_of(matrix: Array) -> Complex:
+    """Return the eigenvalues of a matrix, those with the largest imaginary part first.
+
+    Parameters
+    ----------
+    matrix : ndarray, shape (n, n)
+
+    Returns
+    -------
+    ndarray of complex, shape (n,)
+    """
+    values: Complex = np.linalg.eigvals(matrix).astype(np.complex128)
+    return values[_order(values)]
+
+
+def modes_of(matrix: Array, names: tuple[str, ...]) -> tuple[Mode, ...]:
+    """Return the modes: one for each conjugate pair and for each real eigenvalue.
+
+    Parameters
+    ----------
+    matrix : ndarray, shape (n, n)
+        A.
+    names : tuple of str
+        Names of the states.
+
+    Returns
+    -------
+    tuple of Mode
+    """
+    values, _, right = _decompose(matrix)
+    return tuple(
+        _mode((value, value.conjugate()) if value.imag else (value,), right[:, k], names)
+        for k, value in enumerate(values)
+        if value.imag >= 0.0
+    )
+
+
+def mode_of_states(matrix: Array, names: tuple[str, ...], states: Sequence[str]) -> Mode:
+    """Return the pair of eigenvalues in which some states take part most.
+
+    The participation of a state in an eigenvalue is the product of its elements in the left and in
+    the right eigenvector, which do not depend on units.
+
+    Parameters
+    ----------
+    matrix : ndarray, shape (n, n)
+        A.
+    names : tuple of str
+        Names of the states.
+    states : sequence of str
+        Those of the mode that is looked for: a coordinate and its rate.
+
+    Returns
+    -------
+    Mode
+        A conjugate pair, or the two real eigenvalues in which the states take part most.
+    """
+    values, left, right = _decompose(matrix)
+    shares = _participation(left, right)[[names.index(name) for name in states]].sum(axis=0)
+    best = int(np.argmax(shares))
+    if values[best].imag != 0.0:
+        upper = (
+            best
+            if values[best].imag > 0.0
+            else int(np.argmin(np.abs(values - values[best].conj())))
+        )
+        return _mode((values[upper], values[upper].conjugate()), right[:, upper], names)
+    shares[values.imag != 0.0] = -1.0
+    pair = sorted(np.argsort(shares)[-2:], key=lambda k: values[k].real)
+    return _mode(tuple(values[k] for k in pair), right[:, pair[0]], names)
+
+
+def _mode(values: tuple[complex, ...], shape: Complex, names: tuple[str, ...]) -> Mode:
+    largest = shape[np.argmax(np.abs(shape))]
+    return Mode(tuple(map(complex, values)), shape / largest, names)
+
+
+def _decompose(matrix: Array) -> tuple[Complex, Complex, Complex]:
+    """Return eigenvalues in order, with left and right eigenvectors as columns."""
+    found = cast("tuple[Complex, Complex, Complex]", eig(matrix, left=True, right=True))
+    order = _order(found[0])
+    return found[0][order], found[1][:, order], found[2][:, order]
+
+
+def _order(values: Complex) -> NDArray[np.intp]:
+    return np.lexsort((values.real, -np.abs(values), -values.imag))
+
+
+def _participation(left: Complex, right: Complex) -> Array:
+    """Return how much each state (row) takes part in each eigenvalue (column).
+
+    A repeated eigenvalue without eigenvectors enough, such as the zeros of a freely spinning wheel,
+    has left and right vectors at right angles; what is not shared out there stays zero.
+    """
+    shares: Array = np.abs(left.conj() * right)
+    total = np.abs(np.einsum("ik,ik->k", left.conj(), right))
+    complete = total > np.finfo(np.float64).eps ** 0.5
+    parts = np.zeros_like(shares)
+    parts[:, complete] = shares[:, complete] / total[complete]
+    return parts
