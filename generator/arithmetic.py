@@ -61,19 +61,8 @@ class IsPositive(sp.Function):  # type: ignore[misc]
         return sp.Integer(0)
 
 
-class Clamped(sp.Function):  # type: ignore[misc]
-    """The argument between zero and one, the nearer of the two outside."""
-
-    nargs = 1
-
-    def fdiff(self, argindex: int = 1) -> sp.Expr:
-        """Differentiate: one between the limits, zero outside."""
-        del argindex
-        return IsPositive(self.args[0]) * IsPositive(1 - self.args[0])
-
-
 # Comparisons, not arithmetic: they are not counted as operations.
-_SELECTIONS = (Guarded, SignOf, Positive, IsPositive, Clamped)
+_SELECTIONS = (Guarded, SignOf, Positive, IsPositive)
 
 
 @dataclass(frozen=True)
@@ -94,7 +83,6 @@ C = Dialect(
         SignOf: "copysign(1.0, {})",
         Positive: "fmax({}, 0.0)",
         IsPositive: "(double)({} > 0.0)",
-        Clamped: "fmin(fmax({}, 0.0), 1.0)",
     },
     root="sqrt({})",
 )
@@ -108,7 +96,6 @@ NUMPY = Dialect(
         SignOf: "np.copysign(1.0, {})",
         Positive: "np.fmax({}, 0.0)",
         IsPositive: "1.0*({} > 0.0)",
-        Clamped: "np.clip({}, 0.0, 1.0)",
     },
     root="np.sqrt({})",
 )

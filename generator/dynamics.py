@@ -380,10 +380,11 @@ class Dynamics:
                 NONE,
             )
             load += sp.Symbol(force.damper) * (sp.Symbol(str(force.road_velocity)) - rise)
-        if force.lifts_off:
+        if force.lifts_off is not None:
             deflection = program.define(f"{prefix}tyre_deflection", deflection)
-            pressed = program.define(f"{prefix}tyre_pressure", load)
-            load = IsPositive(deflection) * Positive(pressed)
+            load = program.define(f"{prefix}tyre_bonded_load", load)
+            pressed = IsPositive(deflection) * Positive(load)
+            load += sp.Symbol(force.lifts_off) * (pressed - load)
         return load
 
     def wheel_velocity(self, carrier: Placed, center: Vector, k: str) -> Vector:

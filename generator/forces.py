@@ -77,7 +77,8 @@ class LinearTyre:
     ``load (e_z - a a_z) / (1 - a_z^2)``, with ``load = rate x``, x = free_height + road - height.
 
     With a damper the load is ``rate x + damper x'``. A tyre that lifts off neither pulls nor damps
-    in the air: its load is zero where x or the load itself would be negative.
+    in the air: its load is zero where x or the load itself would be negative; one that does not
+    holds on to the road, as in the paper.
 
     Parameters
     ----------
@@ -96,7 +97,7 @@ class LinearTyre:
     damper, road_velocity
         Names of the parameter [N s/m] and of the input [m/s]; both or neither.
     lifts_off
-        Whether the tyre can leave the road; without, as in the paper, it holds on to it.
+        Name of the parameter: 1 if the tyre can leave the road, 0 if not; None: it cannot.
     """
 
     name: str
@@ -108,7 +109,7 @@ class LinearTyre:
     road: str
     damper: str | None = None
     road_velocity: str | None = None
-    lifts_off: bool = False
+    lifts_off: str | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

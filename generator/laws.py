@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 
 import sympy as sp
 
-from .arithmetic import Clamped, Positive
+from .arithmetic import Positive
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -89,24 +89,25 @@ class LinearDamper:
 class DamperTable:
     r"""A curve of force over velocity, smooth, with its own shape in bump and in rebound.
 
-    Let x be the compression velocity, x_0 < ... < x_n the knots. With t_i the part of segment i
-    that x has passed, 0 before and 1 behind it,
+    Let x be the compression velocity, k_0 < ... < k_n the knots, and p_i = max(x - k_i, 0). With
+    t_i the part of segment i that x has passed, 0 before and 1 behind it,
 
-        force = F_0 + s_0 min(x - x_0, 0) + sum_i t_i (a_i + t_i (b_i + t_i c_i))
-                + s_n max(x - x_n, 0),        t_i = clamp((x - x_i) / (x_{i+1} - x_i), 0, 1).
+        force = F_0 + s_0 min(x - k_0, 0) + sum_i t_i (a_i + t_i (b_i + t_i c_i)) + s_n p_n,
+        t_i = (p_i - p_{i+1}) / (k_{i+1} - k_i),    min(x - k_0, 0) = x - k_0 - p_0.
 
     That is a cubic in each segment and a straight line at both ends, without a branch. With the
-    coefficients of a C1 interpolation the curve is C1 too.
+    coefficients of a C1 interpolation the curve is C1 too. Written in p_i, its derivative is right
+    at the knots as well: a velocity belongs to one segment, and rest is often a knot.
 
     Parameters
     ----------
     name
         Begins the names of the parameters: ``<name>_first_force`` [N], ``<name>_first_slope`` and
-        ``<name>_last_slope`` [N s/m], ``<name>_last_knot`` [m/s], and for each segment
-        ``<name>_knot_<i>`` [m/s], ``_inverse_width`` [s/m], ``_linear``, ``_quadratic``, ``_cubic``
-        [N].
+        ``<name>_last_slope`` [N s/m], ``<name>_knot_<i>`` [m/s], and for each segment
+        ``<name>_inverse_width_<i>`` [s/m], ``_linear``, ``_quadratic``, ``_cubic`` [N].
     segments
-        Number of segments; those that are not needed have coefficients zero.
+        Number of segments; those that are not needed have width and coefficients zero (but any
+        inverse width).
     """
 
     name: str
@@ -120,37 +121,33 @@ class DamperTable:
         yield f"{self.name}_first_force", 0.0, "N", "force at the first knot"
         yield f"{self.name}_first_slope", 0.0, "N s/m", "slope below the first knot"
         yield f"{self.name}_last_slope", 0.0, "N s/m", "slope above the last knot"
-        yield f"{self.name}_last_knot", 1.0, "m/s", "last knot of compression velocity"
+        for i in range(self.segments + 1):
+            yield f"{self.name}_knot_{i}", 0.0, "m/s", f"knot {i} of compression velocity"
         for i in range(self.segments):
-            yield (
-                f"{self.name}_knot_{i}",
-                0.0,
-                "m/s",
-                f"compression velocity where segment {i} begins",
-            )
             yield f"{self.name}_inverse_width_{i}", 1.0, "s/m", f"inverse width of segment {i}"
             for power in ("linear", "quadratic", "cubic"):
                 yield f"{self.name}_{power}_{i}", 0.0, "N", f"{power} coefficient of segment {i}"
 
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""
+        program, x = at.program, -at.velocity
 
         def symbol(what: str) -> sp.Symbol:
             return sp.Symbol(f"{self.name}_{what}")
 
-        def passed(name: str, value: sp.Expr) -> sp.Expr:
-            return Positive(at.program.define(f"{self.name}_{name}", value))
-
-        x = -at.velocity
-        total = symbol("first_force")
-        total -= symbol("first_slope") * passed("before", symbol("knot_0") - x)
-        total += symbol("last_slope") * passed("behind", x - symbol("last_knot"))
+        passed = []
+        for i in range(self.segments + 1):
+            beyond = program.define(f"{self.name}_beyond_{i}", x - symbol(f"knot_{i}"))
+            passed.append((beyond, program.define(f"{self.name}_passed_{i}", Positive(beyond))))
+        (first, first_passed), (_, last_passed) = passed[0], passed[-1]
+        total = symbol("first_force") + symbol("first_slope") * (first - first_passed)
+        total += symbol("last_slope") * last_passed
         for i in range(self.segments):
-            share = at.program.define(
-                f"{self.name}_share_{i}", (x - symbol(f"knot_{i}")) * symbol(f"inverse_width_{i}")
+            t = program.define(
+                f"{self.name}_part_{i}",
+                (passed[i][1] - passed[i + 1][1]) * symbol(f"inverse_width_{i}"),
             )
-            t = at.program.define(f"{self.name}_part_{i}", Clamped(share))
-            a, b, c = (symbol(f"{p}_{i}") for p in ("linear", "quadratic", "cubic"))
+            a, b, c = (symbol(f"{power}_{i}") for power in ("linear", "quadratic", "cubic"))
             total += t * (a + t * (b + t * c))
         return total
 

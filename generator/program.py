@@ -400,9 +400,10 @@ def _share(steps: list[Step], results: list[sp.Expr]) -> tuple[list[Step], list[
 
     def place(expression: sp.Expr, section: str) -> None:
         for symbol in sorted(expression.free_symbols & waiting.keys(), key=str):
-            definition = waiting.pop(symbol)
-            place(definition, section)
-            shared.append(Step(symbol, definition, section))
+            if symbol in waiting:  # not placed meanwhile, with one that comes before it
+                definition = waiting.pop(symbol)
+                place(definition, section)
+                shared.append(Step(symbol, definition, section))
 
     for step, expression in zip(steps, reduced, strict=False):
         if expression in waiting:  # a whole step is shared: it keeps its own name

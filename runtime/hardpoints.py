@@ -13,8 +13,10 @@ _CARRIERS = {
     "tie_rod_outer": "knuckle",
     "wheel_center": "knuckle",
     "tie_rod_inner": "rack",
+    "strut_lower": "knuckle",
+    "spring_seat": "knuckle",
 }
-_FIXED = ("arm_front", "arm_rear", "strut_top")
+_FIXED = ("arm_front", "arm_rear", "strut_top", "spring_top")
 
 
 def hardpoints(model: Model, state: ArrayLike, inputs: ArrayLike | None = None) -> dict[str, Array]:

@@ -3,17 +3,15 @@
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from types import ModuleType
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .errors import InputError
-from .generated import macpherson, macpherson_free_rack
+from .generated import macpherson, macpherson_free_rack, macpherson_general
 from .input.suspension import Suspension
-
-if TYPE_CHECKING:
-    from types import ModuleType
 
 Array = NDArray[np.float64]
 
@@ -59,7 +57,7 @@ class Model:
             _refuse_neglected_mass(parameters)
         self.suspension = suspension
         self.free_rack = free_rack
-        self.equations: ModuleType = macpherson_free_rack if free_rack else macpherson
+        self.equations: ModuleType = _equations_for(suspension, free_rack=free_rack)
         self.constants: Array = self.equations.prepare(parameters)
         self.design_state = self._design_state(parameters)
 
@@ -209,6 +207,20 @@ def _suspension_of(given: Any) -> Suspension:
         return given
     problem = f"a Suspension, a name or a path is needed, not {type(given).__name__}."
     raise InputError([problem], "Model")
+
+
+def _equations_for(suspension: Suspension, *, free_rack: bool) -> ModuleType:
+    """Return the shortest equations that have everything that a suspension has."""
+    beyond = suspension.beyond_the_paper()
+    if not beyond:
+        return macpherson_free_rack if free_rack else macpherson
+    if free_rack:
+        problem = (
+            f"free_rack=True: the equations with a free rack are those of the paper's suspension, "
+            f"but this one has {', '.join(beyond)}. Leave that out, or prescribe the rack."
+        )
+        raise InputError([problem], "Model")
+    return macpherson_general
 
 
 def _refuse_neglected_mass(parameters: Mapping[str, float]) -> None:

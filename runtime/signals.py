@@ -18,6 +18,12 @@ Samples = tuple[Any, Any] | list[Any]
 Signal = float | Samples | Callable[[float], Any]
 
 RACK = "rack"
+# What follows from an input by differentiation in time, where a model takes it. A jump of the road
+# passes the tyre's damper without a blow.
+_RATES = {
+    f"{RACK}_position": (f"{RACK}_velocity", f"{RACK}_acceleration"),
+    "road_height": ("road_velocity",),
+}
 _FIRST_GRID = 33
 _LARGEST_GRID = 2**17 + 1
 # A function becomes a spline that reproduces it between its samples to this part of its size; the
@@ -141,14 +147,16 @@ def time_inputs(
 
 def _derived(names: tuple[str, ...]) -> tuple[str, ...]:
     """Return the inputs that follow from another one."""
-    return tuple(n for n in names if n in (f"{RACK}_velocity", f"{RACK}_acceleration"))
+    following = {n for name in _RATES for n in _RATES[name]}
+    return tuple(n for n in names if n in following)
 
 
 def _refusal(name: str, names: tuple[str, ...], derived: tuple[str, ...]) -> str:
     if name in derived:
+        source = next(n for n, rates in _RATES.items() if name in rates)
         return (
-            f"{name!r} follows from '{RACK}_position': give the position alone, as samples or as "
-            "a function of time."
+            f"{name!r} follows from {source!r}: give that alone, as samples or as a function of "
+            "time."
         )
     return f"{name!r} is not an input. {suggestion(name, [n for n in names if n not in derived])}"
 
@@ -219,11 +227,10 @@ def _covering(curves: list[CubicSpline], time: float) -> CubicSpline:
 
 
 def _targets(name: str, names: tuple[str, ...]) -> tuple[int, int, int]:
-    if name != f"{RACK}_position":
-        return names.index(name), -1, -1
-    kinds = ("position", "velocity", "acceleration")
-    value, first, second = (names.index(f"{RACK}_{kind}") for kind in kinds)
-    return value, first, second
+    """Return where a value and its two derivatives go; -1 for what the model does not take."""
+    rates = (*_RATES.get(name, ()), "", "")[:2]
+    first, second = (names.index(rate) if rate in names else -1 for rate in rates)
+    return names.index(name), first, second
 
 
 # -- samples ------------------------------------------------------------------------------------

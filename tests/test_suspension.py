@@ -297,7 +297,11 @@ def toml_text(data, path=""):
     """Write nested dictionaries as TOML (the standard library only reads it)."""
     lines = [f"[{path}]"] if path else []
     tables = {key: value for key, value in data.items() if isinstance(value, dict)}
-    lines += [f"{key} = {value!r}" for key, value in data.items() if key not in tables]
+    values = {key: value for key, value in data.items() if key not in tables}
+    written = {True: "true", False: "false"}
+    lines += [
+        f"{key} = {written[v] if isinstance(v, bool) else repr(v)}" for key, v in values.items()
+    ]
     texts = [toml_text(table, f"{path}.{key}".lstrip(".")) for key, table in tables.items()]
     return "\n".join(lines + texts)
 
@@ -530,7 +534,8 @@ class TestKeys:
     def test_unknown_key_that_resembles_none_is_refused_with_all(self):
         problem = only_problem({"tyre.k2": 1.0})
         assert problem == (
-            "[tyre] k2 is not a known key. Known are: rate_N_per_m, free_height_mm, radius_mm."
+            "[tyre] k2 is not a known key. Known are: rate_N_per_m, free_height_mm, radius_mm, "
+            "damper_rate_N_s_per_m, lifts_off."
         )
 
     @pytest.mark.parametrize(

@@ -181,7 +181,7 @@ GENERAL_FORCES = (
         road="road_height",
         damper="tyre_damper_rate",
         road_velocity="road_velocity",
-        lifts_off=True,
+        lifts_off="tyre_lifts_off",
     ),
     JointForce(joint="y", input="rack_force"),
 )
@@ -312,6 +312,7 @@ GENERAL_PARAMETERS = (
     Parameter("rebound_stop_rate", 0.0, "N/m", "rate of the rebound stop at first touch"),
     Parameter("rebound_stop_progression", 0.0, "N/m^3", "cubic term of the rebound stop"),
     Parameter("tyre_damper_rate", 0.0, "N s/m", "radial damping of the tyre"),
+    Parameter("tyre_lifts_off", 0.0, "1", "1: the tyre can leave the road; 0: it holds on to it"),
 )
 
 

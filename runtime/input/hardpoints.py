@@ -34,7 +34,12 @@ _DIRECTIONS_OF_STEERING = {
     ("ball_joint", "strut_top"),
     ("tie_rod_outer", "tie_rod_inner"),
     ("ball_joint", "tie_rod_outer"),
+    ("strut_lower", "strut_top"),
 }
+
+
+# Points that a file may leave out, and which other point then stands in.
+_STAND_INS = {"strut_lower": "ball_joint", "spring_top": "strut_top", "spring_seat": "strut_lower"}
 
 
 class Hardpoints(Section):
@@ -51,6 +56,17 @@ class Hardpoints(Section):
     tie_rod_outer: Triple = Field(description="ball joint of tie rod and knuckle")
     tie_rod_inner: Triple = Field(description="joint of tie rod and rack")
     wheel_center: Triple = Field(description="centre of the wheel")
+    strut_lower: Triple | None = Field(
+        default=None,
+        description="a point of the knuckle on the strut's axis; left out: the axis passes through "
+        "ball_joint",
+    )
+    spring_top: Triple | None = Field(
+        default=None, description="upper seat of the spring, on the chassis; left out: strut_top"
+    )
+    spring_seat: Triple | None = Field(
+        default=None, description="lower seat of the spring, on the knuckle; left out: strut_lower"
+    )
 
     @classmethod
     def unit_of_key(cls, key: str, table: Mapping[str, Any]) -> str:
@@ -59,7 +75,7 @@ class Hardpoints(Section):
         return unit if key != "unit" and unit in get_args(LengthUnit) else ""
 
     def metres(self, name: str) -> Vector:
-        """Return the position of a hardpoint.
+        """Return the position of a hardpoint; that of its stand-in, if it is left out.
 
         Parameters
         ----------
@@ -71,23 +87,40 @@ class Hardpoints(Section):
         numpy.ndarray
             Its coordinates in chassis axes, in m.
         """
-        return np.array([in_metres(value, self.unit) for value in getattr(self, name)])
+        point = getattr(self, name)
+        if point is None:
+            return self.metres(_STAND_INS[name])
+        return np.array([in_metres(value, self.unit) for value in point])
 
     @classmethod
     def names(cls) -> list[str]:
-        """Return the keys of the hardpoints."""
-        return [name for name in cls.model_fields if name != "unit"]
+        """Return the keys of the hardpoints that every file has."""
+        return [name for name in cls.model_fields if name not in ("unit", *_STAND_INS)]
 
-    def parameters(self) -> dict[str, float]:
-        """Return all coordinates in m, such as ``arm_front_x``."""
+    def given(self) -> list[str]:
+        """Return the keys of all hardpoints that this file has."""
+        return [*self.names(), *(name for name in _STAND_INS if getattr(self, name) is not None)]
+
+    def has_spring_seats(self) -> bool:
+        """Return whether the spring has an axis of its own."""
+        return self.spring_top is not None or self.spring_seat is not None
+
+    def parameters(self, *, optional: bool = False) -> dict[str, float]:
+        """Return the coordinates in m, such as ``arm_front_x``; if asked, all of them."""
         values: dict[str, float] = {}
-        for name in self.names():
+        for name in [*self.names(), *(_STAND_INS if optional else ())]:
             values |= components(name, self.metres(name))
         return values
 
     def strut_axis(self) -> Vector:
-        """Return the unit vector along the strut, from ball joint to strut top."""
-        return unit_vector(self.metres("strut_top") - self.metres("ball_joint"))
+        """Return the unit vector along the strut, upward from its lower end."""
+        return unit_vector(self.metres("strut_top") - self.metres("strut_lower"))
+
+    def strut_offset(self) -> float:
+        """Return the distance of the ball joint from the strut's axis, in m."""
+        return distance_from_line(
+            self.metres("ball_joint"), self.metres("strut_lower"), self.metres("strut_top")
+        )
 
     def distance(self, first: str, second: str) -> float:
         """Return the distance of two hardpoints, given by their keys, in m."""
@@ -95,12 +128,13 @@ class Hardpoints(Section):
 
     def text(self, *names: str) -> str:
         """Return hardpoints as they stand in the file, with their unit, for error messages."""
+        names = tuple(n if getattr(self, n) is not None else _STAND_INS[n] for n in names)
         points = [f"{name} = {list(getattr(self, name))} {self.unit}" for name in names]
         return f"[hardpoints] {' and '.join(points)}"
 
     def has_strut_axis(self) -> bool:
-        """Return whether ball joint and strut top are far enough apart to define the strut axis."""
-        return self.distance("ball_joint", "strut_top") >= _SMALLEST_DISTANCE
+        """Return whether the ends of the strut are far enough apart to define its axis."""
+        return self.distance("strut_lower", "strut_top") >= _SMALLEST_DISTANCE
 
     def unit_problems(self) -> list[str]:
         """Find coordinates that suggest that the unit is wrong, which no other check survives.
@@ -110,7 +144,7 @@ class Hardpoints(Section):
         list of str
             One text for each problem.
         """
-        points = {name: self.metres(name) for name in self.names()}
+        points = {name: self.metres(name) for name in self.given()}
         far = [name for name, point in points.items() if np.abs(point).max() > _LARGEST_COORDINATE]
         remedy = f'Correct the coordinates or `unit = "{self.unit}"`.'
         if far:
@@ -139,6 +173,15 @@ class Hardpoints(Section):
             for pair in combinations(names, 2)
             if self.distance(*pair) < _SMALLEST_DISTANCE
         }
+        coinciding |= {
+            pair: part
+            for part, pair in (
+                ("strut", ("strut_lower", "strut_top")),
+                ("spring", ("spring_seat", "spring_top")),
+            )
+            if set(pair) & set(self.given()[len(self.names()) :])
+            and self.distance(*pair) < _SMALLEST_DISTANCE
+        }
         problems = [
             f"{self.text(*pair)} are {1000 * self.distance(*pair):.3f} mm apart; two points of the "
             f"{body} must be at least {1000 * _SMALLEST_DISTANCE:g} mm apart. Move one of them."
@@ -150,13 +193,14 @@ class Hardpoints(Section):
         if not coinciding.keys() & _DIRECTIONS_OF_STEERING:
             problems += self._steering_arm()
             problems += self._cross_axes()
+            problems += self._offset()
         return problems
 
     def _cross_axes(self) -> list[str]:
         """Check that no link lies along the axis of its universal joint on the car's side."""
         problems = []
         for ends, link, axis, name in (
-            (("strut_top", "ball_joint"), "strut", (1.0, 0.0, 0.0), "the x axis"),
+            (("strut_top", "strut_lower"), "strut", (1.0, 0.0, 0.0), "the x axis"),
             (("tie_rod_inner", "tie_rod_outer"), "tie rod", (0.0, 0.0, 1.0), "the vertical"),
         ):
             first, second = (self.metres(end) for end in ends)
@@ -168,6 +212,19 @@ class Hardpoints(Section):
                     "it. Move one of the two points."
                 )
         return problems
+
+    def _offset(self) -> list[str]:
+        """Check that the ball joint is below the strut top, seen along the strut."""
+        span = self.metres("strut_top") - self.metres("ball_joint")
+        reach = float(span @ self.strut_axis())
+        if reach >= _SMALLEST_DISTANCE:
+            return []
+        problem = (
+            f"{self.text('ball_joint', 'strut_lower', 'strut_top')}: along the strut, strut_top is "
+            f"{1000 * reach:.3f} mm above ball_joint; at least {1000 * _SMALLEST_DISTANCE:g} mm "
+            "are needed. Swap the ends of the strut, or correct strut_lower."
+        )
+        return [problem]
 
     def _hinge(self) -> list[str]:
         """Check the axis about which the control arm turns."""

@@ -2,7 +2,8 @@
 
 import reprlib
 from collections.abc import Mapping
-from typing import Any
+from itertools import chain
+from typing import Any, get_args
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
@@ -13,6 +14,7 @@ from .suggestions import nearest, suggestion
 _EXPECTATIONS = {
     "finite_number": "must be a finite number. Enter the measured or estimated value.",
     "float_type": "must be a number. Write digits without quotes, with a point for decimals.",
+    "bool_type": "must be true or false. Write it without quotes.",
     "three_numbers": "must be three numbers. Write them as [x, y, z].",
 }
 
@@ -66,17 +68,18 @@ class _Place:
         self, location: tuple[int | str, ...], model: type[Section], data: Mapping[str, Any]
     ) -> None:
         sections: list[str] = []
-        rest = [part if isinstance(part, str) else f", {'xyz'[part]}" for part in location]
+        rest = list(location)
         while rest and (below := _subsection(model, rest[0])):
-            sections.append(rest.pop(0))
+            sections.append(str(rest.pop(0)))
             model = below
             inner = data.get(sections[-1])
             data = inner if isinstance(inner, Mapping) else {}
         self.sections = tuple(sections)
         self.model = model
-        self.key = rest[0] if rest else ""
+        self.key = str(rest[0]) if rest else ""
         self.title = f"[{'.'.join(sections)}]" if sections else ""
-        self.name = f"{self.title} {''.join(rest)}".strip()
+        elements = (f", {_element(model, self.key, part)}" for part in rest[1:])
+        self.name = f"{self.title} {self.key}{''.join(elements)}".strip()
         self.unit = model.unit_of_key(self.key, data)
 
     def probably_meant(self) -> tuple[str, ...]:
@@ -85,15 +88,26 @@ class _Place:
 
     def allowed(self) -> Range:
         """Return the range of the key's value."""
-        metadata = self.model.model_fields[self.key].metadata
+        field = self.model.model_fields[self.key]
+        optional = (getattr(kind, "__metadata__", ()) for kind in get_args(field.annotation))
+        metadata = chain(field.metadata, *optional)
         return next(item for item in metadata if isinstance(item, Range))
 
 
-def _subsection(model: type[Section], name: str) -> type[Section] | None:
+def _subsection(model: type[Section], name: int | str) -> type[Section] | None:
     """Return the model of a section's subsection, or None if `name` is a key."""
-    field = model.model_fields.get(name)
-    kind = field.annotation if field else None
-    return kind if isinstance(kind, type) and issubclass(kind, Section) else None
+    field = model.model_fields.get(str(name))
+    kinds = (field.annotation, *get_args(field.annotation)) if field else ()
+    sections = (kind for kind in kinds if isinstance(kind, type) and issubclass(kind, Section))
+    return next(sections, None)
+
+
+def _element(model: type[Section], key: str, index: int | str) -> str:
+    """Return the name of an element of a value: a point has x, y, z; a list has numbers."""
+    if not isinstance(index, int):
+        return index
+    open_ended = "..." in str(model.model_fields[key].annotation)
+    return f"element {index + 1}" if open_ended else "xyz"[index]
 
 
 def _texts(place: _Place, detail: ErrorDetails) -> list[str]:

@@ -44,6 +44,8 @@ def _three_numbers(value: Any) -> Any:
 # Strict: neither true nor "5" is a number.
 Number = Annotated[float, BeforeValidator(_plain), Strict(), AllowInfNan(False)]
 
+Flag = Annotated[bool, Strict()]
+
 NonNegative = Annotated[
     Number,
     Field(ge=0.0),

@@ -19,13 +19,18 @@ from pydantic import Field, ValidationError
 from .. import data as packaged_data
 from ..errors import InputError
 from .bodies import Bodies
+from .damper import Damper
 from .hardpoints import Hardpoints
 from .messages import messages_of
-from .section import NonNegative, Number, Positive, Range, Section, Triple
+from .section import Flag, NonNegative, Number, Positive, Range, Section, Triple
+from .strut import Stop, Strut
 from .suggestions import suggestion
 from .toml_file import read_toml
 from .units import in_metres
 from .vectors import Vector, angle_between_lines, components, unit_vector
+
+NO_DAMPER = Damper(velocity_m_per_s=(-1.0, 1.0), force_N=(0.0, 0.0))
+NO_STOP = Stop(clearance_mm=0.0, rate_N_per_m=0.0)
 
 SectionT = TypeVar("SectionT", bound=Section)
 
@@ -106,37 +111,6 @@ class Wheel(Section):
         return unit_vector([side_sign * math.tan(toe), 1.0, -side_sign * math.tan(camber)]) + 0.0
 
 
-class Strut(Section):
-    """Spring and damper in the strut.
-
-    The slide of the strut is ``length_max - length``: it grows when the wheel rises. The force that
-    pushes knuckle and chassis apart is ``spring_rate (slide - spring_free_slide) + damper_rate *
-    slide velocity``.
-    """
-
-    length_max_mm: Number = Field(
-        description="distance of ball_joint and strut_top, strut extended"
-    )
-    spring_rate_N_per_m: NonNegative = Field(  # noqa: N815 (N is the newton)
-        description="rate of the spring"
-    )
-    spring_free_slide_mm: Number = Field(
-        description="slide of the strut with the spring force-free"
-    )
-    damper_rate_N_s_per_m: NonNegative = Field(  # noqa: N815 (N is the newton)
-        description="rate of the damper"
-    )
-
-    def parameters(self) -> dict[str, float]:
-        """Return lengths in m and rates in N/m and N s/m by the names in the equations."""
-        return {
-            "strut_length_max": in_metres(self.length_max_mm, "mm"),
-            "spring_rate": self.spring_rate_N_per_m,
-            "damper_rate": self.damper_rate_N_s_per_m,
-            "spring_free_slide": in_metres(self.spring_free_slide_mm, "mm"),
-        }
-
-
 class Tyre(Section):
     """The tyre as a vertical spring in the plane of the wheel."""
 
@@ -148,6 +122,14 @@ class Tyre(Section):
         default=None,
         description="radius of the wheel as a thin disc that touches the ground; only for "
         "characteristics, left out: the height of wheel_center above z = 0",
+    )
+
+    damper_rate_N_s_per_m: NonNegative = Field(  # noqa: N815 (N is the newton)
+        default=0.0, description="radial damping of the tyre"
+    )
+    lifts_off: Flag = Field(
+        default=False,
+        description="true: the tyre can leave the road; false, as in the paper: it holds on to it",
     )
 
     def parameters(self) -> dict[str, float]:
@@ -219,6 +201,9 @@ class Suspension(Section):
     rack: Steering = Field(description="the steering rack")
     gravity: Gravity = Field(description="gravity")
     bodies: Bodies = Field(description="masses and inertia")
+    damper: Damper | None = Field(default=None, description="a damper curve instead of a rate")
+    bump_stop: Stop | None = Field(default=None, description="the strut's stop in bump")
+    rebound_stop: Stop | None = Field(default=None, description="the strut's stop in rebound")
 
     def __init__(self, /, **data: Any) -> None:
         problems = []
@@ -354,7 +339,7 @@ class Suspension(Section):
         """
         data = self.to_dict()
         data["vehicle"]["side"] = "left" if self.vehicle.side == "right" else "right"
-        points = [data["hardpoints"][name] for name in Hardpoints.names()]
+        points = [data["hardpoints"][name] for name in self.hardpoints.given()]
         bodies = [data["bodies"][name] for name in self.bodies.rigid()]
         for point in points + [body["com_mm"] for body in bodies if "com_mm" in body]:
             _reverse(point, 1)
@@ -378,7 +363,8 @@ class Suspension(Section):
             - ``rack_axis_*`` and ``spin_axis_*``, unit vectors; the spin axis points left at zero
               camber and toe on both sides, so that rolling forward is a positive rate;
             - ``strut_length_max`` and ``spring_free_slide`` in m, ``spring_rate`` in N/m,
-              ``damper_rate`` in N s/m;
+              ``damper_rate`` in N s/m; with anything of `beyond_the_paper` instead of the slide
+              ``spring_free_length``, and what ``generated.macpherson_general`` lists besides;
             - ``tyre_rate`` in N/m and ``tyre_free_height`` in m, ``gravity`` in m/s^2;
             - ``control_arm_mass`` in kg, ``control_arm_com_*`` in m and ``control_arm_inertia_*``
               in kg m^2, the latter the *elements* xx, yy, zz, xy, xz, yz of the tensor about the
@@ -393,15 +379,66 @@ class Suspension(Section):
         >>> Suspension.load("reference_car").parameters()["strut_length_max"]
         0.85
         """
-        return {
-            **self.hardpoints.parameters(),
+        general = bool(self.beyond_the_paper())
+        values = {
+            **self.hardpoints.parameters(optional=general),
             **components("rack_axis", unit_vector(self.rack.axis)),
             **components("spin_axis", self.wheel.spin_axis(self.vehicle.sign)),
-            **self.strut.parameters(),
+            **self.strut.parameters(self.damper),
             **self.tyre.parameters(),
             "gravity": self.gravity.acceleration_m_per_s2,
             **self.bodies.parameters(self.hardpoints),
         }
+        seats = self.hardpoints.distance("spring_seat", "spring_top")
+        if not general:
+            return values | {"spring_free_slide": self.strut.free_slide(seats)}
+        return (
+            values
+            | self._general_parameters()
+            | {"spring_free_length": self.strut.free_length(seats)}
+        )
+
+    def _general_parameters(self) -> dict[str, float]:
+        """Return what only the equations of the general suspension take, in SI units."""
+        length = self.hardpoints.distance("strut_lower", "strut_top")
+        stops = {"bump": self.bump_stop, "rebound": self.rebound_stop}
+        values = (self.damper or NO_DAMPER).parameters()
+        for side, stop in stops.items():
+            values |= (stop or NO_STOP).parameters(side, length)
+        return values | {
+            "strut_friction": self.strut.friction_N,
+            "strut_friction_speed": self.strut.friction_velocity_m_per_s,
+            "tyre_damper_rate": self.tyre.damper_rate_N_s_per_m,
+            "tyre_lifts_off": float(self.tyre.lifts_off),
+        }
+
+    def beyond_the_paper(self) -> list[str]:
+        """Return what this suspension has that the paper's equations leave out.
+
+        Returns
+        -------
+        list of str
+            Sections and keys; empty for the paper's suspension.
+
+        Examples
+        --------
+        >>> from kintrafo import Suspension
+        >>> car = Suspension.load("reference_car")
+        >>> car.beyond_the_paper(), car.with_changes({"tyre.lifts_off": True}).beyond_the_paper()
+        ([], ['[tyre] lifts_off'])
+        """
+        points, strut, tyre = self.hardpoints, self.strut, self.tyre
+        optional = points.given()[len(points.names()) :]
+        present = {
+            **{f"[hardpoints] {name}": True for name in optional},
+            "[strut] friction_N": strut.friction_N > 0.0,
+            "[damper]": self.damper is not None,
+            "[bump_stop]": self.bump_stop is not None,
+            "[rebound_stop]": self.rebound_stop is not None,
+            "[tyre] damper_rate_N_s_per_m": tyre.damper_rate_N_s_per_m > 0.0,
+            "[tyre] lifts_off": tyre.lifts_off,
+        }
+        return [name for name, is_present in present.items() if is_present]
 
 
 def _find(path_or_name: str | Path) -> Path | Traversable:
@@ -474,6 +511,8 @@ def _geometry_problems(data: Mapping[str, Any]) -> list[str]:
         problems += _spin_axis_along_strut(vehicle, wheel, hardpoints)
     if strut is not None:
         problems += _strut_too_long(strut, hardpoints)
+        problems += strut.spring_problems(hardpoints)
+        problems += _damper_problems(strut, with_curve=data.get("damper") is not None)
     return problems
 
 
@@ -505,15 +544,33 @@ def _spin_axis_along_strut(vehicle: Vehicle, wheel: Wheel, hardpoints: Hardpoint
     return [problem]
 
 
+def _damper_problems(strut: Strut, *, with_curve: bool) -> list[str]:
+    """See that the damper is given once."""
+    if (strut.damper_rate_N_s_per_m is None) == with_curve:
+        return []
+    if with_curve:
+        problem = (
+            f"[strut] damper_rate_N_s_per_m = {strut.damper_rate_N_s_per_m} N s/m and [damper] "
+            "both describe the damper; one is allowed. Remove the other."
+        )
+        return [problem]
+    problem = (
+        "[strut] damper_rate_N_s_per_m is missing: rate of the damper, unless a section [damper] "
+        "has its curve. Add a line `damper_rate_N_s_per_m = ...`, in N s/m."
+    )
+    return [problem]
+
+
 def _strut_too_long(strut: Strut, hardpoints: Hardpoints) -> list[str]:
     """Refuse a strut that is longer at design than when it is fully extended."""
-    length = 1000.0 * hardpoints.distance("ball_joint", "strut_top")
+    length = 1000.0 * hardpoints.distance("strut_lower", "strut_top")
+    lower = "ball_joint" if hardpoints.strut_lower is None else "strut_lower"
     if strut.length_max_mm >= length:
         return []
     limit = math.ceil(10.0 * length) / 10.0  # rounded up, so that the printed value is accepted
     problem = (
         f"[strut] length_max_mm = {strut.length_max_mm} mm is less than the length at design; "
-        f"allowed is {limit:.1f} mm or more, the distance of ball_joint and strut_top. Raise "
+        f"allowed is {limit:.1f} mm or more, the distance of {lower} and strut_top. Raise "
         "it, or correct these hardpoints."
     )
     return [problem]

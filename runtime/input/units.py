@@ -6,11 +6,14 @@ LengthUnit = Literal["mm", "m"]
 
 # Ending of a key -> the unit as it is printed. Longer endings stand before those they end in.
 _UNIT_OF_ENDING = {
+    "N_per_mm3": "N/mm^3",
     "N_s_per_m": "N s/m",
     "N_per_m": "N/m",
     "m_per_s2": "m/s^2",
+    "m_per_s": "m/s",
     "kg_m2": "kg m^2",
     "kg": "kg",
+    "N": "N",
     "mm": "mm",
     "deg": "deg",
 }

@@ -1,0 +1,150 @@
+"""Spring, damper and stops of the strut, as a file describes them."""
+
+from pydantic import Field
+
+from .damper import Damper
+from .hardpoints import Hardpoints
+from .section import NonNegative, Number, Positive, Section
+from .units import in_metres
+
+_FREE = (
+    "spring_free_slide_mm",
+    "spring_free_length_mm",
+    "spring_preload_N",
+    "spring_force_at_design_N",
+)
+
+
+class Strut(Section):
+    """Spring and damper in the strut.
+
+    The slide of the strut is ``length_max - length``: it grows when the wheel rises. The force that
+    pushes knuckle and chassis apart is ``spring_rate (slide - spring_free_slide) + damper_rate *
+    slide velocity``, less the friction. Where the spring is free of force is said in one of four
+    ways; slide and preload are for a spring that is concentric with the strut.
+    """
+
+    length_max_mm: Number = Field(
+        description="distance of strut_lower (or else ball_joint) and strut_top, strut extended"
+    )
+    spring_rate_N_per_m: NonNegative = Field(  # noqa: N815 (N is the newton)
+        description="rate of the spring"
+    )
+    spring_free_slide_mm: Number | None = Field(
+        default=None, description="slide of the strut with the spring force-free"
+    )
+    spring_free_length_mm: Positive | None = Field(
+        default=None, description="distance of the spring's seats with the spring force-free"
+    )
+    spring_preload_N: NonNegative | None = Field(  # noqa: N815
+        default=None, description="force of the spring with the strut fully extended"
+    )
+    spring_force_at_design_N: Number | None = Field(  # noqa: N815
+        default=None, description="force of the spring at the design position"
+    )
+    damper_rate_N_s_per_m: NonNegative | None = Field(  # noqa: N815
+        default=None, description="rate of a linear damper; for a curve there is [damper]"
+    )
+    friction_N: NonNegative = Field(  # noqa: N815
+        default=0.0, description="friction of the strut in full sliding"
+    )
+    friction_velocity_m_per_s: Positive = Field(
+        default=0.01, description="velocity at which 71 % of the friction is reached"
+    )
+
+    def problems(self) -> list[str]:
+        """See that the spring's free state is given once, and can be found."""
+        given = [key for key in _FREE if getattr(self, key) is not None]
+        if len(given) != 1:
+            found = f"{' and '.join(given)} are given" if given else "none of them is given"
+            problem = (
+                f"where the spring is free of force is said by one of {', '.join(_FREE)}; {found}. "
+                "Keep one."
+            )
+            return [problem]
+        by_force = given[0].endswith("_N")
+        if by_force and self.spring_rate_N_per_m == 0.0:
+            problem = (
+                f"{given[0]} = {getattr(self, given[0])} N needs a spring, but spring_rate_N_per_m "
+                "= 0.0 N/m; more than 0 N/m is needed. Enter the rate, or a free length."
+            )
+            return [problem]
+        return []
+
+    @property
+    def length_max(self) -> float:
+        """The length of the extended strut [m]."""
+        return in_metres(self.length_max_mm, "mm")
+
+    def free_slide(self, seats: float) -> float:
+        """Return the slide at which a concentric spring is free of force [m].
+
+        Parameters
+        ----------
+        seats : float
+            Distance of the spring's seats at the design position [m].
+        """
+        if self.spring_free_slide_mm is not None:
+            return in_metres(self.spring_free_slide_mm, "mm")
+        return self.length_max - self.free_length(seats)
+
+    def free_length(self, seats: float) -> float:
+        """Return the distance of the seats at which the spring is free of force [m].
+
+        Parameters
+        ----------
+        seats : float
+            Distance of the spring's seats at the design position [m].
+        """
+        if self.spring_free_length_mm is not None:
+            return in_metres(self.spring_free_length_mm, "mm")
+        if self.spring_force_at_design_N is not None:
+            return seats + self.spring_force_at_design_N / self.spring_rate_N_per_m
+        if self.spring_preload_N is not None:
+            return self.length_max + self.spring_preload_N / self.spring_rate_N_per_m
+        return self.length_max - self.free_slide(seats)
+
+    def spring_problems(self, points: Hardpoints) -> list[str]:
+        """Refuse what a spring with seats of its own cannot be described by."""
+        given = self.spring_free_slide_mm if self.spring_preload_N is None else 0.0
+        if given is None or not points.has_spring_seats():
+            return []
+        key = "spring_preload_N" if self.spring_preload_N is not None else _FREE[0]
+        problem = (
+            f"[strut] {key} describes a spring that is concentric with the strut, but spring_top "
+            "and spring_seat are given. Use spring_free_length_mm or spring_force_at_design_N."
+        )
+        return [problem]
+
+    def parameters(self, damper: Damper | None) -> dict[str, float]:
+        """Return what all equations need of the strut but the spring's free state, in SI units."""
+        linear = self.damper_rate_N_s_per_m
+        return {
+            "strut_length_max": self.length_max,
+            "spring_rate": self.spring_rate_N_per_m,
+            "damper_rate": 0.0 if linear is None or damper is not None else linear,
+        }
+
+
+class Stop(Section):
+    """A progressive stop in the strut: ``rate x + progression x^3``, x being how far it is pressed.
+
+    The clearance is travel of the strut from the design position until the stop is touched.
+    """
+
+    clearance_mm: Number = Field(description="travel of the strut from design until first touch")
+    rate_N_per_m: NonNegative = Field(  # noqa: N815
+        description="rate at first touch"
+    )
+    progression_N_per_mm3: NonNegative = Field(  # noqa: N815
+        default=0.0, description="cubic term: force / (distance pressed in)^3"
+    )
+
+    def parameters(self, side: str, design_length: float) -> dict[str, float]:
+        """Return the parameters of the stop of one side, "bump" or "rebound", in SI units."""
+        sense = -1.0 if side == "bump" else 1.0
+        return {
+            f"{side}_stop_length": design_length + sense * in_metres(self.clearance_mm, "mm"),
+            f"{side}_stop_rate": self.rate_N_per_m,
+            f"{side}_stop_progression": self.progression_N_per_mm3 * 1e9,
+        }

@@ -1,0 +1,234 @@
+"""Spring, damper, stops and tyre as users describe them, seen through the compiled equations."""
+
+import kintrafo
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from kintrafo import InputError, Model, Suspension
+from scipy.interpolate import PchipInterpolator
+
+CAR = Suspension.load("reference_car")
+VELOCITIES = (-1.0, -0.3, -0.05, 0.0, 0.05, 0.3, 1.0)
+FORCES = (-2500.0, -1300.0, -400.0, 0.0, 250.0, 600.0, 1100.0)
+
+
+def changed(**sections):
+    """Return the reference car with keys changed, added or (None) removed, section by section."""
+    data = CAR.to_dict()
+    for section, keys in sections.items():
+        table = data.setdefault(section, {})
+        for key, value in keys.items():
+            if value is None:
+                table.pop(key)
+            else:
+                table[key] = value
+    return Suspension.from_dict(data)
+
+
+def with_damper(velocities, forces):
+    curve = {"velocity_m_per_s": velocities, "force_N": forces}
+    return changed(strut={"damper_rate_N_s_per_m": None}, damper=curve)
+
+
+def at_strut_velocity(model, velocity):
+    """Return the state at design with the strut compressed at some velocity [m/s]."""
+    names = list(model.equations.SIGNALS)
+    by_state = model.evaluate("signals_jacobian", model.design_state)
+    return model.state(beta1_rate=-velocity / by_state[names.index("strut_velocity"), 2])
+
+
+def damper_force(model, velocity):
+    return float(model.signal("damper_force", at_strut_velocity(model, velocity)))
+
+
+def expected_curve(velocities, forces, at):
+    """SciPy's own interpolation, with straight lines outside."""
+    curve = PchipInterpolator(velocities, forces)
+    inside = np.clip(at, velocities[0], velocities[-1])
+    return curve(inside) + curve.derivative()(inside) * (at - inside)
+
+
+# not subnormal numbers, with which SciPy's harmonic mean overflows
+RISES = st.just(0.0) | st.floats(1e-3, 900.0)
+
+
+@st.composite
+def curves(draw):
+    count = draw(st.integers(2, 11))
+    steps = draw(st.lists(st.floats(0.01, 1.0), min_size=count - 1, max_size=count - 1))
+    rises = draw(st.lists(RISES, min_size=count - 1, max_size=count - 1))
+    zero = draw(st.integers(0, count - 1))
+    v, force = np.append(0.0, np.cumsum(steps)), np.append(0.0, np.cumsum(rises))
+    return (v - v[zero]).tolist(), (force - force[zero]).tolist()
+
+
+@settings(deadline=None, max_examples=40)
+@given(curves(), st.lists(st.floats(-6.0, 6.0), min_size=1, max_size=6))
+def test_damper_curve_is_the_monotone_cubic(curve, at):
+    velocities, forces = curve
+    model = Model(with_damper(velocities, forces))
+    for velocity in [*at, *velocities]:
+        # the strut's velocity is itself rounded to 1e-15 of some metres per second, and slopes go
+        # up to 9e4 N s/m
+        expected = expected_curve(velocities, forces, velocity)
+        assert damper_force(model, velocity) == pytest.approx(expected, rel=1e-12, abs=1e-9)
+
+
+def test_damping_at_rest_is_the_slope_of_the_curve():
+    """Rest is a knot of nearly every table: the derivative there must not fall between segments."""
+    model = Model(with_damper(VELOCITIES, FORCES))
+    slope = float(PchipInterpolator(VELOCITIES, FORCES).derivative()(0.0))
+    names = list(model.equations.SIGNALS)
+    by_state = model.evaluate("signals_jacobian", model.design_state)
+    row = {name: by_state[names.index(name), 2] for name in ("damper_force", "strut_velocity")}
+    assert row["damper_force"] == pytest.approx(-slope * row["strut_velocity"], rel=1e-12)
+    linear = Model(changed(strut={"damper_rate_N_s_per_m": slope}, tyre={"lifts_off": True}))
+    found, expected = (np.sort(m.eigenvalues(m.design_state)) for m in (model, linear))
+    assert found == pytest.approx(expected, rel=1e-11)
+
+
+def test_ways_to_say_where_the_spring_is_free():
+    slide = CAR.strut.spring_free_slide_mm
+    length = CAR.strut.length_max_mm - slide
+    design = 1000 * CAR.hardpoints.distance("ball_joint", "strut_top")
+    rate = CAR.strut.spring_rate_N_per_m / 1000
+    ways = [
+        {"spring_free_length_mm": length},
+        {"spring_force_at_design_N": rate * (length - design)},
+    ]
+    for way in ways:
+        car = changed(strut={"spring_free_slide_mm": None} | way)
+        # one rounding of a length below 1 m, and one of a force of some kilonewtons by its rate
+        assert car.parameters()["spring_free_slide"] == pytest.approx(slide / 1000, abs=4e-16)
+    preloaded = changed(strut={"spring_free_slide_mm": None, "spring_preload_N": 500.0})
+    assert preloaded.parameters()["spring_free_slide"] == pytest.approx(-0.02, abs=1e-15)
+
+
+def test_spring_with_seats_of_its_own():
+    seats = {"spring_top": [-30.0, -580.0, 790.0], "spring_seat": [10.0, -650.0, 500.0]}
+    car = changed(
+        hardpoints=seats, strut={"spring_free_slide_mm": None, "spring_force_at_design_N": 3200.0}
+    )
+    model = Model(car)
+    signals = model.signals(model.design_state)
+    distance = np.linalg.norm(np.subtract(*seats.values())) / 1000
+    assert signals["spring_length"] == pytest.approx(distance, rel=1e-15)
+    assert signals["spring_force"] == pytest.approx(3200.0, rel=1e-12)
+    with pytest.raises(InputError, match="concentric with the strut"):
+        changed(hardpoints=seats)
+
+
+STOPS = {
+    "bump_stop": {"clearance_mm": 30.0, "rate_N_per_m": 2e4, "progression_N_per_mm3": 0.02},
+    "rebound_stop": {"clearance_mm": 50.0, "rate_N_per_m": 5e4},
+}
+
+
+def test_stops_begin_at_their_clearance():
+    model = Model(changed(**STOPS))
+    design = float(model.signal("strut_length", model.design_state))
+    heights = np.linspace(0.2, 0.4, 41)
+    for height in heights:
+        signals = model.signals(kintrafo.state_at_height(model, float(height)))
+        closed = design - float(signals["strut_length"])
+        bump, rebound = max(closed - 0.03, 0.0), max(-closed - 0.05, 0.0)
+        # in newtons: rates of some 1e4 N/m times roundings of lengths of 1 m
+        assert signals["bump_stop_force"] == pytest.approx(2e4 * bump + 2e7 * bump**3, abs=1e-9)
+        assert signals["rebound_stop_force"] == pytest.approx(-5e4 * rebound, abs=1e-9)
+    lengths = [
+        float(model.signal("strut_length", kintrafo.state_at_height(model, h)))
+        for h in (heights[0], heights[-1])
+    ]
+    assert lengths[0] > design + 0.06  # both stops were touched
+    assert lengths[1] < design - 0.04
+
+
+def test_tyre_that_lifts_off_carries_nothing_in_the_air():
+    grounded, lifting = Model(CAR), Model(changed(tyre={"lifts_off": True}))
+    for height, in_the_air in ((0.31, False), (0.33, True)):
+        state = kintrafo.state_at_height(grounded, height)
+        held, free = (float(m.signal("tyre_force", state)) for m in (grounded, lifting))
+        assert free == (0.0 if in_the_air else pytest.approx(held, rel=1e-13))
+        assert (held < 0.0) == in_the_air
+
+
+def test_damping_of_the_tyre_follows_the_road():
+    model = Model(changed(tyre={"damper_rate_N_s_per_m": 150.0}))
+    still = model.signal("tyre_force", model.design_state)
+    rising = model.signal("tyre_force", model.design_state, model.inputs({"road_velocity": 2.0}))
+    assert rising - still == pytest.approx(300.0, rel=1e-12)  # no camber at design
+    with pytest.raises(InputError, match="follows from 'road_height'"):
+        kintrafo.simulate(model, (0.0, 0.1), model.design_state, inputs={"road_velocity": 1.0})
+
+
+def test_what_the_paper_has_is_solved_by_the_paper_s_equations():
+    assert Model(CAR).equations.NAME == "macpherson"
+    general = changed(hardpoints={"strut_lower": [5.0, -710.0, 180.0]})
+    assert Model(general).equations.NAME == "macpherson_general"
+    state, inputs = [1.6, 0.2, 1.5, 80.0], [0.01, 0.2, -1.0, 30.0, 0.004]
+    paper = Model(CAR)
+    named = dict(zip(paper.input_names, inputs, strict=True))
+    ours = Model(general)
+    found = ours.evaluate("rhs", state, ours.inputs(named))
+    # the same mechanism by a longer way: some hundred roundings of an ill-conditioned difference
+    assert found == pytest.approx(paper.evaluate("rhs", state, inputs), rel=1e-12)
+    with pytest.raises(InputError, match=r"free rack .* \[hardpoints\] strut_lower"):
+        Model(general, free_rack=True)
+
+
+def test_mirror_image_moves_alike():
+    car = changed(
+        hardpoints={"strut_lower": [-5.0, -690.0, 230.0], "spring_top": [-30.0, -580.0, 790.0]},
+        strut={"spring_free_slide_mm": None, "spring_force_at_design_N": 3200.0},
+        **STOPS,
+    )
+    right, left = Model(car), Model(car.mirrored())
+    state = right.state(beta1_rate=1.0, beta5_rate=80.0)
+    mirrored = left.state(beta1_rate=1.0, beta5_rate=80.0)
+    assert left.evaluate("rhs", mirrored) == pytest.approx(right.evaluate("rhs", state), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("sections", "words"),
+    [
+        ({"strut": {"spring_preload_N": 10.0}}, "spring_free_slide_mm and spring_preload_N are gi"),
+        ({"strut": {"spring_free_slide_mm": None}}, "none of them is given"),
+        (
+            {
+                "strut": {
+                    "spring_free_slide_mm": None,
+                    "spring_rate_N_per_m": 0.0,
+                    "spring_force_at_design_N": 100.0,
+                }
+            },
+            "needs a spring",
+        ),
+        ({"strut": {"damper_rate_N_s_per_m": None}}, r"or a section \[damper\]"),
+        ({"damper": {"velocity_m_per_s": [0.0, 1.0], "force_N": [0.0, 9.0]}}, "Remove the other"),
+        ({"tyre": {"lifts_off": 1}}, "lifts_off"),
+        ({"strut": {"friction_velocity_m_per_s": 0.0}}, "more than 0 m/s"),
+        ({"bump_stop": {"clearance_mm": 10.0}}, r"\[bump_stop\] rate_N_per_m"),
+        ({"hardpoints": {"strut_lower": [-28.0, -585.0, 820.0]}}, "two points of the strut"),
+        ({"hardpoints": {"strut_lower": [-28.0, -585.0, 900.0]}}, "along the strut, strut_top"),
+    ],
+)
+def test_refusals(sections, words):
+    with pytest.raises(InputError, match=words):
+        changed(**sections)
+
+
+@pytest.mark.parametrize(
+    ("velocities", "forces", "words"),
+    [
+        ([0.0, 1.0], [0.0], "2 values and force_N 1"),
+        ([0.0], [0.0], "allowed are 2 to 11"),
+        (list(range(12)), [0.0] * 12, "allowed are 2 to 11"),
+        ([0.0, 0.0], [0.0, 1.0], "velocities must rise"),
+        ([-1.0, 1.0], [300.0, 500.0], "pushes along with the motion"),
+        ([-1.0, float("nan")], [0.0, 1.0], "finite"),
+    ],
+)
+def test_refused_damper_curves(velocities, forces, words):
+    with pytest.raises(InputError, match=words):
+        with_damper(velocities, forces)
