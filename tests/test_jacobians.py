@@ -41,10 +41,14 @@ def car_and_places(request: pytest.FixtureRequest) -> tuple[Mechanism, list[At]]
 
 
 DERIVATIVES = {
-    "relative_jacobian": "relative_coordinates",
-    "rhs_jacobian": "rhs",
-    "rhs_jacobian_rack_held": "rhs_rack_held",
+    "relative_jacobian": ("relative_coordinates", "STATE"),
+    "rhs_jacobian": ("rhs", "STATE"),
+    "rhs_jacobian_rack_held": ("rhs_rack_held", "STATE"),
+    "rhs_input_jacobian": ("rhs", "INPUTS"),
+    "signals_jacobian": ("signals", "STATE"),
+    "signals_input_jacobian": ("signals", "INPUTS"),
 }
+"""Of each Jacobian, the function that it differentiates, and by what."""
 
 
 @pytest.fixture(
@@ -82,7 +86,7 @@ def gradient(function: Callable[[Array], Array], steps: Array) -> Array:
 
 
 def gradient_of_program(model: GeneratedModel, function: str, at: At, names: list[str]) -> Array:
-    """Differentiate the symbolic program of a function by elements of the state."""
+    """Differentiate the symbolic program of a function by elements of state or inputs."""
     run = python(model.functions[function])
     values: dict[str, mpmath.mpf] = {}
     for keys, array in (
@@ -105,10 +109,11 @@ def test_derivatives_of_the_program(
     jacobian, at_places = jacobian_and_places
     for at in at_places:
         found = at(jacobian)
-        names = list(at.model.STATE)[: found.shape[1]]
+        function, by = DERIVATIVES[jacobian]
+        names = list(getattr(at.model, by))[: found.shape[1]]
         model = derived(at.model.NAME)
         with mpmath.workdps(50):
-            expected = gradient_of_program(model, DERIVATIVES[jacobian], at, names)
+            expected = gradient_of_program(model, function, at, names)
         # Row by row, since a row has one unit: some hundred roundings of its largest element.
         size = np.abs(expected).max(axis=1, keepdims=True)
         assert (np.abs(found - expected) <= 1e-12 * size).all()
@@ -119,16 +124,20 @@ def test_derivatives_of_the_compiled_functions(
 ) -> None:
     jacobian, at_places = jacobian_and_places
     for at in at_places:
-        found, state = at(jacobian), at.state
-        function = getattr(at.model, DERIVATIVES[jacobian])
+        found = at(jacobian)
+        name, by = DERIVATIVES[jacobian]
+        function = getattr(at.model, name)
         width = found.shape[1]
 
-        def moved(change: Array, at: At = at, function=function, width: int = width) -> Array:
-            state = at.state
-            state[:width] += change
-            return function(state, at.inputs, at.constants)
+        def moved(
+            change: Array, at: At = at, function=function, by: str = by, width: int = width
+        ) -> Array:
+            arrays = {"STATE": at.state, "INPUTS": at.inputs}
+            arrays[by][:width] += change
+            return function(arrays["STATE"], arrays["INPUTS"], at.constants)
 
-        expected = gradient(moved, 2e-3 * np.maximum(1.0, np.abs(state[:width])))
+        place = {"STATE": at.state, "INPUTS": at.inputs}[by][:width]
+        expected = gradient(moved, 2e-3 * np.maximum(1.0, np.abs(place)))
         # The function's roundings over the step, some 1e-15 / 2e-3, and the ninth derivative times
         # the eighth power of the step.
         size = np.maximum(np.abs(expected).max(axis=1, keepdims=True), 1.0)
