@@ -31,7 +31,8 @@ def hardpoints(model: Model, state: ArrayLike, inputs: ArrayLike | None = None) 
     Returns
     -------
     dict
-        Name to position [m], shape (..., 3).
+        Name to position [m], shape (..., 3). Points that the file leaves out are where those are
+        that stand in for them.
 
     Examples
     --------
@@ -39,18 +40,14 @@ def hardpoints(model: Model, state: ArrayLike, inputs: ArrayLike | None = None) 
     >>> hardpoints(model, model.design_state)["tie_rod_inner"].round(12).tolist()
     [-0.14, -0.31, 0.28]
     """
-    parameters = model.suspension.parameters()
+    points, bodies = model.suspension.hardpoints, model.equations.BODIES
+    rigid = model.suspension.bodies.rigid()
     centers = model.evaluate("positions", state, inputs)
     rotations = model.evaluate("orientations", state, inputs)
-    bodies = model.equations.BODIES
-
-    def design(name: str) -> Array:
-        return np.array([parameters[f"{name}_{axis}"] for axis in "xyz"])
-
     moved = {}
     for point, body in _CARRIERS.items():
         index = bodies.index(body)
-        arm = design(point) - design(f"{body}_com")
+        arm = points.metres(point) - rigid[body].centre_of_mass(points)
         moved[point] = centers[..., index, :] + rotations[..., index, :, :] @ arm
     shape = centers.shape[:-2]
-    return moved | {point: np.broadcast_to(design(point), (*shape, 3)) for point in _FIXED}
+    return moved | {point: np.broadcast_to(points.metres(point), (*shape, 3)) for point in _FIXED}
