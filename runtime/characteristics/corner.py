@@ -63,24 +63,37 @@ class Plane:
 
 
 @dataclass(frozen=True)
-class Spring:
-    """Length and force of the spring over wheel travel.
+class Stroke:
+    """A length that changes over wheel travel: of a spring, a damper, a stop.
 
     Attributes
     ----------
     length : ndarray
         [m].
     slope, curvature : ndarray
-        First and second derivative of the length by wheel travel [1], [1/m].
+        First and second derivative by wheel travel [1], [1/m].
+    """
+
+    length: Array
+    slope: Array
+    curvature: Array
+
+
+@dataclass(frozen=True)
+class Spring:
+    """A force that the position alone decides.
+
+    Attributes
+    ----------
+    stroke : Stroke
+        Length between its ends.
     force : ndarray
         Positive when it pushes its ends apart [N].
     force_slope : ndarray
         Derivative of the force by wheel travel [N/m].
     """
 
-    length: Array
-    slope: Array
-    curvature: Array
+    stroke: Stroke
     force: Array
     force_slope: Array
 
@@ -140,6 +153,9 @@ class Corner:
         is held by the links in them: for a wishbone the plane of its three joints, for a strut the
         plane across it through its upper mount.
     spring : Spring
+    stops : tuple of Spring
+        What else pushes by its position.
+    damper : Stroke
     arm_angle : ndarray
         Angle of the lower link, zero at design, positive with the wheel up [rad].
     """
@@ -155,4 +171,6 @@ class Corner:
     steering: Motion
     links: tuple[Plane, Plane]
     spring: Spring
+    stops: tuple[Spring, ...]
+    damper: Stroke
     arm_angle: Array

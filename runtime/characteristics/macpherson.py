@@ -8,7 +8,7 @@ from ..input.suspension import Suspension
 from ..input.units import in_metres
 from ..model import Model
 from ..reach import at_rest
-from .corner import Array, Corner, Motion, Plane, Spring, Vehicle
+from .corner import Array, Corner, Motion, Plane, Spring, Stroke, Vehicle
 
 
 def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -> Corner:
@@ -31,6 +31,7 @@ def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -
     by_arm = _motion(model, points, states, inputs, "arm")
     by_rack = _motion(model, points, states, inputs, "rack")
     travel = by_arm.per(by_arm.velocity[..., 2])
+    strokes = _Strokes(model, states, inputs)
     return Corner(
         vehicle=vehicle(model.suspension),
         center=points["wheel_center"],
@@ -42,7 +43,9 @@ def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -
         travel=travel,
         steering=by_rack.minus(travel, by_rack.velocity[..., 2]),
         links=_links(points),
-        spring=_spring(model, states, inputs),
+        spring=strokes.spring,
+        stops=strokes.stops,
+        damper=strokes.stroke("strut"),
         arm_angle=model.design_state[0] - np.broadcast_to(arm_angle, states.shape[:-1]),
     )
 
@@ -114,24 +117,43 @@ def _motion(
 def _links(points: dict[str, Array]) -> tuple[Plane, Plane]:
     """Return the plane of the control arm and that across the strut through its mount."""
     ball, front, rear = points["ball_joint"], points["arm_front"], points["arm_rear"]
-    top = points["strut_top"]
-    return Plane(ball, np.cross(front - rear, ball - rear)), Plane(top, top - ball)
+    top, bottom = points["strut_top"], points.get("strut_lower", ball)
+    return Plane(ball, np.cross(front - rear, ball - rear)), Plane(top, top - bottom)
 
 
-def _spring(model: Model, states: Array, inputs: Array) -> Spring:
-    """Return the spring over wheel travel, by the chain rule from derivatives by the arm angle."""
-    states = states.copy()
-    states[..., model.state_names.index("beta1_rate")] = 1.0
-    signals = model.signals(states, inputs)
-    jacobian = model.evaluate("signals_jacobian", states, inputs)
-    by_arm = dict(zip(model.signal_names, np.moveaxis(jacobian[..., 0], -1, 0), strict=True))
-    # at unit rate velocities are first derivatives, and their derivatives second ones
-    rise, rise_change = signals["wheel_velocity"], by_arm["wheel_velocity"]
-    slope = signals["strut_velocity"] / rise
-    return Spring(
-        length=signals["strut_length"],
-        slope=slope,
-        curvature=(by_arm["strut_velocity"] - slope * rise_change) / rise**2,
-        force=signals["spring_force"],
-        force_slope=by_arm["spring_force"] / rise,
-    )
+class _Strokes:
+    """Lengths and forces over wheel travel, by the chain rule from derivatives by the arm angle."""
+
+    def __init__(self, model: Model, states: Array, inputs: Array) -> None:
+        # at unit rate velocities are first derivatives, and their derivatives second ones
+        states = states.copy()
+        states[..., model.state_names.index("beta1_rate")] = 1.0
+        self._signals = model.signals(states, inputs)
+        by_arm = model.evaluate("signals_jacobian", states, inputs)[..., 0]
+        self._by_arm = dict(zip(model.signal_names, np.moveaxis(by_arm, -1, 0), strict=True))
+
+    @property
+    def spring(self) -> Spring:
+        """The spring, which may have an axis of its own."""
+        own = "spring_length" in self._signals
+        return self._spring("spring_force", "spring" if own else "strut")
+
+    @property
+    def stops(self) -> tuple[Spring, ...]:
+        """The stops that the model has."""
+        known = ("bump_stop_force", "rebound_stop_force")
+        return tuple(self._spring(force, "strut") for force in known if force in self._signals)
+
+    def stroke(self, path: str) -> Stroke:
+        rise, rise_change = self._signals["wheel_velocity"], self._by_arm["wheel_velocity"]
+        slope = self._signals[f"{path}_velocity"] / rise
+        change = self._by_arm[f"{path}_velocity"]
+        return Stroke(
+            length=self._signals[f"{path}_length"],
+            slope=slope,
+            curvature=(change - slope * rise_change) / rise**2,
+        )
+
+    def _spring(self, force: str, path: str) -> Spring:
+        slope = self._by_arm[force] / self._signals["wheel_velocity"]
+        return Spring(self.stroke(path), self._signals[force], slope)

@@ -169,17 +169,25 @@ def anti_dive(corner: Corner) -> Array:
 
 def motion_ratio(corner: Corner) -> Array:
     """Return the compression of the spring per wheel travel [1]."""
-    return -corner.spring.slope
+    return -corner.spring.stroke.slope
+
+
+def damper_motion_ratio(corner: Corner) -> Array:
+    """Return the compression of the damper per wheel travel [1]."""
+    return -corner.damper.slope
 
 
 def wheel_rate(corner: Corner) -> Array:
-    """Return the derivative of the spring's force at the wheel by wheel travel [N/m].
+    """Return the derivative of the force of spring and stops at the wheel by wheel travel [N/m].
 
-    The force at the wheel is F MR by virtual work, with F the spring force and MR the motion
-    ratio; both change.
+    By virtual work a spring of force F acts at the wheel as F MR, with MR the motion ratio; both
+    change.
     """
-    spring = corner.spring
-    return -spring.force_slope * spring.slope - spring.force * spring.curvature
+    rate = np.zeros_like(corner.arm_angle)
+    for spring in (corner.spring, *corner.stops):
+        stroke = spring.stroke
+        rate = rate - spring.force_slope * stroke.slope - spring.force * stroke.curvature
+    return rate
 
 
 def ride_rate(corner: Corner) -> Array:
