@@ -146,10 +146,10 @@ def _difference(name: str, data: xr.DataArray, label: str) -> Difference:
     positions = np.asarray(data[along].values, dtype=np.float64)
     first = np.asarray(data.isel({DATA_SET: 0}).values, dtype=np.float64)
     other = np.asarray(data.sel({DATA_SET: label}).values, dtype=np.float64)
-    change = other - first
+    both = np.isfinite(first) & np.isfinite(other)
+    change = np.subtract(other, first, out=np.full(first.shape, np.nan), where=both)
     design = int(np.argmin(np.abs(positions)))
-    defined = np.isfinite(change)
-    worst = int(np.nanargmax(np.where(defined, np.abs(change), -1.0))) if defined.any() else design
+    worst = int(np.nanargmax(np.abs(change))) if both.any() else design
     return Difference(
         name=name,
         data_set=label,

@@ -51,7 +51,7 @@ def command(
         for name in list(models)[1:]:
             chosen = [difference for difference in found if difference.data_set == name]
             console.print(_table(dataset, chosen, next(iter(models)), name))
-    outputs.write(dataset, title=f"over {over}", silent=json)
+    outputs.write(dataset, title=" and ".join(models), silent=json)
 
 
 def _units(dataset: "Dataset", difference: "Difference") -> str:

@@ -1,0 +1,158 @@
+"""Roads and rack motions: by formula, and from measurements."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from kintrafo import InputError, Model
+from kintrafo.excitation import Course, excitation
+from kintrafo.measurement import measured
+from kintrafo.roads import sine, step
+from kintrafo.scenario import Scenario, play
+from kintrafo.sweep import grid
+
+MODEL = Model("reference_car")
+
+
+def table(tmp_path, text):
+    path = tmp_path / "road.csv"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_step_jumps_once():
+    times, heights = step(0.02, at=0.25, end=1.0)
+    assert times.tolist() == [0.0, 0.25, 0.25, 1.0]
+    assert heights.tolist() == [0.0, 0.0, 0.02, 0.02]
+    assert step(0.02, at=0.0, end=1.0) == 0.02
+    with pytest.raises(InputError, match="ends at 1 s"):
+        step(0.02, at=1.0, end=1.0)
+
+
+def test_sine_has_amplitude_and_frequency():
+    road = sine(0.01, 4.0)
+    assert road(0.0) == 0.0
+    assert road(1 / 16) == pytest.approx(0.01, rel=1e-14)
+    assert road(3 / 16) == pytest.approx(-0.01, rel=1e-14)
+
+
+def test_a_slow_sine_carries_the_suspension_along():
+    """At 0.05 Hz, far below the wheel hop, the wheel is where statics puts it."""
+    from kintrafo import equilibrium
+
+    _, motion = play(MODEL, Scenario(duration=5.0, inputs={"road_height": sine(0.01, 0.05)}))
+    top = motion["wheel_center_z"].sel(time=5.0)
+    rest = MODEL.signal("wheel_center_z", equilibrium(MODEL, road_height=0.01))
+    # inertia and damping act with the square of (0.05 / 12) and with 0 at the turning point
+    assert float(top) == pytest.approx(float(rest), abs=1e-6)
+
+
+def test_motion_starts_at_rest_on_the_road_as_it_is():
+    road = {"road_height": 0.03, "rack_position": 0.02}
+    _, motion = play(MODEL, Scenario(duration=0.2, inputs=road))
+    assert float(np.ptp(motion["wheel_center_z"].values)) < 1e-9
+    assert float(abs(motion["steer"][0])) > 0.1
+
+
+# -- measurements -------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "time_s,road_height_mm\n1.0,0\n1.5,2.5\n2.0,-1\n",
+        "\ufefftime_ms;other;road_height_m\n1000;x;0\n1500;;0,0025\n2000;y;-0,001\n",
+        "# measured\n\nroad_height_mm\ttime_s\n0\t1,0\n2,5\t1,5\n-1\t2,0\n",
+        '"time_s","road_height_mm"\n1.0,"0"\n1.5,2.5\n2.0,-1\n',
+    ],
+)
+def test_one_road_in_many_spellings(tmp_path, text):
+    found = measured(table(tmp_path, text))
+    assert found.times == pytest.approx([0.0, 0.5, 1.0], abs=1e-15)
+    assert found.values["road_height"] == pytest.approx([0.0, 0.0025, -0.001], abs=1e-18)
+    assert found.duration == 1.0
+
+
+def test_distance_becomes_time(tmp_path):
+    text = "distance_m,road_height_mm,rack_position_mm\n5,0,1\n15,1,2\n"
+    found = measured(table(tmp_path, text), speed=20.0)
+    assert found.times.tolist() == [0.0, 0.5]
+    assert set(found.inputs()) == {"road_height", "rack_position"}
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "empty"),
+        ("time_s,road_height_mm\n0,0\n", "at least two"),
+        ("time_s,road_height_mm\n0,0\n1,x\n", "line 3 has road_height_mm = 'x'"),
+        ("time_s,road_height_mm\n0,0\n1,\n", "line 3 has road_height_mm = ''"),
+        ("time_s,road_height_mm\n0,0\n1,nan\n", "finite"),
+        ("time_s,road_height_mm\n0,0\n\n1\n", "line 4 has 1 values"),
+        ("time_s,road_height_mm\n0,0\n2,1\n1,1\n", "line 4: the time falls"),
+        ("time_s,road_height_mm\n1,0\n1,1\n", "same time"),
+        ("road_height_mm,note\n0,0\n1,1\n", "time_s, time_ms or distance_m"),
+        ("time_s,time_ms,road_height_mm\n0,0,0\n1,1,1\n", "time stands in 2 columns"),
+        ("time_s,roadheight_mm\n0,0\n1,1\n", "Did you mean road_height_mm?"),
+        ("time_s,road_height_cm\n0,0\n1,1\n", "road_height_cm"),
+        ("distance_m,road_height_mm\n0,0\n1,1\n", "speed"),
+    ],
+)
+def test_what_cannot_be_read_is_refused_with_its_line(tmp_path, text, words):
+    with pytest.raises(InputError) as caught:
+        measured(table(tmp_path, text))
+    assert words in str(caught.value)
+    assert "road.csv" in str(caught.value)
+
+
+def test_many_wrong_lines_are_not_all_listed(tmp_path):
+    text = "time_s,road_height_mm\n" + "a,b\n" * 100
+    with pytest.raises(InputError) as caught:
+        measured(table(tmp_path, text))
+    assert len(caught.value.problems) == 6
+
+
+def test_not_text(tmp_path):
+    path = tmp_path / "road.csv"
+    path.write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(InputError, match="UTF-8"):
+        measured(path)
+    with pytest.raises(InputError, match="cannot be read"):
+        measured(tmp_path)
+
+
+# -- excitation, times and grids ------------------------------------------------------------------
+
+
+def test_an_input_is_given_once(tmp_path):
+    road = measured(table(tmp_path, "time_s,road_height_mm\n0,0\n1,1\n"))
+    courses = {"road_height": Course(step=0.01), "rack_position": Course(held=0.02)}
+    with pytest.raises(InputError, match="2 ways: step, measured"):
+        excitation(courses, 1.0, road)
+    assert excitation({"rack_position": Course(held=0.02)}, 1.0, road)["rack_position"] == 0.02
+
+
+@given(
+    duration=st.floats(1e-3, 1e2),
+    count=st.integers(1, 1000),
+    part=st.floats(0.0, 0.99),
+)
+def test_output_times_cover_the_duration(duration, count, part):
+    times = Scenario(duration=duration, output_step=duration / (count + part)).times()
+    assert times[0] == 0.0
+    assert times[-1] == duration
+    assert np.all(np.diff(times) > 0.0)
+    assert times.size in (count + 1, count + 2)
+
+
+@given(low=st.floats(0.0, 0.2), high=st.floats(0.0, 0.2), step_size=st.floats(1e-4, 0.3))
+def test_grids_hold_zero_and_their_ends(low, high, step_size):
+    values = grid(-low, high, step_size)
+    assert {-low, 0.0, high} <= set(values.tolist())
+    assert values[0] == -low
+    assert values[-1] == high
+    assert np.all(np.diff(values) <= step_size * (1.0 + 1e-6))
+    assert not any(math.isclose(*pair, rel_tol=1e-12) for pair in pairwise(values))
