@@ -11,7 +11,7 @@ from rich.console import Console
 from rich.markdown import Markdown
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
-from . import paper_timing, work_precision
+from . import friction, paper_timing, work_precision
 from .report import NO_SUNDIALS, environment, fill_page, machine_line, one_core, write_json
 
 
@@ -25,20 +25,24 @@ def run(
         bool, typer.Option("--quick", help="Few outputs, tolerances and repetitions.")
     ] = False,
 ) -> None:
-    """Measure Gear's method against Runge-Kutta: the paper's protocol, and free steps."""
+    """Measure Gear's method against Runge-Kutta: as the paper did, with free steps, when stiff."""
     console = Console()
     out.mkdir(parents=True, exist_ok=True)
     with one_core(), _progress(console) as progress:
         results = _measure(progress, quick=quick)
     machine = environment()
     blocks = _blocks(results, machine)
-    files = work_precision.write_figure(results["work_precision"], machine["processor"], out)
+    files = [
+        work_precision.write_figure(results["work_precision"], machine["processor"], out)[0],
+        friction.write_figure(results["friction"], machine["processor"], out)[0],
+    ]
     write_json(out / "gear_against_runge_kutta.json", {"environment": machine, **results})
     report = out / "gear_against_runge_kutta.md"
     report.write_text(_report(blocks), encoding="utf-8")
     if page is not None:
         fill_page(page, blocks)
-        shutil.copy(files[0], page.parent / "images" / files[0].name)
+        for file in files:
+            shutil.copy(file, page.parent / "images" / file.name)
     console.print(Markdown(_report({k: v for k, v in blocks.items() if k != "points"})))
     console.print(f"{report} and, beside it, JSON and the diagrams as PNG and SVG")
 
@@ -70,6 +74,11 @@ def _measure(progress: Progress, *, quick: bool) -> dict[str, Any]:
     results["work_precision"] = work_precision.measure(
         case, chosen, passes=passes, advance=lambda: progress.advance(bar)
     )
+    speeds = friction.SPEEDS[1:4:2] if quick else friction.SPEEDS
+    last = progress.add_task("friction", total=len(speeds) * len(friction.methods()))
+    results["friction"] = friction.measure(
+        speeds, rounds=1 if quick else 3, advance=lambda: progress.advance(last)
+    )
     return results
 
 
@@ -85,6 +94,7 @@ def _blocks(results: dict[str, Any], machine: dict[str, str]) -> dict[str, str]:
         blocks["methods"] = NO_SUNDIALS
     blocks["stiffness"] = work_precision.stiffness_table(results["stiffness"], points)
     blocks["costs"] = work_precision.cost_table(work_precision.cost_at(points))
+    blocks["friction"] = friction.table(results["friction"])
     blocks["points"] = work_precision.points_table(points)
     return blocks
 
@@ -95,6 +105,7 @@ _HEADINGS = {
     "ratios": "### Ratios",
     "stiffness": "## Stiffness",
     "costs": f"## Free steps: cost of an error of {work_precision.ERROR_OF_COMPARISON:g}",
+    "friction": "## With friction in the strut, which is stiff",
     "points": "## Free steps: all points",
 }
 

@@ -193,7 +193,8 @@ def simulate(
 
     Notes
     -----
-    The strut has no stops: it may become longer than its greatest length, or very short. The event
+    Without `[bump_stop]` and `[rebound_stop]` the strut may become longer than its greatest length, or
+    very short. The event
     'strut_fully_extended' watches the former, a `SignalEvent` of ``strut_length`` the latter.
 
     Examples

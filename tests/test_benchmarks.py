@@ -12,7 +12,7 @@ import pytest
 from kintrafo import solvers
 from kintrafo.solvers import native_available
 
-from benchmarks import paper_timing, report, work_precision
+from benchmarks import friction, paper_timing, report, work_precision
 
 ROOT = Path(__file__).parents[1]
 
@@ -37,9 +37,21 @@ def test_command_writes_everything(tmp_path):
     command = [sys.executable, "-m", "benchmarks", "--quick", "--out", tmp_path, "--page", page]
     subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
     results = json.loads((tmp_path / "gear_against_runge_kutta.json").read_text())
-    assert set(results) == {"environment", "stiffness", "paper_timing", "work_precision"}
+    assert set(results) == {
+        "environment",
+        "stiffness",
+        "paper_timing",
+        "work_precision",
+        "friction",
+    }
     assert {"processor", "compiler", "SUNDIALS", "SciPy"} <= set(results["environment"])
-    for name in ("work_precision.png", "work_precision.svg", "gear_against_runge_kutta.md"):
+    for name in (
+        "work_precision.png",
+        "work_precision.svg",
+        "friction.png",
+        "friction.svg",
+        "gear_against_runge_kutta.md",
+    ):
         assert (tmp_path / name).stat().st_size > 1000
     assert (page.parent / "images/work_precision.png").exists()
     assert page.read_text().count("| Verner 6(5)") >= 1
@@ -90,6 +102,22 @@ def test_stiffness(case):
     assert 2.0 < growth < 4.0  # the region of Dormand-Prince reaches about as far
 
 
+def test_friction_is_stiff_and_gear_does_not_mind():
+    mild, stiff = (friction.measure((speed,), rounds=1) for speed in (1e-2, 1e-4))
+    gear, *runge_kutta = stiff
+    assert gear.method == "BDF"
+    # the slope of the friction law at rest is F / v0, and nothing else depends on v0
+    assert gear.eigenvalue / mild[0].eigenvalue == pytest.approx(100.0, rel=0.1)
+    for point in runge_kutta:
+        # stability: |step times eigenvalue| up to about 3.3, for six or eight evaluations
+        assert point.evaluations > 0.3 * abs(point.eigenvalue)
+    assert gear.evaluations < 2 * mild[0].evaluations
+    assert all(point.error < 1e-3 for point in (*mild, *stiff))
+    table = friction.table([*mild, *stiff])
+    assert len(columns(table)) == 1
+    assert len(friction.draw(stiff, "a processor").axes) == 2
+
+
 def test_without_sundials_scipy_remains(monkeypatch, case):
     monkeypatch.setattr(solvers, "sundials", None)
     assert {library for library, _ in work_precision.curves()} == {"SciPy"}
@@ -101,7 +129,7 @@ def test_without_sundials_scipy_remains(monkeypatch, case):
 
 def test_page_names_only_known_blocks():
     found = re.findall(r"<!-- begin (\w+) -->", PAGE.read_text())
-    assert found == ["machine", "methods", "ratios", "stiffness", "costs"]
+    assert found == ["machine", "methods", "ratios", "stiffness", "costs", "friction"]
 
 
 def test_table_and_page(tmp_path):
