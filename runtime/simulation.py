@@ -193,9 +193,9 @@ def simulate(
 
     Notes
     -----
-    Without `[bump_stop]` and `[rebound_stop]` the strut may become longer than its greatest length, or
-    very short. The event
-    'strut_fully_extended' watches the former, a `SignalEvent` of ``strut_length`` the latter.
+    Without stops in its data, the strut may become longer than its greatest length, or very short.
+    The event 'strut_fully_extended' watches the former, a `SignalEvent` of ``strut_length`` the
+    latter.
 
     Examples
     --------
