@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from .errors import InputError
 from .generated import macpherson, macpherson_free_rack, macpherson_general
 from .input.suspension import Suspension
+from .modes import eigenvalues_of
 
 Array = NDArray[np.float64]
 
@@ -182,12 +183,9 @@ class Model:
         -------
         ndarray of complex
             Eigenvalues of the exact Jacobian of the right-hand side [1/s], those with the largest
-            imaginary part first.
+            imaginary part first. `kintrafo.linearise` has the modes that belong to them.
         """
-        jacobian = self.evaluate("rhs_jacobian", state, inputs)
-        values: NDArray[np.complex128] = np.linalg.eigvals(jacobian).astype(np.complex128)
-        order = np.lexsort((values.real, -np.abs(values), -values.imag))
-        return values[order]
+        return eigenvalues_of(self.evaluate("rhs_jacobian", state, inputs))
 
 
 def _assign(array: Array, names: tuple[str, ...], values: Mapping[str, Any], what: str) -> None:

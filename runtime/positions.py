@@ -80,6 +80,8 @@ def arm_angles(model: Model, height: ArrayLike, rack_position: ArrayLike = 0.0) 
         return np.empty(heights.shape)
     distinct, index = np.unique(racks.ravel(), return_inverse=True)
     table = branch(model, distinct)
+    if _beyond(heights.ravel(), table, index).any():
+        table = branch(model, distinct, to_the_end=True)
     _refuse_out_of_reach(model, heights.ravel(), distinct[index], table, index)
     angles = _solve(model, heights.ravel(), distinct[index], table, index)
     return angles.reshape(heights.shape)
@@ -235,10 +237,17 @@ def _finite(values: ArrayLike, name: str) -> Array:
     return array
 
 
+def _beyond(heights: Array, table: Branch, index: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Return which heights lie outside of the table."""
+    too_low: NDArray[np.bool_] = heights < table.height[index, 0]
+    too_high: NDArray[np.bool_] = heights > table.height[index, -1]
+    return too_low | too_high
+
+
 def _refuse_out_of_reach(
     model: Model, heights: Array, racks: Array, table: Branch, index: NDArray[np.int64]
 ) -> None:
-    beyond = (heights < table.height[index, 0]) | (heights > table.height[index, -1])
+    beyond = _beyond(heights, table, index)
     if not beyond.any():
         return
     height, rack = heights[beyond][0], float(racks[beyond][0])

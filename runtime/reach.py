@@ -6,6 +6,7 @@ that every height within reach has exactly one position.
 """
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,7 +15,6 @@ from .errors import KintrafoError
 from .model import Model
 
 Array = NDArray[np.float64]
-Bools = NDArray[np.bool_]
 
 # Arm angles are looked at in steps of this size [rad], up to a right angle from design.
 _STEP = np.deg2rad(2.0)
@@ -104,7 +104,7 @@ class Branch:
     height: Array
 
 
-def branch(model: Model, rack_positions: ArrayLike) -> Branch:
+def branch(model: Model, rack_positions: ArrayLike, *, to_the_end: bool = False) -> Branch:
     """Tabulate the reach for each rack position.
 
     Parameters
@@ -112,6 +112,9 @@ def branch(model: Model, rack_positions: ArrayLike) -> Branch:
     model : Model
     rack_positions : array_like, shape (racks,)
         Displacements of the rack [m].
+    to_the_end : bool, optional
+        Whether to locate the ends of the reach, as `travel_range` does. Otherwise the table ends up
+        to two degrees before them, and is made much faster.
 
     Returns
     -------
@@ -123,19 +126,33 @@ def branch(model: Model, rack_positions: ArrayLike) -> Branch:
         If the rack cannot be there with the arm in its design position.
     """
     racks = np.asarray(rack_positions, dtype=np.float64)
-    chunks = [_tabulate(model, racks[i : i + _CHUNK]) for i in range(0, racks.size, _CHUNK)]
+    chunks = [
+        _tabulate(model, racks[i : i + _CHUNK], to_the_end) for i in range(0, racks.size, _CHUNK)
+    ]
     return Branch(
         np.concatenate([chunk.angle for chunk in chunks]),
         np.concatenate([chunk.height for chunk in chunks]),
     )
 
 
-def _tabulate(model: Model, racks: Array) -> Branch:
-    low, _ = _ends(model, racks, +1.0)
-    high, _ = _ends(model, racks, -1.0)
+def _tabulate(model: Model, racks: Array, to_the_end: bool) -> Branch:
     grid = model.design_state[0] - _STEP * np.arange(-_STEPS, _STEPS + 1)
-    angles = np.clip(grid, high[:, None], low[:, None])
-    heights, _ = height_and_slope(model, angles, racks[:, None])
+    look = _look(model, grid, racks[:, None])
+    _refuse_design_that_cannot_close(model, racks, look, _STEPS)
+    down = np.logical_and.accumulate(look.usable[:, _STEPS::-1], axis=1).sum(axis=1)
+    up = np.logical_and.accumulate(look.usable[:, _STEPS:], axis=1).sum(axis=1)
+    first, last = _STEPS + 1 - np.maximum(down, 1), _STEPS - 1 + np.maximum(up, 1)
+    columns = np.arange(grid.size)
+    inner = np.clip(columns, first[:, None], last[:, None])
+    angles, heights = grid[inner], np.take_along_axis(look.height, inner, axis=1)
+    if to_the_end:
+        for beyond, direction in (
+            (columns < first[:, None], +1.0),
+            (columns > last[:, None], -1.0),
+        ):
+            ends, _ = _ends(model, racks, direction)
+            angles = np.where(beyond, ends[:, None], angles)
+            heights = np.where(beyond, height_and_slope(model, ends, racks)[0][:, None], heights)
     return Branch(angles, heights)
 
 
@@ -200,39 +217,54 @@ def _ends(model: Model, racks: Array, direction: float) -> tuple[Array, list[int
     angle : ndarray, shape (racks,)
         The last angle within reach [rad].
     limits : list of int
-        What ends the reach: index of a guard, or minus one for the wheel that turns back, or minus
-        two for a right angle.
+        What ends the reach, as in `_Look`; minus two for a right angle.
     """
-    start = model.design_state[0]
-    angles = start + direction * _STEP * np.arange(_STEPS + 1)
-    usable, limits = _look(model, angles, racks[:, None])
-    _refuse_design_that_cannot_close(model, racks, usable[:, 0], limits[:, 0])
-    good = np.logical_and.accumulate(usable, axis=1)
+    angles = model.design_state[0] + direction * _STEP * np.arange(_STEPS + 1)
+    look = _look(model, angles, racks[:, None])
+    _refuse_design_that_cannot_close(model, racks, look, 0)
+    good = np.logical_and.accumulate(look.usable, axis=1)
     last = np.maximum(good.sum(axis=1) - 1, 0)
     first_bad = np.minimum(last + good[:, 0], _STEPS)
     inside, outside = angles[last], angles[first_bad]
     for _ in range(_HALVINGS):
         middle = 0.5 * (inside + outside)
-        fine, _ = _look(model, middle, racks)
+        fine = _look(model, middle, racks).usable
         inside, outside = np.where(fine, middle, inside), np.where(fine, outside, middle)
-    _, limits = _look(model, outside, racks)
     complete = good.all(axis=1)
-    limits = np.where(complete, -2, limits)
+    limits = np.where(complete, -2, _look(model, outside, racks).limit)
     return np.where(complete, angles[-1], inside), limits.tolist()
 
 
-def _look(model: Model, angles: Array, racks: Array) -> tuple[Bools, NDArray[np.int64]]:
-    """Return whether positions are usable, and what is wrong with the others (see `_ends`)."""
+class _Look(NamedTuple):
+    """What there is at some positions.
+
+    Attributes
+    ----------
+    usable : ndarray of bool
+        Whether the loops close and the wheel rises as the arm does.
+    limit : ndarray of int
+        What is wrong otherwise: index of a guard, or minus one for a wheel that turns back.
+    height : ndarray
+        Of the wheel centre [m]; means nothing where a loop does not close.
+    """
+
+    usable: NDArray[np.bool_]
+    limit: NDArray[np.int64]
+    height: Array
+
+
+def _look(model: Model, angles: Array, racks: Array) -> _Look:
     states, inputs = at_rest(model, angles, racks, arm_rate=1.0)
     # the azimuth of a vertical shaft is undefined, and nothing here depends on it
     watched = [not name.startswith("shaft_level") for name, _ in model.equations.GUARDS]
     # a NaN behind a failed guard must not pass
     failed = ~(model.evaluate("margins", states, inputs) > 0.0) & watched
     closes = ~failed.any(axis=-1)
-    falling = np.zeros_like(closes)
-    slopes = model.signals(states[closes], inputs[closes])["wheel_velocity"]
-    falling[closes] = slopes < 0.0  # beta1 falls as the wheel rises (Eq. 6)
-    return closes & falling, np.where(closes, -1, failed.argmax(axis=-1))
+    heights, slopes = np.zeros(closes.shape), np.zeros(closes.shape)
+    signals = model.signals(states[closes], inputs[closes])
+    heights[closes], slopes[closes] = signals["wheel_center_z"], signals["wheel_velocity"]
+    # beta1 falls as the wheel rises (Eq. 6)
+    return _Look(slopes < 0.0, np.where(closes, -1, failed.argmax(axis=-1)), heights)
 
 
 def _in_words(model: Model, limit: int) -> str:
@@ -240,16 +272,15 @@ def _in_words(model: Model, limit: int) -> str:
     return reasons[limit] if limit < 0 else model.equations.GUARDS[limit][1]
 
 
-def _refuse_design_that_cannot_close(
-    model: Model, racks: Array, usable: Bools, limits: NDArray[np.int64]
-) -> None:
+def _refuse_design_that_cannot_close(model: Model, racks: Array, look: _Look, column: int) -> None:
     """Refuse racks with which a loop does not close at the arm's design position."""
-    refused = np.flatnonzero(~usable & (limits >= 0))
+    refused = np.flatnonzero(~look.usable[:, column] & (look.limit[:, column] >= 0))
     if refused.size == 0:
         return
     first = refused[0]
+    reason = _in_words(model, int(look.limit[first, column]))
     message = (
         f"the rack cannot be at {racks[first] * 1e3:g} mm with the control arm in its design "
-        f"position: {_in_words(model, int(limits[first]))}. Choose a smaller displacement."
+        f"position: {reason}. Choose a smaller displacement."
     )
     raise PositionError(message)
