@@ -103,11 +103,15 @@ def _of_curves(
     between = {curve.key: curve.values for curve in exact}
     errors = {}
     for curve in drawn:
-        samples = as_encoded(grid, curve.values)
-        near = grid.interpolate(samples, grid.travel.between, grid.rack.between)
+        near = grid.interpolate(
+            as_encoded(grid, curve.smooth), grid.travel.between, grid.rack.between
+        )
+        if curve.reciprocal:
+            with np.errstate(divide="ignore"):  # an infinite value is outside of what is shown
+                near = 1.0 / near
         low, high = ranges[curve.key]
         true = between[curve.key]
-        shown = np.isfinite(near) & (true >= low) & (true <= high) & (near >= low) & (near <= high)
+        shown = (true >= low) & (true <= high) & (near >= low) & (near <= high)
         difference = np.abs(near - true)[shown]
         errors[curve.key] = float(difference.max(initial=0.0)) * curve.factor
     return errors

@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import characteristics
 from ..model import Model
 from .grid import Grid
-from .groups import STEERING, group_of
+from .groups import group_of
+from .plotted import has_pole
 
 if TYPE_CHECKING:
     from xarray import DataArray, Dataset
@@ -54,6 +56,20 @@ class Curve:
         """A name that no other curve of the page has."""
         return self.name if self.over == "travel" else f"{self.name}_over_rack"
 
+    @property
+    def reciprocal(self) -> bool:
+        """Whether one over the values is smoother: they have a pole, and no zero.
+
+        A swing arm's length is infinite where the wheel moves straight, a turning circle straight
+        ahead; what is interpolated is then the curvature, which passes through zero there.
+        """
+        return has_pole(self.values) and bool(np.all(np.abs(self.values) > 0.0))
+
+    @property
+    def smooth(self) -> Array:
+        """What is sampled and interpolated, shape (travels, racks)."""
+        return 1.0 / self.values if self.reciprocal else self.values
+
     def through_design(self, grid: Grid) -> Array:
         """Return the curve with the other coordinate zero [SI unit]."""
         if self.over == "travel":
@@ -87,8 +103,6 @@ def curves(
         Those over travel, then those over rack displacement; without those that are defined
         nowhere.
     """
-    from .. import characteristics  # noqa: PLC0415 (xarray is slow to import)
-
     tell("characteristics over wheel travel")
     lengthwise = [characteristics.travel(model, travel, rack_position=float(r)) for r in rack]
     tell("characteristics over rack displacement")
@@ -98,6 +112,12 @@ def curves(
         *_stacked(crosswise, "rack_position", "rack"),
     ]
     return [curve for curve in found if np.isfinite(curve.values).any()]
+
+
+def only_over_rack(drawn: list[Curve]) -> set[str]:
+    """Return the names of the characteristics that belong to steering alone."""
+    along = {curve.name for curve in drawn if curve.over == "travel"}
+    return {curve.name for curve in drawn} - along
 
 
 def _stacked(
@@ -126,7 +146,7 @@ def _curve(variable: "DataArray", over: Literal["travel", "rack"], values: Array
         label=str(words.get("long_name", name.replace("_", " "))),
         definition=str(words.get("definition", "")),
         sign=str(words.get("sign", "")),
-        group=STEERING if over == "rack" else group_of(name),
+        group=group_of(name),
         unit=printed(unit),
         factor=float(words.get("display_factor", 1.0)),
         values=values,

@@ -49,7 +49,7 @@ def packed(values: ArrayLike, design: ArrayLike = 0.0) -> dict[str, Any]:
 
 
 def _offset(design: ArrayLike) -> Array:
-    return np.nan_to_num(np.asarray(design, dtype=np.float64))
+    return np.nan_to_num(np.asarray(design, dtype=np.float64), nan=0.0)
 
 
 def _difference(values: ArrayLike, offset: Array) -> NDArray[np.float32]:

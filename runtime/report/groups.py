@@ -2,7 +2,6 @@
 
 from collections.abc import Hashable
 
-STEERING = "Steering"
 OTHER = "Further characteristics"
 
 # In the order of the page. The longest of these with which a name begins decides, so that
@@ -19,7 +18,15 @@ _PREFIXES = {
         "spindle",
         "steering_axis",
     ),
-    "Wheel path": ("half_track", "track", "wheelbase", "contact", "wheel_center", "wheel_path"),
+    "Wheel path": (
+        "half_track",
+        "track",
+        "wheelbase",
+        "contact",
+        "wheel_center",
+        "wheel_path",
+        "arm_",
+    ),
     "Springs and rates": (
         "motion_ratio",
         "spring",
@@ -31,10 +38,11 @@ _PREFIXES = {
         "wheel_force",
         "wheel_load",
     ),
+    "Steering": ("steer_", "ackermann", "turning", "steering_ratio", "steering_gradient"),
     "Roll and pitch centres": ("roll_", "swing_arm", "side_view", "instant", "anti_", "pitch"),
 }
 
-ORDER = (*_PREFIXES, OTHER, STEERING)
+ORDER = (*_PREFIXES, OTHER)
 
 
 def group_of(name: Hashable) -> str:

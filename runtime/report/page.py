@@ -13,15 +13,17 @@ from markupsafe import Markup
 from ..files import replacing
 from ..model import Model
 from ..paper import SPIN_RATE
-from .accuracy import Accuracy, as_encoded, measure
-from .curves import Curve, curves
+from .accuracy import Accuracy, measure
+from .curves import Curve, curves, only_over_rack
 from .grid import Grid
-from .groups import ORDER, STEERING
+from .groups import ORDER
 from .motion import DROP, Motion, NoMotion, simulated_second
-from .payload import curve_data, page_data
-from .plotted import decimals, shown_range
+from .payload import Look, page_data
+from .plotted import decimals, meaningful, shown_range
 from .poses import Poses, poses, reachable_grid
 from .tables import input_tables, summary
+
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 @dataclass(frozen=True)
@@ -31,9 +33,8 @@ class _Samples:
     grid: Grid
     poses: Poses
     curves: list[Curve]
-    ranges: dict[str, tuple[float, float]]
     accuracy: Accuracy
-    decimals: dict[str, int]
+    looks: dict[str, Look]
     motion: Motion | NoMotion
 
 
@@ -89,9 +90,9 @@ def render(
         side=side,
         version=version("kintrafo"),
         samples=samples,
-        chapters=_chapters(samples.curves),
-        steering=STEERING,
-        rows=summary(samples.curves, samples.grid, samples.decimals),
+        over_travel=_over_travel(samples.curves),
+        over_rack=_over_rack(samples.curves),
+        rows=summary(samples.curves, samples.grid, samples.looks),
         inputs=input_tables(model.suspension),
         drop=DROP,
         spin=SPIN_RATE / (2.0 * np.pi),
@@ -108,40 +109,58 @@ def _sample(model: Model, tell: Callable[[str], None]) -> _Samples:
     tell("positions over wheel travel and rack displacement")
     sampled = poses(model, travel, rack)
     drawn = curves(model, travel, rack, tell=tell)
-    ranges = {curve.key: shown_range(as_encoded(grid, curve.values)) for curve in drawn}
+    ranges = {curve.key: shown_range(curve.values) for curve in drawn}
     accuracy = measure(model, grid, sampled, drawn, ranges, tell=tell)
     tell("one second of motion")
     return _Samples(
         grid=grid,
         poses=sampled,
         curves=drawn,
-        ranges=ranges,
         accuracy=accuracy,
-        decimals={curve.key: _decimals(curve, grid, accuracy) for curve in drawn},
+        looks={c.key: _look(c, grid, ranges[c.key], accuracy) for c in drawn},
         motion=simulated_second(model, grid),
     )
 
 
-def _decimals(curve: Curve, grid: Grid, accuracy: Accuracy) -> int:
-    """Return how many decimals tell the values of the curve through the design position apart."""
+def _look(curve: Curve, grid: Grid, shown: tuple[float, float], accuracy: Accuracy) -> Look:
+    """Return how a curve is shown; its decimals tell values through the design position apart."""
     values = curve.through_design(grid)
     drawn = values if np.isfinite(values).any() else curve.values
     low, high = (end * curve.factor for end in shown_range(drawn))
-    return decimals(low, high, accuracy.curves[curve.key])
+    error = accuracy.curves[curve.key]
+    places = decimals(low, high, unit=curve.unit, error=error)
+    return Look(
+        shown=(shown[0] * curve.factor, shown[1] * curve.factor),
+        decimals=places,
+        approximate=not meaningful(places, error),
+    )
 
 
-def _chapters(drawn: list[Curve]) -> dict[str, list[Curve]]:
-    """Return the curves under their headings, in the order of the page."""
-    found = {name: [curve for curve in drawn if curve.group == name] for name in ORDER}
+def _over_travel(drawn: list[Curve]) -> dict[str, list[Curve]]:
+    """Return the curves over travel under their headings, in the order of the page."""
+    found = {
+        name: [curve for curve in drawn if curve.over == "travel" and curve.group == name]
+        for name in ORDER
+    }
     return {name: group for name, group in found.items() if group}
 
 
+def _over_rack(drawn: list[Curve]) -> tuple[list[Curve], list[Curve]]:
+    """Return the curves over rack displacement: those of steering and of the wheel, the others."""
+    first = only_over_rack(drawn) | {c.name for c in drawn if c.group == ORDER[0]}
+    along = [curve for curve in drawn if curve.over == "rack"]
+    return [c for c in along if c.name in first], [c for c in along if c.name not in first]
+
+
 def _data(model: Model, samples: _Samples) -> str:
-    described = [
-        curve_data(curve, samples.grid, samples.ranges[curve.key], samples.decimals[curve.key])
-        for curve in samples.curves
-    ]
-    return page_data(model.suspension, samples.grid, samples.poses, described, samples.motion)
+    return page_data(
+        model.suspension,
+        samples.grid,
+        samples.poses,
+        samples.curves,
+        samples.looks,
+        samples.motion,
+    )
 
 
 def _environment() -> Environment:
@@ -169,9 +188,13 @@ def _upper_limit(error: float) -> str:
     """Write an error with one digit, rounded up."""
     if error == 0.0:
         return "0"
-    size = 10.0 ** np.floor(np.log10(error))
-    rounded = np.ceil(error / size * (1.0 - 1e-12)) * size
-    return np.format_float_positional(rounded, precision=1, fractional=False, trim="-")
+    exponent = int(np.floor(np.log10(error)))
+    digit = int(np.ceil(error / 10.0**exponent * (1.0 - 1e-9)))
+    if digit == 10:
+        digit, exponent = 1, exponent + 1
+    if -4 <= exponent <= 2:
+        return f"{digit * 10.0**exponent:.{max(-exponent, 0)}f}"
+    return f"{digit} \u00b7 10{str(exponent).translate(_SUPERSCRIPTS)}"
 
 
 def _asset(name: str) -> Markup:

@@ -1,9 +1,10 @@
 """What the page's script reads: samples on the grid, and how to show them."""
 
 import json
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..input.suspension import Suspension
 from .curves import Curve
@@ -13,16 +14,37 @@ from .motion import Motion, NoMotion, TimeCurve
 from .plotted import decimals, shown_range
 from .poses import Poses
 
+Array = NDArray[np.float64]
+
 # Of the drawing only [m]; the radius where the data do not tell it.
 TYRE_WIDTH = 0.205
 TYRE_RADIUS = 0.3
+
+
+class Look(NamedTuple):
+    """How a curve is shown, in the unit of the reader.
+
+    Attributes
+    ----------
+    shown : tuple of float
+        Values between which it is plotted.
+    decimals : int
+        With how many it is written.
+    approximate : bool
+        Whether interpolated values may be off by more than these tell.
+    """
+
+    shown: tuple[float, float]
+    decimals: int
+    approximate: bool = False
 
 
 def page_data(
     suspension: Suspension,
     grid: Grid,
     sampled: Poses,
-    drawn: list[dict[str, Any]],
+    drawn: list[Curve],
+    looks: dict[str, Look],
     motion: Motion | NoMotion,
 ) -> str:
     """Return the data of the page as JSON that may stand inside of an HTML element.
@@ -33,22 +55,31 @@ def page_data(
     grid : Grid
     sampled : Poses
         On the grid.
-    drawn : list of dict
-        Characteristics, each as `curve_data` returns it.
+    drawn : list of Curve
+        Characteristics on the grid.
+    looks : dict
+        How each is shown, by its key.
     motion : Motion or NoMotion
 
     Returns
     -------
     str
     """
+    stored = _stored_under(drawn)
     data = {
         "grid": {"travel": _axis(grid.travel), "rack": _axis(grid.rack)},
-        "points": {
-            name: packed(values, values[grid.travel.zero, grid.rack.zero])
-            for name, values in sampled.points.items()
-        },
-        "spin_axis": packed(sampled.spin_axis, sampled.spin_axis[grid.travel.zero, grid.rack.zero]),
-        "curves": drawn,
+        "points": {name: _on_grid(values, grid) for name, values in sampled.points.items()},
+        "spin_axis": _on_grid(sampled.spin_axis, grid),
+        "samples": {c.key: _on_grid(c.smooth, grid) for c in drawn if stored[c.key] == c.key},
+        "curves": [
+            {
+                "over": curve.over,
+                "samples": stored[curve.key],
+                "reciprocal": curve.reciprocal,
+                **_described(curve, looks[curve.key]),
+            }
+            for curve in drawn
+        ],
         "motion": _motion(motion) if isinstance(motion, Motion) else None,
         **_drawing(suspension, grid, sampled),
     }
@@ -56,26 +87,21 @@ def page_data(
     return json.dumps(data, ensure_ascii=False, allow_nan=False).replace("</", "<\\/")
 
 
-def curve_data(curve: Curve, grid: Grid, shown: tuple[float, float], places: int) -> dict[str, Any]:
-    """Return one characteristic as the page's script takes it.
+def _stored_under(drawn: list[Curve]) -> dict[str, str]:
+    """Return for each curve whose samples it has: over travel and rack they are often the same."""
+    along = {curve.name: curve for curve in drawn if curve.over == "travel"}
+    return {
+        curve.key: twin.key
+        # equal but for the rounding of two ways to compute them
+        if (twin := along.get(curve.name)) is not None
+        and np.allclose(curve.values, twin.values, rtol=1e-9, atol=1e-12, equal_nan=True)
+        else curve.key
+        for curve in drawn
+    }
 
-    Parameters
-    ----------
-    curve : Curve
-    grid : Grid
-    shown : tuple of float
-        Values between which it is plotted, in SI units.
-    places : int
-        Decimals with which it is written.
 
-    Returns
-    -------
-    dict
-    """
-    design = curve.values[grid.travel.zero, grid.rack.zero]
-    low, high = sorted(end * curve.factor for end in shown)
-    words = {"over": curve.over, **_shown(curve, (low, high), places)}
-    return words | packed(curve.values, design)
+def _on_grid(values: Array, grid: Grid) -> dict[str, Any]:
+    return packed(values, values[grid.travel.zero, grid.rack.zero])
 
 
 def _motion(motion: Motion) -> dict[str, Any]:
@@ -90,20 +116,21 @@ def _motion(motion: Motion) -> dict[str, Any]:
 
 def _time_curve(curve: TimeCurve) -> dict[str, Any]:
     low, high = (end * curve.factor for end in shown_range(curve.values))
-    words = {"over": "time", **_shown(curve, (low, high), decimals(low, high))}
-    return words | packed(curve.values)
+    words = _described(curve, Look((low, high), decimals(low, high, unit=curve.unit)))
+    return {"over": "time", **words, **packed(curve.values)}
 
 
-def _shown(curve: Curve | TimeCurve, shown: tuple[float, float], places: int) -> dict[str, Any]:
+def _described(curve: Curve | TimeCurve, look: Look) -> dict[str, Any]:
     """Return how a curve is drawn and written."""
     return {
         "key": curve.key,
         "unit": curve.unit,
         "factor": curve.factor,
-        "decimals": places,
-        "range": shown,
+        "decimals": look.decimals,
+        "approximate": look.approximate,
+        "range": look.shown,
         # what hardly changes in the digits that are written is drawn flat
-        "least": 4.0 * 10.0**-places,
+        "least": 4.0 * 10.0**-look.decimals,
     }
 
 
@@ -118,6 +145,7 @@ def _drawing(suspension: Suspension, grid: Grid, sampled: Poses) -> dict[str, An
     }
     parameters = suspension.parameters()
     rack = np.array([parameters[f"rack_axis_{c}"] for c in "xyz"])
+    strut_lower = at_design.get("strut_lower", at_design["ball_joint"])
     x, y, z = at_design["wheel_center"]
     loaded = suspension.tyre_radius() or TYRE_RADIUS
     # free of force, the tyre is larger by what it is compressed at design
@@ -128,7 +156,7 @@ def _drawing(suspension: Suspension, grid: Grid, sampled: Poses) -> dict[str, An
         "side_sign": suspension.vehicle.sign,
         "road_height": float(z) - loaded,
         "tyre": {"radius": radius, "width": TYRE_WIDTH},
-        "strut_length": float(np.linalg.norm(at_design["strut_top"] - at_design["ball_joint"])),
+        "strut_length": float(np.linalg.norm(at_design["strut_top"] - strut_lower)),
         "rack_inward": (-suspension.vehicle.sign * np.sign(rack[1] or 1.0) * rack).tolist(),
         "middle": (0.5 * (low + high)).tolist(),
         "size": float(np.linalg.norm(high - low)),

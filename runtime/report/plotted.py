@@ -9,9 +9,32 @@ Array = NDArray[np.float64]
 
 # A range so many times as wide as that of the middle 80 % of the values belongs to a pole.
 _POLE = 12.0
+# With a pole, values are shown up to so many times their median.
+_SHOWN_OF_POLE = 3.0
 # What interpolation may add to the extremes of the samples, as part of their range.
 _OVERSHOOT = 0.02
 _MOST_DECIMALS = 5
+# More than these nobody can build or measure.
+_MOST_OF_UNIT = {"deg": 2, "mm": 2, "%": 1, "N/mm": 2, "m": 2, "N": 0}
+
+
+def has_pole(values: Array) -> bool:
+    """Return whether values run away at some place and would press the rest of a curve flat.
+
+    Parameters
+    ----------
+    values : ndarray
+        Everything that a curve takes on the grid; NaN where it is not defined.
+
+    Returns
+    -------
+    bool
+    """
+    known = values[~np.isnan(values)]
+    if np.isinf(known).any():
+        return True
+    low, high = np.quantile(known, (0.1, 0.9))
+    return bool(np.ptp(known) > _POLE * (high - low) > 0.0)
 
 
 def shown_range(values: Array) -> tuple[float, float]:
@@ -20,32 +43,31 @@ def shown_range(values: Array) -> tuple[float, float]:
     Parameters
     ----------
     values : ndarray
-        Everything that the curve takes on the grid; NaN where it is not defined.
+        As of `has_pole`.
 
     Returns
     -------
     tuple of float
-        All of it and a little more, unless a pole (such as that of a swing arm's length as the
-        wheel moves straight) would press everything else flat: then what surrounds the middle of
-        the values.
+        All of them and a little more; with a pole, those within some times the usual size.
     """
     finite = values[np.isfinite(values)]
     low, high = float(finite.min()), float(finite.max())
-    inner_low, inner_high = (float(v) for v in np.quantile(finite, (0.1, 0.9)))
-    width = inner_high - inner_low
-    if high - low <= _POLE * width or width == 0.0:
-        margin = max(_OVERSHOOT * (high - low), 1e-9 * max(abs(low), abs(high), 1.0))
-        return low - margin, high + margin
-    return max(low, inner_low - 2.0 * width), min(high, inner_high + 2.0 * width)
+    if has_pole(values):
+        limit = _SHOWN_OF_POLE * float(np.median(np.abs(finite)))
+        low, high = max(low, -limit), min(high, limit)
+    margin = max(_OVERSHOOT * (high - low), 1e-9 * max(abs(low), abs(high), 1.0))
+    return low - margin, high + margin
 
 
-def decimals(low: float, high: float, error: float = 0.0) -> int:
+def decimals(low: float, high: float, *, unit: str = "", error: float = 0.0) -> int:
     """Return with how many decimals values are written.
 
     Parameters
     ----------
     low, high : float
         Range of the values, in the unit of the reader.
+    unit : str, optional
+        That unit.
     error : float, optional
         Largest error; digits that it makes meaningless are left out.
 
@@ -59,7 +81,13 @@ def decimals(low: float, high: float, error: float = 0.0) -> int:
     (2, 1, 4, 0)
     """
     width = max(high - low, 1e-3 * max(abs(low), abs(high)), 1e-12)
-    wanted = min(max(math.ceil(1.8 - math.log10(width)), 0), _MOST_DECIMALS)
-    while wanted > 0 and error > 0.5 * 10.0**-wanted:
+    most = _MOST_OF_UNIT.get(unit, _MOST_DECIMALS)
+    wanted = min(max(math.ceil(1.8 - math.log10(width)), 0), most)
+    while wanted > 0 and not meaningful(wanted, error):
         wanted -= 1
     return wanted
+
+
+def meaningful(places: int, error: float) -> bool:
+    """Return whether an error leaves the last of so many decimals right but for rounding."""
+    return error <= 0.5 * 10.0**-places

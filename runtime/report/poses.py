@@ -14,9 +14,9 @@ from .grid import Axis, Grid
 Array = NDArray[np.float64]
 
 TRAVEL = 0.100  # to either side of the design position, where the mechanism reaches [m]
-TRAVEL_STEP = 0.0025  # [m]
+TRAVEL_STEP = 0.005  # [m]
 RACK = 0.060  # to either side of its middle position, where the mechanism reaches [m]
-RACK_STEP = 0.005  # [m]
+RACK_STEP = 0.0025  # the wheel turns a degree in it [m]
 
 # What the wheel must keep from the end of its reach, where its path turns back [m].
 _MARGIN = 0.002

@@ -10,6 +10,7 @@ from ..input.section import Section
 from ..input.suspension import Suspension
 from .curves import Curve
 from .grid import Grid
+from .payload import Look
 
 
 @dataclass(frozen=True)
@@ -62,7 +63,7 @@ class InputTable:
     rows: list[tuple[str, str, str]]
 
 
-def summary(drawn: list[Curve], grid: Grid, decimals: dict[str, int]) -> list[Row]:
+def summary(drawn: list[Curve], grid: Grid, looks: dict[str, Look]) -> list[Row]:
     """Return the characteristics over travel at the design position.
 
     Parameters
@@ -70,16 +71,17 @@ def summary(drawn: list[Curve], grid: Grid, decimals: dict[str, int]) -> list[Ro
     drawn : list of Curve
         All that are plotted.
     grid : Grid
-    decimals : dict
+    looks : dict
         How each is written, by its key.
 
     Returns
     -------
     list of Row
     """
-    ranges = typical_ranges()
+    usual = typical_ranges()
+    design = grid.travel.zero, grid.rack.zero
     return [
-        _row(curve, curve.values[grid.travel.zero, grid.rack.zero], decimals[curve.key], ranges)
+        _row(curve, curve.values[design], looks[curve.key].decimals, usual.get(curve.name))
         for curve in drawn
         if curve.over == "travel"
     ]
@@ -91,10 +93,9 @@ def typical_ranges() -> dict[str, dict[str, Any]]:
     return tomllib.loads(text)
 
 
-def _row(curve: Curve, value: float, decimals: int, ranges: dict[str, dict[str, Any]]) -> Row:
+def _row(curve: Curve, value: float, decimals: int, usual: dict[str, Any] | None) -> Row:
     shown = value * curve.factor
     plain = Row(curve.key, curve.group, curve.label, curve.unit, shown, decimals)
-    usual = ranges.get(curve.name)
     # a range in another unit than the curve's would be compared wrongly
     if usual is None or usual["unit"] != curve.unit:
         return plain

@@ -3,7 +3,7 @@
 
 import uPlot from "uplot";
 
-import { number, quantity } from "./format.js";
+import { inUnit, number, quantity, reading } from "./format.js";
 import { colour, onSchemeChange } from "./theme.js";
 
 const HEIGHT = 172;
@@ -51,24 +51,22 @@ export function connectCharts(data, position, move) {
 
 /** How to get a curve, and one value of it, in the unit of the reader. */
 function sampler(curve, grid, motion) {
-  const scaled = (values) => Array.from(values, (v) => v * curve.factor);
+  const scaled = (values) => Array.from(values, (v) => inUnit(curve, v));
   if (curve.over === "time") {
     const values = scaled(curve.values);
     return {
       moving: false,
       line: () => values,
-      value: ({ time }) => motion.axis.interpolate(curve.values, time) * curve.factor,
+      value: ({ time }) => inUnit(curve, motion.axis.interpolate(curve.values, time)),
     };
   }
-  const value = ({ travel, rack }) => grid.at(curve.values, travel, rack) * curve.factor;
-  if (curve.over === "rack") {
-    return {
-      moving: "travel",
-      line: ({ travel }) => scaled(grid.overRack(curve.values, travel)),
-      value,
-    };
-  }
-  return { moving: "rack", line: ({ rack }) => scaled(grid.overTravel(curve.values, rack)), value };
+  const overRack = curve.over === "rack";
+  return {
+    moving: overRack ? "travel" : "rack",
+    line: ({ travel, rack }) =>
+      scaled(overRack ? grid.overRack(curve.values, travel) : grid.overTravel(curve.values, rack)),
+    value: ({ travel, rack }) => inUnit(curve, grid.at(curve.values, travel, rack)),
+  };
 }
 
 class Chart {
@@ -125,7 +123,7 @@ class Chart {
       this.#plot.setData([this.along.values, this.reference, this.line]);
     }
     this.shown = this.samples.value(this.position);
-    this.output.textContent = quantity(this.shown, this.curve.decimals, this.curve.unit);
+    this.output.textContent = reading(this.curve, this.shown);
     this.#place();
   }
 
@@ -170,7 +168,7 @@ class Chart {
             labelGap: 0,
             labelFont: FONT,
           },
-          { ...axis, size: 46, gap: 5 },
+          { ...axis, size: roomFor, gap: 5 },
         ],
         series: [
           {},
@@ -233,7 +231,7 @@ class Chart {
       [this.along.key]: x / this.along.factor,
     });
     const place = quantity(x, this.along.decimals, this.along.unit, { signed: this.along.signed });
-    this.tip.textContent = `${place}: ${quantity(value, this.curve.decimals, this.curve.unit)}`;
+    this.tip.textContent = `${place}: ${reading(this.curve, value)}`;
     const width = this.#plot.over.clientWidth;
     this.tip.style.left = `${Math.min(Math.max(left, 62), width - 62)}px`;
   }
@@ -258,6 +256,12 @@ function element(name, className) {
   made.className = className;
   made.hidden = true;
   return made;
+}
+
+/** Width of the vertical axis: the same for most charts, so that they align. */
+function roomFor(_, labels) {
+  const longest = Math.max(0, ...(labels ?? []).map((label) => label.length));
+  return Math.max(46, 6.5 * longest + 9);
 }
 
 /** A tick as short as it can be written. */

@@ -12,3 +12,14 @@ export function quantity(value, decimals, unit, options) {
   const text = number(value, decimals, options);
   return unit && text !== "–" ? `${text}\u00a0${unit}` : text;
 }
+
+/** A value of a curve as it is read, with the sign of doubt where interpolation is coarse. */
+export function reading(curve, value) {
+  const text = quantity(value, curve.decimals, curve.unit);
+  return curve.approximate && text !== "–" ? `≈\u00a0${text}` : text;
+}
+
+/** A sample in the unit of the reader; some curves are sampled as one over their values. */
+export function inUnit({ reciprocal, factor }, sample) {
+  return (reciprocal ? 1 / sample : sample) * factor;
+}

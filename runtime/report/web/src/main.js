@@ -1,6 +1,7 @@
 // The report's page comes alive: one position, shown by the 3D view, the charts and the table.
 //
-// For scripts there is `window.kintrafo`, in SI units:
+// For scripts there is `window.kintrafo`, in SI units but for the values of the curves, which are in
+// the units of the page:
 //   state()  { travel, rack, time, playing, byHand, wheelCenter, curves: { name: value } };
 //            wheelCenter is that of the drawn wheel, null without WebGL
 //   set({ travel, rack }) or set({ time })   moves as the sliders do
@@ -8,7 +9,7 @@
 
 import { connectCharts } from "./charts.js";
 import { connectControls } from "./controls.js";
-import { number } from "./format.js";
+import { inUnit, number } from "./format.js";
 import { Axis, Grid } from "./grid.js";
 import { readPayload } from "./payload.js";
 import { Player } from "./player.js";
@@ -43,6 +44,10 @@ function makeView() {
       made.look(button.dataset.look);
     });
   }
+  const through = document.getElementById("through");
+  through.addEventListener("click", () => made.lookThroughWheel(!made.throughWheel));
+  made.onLook = () => through.setAttribute("aria-pressed", String(made.throughWheel));
+  made.onLook();
   return made;
 }
 
@@ -54,13 +59,13 @@ function connectTable() {
   ]);
   position.onChange(() => {
     for (const [cell, curve] of cells) {
-      cell.textContent = number(value(curve) * curve.factor, curve.decimals);
+      cell.textContent = number(value(curve), curve.decimals);
     }
   });
 }
 
 function value(curve) {
-  return position.grid.at(curve.values, position.travel, position.rack);
+  return inUnit(curve, position.grid.at(curve.values, position.travel, position.rack));
 }
 
 window.kintrafo = {

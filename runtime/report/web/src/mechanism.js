@@ -32,9 +32,13 @@ const PISTON = 0.01;
 const COIL = 0.058;
 const WIRE = 0.006;
 const TURNS = 5.5;
+const SPOKES_AT = 0.34; // from the middle of the tyre outboard, as part of its width
+const GLASS = 0.22; // opacity of a wheel that is looked through
 // parts of the strut's design length
 const TUBE_FROM = 0.13;
 const TUBE_TO = 0.66;
+// A spring seat nearer to the strut's lower end stands for "in line with the strut" [m].
+const OWN_SEAT = 0.05;
 
 const MATERIALS = [
   "arm",
@@ -77,6 +81,17 @@ export class Mechanism extends Group {
     for (const [name, material] of Object.entries(this.materials)) material.color.set(colour(name));
     this.lines.axis.color.set(colour("muted"));
     this.lines.path.color.set(colour("accent"));
+  }
+
+  /** Make the wheel solid, or let the linkage be seen through it. */
+  lookThroughWheel(through) {
+    for (const name of ["tyre", "rim"]) {
+      const material = this.materials[name];
+      material.transparent = through;
+      material.opacity = through ? GLASS : 1;
+      material.depthWrite = !through;
+      material.needsUpdate = true;
+    }
   }
 
   /** Put everything where it is: points by name and the wheel's axis, all as Vector3. */
@@ -163,6 +178,10 @@ export class Mechanism extends Group {
     barrel.userData.handle = true;
     wheel.add(barrel);
     for (let k = 0; k < 5; k += 1) wheel.add(this.#spoke(k, rim, width));
+    const cap = new Mesh(new CylinderGeometry(0.05, 0.05, 0.024, 48), this.materials.rim);
+    cap.position.y = this.data.side_sign * width * SPOKES_AT;
+    cap.userData.handle = true;
+    wheel.add(cap);
     this.add(wheel);
     return wheel;
   }
@@ -172,7 +191,7 @@ export class Mechanism extends Group {
     const outboard = this.data.side_sign; // the wheel's own y axis points left
     const spoke = new Mesh(new BoxGeometry(0.045, 0.018, rim), this.materials.rim);
     const turned = new Group();
-    spoke.position.set(0, outboard * width * 0.34, rim / 2);
+    spoke.position.set(0, outboard * width * SPOKES_AT, rim / 2);
     spoke.userData.handle = true;
     turned.add(spoke);
     turned.rotation.y = (2 * Math.PI * k) / 5;
@@ -197,7 +216,8 @@ export class Mechanism extends Group {
     }
     this.#solids.hub.position.copy(points.wheel_center);
     this.#span("tie_rod", points.tie_rod_outer, points.tie_rod_inner);
-    const clamp = nearestOnLine(points.wheel_center, points.ball_joint, points.strut_top);
+    const foot = points.strut_lower ?? points.ball_joint;
+    const clamp = nearestOnLine(points.wheel_center, foot, points.strut_top);
     this.#span("upright", points.ball_joint, clamp);
     this.#span("spindle", clamp, points.wheel_center);
     this.#span("lower_web", points.ball_joint, points.wheel_center);
@@ -213,7 +233,9 @@ export class Mechanism extends Group {
     );
   }
 
-  #poseStrut({ ball_joint: foot, strut_top: top }) {
+  #poseStrut(points) {
+    const { strut_top: top } = points;
+    const foot = points.strut_lower ?? points.ball_joint;
     const along = top.clone().sub(foot).normalize();
     const at = (part) => foot.clone().addScaledVector(along, part * this.data.strut_length);
     const seat = at(TUBE_TO - 0.1);
@@ -222,7 +244,9 @@ export class Mechanism extends Group {
     this.#span("seat", seat.clone().addScaledVector(along, -0.008), seat);
     const under = top.clone().addScaledVector(along, -0.02);
     this.#span("top_mount", under, top);
-    place(this.spring, seat, under, 1);
+    const apart = points.spring_seat?.distanceTo(foot) > OWN_SEAT;
+    if (apart) place(this.spring, points.spring_seat, points.spring_top, 1);
+    else place(this.spring, seat, under, 1);
   }
 
   #poseWheel(center, spinAxis, spin) {

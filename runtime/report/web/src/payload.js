@@ -5,7 +5,10 @@ export function readPayload() {
   const data = JSON.parse(document.getElementById("payload").textContent);
   for (const point of Object.values(data.points)) point.values = unpack(point);
   data.spin_axis.values = unpack(data.spin_axis);
-  for (const curve of data.curves) curve.values = unpack(curve);
+  const samples = Object.fromEntries(
+    Object.entries(data.samples).map(([key, packed]) => [key, unpack(packed)]),
+  );
+  for (const curve of data.curves) curve.values = samples[curve.samples];
   if (data.motion) {
     for (const name of ["travel", "rack", "spin"]) data.motion[name] = unpack(data.motion[name]);
     for (const signal of data.motion.signals) signal.values = unpack(signal);

@@ -103,6 +103,13 @@ export class View {
     this.camera.position.copy(target).addScaledVector(away, distance);
     this.controls.update();
     this.lookingFrom = from;
+    this.lookThroughWheel(from !== "corner");
+  }
+
+  lookThroughWheel(through) {
+    this.throughWheel = through;
+    this.mechanism.lookThroughWheel(through);
+    this.onLook?.();
     this.render();
   }
 

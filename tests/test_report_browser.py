@@ -1,0 +1,337 @@
+"""The HTML report in a real browser: what a person moves, moves, and shows the model's numbers."""
+
+import re
+import shutil
+import time
+
+import kintrafo.report
+import numpy as np
+import pytest
+from kintrafo import Model, state_at_height
+from kintrafo.hardpoints import hardpoints
+
+CHROMIUM = next(
+    filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
+)
+pytestmark = [
+    pytest.mark.browser,
+    pytest.mark.skipif(
+        CHROMIUM is None, reason="Chromium is not installed (apt-get install chromium)"
+    ),
+]
+playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+
+MODEL = Model("reference_car")
+DESIGN_HEIGHT = 0.3
+QUIET = [
+    "--no-sandbox",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+# WebGL drawn by the processor, so that it is there on every machine
+SOFTWARE_GL = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+DESKTOP = {"width": 1440, "height": 900}
+PHONE = {"width": 390, "height": 844}
+
+
+@pytest.fixture(scope="module")
+def report(tmp_path_factory):
+    return kintrafo.report.write(MODEL, tmp_path_factory.mktemp("report") / "report.html")
+
+
+@pytest.fixture(scope="module")
+def driver():
+    with playwright.sync_playwright() as running:
+        yield running.chromium
+
+
+@pytest.fixture(scope="module")
+def browser(driver):
+    with driver.launch(executable_path=CHROMIUM, args=[*QUIET, *SOFTWARE_GL]) as launched:
+        yield launched
+
+
+class Watched:
+    """A page, what went wrong on it, and what it asked for."""
+
+    def __init__(self, browser, report, **context):
+        self.context = browser.new_context(**{"viewport": DESKTOP, **context})
+        self.page = self.context.new_page()
+        self.complaints, self.requests = [], []
+        self.page.on("console", lambda message: self.complaints.append(message.text))
+        self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
+        self.page.on("request", lambda request: self.requests.append(request.url))
+        self.page.goto(report.as_uri())
+        assert self.page.evaluate("typeof kintrafo") == "object", self.complaints
+
+    def state(self):
+        return self.page.evaluate("kintrafo.state()")
+
+
+@pytest.fixture
+def watch(browser, report):
+    opened = []
+
+    def watch(of=browser, **context):
+        opened.append(Watched(of, report, **context))
+        return opened[-1]
+
+    yield watch
+    for watched in opened:
+        watched.context.close()
+
+
+@pytest.fixture
+def watched(watch):
+    return watch()
+
+
+def compiled_wheel_center(travel, rack):
+    state = state_at_height(MODEL, DESIGN_HEIGHT + travel, rack_position=rack)
+    return hardpoints(MODEL, state, MODEL.inputs({"rack_position": rack}))["wheel_center"]
+
+
+def slide(page, slider, millimetres):
+    """Move a slider as a person would: its value, and the event of letting it."""
+    page.locator(slider).fill(str(millimetres))
+
+
+def show(page, curve):
+    """Scroll to a chart and return its parts; charts out of sight are not drawn."""
+    figure = page.locator(f'figure[data-curve="{curve}"]')
+    figure.scroll_into_view_if_needed()
+    figure.locator(".marker").wait_for(state="visible")
+    return figure
+
+
+def until(condition, seconds=20.0):
+    """Wait for what the page does by itself; its security policy forbids waiting inside of it."""
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "waited in vain"
+        time.sleep(0.02)
+
+
+def pixels(figure):
+    return figure.locator("canvas").evaluate("canvas => canvas.toDataURL()")
+
+
+def number(text):
+    return float(re.match(r"[\u2212+]?[\d.]+", text).group().replace("\u2212", "-"))
+
+
+def test_loads_alone_and_without_complaint(watched, report):
+    watched.page.locator("#play").click()
+    until(lambda: watched.state()["time"] > 0.01)
+    for heading in watched.page.locator("h2").all():
+        heading.scroll_into_view_if_needed()
+    assert watched.complaints == []
+    assert watched.requests == [report.as_uri()]
+
+
+@pytest.mark.parametrize(
+    ("travel", "rack"), [(0.0, 0.0), (37.5, 0.0), (-62.0, 41.5), (100.0, -60.0)]
+)
+def test_sliders_move_the_drawn_wheel(watched, travel, rack):
+    slide(watched.page, "#travel", travel)
+    slide(watched.page, "#rack", rack)
+    drawn = watched.state()["wheelCenter"]
+    expected = compiled_wheel_center(travel * 1e-3, rack * 1e-3)
+    assert drawn == pytest.approx(expected, abs=1e-6)  # the page states less than 0.001 mm
+    assert number(watched.page.locator("#travel-value").inner_text()) == travel
+    assert number(watched.page.locator("#rack-value").inner_text()) == rack
+
+
+def test_markers_follow_the_wheel(watched):
+    figure = show(watched.page, "camber")
+    for travel in (-80.0, 15.0, 90.0):
+        slide(watched.page, "#travel", travel)
+        state = state_at_height(MODEL, DESIGN_HEIGHT + travel * 1e-3)
+        camber = np.degrees(float(MODEL.signal("camber", state)))
+        assert number(figure.locator("output").inner_text()) == pytest.approx(camber, abs=0.0051)
+        plot = figure.locator(".u-over").bounding_box()
+        marker = figure.locator(".marker").bounding_box()
+        across = (marker["x"] + marker["width"] / 2 - plot["x"]) / plot["width"]
+        assert across == pytest.approx((travel + 100.0) / 200.0, abs=1.0 / plot["width"])
+        assert plot["y"] <= marker["y"] + marker["height"] / 2 <= plot["y"] + plot["height"]
+
+
+def test_curves_follow_the_rack(watched):
+    figure = show(watched.page, "camber")
+    at_design = pixels(figure)
+    slide(watched.page, "#rack", 45.0)
+    inputs = MODEL.inputs({"rack_position": 0.045})
+    state = state_at_height(MODEL, DESIGN_HEIGHT, rack_position=0.045)
+    camber = np.degrees(float(MODEL.signal("camber", state, inputs)))
+    assert number(figure.locator("output").inner_text()) == pytest.approx(camber, abs=0.0051)
+    until(lambda: pixels(figure) != at_design)
+
+
+def test_table_follows_the_wheel(watched):
+    slide(watched.page, "#travel", 60.0)
+    state = state_at_height(MODEL, DESIGN_HEIGHT + 0.06)
+    cell = watched.page.locator('[data-now="camber"]').inner_text()
+    assert number(cell) == pytest.approx(
+        np.degrees(float(MODEL.signal("camber", state))), abs=0.0051
+    )
+
+
+def test_hovering_shows_a_value(watched):
+    figure = show(watched.page, "camber")
+    box = figure.locator(".u-over").bounding_box()
+    watched.page.mouse.move(box["x"] + 0.75 * box["width"], box["y"] + 0.5 * box["height"])
+    tip = figure.locator(".tip")
+    tip.wait_for(state="visible")
+    place, value = tip.inner_text().split(": ")
+    camber = MODEL.signal("camber", state_at_height(MODEL, DESIGN_HEIGHT + number(place) * 1e-3))
+    assert number(place) == pytest.approx(50.0, abs=1.0)  # a pixel is 0.6 mm
+    assert number(value) == pytest.approx(np.degrees(float(camber)), abs=0.011)
+
+
+def test_dragging_in_a_chart_moves_the_wheel(watched):
+    box = show(watched.page, "camber").locator(".u-over").bounding_box()
+    middle = box["y"] + 0.5 * box["height"]
+    watched.page.mouse.move(box["x"] + 0.5 * box["width"], middle)
+    watched.page.mouse.down()
+    watched.page.mouse.move(box["x"] + 0.25 * box["width"], middle)
+    watched.page.mouse.up()
+    assert watched.state()["travel"] == pytest.approx(-0.05, abs=0.001)  # within a pixel or two
+
+
+def test_dragging_the_wheel_moves_it(watched):
+    page = watched.page
+    page.evaluate("kintrafo.look('side')")  # from inboard: the tyre is around the middle
+    page.wait_for_timeout(100)
+    box = page.locator("#view canvas").bounding_box()
+    x = box["x"] + 0.5 * box["width"]
+    for y in np.arange(box["y"] + 60, box["y"] + box["height"], 8.0):
+        page.mouse.move(x, y)
+        if page.locator("#view canvas").evaluate("c => c.style.cursor") == "ns-resize":
+            break
+    else:
+        pytest.fail("the wheel is nowhere under the pointer")
+    page.mouse.down()
+    page.mouse.move(x, y - 30.0, steps=3)
+    page.mouse.up()
+    risen = watched.state()["travel"]
+    assert 0.01 < risen <= 0.1
+    # elsewhere, the view turns and the wheel stays
+    page.mouse.move(box["x"] + 15, box["y"] + 0.7 * box["height"])
+    page.mouse.down()
+    page.mouse.move(box["x"] + 80, box["y"] + 0.6 * box["height"], steps=3)
+    page.mouse.up()
+    assert watched.state()["travel"] == risen
+
+
+def test_playing_shows_the_simulated_motion(watched):
+    page = watched.page
+    page.locator("#speed").select_option("0.02")
+    page.locator("#play").click()
+    assert page.locator("#play").inner_text() == "Pause"
+    until(lambda: watched.state()["time"] > 0.005)
+    page.locator("#play").click()
+    first = watched.state()
+    assert not first["playing"]
+    page.wait_for_timeout(100)
+    assert watched.state()["time"] == first["time"]
+    page.locator("#play").click()
+    until(lambda: watched.state()["time"] > first["time"])
+    page.locator("#play").click()
+    start = state_at_height(MODEL, 0.325, spin_rate=2.0 * np.pi * 14.8)
+    motion = kintrafo.simulate(MODEL, (0.0, 1.0), start, rtol=1e-9, atol=1e-11, dense_output=True)
+    for t in (0.0137, 0.0555, 0.3141):
+        page.evaluate("time => kintrafo.set({ time })", t)
+        height = float(MODEL.signal("wheel_center_z", motion.sol(t)))
+        # both integrations, and the samples between which the page interpolates
+        assert watched.state()["wheelCenter"][2] == pytest.approx(height, abs=2e-6)
+
+
+def test_playing_ends_at_the_end_and_starts_again(watched):
+    page = watched.page
+    page.locator("#speed").select_option("1")
+    page.evaluate("kintrafo.set({ time: 0.95 })")
+    page.locator("#play").click()
+    until(lambda: not watched.state()["playing"])
+    assert watched.state()["time"] == 1.0
+    page.locator("#speed").select_option("0.02")
+    page.locator("#play").click()
+    again = watched.state()
+    assert again["playing"]
+    assert again["time"] < 0.5
+
+
+def test_keyboard_reaches_and_moves_everything(watched):
+    page = watched.page
+    reached = []
+    for _ in range(14):
+        page.keyboard.press("Tab")
+        reached.append(
+            page.evaluate("document.activeElement.id || document.activeElement.dataset.look")
+        )
+    wanted = {"view", "corner", "front", "side", "top", "travel", "rack", "time", "play", "speed"}
+    assert wanted | {"design"} <= set(reached)
+    page.locator("#travel").focus()
+    for _ in range(4):
+        page.keyboard.press("ArrowRight")
+    assert watched.state()["travel"] == pytest.approx(0.002, abs=1e-12)
+    page.locator("#view").focus()
+    page.keyboard.press("ArrowDown")
+    page.keyboard.press("ArrowLeft")
+    state = watched.state()
+    assert (state["travel"], state["rack"]) == pytest.approx((-0.0005, 0.0025), abs=1e-12)
+    assert page.locator("#travel").get_attribute("aria-valuetext") == "\u22120.5\u00a0mm"
+
+
+@pytest.mark.parametrize("width", [390, 320])
+def test_phone_needs_no_sideways_scrolling(watch, width):
+    watched = watch(viewport={**PHONE, "width": width}, has_touch=True, is_mobile=True)
+    for details in watched.page.locator("details").all():
+        details.evaluate("d => d.open = true")
+    assert watched.page.evaluate("document.documentElement.scrollWidth") == width
+    # the sliders stay in sight
+    watched.page.locator("footer").scroll_into_view_if_needed()
+    assert watched.page.locator("#travel").is_visible()
+    assert 0 <= watched.page.locator("#travel").bounding_box()["y"] < PHONE["height"]
+
+
+def luminance(colour):
+    """Relative luminance of an sRGB colour, by the formula of WCAG 2."""
+    values = np.array([float(v) for v in re.findall(r"[\d.]+", colour)[:3]]) / 255.0
+    linear = np.where(values <= 0.04045, values / 12.92, ((values + 0.055) / 1.055) ** 2.4)
+    return float(linear @ [0.2126, 0.7152, 0.0722])
+
+
+@pytest.mark.parametrize(("scheme", "background_is_light"), [("light", True), ("dark", False)])
+def test_text_can_be_read_in_both_schemes(watch, scheme, background_is_light):
+    page = watch(color_scheme=scheme).page
+    background = luminance(page.evaluate("getComputedStyle(document.body).backgroundColor"))
+    assert (background > 0.5) == background_is_light
+    for text in ("h1", "p.muted", "figcaption output", ".within", "td.now", "summary"):
+        colour = page.locator(text).first.evaluate("e => getComputedStyle(e).color")
+        lighter, darker = sorted((background, luminance(colour)), reverse=True)
+        assert (lighter + 0.05) / (darker + 0.05) >= 4.5, text  # WCAG 2, level AA
+
+
+def test_changing_the_scheme_redraws(watched):
+    page = watched.page
+    figure = show(page, "camber")
+    before = pixels(figure)
+    page.emulate_media(color_scheme="dark")
+    until(lambda: pixels(figure) != before)
+    assert watched.complaints == []
+
+
+def test_without_webgl_the_rest_works(driver, watch):
+    with driver.launch(executable_path=CHROMIUM, args=[*QUIET, "--disable-3d-apis"]) as flat:
+        watched = watch(of=flat)
+        assert watched.page.get_by_text("The 3D view needs WebGL").is_visible()
+        assert watched.page.locator("#view canvas").count() == 0
+        figure = show(watched.page, "camber")
+        slide(watched.page, "#travel", 50.0)
+        camber = MODEL.signal("camber", state_at_height(MODEL, DESIGN_HEIGHT + 0.05))
+        shown = number(figure.locator("output").inner_text())
+        assert shown == pytest.approx(np.degrees(float(camber)), abs=0.0051)
+        assert watched.state()["wheelCenter"] is None
