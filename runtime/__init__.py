@@ -67,7 +67,18 @@ _HOMES = {name: module for module, names in _MODULES.items() for name in names}
 
 
 # Modules that are themselves part of the interface.
-_INTERFACES = ("characteristics",)
+_INTERFACES = (
+    "characteristics",
+    "checkup",
+    "compare",
+    "excitation",
+    "export",
+    "measurement",
+    "plots",
+    "roads",
+    "scenario",
+    "sweep",
+)
 
 
 def __getattr__(name: str) -> Any:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from . import paper
 from .input.suspension import Suspension
+from .input.vectors import unit_vector
 from .model import Model
 from .positions import PositionError, Range, design_height, equilibrium, travel_range
 from .starter import packaged
@@ -135,20 +136,20 @@ def _equilibrium(model: Model) -> Equilibrium:
 
 def _geometry(model: Model) -> dict[str, float]:
     points = model.suspension.hardpoints
-    strut = points.strut_axis()
+    # a MacPherson knuckle is steered about the line from its ball joint to the strut's mount
+    axis = unit_vector(points.metres("strut_top") - points.metres("ball_joint"))
     side = model.suspension.vehicle.sign
     wheel = points.metres("wheel_center")
     outer, ball = points.metres("tie_rod_outer"), points.metres("ball_joint")
     return {
         "half_track": abs(float(wheel[1])),
         "wheel_center_height": float(wheel[2]),
-        "strut_length": points.distance("ball_joint", "strut_top"),
+        "strut_length": points.distance("strut_lower", "strut_top"),
         "strut_length_max": model.suspension.parameters()["strut_length_max"],
         "tie_rod_length": points.distance("tie_rod_outer", "tie_rod_inner"),
-        "steering_arm_length": float(np.linalg.norm(np.cross(outer - ball, strut))),
-        # seen from the side and from the front: the strut axis is the steering axis
-        "caster_angle": float(np.arctan2(-strut[0], strut[2])),
-        "kingpin_inclination_angle": float(np.arctan2(-side * strut[1], strut[2])),
+        "steering_arm_length": float(np.linalg.norm(np.cross(outer - ball, axis))),
+        "caster_angle": float(np.arctan2(-axis[0], axis[2])),
+        "kingpin_inclination_angle": float(np.arctan2(-side * axis[1], axis[2])),
     }
 
 

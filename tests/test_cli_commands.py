@@ -199,6 +199,22 @@ def test_simulation_settles_where_statics_says(kintrafo, tmp_path):
     assert imread(tmp_path / "step.png").std() > 0.01
 
 
+def test_steering_with_mass_leaves_the_rack_free(kintrafo, tmp_path):
+    text = (ROOT / "runtime/data/reference_car.toml").read_text(encoding="utf-8")
+    heavy = re.sub(r"(\[bodies.tie_rod\][^=]*=) 0.0", r"\1 1.0", text)
+    assert heavy != text
+    (tmp_path / "heavy.toml").write_text(heavy, encoding="utf-8")
+    code, out, err = kintrafo("simulate", "heavy.toml", "--json")
+    assert code == 0
+    assert "rack moves freely" in err
+    assert "beta9" in json.loads(out)["statistics"]
+    code, _, err = kintrafo("simulate", "heavy.toml", "--rack", 3)
+    assert code == 2
+    assert "cannot be prescribed" in err
+    assert kintrafo("check", "heavy.toml")[0] == 0
+    assert kintrafo("kinematics", "heavy.toml", "--over", "rack")[0] == 0
+
+
 def test_wheel_that_leaves_the_ground_is_told(kintrafo):
     code, out, _ = kintrafo("simulate", CAR, "--road-step", -60)
     assert code == 0

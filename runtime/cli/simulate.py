@@ -116,12 +116,15 @@ def command(
             held=metres(rack), sine=metres(rack_sine), frequency=rack_frequency
         ),
     }
+    inputs = excitation(courses, end, recording)
+    if model.free_rack:
+        _tell_of_the_free_rack(file, inputs)
     scenario = Scenario(
         duration=end,
         output_step=output_step / 1e3,
         height=metres(height),
         spin_rate=spin * math.tau,
-        inputs=excitation(courses, end, recording),
+        inputs=inputs,
     )
     options = {"method": method, "rtol": rtol, "atol": atol}
     result, motion = _played(model, scenario, options, outputs, file)
@@ -132,6 +135,17 @@ def command(
         for line in _told(result):
             say(line)
     outputs.write(motion, title=file, names=_drawn(motion), silent=json)
+
+
+def _tell_of_the_free_rack(file: str, inputs: dict[str, Any]) -> None:
+    """Say that nothing holds the rack; refuse to prescribe its motion."""
+    from ..errors import InputError
+
+    reason = "tie rod, rack or upper strut have mass, so the rack moves freely"
+    if "rack_position" in inputs:
+        problem = f"{reason}: its motion cannot be prescribed. Set their mass_kg to 0 to do so."
+        raise InputError([problem], file)
+    problems.print(f"note: {reason}, without a force on it.", style="yellow", markup=False)
 
 
 def _per_second(speed: float | None) -> float | None:
