@@ -1,5 +1,6 @@
 """What moves a suspension in a simulation: road and rack, by formula or as they were measured."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -43,7 +44,7 @@ class Course:
         if self.step is not None:
             return step(self.step, at=self.step_at, end=end)
         if self.sine is not None:
-            return sine(self.sine, self.frequency)
+            return sine(self.sine, self.frequency, end=end)
         return self.held or 0.0
 
 
@@ -76,6 +77,8 @@ def excitation(
     >>> excitation({"road_height": Course(held=0.01)}, end=1.0)
     {'road_height': 0.01}
     """
+    if not 0.0 < end < math.inf:
+        raise InputError([f"duration = {end:g} s: more than 0 s is needed."], "simulation")
     inputs: dict[str, Signal] = {} if measured is None else dict(measured.inputs())
     problems = []
     for name, course in courses.items():

@@ -211,6 +211,9 @@ def _times(
             problem = f"a road over distance_m needs a speed of more than 0 km/h; {given}."
             raise InputError([problem], source)
         times = columns["distance"] / speed
+    elif speed is not None:
+        problem = "a speed is for a road over distance_m; this one is over time. Leave it out."
+        raise InputError([problem], source)
     else:
         times = columns["time"]
     fall = np.flatnonzero(np.diff(times) < 0.0)

@@ -17,7 +17,7 @@ from .simulation import Simulation, simulate
 Array = NDArray[np.float64]
 
 # More output than this is a mistake in the step, and would fill the memory.
-_MOST_OUTPUTS = 20_000_000
+_MOST_OUTPUTS = 5_000_000
 
 
 @dataclass(frozen=True)

@@ -33,17 +33,29 @@ def test_step_jumps_once():
 
 
 def test_sine_has_amplitude_and_frequency():
-    road = sine(0.01, 4.0)
-    assert road(0.0) == 0.0
-    assert road(1 / 16) == pytest.approx(0.01, rel=1e-14)
-    assert road(3 / 16) == pytest.approx(-0.01, rel=1e-14)
+    times = np.linspace(0.0, 7.0, 1001)
+    road = sine(0.01, 4.0, end=7.0)
+    # the bound of a cubic spline, h^4 / 384 of the fourth derivative, is 6e-11 of the amplitude
+    expected = 0.01 * np.sin(2.0 * np.pi * 4.0 * times)
+    assert road(times) == pytest.approx(expected, abs=1e-12)
+    # the rack's acceleration is taken from it: h^2 / 12 of the same, 1.3e-5
+    acceleration = -((2.0 * np.pi * 4.0) ** 2) * expected
+    assert road(times, 2) == pytest.approx(acceleration, abs=2e-5 * np.abs(acceleration).max())
+
+
+def test_a_sine_too_long_to_tabulate_is_refused():
+    for frequency in (0.0, -1.0, 1e6):
+        with pytest.raises(InputError, match="at most 500 Hz"):
+            sine(0.01, frequency, end=10.0)
 
 
 def test_a_slow_sine_carries_the_suspension_along():
     """At 0.05 Hz, far below the wheel hop, the wheel is where statics puts it."""
     from kintrafo import equilibrium
 
-    _, motion = play(MODEL, Scenario(duration=5.0, inputs={"road_height": sine(0.01, 0.05)}))
+    _, motion = play(
+        MODEL, Scenario(duration=5.0, inputs={"road_height": sine(0.01, 0.05, end=5.0)})
+    )
     top = motion["wheel_center_z"].sel(time=5.0)
     rest = MODEL.signal("wheel_center_z", equilibrium(MODEL, road_height=0.01))
     # inertia and damping act with the square of (0.05 / 12) and with 0 at the turning point
@@ -106,6 +118,11 @@ def test_what_cannot_be_read_is_refused_with_its_line(tmp_path, text, words):
         measured(table(tmp_path, text))
     assert words in str(caught.value)
     assert "road.csv" in str(caught.value)
+
+
+def test_a_speed_without_a_distance_is_refused(tmp_path):
+    with pytest.raises(InputError, match="Leave it out"):
+        measured(table(tmp_path, "time_s,road_height_mm\n0,0\n1,1\n"), speed=10.0)
 
 
 def test_many_wrong_lines_are_not_all_listed(tmp_path):

@@ -46,6 +46,8 @@ def command(
     """Positions of wheel and joints over wheel travel and rack displacement."""
     from .. import export, sweep
 
+    if (travel and over != "rack") or (rack and over != "travel"):
+        raise typer.BadParameter(f"--travel and --rack are for what is held; --over is {over}")
     outputs = Outputs.of(out, plot, figures, formats)
     model = load(file)
     travels: ArrayLike = travel / 1e3

@@ -103,8 +103,12 @@ def command(
 
     outputs = Outputs.of(out, plot, figures, formats)
     model = load(file)
+    if speed is not None and measured is None:
+        raise typer.BadParameter("only a road from --measured is driven on at a --speed")
     recording = None if measured is None else read(measured, speed=_per_second(speed))
-    end = duration or (recording.duration if recording else 1.0)
+    end = duration
+    if end is None:
+        end = 1.0 if recording is None else recording.duration
     courses = {
         "road_height": Course(
             step=metres(road_step),
