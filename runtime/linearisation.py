@@ -16,12 +16,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.signal import StateSpace
 
 from .errors import InputError
 from .modes import Mode, eigenvalues_of, mode_of_states, modes_of
 
 if TYPE_CHECKING:
+    from scipy.signal import StateSpace
+
     from .model import Model
 
 Array = NDArray[np.float64]
@@ -96,8 +97,10 @@ class Linearisation:
         """
         return mode_of_states(self.A, self.state_names, _ARM)
 
-    def state_space(self) -> StateSpace:
+    def state_space(self) -> "StateSpace":
         """Return the matrices as SciPy's ``StateSpace``."""
+        from scipy.signal import StateSpace  # noqa: PLC0415 (slow to import)
+
         return StateSpace(self.A, self.B, self.C, self.D)
 
     def frequency_response(

@@ -1,6 +1,7 @@
 """Positions of a suspension: at a given wheel height, and at rest under its forces."""
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -35,6 +36,8 @@ Array = NDArray[np.float64]
 # step halves the bracket, which is two degrees at first.
 _NEWTON_STEPS = 10
 _MOST_STEPS = 120
+# A height that is beyond the reach by less than this is at its end [m].
+_ROUNDING = 1e-12
 _EPSILON = float(np.finfo(np.float64).eps)
 _STEP = np.deg2rad(0.5)  # of the search for an equilibrium [rad]
 
@@ -83,8 +86,8 @@ def arm_angles(model: Model, height: ArrayLike, rack_position: ArrayLike = 0.0) 
     if _beyond(heights.ravel(), table, index).any():
         table = branch(model, distinct, to_the_end=True)
     _refuse_out_of_reach(model, heights.ravel(), distinct[index], table, index)
-    angles = _solve(model, heights.ravel(), distinct[index], table, index)
-    return angles.reshape(heights.shape)
+    within = np.clip(heights.ravel(), table.height[index, 0], table.height[index, -1])
+    return _solve(model, within, distinct[index], table, index).reshape(heights.shape)
 
 
 def state_at_height(
@@ -239,8 +242,8 @@ def _finite(values: ArrayLike, name: str) -> Array:
 
 def _beyond(heights: Array, table: Branch, index: NDArray[np.int64]) -> NDArray[np.bool_]:
     """Return which heights lie outside of the table."""
-    too_low: NDArray[np.bool_] = heights < table.height[index, 0]
-    too_high: NDArray[np.bool_] = heights > table.height[index, -1]
+    too_low: NDArray[np.bool_] = heights < table.height[index, 0] - _ROUNDING
+    too_high: NDArray[np.bool_] = heights > table.height[index, -1] + _ROUNDING
     return too_low | too_high
 
 
@@ -252,15 +255,21 @@ def _refuse_out_of_reach(
         return
     height, rack = heights[beyond][0], float(racks[beyond][0])
     reach = travel_range(model, rack)
-    ends = [1e3 * end for end in reach.height]
-    travels = [end - 1e3 * design_height(model) for end in ends]
+    ends = _rounded_inward(reach.height)
+    travels = _rounded_inward([end - design_height(model) for end in reach.height])
     message = (
-        f"wheel height {height * 1e3:.6g} mm is out of reach: from {ends[0]:.1f} mm "
-        f"({reach.lower_limit}) to {ends[1]:.1f} mm ({reach.upper_limit}) with the rack at "
-        f"{rack * 1e3:g} mm; that is {travels[0]:+.1f} mm to {travels[1]:+.1f} mm of wheel travel "
+        f"wheel height {height * 1e3:.6g} mm is out of reach: from {ends[0]:.2f} mm "
+        f"({reach.lower_limit}) to {ends[1]:.2f} mm ({reach.upper_limit}) with the rack at "
+        f"{rack * 1e3:g} mm; that is {travels[0]:+.2f} mm to {travels[1]:+.2f} mm of wheel travel "
         "from design. Choose a height within this range."
     )
     raise PositionError(message)
+
+
+def _rounded_inward(ends: Sequence[float]) -> tuple[float, float]:
+    """Return a range in whole hundredths of a millimetre that lies within the given one [m]."""
+    low, high = (1e5 * end for end in ends)
+    return math.ceil(low) / 100.0, math.floor(high) / 100.0
 
 
 def _solve(
