@@ -229,6 +229,10 @@ def test_simulated_second_starts_where_the_paper_starts(data):
     assert abs(travel[-1]) < 1e-6  # at rest
     assert spin[-1] == pytest.approx(2.0 * np.pi * 14.8, rel=1e-2)  # one second of spinning
     assert motion["time"] == {"first": 0.0, "step": 1e-3, "count": 1001}
+    for signal in motion["signals"]:
+        # a motion that dies out is no pole: all of it is in sight
+        values = unpacked(signal) * signal["factor"]
+        assert signal["range"][0] < values.min() < values.max() < signal["range"][1]
 
 
 @pytest.mark.usefixtures("coarse")

@@ -203,7 +203,7 @@ def test_dragging_in_a_chart_moves_the_wheel(watched):
 
 def test_dragging_the_wheel_moves_it(watched):
     page = watched.page
-    page.evaluate("kintrafo.look('side')")  # from inboard: the tyre is around the middle
+    page.evaluate("kintrafo.look('side')")  # from outboard: the tyre is around the middle
     page.wait_for_timeout(100)
     box = page.locator("#view canvas").bounding_box()
     x = box["x"] + 0.5 * box["width"]

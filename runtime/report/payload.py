@@ -11,7 +11,7 @@ from .curves import Curve
 from .encode import packed
 from .grid import Axis, Grid
 from .motion import Motion, NoMotion, TimeCurve
-from .plotted import decimals, shown_range
+from .plotted import decimals, full_range
 from .poses import Poses
 
 Array = NDArray[np.float64]
@@ -115,7 +115,7 @@ def _motion(motion: Motion) -> dict[str, Any]:
 
 
 def _time_curve(curve: TimeCurve) -> dict[str, Any]:
-    low, high = (end * curve.factor for end in shown_range(curve.values))
+    low, high = (end * curve.factor for end in full_range(curve.values))
     words = _described(curve, Look((low, high), decimals(low, high, unit=curve.unit)))
     return {"over": "time", **words, **packed(curve.values)}
 
@@ -145,7 +145,6 @@ def _drawing(suspension: Suspension, grid: Grid, sampled: Poses) -> dict[str, An
     }
     parameters = suspension.parameters()
     rack = np.array([parameters[f"rack_axis_{c}"] for c in "xyz"])
-    strut_lower = at_design.get("strut_lower", at_design["ball_joint"])
     x, y, z = at_design["wheel_center"]
     loaded = suspension.tyre_radius() or TYRE_RADIUS
     # free of force, the tyre is larger by what it is compressed at design
@@ -156,7 +155,6 @@ def _drawing(suspension: Suspension, grid: Grid, sampled: Poses) -> dict[str, An
         "side_sign": suspension.vehicle.sign,
         "road_height": float(z) - loaded,
         "tyre": {"radius": radius, "width": TYRE_WIDTH},
-        "strut_length": float(np.linalg.norm(at_design["strut_top"] - strut_lower)),
         "rack_inward": (-suspension.vehicle.sign * np.sign(rack[1] or 1.0) * rack).tolist(),
         "middle": (0.5 * (low + high)).tolist(),
         "size": float(np.linalg.norm(high - low)),

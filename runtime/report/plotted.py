@@ -15,7 +15,7 @@ _SHOWN_OF_POLE = 3.0
 _OVERSHOOT = 0.02
 _MOST_DECIMALS = 5
 # More than these nobody can build or measure.
-_MOST_OF_UNIT = {"deg": 2, "mm": 2, "%": 1, "N/mm": 2, "m": 2, "N": 0}
+_MOST_OF_UNIT = {"deg": 2, "mm": 2, "%": 1, "N/mm": 2, "m": 2, "m/s": 2, "m/s\u00b2": 1, "N": 0}
 
 
 def has_pole(values: Array) -> bool:
@@ -37,8 +37,24 @@ def has_pole(values: Array) -> bool:
     return bool(np.ptp(known) > _POLE * (high - low) > 0.0)
 
 
+def full_range(values: Array) -> tuple[float, float]:
+    """Return the least and the greatest of values, with room for what interpolation adds.
+
+    Parameters
+    ----------
+    values : ndarray
+        NaN and infinity are left out.
+
+    Returns
+    -------
+    tuple of float
+    """
+    finite = values[np.isfinite(values)]
+    return _widened(float(finite.min()), float(finite.max()))
+
+
 def shown_range(values: Array) -> tuple[float, float]:
-    """Return the values between which a curve is plotted.
+    """Return the values between which a characteristic is plotted.
 
     Parameters
     ----------
@@ -48,13 +64,16 @@ def shown_range(values: Array) -> tuple[float, float]:
     Returns
     -------
     tuple of float
-        All of them and a little more; with a pole, those within some times the usual size.
+        As of `full_range`; with a pole, only those within some times the usual size.
     """
+    if not has_pole(values):
+        return full_range(values)
     finite = values[np.isfinite(values)]
-    low, high = float(finite.min()), float(finite.max())
-    if has_pole(values):
-        limit = _SHOWN_OF_POLE * float(np.median(np.abs(finite)))
-        low, high = max(low, -limit), min(high, limit)
+    limit = _SHOWN_OF_POLE * float(np.median(np.abs(finite)))
+    return _widened(max(float(finite.min()), -limit), min(float(finite.max()), limit))
+
+
+def _widened(low: float, high: float) -> tuple[float, float]:
     margin = max(_OVERSHOOT * (high - low), 1e-9 * max(abs(low), abs(high), 1.0))
     return low - margin, high + margin
 

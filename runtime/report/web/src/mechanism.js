@@ -27,17 +27,18 @@ const UP = new Vector3(0, 1, 0); // the axis of three's cylinders and of the whe
 const ARM = 0.012;
 const ROD = 0.009;
 const JOINT = 0.017;
-const TUBE = 0.023;
+const TUBE_RADIUS = 0.023;
 const PISTON = 0.01;
+const MOUNT = 0.02; // height of the upper mount, under which the spring ends
 const COIL = 0.058;
 const WIRE = 0.006;
 const TURNS = 5.5;
 const SPOKES_AT = 0.34; // from the middle of the tyre outboard, as part of its width
 const GLASS = 0.22; // opacity of a wheel that is looked through
-// parts of the strut's design length
-const TUBE_FROM = 0.13;
-const TUBE_TO = 0.66;
-// A spring seat nearer to the strut's lower end stands for "in line with the strut" [m].
+// parts of the strut's design length, from where the knuckle holds it
+const TUBE = 0.585;
+const SEAT = 0.46;
+// A spring seat nearer to the ball joint stands for "in line with the strut", not for a place [m].
 const OWN_SEAT = 0.05;
 
 const MATERIALS = [
@@ -71,6 +72,12 @@ export class Mechanism extends Group {
     this.recolour();
     this.#buildLinks();
     this.#buildStrut();
+    const atDesign = Object.entries(data.points).map(([n, { design }]) => [
+      n,
+      new Vector3(...design),
+    ]);
+    this.design = Object.fromEntries(atDesign);
+    this.strutLength = strutClamp(this.design).distanceTo(this.design.strut_top);
     this.wheel = this.#buildWheel(data.tyre);
     this.pad = this.#solid("pad", new BoxGeometry(0.46, 0.34, 0.012));
     this.axis = this.#line("axis", 2);
@@ -157,7 +164,7 @@ export class Mechanism extends Group {
   }
 
   #buildStrut() {
-    this.#cylinder("tube", "strut", TUBE);
+    this.#cylinder("tube", "strut", TUBE_RADIUS);
     this.#cylinder("piston", "strut", PISTON);
     this.#cylinder("seat", "strut", COIL + 0.01);
     this.#cylinder("top_mount", "chassis", COIL + 0.014);
@@ -216,8 +223,7 @@ export class Mechanism extends Group {
     }
     this.#solids.hub.position.copy(points.wheel_center);
     this.#span("tie_rod", points.tie_rod_outer, points.tie_rod_inner);
-    const foot = points.strut_lower ?? points.ball_joint;
-    const clamp = nearestOnLine(points.wheel_center, foot, points.strut_top);
+    const clamp = strutClamp(points);
     this.#span("upright", points.ball_joint, clamp);
     this.#span("spindle", clamp, points.wheel_center);
     this.#span("lower_web", points.ball_joint, points.wheel_center);
@@ -225,7 +231,7 @@ export class Mechanism extends Group {
     const inward = new Vector3(...this.data.rack_inward);
     const inner = points.tie_rod_inner;
     this.#span("rack", inner, inner.clone().addScaledVector(inward, 0.2));
-    const housing = new Vector3(...this.data.points.tie_rod_inner.design);
+    const housing = this.design.tie_rod_inner;
     this.#span(
       "rack_housing",
       housing.clone().addScaledVector(inward, 0.1),
@@ -235,18 +241,22 @@ export class Mechanism extends Group {
 
   #poseStrut(points) {
     const { strut_top: top } = points;
-    const foot = points.strut_lower ?? points.ball_joint;
-    const along = top.clone().sub(foot).normalize();
-    const at = (part) => foot.clone().addScaledVector(along, part * this.data.strut_length);
-    const seat = at(TUBE_TO - 0.1);
-    this.#span("tube", at(TUBE_FROM), at(TUBE_TO));
-    this.#span("piston", at(TUBE_TO), top);
-    this.#span("seat", seat.clone().addScaledVector(along, -0.008), seat);
-    const under = top.clone().addScaledVector(along, -0.02);
+    const clamp = strutClamp(points);
+    const along = top.clone().sub(clamp).normalize();
+    const at = (part) => clamp.clone().addScaledVector(along, part * this.strutLength);
+    const under = top.clone().addScaledVector(along, -MOUNT);
+    this.#span("tube", at(0), at(TUBE));
+    this.#span("piston", at(TUBE), top);
     this.#span("top_mount", under, top);
-    const apart = points.spring_seat?.distanceTo(foot) > OWN_SEAT;
-    if (apart) place(this.spring, points.spring_seat, points.spring_top, 1);
-    else place(this.spring, seat, under, 1);
+    const own = points.spring_seat?.distanceTo(points.ball_joint) > OWN_SEAT;
+    if (own) this.#poseSpring(points.spring_seat, points.spring_top);
+    else this.#poseSpring(at(SEAT), top);
+  }
+
+  #poseSpring(seat, top) {
+    const along = top.clone().sub(seat).normalize();
+    this.#span("seat", seat.clone().addScaledVector(along, -0.008), seat);
+    place(this.spring, seat, top.clone().addScaledVector(along, -MOUNT), 1);
   }
 
   #poseWheel(center, spinAxis, spin) {
@@ -274,6 +284,11 @@ function place(mesh, from, to, radius) {
   mesh.position.copy(from).addScaledVector(along, 0.5);
   mesh.quaternion.setFromUnitVectors(UP, along.divideScalar(length));
   mesh.scale.set(radius, length, radius);
+}
+
+/** Where the knuckle is drawn to hold the strut: on its axis, beside the wheel centre. */
+function strutClamp({ ball_joint, strut_lower = ball_joint, strut_top, wheel_center }) {
+  return nearestOnLine(wheel_center, strut_lower, strut_top);
 }
 
 function nearestOnLine(point, from, to) {
