@@ -226,6 +226,20 @@ def test_dragging_the_wheel_moves_it(watched):
     assert watched.state()["travel"] == risen
 
 
+def test_wheel_can_be_looked_through(watched):
+    page, button = watched.page, watched.page.locator("#through")
+    assert button.get_attribute("aria-pressed") == "false"
+    button.click()
+    assert button.get_attribute("aria-pressed") == "true"
+    page.set_viewport_size({"width": 1300, "height": 800})
+    page.wait_for_timeout(100)
+    assert button.get_attribute("aria-pressed") == "true"
+    page.locator('[data-look="corner"]').click()
+    assert button.get_attribute("aria-pressed") == "false"
+    page.locator('[data-look="front"]').click()
+    assert button.get_attribute("aria-pressed") == "true"
+
+
 def test_playing_shows_the_simulated_motion(watched):
     page = watched.page
     page.locator("#speed").select_option("0.02")

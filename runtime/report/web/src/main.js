@@ -39,10 +39,7 @@ function makeView() {
   }
   const made = new View(host, data, position);
   for (const button of document.querySelectorAll("[data-look]")) {
-    button.addEventListener("click", () => {
-      made.moved = false;
-      made.look(button.dataset.look);
-    });
+    button.addEventListener("click", () => made.look(button.dataset.look));
   }
   const through = document.getElementById("through");
   through.addEventListener("click", () => made.lookThroughWheel(!made.throughWheel));

@@ -86,8 +86,15 @@ export class View {
     return new Vector3().setFromMatrixPosition(this.mechanism.wheel.matrixWorld).toArray();
   }
 
-  /** Look from a named side. */
+  /** Look from a named side; from those where the wheel hides the linkage, through it. */
   look(from) {
+    this.moved = false;
+    this.lookingFrom = from;
+    this.#placeCamera(from);
+    this.lookThroughWheel(from !== "corner");
+  }
+
+  #placeCamera(from) {
     const side = this.data.side_sign;
     const directions = {
       corner: [1.0, -0.72 * side, 0.5],
@@ -102,8 +109,6 @@ export class View {
     this.controls.target.copy(target);
     this.camera.position.copy(target).addScaledVector(away, distance);
     this.controls.update();
-    this.lookingFrom = from;
-    this.lookThroughWheel(from !== "corner");
   }
 
   lookThroughWheel(through) {
@@ -159,7 +164,7 @@ export class View {
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
-    if (!this.moved) this.look(this.lookingFrom);
+    if (!this.moved) this.#placeCamera(this.lookingFrom);
     this.render();
   }
 
