@@ -282,10 +282,11 @@ def _solve(
     """
     points = table.height.shape[1]
     right = np.clip((table.height[index] < heights[:, None]).sum(axis=1), 1, points - 1)
-    low, high = table.angle[index, right - 1], table.angle[index, right]
-    angle = 0.5 * (low + high)
-    found: Array = angle.copy()
-    error = np.full(heights.size, np.inf)
+    ends = np.stack([right - 1, right])
+    low, high = table.angle[index, ends]
+    errors = np.abs(table.height[index, ends] - heights)
+    found: Array = np.where(errors[0] <= errors[1], low, high)
+    error, angle = errors.min(axis=0), 0.5 * (low + high)
     rows = np.arange(heights.size)
     for count in range(_MOST_STEPS):
         at = angle[rows]

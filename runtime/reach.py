@@ -19,8 +19,11 @@ Array = NDArray[np.float64]
 # Arm angles are looked at in steps of this size [rad], up to a right angle from design.
 _STEP = np.deg2rad(2.0)
 _STEPS = 45
-# Halvings of one step that locate the end of the travel: to 1e-16 rad, the rounding of the angle.
-_HALVINGS = 48
+# Halvings of one step that locate the end of the travel, to 3e-13 rad.
+_HALVINGS = 37
+# By how much the reach ends before that [rad]. What has to be positive is then some 1e-13 m^2, clear
+# of its rounding, and the wheel is less than a nanometre from its last position.
+_CLEARANCE = 1e-12
 _CHUNK = 500  # racks that are looked at together, to bound the memory
 
 _TURNS_BACK = "the wheel centre turns back there"
@@ -63,7 +66,7 @@ def travel_range(model: Model, rack_position: float = 0.0) -> Range:
     Returns
     -------
     Range
-        Its ends are the last positions, to the rounding of the arm angle, before the limit.
+        Its ends are the last positions before the limit, to 1e-12 rad of the arm angle.
 
     Raises
     ------
@@ -230,6 +233,8 @@ def _ends(model: Model, racks: Array, direction: float) -> tuple[Array, list[int
         middle = 0.5 * (inside + outside)
         fine = _look(model, middle, racks).usable
         inside, outside = np.where(fine, middle, inside), np.where(fine, outside, middle)
+    # not past the design position, where a wheel that turns back at once has its end
+    inside = np.where(last > 0, inside - direction * _CLEARANCE, inside)
     complete = good.all(axis=1)
     limits = np.where(complete, -2, _look(model, outside, racks).limit)
     return np.where(complete, angles[-1], inside), limits.tolist()

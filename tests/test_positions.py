@@ -3,8 +3,23 @@
 import kintrafo
 import numpy as np
 import pytest
-from kintrafo import Model, PositionError, equilibrium, state_at_height, travel_range
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from kintrafo import (
+    ClosureError,
+    InputError,
+    Model,
+    PositionError,
+    equilibrium,
+    linearise,
+    state_at_height,
+    travel_range,
+)
+from kintrafo.hardpoints import hardpoints
+from kintrafo.positions import arm_angles, road_under_load
+from kintrafo.reach import at_rest, branch, height_and_slope
 from oracle import newton
+from oracle.multipliers import solve_prescribed
 from oracle.reference import reference_parameters
 
 MODEL = Model("reference_car")
@@ -34,9 +49,8 @@ def test_range_ends_where_the_loop_or_the_wheel_turns_back():
     assert high > 0.45
     assert "dead point" in reach.upper_limit
     for wanted in reach.height:
-        # at the dead point the height has a vertical tangent: 3e4 m/rad at the last angle, which
-        # is rounded to 5e-17 rad
-        assert height(state_at_height(MODEL, wanted)) == pytest.approx(wanted, abs=2e-11)
+        # beside the dead point the height changes by 300 m/rad; angles are rounded to 1e-16 rad
+        assert height(state_at_height(MODEL, wanted)) == pytest.approx(wanted, abs=1e-13)
 
 
 @pytest.mark.parametrize("beyond", [-0.5, 0.7])
@@ -97,8 +111,6 @@ def test_left_and_right_are_mirror_images():
 
 
 def test_hardpoints_agree_with_the_oracle():
-    from kintrafo.hardpoints import hardpoints
-
     mechanism = newton.Mechanism(reference_parameters())
     pose = newton.solve_pose(mechanism, MODEL.design_state[0] - 0.2, 0.03)
     state = MODEL.state(beta1=MODEL.design_state[0] - 0.2)
@@ -147,3 +159,170 @@ def test_model_takes_a_path_and_refuses_what_is_none():
 def test_one_class_catches_all_errors():
     for error in (kintrafo.ClosureError, kintrafo.ModelError, PositionError, kintrafo.InputError):
         assert issubclass(error, kintrafo.KintrafoError)
+
+
+# -- many heights at once -------------------------------------------------------------------------
+
+REACH = travel_range(MODEL)
+
+
+def test_many_heights_are_those_one_by_one():
+    heights = np.linspace(0.0, 0.55, 12)[:, None]
+    racks = np.array([-0.05, 0.0, 0.02])
+    angles = arm_angles(MODEL, heights, racks)
+    assert angles.shape == (12, 3)
+    for index in np.ndindex(angles.shape):
+        alone = state_at_height(MODEL, heights[index[0], 0], rack_position=racks[index[1]])
+        assert angles[index] == alone[0]
+
+
+@settings(max_examples=100, deadline=None)
+@given(st.lists(st.floats(0.0, 1.0), min_size=1, max_size=20), st.floats(-0.06, 0.06))
+def test_heights_within_reach_are_met_to_rounding(parts, rack):
+    low, high = travel_range(MODEL, rack).height
+    heights = low + (high - low) * np.array(parts)
+    angles = arm_angles(MODEL, heights, rack)
+    found, _ = height_and_slope(MODEL, angles, rack)
+    # two roundings of the height, and of the angle where its tangent is nearly vertical
+    near = np.minimum(angles + 5 * np.spacing(angles), travel_range(MODEL, rack).arm_angle[0])
+    allowed = 1e-15 + np.abs(height_and_slope(MODEL, near, rack)[0] - found)
+    assert (np.abs(found - np.clip(heights, low, high)) <= allowed).all()
+    assert (np.diff(angles[np.argsort(heights)]) <= 0.0).all()
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.floats(1e-6, 10.0), st.booleans(), st.floats(-0.06, 0.06))
+def test_heights_beyond_reach_are_refused(beyond, above, rack):
+    low, high = travel_range(MODEL, rack).height
+    with pytest.raises(PositionError, match="Choose a height within this range"):
+        arm_angles(MODEL, [0.3, high + beyond if above else low - beyond], rack)
+
+
+def test_the_range_in_the_message_is_within_reach():
+    with pytest.raises(PositionError) as caught:
+        arm_angles(MODEL, 1.0)
+    words = str(caught.value).split()
+    low, high = (float(words[i + 1]) * 1e-3 for i in (words.index("from"), words.index("to")))
+    assert arm_angles(MODEL, [low, high]).shape == (2,)
+
+
+@pytest.mark.parametrize("wrong", [np.nan, np.inf])
+def test_heights_and_racks_that_are_no_numbers_are_refused(wrong):
+    with pytest.raises(InputError, match=r"wheel height = .* finite number"):
+        arm_angles(MODEL, [0.3, wrong])
+    with pytest.raises(InputError, match=r"rack position = .* finite number"):
+        arm_angles(MODEL, 0.3, wrong)
+
+
+def test_no_heights_make_no_angles():
+    assert arm_angles(MODEL, np.empty((0, 3))).shape == (0, 3)
+
+
+# -- the ends of the reach ------------------------------------------------------------------------
+
+
+def test_upper_end_is_the_dead_point_of_the_tie_rod():
+    """There the rod lies in the plane of strut axis and steering arm."""
+    states, inputs = at_rest(MODEL, REACH.arm_angle[1])
+    points = hardpoints(MODEL, states, inputs)
+    strut = points["strut_top"] - points["ball_joint"]
+    arm = points["tie_rod_outer"] - points["ball_joint"]
+    rod = points["tie_rod_outer"] - points["tie_rod_inner"]
+    volume = np.cross(strut, arm) @ rod / np.linalg.norm(np.cross(strut, arm))
+    # its square is what has to be positive; it changes by some 0.1 m^2/rad, and the end is 1e-12
+    # rad before the dead point
+    assert abs(volume) < 1e-6
+    with pytest.raises(ClosureError, match="dead point"):
+        MODEL.signals(*at_rest(MODEL, REACH.arm_angle[1] - 1e-9))
+
+
+def test_lower_end_is_where_the_wheel_turns_back():
+    assert "turns back" in REACH.lower_limit
+    _, slopes = height_and_slope(MODEL, REACH.arm_angle[0] + np.array([-1e-9, 0.0, 1e-9]))
+    assert slopes[0] < 0.0
+    assert slopes[2] > 0.0
+    # slope of 0.3 m/rad^2 at 1e-12 rad
+    assert -1e-12 < slopes[1] < 0.0
+
+
+def test_an_arm_that_nothing_stops_swings_by_a_right_angle():
+    reach = travel_range(Model("chrono_generic"))
+    assert "right angle" in reach.lower_limit
+    design = Model("chrono_generic").design_state[0]
+    assert reach.arm_angle[0] - design == pytest.approx(np.pi / 2, rel=1e-12)
+
+
+def test_table_of_the_reach_rises_and_ends_at_its_ends():
+    racks = np.linspace(-0.06, 0.06, 7)
+    coarse, full = branch(MODEL, racks), branch(MODEL, racks, to_the_end=True)
+    for table in (coarse, full):
+        assert (np.diff(table.height, axis=1) >= 0.0).all()
+        assert (np.diff(table.angle, axis=1) <= 0.0).all()
+    for row, rack in enumerate(racks):
+        reach = travel_range(MODEL, rack)
+        assert full.angle[row, [0, -1]].tolist() == list(reach.arm_angle)
+        # the coarse table ends by less than its step of two degrees before
+        assert np.abs(coarse.angle[row, [0, -1]] - reach.arm_angle).max() < np.deg2rad(2.0)
+
+
+def test_many_racks_are_looked_at_in_parts():
+    racks = np.linspace(-0.05, 0.05, 1203)
+    angles = arm_angles(MODEL, 0.31, racks)
+    for k in (0, 499, 500, 1202):
+        assert angles[k] == arm_angles(MODEL, 0.31, racks[k])
+
+
+# -- under a wheel load ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("load", [0.0, 2500.0, 4000.0])
+@pytest.mark.parametrize("rack", [0.0, 0.02])
+def test_equilibrium_under_a_wheel_load(load, rack):
+    """The oracle stays at rest on the road that carries the load."""
+    state = equilibrium(MODEL, wheel_load=load, rack_position=rack)
+    inputs = MODEL.inputs({"rack_position": rack})
+    road = float(road_under_load(MODEL, load, state, inputs))
+    parameters = reference_parameters()
+    deflection = parameters["tyre_free_height"] + road - height(state, rack)
+    # loads of 4 kN from heights that are rounded to 1e-16 m, times 2e5 N/m
+    assert deflection * parameters["tyre_rate"] == pytest.approx(load, abs=1e-9)
+    car = newton.Mechanism(parameters)
+    pose = newton.solve_pose(car, state[0], rack)
+    rest = solve_prescribed(car, pose, 0.0, 0.0, road_height=road)
+    assert rest.beta1_acceleration == pytest.approx(0.0, abs=1e-8)
+
+
+def test_road_under_the_load_makes_the_same_equilibrium():
+    loaded = equilibrium(MODEL, wheel_load=3000.0)
+    road = float(road_under_load(MODEL, 3000.0, loaded))
+    on_road = equilibrium(MODEL, road_height=road)
+    assert on_road[0] == pytest.approx(loaded[0], abs=1e-12)
+    linear = linearise(MODEL, loaded, MODEL.inputs({"road_height": road}))
+    assert linear.steady
+
+
+def test_more_load_presses_the_wheel_up():
+    heights = [height(equilibrium(MODEL, wheel_load=load)) for load in (1000.0, 3000.0, 5000.0)]
+    assert heights == sorted(heights)
+
+
+@pytest.mark.parametrize("load", [-1.0, np.nan, np.inf])
+def test_loads_that_no_road_exerts_are_refused(load):
+    with pytest.raises(InputError, match=r"wheel_load = .* N; 0 N or more"):
+        equilibrium(MODEL, wheel_load=load)
+
+
+def test_load_and_road_together_are_refused():
+    with pytest.raises(InputError, match="both given"):
+        equilibrium(MODEL, wheel_load=3000.0, road_height=0.01)
+
+
+def test_a_tyre_without_stiffness_carries_no_load():
+    soft = Model(MODEL.suspension.with_changes({"tyre.rate_N_per_m": 0.0}))
+    with pytest.raises(InputError, match=r"\[tyre\] rate_N_per_m = 0"):
+        equilibrium(soft, wheel_load=3000.0)
+
+
+def test_a_load_without_equilibrium_is_refused():
+    with pytest.raises(PositionError, match="no stable equilibrium"):
+        equilibrium(MODEL, wheel_load=3000.0, strut_force=1e6)
