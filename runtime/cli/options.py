@@ -35,7 +35,12 @@ Files = Annotated[
     ),
 ]
 Json = Annotated[
-    bool, typer.Option("--json", help="Print the result as JSON, in SI units, and nothing else.")
+    bool,
+    typer.Option(
+        "--json",
+        help="Print the result as JSON, in SI units, and nothing else.",
+        rich_help_panel="Output",
+    ),
 ]
 Rebound = Annotated[
     float | None, typer.Option(metavar="MM", help="Wheel travel downward. Default: 80, if reached.")

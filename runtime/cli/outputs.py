@@ -19,6 +19,7 @@ Out = Annotated[
         "-o",
         metavar="PATH",
         help="Write the data: .csv (mm, deg), .nc or .parquet (SI). May be repeated.",
+        rich_help_panel="Output",
     ),
 ]
 Plot = Annotated[
@@ -27,16 +28,24 @@ Plot = Annotated[
         "--plot",
         metavar="PATH",
         help="Write the curves: .pdf (a page a group), .png or .svg. May be repeated.",
+        rich_help_panel="Output",
     ),
 ]
 Figures = Annotated[
     Path | None,
-    typer.Option(metavar="FOLDER", help="Write a figure of every curve into this folder."),
+    typer.Option(
+        metavar="FOLDER",
+        help="Write a figure of every curve into this folder.",
+        rich_help_panel="Output",
+    ),
 ]
 Formats = Annotated[
     list[str] | None,
     typer.Option(
-        "--format", metavar="NAME", help="Of --figures: png, svg or pdf. May be repeated."
+        "--format",
+        metavar="NAME",
+        help="Of --figures: png, svg or pdf. May be repeated.",
+        rich_help_panel="Output",
     ),
 ]
 

@@ -1,8 +1,7 @@
 """``kintrafo simulate``: the motion over a road."""
 
 import math
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 from rich.markup import escape
@@ -11,6 +10,24 @@ from rich.table import Table
 from .console import console, number, print_json, problems, say
 from .options import File, Json, load, metres
 from .outputs import Figures, Formats, Out, Outputs, Plot
+from .simulation_options import (
+    Atol,
+    Duration,
+    Height,
+    Measured,
+    Method,
+    OutputStep,
+    Rack,
+    RackFrequency,
+    RackSine,
+    RoadFrequency,
+    RoadSine,
+    RoadStep,
+    RoadStepAt,
+    Rtol,
+    Speed,
+    Spin,
+)
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -44,49 +61,22 @@ _DRAWN = (
 def command(
     file: File,
     *,
-    height: Annotated[
-        float | None,
-        typer.Option(metavar="MM", help="Wheel centre at the start. Default: at rest."),
-    ] = None,
-    spin: Annotated[
-        float, typer.Option(metavar="REV/S", help="Wheel spin, positive rolling forward.")
-    ] = 0.0,
-    road_step: Annotated[
-        float | None, typer.Option(metavar="MM", help="The road rises by this at once.")
-    ] = None,
-    road_step_at: Annotated[float, typer.Option(metavar="S", help="When it does.")] = 0.1,
-    road_sine: Annotated[
-        float | None, typer.Option(metavar="MM", help="Amplitude of a harmonic road.")
-    ] = None,
-    road_frequency: Annotated[float, typer.Option(metavar="HZ", help="Its frequency.")] = 1.0,
-    measured: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="CSV",
-            help="Measured road or rack: time_s or distance_m, road_height_mm, rack_position_mm.",
-        ),
-    ] = None,
-    speed: Annotated[
-        float | None, typer.Option(metavar="KM/H", help="Speed on a road given over distance_m.")
-    ] = None,
-    rack: Annotated[float | None, typer.Option(metavar="MM", help="Rack held there.")] = None,
-    rack_sine: Annotated[
-        float | None, typer.Option(metavar="MM", help="Amplitude of a harmonic rack motion.")
-    ] = None,
-    rack_frequency: Annotated[float, typer.Option(metavar="HZ", help="Its frequency.")] = 1.0,
-    duration: Annotated[
-        float | None,
-        typer.Option(metavar="S", help="Default: 1, or as long as what was measured."),
-    ] = None,
-    output_step: Annotated[float, typer.Option(metavar="MS", help="Time between outputs.")] = 1.0,
-    method: Annotated[
-        str,
-        typer.Option(
-            help="BDF, Adams, Verner, DormandPrince, Tsitouras, Radau, LSODA, RK45, DOP853."
-        ),
-    ] = "BDF",
-    rtol: Annotated[float, typer.Option(help="Relative tolerance.")] = 1e-6,
-    atol: Annotated[float, typer.Option(help="Absolute tolerance, SI units.")] = 1e-9,
+    height: Height = None,
+    spin: Spin = 0.0,
+    road_step: RoadStep = None,
+    road_step_at: RoadStepAt = 0.1,
+    road_sine: RoadSine = None,
+    road_frequency: RoadFrequency = 1.0,
+    measured: Measured = None,
+    speed: Speed = None,
+    rack: Rack = None,
+    rack_sine: RackSine = None,
+    rack_frequency: RackFrequency = 1.0,
+    duration: Duration = None,
+    output_step: OutputStep = 1.0,
+    method: Method = "BDF",
+    rtol: Rtol = 1e-6,
+    atol: Atol = 1e-9,
     out: Out = None,
     plot: Plot = None,
     figures: Figures = None,
