@@ -105,7 +105,7 @@ export class View {
     const target = new Vector3(...this.data.middle);
     const away = new Vector3(...directions[from]).normalize();
     // the vertical field of view is given: a narrow window needs more distance
-    const distance = this.data.size * 2.05 * Math.max(1, 1.02 / this.camera.aspect);
+    const distance = this.data.size * 2.05 * Math.max(1, 1.16 / this.camera.aspect);
     this.controls.target.copy(target);
     this.camera.position.copy(target).addScaledVector(away, distance);
     this.controls.update();
