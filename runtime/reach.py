@@ -21,8 +21,8 @@ _STEP = np.deg2rad(2.0)
 _STEPS = 45
 # Halvings of one step that locate the end of the travel, to 3e-13 rad.
 _HALVINGS = 37
-# By how much the reach ends before that [rad]. What has to be positive is then some 1e-13 m^2, clear
-# of its rounding, and the wheel is less than a nanometre from its last position.
+# By how much the reach ends before that [rad]. What has to be positive is then some 1e-13 m^2,
+# clear of its rounding, and the wheel is less than a nanometre from its last position.
 _CLEARANCE = 1e-12
 _CHUNK = 500  # racks that are looked at together, to bound the memory
 
