@@ -23,7 +23,15 @@ if TYPE_CHECKING:
     from .linearisation import Linearisation, linearise
     from .model import Model
     from .modes import Mode
-    from .positions import PositionError, Range, equilibrium, state_at_height, travel_range
+    from .positions import (
+        PositionError,
+        Range,
+        arm_angles,
+        equilibrium,
+        road_under_load,
+        state_at_height,
+        travel_range,
+    )
     from .simulation import Simulation, SimulationError, simulate
 
 __version__ = version("kintrafo")
@@ -43,8 +51,10 @@ __all__ = [
     "Simulation",
     "SimulationError",
     "Suspension",
+    "arm_angles",
     "equilibrium",
     "linearise",
+    "road_under_load",
     "simulate",
     "state_at_height",
     "travel_range",
@@ -60,7 +70,15 @@ _MODULES = {
     ".linearisation": ("Linearisation", "linearise"),
     ".model": ("Model",),
     ".modes": ("Mode",),
-    ".positions": ("PositionError", "Range", "equilibrium", "state_at_height", "travel_range"),
+    ".positions": (
+        "PositionError",
+        "Range",
+        "arm_angles",
+        "equilibrium",
+        "road_under_load",
+        "state_at_height",
+        "travel_range",
+    ),
     ".simulation": ("Simulation", "SimulationError", "simulate"),
 }
 _HOMES = {name: module for module, names in _MODULES.items() for name in names}

@@ -7,6 +7,7 @@ anew here, gradients by central differences.
 
 import csv
 import dataclasses
+import re
 from pathlib import Path
 
 import kintrafo
@@ -462,6 +463,65 @@ def test_free_rack_changes_no_characteristic():
             assert a[name].values == pytest.approx(b[name].values, rel=1e-9, abs=1e-12), name
 
 
+# -- a strut beside the ball joint, and a spring with an axis of its own --------------------------
+
+OFFSET = CAR.with_changes(
+    {
+        "hardpoints.strut_lower": [-10.0, -640.0, 420.0],
+        "hardpoints.spring_top": [-30.0, -570.0, 800.0],
+        "hardpoints.spring_seat": [-12.0, -650.0, 480.0],
+        "strut.spring_free_slide_mm": None,
+        "strut.spring_free_length_mm": 420.0,
+        "strut.length_max_mm": 600.0,
+        "bump_stop": {"clearance_mm": 10.0, "rate_N_per_m": 3e4},
+    }
+)
+
+
+@pytest.mark.parametrize("place", [(-0.05, 0.01), (0.04, 0.0)], ids=str)
+def test_derivatives_are_those_of_the_curves(place):
+    """The oracle has no such strut: slopes are compared with the curves that they belong to."""
+    travel, rack = place
+    model = Model(OFFSET)
+    steps = np.array([0.0, *(k * 2e-3 for k in range(-4, 5) if k)])
+    curves = characteristics.travel(model, travel + steps, rack_position=rack)
+
+    def slope(name):
+        values = dict(zip(steps.round(9).tolist(), curves[name].values, strict=True))
+        return difference(lambda h: values[round(h, 9)])
+
+    at = curves.isel(wheel_travel=0)
+    for name, of, sign in (
+        ("camber_gradient", "camber", 1.0),
+        ("bump_steer", "toe", 1.0),
+        ("caster_gradient", "caster", 1.0),
+        ("motion_ratio", "spring_length", -1.0),
+        ("damper_motion_ratio", "damper_length", -1.0),
+    ):
+        assert float(at[name]) == pytest.approx(sign * slope(of), rel=SLOPE, abs=SLOPE), name
+    # the spring's and the stop's force at the wheel, from the laws in the file
+    seat = float(characteristics.travel(model, [0.0])["damper_length"][0]) - 0.010
+    pressed = np.maximum(0.0, seat - curves["damper_length"])
+    curves["force"] = (
+        25e3 * (0.420 - curves["spring_length"]) * curves["motion_ratio"]
+        + 3e4 * pressed * curves["damper_motion_ratio"]
+    )
+    assert float(at["wheel_rate"]) == pytest.approx(slope("force"), rel=1e-9)
+
+
+def test_spring_and_damper_differ_where_the_spring_has_seats():
+    at = characteristics.travel(Model(OFFSET), [0.0]).isel(wheel_travel=0)
+    # between the hardpoints, in mm
+    seats, strut = [18.0, -80.0, -320.0], [18.0, -55.0, -400.0]
+    assert float(at["spring_length"]) * 1e3 == pytest.approx(np.linalg.norm(seats), rel=1e-13)
+    assert float(at["damper_length"]) * 1e3 == pytest.approx(np.linalg.norm(strut), rel=1e-13)
+    assert float(at["motion_ratio"]) != pytest.approx(float(at["damper_motion_ratio"]), rel=1e-3)
+
+
+def test_mirror_images_of_an_offset_strut():
+    assert_mirror_images(OFFSET)
+
+
 # -- the datasets ---------------------------------------------------------------------------------
 
 
@@ -580,3 +640,22 @@ def test_what_is_no_row_of_numbers_is_refused(wrong):
 def test_the_module_is_part_of_the_interface():
     assert kintrafo.characteristics is characteristics
     assert "characteristics" in dir(kintrafo)
+
+
+# -- the page -------------------------------------------------------------------------------------
+
+PAGE = (Path(__file__).parent.parent / "docs" / "characteristics.md").read_text(encoding="utf-8")
+
+
+def test_every_characteristic_is_on_the_page():
+    names = {name for dataset in both() for name in dataset.data_vars}
+    assert {name for name in names if f"`{name}`" not in PAGE} == set()
+
+
+def test_examples_of_the_page_run(capsys):
+    names = {}
+    for block in re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL):
+        exec(block, names)
+    printed = capsys.readouterr().out.splitlines()
+    assert float(printed[0]) == pytest.approx(np.deg2rad(-0.9139), abs=1e-6)
+    assert printed[1:] == ["positive with the top outboard", "12.35 Hz, damping ratio 0.233"]
