@@ -1,19 +1,24 @@
 """Write an expression as C (or NumPy) arithmetic, and count the operations of what was written.
 
 Text and count come from the same traversal, so the count is that of the emitted code. There is no
-``pow``: integer powers are products, half-integer ones are roots.
+``pow``: integer powers are products, half-integer ones are roots. Sums and products are put
+together in the order in which their parts become known.
 """
 
 from __future__ import annotations
 
+import heapq
 from collections import Counter
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from itertools import count
+from typing import TYPE_CHECKING, TypeVar
 
 import sympy as sp
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
+
+T = TypeVar("T")
 
 OPERATIONS = ("add", "multiply", "divide", "root", "trigonometric")
 
@@ -79,9 +84,9 @@ C = Dialect(
         sp.cos: "cos({})",
         sp.asin: "asin({})",
         sp.atan2: "atan2({})",
-        Guarded: "fmax({}, GUARD_FLOOR)",
+        Guarded: "at_least({}, GUARD_FLOOR)",
         SignOf: "copysign(1.0, {})",
-        Positive: "fmax({}, 0.0)",
+        Positive: "at_least({}, 0.0)",
         IsPositive: "(double)({} > 0.0)",
     },
     root="sqrt({})",
@@ -103,6 +108,10 @@ NUMPY = Dialect(
 # binding strength of a written expression, loosest first
 _SUM, _NEGATIVE, _PRODUCT, _ATOM = range(4)
 
+# About how many cycles the result of an operation is waited for on present processors. Only the
+# order of operations follows from these numbers, never their count.
+_LATENCY = {"sum": 4, "product": 4, "quotient": 14, "root": 18, "selection": 4, "function": 45}
+
 
 @dataclass(frozen=True)
 class Written:
@@ -110,36 +119,112 @@ class Written:
 
     A sign in front counts as an addition; guards, limits and the choice of a branch are comparisons
     and do not count.
+
+    Attributes
+    ----------
+    ready
+        When the result is there, in cycles from the start of the function.
     """
 
     text: str
     strength: int
     operations: Counter[str]
+    ready: int = 0
 
     def inside(self, strength: int) -> str:
         """Return the text, in parentheses where its surroundings bind more strongly."""
         return self.text if self.strength >= strength else f"({self.text})"
 
 
-def write(expression: sp.Expr, dialect: Dialect = C) -> Written:
-    """Write an expression and count its operations."""
-    if expression.is_Symbol:
-        return Written(expression.name, _ATOM, Counter())
-    if expression.is_Number or expression is sp.pi:
-        return _write_number(expression)
-    if expression.is_Add:
-        return _write_sum(expression, dialect)
-    if expression.is_Mul:
-        return _write_product(expression, dialect)
-    if expression.is_Pow:
-        return _write_power(expression, dialect)
-    if type(expression) not in dialect.functions:
-        message = f"{expression} cannot be written: {type(expression).__name__} has no spelling"
-        raise ValueError(message)
-    arguments = [write(a, dialect) for a in expression.args]
-    trigonometric = not isinstance(expression, _SELECTIONS)
-    text = dialect.functions[type(expression)].format(", ".join(a.text for a in arguments))
-    return Written(text, _ATOM, _total(arguments, trigonometric=int(trigonometric)))
+def write(
+    expression: sp.Expr, dialect: Dialect = C, ready: Mapping[sp.Symbol, int] | None = None
+) -> Written:
+    """Write an expression and count its operations.
+
+    Parameters
+    ----------
+    ready
+        When each symbol is there, in cycles; zero for those that are left out. Of several terms or
+        factors, those that are there first are put together first: a compiler must not change the
+        order, and the longest chain of operations is what a call takes.
+    """
+    return _Writer(dialect, ready or {}).write(expression)
+
+
+class _Writer:
+    """Writes expressions in one dialect."""
+
+    def __init__(self, dialect: Dialect, ready: Mapping[sp.Symbol, int]) -> None:
+        self.dialect = dialect
+        self.ready = ready
+
+    def write(self, expression: sp.Expr) -> Written:
+        if expression.is_Symbol:
+            return Written(expression.name, _ATOM, Counter(), self.ready.get(expression, 0))
+        if expression.is_Number or expression is sp.pi:
+            return _write_number(expression)
+        if expression.is_Add:
+            return self._sum(expression)
+        if expression.is_Mul:
+            return self._product(expression)
+        if expression.is_Pow:
+            return self._power(expression)
+        return self._function(expression)
+
+    def _function(self, expression: sp.Expr) -> Written:
+        spelling = self.dialect.functions.get(type(expression))
+        if spelling is None:
+            message = f"{expression} cannot be written: {type(expression).__name__} has no spelling"
+            raise ValueError(message)
+        arguments = [self.write(a) for a in expression.args]
+        selection = isinstance(expression, _SELECTIONS)
+        return Written(
+            spelling.format(", ".join(a.text for a in arguments)),
+            _ATOM,
+            _total(arguments, trigonometric=int(not selection)),
+            _after(arguments, "selection" if selection else "function"),
+        )
+
+    def _sum(self, expression: sp.Expr) -> Written:
+        """Add the terms that are there first, and subtract rather than put a sign in front."""
+        terms = [
+            (self.write(magnitude), negative) for negative, magnitude in _signed_terms(expression)
+        ]
+        if all(negative for _, negative in terms):  # the sign goes to what waits anyway
+            first = min(range(len(terms)), key=lambda i: terms[i][0].ready)
+            terms[first] = _negated(terms[first][0]), False
+        total, _ = _join(terms, _add)
+        return total
+
+    def _product(self, expression: sp.Expr) -> Written:
+        negative, magnitude = _signed(expression)
+        if negative:
+            return _negated(self.write(magnitude))
+        coefficient, factors = magnitude.as_coeff_mul()
+        above = [self.write(f) for f in factors if not _is_reciprocal(f)]
+        below = [self.write(1 / f) for f in factors if _is_reciprocal(f)]
+        if coefficient != 1:
+            above.insert(0, self.write(coefficient))
+        if not below:
+            return _join(above, _multiply)
+        numerator = _join(above, _multiply) if above else Written("1.0", _ATOM, Counter())
+        return _divide(numerator, _join(below, _multiply))
+
+    def _power(self, expression: sp.Expr) -> Written:
+        base, exponent = expression.base, expression.exp
+        if exponent.is_negative:
+            return _divide(Written("1.0", _ATOM, Counter()), self.write(1 / expression))
+        whole, half = divmod(exponent, 1)
+        if half not in (0, sp.Rational(1, 2)) or whole > 4:
+            message = f"the power {expression} has no product of roots and factors"
+            raise ValueError(message)
+        written = self.write(base)
+        factors = [written] * int(whole)
+        if half:
+            text = self.dialect.root.format(written.text)
+            operations = _total([written], root=1)
+            factors.append(Written(text, _ATOM, operations, _after([written], "root")))
+        return _join(factors, _multiply)
 
 
 def _total(parts: Sequence[Written], **own: int) -> Counter[str]:
@@ -147,6 +232,59 @@ def _total(parts: Sequence[Written], **own: int) -> Counter[str]:
     for part in parts:
         total.update(part.operations)
     return total
+
+
+def _after(parts: Sequence[Written], operation: str) -> int:
+    return max((part.ready for part in parts), default=0) + _LATENCY[operation]
+
+
+def _join(parts: Sequence[T], together: Callable[[T, T], T]) -> T:
+    """Put parts together, always the two that are there first; equals in their order."""
+    waiting = [(_ready(part), place, part) for place, part in enumerate(parts)]
+    heapq.heapify(waiting)
+    places = count(len(waiting))
+    while len(waiting) > 1:
+        (_, _, first), (_, _, second) = heapq.heappop(waiting), heapq.heappop(waiting)
+        joined = together(first, second)
+        heapq.heappush(waiting, (_ready(joined), next(places), joined))
+    return waiting[0][2]
+
+
+def _ready(part: Written | tuple[Written, bool]) -> int:
+    return part.ready if isinstance(part, Written) else part[0].ready
+
+
+def _multiply(one: Written, two: Written) -> Written:
+    if two.strength == _PRODUCT and one.strength != _PRODUCT:
+        one, two = two, one
+    text = f"{one.inside(_PRODUCT)}*{two.inside(_ATOM)}"
+    return Written(text, _PRODUCT, _total([one, two], multiply=1), _after([one, two], "product"))
+
+
+def _divide(above: Written, below: Written) -> Written:
+    text = f"{above.inside(_PRODUCT)}/{below.inside(_ATOM)}"
+    return Written(
+        text, _PRODUCT, _total([above, below], divide=1), _after([above, below], "quotient")
+    )
+
+
+def _add(one: tuple[Written, bool], two: tuple[Written, bool]) -> tuple[Written, bool]:
+    """Add two terms, each with whether it is negative; only a sum of two negatives stays so."""
+    if one[1] and not two[1]:
+        one, two = two, one
+    (first, negative), (second, subtract) = one, two
+    subtract = subtract and not negative
+    if not subtract and second.strength < _PRODUCT <= first.strength:
+        first, second = second, first
+    sign = "-" if subtract else "+"
+    text = f"{first.text} {sign} {second.inside(_PRODUCT)}"
+    joined = Written(text, _SUM, _total([first, second], add=1), _after([first, second], "sum"))
+    return joined, negative
+
+
+def _negated(written: Written) -> Written:
+    operations = _total([written], add=1)
+    return Written(f"-{written.inside(_PRODUCT)}", _NEGATIVE, operations, _after([written], "sum"))
 
 
 def _write_number(number: sp.Expr) -> Written:
@@ -158,18 +296,9 @@ def _write_number(number: sp.Expr) -> Written:
     return Written(repr(float(value)), _ATOM if value >= 0 else _NEGATIVE, Counter())
 
 
-def _write_sum(expression: sp.Expr, dialect: Dialect) -> Written:
-    """Write positive terms first, so that a leading sign is rarely needed."""
-    terms = [_signed(term) for term in expression.args]
-    terms.sort(key=lambda term: term[0])
-    negative, first = terms[0]
-    written = [write(first, dialect)]
-    text = "-" * negative + written[0].inside(_PRODUCT if negative else _SUM)
-    for minus, term in terms[1:]:
-        written.append(write(term, dialect))
-        text += " - " if minus else " + "
-        text += written[-1].inside(_PRODUCT if minus else _NEGATIVE)
-    return Written(text, _SUM, _total(written, add=len(terms) - 1 + negative))
+def _signed_terms(expression: sp.Expr) -> list[tuple[bool, sp.Expr]]:
+    """Return the terms of a sum as (is negative, magnitude), positive ones first."""
+    return sorted((_signed(term) for term in expression.args), key=lambda term: term[0])
 
 
 def _signed(term: sp.Expr) -> tuple[bool, sp.Expr]:
@@ -178,45 +307,5 @@ def _signed(term: sp.Expr) -> tuple[bool, sp.Expr]:
     return negative, -term if negative else term
 
 
-def _write_product(expression: sp.Expr, dialect: Dialect) -> Written:
-    negative, magnitude = _signed(expression)
-    if negative:
-        inner = write(magnitude, dialect)
-        return Written(f"-{inner.inside(_PRODUCT)}", _NEGATIVE, _total([inner], add=1))
-    coefficient, factors = magnitude.as_coeff_mul()
-    above = [write(f, dialect) for f in factors if not _is_reciprocal(f)]
-    below = [write(1 / f, dialect) for f in factors if _is_reciprocal(f)]
-    if coefficient != 1:
-        above.insert(0, write(coefficient, dialect))
-    text = "*".join(f.inside(_PRODUCT) for f in above) or "1.0"
-    if below:
-        divisor = "*".join(f.inside(_PRODUCT) for f in below)
-        simple = len(below) == 1 and below[0].strength == _ATOM
-        text += "/" + (divisor if simple else f"({divisor})")
-    products = max(len(above) - 1, 0) + max(len(below) - 1, 0)
-    operations = _total(above + below, multiply=products, divide=int(bool(below)))
-    return Written(text, _PRODUCT, operations)
-
-
 def _is_reciprocal(factor: sp.Expr) -> bool:
     return bool(factor.is_Pow and factor.exp.is_negative)
-
-
-def _write_power(expression: sp.Expr, dialect: Dialect) -> Written:
-    base, exponent = expression.base, expression.exp
-    if exponent.is_negative:
-        below = write(1 / expression, dialect)
-        text = "1.0/" + below.inside(_ATOM)
-        return Written(text, _PRODUCT, _total([below], divide=1))
-    whole, half = divmod(exponent, 1)
-    if half not in (0, sp.Rational(1, 2)) or whole > 4:
-        message = f"the power {expression} has no product of roots and factors"
-        raise ValueError(message)
-    written = write(base, dialect)
-    factors = [written.inside(_PRODUCT)] * int(whole)
-    if half:
-        factors.append(dialect.root.format(written.text))
-    operations = Counter(multiply=len(factors) - 1, root=int(half != 0))
-    operations.update(_total([written] * len(factors)))
-    strength = _PRODUCT if len(factors) > 1 else _ATOM
-    return Written("*".join(factors), strength, +operations)

@@ -100,6 +100,8 @@ class OnLine:
         Motion of the end relative to the anchor.
     length_motion
         Rate of the length per unit rate of each coordinate.
+    span, inverse_squared
+        From anchor to end, and the inverse of its square.
     """
 
     anchor: Point
@@ -113,6 +115,8 @@ class OnLine:
     inverse_length: sp.Expr
     relative: PointMotion
     length_motion: dict[str, sp.Expr]
+    span: Vector
+    inverse_squared: sp.Expr
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
-from .arithmetic import Guarded, write
+from .arithmetic import Guarded, Written, write
 from .vectors import Vector
 
 if TYPE_CHECKING:
@@ -41,6 +41,14 @@ class Step:
     symbol: sp.Symbol
     expression: sp.Expr
     section: str
+
+
+@dataclass(frozen=True)
+class WrittenFunction:
+    """The steps and the results of a function as text."""
+
+    steps: tuple[Written, ...]
+    results: tuple[Written, ...]
 
 
 @dataclass(frozen=True)
@@ -84,11 +92,19 @@ class Function:
     def operations(self) -> Counter[str]:
         """Count the arithmetic operations of one call, exactly as they are printed."""
         total: Counter[str] = Counter()
-        for step in self.steps:
-            total.update(write(step.expression).operations)
-        for result in self.results:
-            total.update(write(result).operations)
+        for written in (*self.written.steps, *self.written.results):
+            total.update(written.operations)
         return total
+
+    @cached_property
+    def written(self) -> WrittenFunction:
+        """The text of every step and result in C."""
+        ready: dict[sp.Symbol, int] = {}
+        steps = []
+        for step in self.steps:
+            steps.append(write(step.expression, ready=ready))
+            ready[step.symbol] = steps[-1].ready
+        return WrittenFunction(tuple(steps), tuple(write(r, ready=ready) for r in self.results))
 
 
 @dataclass

@@ -180,7 +180,8 @@ def test_c_is_the_same_arithmetic(expression: sp.Expr) -> None:
     """The dialects differ in the names of functions only, so what holds for one holds for C."""
     in_c, in_numpy = write(expression), write(expression, NUMPY)
     assert in_c.operations == in_numpy.operations
-    renamed = in_numpy.text.replace("np.arc", "a").replace("np.", "")
+    renamed = in_numpy.text.replace("np.arc", "a").replace("np.fmax", "at_least")
+    renamed = renamed.replace("np.", "")
     assert in_c.text == renamed
 
 
@@ -199,12 +200,13 @@ x, y, z = SYMBOLS
         (y / x**2, "y/(x*x)"),
         (y - x, "y - x"),
         (-x - y, "-x - y"),
+        (x + y + z + sp.Integer(1), "1.0 + x + (y + z)"),
         (-x * y, "-x*y"),
         (x - (y + z) * 2, "x - 2.0*y - 2.0*z"),
         (z * (x - y), "z*(x - y)"),
         (sp.Rational(1, 3) * x, "(1.0/3.0)*x"),
         (x / 2, "0.5*x"),
-        (Guarded(x), "fmax(x, GUARD_FLOOR)"),
+        (Guarded(x), "at_least(x, GUARD_FLOOR)"),
         (SignOf(x - y), "copysign(1.0, x - y)"),
         (sp.atan2(y, x), "atan2(y, x)"),
         (sp.asin(x), "asin(x)"),
@@ -230,3 +232,15 @@ def test_pi() -> None:
 
 def test_guard_is_differentiated_as_the_identity() -> None:
     assert Guarded(x**2).diff(x) == 2 * x
+
+
+def test_what_is_there_first_is_put_together_first() -> None:
+    late = write(x + y + z * x, ready={y: 40})
+    assert late.text == "x + x*z + y"
+    assert late.ready == 44  # y waits for nothing but its own addition
+    product = write(x * y * z, ready={x: 40})
+    assert product.text == "y*z*x"
+    # one after the other, y would be followed by three operations of four cycles each
+    four = write(x + y + z + x * y, ready={x: 0, y: 100})
+    assert four.ready == 100 + 4 + 4 + 4
+    assert write(1 / sp.sqrt(x), ready={x: 10}).ready > write(sp.sqrt(x), ready={x: 10}).ready > 10

@@ -626,11 +626,13 @@ def test_both_sides_of_a_dead_point(model, side: float) -> None:
         if middle in (reached, missed):
             break
         done = finite_or_refused(model, instant_at(middle), constants)
+        # functions that share subexpressions differently may round the same margin differently:
+        # some roundings of 0.1 m^2, divided by its slope over the rack of some 0.1 m
+        if abs(missed - reached) > 1e-13:
+            assert done == set(COMMON[model.NAME]) or done <= {"margins"}
         if "rhs" in done:
-            assert done == set(COMMON[model.NAME])
             reached = middle
         else:
-            assert done <= {"margins"}
             missed = middle
     assert 0.05 < abs(reached) < 0.31
     values = model.margins(*instant_at(reached).arrays(model), constants)

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ..arithmetic import OPERATIONS, write
+from ..arithmetic import OPERATIONS
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from ..outputs import Entry, GeneratedModel
-    from ..program import Function, Step
+    from ..program import Function
 
 GENERATOR_VERSION = "0.1.0"
 WIDTH = 100
@@ -40,12 +40,19 @@ def mechanism_hash(model: GeneratedModel) -> str:
     digest = hashlib.sha256()
     for function in (model.prepare, *model.functions.values()):
         digest.update(function.name.encode())
-        for step in function.steps:
-            digest.update(f"{step.symbol}={write(step.expression).text};".encode())
-        for result in function.results:
-            digest.update(f"{write(result).text};".encode())
+        for step, written in zip(function.steps, function.written.steps, strict=True):
+            digest.update(f"{step.symbol}={written.text};".encode())
+        for written in function.written.results:
+            digest.update(f"{written.text};".encode())
     return digest.hexdigest()[:16]
 
+
+AT_LEAST = """\
+/* The greater of two numbers; `least` for a NaN. One instruction, where fmax may be a call. */
+static inline double at_least(double x, double least)
+{
+    return x > least ? x : least;
+}"""
 
 NOT_FINITE = """\
 /* Whether any of some values is NaN or infinite. */
@@ -205,6 +212,7 @@ class CPrinter:
                 "/* The smallest value that a guarded quantity is given; see the status bits. */\n"
                 f"#define GUARD_FLOOR {GUARD_FLOOR}"
             ),
+            AT_LEAST,
             NOT_FINITE,
             *([] if part else [self._prepare_body()]),
             *(self._body(f) for f in functions),
@@ -221,7 +229,7 @@ class CPrinter:
             ),
             "{",
             *self._loads("parameter", "parameters", read),
-            *self._steps(prepare.steps),
+            *self._steps(prepare),
             "",
         ]
         for label, result in zip(prepare.labels, prepare.results, strict=True):
@@ -255,12 +263,12 @@ class CPrinter:
         lines += [
             f"    const double given_{n} = given[{self.enumerator('relative', n)}];" for n in given
         ]
-        lines += self._steps(function.steps)
+        lines += self._steps(function)
         lines.append("")
         for index, (label, result) in enumerate(
-            zip(function.labels, function.results, strict=True)
+            zip(function.labels, function.written.results, strict=True)
         ):
-            text = f"    out[{index}] = {write(result).text};"
+            text = f"    out[{index}] = {result.text};"
             lines.append(f"{text:<70} /* {label} */")
         lines += ["", *self._return(function)]
         return "\n".join([*lines, "}"])
@@ -268,13 +276,13 @@ class CPrinter:
     def _loads(self, kind: str, array: str, names: Iterable[str]) -> list[str]:
         return [f"    const double {n} = {array}[{self.enumerator(kind, n)}];" for n in names]
 
-    def _steps(self, steps: Sequence[Step]) -> list[str]:
+    def _steps(self, function: Function) -> list[str]:
         lines, section = [], None
-        for step in steps:
+        for step, written in zip(function.steps, function.written.steps, strict=True):
             if step.section != section:
                 section = step.section
                 lines += ["", f"    /* {section} */"]
-            text = f"const double {step.symbol} = {write(step.expression).text};"
+            text = f"const double {step.symbol} = {written.text};"
             lines += textwrap.wrap(
                 text,
                 WIDTH,

@@ -25,16 +25,37 @@ def line_between(
     bodies: tuple[str, str],
     span: Vector,
     length: sp.Expr,
+    squared: sp.Expr | None = None,
 ) -> OnLine:
-    """Describe the line between two points of known motion."""
-    inverse = kin.program.define(f"inverse_length_{name}", 1 / length)
+    """Describe the line between two points of known motion.
+
+    Given the square of the length, the reciprocals come from that: a division that need not wait
+    for the root.
+    """
+    if squared is None:
+        inverse = kin.program.define(f"inverse_length_{name}", 1 / length)
+        inverse_squared = kin.program.define(f"inverse_length_squared_{name}", inverse**2)
+    else:
+        inverse_squared = kin.program.define(f"inverse_length_squared_{name}", 1 / squared)
+        inverse = kin.program.define(f"inverse_length_{name}", length * inverse_squared)
     direction = kin.program.vector(f"direction_{name}", span * inverse)
     relative = motions[1].minus(motions[0])
     motion = {
         k: kin.program.define(f"d_length_{name}_{k}", direction.dot(v))
         for k, v in relative.motion.items()
     }
-    return OnLine(*points, *motions, *bodies, direction, length, inverse, relative, motion)
+    return OnLine(
+        *points,
+        *motions,
+        *bodies,
+        direction,
+        length,
+        inverse,
+        relative,
+        motion,
+        span,
+        inverse_squared,
+    )
 
 
 def place_rod(kin: Kinematics, action: SolveTurn, rod_anchor: PointMotion, length: sp.Expr) -> None:

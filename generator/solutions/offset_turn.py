@@ -243,6 +243,7 @@ def _aim(kin: Kinematics, record: OffLine, placed: Placed) -> None:
     """Give the telescope the direction that its body has found."""
     action = record.action
     end = kin.point_motion(placed.body, action.axis_point)
+    inverse = kin.program.define(f"inverse_length_{action.joint.name}", 1 / record.length)
     line = OnLine(
         action.anchor,
         action.axis_point,
@@ -252,9 +253,11 @@ def _aim(kin: Kinematics, record: OffLine, placed: Placed) -> None:
         placed.body,
         placed.axes[0],
         record.length,
-        kin.program.define(f"inverse_length_{action.joint.name}", 1 / record.length),
+        inverse,
         end.minus(record.anchor_motion),
         record.length_motion,
+        placed.axes[0] * record.length,
+        inverse**2,
     )
     kin.on_line[action.anchor_link] = line
     kin.telescopes[action.joint.name] = line

@@ -45,6 +45,7 @@ def solve_telescope(kin: Kinematics, action: SolveTelescope) -> None:
         (action.anchor_body, action.end_body),
         span,
         length,
+        squared,
     )
     kin.on_line[action.anchor_link] = record
     kin.on_line[action.end_link] = record

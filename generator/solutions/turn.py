@@ -91,10 +91,13 @@ def _turned_axes(
     body, program = action.body, kin.program
     n, rho = record.direction, constants.radius
     e = program.vector(f"{body}_reach", rod_anchor.position - record.anchor_motion.position)
-    along = program.define(f"{body}_reach_along", e.dot(n))
+    # from the span and not from its direction, so that nothing waits for the length's root
+    on_span = program.define(f"{body}_reach_on_span", e.dot(record.span))
+    part = program.define(f"{body}_reach_part", on_span * record.inverse_squared)
+    along = program.define(f"{body}_reach_along", on_span * record.inverse_length)
     foot = constants.along + (record.length if constants.base_is_end else 0)
     w_n = program.define(f"{body}_reach_axial", along - foot)
-    w_p = program.vector(f"{body}_reach_across", e - n * along)
+    w_p = program.vector(f"{body}_reach_across", e - record.span * part)
     normal = program.vector(f"{body}_reach_normal", n.cross(e))
     squared = program.guarded(
         f"{body}_reach_squared",
@@ -114,10 +117,12 @@ def _turned_axes(
         "dead point",
         "m^2",
     )
-    height = program.define(f"{body}_rod_height", constants.branch * sp.sqrt(room))
+    root = program.define(f"{body}_closure_root", sp.sqrt(room))
+    height = program.define(f"{body}_rod_height", constants.branch * root)
     inverse = program.define(f"{body}_reach_inverse", 1 / squared)
+    signed = program.define(f"{body}_reach_inverse_signed", constants.branch * inverse)
     cosine = program.define(f"{body}_turn_cosine", k * inverse)
-    sine = program.define(f"{body}_turn_sine", height * inverse)
+    sine = program.define(f"{body}_turn_sine", root * signed)
     axes: Axes = (
         n,
         program.vector(f"{body}_arm", w_p * cosine + normal * sine),
