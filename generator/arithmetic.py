@@ -18,7 +18,7 @@ import sympy as sp
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-T = TypeVar("T")
+T = TypeVar("T", "Written", "tuple[Written, bool]")
 
 OPERATIONS = ("add", "multiply", "divide", "root", "trigonometric")
 
