@@ -18,14 +18,27 @@ def _symbols(name: str) -> Vector:
 
 @dataclass(frozen=True)
 class Point:
-    """A hardpoint, in metres."""
+    """A hardpoint, in metres.
+
+    Parameters
+    ----------
+    name
+        Begins the names of its parameters, ``<name>_x`` and so on.
+    flat
+        Axis along which the coordinate is zero and no parameter: the points of a planar mechanism.
+    """
 
     name: str
+    flat: str = ""
 
     @property
     def position(self) -> Vector:
         """Coordinates at the design position, in chassis axes."""
-        return _symbols(self.name)
+        x, y, z = (
+            sp.Integer(0) if axis == self.flat else component
+            for axis, component in zip("xyz", _symbols(self.name), strict=True)
+        )
+        return Vector(x, y, z)
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,17 @@ from .arithmetic import SignOf
 from .geometry import UP, Direction, Point
 from .joints import Joint, Prismatic, Revolute
 from .placement import IDENTITY, Axes, OffLine, OnLine, Placed, PointMotion, from_axes, to_axes
-from .transformer import PlaceByCross, PlaceByJoint, Plan, SolveTelescope, SolveTurn
+from .transformer import (
+    PlaceByCross,
+    PlaceByJoint,
+    PlaceByPin,
+    Plan,
+    Solution,
+    SolveHinge,
+    SolveSlide,
+    SolveTelescope,
+    SolveTurn,
+)
 from .vectors import NO_TWIST, UNIT_X, UNIT_Z, ZERO, Twist, Vector
 
 if TYPE_CHECKING:
@@ -63,6 +73,7 @@ class Kinematics:
         self.off_line: dict[str, OffLine] = {}
         self.telescopes: dict[str, OnLine] = {}
         self.slides: dict[str, sp.Expr] = {}
+        self.angles: dict[str, sp.Expr] = {}
         self._points: dict[Point, PointMotion] = {}
         self._set_work_axes()
         self._run()
@@ -153,7 +164,7 @@ class Kinematics:
         sign = self.program.define("hinge_sense", SignOf(axis.dot(z.cross(arm))))
         return self.program.vector("work_x", axis * sign), z
 
-    def loop_of(self, action: SolveTelescope | SolveTurn) -> str:
+    def loop_of(self, action: Solution) -> str:
         """Return the bodies of the loop that an action solves, for messages."""
         transformer = next(t for t in self.plan.transformers if t.action == action)
         return f"the loop {' - '.join(transformer.cycle.bodies)}"
@@ -269,6 +280,15 @@ class Kinematics:
             elif isinstance(action, SolveTelescope):
                 self.program.section(f"transformer: telescope {action.joint.name}")
                 solutions.solve_telescope(self, action)
+            elif isinstance(action, SolveHinge):
+                self.program.section(f"transformer: {action.body} held by {action.rod}")
+                solutions.solve_hinge(self, action)
+            elif isinstance(action, SolveSlide):
+                self.program.section(f"transformer: {action.body} held by {action.rod}")
+                solutions.solve_slide(self, action)
+            elif isinstance(action, PlaceByPin):
+                self.program.section(f"{action.body}: pinned to {action.pin_body}")
+                solutions.place_by_pin(self, action)
             elif isinstance(action, SolveTurn):
                 self.program.section(f"transformer: {action.body} held by {action.rod}")
                 solutions.solve_turn(self, action)

@@ -280,7 +280,9 @@ class _Builder:
             "Closure residuals g(beta, q) of Eqs. 4 to 13 for given beta.",
             self.relative.residuals(),
         )
-        self._add_absolute(list(values))
+        if all(self.relative.reaches(body) for body in self.massive):
+            self._add_absolute(list(values))
+        self._add_global()
 
     def _add_absolute(self, betas: list[str]) -> None:
         results = {}
@@ -297,7 +299,6 @@ class _Builder:
             6 * len(self.massive),
             len(betas),
         )
-        self._add_global()
 
     @staticmethod
     def _twist_labels(body: str) -> list[str]:

@@ -17,7 +17,7 @@ import sympy as sp
 from .geometry import Point
 from .joints import Cylindrical, Joint, Prismatic, Revolute, Universal
 from .placement import IDENTITY, Axes, Placed, from_axes, to_axes
-from .transformer import SolveTelescope, SolveTurn
+from .transformer import PlaceByPin, SolveHinge, SolveSlide, SolveTelescope, SolveTurn
 from .vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Vector
 
 if TYPE_CHECKING:
@@ -86,7 +86,7 @@ class RelativeCoordinates:
     def _value(self, coordinate: RelativeCoordinate) -> sp.Expr:
         joint = self.mechanism.joint(coordinate.joint)
         if isinstance(joint, Revolute | Prismatic):
-            return self.kin.coordinates[self.kin.coordinate_of(joint)]
+            return self._hinge_or_guide(joint)
         if isinstance(joint, Universal):
             shaft = self._shaft(joint)
             return shaft.elevation if coordinate.kind == "elevation" else shaft.azimuth
@@ -94,6 +94,14 @@ class RelativeCoordinates:
             return self.kin.slides[joint.name]
         assert isinstance(joint, Cylindrical)
         return self._telescope_angle(joint)
+
+    def _hinge_or_guide(self, joint: Revolute | Prismatic) -> sp.Expr:
+        """Return the coordinate of a joint that is driven or solved."""
+        if joint.name in self.kin.angles:
+            return self.program.define(f"angle_{joint.name}", self.kin.angles[joint.name])
+        if joint.name in self.kin.slides:
+            return self.kin.slides[joint.name]
+        return self.kin.coordinates[self.kin.coordinate_of(joint)]
 
     def _shaft(self, joint: Universal) -> _Shaft:
         """Angles of a shaft relative to the first body of its universal joint."""
@@ -194,12 +202,21 @@ class RelativeCoordinates:
             )
         return columns
 
-    def _chain(self, body: str) -> list[_Screw]:
-        """Return the screws from the ground to a body, along joints with reported coordinates."""
+    def reaches(self, body: str) -> bool:
+        """Tell whether joints with reported coordinates lead from the ground to a body."""
+        graph = self._reported_joints()
+        return body in graph and nx.has_path(graph, self.mechanism.ground, body)
+
+    def _reported_joints(self) -> nx.DiGraph:
         graph = nx.DiGraph()
         for joint in self.mechanism.joints:
             if all(self.reported(joint.name, c) for c in joint.coordinates):
                 graph.add_edge(joint.first, joint.second, joint=joint)
+        return graph
+
+    def _chain(self, body: str) -> list[_Screw]:
+        """Return the screws from the ground to a body, along joints with reported coordinates."""
+        graph = self._reported_joints()
         path = nx.shortest_path(graph, self.mechanism.ground, body)
         joints = [graph.edges[a, b]["joint"] for a, b in itertools.pairwise(path)]
         screws = [screw for joint in joints for screw in self._screws(joint)]
@@ -281,7 +298,7 @@ class _Closure:
             return given - self._given(first)
         joint = self.mechanism.joint(coordinate.joint)
         if isinstance(joint, Revolute | Prismatic):
-            return given - self.kin.coordinates[self.kin.coordinate_of(joint)]
+            return self._solved_residual(joint, given)
         offset = self._offset_telescope(joint)
         if offset is not None and coordinate.kind in _AXIS_OF_CLOSURE:
             gap = self._gap_at_end(offset)
@@ -294,6 +311,48 @@ class _Closure:
             length = sp.sqrt(span.dot(span))
             return length - (sp.Symbol(joint.length_at_zero_slide) - given)
         return self._rod_residual(joint)
+
+    def _solved_residual(self, joint: Revolute | Prismatic, given: sp.Symbol) -> sp.Expr:
+        """Return the closure that a hinge or guide was solved for, at a given coordinate.
+
+        The length of the rod for one that a rod holds, the meeting at the pin for a rod's own.
+        """
+        action = self._action_at(joint)
+        if action is None:
+            return given - self.kin.coordinates[self.kin.coordinate_of(joint)]
+        parent, sense = self.kin.placed[action.parent], 1 if joint.second == action.body else -1
+        if isinstance(action, PlaceByPin):
+            target = self.kin.point_motion(action.pin_body, action.pin).position
+            point = action.pin
+        else:
+            target = self.kin.point_motion(action.anchor_body, action.anchor).position
+            point = action.end
+        local = self.kin.local(parent, point)
+        moved = self._moved(joint, parent, local, sense * given)
+        gap = parent.origin + from_axes(parent.axes, moved) - target
+        gap = self.program.vector(f"given_gap_{joint.name}", gap)
+        if isinstance(action, PlaceByPin):
+            return gap.dot(self.kin.placed[action.body].axes[2])
+        return sp.sqrt(gap.dot(gap)) - sp.Symbol(f"{action.rod}_length")
+
+    def _action_at(self, joint: Joint) -> PlaceByPin | SolveHinge | SolveSlide | None:
+        kinds = PlaceByPin | SolveHinge | SolveSlide
+        found = (a for a in self.kin.plan.actions if isinstance(a, kinds) and a.joint == joint)
+        return next(found, None)
+
+    def _moved(
+        self, joint: Revolute | Prismatic, parent: Placed, local: Vector, given: sp.Expr
+    ) -> Vector:
+        """Return where a joint's coordinate takes a point of its second body, in parent axes."""
+        if isinstance(joint, Prismatic):
+            return local + self.kin.local_direction(parent, joint.direction) * given
+        through = self.kin.local(parent, joint.axis.through)
+        axis = self.kin.unit(f"{joint.name}_axis_design", self.kin.to_work(joint.axis.vector))
+        n = to_axes(parent.design_axes, axis)
+        arm = local - through
+        along = n * n.dot(arm)
+        turned = (arm - along) * sp.cos(given) + n.cross(arm) * sp.sin(given)
+        return through + along + turned
 
     def _shaft_residual(self, joint: Universal, kind: str, given: sp.Symbol) -> sp.Expr:
         """Eqs. 7 and 8: the angles of a shaft against its direction."""
@@ -316,7 +375,7 @@ class _Closure:
         replaced = {}
         for coordinate in self.mechanism.coordinates:
             joint = self.mechanism.joint(coordinate.joint)
-            if isinstance(joint, Revolute | Prismatic):
+            if isinstance(joint, Revolute | Prismatic) and self._action_at(joint) is None:
                 symbol = self.kin.coordinates[self.kin.coordinate_of(joint)]
                 replaced[symbol] = self._given(coordinate.name)
         return replaced

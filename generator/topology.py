@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING
 
 import networkx as nx
 
+from .joints import Prismatic, Revolute
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -41,6 +43,16 @@ class Cycle:
     joints: tuple[Joint, ...]
     bodies: tuple[str, ...]
     length: int
+
+    @property
+    def planar(self) -> bool:
+        """Whether the loop moves in a plane: hinges along one direction, slides across it.
+
+        Directions are compared by declaration. That slides lie in the plane is taken on trust.
+        """
+        hinges = {j.axis.towards for j in self.joints if isinstance(j, Revolute)}
+        kinds = all(isinstance(j, Revolute | Prismatic) for j in self.joints)
+        return kinds and len(hinges) == 1
 
     @property
     def key(self) -> frozenset[str]:
@@ -89,9 +101,22 @@ class Topology:
 
     @property
     def mobility(self) -> int:
-        """Degrees of freedom by the Grübler-Kutzbach criterion (Eq. 1)."""
+        """Degrees of freedom by the Grübler-Kutzbach criterion (Eq. 1).
+
+        A planar loop closes with three equations; the spatial count of six would take its mechanism
+        for over-constrained.
+        """
         moving = len(self.mechanism.bodies) - 1
-        return 6 * moving - sum(6 - j.freedoms for j in self.mechanism.joints)
+        spatial = 6 * moving - sum(6 - j.freedoms for j in self.mechanism.joints)
+        return spatial + 3 * self.planar_loop_count
+
+    @cached_property
+    def planar_loop_count(self) -> int:
+        """Number of loops of a minimal basis that move in a plane."""
+        basis: list[Cycle] = []
+        while len(basis) < self.loop_count:
+            basis.append(self.minimal_next(basis)[0])
+        return sum(cycle.planar for cycle in basis)
 
     @property
     def loop_count(self) -> int:

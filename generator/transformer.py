@@ -76,6 +76,43 @@ class SolveTurn:
 
 
 @dataclass(frozen=True)
+class SolveHinge:
+    """A body on a hinge of a placed body is held by a rod: its angle follows."""
+
+    body: str
+    joint: Revolute
+    parent: str
+    rod: str
+    end: Point
+    anchor: Point
+    anchor_body: str
+
+
+@dataclass(frozen=True)
+class SolveSlide:
+    """A body on a guide of a placed body is held by a rod: its slide follows."""
+
+    body: str
+    joint: Prismatic
+    parent: str
+    rod: str
+    end: Point
+    anchor: Point
+    anchor_body: str
+
+
+@dataclass(frozen=True)
+class PlaceByPin:
+    """A body on a hinge of a placed body meets another placed body at a pin: its angle follows."""
+
+    body: str
+    joint: Revolute
+    parent: str
+    pin: Point
+    pin_body: str
+
+
+@dataclass(frozen=True)
 class PlaceByCross:
     """A shaft of known direction is turned by the cross of its universal joint."""
 
@@ -84,40 +121,54 @@ class PlaceByCross:
     child: str
 
 
-Action = PlaceByJoint | SolveTelescope | SolveTurn | PlaceByCross
+Solution = SolveTelescope | SolveTurn | SolveHinge | SolveSlide
+Action = PlaceByJoint | PlaceByPin | PlaceByCross | Solution
 
 
 @dataclass(frozen=True)
 class PairCandidate:
-    """A pair of joints at which a loop could be cut, and what that eliminates."""
+    """A pair of joints at which a loop could be cut, and what that eliminates.
+
+    Attributes
+    ----------
+    eliminated
+        Number of unknown coordinates of the two joints.
+    equations
+        Number of closure equations that remain, of the six of a spatial loop or the three of a
+        planar one. The turn of a link about the line through two ball joints takes part in none.
+    """
 
     joints: tuple[Joint, Joint]
     eliminated: int
-
-    @property
-    def equations(self) -> int:
-        """Number of closure equations that remain of the six of a spatial loop."""
-        return 6 - self.eliminated
+    equations: int
 
 
 @dataclass(frozen=True)
 class _CutLoop:
     """A loop cut at the centres of a pair of joints, seen as two arcs from anchor to end.
 
-    ``joints`` and ``bodies`` are those of one arc, ``others`` the bodies of the other.
+    ``joints`` and ``bodies`` are those of one arc; ``other_joints`` and ``others`` of the other.
     """
 
     anchor: Point
     end: Point
     joints: tuple[Joint, ...]
     bodies: tuple[str, ...]
+    other_joints: tuple[Joint, ...]
     others: tuple[str, ...]
+
+
+def _common_point(joint: Joint, cycle: Cycle) -> Point | None:
+    """Return the point that a joint keeps common; in a plane, a hinge has one too."""
+    if cycle.planar and isinstance(joint, Revolute):
+        return joint.axis.through
+    return joint.center
 
 
 def _views(cycle: Cycle, pair: PairCandidate) -> list[_CutLoop]:
     """Return the four ways to look at a cut loop: either arc first, either direction."""
     i, j = sorted(cycle.joints.index(joint) for joint in pair.joints)
-    anchor, end = cycle.joints[i].center, cycle.joints[j].center
+    anchor, end = (_common_point(cycle.joints[k], cycle) for k in (i, j))
     if anchor is None or end is None:
         return []
     inner = cycle.joints[i + 1 : j], cycle.bodies[i + 1 : j + 1]
@@ -126,9 +177,11 @@ def _views(cycle: Cycle, pair: PairCandidate) -> list[_CutLoop]:
         (cycle.bodies[j + 1 :] + cycle.bodies[: i + 1])[::-1],
     )
     views = []
-    for (joints, bodies), (_, others) in ((inner, outer), (outer, inner)):
-        views.append(_CutLoop(anchor, end, joints, bodies, others))
-        views.append(_CutLoop(end, anchor, joints[::-1], bodies[::-1], others[::-1]))
+    for (joints, bodies), (other_joints, others) in ((inner, outer), (outer, inner)):
+        views.append(_CutLoop(anchor, end, joints, bodies, other_joints, others))
+        views.append(
+            _CutLoop(end, anchor, joints[::-1], bodies[::-1], other_joints[::-1], others[::-1])
+        )
     return views
 
 
@@ -153,7 +206,7 @@ class Transformer:
     unknowns: int
     candidates: tuple[PairCandidate, ...]
     pair: PairCandidate
-    action: SolveTelescope | SolveTurn
+    action: Solution
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
     rivals: tuple[tuple[Cycle, int], ...]
@@ -204,6 +257,12 @@ class Plan:
     def is_known(self, joint: Joint, coordinate: str) -> bool:
         """Tell whether a relative coordinate is given or already solved."""
         return (joint.name, coordinate) in self._known
+
+    def lines(self) -> list[SolveTurn | SolveHinge | SolveSlide]:
+        """Return the solutions that leave their rod on a line, free to turn about it."""
+        pinned = {a.body for a in self.actions if isinstance(a, PlaceByPin)}
+        held = [a for a in self.actions if isinstance(a, SolveTurn | SolveHinge | SolveSlide)]
+        return [a for a in held if a.rod not in pinned]
 
     def _unknowns(self, cycle: Cycle) -> int:
         return sum(self._unknowns_of(joint) for joint in cycle.joints)
@@ -289,20 +348,40 @@ class Plan:
     def _pair_candidates(self, cycle: Cycle) -> list[PairCandidate]:
         """Return the pairs of joints that both keep a point in common, most eliminated first."""
         pairs = [
-            PairCandidate((a, b), self._unknowns_of(a) + self._unknowns_of(b))
+            self._pair(cycle, a, b)
             for a, b in combinations(cycle.joints, 2)
-            if a.center is not None and b.center is not None
+            if _common_point(a, cycle) is not None and _common_point(b, cycle) is not None
         ]
         return sorted(pairs, key=lambda p: -p.eliminated)
 
-    def _closed_form(self, cycle: Cycle, pair: PairCandidate) -> SolveTelescope | SolveTurn | None:
+    def _pair(self, cycle: Cycle, a: Joint, b: Joint) -> PairCandidate:
+        eliminated = self._unknowns_of(a) + self._unknowns_of(b)
+        idle = isinstance(a, Spherical) and isinstance(b, Spherical)
+        dimension = 3 if cycle.planar else 6
+        return PairCandidate((a, b), eliminated, dimension - eliminated + idle)
+
+    def _closed_form(self, cycle: Cycle, pair: PairCandidate) -> Solution | None:
         if pair.equations != 1:
             return None
         for view in _views(cycle, pair):
-            action = self._telescope(view) or self._turn(view)
+            action = self._telescope(view) or self._turn(view) or self._driven_by_rod(view)
             if action is not None:
                 return action
         return None
+
+    def _driven_by_rod(self, view: _CutLoop) -> SolveHinge | SolveSlide | None:
+        """Return the action for a rod from a placed point to a body on a hinge or a guide."""
+        if len(view.bodies) != 1 or not view.other_joints:
+            return None
+        (rod,), joint, body = view.bodies, view.other_joints[-1], view.others[-1]
+        parent = joint.other(body)
+        settled = {rod, body} & self._placed or self._unknowns_of(joint) == 0
+        if settled or not {parent, view.others[0]} <= self._placed:
+            return None
+        given = body, joint, parent, rod, view.end, view.anchor, view.others[0]
+        if isinstance(joint, Revolute):
+            return SolveHinge(*given)
+        return SolveSlide(*given) if isinstance(joint, Prismatic) else None
 
     def _telescope(self, view: _CutLoop) -> SolveTelescope | None:
         """Return the action for two links on a common axis, both ends on placed bodies."""
@@ -328,8 +407,10 @@ class Plan:
             return None
         return SolveTurn(view.others[-1], view.bodies[0], view.end, view.anchor, view.others[0])
 
-    def _accept(self, action: SolveTelescope | SolveTurn) -> set[tuple[str, str]]:
+    def _accept(self, action: Solution) -> set[tuple[str, str]]:
         """Record what a solution makes known; return the coordinates that are new."""
+        if isinstance(action, SolveHinge | SolveSlide):
+            return self._accept_driven(action)
         if isinstance(action, SolveTelescope):
             new = {(action.joint.name, "slide")}
             self._on_line.add(action.end_link)
@@ -352,6 +433,28 @@ class Plan:
         self.actions.append(action)
         new |= {(j.name, c) for j in joints for c in j.coordinates}
         new -= self._known
+        self._known |= new
+        return new
+
+    def _accept_driven(self, action: SolveHinge | SolveSlide) -> set[tuple[str, str]]:
+        """Record the body that a rod drives, and the rod: placed by its hinge, or on its line."""
+        self.actions.append(action)
+        self._placed.add(action.body)
+        carrier = self.topology.joint_between(action.anchor_body, action.rod)
+        if isinstance(carrier, Revolute):
+            self.actions.append(
+                PlaceByPin(action.rod, carrier, action.anchor_body, action.end, action.body)
+            )
+            self._placed.add(action.rod)
+        else:
+            self._on_line.add(action.rod)
+        solved = [action.joint, *self._mechanism.joints_of(action.rod)]
+        joints = [j for j in solved if self._joins_solved(j)]
+        new = {(j.name, c) for j in joints for c in j.coordinates} - self._known
+        if not isinstance(carrier, Revolute):  # its turn about the line is still open
+            new -= {
+                (j.name, c) for j in self._mechanism.joints_of(action.rod) for c in j.coordinates
+            }
         self._known |= new
         return new
 

@@ -6,7 +6,7 @@ from itertools import zip_longest
 from typing import TYPE_CHECKING
 
 from ..arithmetic import OPERATIONS
-from ..transformer import SolveTelescope, Transformer
+from ..transformer import SolveSlide, SolveTelescope, Transformer
 from .c import mechanism_hash
 
 if TYPE_CHECKING:
@@ -70,7 +70,9 @@ def mobility_line(topology: Topology) -> str:
     """Return Eq. 1 with the numbers of the mechanism."""
     moving = len(topology.mechanism.bodies) - 1
     closed = [str(6 - j.freedoms) for j in topology.mechanism.joints]
-    return f"f = 6 x {moving} - ({' + '.join(closed)}) = {topology.mobility}"
+    planar = topology.planar_loop_count
+    extra = f" + 3 x {planar} planar loops" if planar else ""
+    return f"f = 6 x {moving} - ({' + '.join(closed)}){extra} = {topology.mobility}"
 
 
 def equation(transformer: Transformer) -> tuple[str, str]:
@@ -82,6 +84,11 @@ def equation(transformer: Transformer) -> tuple[str, str]:
         return (
             f"{ends} = {joint.length_at_zero_slide} - {joint.name}.slide",
             "explicit: the length is the root of a sum of squares",
+        )
+    if isinstance(action, SolveSlide):
+        return (
+            f"|{action.end.name} - {action.anchor.name}| = length of {action.rod}",
+            f"quadratic in the slide of {action.joint.name}, branch as at design",
         )
     return (
         f"|{action.end.name} - {action.anchor.name}| = length of {action.rod}",

@@ -11,7 +11,8 @@ from ..geometry import FORWARD, UP, Direction, Line, Point
 from ..joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
 from ..laws import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
 from ..mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
-from ..vectors import ELEMENTS
+from .suspension import INPUTS as SUSPENSION_INPUTS
+from .suspension import direction, point, rigid_body, rotor
 
 A = Point("arm_front")
 O = Point("arm_rear")
@@ -186,64 +187,21 @@ GENERAL_FORCES = (
     JointForce(joint="y", input="rack_force"),
 )
 
-INPUTS = {
-    "rack_position": ("m", "displacement of the rack along its axis"),
-    "rack_velocity": ("m/s", "velocity of the rack along its axis"),
-    "rack_acceleration": ("m/s^2", "acceleration of the rack along its axis"),
-    "road_height": ("m", "height of the road under the tyre, positive up"),
-    "road_velocity": ("m/s", "rate of the road's height"),
+INPUTS = SUSPENSION_INPUTS | {
     "strut_force": ("N", "actuator force in the strut, positive when it pushes its ends apart"),
-    "rack_force": ("N", "force on the rack along its axis"),
 }
 
 
-def _point(name: str, position: tuple[float, float, float], meaning: str) -> list[Parameter]:
-    return [
-        Parameter(f"{name}_{axis}", value, "m", f"{meaning}, {axis} at the design position")
-        for axis, value in zip("xyz", position, strict=True)
-    ]
-
-
-def _direction(name: str, components: tuple[float, float, float], meaning: str) -> list[Parameter]:
-    return [
-        Parameter(f"{name}_{axis}", value, "1", f"{meaning}, {axis} component")
-        for axis, value in zip("xyz", components, strict=True)
-    ]
-
-
-def _rigid_body(
-    name: str,
-    mass: float,
-    com: tuple[float, float, float],
-    inertia: tuple[float, float, float] = (0.0, 0.0, 0.0),
-) -> list[Parameter]:
-    """Mass, centre of mass and inertia tensor (about it, chassis axes, at the design position)."""
-    tensor = (*inertia, 0.0, 0.0, 0.0)
-    return [
-        Parameter(f"{name}_mass", mass, "kg", f"mass of the {name}"),
-        *_point(f"{name}_com", com, f"centre of mass of the {name}"),
-        *(
-            Parameter(
-                f"{name}_inertia_{element}",
-                value,
-                "kg m^2",
-                f"{element} element of the inertia tensor of the {name}",
-            )
-            for element, value in zip(ELEMENTS, tensor, strict=True)
-        ),
-    ]
-
-
 _COMMON_PARAMETERS = (
-    *_point("arm_front", (0.17, -0.35, 0.205), "front bush of the control arm"),
-    *_point("arm_rear", (-0.15, -0.35, 0.205), "rear bush of the control arm"),
-    *_point("ball_joint", (0.005, -0.71, 0.18), "lower ball joint"),
-    *_point("strut_top", (-0.028, -0.585, 0.82), "top mount of the strut"),
-    *_point("tie_rod_outer", (-0.13, -0.69, 0.26), "tie rod at the knuckle"),
-    *_point("tie_rod_inner", (-0.14, -0.31, 0.28), "tie rod at the rack"),
-    *_point("wheel_center", (0.0, -0.76, 0.3), "wheel centre"),
-    *_direction("rack_axis", (0.0, 1.0, 0.0), "direction of the rack"),
-    *_direction("spin_axis", (0.0, 1.0, 0.0), "spin axis of the wheel, pointing left"),
+    *point("arm_front", (0.17, -0.35, 0.205), "front bush of the control arm"),
+    *point("arm_rear", (-0.15, -0.35, 0.205), "rear bush of the control arm"),
+    *point("ball_joint", (0.005, -0.71, 0.18), "lower ball joint"),
+    *point("strut_top", (-0.028, -0.585, 0.82), "top mount of the strut"),
+    *point("tie_rod_outer", (-0.13, -0.69, 0.26), "tie rod at the knuckle"),
+    *point("tie_rod_inner", (-0.14, -0.31, 0.28), "tie rod at the rack"),
+    *point("wheel_center", (0.0, -0.76, 0.3), "wheel centre"),
+    *direction("rack_axis", (0.0, 1.0, 0.0), "direction of the rack"),
+    *direction("spin_axis", (0.0, 1.0, 0.0), "spin axis of the wheel, pointing left"),
     Parameter("strut_length_max", 0.85, "m", "strut length |BC| at zero slide (p of Eq. 6)"),
     Parameter("spring_rate", 25000.0, "N/m", "rate of the strut spring (k1)"),
     Parameter("damper_rate", 1500.0, "N s/m", "rate of the strut damper (c)"),
@@ -255,13 +213,13 @@ _COMMON_PARAMETERS = (
         "height of the wheel centre at which the tyre is free of force (l20)",
     ),
     Parameter("gravity", 9.81, "m/s^2", "acceleration of gravity"),
-    *_rigid_body(
+    *rigid_body(
         "control_arm",
         5.0,
         ((0.17 - 0.15 + 0.005) / 3, (-0.35 - 0.35 - 0.71) / 3, 0.59 / 3),
         (0.06, 0.04, 0.09),
     ),
-    *_rigid_body(
+    *rigid_body(
         "knuckle",
         15.0,
         (
@@ -271,12 +229,10 @@ _COMMON_PARAMETERS = (
         ),
         (0.2, 0.18, 0.08),
     ),
-    *_rigid_body("tie_rod", 0.0, (-0.135, -0.5, 0.27)),
-    *_rigid_body("rack", 0.0, (-0.14, -0.31, 0.28)),
-    *_rigid_body("upper_strut", 0.0, (-0.028, -0.585, 0.82)),
-    Parameter("wheel_mass", 22.0, "kg", "mass of the wheel"),
-    Parameter("wheel_inertia_spin", 1.1, "kg m^2", "inertia of the wheel about its spin axis"),
-    Parameter("wheel_inertia_diametral", 0.6, "kg m^2", "inertia of the wheel across its axis"),
+    *rigid_body("tie_rod", 0.0, (-0.135, -0.5, 0.27)),
+    *rigid_body("rack", 0.0, (-0.14, -0.31, 0.28)),
+    *rigid_body("upper_strut", 0.0, (-0.028, -0.585, 0.82)),
+    *rotor("wheel", 22.0, 1.1, 0.6),
 )
 PARAMETERS = (
     *_COMMON_PARAMETERS,
@@ -289,9 +245,9 @@ PARAMETERS = (
 )
 GENERAL_PARAMETERS = (
     *_COMMON_PARAMETERS,
-    *_point("strut_lower", (0.005, -0.71, 0.18), "lower end of the strut, on its axis"),
-    *_point("spring_top", (-0.028, -0.585, 0.82), "upper seat of the spring, on the chassis"),
-    *_point("spring_seat", (0.005, -0.71, 0.18), "lower seat of the spring, on the knuckle"),
+    *point("strut_lower", (0.005, -0.71, 0.18), "lower end of the strut, on its axis"),
+    *point("spring_top", (-0.028, -0.585, 0.82), "upper seat of the spring, on the chassis"),
+    *point("spring_seat", (0.005, -0.71, 0.18), "lower seat of the spring, on the knuckle"),
     Parameter(
         "spring_free_length",
         0.85 - 0.05255401719941255,

@@ -7,7 +7,16 @@ gives to the body (line, steering arm, normal), in which most components vanish.
 """
 
 from .cross import place_by_cross
+from .hinge import place_by_pin, solve_hinge
+from .slide import solve_slide
 from .telescope import solve_telescope
 from .turn import solve_turn
 
-__all__ = ["place_by_cross", "solve_telescope", "solve_turn"]
+__all__ = [
+    "place_by_cross",
+    "place_by_pin",
+    "solve_hinge",
+    "solve_slide",
+    "solve_telescope",
+    "solve_turn",
+]

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from ..geometry import Point
     from ..kinematics import Kinematics
-    from ..transformer import SolveTurn
+    from ..transformer import SolveHinge, SolveSlide, SolveTurn
 
 
 def line_between(
@@ -26,6 +26,8 @@ def line_between(
     span: Vector,
     length: sp.Expr,
     squared: sp.Expr | None = None,
+    *,
+    rigid: bool = False,
 ) -> OnLine:
     """Describe the line between two points of known motion.
 
@@ -43,6 +45,7 @@ def line_between(
     motion = {
         k: kin.program.define(f"d_length_{name}_{k}", direction.dot(v))
         for k, v in relative.motion.items()
+        if not rigid
     }
     return OnLine(
         *points,
@@ -58,8 +61,13 @@ def line_between(
     )
 
 
-def place_rod(kin: Kinematics, action: SolveTurn, rod_anchor: PointMotion, length: sp.Expr) -> None:
-    """Record the line of the rod, from its anchor to the body that it holds."""
+def place_rod(
+    kin: Kinematics,
+    action: SolveTurn | SolveHinge | SolveSlide,
+    rod_anchor: PointMotion,
+    length: sp.Expr,
+) -> None:
+    """Record the line of a rod of fixed length, from its anchor to the body that it holds."""
     end = kin.point_motion(action.body, action.end)
     span = kin.program.vector(f"span_{action.rod}", end.position - rod_anchor.position)
     kin.on_line[action.rod] = line_between(
@@ -70,6 +78,7 @@ def place_rod(kin: Kinematics, action: SolveTurn, rod_anchor: PointMotion, lengt
         (action.anchor_body, action.body),
         span,
         length,
+        rigid=True,
     )
 
 

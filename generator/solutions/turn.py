@@ -50,8 +50,8 @@ def solve_turn(kin: Kinematics, action: SolveTurn) -> None:
 
 
 def _is_end_link(kin: Kinematics, body: str, record: OnLine) -> bool:
-    """Tell whether a telescope's link is the one at the end point of the line."""
-    return any(record.end == j.center for j in kin.mechanism.joints_of(body))
+    """Tell whether a body holds the end point of the line and not its anchor."""
+    return all(record.anchor != j.center for j in kin.mechanism.joints_of(body))
 
 
 class _TurnConstants:
