@@ -1,5 +1,11 @@
 """The mechanisms that come with the project, each declared on a page of its own."""
 
-from . import macpherson
+from . import andrews, double_wishbone, four_bar, macpherson, slider_crank
 
-MODELS = macpherson.MODELS
+MODELS = (
+    *macpherson.MODELS,
+    *double_wishbone.MODELS,
+    *four_bar.MODELS,
+    *slider_crank.MODELS,
+    *andrews.MODELS,
+)
