@@ -23,7 +23,21 @@ import numpy.typing as npt
 from scipy.integrate import solve_ivp
 
 from oracle.constraints import ARM, KNUCKLE, RACK, UPPER_STRUT, WHEEL, Array, Pose
-from oracle.newton import Z_AXIS, Mechanism, solve_pose
+from oracle.laws import damper_force, friction_force, stop_energy, stop_force, tyre_load
+from oracle.newton import Z_AXIS, Mechanism, observe, solve_pose
+
+CAUSES = (
+    "gravity",
+    "spring",
+    "damper",
+    "friction",
+    "bump_stop",
+    "rebound_stop",
+    "actuator",
+    "tyre",
+    "rack",
+)
+"""What does work on the moving bodies."""
 
 RackMotion = Callable[[float], tuple[float, float, float]]
 
@@ -50,13 +64,13 @@ class Solution:
     kinetic_energy : float
         In J.
     potential_energy : dict of float
-        Of ``gravity`` (zero at z = 0), ``spring`` and ``tyre`` (half the rate times the square of
-        the vertical deflection), J.
+        Of ``gravity`` (zero at z = 0), ``spring``, ``bump_stop``, ``rebound_stop`` and ``tyre``
+        (half the rate times the square of the vertical deflection), J.
     power : dict of float
-        Of all that does work on the moving bodies, W: ``gravity``, ``spring``, ``damper``,
-        ``actuator``, ``tyre``, ``rack`` (force on the rack, driving or given). The kinetic energy
-        grows at the rate of their sum. Only gravity and spring are minus the rates of the
-        potential energies; the tyre is not since its force has a part across the wheel's travel.
+        Of all that does work on the moving bodies, W: the causes of `applied_wrenches`, ``rack``
+        being the force on the rack, driving or given. The kinetic energy grows at the rate of their
+        sum. Only those of gravity, spring and stops are minus the rates of the potential energies;
+        the tyre is not since its force has a part across the wheel's travel.
     """
 
     coordinate_accelerations: Array
@@ -164,6 +178,7 @@ def solve_prescribed(
     *,
     rack_acceleration: float = 0.0,
     road_height: float = 0.0,
+    road_velocity: float = 0.0,
     strut_force: float = 0.0,
 ) -> Solution:
     """Solve the dynamics with the rack's motion prescribed (its displacement is the pose's).
@@ -178,8 +193,8 @@ def solve_prescribed(
         Rates of arm angle and wheel spin, rad/s.
     rack_velocity, rack_acceleration : float
         Of the rack along its unit axis, m/s and m/s².
-    road_height : float
-        z of the road under the wheel, m.
+    road_height, road_velocity : float
+        z of the road under the wheel, m, and its rate, m/s.
     strut_force : float
         Actuator force that pushes knuckle and chassis apart along the strut, N.
 
@@ -190,7 +205,12 @@ def solve_prescribed(
     """
     twist = solve_twist(mechanism, pose, beta1_rate, spin_rate, rack_velocity)
     wrenches = applied_wrenches(
-        mechanism, pose, twist, road_height=road_height, strut_force=strut_force
+        mechanism,
+        pose,
+        twist,
+        road_height=road_height,
+        road_velocity=road_velocity,
+        strut_force=strut_force,
     )
     return _solve(
         mechanism,
@@ -211,6 +231,7 @@ def solve_free(
     *,
     rack_force: float = 0.0,
     road_height: float = 0.0,
+    road_velocity: float = 0.0,
     strut_force: float = 0.0,
 ) -> Solution:
     """Solve the dynamics with the rack free to slide.
@@ -225,8 +246,8 @@ def solve_free(
         Rates of the independent coordinates, rad/s, rad/s, m/s.
     rack_force : float
         Force on the rack along its unit axis, N.
-    road_height : float
-        z of the road under the wheel, m.
+    road_height, road_velocity : float
+        z of the road under the wheel, m, and its rate, m/s.
     strut_force : float
         Actuator force that pushes knuckle and chassis apart along the strut, N.
 
@@ -241,6 +262,7 @@ def solve_free(
         pose,
         twist,
         road_height=road_height,
+        road_velocity=road_velocity,
         strut_force=strut_force,
         rack_force=rack_force,
     )
@@ -253,6 +275,7 @@ def applied_wrenches(
     twist: Array,
     *,
     road_height: float = 0.0,
+    road_velocity: float = 0.0,
     strut_force: float = 0.0,
     rack_force: float = 0.0,
 ) -> dict[str, Array]:
@@ -266,45 +289,54 @@ def applied_wrenches(
         Current pose.
     twist : ndarray, shape (6, 6)
         Twists of the bodies.
-    road_height, strut_force, rack_force : float
-        Inputs, m, N, N, see `solve_free`.
+    road_height, road_velocity, strut_force, rack_force : float
+        Inputs, m, m/s, N, N, see `solve_free`.
 
     Returns
     -------
     dict of ndarray, shape (6, 6)
-        For ``gravity``, ``spring``, ``damper``, ``actuator``, ``tyre`` and ``rack``: force (N) and
-        moment about the centre of mass (N m) on each body.
+        By `CAUSES`: force (N) and moment about the centre of mass (N m) on each body.
     """
     given = mechanism.parameters
-    wrenches = {
-        cause: np.zeros((6, 6))
-        for cause in ("gravity", "spring", "damper", "actuator", "tyre", "rack")
-    }
+    wrenches = {cause: np.zeros((6, 6)) for cause in CAUSES}
     wrenches["gravity"][:, 2] = -given["gravity"] * mechanism.masses
 
-    ball = mechanism.point(pose, "ball_joint", KNUCKLE)
-    top = mechanism.point(pose, "strut_top", UPPER_STRUT)
-    length = float(np.linalg.norm(ball - top))
-    down = (ball - top) / length
-    slide = given["strut_length_max"] - length
-    magnitudes = {
-        "spring": given["spring_rate"] * (slide - given["spring_free_slide"]),
-        "damper": given["damper_rate"] * _slide_rate(mechanism, pose, twist),
+    seen = observe(mechanism, pose)
+    slide_rate = _slide_rate(mechanism, pose, twist)
+    strut = {
+        "damper": damper_force(given, slide_rate),
+        "friction": friction_force(given, slide_rate),
+        "bump_stop": stop_force(given, "bump", seen.strut_length),
+        "rebound_stop": stop_force(given, "rebound", seen.strut_length),
         "actuator": strut_force,
     }
-    for cause, magnitude in magnitudes.items():
-        for body, place, sign in ((KNUCKLE, ball, 1.0), (UPPER_STRUT, top, -1.0)):
-            force = sign * magnitude * down
-            wrenches[cause][body - 1, :3] = force
-            wrenches[cause][body - 1, 3:] = np.cross(place - pose.position[body - 1], force)
+    lower = mechanism.point(pose, "strut_lower", KNUCKLE)
+    top = mechanism.point(pose, "strut_top", UPPER_STRUT)
+    for cause, magnitude in strut.items():
+        push = magnitude * seen.strut_direction
+        wrenches[cause][KNUCKLE - 1] = _wrench(pose, KNUCKLE, lower, push)
+        wrenches[cause][UPPER_STRUT - 1] = _wrench(pose, UPPER_STRUT, top, -push)
 
-    axis = pose.rotation[WHEEL - 1] @ mechanism.spin_axis
-    deflection = pose.position[WHEEL - 1, 2] - road_height - given["tyre_free_height"]
+    # The spring's upper seat is on the chassis, which does not move.
+    seat = mechanism.point(pose, "spring_seat", KNUCKLE)
+    compression = given["spring_free_length"] - seen.spring_length
+    along = (seat - mechanism.points["spring_top"]) / seen.spring_length
+    push = given["spring_rate"] * compression * along
+    wrenches["spring"][KNUCKLE - 1] = _wrench(pose, KNUCKLE, seat, push)
+
+    deflection = given["tyre_free_height"] + road_height - pose.position[WHEEL - 1, 2]
+    load = tyre_load(given, deflection, road_velocity - twist[WHEEL - 1, 2])
+    axis = seen.spin_axis
     upright = (Z_AXIS - axis[2] * axis) / (1.0 - axis[2] ** 2)
-    wrenches["tyre"][WHEEL - 1, :3] = -given["tyre_rate"] * deflection * upright
+    wrenches["tyre"][WHEEL - 1, :3] = load * upright
 
     wrenches["rack"][RACK - 1, :3] = rack_force * mechanism.rack_axis
     return wrenches
+
+
+def _wrench(pose: Pose, body: int, place: Array, force: Array) -> Array:
+    """Return the force and its moment about the body's centre of mass, shape (6,)."""
+    return np.concatenate((force, np.cross(place - pose.position[body - 1], force)))
 
 
 def reduced_equations(
@@ -316,13 +348,16 @@ def reduced_equations(
     *,
     rack_force: float = 0.0,
     road_height: float = 0.0,
+    road_velocity: float = 0.0,
     strut_force: float = 0.0,
 ) -> ReducedEquations:
     """Project the equations of Newton and Euler onto the independent coordinates.
 
     Parameters
     ----------
-    mechanism, pose, beta1_rate, spin_rate, rack_rate, rack_force, road_height, strut_force
+    mechanism, pose, beta1_rate, spin_rate, rack_rate
+        As for `solve_free`.
+    rack_force, road_height, road_velocity, strut_force
         As for `solve_free`.
 
     Returns
@@ -341,6 +376,7 @@ def reduced_equations(
         pose,
         twist,
         road_height=road_height,
+        road_velocity=road_velocity,
         strut_force=strut_force,
         rack_force=rack_force,
     )
@@ -400,6 +436,7 @@ def simulate(
     rack_motion: RackMotion | None = _at_rest,
     rack_force: Callable[[float], float] = _zero,
     road_height: Callable[[float], float] = _zero,
+    road_velocity: Callable[[float], float] = _zero,
     strut_force: Callable[[float], float] = _zero,
     rtol: float = 1e-12,
 ) -> Trajectory:
@@ -416,8 +453,8 @@ def simulate(
         the rack is free.
     rack_motion : callable or None
         Displacement, velocity and acceleration of the rack over time; None for a free rack.
-    rack_force, road_height, strut_force : callable
-        Inputs over time: N (free rack only), m, N.
+    rack_force, road_height, road_velocity, strut_force : callable
+        Inputs over time: N (free rack only), m, m/s, N.
     rtol : float
         Relative tolerance; the absolute tolerances are the same for angles and rates, and a
         hundredth of it for the rack.
@@ -433,7 +470,11 @@ def simulate(
     def instant(t: float, state: Array) -> tuple[Pose, Solution, float, float]:
         nonlocal nearby
         beta1, spin, rack, beta1_rate, spin_rate, rack_rate = state[:6]
-        inputs = {"road_height": road_height(t), "strut_force": strut_force(t)}
+        inputs = {
+            "road_height": road_height(t),
+            "road_velocity": road_velocity(t),
+            "strut_force": strut_force(t),
+        }
         rack_acceleration = 0.0
         if rack_motion is not None:
             rack, rack_rate, rack_acceleration = rack_motion(t)
@@ -517,7 +558,7 @@ def _inertia(mechanism: Mechanism, pose: Pose, twist: Array) -> tuple[Array, Arr
 
 def _slide_rate(mechanism: Mechanism, pose: Pose, twist: Array) -> float:
     """Return the rate of beta2, m/s: how fast knuckle and chassis approach along the strut."""
-    arm = mechanism.point(pose, "ball_joint", KNUCKLE) - pose.position[KNUCKLE - 1]
+    arm = mechanism.point(pose, "strut_lower", KNUCKLE) - pose.position[KNUCKLE - 1]
     speed = twist[KNUCKLE - 1, :3] + np.cross(twist[KNUCKLE - 1, 3:], arm)
     span = pose.position[KNUCKLE - 1] + arm - mechanism.points["strut_top"]
     return float(-(span @ speed) / np.linalg.norm(span))
@@ -559,9 +600,8 @@ def _solve(
         power["rack"] += drive_force * float(mechanism.rack_axis @ twist[RACK - 1, :3])
 
     given = mechanism.parameters
-    slide = given["strut_length_max"] - float(
-        np.linalg.norm(mechanism.point(pose, "ball_joint", KNUCKLE) - mechanism.points["strut_top"])
-    )
+    seen = observe(mechanism, pose)
+    compression = given["spring_free_length"] - seen.spring_length
     height = pose.position[WHEEL - 1, 2] - road_height
     return Solution(
         coordinate_accelerations=coordinate_accelerations,
@@ -573,7 +613,9 @@ def _solve(
         kinetic_energy=float(0.5 * twist.ravel() @ mass @ twist.ravel()),
         potential_energy={
             "gravity": float(given["gravity"] * mechanism.masses @ pose.position[:, 2]),
-            "spring": 0.5 * given["spring_rate"] * (slide - given["spring_free_slide"]) ** 2,
+            "spring": 0.5 * given["spring_rate"] * compression**2,
+            "bump_stop": stop_energy(given, "bump", seen.strut_length),
+            "rebound_stop": stop_energy(given, "rebound", seen.strut_length),
             "tyre": 0.5 * given["tyre_rate"] * float(height - given["tyre_free_height"]) ** 2,
         },
         power=power,

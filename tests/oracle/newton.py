@@ -29,10 +29,9 @@ from oracle.constraints import (
     skew,
     unit,
 )
-from oracle.reference import Parameters, inertia, vector
+from oracle.reference import Parameters, completed, inertia, vector
 
 X_AXIS = np.array([1.0, 0.0, 0.0])
-Z_AXIS = np.array([0.0, 0.0, 1.0])
 Z_AXIS = np.array([0.0, 0.0, 1.0])
 
 # A continuation step moves the arm and the rack by at most these (rad, m).
@@ -60,6 +59,9 @@ class Mechanism:
     that makes h_y point from the hinge towards B (outboard), so 0 < beta1 < pi at design. The
     arm's angular velocity is -h_x beta1'.
 
+    The strut's axis goes through `strut_lower`, fixed in the knuckle, and `strut_top`. It may miss
+    the ball joint; without a `strut_lower` it goes through it.
+
     Parameters
     ----------
     parameters : dict of float
@@ -68,7 +70,7 @@ class Mechanism:
     Attributes
     ----------
     parameters : dict of float
-        A copy of the argument.
+        The argument, completed.
     centres : ndarray, shape (7, 3)
         Centres of mass at design with the chassis's origin first, m.
     masses : ndarray, shape (6,)
@@ -94,7 +96,7 @@ class Mechanism:
     """
 
     def __init__(self, parameters: Parameters) -> None:
-        self.parameters = dict(parameters)
+        self.parameters = parameters = completed(parameters)
         self.points: dict[str, Array] = {
             name: vector(parameters, name)
             for name in (
@@ -105,6 +107,9 @@ class Mechanism:
                 "tie_rod_outer",
                 "tie_rod_inner",
                 "wheel_center",
+                "strut_lower",
+                "spring_top",
+                "spring_seat",
             )
         }
         point = self.points
@@ -146,13 +151,13 @@ class Mechanism:
 
     def _joints(self) -> Equations:
         point = self.points
-        strut = point["strut_top"] - point["ball_joint"]
+        strut = point["strut_top"] - point["strut_lower"]
         rod = point["tie_rod_outer"] - point["tie_rod_inner"]
         joints = Assembler(self.centres)
         hinge = point["arm_front"] - point["arm_rear"]
         joints.revolute(CHASSIS, ARM, point["arm_rear"], hinge)
         joints.spherical(ARM, KNUCKLE, point["ball_joint"])
-        joints.cylindrical(KNUCKLE, UPPER_STRUT, strut, (point["ball_joint"], point["strut_top"]))
+        joints.cylindrical(KNUCKLE, UPPER_STRUT, strut, (point["strut_lower"], point["strut_top"]))
         joints.universal(CHASSIS, UPPER_STRUT, point["strut_top"], X_AXIS, np.cross(X_AXIS, strut))
         joints.spherical(KNUCKLE, TIE_ROD, point["tie_rod_outer"])
         joints.universal(RACK, TIE_ROD, point["tie_rod_inner"], Z_AXIS, np.cross(Z_AXIS, rod))
@@ -261,11 +266,13 @@ class Observables:
         spin axis pointing outboard and s = +1 left, -1 right: camber = atan2(-n_z, s n_y), toe =
         atan2(n_x, s n_y), steer = atan2(-s n_x, s n_y).
     strut_length : float
-        From ball joint to strut top, m.
+        From the strut's lower end to its top, m.
     strut_slide : float
         beta2 = p - strut_length, m.
     strut_direction : ndarray, shape (3,)
-        Unit vector from strut top to ball joint.
+        Unit vector from strut top to lower end.
+    spring_length : float
+        Between the spring's seats, m.
     """
 
     beta1: float
@@ -279,6 +286,7 @@ class Observables:
     strut_length: float
     strut_slide: float
     strut_direction: Array
+    spring_length: float
 
 
 def observe(mechanism: Mechanism, pose: Pose) -> Observables:
@@ -296,7 +304,8 @@ def observe(mechanism: Mechanism, pose: Pose) -> Observables:
     Observables
         See there for signs and units.
     """
-    strut = mechanism.point(pose, "ball_joint", KNUCKLE) - mechanism.points["strut_top"]
+    strut = mechanism.point(pose, "strut_lower", KNUCKLE) - mechanism.points["strut_top"]
+    spring = mechanism.point(pose, "spring_seat", KNUCKLE) - mechanism.points["spring_top"]
     length = float(np.linalg.norm(strut))
     axis: Array = pose.rotation[WHEEL - 1] @ mechanism.spin_axis
     side = mechanism.side
@@ -313,6 +322,7 @@ def observe(mechanism: Mechanism, pose: Pose) -> Observables:
         strut_length=length,
         strut_slide=mechanism.parameters["strut_length_max"] - length,
         strut_direction=strut / length,
+        spring_length=float(np.linalg.norm(spring)),
     )
 
 

@@ -12,6 +12,7 @@ the diagonal are those of the tensor, thus minus the products of inertia).
 
 import numpy as np
 import numpy.typing as npt
+from scipy.interpolate import PchipInterpolator
 
 Array = npt.NDArray[np.float64]
 Parameters = dict[str, float]
@@ -29,6 +30,12 @@ HARDPOINTS: dict[str, tuple[float, float, float]] = {
 
 GENERAL_BODIES = ("control_arm", "knuckle", "tie_rod", "rack", "upper_strut")
 """The bodies with a full inertia tensor; the wheel is a body of revolution."""
+
+STAND_INS = {"strut_lower": "ball_joint", "spring_top": "strut_top", "spring_seat": "ball_joint"}
+"""The points that the paper's suspension does not have, and those that take their place there."""
+
+DAMPER_SEGMENTS = 10
+"""Segments of the damper's curve; those that are not used have no width."""
 
 INERTIA_ELEMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 
@@ -361,6 +368,147 @@ def perturbed_parameters(rng: np.random.Generator, scale: float = 0.02) -> Param
     for name in ("spring_rate", "damper_rate", "tyre_rate", "wheel_mass", "wheel_inertia_spin"):
         parameters[name] *= rng.uniform(0.8, 1.2)
     return parameters
+
+
+def completed(parameters: Parameters) -> Parameters:
+    """Return parameters with everything that a suspension can have, absent parts without effect.
+
+    Parameters
+    ----------
+    parameters : dict of float
+        Flat parameter dict; all that goes beyond the paper's suspension may be missing: the points
+        of `STAND_INS`, ``spring_free_length``, ``damper_table_*``, ``strut_friction*``,
+        ``bump_stop_*``, ``rebound_stop_*``, ``tyre_damper_rate`` and ``tyre_lifts_off``.
+
+    Returns
+    -------
+    dict of float
+        A new dict.
+    """
+    absent: Parameters = {
+        "strut_friction": 0.0,
+        "strut_friction_speed": 0.01,
+        "tyre_damper_rate": 0.0,
+        "tyre_lifts_off": 0.0,
+        "damper_table_first_force": 0.0,
+        "damper_table_first_slope": 0.0,
+        "damper_table_last_slope": 0.0,
+    }
+    for name, stand_in in STAND_INS.items():
+        set_vector(absent, name, vector(parameters, stand_in))
+    for side, length in (("bump", 0.0), ("rebound", parameters["strut_length_max"])):
+        absent |= {f"{side}_stop_length": length}
+        absent |= {f"{side}_stop_{name}": 0.0 for name in ("rate", "progression")}
+    absent |= {f"damper_table_knot_{i}": 0.0 for i in range(DAMPER_SEGMENTS + 1)}
+    for i in range(DAMPER_SEGMENTS):
+        absent[f"damper_table_inverse_width_{i}"] = 1.0
+        absent |= {f"damper_table_{p}_{i}": 0.0 for p in ("linear", "quadratic", "cubic")}
+    free_slide = parameters.get("spring_free_slide", 0.0)
+    absent["spring_free_length"] = parameters["strut_length_max"] - free_slide
+    return absent | parameters
+
+
+def set_damper_curve(parameters: Parameters, curve: PchipInterpolator) -> None:
+    """Store a curve of force (N) over compression velocity (m/s), of up to ten segments.
+
+    Parameters
+    ----------
+    parameters : dict of float
+        Flat parameter dict, written to. With x the part of a segment that is passed, its force is
+        that of its first knot plus x times linear, x² times quadratic and x³ times cubic.
+    curve : PchipInterpolator
+        Outside its knots it goes on as a straight line.
+    """
+    knots, widths = curve.x, np.diff(curve.x)
+    slope = curve.derivative()
+    parameters["damper_table_first_force"] = float(curve(knots[0]))
+    parameters["damper_table_first_slope"] = float(slope(knots[0]))
+    parameters["damper_table_last_slope"] = float(slope(knots[-1]))
+    for i in range(DAMPER_SEGMENTS + 1):
+        parameters[f"damper_table_knot_{i}"] = float(knots[min(i, len(widths))])
+    for i in range(DAMPER_SEGMENTS):
+        width = widths[i] if i < len(widths) else 0.0
+        parameters[f"damper_table_inverse_width_{i}"] = float(1.0 / width) if width else 1.0
+        for power, name in enumerate(("linear", "quadratic", "cubic"), 1):
+            coefficient = curve.c[3 - power, i] * width**power if width else 0.0
+            parameters[f"damper_table_{name}_{i}"] = float(coefficient)
+
+
+def general_parameters(rng: np.random.Generator, offset: float = 0.06) -> Parameters:
+    """Return a general car with an offset strut, spring seats, damper curve, stops, friction.
+
+    Its tyre damps and lifts off. Stops and knots are where motions over most of the travel, at up
+    to some 3 m/s, go well past them.
+
+    Parameters
+    ----------
+    rng : numpy.random.Generator
+        Source of the random numbers.
+    offset : float
+        Distance of the ball joint from the strut's axis, m. The lower end of the strut is besides
+        up to 0.15 m further up.
+
+    Returns
+    -------
+    dict of float
+        A complete flat parameter dict.
+    """
+    parameters = perturbed_parameters(rng)
+    ball, top = vector(parameters, "ball_joint"), vector(parameters, "strut_top")
+    lower = ball + offset_from_ball_joint(ball, top, offset, rng.uniform(0.0, 2.0 * np.pi))
+    axis = (top - lower) / np.linalg.norm(top - lower)
+    lower = lower + rng.uniform(0.0, 0.15) * axis
+    seat = lower + 0.3 * (top - lower) + 0.03 * rng.standard_normal(3)
+    upper_seat = top + 0.03 * rng.standard_normal(3)
+    for name, place in (("strut_lower", lower), ("spring_seat", seat), ("spring_top", upper_seat)):
+        set_vector(parameters, name, place)
+    length = float(np.linalg.norm(top - lower))
+    parameters |= {
+        "spring_free_length": float(np.linalg.norm(upper_seat - seat)) + rng.uniform(0.08, 0.16),
+        "strut_friction": rng.uniform(30.0, 90.0),
+        "strut_friction_speed": rng.uniform(0.02, 0.08),
+        "tyre_damper_rate": rng.uniform(1000.0, 3000.0),
+        "tyre_lifts_off": 1.0,
+    }
+    for side, sense in (("bump", -1.0), ("rebound", 1.0)):
+        parameters |= {
+            f"{side}_stop_length": length + sense * rng.uniform(0.01, 0.05),
+            f"{side}_stop_rate": rng.uniform(2e4, 5e4),
+            f"{side}_stop_progression": rng.uniform(1e7, 4e7),
+        }
+    knots = np.sort(rng.uniform(-2.0, 2.0, DAMPER_SEGMENTS + 1)) + np.linspace(-0.5, 0.5, 11)
+    forces = np.cumsum(rng.uniform(-50.0, 400.0, DAMPER_SEGMENTS + 1)) - 1000.0
+    set_damper_curve(parameters, PchipInterpolator(knots, forces))
+    return completed(parameters)
+
+
+def offset_from_ball_joint(ball: Array, top: Array, offset: float, angle: float) -> Array:
+    """Return how the foot of the ball joint on the strut's axis lies from the ball joint.
+
+    Parameters
+    ----------
+    ball, top : ndarray, shape (3,)
+        Ball joint, and the strut top through which the axis goes, m.
+    offset : float
+        Length of the result, m.
+    angle : float
+        Where around the line from ball joint to strut top, rad.
+
+    Returns
+    -------
+    ndarray, shape (3,)
+        In m; perpendicular to the axis.
+    """
+    span = top - ball
+    distance = float(np.linalg.norm(span))
+    n = span / distance
+    first = np.cross(n, np.eye(3)[np.argmin(np.abs(n))])
+    first /= np.linalg.norm(first)
+    across = np.cos(angle) * first + np.sin(angle) * np.cross(n, first)
+    # Thales: the foot is on the sphere over the line from ball joint to strut top.
+    sine = offset / distance
+    foot: Array = offset * (np.sqrt(1.0 - sine**2) * across + sine * n)
+    return foot
 
 
 def mirrored_parameters(parameters: Parameters) -> Parameters:

@@ -6,8 +6,10 @@ from functools import partial
 import numpy as np
 import numpy.typing as npt
 import pytest
+from scipy.interpolate import PchipInterpolator
 
-from oracle.constraints import RACK, WHEEL, Array, Pose
+from oracle import laws
+from oracle.constraints import KNUCKLE, RACK, WHEEL, Array, Pose
 from oracle.multipliers import (
     Solution,
     reduced_equations,
@@ -32,10 +34,14 @@ from oracle.reference import (
     HARDPOINTS,
     KINEMATICS,
     SPIN_RATE,
+    STAND_INS,
+    completed,
+    general_parameters,
     inertia,
     mirrored_parameters,
     perturbed_parameters,
     reference_parameters,
+    set_damper_curve,
     set_inertia,
     set_vector,
     vector,
@@ -49,9 +55,14 @@ def car() -> Mechanism:
     return Mechanism(reference_parameters())
 
 
-@pytest.fixture(scope="module", params=range(4))
+@pytest.fixture(
+    scope="module",
+    params=[(make, seed) for make in (perturbed_parameters, general_parameters) for seed in (0, 1)],
+    ids=lambda value: f"{value[0].__name__}-{value[1]}",
+)
 def other_car(request: pytest.FixtureRequest) -> Mechanism:
-    return Mechanism(perturbed_parameters(np.random.default_rng(request.param)))
+    make, seed = request.param
+    return Mechanism(make(np.random.default_rng(seed)))
 
 
 def central_difference(function: Callable[[float], Array], step: float) -> Array:
@@ -106,6 +117,9 @@ def test_parameters_round_trip() -> None:
     for name in HARDPOINTS:
         set_vector(copy, name, vector(parameters, name))
     assert copy == parameters
+    general = general_parameters(np.random.default_rng(7))
+    assert mirrored_parameters(mirrored_parameters(general)) == general
+    assert completed(general) == general
     assert mirrored_parameters(mirrored_parameters(parameters)) == parameters
 
 
@@ -266,26 +280,35 @@ def test_generalised_forces_are_virtual_work(other_car: Mechanism) -> None:
     """The forces again, from the points and directions in words, by displacing them."""
     path = Path(other_car)
     given = other_car.parameters
-    inputs = {"rack_force": 55.0, "road_height": -0.02, "strut_force": 700.0}
+    inputs = {"rack_force": 55.0, "road_height": 0.05, "road_velocity": 0.4, "strut_force": 700.0}
     reduced = reduced_equations(other_car, path.start, *path.rate, **inputs)
 
     def length(t: float) -> Array:
         return np.array(observe(other_car, path.pose(t)).strut_length)
 
+    def height(t: float) -> Array:
+        return np.array(observe(other_car, path.pose(t)).wheel_center[2])
+
     now = observe(other_car, path.start)
-    length_rate = float(central_difference(length, 1e-4))
+    speed = -float(central_difference(length, 1e-4))
     push = (
-        given["spring_rate"] * (now.strut_slide - given["spring_free_slide"])
-        - given["damper_rate"] * length_rate
+        given["damper_rate"] * speed
+        + laws.damper_curve(given)(speed)
+        + given["strut_friction"] * speed / np.hypot(speed, given["strut_friction_speed"])
         + inputs["strut_force"]
     )
+    for side, sense in (("bump", 1.0), ("rebound", -1.0)):
+        depth = max(sense * (given[f"{side}_stop_length"] - now.strut_length), 0.0)
+        rate, cubic = (given[f"{side}_stop_{name}"] for name in ("rate", "progression"))
+        push += sense * (rate * depth + cubic * depth**3)
+    coil = given["spring_rate"] * (given["spring_free_length"] - now.spring_length)
+    squeeze = given["tyre_free_height"] + inputs["road_height"] - now.wheel_center[2]
+    closing = inputs["road_velocity"] - float(central_difference(height, 1e-4))
+    load = given["tyre_rate"] * squeeze + given["tyre_damper_rate"] * closing
+    if given["tyre_lifts_off"]:
+        load = max(load, 0.0) if squeeze > 0.0 else 0.0
     sine = now.spin_axis[2]
-    tyre = (
-        -given["tyre_rate"]
-        * (now.wheel_center[2] + 0.02 - given["tyre_free_height"])
-        * (np.array([0.0, 0.0, 1.0]) - sine * now.spin_axis)
-        / (1.0 - sine**2)
-    )
+    tyre = load * (np.array([0.0, 0.0, 1.0]) - sine * now.spin_axis) / (1.0 - sine**2)
 
     def work(step: Array) -> Array:
         beta1, spin, rack = path.value + step
@@ -293,6 +316,7 @@ def test_generalised_forces_are_virtual_work(other_car: Mechanism) -> None:
         there = observe(other_car, pose)
         return np.array(
             push * there.strut_length
+            + coil * there.spring_length
             + tyre @ there.wheel_center
             + inputs["rack_force"] * there.rack
             - given["gravity"] * other_car.masses @ pose.position[:, 2]
@@ -319,13 +343,20 @@ def test_powers(other_car: Mechanism) -> None:
     rate = central_difference(lambda t: np.array(later(t).kinetic_energy), 2e-5)
     total = sum(solution.power.values())
     assert rate == pytest.approx(total, rel=1e-7)
-    for cause in ("gravity", "spring"):
+    for cause in ("gravity", "spring", "bump_stop", "rebound_stop"):
         rate = central_difference(partial(potential, cause), 1e-4)
         assert solution.power[cause] == pytest.approx(-rate, rel=1e-9)
     slide_rate = solution.strut_slide_rate
-    assert solution.power["damper"] == pytest.approx(
-        -other_car.parameters["damper_rate"] * slide_rate**2, rel=1e-12
-    )
+    given = other_car.parameters
+    for cause, force in (
+        ("damper", given["damper_rate"] * slide_rate + laws.damper_curve(given)(slide_rate)),
+        (
+            "friction",
+            given["strut_friction"]
+            * np.tanh(np.arcsinh(slide_rate / given["strut_friction_speed"])),
+        ),
+    ):
+        assert solution.power[cause] == pytest.approx(-force * slide_rate, rel=1e-12)
     assert solution.power["actuator"] == pytest.approx(-500.0 * slide_rate, rel=1e-12)
 
 
@@ -363,6 +394,56 @@ def test_other_side_is_the_mirror_image(other_car: Mechanism) -> None:
     assert left_solution.coordinate_accelerations == pytest.approx(
         right_solution.coordinate_accelerations, rel=1e-12, abs=1e-11
     )
+
+
+def test_strut_line(other_car: Mechanism) -> None:
+    """The strut top stays on the axis that is drawn on the knuckle at design."""
+    for arm, rack in ((0.2, 0.02), (-0.3, -0.03), (0.0, 0.05)):
+        pose = solve_pose(other_car, other_car.beta1_design + arm, rack)
+        design = other_car.points["strut_top"] - other_car.points["strut_lower"]
+        axis = pose.rotation[KNUCKLE - 1] @ design
+        now = other_car.points["strut_top"] - other_car.point(pose, "strut_lower", KNUCKLE)
+        assert np.abs(np.cross(axis, now)).max() < ROUND_OFF
+        assert axis @ now > 0.0
+
+
+def test_absent_parts_are_the_papers_suspension() -> None:
+    parameters = perturbed_parameters(np.random.default_rng(3))
+    complete = completed(parameters)
+    assert {name: complete[name] for name in parameters} == parameters
+    for name, stand_in in STAND_INS.items():
+        assert vector(complete, name).tolist() == vector(parameters, stand_in).tolist()
+    for length in (0.0, 0.4, 0.85):
+        for side in ("bump", "rebound"):
+            assert laws.stop_force(complete, side, length) == 0.0
+            assert laws.stop_energy(complete, side, length) == 0.0
+    assert laws.friction_force(complete, 0.3) == 0.0
+    assert laws.damper_force(complete, 0.3) == 0.3 * parameters["damper_rate"]
+    assert laws.tyre_load(complete, -0.01, 5.0) == -0.01 * parameters["tyre_rate"]
+
+
+@pytest.mark.parametrize("count", [2, 3, 8, 11])
+def test_damper_curve(count: int) -> None:
+    """What the coefficients say is SciPy's curve, with straight lines outside."""
+    rng = np.random.default_rng(count)
+    knots = np.cumsum(rng.uniform(0.05, 0.6, count)) - 1.0
+    curve = PchipInterpolator(knots, np.cumsum(rng.uniform(-100.0, 500.0, count)))
+    parameters = completed(reference_parameters())
+    set_damper_curve(parameters, curve)
+    found = laws.damper_curve(parameters)
+    for v in (*rng.uniform(-3.0, 4.0, 50), *knots):
+        inside = np.clip(v, knots[0], knots[-1])
+        expected = curve(inside) + curve.derivative()(inside) * (v - inside)
+        # a few roundings of up to 1e4 N
+        assert found(v) == pytest.approx(expected, rel=1e-13, abs=1e-11)
+
+
+def test_tyre_that_lifts_off() -> None:
+    """It neither pulls nor damps in the air, and does not stick to the road on the way up."""
+    given = completed(reference_parameters()) | {"tyre_damper_rate": 1000.0, "tyre_lifts_off": 1.0}
+    assert laws.tyre_load(given, 0.01, 0.5) == 2500.0
+    assert laws.tyre_load(given, 0.001, -0.5) == 0.0
+    assert laws.tyre_load(given, -0.001, 5.0) == 0.0
 
 
 def test_reference_car_rests_at_its_design_height(car: Mechanism) -> None:
@@ -403,7 +484,11 @@ def test_motion_of_the_reference_car(car: Mechanism) -> None:
     assert found[:, 6] == pytest.approx(rows[:, 6], rel=0.0, abs=1e-9)
 
 
-def test_kinetic_energy_is_the_work_done(other_car: Mechanism) -> None:
+@pytest.mark.parametrize("make", [perturbed_parameters, general_parameters])
+def test_kinetic_energy_is_the_work_done(
+    make: Callable[[np.random.Generator], dict[str, float]],
+) -> None:
+    other_car = Mechanism(make(np.random.default_rng(1)))
     motion = simulate(
         other_car,
         np.linspace(0.0, 0.03, 4),
@@ -412,6 +497,7 @@ def test_kinetic_energy_is_the_work_done(other_car: Mechanism) -> None:
         rack_motion=None,
         rack_force=lambda t: 40.0 * np.sin(90.0 * t),
         road_height=lambda t: 0.01 * np.sin(60.0 * t),
+        road_velocity=lambda t: 0.6 * np.cos(60.0 * t),
         strut_force=lambda t: 4000.0 * t,
         rtol=1e-10,
     )

@@ -1,0 +1,112 @@
+"""Forces of strut and tyre as functions of lengths and velocities.
+
+Every force of the strut is positive when it pushes knuckle and chassis apart, in N; `slide_rate` is
+how fast they approach, in m/s, positive in bump.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+from scipy.interpolate import PPoly
+
+from oracle.reference import DAMPER_SEGMENTS, Parameters
+
+
+def damper_curve(parameters: Parameters) -> Callable[[float], float]:
+    """Return force over compression velocity, from the coefficients of a flat parameter dict.
+
+    Parameters
+    ----------
+    parameters : dict of float
+        Complete, see `oracle.reference.completed`.
+
+    Returns
+    -------
+    callable
+        From m/s to N: cubics between the knots, straight lines outside.
+    """
+    table = {
+        name.removeprefix("damper_table_"): value
+        for name, value in parameters.items()
+        if name.startswith("damper_table_")
+    }
+    knots = np.array([table[f"knot_{i}"] for i in range(DAMPER_SEGMENTS + 1)])
+    used = np.flatnonzero(np.diff(knots) > 0.0)
+    first, force = table["first_slope"], table["first_force"]
+    last, origin = table["last_slope"], knots[0]
+    if len(used) == 0:
+        return lambda v: force + (last if v > origin else first) * (v - origin)
+    columns = []
+    for i in used:
+        width = knots[i + 1] - knots[i]
+        linear, quadratic, cubic = (table[f"{p}_{i}"] for p in ("linear", "quadratic", "cubic"))
+        columns.append([cubic / width**3, quadratic / width**2, linear / width, force])
+        force += linear + quadratic + cubic
+    end = knots[used[-1] + 1]
+    inside = PPoly(np.array(columns).T, np.append(knots[used], end))
+
+    def curve(v: float) -> float:
+        if v < origin:
+            return float(table["first_force"] + first * (v - origin))
+        if v > end:
+            return float(force + last * (v - end))
+        return float(inside(v))
+
+    return curve
+
+
+def damper_force(parameters: Parameters, slide_rate: float) -> float:
+    """Return the force of the damper, its constant rate and its curve together."""
+    curve = damper_curve(parameters)
+    return parameters["damper_rate"] * slide_rate + curve(slide_rate)
+
+
+def friction_force(parameters: Parameters, slide_rate: float) -> float:
+    """Return the friction of the strut: the sine of the angle whose tangent is v / speed."""
+    angle = np.arctan2(slide_rate, parameters["strut_friction_speed"])
+    return float(parameters["strut_friction"] * np.sin(angle))
+
+
+def stop_force(parameters: Parameters, side: str, length: float) -> float:
+    """Return the force of the ``bump`` or ``rebound`` stop at a length of the strut, m."""
+    depth, sense = _depth(parameters, side, length)
+    if depth < 0.0:
+        return 0.0
+    rate, cubic = (parameters[f"{side}_stop_{name}"] for name in ("rate", "progression"))
+    return float(sense * np.polyval([cubic, 0.0, rate, 0.0], depth))
+
+
+def stop_energy(parameters: Parameters, side: str, length: float) -> float:
+    """Return what the ``bump`` or ``rebound`` stop has stored, J."""
+    depth, _ = _depth(parameters, side, length)
+    if depth < 0.0:
+        return 0.0
+    rate, cubic = (parameters[f"{side}_stop_{name}"] for name in ("rate", "progression"))
+    return float(np.polyval(np.polyint([cubic, 0.0, rate, 0.0]), depth))
+
+
+def _depth(parameters: Parameters, side: str, length: float) -> tuple[float, float]:
+    """Return how far a stop is pressed in, m, and the sign of its force."""
+    sense = {"bump": 1.0, "rebound": -1.0}[side]
+    return sense * (parameters[f"{side}_stop_length"] - length), sense
+
+
+def tyre_load(parameters: Parameters, deflection: float, deflection_rate: float) -> float:
+    """Return the vertical force of the road on the tyre, N.
+
+    Parameters
+    ----------
+    parameters : dict of float
+        Complete. With ``tyre_lifts_off`` zero the tyre holds on to the road.
+    deflection, deflection_rate : float
+        Of the tyre, m and m/s, positive in compression.
+
+    Returns
+    -------
+    float
+        Positive upwards on the wheel.
+    """
+    load = parameters["tyre_rate"] * deflection + parameters["tyre_damper_rate"] * deflection_rate
+    if parameters["tyre_lifts_off"] and (deflection < 0.0 or load < 0.0):
+        return 0.0
+    return float(load)
