@@ -54,7 +54,7 @@ benchmark-page: build ## The same, and its page in docs/
 
 benchmark-peers: build ## The same suspension in CasADi, Exudyn, SymPy and Pinocchio
 	@.venv/bin/pip install -q -e ".[peers]" --no-build-isolation
-	@PYTHONPATH=tests $(PYTHON) -m benchmarks.peers --out out/benchmark
+	@PYTHONPATH=tests $(PYTHON) -m benchmarks.peers --out out/benchmark --page docs/other-tools.md
 
 report-assets: ## Bundle the HTML report's script and style again (needs Node.js)
 	@cd runtime/report/web && npm ci --silent && npm run --silent build

@@ -1,7 +1,6 @@
 """Run the comparison: ``make benchmark-peers``."""
 
 import argparse
-import importlib
 import json
 import platform
 from collections.abc import Iterator
@@ -11,11 +10,12 @@ import numpy as np
 from rich.console import Console
 from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
+from ..report import fill_page
 from . import simulations, timing
 from .agreement import DisagreementError
 from .case import instant, start
 from .models import candidates
-from .report import markdown
+from .report import blocks, markdown
 
 METHODS = ("BDF", "Adams", "DOP853", "DormandPrince", "Verner", "Tsitouras", "LSODA")
 """Methods of ``kintrafo.simulate`` that are tried; those that it does not have are left out."""
@@ -38,9 +38,11 @@ def main() -> None:
 
         entries, skipped = timing.compile_all(candidates(), report)
         timing.time_evaluations(entries, report)
-        seconds = _seconds(entries, arguments.native, skipped, report)
+        seconds = _seconds(entries, skipped, report)
     evaluations = [entry.evaluation for entry in entries]
     text = markdown(evaluations, seconds, skipped, _machine())
+    if arguments.page is not None:
+        fill_page(arguments.page, blocks(evaluations, seconds, _machine()))
     arguments.out.mkdir(parents=True, exist_ok=True)
     (arguments.out / "peers.md").write_text(text)
     data = timing.as_data(evaluations, seconds, skipped) | {"machine": _machine()}
@@ -52,24 +54,15 @@ def main() -> None:
 def _arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.peers", description=__doc__)
     parser.add_argument("--out", type=Path, default=Path("out/benchmark"), help="folder to write")
-    parser.add_argument(
-        "--native",
-        action="append",
-        default=[],
-        metavar="MODULE:FUNCTION",
-        help="a solver: (state, time span, sample times, tolerance) to the arm angle there",
-    )
+    parser.add_argument("--page", type=Path, help="also put the ratios into this page of docs/")
     return parser.parse_args()
 
 
 def _seconds(
-    entries: list[timing.Entry],
-    hooks: list[str],
-    skipped: dict[str, str],
-    report: timing.Report,
+    entries: list[timing.Entry], skipped: dict[str, str], report: timing.Report
 ) -> list[timing.Second]:
     seconds = []
-    for simulator in _simulators(entries, hooks, skipped):
+    for simulator in _simulators(entries, skipped):
         report(f"the second: {simulator.name}")
         try:
             seconds.append(timing.time_second(simulator))
@@ -79,11 +72,8 @@ def _seconds(
 
 
 def _simulators(
-    entries: list[timing.Entry], hooks: list[str], skipped: dict[str, str]
+    entries: list[timing.Entry], skipped: dict[str, str]
 ) -> Iterator[simulations.Simulator]:
-    for hook in hooks:
-        module, _, function = hook.partition(":")
-        yield simulations.hooked(hook, getattr(importlib.import_module(module), function))
     for method in METHODS:
         yield simulations.kintrafo(method)
     begin = instant(start())

@@ -1,8 +1,11 @@
-"""The Markdown table of everything measured."""
+"""The Markdown tables of everything measured, and the ratios that are quoted."""
 
+from ..report import markdown_table, power
 from .case import ACCURACY
 from .compiled import FLAGS
 from .timing import Evaluation, Second
+
+OURS = "kintrafo"
 
 
 def markdown(
@@ -60,6 +63,70 @@ def markdown(
         *(f"- {name}: {' '.join(reason.split())}" for name, reason in skipped.items()),
     ]
     return "\n".join(lines).rstrip() + "\n"
+
+
+def blocks(evaluations: list[Evaluation], seconds: list[Second], machine: str) -> dict[str, str]:
+    """Return the parts of the page in docs/ by name."""
+    return {
+        "machine": f"{machine}. One core; least time over the rounds.",
+        "evaluations": _evaluation_ratios(evaluations),
+        "seconds": _second_ratios(seconds),
+    }
+
+
+def _evaluation_ratios(evaluations: list[Evaluation]) -> str:
+    """Right-hand sides with parameters as inputs, and how much longer than ours each takes."""
+    header, rows = ["right-hand side"], []
+    for flags in FLAGS:
+        header += [f"{flags}: dependent [ns]", "/ ours", "independent [ns]", "/ ours"]
+    for name in dict.fromkeys(e.name for e in evaluations):
+        cells = [name]
+        for flags in FLAGS:
+            times = _nanoseconds(evaluations, name, flags)
+            ours = _nanoseconds(evaluations, OURS, flags)
+            pairs = zip(times, ours, strict=True) if times and ours else ()
+            filled = [text for t, o in pairs for text in (f"{t:.0f}", f"{t / o:.2f}")]
+            cells += filled or ["-"] * 4
+        rows.append(cells)
+    return markdown_table(header, rows)
+
+
+def _nanoseconds(evaluations: list[Evaluation], name: str, flags: str) -> list[float]:
+    for e in evaluations:
+        if (e.name, e.flags) == (name, flags) and e.parameters != "literal":
+            return [spread["least"] for spread in e.nanoseconds.values()]
+    return []
+
+
+def _second_ratios(seconds: list[Second]) -> str:
+    """Return the fastest of each kind of program, and how much longer than `simulate` it takes."""
+    fastest: dict[str, Second] = {}
+    for second in sorted((s for s in seconds if "(literal)" not in s.name), key=_least):
+        fastest.setdefault(_kind(second.name), second)
+    ours = fastest["kintrafo.simulate"].least_milliseconds
+    rows = [
+        [s.name, _shortened(s.setting), f"{s.error:.1e}", f"{_least(s):.3g}", f"{_least(s) / ours:.3g}"]
+        for s in fastest.values()
+    ]
+    return markdown_table(["program", "setting", "error [rad]", "time [ms]", "/ simulate"], rows)
+
+
+def _shortened(setting: str) -> str:
+    """Return a setting; of a tolerance two digits are enough."""
+    return power(float(setting)) if "e-" in setting else setting
+
+
+def _kind(name: str) -> str:
+    """Return what is compared: a tool, and how it is run."""
+    tool = name.split(",", maxsplit=1)[0].split(" (", maxsplit=1)[0]
+    endings = [word for word in ("jit", "RK4 in C", "extrapolated") if name.endswith(word)]
+    if tool.startswith("CasADi CVODES"):
+        tool = "CasADi CVODES"
+    if tool.startswith("Exudyn"):
+        tool = "Exudyn"
+    if "RK4 in C" in endings and tool.startswith("CasADi"):
+        tool = "CasADi"
+    return " ".join([tool, *endings])
 
 
 def _least(second: Second) -> float:

@@ -14,9 +14,6 @@ from .compiled import FLAGS, Library
 Run = Callable[[], Array]
 """Simulates the second and returns beta1 at the samples."""
 
-Solve = Callable[[Array, tuple[float, float], Array, float], Array]
-"""(state, time span, sample times, tolerance) to beta1 at the samples: a solver to be hooked in."""
-
 TOLERANCES: Array = 10.0 ** -np.arange(4.0, 11.1, 0.25)
 """From loose to tight."""
 
@@ -40,36 +37,24 @@ class Simulator:
     prepare: Callable[[Any], Run]
 
 
-def hooked(name: str, solve: Solve) -> Simulator:
-    """Return a simulator made of a function.
-
-    Parameters
-    ----------
-    name : str
-        To be shown.
-    solve : callable
-        See `Solve`.
-    """
-    span = (float(SAMPLES[0]), float(SAMPLES[-1]))
-    return Simulator(
-        name,
-        tuple(TOLERANCES.tolist()),
-        lambda tolerance: lambda: solve(start(), span, SAMPLES, tolerance),
-    )
-
-
 def kintrafo(method: str) -> Simulator:
     """Return this project's ``simulate`` as its users call it."""
     from kintrafo import Model, simulate  # noqa: PLC0415
 
     model = Model("reference_car")
 
-    def solve(state: Array, span: tuple[float, float], times: Array, tolerance: float) -> Array:
+    span = (float(SAMPLES[0]), float(SAMPLES[-1]))
+
+    def solve(tolerance: float) -> Array:
         options = {"rtol": tolerance, "atol": tolerance}
-        result = simulate(model, span, state, method=method, t_eval=times, **options)
+        result = simulate(model, span, start(), method=method, t_eval=SAMPLES, **options)
         return np.asarray(result.y[0])
 
-    return hooked(f"kintrafo.simulate, {method}", solve)
+    return Simulator(
+        f"kintrafo.simulate, {method}",
+        tuple(TOLERANCES.tolist()),
+        lambda tolerance: lambda: solve(tolerance),
+    )
 
 
 def runge_kutta(name: str, library: Library, begin: Array) -> Simulator:

@@ -1,0 +1,83 @@
+"""A chain of N four-bar linkages side by side: benchmark A02 of the IFToMM library.
+
+N + 1 rockers of 1 m stand on the ground 1 m apart, and N couplers of 1 m join their upper ends; one
+degree of freedom whatever N is. The benchmark starts it upright. All rockers level is a singular
+position (every loop is a flat parallelogram there), which this formulation reports and does not
+pass.
+"""
+
+from __future__ import annotations
+
+from ..forces import JointForce, Weight
+from ..geometry import FORWARD, Direction, Line, Point
+from ..joints import Revolute
+from ..mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
+from ..vectors import UNIT_Y
+
+ACROSS = Direction("across", UNIT_Y)
+
+
+def _point(name: str) -> Point:
+    return Point(name, flat="y")
+
+
+def _hinge(name: str, first: str, second: str, at: str) -> Revolute:
+    axis = Line(_point(at), ACROSS)
+    return Revolute(name=name, first=first, second=second, axis=axis, angle_from=FORWARD)
+
+
+def _bar(name: str, x: float, z: float) -> list[Parameter]:
+    """Return the parameters of a slender bar of 1 kg and 1 m, its centre at a place of the plane."""
+    return [
+        Parameter(f"{name}_com_x", x, "m", f"centre of {name}, x"),
+        Parameter(f"{name}_com_z", z, "m", f"centre of {name}, z"),
+        Parameter(f"{name}_mass", 1.0, "kg", f"mass of {name}"),
+        Parameter(
+            f"{name}_inertia_yy", 1.0 / 12.0, "kg m^2", f"inertia of {name} across the plane"
+        ),
+    ]
+
+
+def n_four_bar(count: int) -> Model:
+    """Return the chain of some number of four-bar linkages."""
+    rockers = [f"rocker_{i}" for i in range(count + 1)]
+    couplers = [f"coupler_{i}" for i in range(1, count + 1)]
+    bodies = [Body("ground", 0, center=_point("base_0"))]
+    joints = [_hinge("crank", "ground", rockers[0], "base_0")]
+    parameters: list[Parameter] = []
+    for i, name in enumerate(rockers):
+        bodies.append(Body(name, len(bodies), center=_point(f"{name}_com")))
+        parameters += [
+            Parameter(f"base_{i}_x", float(i), "m", f"hinge of {name} on the ground, x"),
+            Parameter(f"base_{i}_z", 0.0, "m", f"hinge of {name} on the ground, z"),
+            Parameter(f"top_{i}_x", float(i), "m", f"upper end of {name}, x"),
+            Parameter(f"top_{i}_z", 1.0, "m", f"upper end of {name}, z"),
+            *_bar(name, float(i), 0.5),
+        ]
+    for i, name in enumerate(couplers, 1):
+        bodies.append(Body(name, len(bodies), center=_point(f"{name}_com")))
+        parameters += _bar(name, i - 0.5, 1.0)
+        joints += [
+            _hinge(f"left_{i}", rockers[i - 1], name, f"top_{i - 1}"),
+            _hinge(f"right_{i}", name, rockers[i], f"top_{i}"),
+            _hinge(f"foot_{i}", "ground", rockers[i], f"base_{i}"),
+        ]
+    mechanism = Mechanism(
+        name=f"four_bars_{count}",
+        title=f"Chain of {count} four-bar linkages",
+        bodies=tuple(bodies),
+        joints=tuple(joints),
+        forces=(Weight(gravity="gravity"), JointForce(joint="crank", input="crank_torque")),
+        parameters=(*parameters, Parameter("gravity", 9.81, "m/s^2", "acceleration of gravity")),
+        coordinates=(
+            RelativeCoordinate("crank_angle", "crank", "angle", "rad", "angle from upright"),
+        ),
+        inputs={"crank_torque": ("N m", "torque on the first rocker")},
+    )
+    return Model(
+        name=mechanism.name,
+        title=mechanism.title,
+        mechanism=mechanism,
+        independent=("crank",),
+        massive=tuple(b.name for b in bodies[1:]),
+    )
