@@ -105,7 +105,13 @@ def _second_ratios(seconds: list[Second]) -> str:
         fastest.setdefault(_kind(second.name), second)
     ours = fastest["kintrafo.simulate"].least_milliseconds
     rows = [
-        [s.name, _shortened(s.setting), f"{s.error:.1e}", f"{_least(s):.3g}", f"{_least(s) / ours:.3g}"]
+        [
+            s.name,
+            _shortened(s.setting),
+            f"{s.error:.1e}",
+            f"{_least(s):.3g}",
+            f"{_least(s) / ours:.3g}",
+        ]
         for s in fastest.values()
     ]
     return markdown_table(["program", "setting", "error [rad]", "time [ms]", "/ simulate"], rows)
