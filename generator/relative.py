@@ -21,6 +21,8 @@ from .transformer import PlaceByPin, SolveHinge, SolveSlide, SolveTelescope, Sol
 from .vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Vector
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from .kinematics import Kinematics
     from .mechanism import RelativeCoordinate
 
@@ -365,10 +367,16 @@ class _Closure:
     def _given(self, name: str) -> sp.Symbol:
         return sp.Symbol(f"given_{name}")
 
+    def _first(self, joint: str, kind: str) -> sp.Symbol:
+        """Return the first copy of a coordinate: the one of the transformer that finds it."""
+        return self._given(self._copies(joint, kind)[0])
+
     def _last(self, joint: str, kind: str) -> sp.Symbol:
         """Return the last copy of a coordinate: the one that the later transformers read."""
-        names = [c.name for c in self.mechanism.coordinates if (c.joint, c.kind) == (joint, kind)]
-        return self._given(names[-1])
+        return self._given(self._copies(joint, kind)[-1])
+
+    def _copies(self, joint: str, kind: str) -> list[str]:
+        return [c.name for c in self.mechanism.coordinates if (c.joint, c.kind) == (joint, kind)]
 
     def _driven(self) -> dict[sp.Symbol, sp.Expr]:
         """Return what stands in for the driven coordinates: their given copies."""
@@ -420,24 +428,26 @@ class _Closure:
     def _rod_span(self, turn: SolveTurn) -> Vector:
         """Return the vector from the rod's anchor to its end, by explicit rotations (Eq. 17)."""
         telescope = next(a for a in self._telescopes() if a.end_link == turn.body)
-        end = self._by_chain(telescope, turn.end)
+        end = self._by_chain(telescope, turn.end, self._last)
         anchor = self._from_driven(
             f"given_{turn.anchor.name}",
             self.kin.point_motion(turn.anchor_body, turn.anchor).position,
         )
         return self.program.vector(f"given_{turn.rod}", end - anchor)
 
-    def _by_chain(self, telescope: SolveTelescope, point: Point) -> Vector:
+    def _by_chain(
+        self, telescope: SolveTelescope, point: Point, copy: Callable[[str, str], sp.Symbol]
+    ) -> Vector:
         """Return where the chain through a telescope puts a point of its second body."""
         joint = telescope.joint
         holder = self.relative.holder(joint)
-        length = sp.Symbol(joint.length_at_zero_slide) - self._last(joint.name, "slide")
+        length = sp.Symbol(joint.length_at_zero_slide) - copy(joint.name, "slide")
         local = self._in_marker_axes(joint, point)
-        swung = rotate_y(-self._last(joint.name, "angle"), local) + UNIT_Y * length
+        swung = rotate_y(-copy(joint.name, "angle"), local) + UNIT_Y * length
         swung = self.program.vector(f"given_{point.name}_in_shaft", swung)
-        lifted = rotate_x(self._last(holder.name, "elevation"), swung)
+        lifted = rotate_x(copy(holder.name, "elevation"), swung)
         lifted = self.program.vector(f"given_{point.name}_lifted", lifted)
-        from_center = rotate_z(self._last(holder.name, "azimuth"), lifted)
+        from_center = rotate_z(copy(holder.name, "azimuth"), lifted)
         center = self._from_driven(
             f"given_{holder.at.name}", self.kin.point_motion(holder.first, holder.at).position
         )
@@ -456,7 +466,7 @@ class _Closure:
             f"given_{telescope.end.name}",
             self.kin.point_motion(telescope.end_body, telescope.end).position,
         )
-        gap = self._by_chain(telescope, telescope.end) - end
+        gap = self._by_chain(telescope, telescope.end, self._first) - end
         return self.program.vector(f"given_gap_{telescope.end.name}", gap)
 
     def _in_marker_axes(self, joint: Cylindrical, point: Point) -> Vector:

@@ -143,6 +143,12 @@ def preference(topology: Topology, transformer: Transformer) -> str:
         f"{bodies_of(topology, cycle)} would leave {unknowns}"
         for cycle, unknowns in transformer.rivals
     )
+    if transformer.unknowns == min(unknowns for _, unknowns in transformer.rivals):
+        return (
+            f"No cycle of the same length has fewer than {transformer.unknowns} unknown relative "
+            f"coordinates at this point; of those with as many it is the first by the numbers of "
+            f"its bodies: {others}."
+        )
     return (
         f"Preferred over cycles of the same length because only {transformer.unknowns} of its "
         f"relative coordinates are unknown at this point: {others}."
