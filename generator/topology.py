@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import networkx as nx
 
+from .geometry import Direction
 from .joints import Prismatic, Revolute
 
 if TYPE_CHECKING:
@@ -52,7 +53,7 @@ class Cycle:
         """
         hinges = {j.axis.towards for j in self.joints if isinstance(j, Revolute)}
         kinds = all(isinstance(j, Revolute | Prismatic) for j in self.joints)
-        return kinds and len(hinges) == 1
+        return kinds and len(hinges) == 1 and isinstance(*hinges, Direction)
 
     @property
     def key(self) -> frozenset[str]:

@@ -12,10 +12,20 @@ from kintrafo.generator.geometry import FORWARD, Direction, Line, Point
 from kintrafo.generator.joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
 from kintrafo.generator.mechanism import Body, Mechanism, Model, RelativeCoordinate
 from kintrafo.generator.mechanisms import MODELS
+from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.generator.topology import Cycle, Topology, TopologyError
-from kintrafo.generator.transformer import NoClosedFormError, Plan
+from kintrafo.generator.transformer import (
+    NoClosedFormError,
+    Plan,
+    SolveHinge,
+    SolveSlide,
+    SolveTelescope,
+    SolveTurn,
+)
 
 MODEL = MODELS[0]
+PAPER = MODELS[:2]  # the paper's suspension, its rack prescribed and free
+BY_NAME = {model.name: model for model in MODELS}
 SUSPENSION = MODEL.mechanism
 
 
@@ -24,7 +34,7 @@ def topology() -> Topology:
     return Topology(SUSPENSION)
 
 
-@pytest.fixture(scope="module", params=MODELS, ids=lambda model: model.name)
+@pytest.fixture(scope="module", params=PAPER, ids=lambda model: model.name)
 def plan(request: pytest.FixtureRequest) -> Plan:
     return Plan.of(request.param)
 
@@ -120,6 +130,57 @@ def test_blocks_hand_on_what_they_solve(plan: Plan) -> None:
     assert second.inputs == (*first.outputs, "y.slide")
     assert "BC.angle" in second.outputs
     assert not set(first.outputs) & set(second.outputs)
+
+
+# -- the other mechanisms -------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("name", "mobility", "loops", "solutions"),
+    [
+        ("macpherson_general", 3, 0, [SolveTelescope, SolveTurn]),
+        ("double_wishbone", 3, 0, [SolveHinge, SolveTurn]),
+        ("four_bar", 1, 1, [SolveHinge]),
+        ("slider_crank", 1, 1, [SolveSlide]),
+        ("andrews", 1, 3, [SolveHinge, SolveHinge, SolveHinge]),
+    ],
+)
+def test_loops_are_found_and_solved(
+    name: str, mobility: int, loops: int, solutions: list[type]
+) -> None:
+    """The spatial count of Eq. 1 would give planar loops minus two freedoms each."""
+    plan = Plan.of(BY_NAME[name])
+    assert plan.topology.mobility == mobility
+    assert plan.topology.planar_loop_count == loops
+    assert [type(t.action) for t in plan.transformers] == solutions
+    assert all(t.pair.equations == 1 for t in plan.transformers)
+
+
+def test_strut_that_misses_the_ball_joint_gets_its_direction_from_the_rod() -> None:
+    first, second = Plan.of(BY_NAME["macpherson_general"]).transformers
+    assert first.outputs == ("BC.slide",)
+    assert {"BC.angle", "C.azimuth", "C.elevation"} <= set(second.outputs)
+
+
+def test_two_ball_joints_leave_the_turn_of_the_link_between_them_out() -> None:
+    first, _ = Plan.of(BY_NAME["double_wishbone"]).transformers
+    assert {joint.name for joint in first.pair.joints} == {"lower_ball", "upper_ball"}
+    assert (first.pair.eliminated, first.unknowns) == (6, 7)
+    assert first.outputs == ("upper_hinge.angle",)
+
+
+@pytest.mark.parametrize("count", [1, 2, 5])
+def test_chain_of_four_bars_has_one_freedom(count: int) -> None:
+    plan = Plan.of(n_four_bar(count))
+    assert plan.topology.mobility == 1
+    assert len(plan.transformers) == plan.topology.planar_loop_count == count
+
+
+def test_hinges_along_lines_between_points_are_not_taken_for_parallel() -> None:
+    cycle = Topology(loop_of(*[Revolute] * 4).mechanism).minimal_next([])[0]
+    assert not cycle.planar
+    planar = Topology(BY_NAME["four_bar"].mechanism).minimal_next([])[0]
+    assert planar.planar
 
 
 # -- any mechanism --------------------------------------------------------------------------------

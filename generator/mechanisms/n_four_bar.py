@@ -27,7 +27,7 @@ def _hinge(name: str, first: str, second: str, at: str) -> Revolute:
 
 
 def _bar(name: str, x: float, z: float) -> list[Parameter]:
-    """Return the parameters of a slender bar of 1 kg and 1 m, its centre at a place of the plane."""
+    """Return the parameters of a slender bar of 1 kg and 1 m, its centre at a given place."""
     return [
         Parameter(f"{name}_com_x", x, "m", f"centre of {name}, x"),
         Parameter(f"{name}_com_z", z, "m", f"centre of {name}, z"),
