@@ -347,14 +347,16 @@ class _Closure:
     ) -> Vector:
         """Return where a joint's coordinate takes a point of its second body, in parent axes."""
         if isinstance(joint, Prismatic):
-            return local + self.kin.local_direction(parent, joint.direction) * given
+            slid: Vector = local + self.kin.local_direction(parent, joint.direction) * given
+            return slid
         through = self.kin.local(parent, joint.axis.through)
         axis = self.kin.unit(f"{joint.name}_axis_design", self.kin.to_work(joint.axis.vector))
         n = to_axes(parent.design_axes, axis)
         arm = local - through
         along = n * n.dot(arm)
-        turned = (arm - along) * sp.cos(given) + n.cross(arm) * sp.sin(given)
-        return through + along + turned
+        across = (arm - along) * sp.cos(given) + n.cross(arm) * sp.sin(given)
+        turned: Vector = through + along + across
+        return turned
 
     def _shaft_residual(self, joint: Universal, kind: str, given: sp.Symbol) -> sp.Expr:
         """Eqs. 7 and 8: the angles of a shaft against its direction."""

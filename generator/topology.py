@@ -53,7 +53,8 @@ class Cycle:
         """
         hinges = {j.axis.towards for j in self.joints if isinstance(j, Revolute)}
         kinds = all(isinstance(j, Revolute | Prismatic) for j in self.joints)
-        return kinds and len(hinges) == 1 and isinstance(*hinges, Direction)
+        parallel = len(hinges) == 1 and all(isinstance(h, Direction) for h in hinges)
+        return kinds and parallel
 
     @property
     def key(self) -> frozenset[str]:

@@ -378,10 +378,10 @@ class Plan:
         settled = {rod, body} & self._placed or self._unknowns_of(joint) == 0
         if settled or not {parent, view.others[0]} <= self._placed:
             return None
-        given = body, joint, parent, rod, view.end, view.anchor, view.others[0]
+        held = parent, rod, view.end, view.anchor, view.others[0]
         if isinstance(joint, Revolute):
-            return SolveHinge(*given)
-        return SolveSlide(*given) if isinstance(joint, Prismatic) else None
+            return SolveHinge(body, joint, *held)
+        return SolveSlide(body, joint, *held) if isinstance(joint, Prismatic) else None
 
     def _telescope(self, view: _CutLoop) -> SolveTelescope | None:
         """Return the action for two links on a common axis, both ends on placed bodies."""
