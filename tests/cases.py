@@ -8,17 +8,27 @@ from dataclasses import dataclass
 from types import ModuleType
 
 import numpy as np
-from kintrafo.generated import macpherson, macpherson_free_rack
-from oracle.constraints import Array, Pose
-from oracle.multipliers import Solution, solve_free, solve_prescribed
+from kintrafo.generated import macpherson, macpherson_free_rack, macpherson_general
+from oracle.constraints import BODIES, Array, Pose
+from oracle.multipliers import (
+    ReducedEquations,
+    Solution,
+    reduced_equations,
+    solve_free,
+    solve_prescribed,
+)
 from oracle.newton import Mechanism, solve_pose
-from oracle.reference import Parameters, perturbed_parameters, reference_parameters, set_inertia
+from oracle.reference import (
+    Parameters,
+    completed,
+    general_parameters,
+    perturbed_parameters,
+    reference_parameters,
+    set_inertia,
+)
 
-MODELS = {module.NAME: module for module in (macpherson, macpherson_free_rack)}
+MODELS = {module.NAME: module for module in (macpherson, macpherson_free_rack, macpherson_general)}
 """The compiled modules by name."""
-
-MASSLESS = ("tie_rod", "rack", "upper_strut")
-"""The bodies whose mass the model with a prescribed rack leaves out."""
 
 
 @dataclass(frozen=True)
@@ -33,6 +43,7 @@ class Instant:
     rack_rate: float = 0.0
     rack_acceleration: float = 0.0
     road_height: float = 0.0
+    road_velocity: float = 0.0
     strut_force: float = 0.0
     rack_force: float = 0.0
 
@@ -65,12 +76,21 @@ class Instant:
     def solution(self, model: ModuleType, car: Mechanism) -> Solution:
         """Solve the dynamics of a model's kind with the oracle."""
         rates = self.beta1_rate, self.spin_rate, self.rack_rate
-        inputs = {"road_height": self.road_height, "strut_force": self.strut_force}
-        if model is macpherson:
+        pose, inputs = self.pose(car), self.road_and_strut()
+        if is_prescribed(model):
             inputs["rack_acceleration"] = self.rack_acceleration
-            return solve_prescribed(car, self.pose(car), *rates, **inputs)
-        inputs["rack_force"] = self.rack_force
-        return solve_free(car, self.pose(car), *rates, **inputs)
+            return solve_prescribed(car, pose, *rates, **inputs)
+        return solve_free(car, pose, *rates, rack_force=self.rack_force, **inputs)
+
+    def reduced(self, car: Mechanism) -> ReducedEquations:
+        """Project the equations of motion with the oracle."""
+        rates = self.beta1_rate, self.spin_rate, self.rack_rate
+        inputs = self.road_and_strut() | {"rack_force": self.rack_force}
+        return reduced_equations(car, self.pose(car), *rates, **inputs)
+
+    def road_and_strut(self) -> dict[str, float]:
+        """Return the inputs that all models share, in the words of the oracle."""
+        return {name: vars(self)[name] for name in ("road_height", "road_velocity", "strut_force")}
 
 
 @dataclass(frozen=True)
@@ -113,6 +133,7 @@ def random_instants(rng: np.random.Generator, car: Mechanism, count: int) -> lis
             rack_rate=0.4 * rng.standard_normal(),
             rack_acceleration=8.0 * rng.standard_normal(),
             road_height=0.02 * rng.standard_normal(),
+            road_velocity=rng.standard_normal(),
             strut_force=600.0 * rng.standard_normal(),
             rack_force=300.0 * rng.standard_normal(),
         )
@@ -120,18 +141,37 @@ def random_instants(rng: np.random.Generator, car: Mechanism, count: int) -> lis
     ]
 
 
-def car_parameters(seed: int) -> Parameters:
-    """Return the reference car for seed 0, a general car near it for every other seed."""
+def is_prescribed(model: ModuleType) -> bool:
+    """Tell whether the rack of a model follows its inputs."""
+    return "rack_position" in model.INPUTS
+
+
+def car_parameters(seed: int, model: ModuleType = macpherson) -> Parameters:
+    """Return the reference car for seed 0, a general car near it for every other seed.
+
+    For the general model those have all that it describes; with every third of them the tyre
+    holds on to the road.
+    """
     if seed == 0:
-        return reference_parameters()
-    return perturbed_parameters(np.random.default_rng(seed))
+        return of_model(model, reference_parameters())
+    rng = np.random.default_rng(seed)
+    if model is not macpherson_general:
+        return perturbed_parameters(rng)
+    parameters = general_parameters(rng, offset=rng.uniform(0.0, 0.08))
+    return of_model(model, parameters | {"tyre_lifts_off": float(seed % 3 != 0)})
+
+
+def of_model(model: ModuleType, parameters: Parameters) -> Parameters:
+    """Return exactly the parameters that a model takes; those that are absent have no effect."""
+    complete = completed(parameters)
+    return {name: complete[name] for name in model.PARAMETERS}
 
 
 def counted_by(model: ModuleType, parameters: Parameters) -> Parameters:
-    """Return the parameters of what a model describes: the prescribed one leaves masses out."""
+    """Return the parameters of what a model describes: bodies that it leaves out have no mass."""
     counted = dict(parameters)
-    if model is macpherson:
-        for body in MASSLESS:
+    for body in BODIES:
+        if body not in model.MASSIVE_BODIES:
             counted[f"{body}_mass"] = 0.0
             set_inertia(counted, body, np.zeros((3, 3)))
     return counted

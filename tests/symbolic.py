@@ -123,14 +123,31 @@ def _sign(x: Any) -> int:
     return 1 if Rounded.of(x).value >= 0 else -1
 
 
+def _positive(x: Any) -> Any:
+    return x if Rounded.of(x).value > 0 else 0 * x
+
+
+def _is_positive(x: Any) -> int:
+    """Return on which side of a kink the tests are: so far from it that no rounding matters."""
+    x = Rounded.of(x)
+    assert abs(x.value) > x.error
+    return int(x.value > 0)
+
+
 class _Printer(MpmathPrinter):
-    """SymPy's printer, with the project's two functions."""
+    """SymPy's printer, with the project's functions."""
 
     def _print_Guarded(self, call: Any) -> str:
         return f"guarded({self._print(call.args[0])})"
 
     def _print_SignOf(self, call: Any) -> str:
         return f"sign({self._print(call.args[0])})"
+
+    def _print_Positive(self, call: Any) -> str:
+        return f"positive({self._print(call.args[0])})"
+
+    def _print_IsPositive(self, call: Any) -> str:
+        return f"is_positive({self._print(call.args[0])})"
 
 
 @cache
@@ -150,6 +167,8 @@ def python(function: Function) -> Any:
         "atan2": _angle,
         "guarded": _guarded,
         "sign": _sign,
+        "positive": _positive,
+        "is_positive": _is_positive,
     }
     exec("\n".join(lines), names)
     return names["run"]

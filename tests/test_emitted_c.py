@@ -60,7 +60,7 @@ def test_functions_against_the_symbolic_program(
     derived: Callable[[str], GeneratedModel], name: str, seed: int
 ) -> None:
     model, compiled = derived(name), MODELS[name]
-    parameters = car_parameters(seed)
+    parameters = car_parameters(seed, compiled)
     constants = compiled.prepare(parameters)
     # the constants as C computed them are exact inputs of the other functions
     given = dict(zip(model.prepare.labels, constants.tolist(), strict=True))
@@ -93,7 +93,7 @@ def test_functions_against_the_symbolic_program(
 def test_constants_against_the_symbolic_program(
     derived: Callable[[str], GeneratedModel], name: str, seed: int
 ) -> None:
-    parameters = car_parameters(seed)
+    parameters = car_parameters(seed, MODELS[name])
     found = MODELS[name].prepare(parameters)
     prepare = derived(name).prepare
     assert prepare.labels == MODELS[name].CONSTANTS

@@ -11,12 +11,12 @@ from collections.abc import Callable
 import mpmath
 import numpy as np
 import pytest
-from cases import MODELS, At, Instant, car_parameters, random_instants
-from kintrafo.generated import macpherson
+from cases import MODELS, At, Instant, car_parameters, is_prescribed, random_instants
 from kintrafo.generator.outputs import GeneratedModel
 from oracle.constraints import BODIES, Array
 from oracle.multipliers import reduced_equations, solve_twist
 from oracle.newton import Mechanism
+from oracle.reference import BETA1_DESIGN
 from symbolic import python
 
 SEEDS = range(4)  # 0 is the reference car
@@ -25,7 +25,8 @@ POINTS = 3  # for each car
 
 def places(name: str, seed: int) -> tuple[Mechanism, list[At]]:
     """Return the oracle of a car, and a model of it at random instants."""
-    model, parameters = MODELS[name], car_parameters(seed)
+    model = MODELS[name]
+    parameters = car_parameters(seed, model)
     car, constants = Mechanism(parameters), model.prepare(parameters)
     instants = random_instants(np.random.default_rng(seed), car, POINTS)
     return car, [At(model, instant, constants) for instant in instants]
@@ -114,8 +115,10 @@ def test_derivatives_of_the_program(
         model = derived(at.model.NAME)
         with mpmath.workdps(50):
             expected = gradient_of_program(model, function, at, names)
-        # Row by row, since a row has one unit: some hundred roundings of its largest element.
-        size = np.abs(expected).max(axis=1, keepdims=True)
+        # Row by row, since a row has one unit: some hundred roundings of its largest element. Of
+        # one where nothing acts (the spring's length by the rack, with a seat at the ball joint)
+        # the roundings of what cancels remain.
+        size = np.maximum(np.abs(expected).max(axis=1, keepdims=True), 1.0)
         assert (np.abs(found - expected) <= 1e-12 * size).all()
 
 
@@ -139,9 +142,41 @@ def test_derivatives_of_the_compiled_functions(
         place = {"STATE": at.state, "INPUTS": at.inputs}[by][:width]
         expected = gradient(moved, 2e-3 * np.maximum(1.0, np.abs(place)))
         # The function's roundings over the step, some 1e-15 / 2e-3, and the ninth derivative times
-        # the eighth power of the step.
+        # the eighth power of the step. No instant is so near to a kink of a force that a step
+        # crosses it.
         size = np.maximum(np.abs(expected).max(axis=1, keepdims=True), 1.0)
         assert (np.abs(found - expected) <= 1e-9 * size).all()
+
+
+@pytest.mark.parametrize(
+    ("parameter", "signal"),
+    [
+        ("bump_stop_length", "strut_length"),
+        ("rebound_stop_length", "strut_length"),
+        ("tyre_free_height", "wheel_center_z"),
+    ],
+)
+def test_derivatives_on_both_sides_of_a_kink(
+    derived: Callable[[str], GeneratedModel], parameter: str, signal: str
+) -> None:
+    """A nanometre from first touch, or from the air, the derivative is that of its own side."""
+    name, touch = "macpherson_general", {"tyre_damper_rate": 0.0}
+    instant = Instant(BETA1_DESIGN, 0.5, 0.01, 0.3, 50.0, 0.1)
+
+    def at_kink(distance: float) -> At:
+        model, parameters = MODELS[name], car_parameters(1, MODELS[name]) | touch
+        now = At(model, instant, model.prepare(parameters))("signals")
+        place = now[list(model.SIGNALS).index(signal)]
+        return At(model, instant, model.prepare(parameters | {parameter: place + distance}))
+
+    sides = [at_kink(distance) for distance in (-1e-9, 1e-9)]
+    before, behind = (at("rhs_jacobian") for at in sides)
+    for at, found in zip(sides, (before, behind), strict=True):
+        with mpmath.workdps(50):
+            expected = gradient_of_program(derived(name), "rhs", at, list(at.model.STATE))
+        size = np.abs(expected).max(axis=1, keepdims=True)
+        assert (np.abs(found - expected) <= 1e-12 * size + 1e-12).all()
+    assert np.abs(behind - before).max() > 100.0  # rigidities over the mass, in 1/s²
 
 
 def test_derivatives_of_the_closure(car_and_places: tuple[Mechanism, list[At]]) -> None:
@@ -223,7 +258,7 @@ def test_global_jacobian_gives_the_velocities(car_and_places: tuple[Mechanism, l
     """With the rack at rest the twists of the massive bodies are the Jacobian times the rates."""
     for at in car_and_places[1]:
         model, state, inputs = at.model, at.state, at.inputs
-        if model is macpherson:
+        if is_prescribed(model):
             inputs[list(model.INPUTS).index("rack_velocity")] = 0.0
         rows = [model.BODIES.index(body) for body in model.MASSIVE_BODIES]
         twists = model.velocities(state, inputs, at.constants)[rows].ravel()

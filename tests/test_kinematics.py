@@ -1,12 +1,14 @@
 """Closed-form poses: against the reference car, against Newton, and in the paper's coordinates."""
 
 from dataclasses import dataclass
+from functools import cache
+from types import ModuleType
 
 import numpy as np
 import pytest
-from cases import MODELS, Instant, car_parameters
-from kintrafo.generated import macpherson
-from oracle.constraints import ARM, KNUCKLE, RACK, WHEEL, Array, Pose
+from cases import MODELS, At, Instant, car_parameters
+from kintrafo.generated import macpherson, macpherson_general
+from oracle.constraints import KNUCKLE, RACK, WHEEL, Array, Pose
 from oracle.newton import Mechanism, observe, solve_pose_at_height
 from oracle.reference import (
     BETA1_DESIGN,
@@ -16,37 +18,56 @@ from oracle.reference import (
     vector,
 )
 
-SEEDS = range(5)  # 0 is the reference car
+# 0 is the reference car; of the others, those that reach the ends of the travel below
+SEEDS = {
+    "macpherson": range(5),
+    "macpherson_free_rack": range(5),
+    "macpherson_general": (0, 1, 2, 4, 6),
+}
 SPIN = 2.5
 
 
 @dataclass(frozen=True)
-class Placed:
-    """A pose that Newton found, and the instant that the closed form is given for it."""
+class Placed(At):
+    """A model at an instant, and the pose that Newton found for it."""
 
     car: Mechanism
     pose: Pose
-    instant: Instant
-    constants: dict[str, Array]
+
+    def residuals(self, beta: Array) -> Array:
+        """Evaluate the closure equations at given relative coordinates."""
+        return self.model.residuals(beta, self.state, self.inputs, self.constants)
 
 
-@pytest.fixture(scope="module", params=SEEDS, ids=lambda seed: f"car{seed}")
-def travel(request: pytest.FixtureRequest) -> list[Placed]:
-    """Poses over a travel of 0.15 m up and down and rack displacements of 60 mm to both sides."""
-    parameters = car_parameters(request.param)
-    car = Mechanism(parameters)
-    constants = {name: model.prepare(parameters) for name, model in MODELS.items()}
+@cache
+def poses(car_of: ModuleType, seed: int) -> tuple[Mechanism, list[tuple[Instant, Pose]]]:
+    """Return poses over a travel of 0.15 m up and down, and 60 mm of the rack to both sides."""
+    car = Mechanism(car_parameters(seed, car_of))
     middle = car.points["wheel_center"][2]
-    finest = request.param == 0
-    placed = []
+    finest = seed == 0
+    found = []
     for rack in np.linspace(-0.06, 0.06, 7 if finest else 3):
         start = None
         for height in middle + np.linspace(-0.15, 0.15, 13 if finest else 5):
             # Newton by height tells how far the arm turns; its angle then is exact by definition.
             start = solve_pose_at_height(car, height, rack, SPIN, start)
             instant = Instant(car.beta1(start), SPIN, rack)
-            placed.append(Placed(car, instant.pose(car, start), instant, constants))
-    return placed
+            found.append((instant, instant.pose(car, start)))
+    return car, found
+
+
+@pytest.fixture(
+    scope="module",
+    params=[(name, seed) for name in MODELS for seed in SEEDS[name]],
+    ids=lambda value: f"{value[0]}-car{value[1]}",
+)
+def travel(request: pytest.FixtureRequest) -> list[Placed]:
+    name, seed = request.param
+    model = MODELS[name]
+    # the two models of the paper's suspension have the same poses
+    car, found = poses(model if model is macpherson_general else macpherson, seed)
+    constants = model.prepare(car_parameters(seed, model))
+    return [Placed(model, instant, constants, car, pose) for instant, pose in found]
 
 
 each_model = pytest.mark.parametrize("model", MODELS.values(), ids=MODELS.keys())
@@ -66,27 +87,30 @@ def test_reference_car(row: Array) -> None:
     assert {name: found[name] for name in expected} == pytest.approx(expected, rel=0.0, abs=2e-13)
 
 
-@each_model
-def test_positions_and_orientations_are_newtons(model, travel: list[Placed]) -> None:
+def test_positions_and_orientations_are_newtons(travel: list[Placed]) -> None:
     """Both sides carry a few roundings of numbers of order one; Newton's conditioning adds ten."""
     for place in travel:
-        state, inputs = place.instant.arrays(model)
-        constants = place.constants[model.NAME]
-        assert np.abs(model.positions(state, inputs, constants) - place.pose.position).max() < 1e-12
-        assert (
-            np.abs(model.orientations(state, inputs, constants) - place.pose.rotation).max() < 1e-12
-        )
+        assert np.abs(place("positions") - place.pose.position).max() < 1e-12
+        assert np.abs(place("orientations") - place.pose.rotation).max() < 1e-12
 
 
-@each_model
-def test_loops_close(model, travel: list[Placed]) -> None:
+def test_loops_close(travel: list[Placed]) -> None:
     """The residuals are lengths below 1 m and sines: 1e-14 is fifty roundings of those."""
     for place in travel:
-        state, inputs = place.instant.arrays(model)
-        constants = place.constants[model.NAME]
-        beta = model.relative_coordinates(state, inputs, constants)
-        residual = model.residuals(beta, state, inputs, constants)
-        assert np.abs(residual).max() <= 1e-14
+        assert np.abs(place.residuals(place("relative_coordinates"))).max() <= 1e-14
+
+
+def test_residuals_determine_the_coordinates(travel: list[Placed]) -> None:
+    """A step of any size in any direction leaves residuals in proportion to it."""
+    for place in travel[::4]:
+        beta = place("relative_coordinates")
+        step = 1e-5
+        columns = [
+            (place.residuals(beta + h) - place.residuals(beta - h)) / (2.0 * step)
+            for h in step * np.eye(len(beta))
+        ]
+        # Lengths of 0.1 m to 1 m by angles; the least is the azimuth of a strut close to vertical.
+        assert np.linalg.svd(np.array(columns), compute_uv=False)[-1] > 0.01
 
 
 def rotation_x(angle: float) -> Array:
@@ -108,12 +132,12 @@ def elevation_and_azimuth(direction: Array) -> tuple[float, float]:
 def coordinates_of(car: Mechanism, pose: Pose) -> dict[str, float]:
     """Measure the relative coordinates on a pose, by the paper's definitions and no equation."""
     top = car.points["strut_top"]
-    ball = car.point(pose, "ball_joint", ARM)
-    strut = ball - top
+    lower = car.point(pose, "strut_lower", KNUCKLE)
+    strut = lower - top
     beta3, beta4 = elevation_and_azimuth(strut)
     frame = rotation_z(beta4) @ rotation_x(beta3)
-    # H is on the strut, so G - H across the strut is G - B across the strut.
-    across = frame.T @ (pose.position[WHEEL - 1] - ball)
+    # H is on the strut, as is its lower end: from both, G is as far across the strut.
+    across = frame.T @ (pose.position[WHEEL - 1] - lower)
     rod = car.point(pose, "tie_rod_outer", KNUCKLE) - car.point(pose, "tie_rod_inner", RACK)
     beta11, beta12 = elevation_and_azimuth(rod)
     slide = car.parameters["strut_length_max"] - float(np.linalg.norm(strut))
@@ -133,41 +157,46 @@ def coordinates_of(car: Mechanism, pose: Pose) -> dict[str, float]:
     }
 
 
-@each_model
-def test_relative_coordinates_are_the_papers(model, travel: list[Placed]) -> None:
+def test_relative_coordinates_are_the_papers(travel: list[Placed]) -> None:
     for place in travel:
-        state, inputs = place.instant.arrays(model)
-        beta = model.relative_coordinates(state, inputs, place.constants[model.NAME])
-        found = dict(zip(model.RELATIVE_COORDINATES, beta, strict=True))
+        beta = place("relative_coordinates")
+        found = dict(zip(place.model.RELATIVE_COORDINATES, beta, strict=True))
         expected = coordinates_of(place.car, place.pose)
         # The strut is within 20 degrees of vertical: its azimuth is three times worse conditioned
         # than its direction, which Newton gives to 1e-15.
         assert found == pytest.approx({name: expected[name] for name in found}, rel=0.0, abs=1e-13)
 
 
-@each_model
-def test_paper_equations_from_the_coordinates(model, travel: list[Placed]) -> None:
+def test_paper_equations_from_the_coordinates(travel: list[Placed]) -> None:
     """Eq. 6, 17 and 18 with their rotations give back the ball joint and the wheel centre."""
     for place in travel:
-        car = place.car
-        state, inputs = place.instant.arrays(model)
-        beta = model.relative_coordinates(state, inputs, place.constants[model.NAME])
-        beta1, beta2, beta3, beta4 = beta[:4]
-        beta10 = beta[9]
-        radius = np.linalg.norm(car.points["ball_joint"] - car.hinge_foot)
-        _, h_y, h_z = car.hinge
-        ball = car.hinge_foot + radius * (np.sin(beta1) * h_y + np.cos(beta1) * h_z)
+        car, point = place.car, place.car.points
+        beta = place("relative_coordinates")
+        beta1, beta2, beta3, beta4, beta10 = *beta[:4], beta[9]
         frame = rotation_z(beta4) @ rotation_x(beta3)
         length = car.parameters["strut_length_max"] - beta2
-        assert car.points["strut_top"] + length * frame[:, 1] == pytest.approx(ball, abs=1e-14)
 
-        line = car.points["ball_joint"] - car.points["strut_top"]
+        # the knuckle about the strut's axis: z' is the direction of the wheel centre across it
+        line = point["strut_lower"] - point["strut_top"]
         line = line / np.linalg.norm(line)
-        offset = car.points["wheel_center"] - car.points["ball_joint"]
-        along, across = offset @ line, np.linalg.norm(offset - (offset @ line) * line)
-        wheel = ball + frame @ [-across * np.sin(beta10), along, across * np.cos(beta10)]
+        mark = point["wheel_center"] - point["strut_lower"]
+        z = mark - (mark @ line) * line
+        z = z / np.linalg.norm(z)
+        basis = np.array([np.cross(line, z), line, z])
+
+        def by_chain(name: str) -> Array:
+            """Return where the chain of joints through the strut takes a point of the knuckle."""
+            x, y, z = basis @ (point[name] - point["strut_lower"])  # noqa: B023
+            c, s = np.cos(beta10), np.sin(beta10)  # noqa: B023
+            swung = np.array([c * x - s * z, length + y, s * x + c * z])  # noqa: B023
+            return point["strut_top"] + frame @ swung  # noqa: B023
+
+        radius = np.linalg.norm(point["ball_joint"] - car.hinge_foot)
+        _, h_y, h_z = car.hinge
+        ball = car.hinge_foot + radius * (np.sin(beta1) * h_y + np.cos(beta1) * h_z)
         # a few roundings of lengths below 1 m
-        assert wheel == pytest.approx(place.pose.position[WHEEL - 1], abs=1e-14)
+        assert by_chain("ball_joint") == pytest.approx(ball, abs=1e-14)
+        assert by_chain("wheel_center") == pytest.approx(place.pose.position[WHEEL - 1], abs=1e-14)
 
 
 @pytest.mark.parametrize(
@@ -177,33 +206,36 @@ def test_paper_equations_from_the_coordinates(model, travel: list[Placed]) -> No
 )
 def test_a_fault_leaves_a_residual(model, coordinate: str) -> None:
     """The equation of each coordinate sees it change."""
-    state, inputs = Instant(BETA1_DESIGN - 0.2, SPIN, 0.02).arrays(model)
     index = list(model.RELATIVE_COORDINATES).index(coordinate)
-    beta = model.relative_coordinates(state, inputs)
-    fault = 1e-6
-    beta[index] += fault
-    residual = model.residuals(beta, state, inputs)
-    # The least sensitive ones: the length of the rod changes by its arm of 0.15 m times a sine
-    # (beta10), and the sine of a steep strut's elevation by the cosine (beta3): 0.1 or more.
-    assert 0.05 * fault < abs(residual[index]) < 1.5 * fault
+    for seed in (0, 1):
+        constants = model.prepare(car_parameters(seed, model))
+        at = At(model, Instant(BETA1_DESIGN - 0.2, SPIN, 0.02), constants)
+        beta = at("relative_coordinates")
+        fault = 1e-6
+        beta[index] += fault
+        residual = model.residuals(beta, at.state, at.inputs, constants)
+        # The least sensitive ones: the length of the rod changes by its arm of 0.15 m times a sine
+        # (beta10), and the sine of a steep strut's elevation by the cosine (beta3): 0.1 or more.
+        assert 0.05 * fault < abs(residual[index]) < 1.5 * fault
 
 
+@pytest.mark.parametrize("model", [macpherson, macpherson_general], ids=lambda m: m.NAME)
 @pytest.mark.parametrize("seed", range(3))
-def test_left_suspension_is_the_mirror_image(seed: int) -> None:
+def test_left_suspension_is_the_mirror_image(model, seed: int) -> None:
     """Same arm, spin and rack coordinates; camber and toe stay, the steer angle changes sign."""
-    parameters = car_parameters(seed)
-    right = macpherson.prepare(parameters)
-    left = macpherson.prepare(mirrored_parameters(parameters))
-    state, inputs = Instant(BETA1_DESIGN + 0.1, SPIN, 0.02, 1.0, 50.0, 0.2).arrays(macpherson)
+    parameters = car_parameters(seed, model)
+    right = model.prepare(parameters)
+    left = model.prepare(mirrored_parameters(parameters))
+    state, inputs = Instant(BETA1_DESIGN + 0.1, SPIN, 0.02, 1.0, 50.0, 0.2).arrays(model)
     flip = np.array([1.0, -1.0, 1.0])
     # a few roundings of positions of order one
-    assert macpherson.positions(state, inputs, left) * flip == pytest.approx(
-        macpherson.positions(state, inputs, right), abs=1e-14
+    assert model.positions(state, inputs, left) * flip == pytest.approx(
+        model.positions(state, inputs, right), abs=1e-14
     )
     seen = {}
     for side, constants in (("right", right), ("left", left)):
-        values = macpherson.signals(state, inputs, constants)
-        seen[side] = dict(zip(macpherson.SIGNALS, values, strict=True))
+        values = model.signals(state, inputs, constants)
+        seen[side] = dict(zip(model.SIGNALS, values, strict=True))
     seen["left"]["steer"] *= -1.0
     seen["left"]["wheel_center_y"] *= -1.0
     # forces are up to 1e4 N: relative to the largest signal
@@ -212,23 +244,20 @@ def test_left_suspension_is_the_mirror_image(seed: int) -> None:
 
 def test_wheel_angles_of_general_cars(travel: list[Placed]) -> None:
     """Camber, toe and steer of a wheel whose spin axis is not along y at design."""
+    names = ["camber", "toe", "steer", "strut_length"] + [f"wheel_center_{a}" for a in "xyz"]
     for place in travel:
-        state, inputs = place.instant.arrays(macpherson)
-        values = macpherson.signals(state, inputs, place.constants["macpherson"])
-        found = dict(zip(macpherson.SIGNALS, values, strict=True))
+        found = dict(zip(place.model.SIGNALS, place("signals"), strict=True))
         seen = observe(place.car, place.pose)
         expected = [seen.camber, seen.toe, seen.steer, seen.strut_length, *seen.wheel_center]
-        names = ["camber", "toe", "steer", "strut_length"] + [f"wheel_center_{a}" for a in "xyz"]
         assert [found[name] for name in names] == pytest.approx(expected, rel=0.0, abs=1e-13)
 
 
-def test_bodies_in_order() -> None:
+@each_model
+def test_bodies_in_order(model) -> None:
     """At design every body is where its parameters say, in the order of `BODIES`."""
-    parameters = car_parameters(1)
-    car = Mechanism(parameters)
-    for model in MODELS.values():
-        state = Instant(car.beta1_design).state(model)
-        positions = model.positions(state, None, model.prepare(parameters))
-        for body, position in zip(model.BODIES, positions, strict=True):
-            name = "wheel_center" if body == "wheel" else f"{body}_com"
-            assert position == pytest.approx(vector(parameters, name), abs=1e-15)
+    parameters = car_parameters(1, model)
+    state = Instant(Mechanism(parameters).beta1_design).state(model)
+    positions = model.positions(state, None, model.prepare(parameters))
+    for body, position in zip(model.BODIES, positions, strict=True):
+        name = "wheel_center" if body == "wheel" else f"{body}_com"
+        assert position == pytest.approx(vector(parameters, name), abs=1e-15)

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 from cases import MODELS, At, car_parameters, counted_by, random_instants
-from oracle.constraints import ARM, KNUCKLE, RACK, WHEEL, Array, unit
+from kintrafo.generated import macpherson_general
+from oracle.constraints import ARM, KNUCKLE, RACK, WHEEL, Array, Pose, unit
 from oracle.multipliers import reduced_equations
 from oracle.newton import X_AXIS, Z_AXIS, Mechanism
 
@@ -18,22 +19,18 @@ def squared(v: Array) -> float:
 def measured(car: Mechanism, at: At) -> dict[str, float]:
     """Return all margins from where the points are, and from the mass matrix of the oracle."""
     pose = at.instant.pose(car)
-    top, ball = car.points["strut_top"], car.point(pose, "ball_joint", ARM)
-    outer, inner = car.point(pose, "tie_rod_outer", KNUCKLE), car.point(pose, "tie_rod_inner", RACK)
-    strut, rod = unit(ball - top), unit(outer - inner)
-    reach = inner - top
-    arm = outer - ball
-    normal = np.cross(strut, unit(arm - (arm @ strut) * strut))
     axis = pose.rotation[WHEEL - 1] @ car.spin_axis
+    strut, rod = directions(car, pose)
+    spring = car.point(pose, "spring_seat", KNUCKLE) - car.points["spring_top"]
     # The wheel's spin is eliminated first, then one coordinate after the other.
     mass = reduced_equations(car, pose, 0.0, 0.0).mass_matrix
     rest = mass[np.ix_([0, 2], [0, 2])] - np.outer(mass[[0, 2], 1], mass[1, [0, 2]]) / mass[1, 1]
+    knuckle = knuckle_off_axis if at.model is macpherson_general else knuckle_on_axis
     return {
-        "length_squared_BC": squared(ball - top),
+        **knuckle(car, pose),
         "upper_strut_cross_squared": squared(np.cross(X_AXIS, strut)),
-        "knuckle_reach_squared": squared(np.cross(strut, reach)),
-        "knuckle_closure": float((outer - inner) @ normal) ** 2,
         "tie_rod_cross_squared": squared(np.cross(Z_AXIS, rod)),
+        "spring_length_squared": squared(spring),
         "cos_camber_squared": 1.0 - axis[2] ** 2,
         "pivot_beta1": rest[0, 0],
         "pivot_beta9": rest[1, 1] - rest[0, 1] ** 2 / rest[0, 0],
@@ -42,10 +39,56 @@ def measured(car: Mechanism, at: At) -> dict[str, float]:
     }
 
 
+def directions(car: Mechanism, pose: Pose) -> tuple[Array, Array]:
+    """Return the unit vectors of the strut, downwards, and of the tie rod, from the rack."""
+    outer, inner = car.point(pose, "tie_rod_outer", KNUCKLE), car.point(pose, "tie_rod_inner", RACK)
+    return unit(car.point(pose, "strut_lower", KNUCKLE) - car.points["strut_top"]), unit(
+        outer - inner
+    )
+
+
+def steering(car: Mechanism, pose: Pose) -> tuple[Array, Array, Array, Array]:
+    """Return strut top to ball joint, ball joint to both ends of the rod, and the rod."""
+    top, ball = car.points["strut_top"], car.point(pose, "ball_joint", ARM)
+    outer, inner = car.point(pose, "tie_rod_outer", KNUCKLE), car.point(pose, "tie_rod_inner", RACK)
+    return ball - top, outer - ball, inner - ball, outer - inner
+
+
+def knuckle_on_axis(car: Mechanism, pose: Pose) -> dict[str, float]:
+    """Return the margins of a knuckle that turns about a strut through its ball joint.
+
+    Its closure is how far the rod reaches across the plane of strut and lever.
+    """
+    span, arm, reach, rod = steering(car, pose)
+    strut = unit(span)
+    normal = np.cross(strut, unit(arm - (arm @ strut) * strut))
+    return {
+        "length_squared_BC": squared(span),
+        "knuckle_reach_squared": squared(np.cross(strut, reach)),
+        "knuckle_closure": float(rod @ normal) ** 2,
+    }
+
+
+def knuckle_off_axis(car: Mechanism, pose: Pose) -> dict[str, float]:
+    """Return the margins of a knuckle whose ball joint is beside the strut's axis.
+
+    Its closure is how far the end of the rod is from the plane of its anchor, ball joint and top.
+    """
+    span, arm, reach, _ = steering(car, pose)
+    strut, _ = directions(car, pose)
+    normal = np.cross(span, reach)
+    return {
+        "length_squared_BC": float(span @ strut) ** 2,
+        "knuckle_reach_squared": squared(normal),
+        "knuckle_closure": float(arm @ unit(normal)) ** 2,
+        "knuckle_plane_squared": squared(np.cross(span, arm)),
+    }
+
+
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("model", MODELS.values(), ids=MODELS.keys())
 def test_margins(model, seed: int) -> None:
-    parameters = car_parameters(seed)
+    parameters = car_parameters(seed, model)
     constants = model.prepare(parameters)
     car = Mechanism(counted_by(model, parameters))
     for instant in random_instants(np.random.default_rng(seed), car, POINTS):

@@ -80,8 +80,8 @@ def evaluate(
     return python(model.functions[function])(values)
 
 
-def instants(seed: int) -> tuple[Parameters, list[Instant]]:
-    parameters = car_parameters(seed)
+def instants(name: str, seed: int) -> tuple[Parameters, list[Instant]]:
+    parameters = car_parameters(seed, MODELS[name])
     car = Mechanism(parameters)
     return parameters, random_instants(np.random.default_rng(50 + seed), car, POINTS)
 
@@ -95,7 +95,7 @@ def test_folding_is_exact(
     function: str,
     seed: int,
 ) -> None:
-    parameters, at_instants = instants(seed)
+    parameters, at_instants = instants(name, seed)
     for instant in at_instants:
         arrays = instant.arrays(MODELS[name])
         with mpmath.workdps(50):
@@ -114,7 +114,7 @@ def test_folding_is_exact(
 @pytest.mark.parametrize("name", MODELS)
 def test_unbalanced_wheel(name: str, seed: int) -> None:
     """A wheel that is no body of revolution: the equations depend on the spin angle."""
-    parameters, at_instants = instants(seed)
+    parameters, at_instants = instants(name, seed)
     tensor = inertia(parameters, "wheel") + np.array(
         [[0.10, 0.03, -0.05], [0.03, 0.02, 0.04], [-0.05, 0.04, 0.15]]
     )
