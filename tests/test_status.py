@@ -9,18 +9,20 @@ from types import ModuleType
 import numpy as np
 import pytest
 from c_text import functions
-from cases import MODELS, Instant, car_parameters
+from cases import MODELS, Instant, car_parameters, of_model
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kintrafo.generated import macpherson, macpherson_free_rack
+from kintrafo.generated import macpherson, macpherson_free_rack, macpherson_general
 from kintrafo.generated._support import ClosureError, ModelError, ParameterError
-from oracle.constraints import Array
+from oracle.constraints import KNUCKLE, Array
 from oracle.newton import Mechanism, rotation_matrix
 from oracle.reference import (
     BETA1_DESIGN,
     HARDPOINTS,
     SPIN_RATE,
+    STAND_INS,
     Parameters,
+    offset_from_ball_joint,
     reference_parameters,
     set_inertia,
     set_vector,
@@ -137,7 +139,6 @@ class Edge:
     guard: str
     function: str
     build: Callable[[], tuple[Parameters, Instant]]
-    model: ModuleType = macpherson
 
 
 def ball_joint_at(parameters: Parameters, beta1: float) -> Array:
@@ -206,8 +207,51 @@ def flat_wheel(beta1: float) -> tuple[Parameters, Instant]:
     return parameters, instant
 
 
+def top_within_the_offset() -> tuple[Parameters, Instant]:
+    """Return a car whose ball joint comes nearer to the strut top than to the strut's axis."""
+    parameters, instant = strut_along(np.array([0.01, 0.01, 0.01]))
+    ball, top = vector(parameters, "ball_joint"), vector(parameters, "strut_top")
+    offset = offset_from_ball_joint(ball, top, 0.05, 1.0)
+    set_vector(parameters, "strut_lower", ball + offset)
+    return parameters, instant
+
+
+def rod_end_on_the_line_of_the_knuckle() -> tuple[Parameters, Instant]:
+    """Return a car whose outer rod end comes onto the line from ball joint to strut top.
+
+    With an offset strut that line turns in the knuckle as the strut slides. The inner end is where
+    the rod has the same length then as at design.
+    """
+    parameters = reference_parameters()
+    instant = Instant(BETA1_DESIGN - 0.3)
+    ball, top = vector(parameters, "ball_joint"), vector(parameters, "strut_top")
+    lower = ball + offset_from_ball_joint(ball, top, 0.08, 0.0)
+    axis = (lower - top) / np.linalg.norm(lower - top)
+    ball_now = ball_joint_at(parameters, instant.beta1)
+    reach = (ball - top) @ axis
+    reach_now = np.sqrt((ball_now - top) @ (ball_now - top) - 0.08**2)
+    top_seen = top + (reach - reach_now) * axis  # as drawn on the knuckle
+    outer, outer_now = ball + 0.4 * (top_seen - ball), ball_now + 0.4 * (top - ball_now)
+    step = outer_now - outer
+    across = np.cross(step, FORWARD)
+    inner = 0.5 * (outer + outer_now) + 0.3 * across / np.linalg.norm(across)
+    for name, place in (("strut_lower", lower), ("tie_rod_outer", outer), ("tie_rod_inner", inner)):
+        set_vector(parameters, name, place)
+    return parameters, instant
+
+
+def spring_without_length() -> tuple[Parameters, Instant]:
+    """Return a car whose spring seats meet once the arm has turned."""
+    parameters = reference_parameters()
+    instant = Instant(BETA1_DESIGN - 0.3)
+    set_vector(parameters, "spring_seat", vector(parameters, "ball_joint") + 0.3 * UP)
+    car = Mechanism(parameters)
+    seat = car.point(instant.pose(car), "spring_seat", KNUCKLE)
+    set_vector(parameters, "spring_top", seat)
+    return parameters, instant
+
+
 EDGES = [
-    Edge("length_squared_BC", "rhs", lambda: strut_along(0.0 * UP)),
     Edge("upper_strut_cross_squared", "positions", lambda: strut_along(0.6 * FORWARD)),
     Edge("knuckle_reach_squared", "rhs", rod_end_on_the_strut),
     Edge(
@@ -218,34 +262,59 @@ EDGES = [
     Edge("tie_rod_cross_squared", "orientations", lambda: rod_along(UP)),
     Edge("cos_camber_squared", "rhs", lambda: flat_wheel(BETA1_DESIGN - 0.3)),
     Edge("pivot_beta1", "rhs", massless),
-    Edge("pivot_beta9", "rhs", lambda: massless("control_arm"), macpherson_free_rack),
     Edge("shaft_level_squared_C", "relative_coordinates", lambda: strut_along(0.6 * UP)),
-    Edge(
-        "shaft_level_squared_E",
-        "relative_coordinates",
-        lambda: rod_along(UP),
-        macpherson_free_rack,
-    ),
 ]
+COINCIDENT_ENDS = Edge("length_squared_BC", "rhs", lambda: strut_along(0.0 * UP))
+EDGES_OF = {
+    macpherson: [*EDGES, COINCIDENT_ENDS],
+    macpherson_free_rack: [
+        *EDGES,
+        COINCIDENT_ENDS,
+        Edge("pivot_beta9", "rhs", lambda: massless("control_arm")),
+        Edge("shaft_level_squared_E", "relative_coordinates", lambda: rod_along(UP)),
+    ],
+    macpherson_general: [
+        *EDGES,
+        Edge("length_squared_BC", "rhs", top_within_the_offset),
+        Edge("knuckle_plane_squared", "positions", rod_end_on_the_line_of_the_knuckle),
+        Edge("spring_length_squared", "rhs", spring_without_length),
+    ],
+}
 
 
-@pytest.mark.parametrize("edge", EDGES, ids=lambda edge: edge.guard)
-def test_every_guard_acts_at_its_edge(edge: Edge) -> None:
+@pytest.mark.parametrize(
+    ("model", "edge"),
+    [(model, edge) for model, edges in EDGES_OF.items() for edge in edges],
+    ids=lambda value: getattr(value, "NAME", getattr(value, "guard", None)),
+)
+def test_every_guard_acts_at_its_edge(model, edge: Edge) -> None:
     parameters, instant = edge.build()
-    constants = edge.model.prepare(parameters)
-    arrays = *instant.arrays(edge.model), constants
+    constants = model.prepare(of_model(model, parameters))
+    arrays = *instant.arrays(model), constants
     with pytest.raises(ClosureError) as caught:
-        getattr(edge.model, edge.function)(*arrays)
-    meaning = dict(edge.model.GUARDS)[edge.guard]
+        getattr(model, edge.function)(*arrays)
+    meaning = dict(model.GUARDS)[edge.guard]
     assert meaning in caught.value.reasons
     assert meaning in str(caught.value)
     # The quantity vanishes to the roundings of its own computation, or is negative.
     assert caught.value.margins[edge.guard] < 1e-15
 
 
-def test_every_guard_has_an_edge() -> None:
-    guards = {guard for model in MODELS.values() for guard, _ in model.GUARDS}
-    assert guards == {edge.guard for edge in EDGES}
+@each_model
+def test_every_guard_has_an_edge(model) -> None:
+    assert {guard for guard, _ in model.GUARDS} == {edge.guard for edge in EDGES_OF[model]}
+
+
+def test_a_strut_top_within_the_offset_is_named() -> None:
+    """The condition that only an offset strut has, in words."""
+    parameters, instant = top_within_the_offset()
+    constants = macpherson_general.prepare(of_model(macpherson_general, parameters))
+    with pytest.raises(
+        ClosureError, match="strut_top would be nearer to ball_joint than the axis of telescope BC"
+    ) as caught:
+        macpherson_general.rhs(*instant.arrays(macpherson_general), constants)
+    # 0.01 m in each direction, against an offset of 0.05 m; a few roundings of squares below 1 m
+    assert caught.value.margins["length_squared_BC"] == pytest.approx(3e-4 - 2.5e-3, abs=1e-15)
 
 
 @each_model
@@ -347,12 +416,21 @@ def test_nan_among_the_constants_is_no_silent_nan(model) -> None:
 def test_parameters_that_are_no_numbers(model, wrong: float) -> None:
     parameters = reference_parameters() | {"tyre_rate": wrong, "gravity": wrong}
     with pytest.raises(ParameterError, match=r"NaN or infinite: tyre_rate, gravity$"):
-        model.prepare(parameters)
+        model.prepare(of_model(model, parameters))
+
+
+@each_model
+def test_each_parameter_that_is_no_number(model) -> None:
+    """Also those that a law may ignore, as the stiffness of a stop that is not touched."""
+    parameters = car_parameters(1, model)
+    for name in parameters:
+        with pytest.raises(ParameterError, match=f"NaN or infinite: {name}$"):
+            model.prepare(parameters | {name: np.nan})
 
 
 @each_model
 def test_parameters_by_wrong_names(model) -> None:
-    parameters = reference_parameters() | {"sprung_rate": 1.0}
+    parameters = of_model(model, reference_parameters()) | {"sprung_rate": 1.0}
     del parameters["spring_rate"]
     message = "unknown parameters: sprung_rate; missing parameters: spring_rate"
     with pytest.raises(ParameterError, match=message):
@@ -361,7 +439,7 @@ def test_parameters_by_wrong_names(model) -> None:
 
 @each_model
 def test_parameters_in_an_array(model) -> None:
-    parameters = car_parameters(1)
+    parameters = car_parameters(1, model)
     values = [parameters[name] for name in model.PARAMETERS]
     assert model.prepare(values).tolist() == model.prepare(parameters).tolist()
     for wrong in (values[:-1], [values], 1.0):
@@ -401,7 +479,24 @@ DEGENERATE = {
 @pytest.mark.parametrize("case", DEGENERATE)
 def test_degenerate_geometry(model, case: str) -> None:
     with pytest.raises(ParameterError, match="design position is degenerate"):
-        model.prepare(DEGENERATE[case])
+        model.prepare(of_model(model, DEGENERATE[case]))
+
+
+def test_offset_strut_without_length() -> None:
+    parameters = car_parameters(1, macpherson_general)
+    set_vector(parameters, "strut_lower", vector(parameters, "strut_top"))
+    with pytest.raises(ParameterError, match="design position is degenerate"):
+        macpherson_general.prepare(parameters)
+
+
+def test_a_tie_rod_may_end_on_the_axis_of_an_offset_strut() -> None:
+    """Only with the ball joint on the axis too would the rod have no lever."""
+    parameters = car_parameters(1, macpherson_general)
+    set_vector(parameters, "tie_rod_outer", vector(parameters, "strut_lower"))
+    car, constants = Mechanism(parameters), macpherson_general.prepare(parameters)
+    instant = Instant(car.beta1_design - 0.1, 0.0, 0.005)
+    found = macpherson_general.positions(*instant.arrays(macpherson_general), constants)
+    assert found == pytest.approx(instant.pose(car).position, rel=0.0, abs=1e-13)
 
 
 # -- shapes ---------------------------------------------------------------------------------------
@@ -456,7 +551,7 @@ def test_arrays_are_single_states_side_by_side(model, function: str) -> None:
     instants = [Instant(BETA1_DESIGN + 0.1 * k, 0.3, 0.01, 1.0, 50.0, 0.1) for k in (-1, 0, 1)]
     states = np.array([instant.state(model) for instant in instants])
     inputs = np.array([[i.inputs(model)] for i in (instants[0], replace(instants[0], rack=-0.02))])
-    constants = [model.prepare(car_parameters(seed)) for seed in (0, 1)]
+    constants = [model.prepare(car_parameters(seed, model)) for seed in (0, 1)]
     found = call(states, inputs, np.array(constants)[:, None, None])
     assert found.shape == (2, 2, 3, *call.shape)
     for i, j, k in np.ndindex(2, 2, 3):
@@ -482,7 +577,7 @@ def test_results_are_new_and_constants_are_fixed(model) -> None:
     with pytest.raises(ValueError, match="read-only"):
         model.DEFAULT_CONSTANTS[0] = 1.0
     with pytest.raises(ValueError, match="read-only"):
-        model.prepare(reference_parameters())[0] = 1.0
+        model.prepare(car_parameters(0, model))[0] = 1.0
 
 
 # -- anything -------------------------------------------------------------------------------------
@@ -525,6 +620,13 @@ def finite_or_refused(model: ModuleType, instant: Instant, constants: Array) -> 
     return done
 
 
+def usual_constants(model: ModuleType) -> Array:
+    """Return the reference car's constants, and those of a car with everything where that is."""
+    if model is macpherson_general:
+        return model.prepare(car_parameters(1, model))
+    return model.DEFAULT_CONSTANTS
+
+
 def number(largest: float) -> st.SearchStrategy[float]:
     return st.floats(-largest, largest)
 
@@ -548,7 +650,7 @@ wild_instants = st.builds(
 @calm
 @each_model
 def test_wild_states(model, instant: Instant) -> None:
-    finite_or_refused(model, instant, model.DEFAULT_CONSTANTS)
+    finite_or_refused(model, instant, usual_constants(model))
 
 
 anything = st.floats(allow_nan=False, allow_infinity=False)
@@ -560,7 +662,7 @@ any_instants = st.builds(Instant, *[anything] * len(fields(Instant)))
 @each_model
 def test_any_finite_state(model, instant: Instant) -> None:
     """Up to 1e308, where squares overflow."""
-    finite_or_refused(model, instant, model.DEFAULT_CONSTANTS)
+    finite_or_refused(model, instant, usual_constants(model))
 
 
 @given(any_instants, number(0.6), number(0.1))
@@ -569,7 +671,7 @@ def test_any_finite_state(model, instant: Instant) -> None:
 def test_any_finite_rates(model, instant: Instant, turn: float, rack: float) -> None:
     """The same where the loops close, so that the dynamics have something to compute."""
     reachable = replace(instant, beta1=BETA1_DESIGN + turn, rack=rack)
-    finite_or_refused(model, reachable, model.DEFAULT_CONSTANTS)
+    finite_or_refused(model, reachable, usual_constants(model))
 
 
 @st.composite
@@ -584,7 +686,10 @@ def plausible_cars(draw: st.DrawFn) -> Parameters:
         set_vector(parameters, name, [draw(number(0.5)), draw(st.floats(0.5, 2.0)), draw(shift)])
     for name in ("spring_rate", "damper_rate", "tyre_rate", "wheel_mass", "rack_mass"):
         parameters[name] = draw(st.floats(0.1, 1e5))
-    return parameters
+    for name in ("strut_lower", "spring_top", "spring_seat"):
+        moved_by = np.array([draw(number(0.1)) for _ in "xyz"])
+        set_vector(parameters, name, vector(parameters, STAND_INS[name]) + moved_by)
+    return parameters | {"tyre_lifts_off": draw(st.sampled_from([0.0, 1.0]))}
 
 
 @given(plausible_cars(), number(0.6), number(0.1), number(20.0), number(200.0))
@@ -593,7 +698,7 @@ def plausible_cars(draw: st.DrawFn) -> Parameters:
 def test_plausible_cars(
     model, parameters: Parameters, turn: float, rack: float, rate: float, spin_rate: float
 ) -> None:
-    constants, error = attempt(lambda: model.prepare(parameters))
+    constants, error = attempt(lambda: model.prepare(of_model(model, parameters)))
     if error is not None:
         assert "degenerate" in str(error)
         return
@@ -616,7 +721,7 @@ def test_plausible_cars(
 def test_both_sides_of_a_dead_point(model, side: float) -> None:
     """The rack is moved to where the rod just reaches, by bisection down to the last digit."""
     reached, missed = 0.0, 0.31 * side
-    constants = model.DEFAULT_CONSTANTS
+    constants = usual_constants(model)
 
     def instant_at(rack: float) -> Instant:
         return Instant(BETA1_DESIGN, 0.0, rack, 1.0, 50.0, 0.1)
