@@ -149,15 +149,15 @@ PARAMETERS: Final[dict[str, dict[str, Any]]] = {'crank_bearing_x': {'default': 0
  'piston_com_y': {'default': 0.0,
                   'unit': 'm',
                   'meaning': 'centre of mass of the piston at the start, y'},
- 'crank_mass': {'default': 2.0, 'unit': 'kg', 'meaning': 'mass of the crank'},
+ 'crank_mass': {'default': 2.0, 'unit': 'kg', 'meaning': 'mass of crank'},
  'crank_inertia_zz': {'default': 0.003,
                       'unit': 'kg m^2',
-                      'meaning': 'inertia of the crank across the plane'},
- 'rod_mass': {'default': 0.6, 'unit': 'kg', 'meaning': 'mass of the rod'},
+                      'meaning': 'inertia of crank across the plane'},
+ 'rod_mass': {'default': 0.6, 'unit': 'kg', 'meaning': 'mass of rod'},
  'rod_inertia_zz': {'default': 0.002,
                     'unit': 'kg m^2',
-                    'meaning': 'inertia of the rod across the plane'},
- 'piston_mass': {'default': 0.4, 'unit': 'kg', 'meaning': 'mass of the piston'}}
+                    'meaning': 'inertia of rod across the plane'},
+ 'piston_mass': {'default': 0.4, 'unit': 'kg', 'meaning': 'mass of piston'}}
 
 STATE: Final[dict[str, dict[str, str]]] = {'crank_angle': {'unit': 'rad', 'meaning': 'angle of the crank from the start'},
  'crank_angle_rate': {'unit': 'rad/s', 'meaning': 'rate of crank_angle'}}

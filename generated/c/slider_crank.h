@@ -31,11 +31,11 @@ enum slider_crank_parameter {
     SLIDER_CRANK_PARAMETER_ROD_COM_Y = 9,                  /* [m] centre of mass of the rod at the start, y */
     SLIDER_CRANK_PARAMETER_PISTON_COM_X = 10,              /* [m] centre of mass of the piston at the start, x */
     SLIDER_CRANK_PARAMETER_PISTON_COM_Y = 11,              /* [m] centre of mass of the piston at the start, y */
-    SLIDER_CRANK_PARAMETER_CRANK_MASS = 12,                /* [kg] mass of the crank */
-    SLIDER_CRANK_PARAMETER_CRANK_INERTIA_ZZ = 13,          /* [kg m^2] inertia of the crank across the plane */
-    SLIDER_CRANK_PARAMETER_ROD_MASS = 14,                  /* [kg] mass of the rod */
-    SLIDER_CRANK_PARAMETER_ROD_INERTIA_ZZ = 15,            /* [kg m^2] inertia of the rod across the plane */
-    SLIDER_CRANK_PARAMETER_PISTON_MASS = 16,               /* [kg] mass of the piston */
+    SLIDER_CRANK_PARAMETER_CRANK_MASS = 12,                /* [kg] mass of crank */
+    SLIDER_CRANK_PARAMETER_CRANK_INERTIA_ZZ = 13,          /* [kg m^2] inertia of crank across the plane */
+    SLIDER_CRANK_PARAMETER_ROD_MASS = 14,                  /* [kg] mass of rod */
+    SLIDER_CRANK_PARAMETER_ROD_INERTIA_ZZ = 15,            /* [kg m^2] inertia of rod across the plane */
+    SLIDER_CRANK_PARAMETER_PISTON_MASS = 16,               /* [kg] mass of piston */
     SLIDER_CRANK_PARAMETER_COUNT = 17
 };
 

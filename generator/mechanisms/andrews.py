@@ -11,10 +11,9 @@ from __future__ import annotations
 import sympy as sp
 
 from ..forces import AlongLine, ForceElement, JointForce
-from ..geometry import FORWARD, UP, Line, Point
-from ..joints import Revolute
 from ..laws import LinearSpring
 from ..mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
+from .planar import flat, hinge, inertia, places
 
 _DIGITS = 40  # so that defaults are rounded once, on every machine alike
 
@@ -87,37 +86,14 @@ def _places() -> dict[str, tuple[sp.Expr, sp.Expr]]:
     }
 
 
-def _point(name: str) -> Point:
-    return Point(name, flat="z")
-
-
-def _hinge(name: str, first: str, second: str, at: str) -> Revolute:
-    axis = Line(_point(at), UP)
-    return Revolute(name=name, first=first, second=second, axis=axis, angle_from=FORWARD)
-
-
 def _parameters() -> tuple[Parameter, ...]:
-    places = [
-        Parameter(f"{name}_{axis}", float(value), "m", f"{name} at the start, {axis}")
-        for name, point in _places().items()
-        for axis, value in zip("xy", point, strict=True)
-    ]
-    bodies = [
-        parameter
-        for i, (mass, inertia) in enumerate(zip(MASSES, INERTIAS, strict=True), 1)
-        for parameter in (
-            Parameter(f"k{i}_mass", float(mass), "kg", f"mass of body {i}"),
-            Parameter(
-                f"k{i}_inertia_zz",
-                float(inertia),
-                "kg m^2",
-                f"inertia of body {i} across the plane",
-            ),
-        )
-    ]
     return (
-        *places,
-        *bodies,
+        *places({name: ((float(x), float(y)), name) for name, (x, y) in _places().items()}),
+        *(
+            parameter
+            for i, (mass, moment) in enumerate(zip(MASSES, INERTIAS, strict=True), 1)
+            for parameter in inertia(f"k{i}", float(mass), float(moment))
+        ),
         Parameter("spring_rate", 4530.0, "N/m", "rate of the spring (c0)"),
         Parameter("spring_free_length", 0.07785, "m", "free length of the spring (l0)"),
     )
@@ -129,25 +105,25 @@ SQUEEZER = Mechanism(
     name="andrews",
     title="Andrews' squeezer mechanism",
     bodies=(
-        Body("ground", 0, center=_point("crank_bearing")),
-        *(Body(name, i, center=_point(f"{name}_com")) for i, name in enumerate(_BODIES, 1)),
+        Body("ground", 0, center=flat("crank_bearing")),
+        *(Body(name, i, center=flat(f"{name}_com")) for i, name in enumerate(_BODIES, 1)),
     ),
     joints=(
-        _hinge("O", "ground", "k1", "crank_bearing"),
-        _hinge("crank_pin", "k1", "k2", "crank_pin"),
-        _hinge("B", "ground", "k3", "pivot_b"),
-        _hinge("knee_23", "k2", "k3", "knee"),
-        _hinge("knee_34", "k3", "k4", "knee"),
-        _hinge("pin_45", "k4", "k5", "pin_45"),
-        _hinge("A_5", "ground", "k5", "pivot_a"),
-        _hinge("knee_36", "k3", "k6", "knee"),
-        _hinge("pin_67", "k6", "k7", "pin_67"),
-        _hinge("A_7", "ground", "k7", "pivot_a"),
+        hinge("O", "ground", "k1", "crank_bearing"),
+        hinge("crank_pin", "k1", "k2", "crank_pin"),
+        hinge("B", "ground", "k3", "pivot_b"),
+        hinge("knee_23", "k2", "k3", "knee"),
+        hinge("knee_34", "k3", "k4", "knee"),
+        hinge("pin_45", "k4", "k5", "pin_45"),
+        hinge("A_5", "ground", "k5", "pivot_a"),
+        hinge("knee_36", "k3", "k6", "knee"),
+        hinge("pin_67", "k6", "k7", "pin_67"),
+        hinge("A_7", "ground", "k7", "pivot_a"),
     ),
     forces=(
         ForceElement(
             name="spring",
-            path=AlongLine(("ground", _point("spring_ground")), ("k3", _point("spring_body"))),
+            path=AlongLine(("ground", flat("spring_ground")), ("k3", flat("spring_body"))),
             laws=(LinearSpring(rate="spring_rate", free_length="spring_free_length"),),
         ),
         JointForce(joint="O", input="drive_torque"),

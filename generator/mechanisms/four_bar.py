@@ -8,20 +8,9 @@ crank of 0.1 m, turns all the way round. There is no gravity in its plane.
 from __future__ import annotations
 
 from ..forces import AlongLine, ForceElement, JointForce
-from ..geometry import FORWARD, UP, Line, Point
-from ..joints import Revolute
 from ..laws import LinearDamper, LinearSpring
 from ..mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
-
-
-def _point(name: str) -> Point:
-    return Point(name, flat="z")
-
-
-def _hinge(name: str, first: str, second: str, at: str) -> Revolute:
-    axis = Line(_point(at), UP)
-    return Revolute(name=name, first=first, second=second, axis=axis, angle_from=FORWARD)
-
+from .planar import flat, hinge, inertia, places
 
 # At the start the crank points along y: 0.1 m up from the origin.
 _PLACES = {
@@ -39,21 +28,21 @@ FOUR_BAR = Mechanism(
     name="four_bar",
     title="Planar four-bar linkage",
     bodies=(
-        Body("ground", 0, center=_point("crank_bearing")),
-        Body("crank", 1, center=_point("crank_com")),
-        Body("coupler", 2, center=_point("coupler_com")),
-        Body("rocker", 3, center=_point("rocker_com")),
+        Body("ground", 0, center=flat("crank_bearing")),
+        Body("crank", 1, center=flat("crank_com")),
+        Body("coupler", 2, center=flat("coupler_com")),
+        Body("rocker", 3, center=flat("rocker_com")),
     ),
     joints=(
-        _hinge("A", "ground", "crank", "crank_bearing"),
-        _hinge("B", "crank", "coupler", "crank_pin"),
-        _hinge("C", "coupler", "rocker", "rocker_pin"),
-        _hinge("D", "ground", "rocker", "rocker_bearing"),
+        hinge("A", "ground", "crank", "crank_bearing"),
+        hinge("B", "crank", "coupler", "crank_pin"),
+        hinge("C", "coupler", "rocker", "rocker_pin"),
+        hinge("D", "ground", "rocker", "rocker_bearing"),
     ),
     forces=(
         ForceElement(
             name="spring",
-            path=AlongLine(("ground", _point("spring_ground")), ("coupler", _point("coupler_com"))),
+            path=AlongLine(("ground", flat("spring_ground")), ("coupler", flat("coupler_com"))),
             laws=(
                 LinearSpring(rate="spring_rate", free_length="spring_free_length"),
                 LinearDamper(rate="damper_rate"),
@@ -62,28 +51,10 @@ FOUR_BAR = Mechanism(
         JointForce(joint="A", input="crank_torque"),
     ),
     parameters=(
-        *(
-            Parameter(f"{name}_{axis}", value, "m", f"{meaning} at the start, {axis}")
-            for name, (place, meaning) in _PLACES.items()
-            for axis, value in zip("xy", place, strict=True)
-        ),
-        *(
-            parameter
-            for name, mass, inertia in (
-                ("crank", 0.5, 5e-4),
-                ("coupler", 1.0, 8e-3),
-                ("rocker", 1.2, 8e-3),
-            )
-            for parameter in (
-                Parameter(f"{name}_mass", mass, "kg", f"mass of the {name}"),
-                Parameter(
-                    f"{name}_inertia_zz",
-                    inertia,
-                    "kg m^2",
-                    f"inertia of the {name} across the plane",
-                ),
-            )
-        ),
+        *places(_PLACES),
+        *inertia("crank", 0.5, 5e-4),
+        *inertia("coupler", 1.0, 8e-3),
+        *inertia("rocker", 1.2, 8e-3),
         Parameter("spring_rate", 400.0, "N/m", "rate of the spring"),
         Parameter("spring_free_length", 0.3, "m", "free length of the spring"),
         Parameter("damper_rate", 0.0, "N s/m", "rate of the damper beside the spring"),

@@ -9,21 +9,8 @@ pass.
 from __future__ import annotations
 
 from ..forces import JointForce, Weight
-from ..geometry import FORWARD, Direction, Line, Point
-from ..joints import Revolute
 from ..mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
-from ..vectors import UNIT_Y
-
-ACROSS = Direction("across", UNIT_Y)
-
-
-def _point(name: str) -> Point:
-    return Point(name, flat="y")
-
-
-def _hinge(name: str, first: str, second: str, at: str) -> Revolute:
-    axis = Line(_point(at), ACROSS)
-    return Revolute(name=name, first=first, second=second, axis=axis, angle_from=FORWARD)
+from .planar import flat, hinge, inertia
 
 
 def _bar(name: str, x: float, z: float) -> list[Parameter]:
@@ -31,10 +18,7 @@ def _bar(name: str, x: float, z: float) -> list[Parameter]:
     return [
         Parameter(f"{name}_com_x", x, "m", f"centre of {name}, x"),
         Parameter(f"{name}_com_z", z, "m", f"centre of {name}, z"),
-        Parameter(f"{name}_mass", 1.0, "kg", f"mass of {name}"),
-        Parameter(
-            f"{name}_inertia_yy", 1.0 / 12.0, "kg m^2", f"inertia of {name} across the plane"
-        ),
+        *inertia(name, 1.0, 1.0 / 12.0, "y"),
     ]
 
 
@@ -42,11 +26,11 @@ def n_four_bar(count: int) -> Model:
     """Return the chain of some number of four-bar linkages."""
     rockers = [f"rocker_{i}" for i in range(count + 1)]
     couplers = [f"coupler_{i}" for i in range(1, count + 1)]
-    bodies = [Body("ground", 0, center=_point("base_0"))]
-    joints = [_hinge("crank", "ground", rockers[0], "base_0")]
+    bodies = [Body("ground", 0, center=flat("base_0", "y"))]
+    joints = [hinge("crank", "ground", rockers[0], "base_0", "y")]
     parameters: list[Parameter] = []
     for i, name in enumerate(rockers):
-        bodies.append(Body(name, len(bodies), center=_point(f"{name}_com")))
+        bodies.append(Body(name, len(bodies), center=flat(f"{name}_com", "y")))
         parameters += [
             Parameter(f"base_{i}_x", float(i), "m", f"hinge of {name} on the ground, x"),
             Parameter(f"base_{i}_z", 0.0, "m", f"hinge of {name} on the ground, z"),
@@ -55,12 +39,12 @@ def n_four_bar(count: int) -> Model:
             *_bar(name, float(i), 0.5),
         ]
     for i, name in enumerate(couplers, 1):
-        bodies.append(Body(name, len(bodies), center=_point(f"{name}_com")))
+        bodies.append(Body(name, len(bodies), center=flat(f"{name}_com", "y")))
         parameters += _bar(name, i - 0.5, 1.0)
         joints += [
-            _hinge(f"left_{i}", rockers[i - 1], name, f"top_{i - 1}"),
-            _hinge(f"right_{i}", name, rockers[i], f"top_{i}"),
-            _hinge(f"foot_{i}", "ground", rockers[i], f"base_{i}"),
+            hinge(f"left_{i}", rockers[i - 1], name, f"top_{i - 1}", "y"),
+            hinge(f"right_{i}", name, rockers[i], f"top_{i}", "y"),
+            hinge(f"foot_{i}", "ground", rockers[i], f"base_{i}", "y"),
         ]
     mechanism = Mechanism(
         name=f"four_bars_{count}",

@@ -9,19 +9,10 @@ from __future__ import annotations
 import math
 
 from ..forces import JointForce
-from ..geometry import FORWARD, UP, Line, Point
-from ..joints import Prismatic, Revolute
+from ..geometry import FORWARD
+from ..joints import Prismatic
 from ..mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
-
-
-def _point(name: str) -> Point:
-    return Point(name, flat="z")
-
-
-def _hinge(name: str, first: str, second: str, at: str) -> Revolute:
-    axis = Line(_point(at), UP)
-    return Revolute(name=name, first=first, second=second, axis=axis, angle_from=FORWARD)
-
+from .planar import flat, hinge, inertia, places
 
 # A crank of 40 mm and a rod of 0.15 m, at the start with the crank along y.
 _ROD = 0.15
@@ -39,29 +30,23 @@ SLIDER_CRANK = Mechanism(
     name="slider_crank",
     title="Slider-crank",
     bodies=(
-        Body("ground", 0, center=_point("crank_bearing")),
-        Body("crank", 1, center=_point("crank_com")),
-        Body("rod", 2, center=_point("rod_com")),
-        Body("piston", 3, center=_point("piston_com")),
+        Body("ground", 0, center=flat("crank_bearing")),
+        Body("crank", 1, center=flat("crank_com")),
+        Body("rod", 2, center=flat("rod_com")),
+        Body("piston", 3, center=flat("piston_com")),
     ),
     joints=(
-        _hinge("A", "ground", "crank", "crank_bearing"),
-        _hinge("B", "crank", "rod", "crank_pin"),
-        _hinge("C", "rod", "piston", "piston_pin"),
+        hinge("A", "ground", "crank", "crank_bearing"),
+        hinge("B", "crank", "rod", "crank_pin"),
+        hinge("C", "rod", "piston", "piston_pin"),
         Prismatic(name="guide", first="ground", second="piston", direction=FORWARD),
     ),
     forces=(JointForce(joint="A", input="crank_torque"),),
     parameters=(
-        *(
-            Parameter(f"{name}_{axis}", value, "m", f"{meaning} at the start, {axis}")
-            for name, (place, meaning) in _PLACES.items()
-            for axis, value in zip("xy", place, strict=True)
-        ),
-        Parameter("crank_mass", 2.0, "kg", "mass of the crank"),
-        Parameter("crank_inertia_zz", 3e-3, "kg m^2", "inertia of the crank across the plane"),
-        Parameter("rod_mass", 0.6, "kg", "mass of the rod"),
-        Parameter("rod_inertia_zz", 2e-3, "kg m^2", "inertia of the rod across the plane"),
-        Parameter("piston_mass", 0.4, "kg", "mass of the piston"),
+        *places(_PLACES),
+        *inertia("crank", 2.0, 3e-3),
+        *inertia("rod", 0.6, 2e-3),
+        Parameter("piston_mass", 0.4, "kg", "mass of piston"),
     ),
     coordinates=(
         RelativeCoordinate("crank_angle", "A", "angle", "rad", "angle of the crank from the start"),

@@ -2,167 +2,113 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ..arithmetic import SignOf
-from ..placement import Axes, OnLine, Placed, PointMotion
+from ..placement import OnLine, Placed, PointMotion
 from ..vectors import ZERO, Twist, Vector
+from .arm import Arm, Fit, Reach, fit_rod
 from .lines import line_alpha, line_omega, once, place_rod, projector
 from .offset_turn import solve_offset_turn
 
 if TYPE_CHECKING:
+    from ..geometry import Point
     from ..kinematics import Kinematics
     from ..transformer import SolveTurn
 
 
 def solve_turn(kin: Kinematics, action: SolveTurn) -> None:
-    r"""Turn a body about its known line until a rod fits (Eqs. 13 to 16).
+    """Turn a body about its known line until a rod fits (Eqs. 13 to 16).
 
-    Let n be the direction of the line, F the foot on it of the rod's joint D, rho = \|FD\|, E the
-    other end of the rod of length l, and w = E - F with parts w_n along n and w_p across it. The
-    unit vector t from F to D is perpendicular to n, and ``|D - E| = l`` becomes
-
-        t . w_p = k,    k = (rho^2 + |w_p|^2 + w_n^2 - l^2) / (2 rho),
-
-    which is the paper's ``a1 cos + a2 sin = a3`` without a reference for the angle. Its solutions:
-
-        t = (k w_p + s sqrt(|w_p|^2 - k^2) n x w_p) / |w_p|^2,    s = +1 or -1.
-
-    Branch: s is the sign of (D - E) . (n x t) at the design position. Valid while
-    ``|w_p|^2 > k^2``; the edge is the dead point where rod, D and the line are in one plane.
-
-    The body axes are (n, t, n x t). In them D - E = (-w_n, rho - k, s sqrt(|w_p|^2 - k^2)), so the
-    turning rate follows from ``(D - E) . (v_D - v_E) = 0`` with one division.
+    The equation ``a1 cos + a2 sin = a3`` of the paper is that of `arm`, about a line between two
+    points that both move.
     """
     if action.body in kin.off_line:
         solve_offset_turn(kin, action)
         return
     record = kin.on_line[action.body]
-    base_is_end = _is_end_link(kin, action.body, record)
-    constants = _TurnConstants(kin, action, record, base_is_end=base_is_end)
+    base = _Base.of(kin, action.body, record)
+    line = kin.unit(
+        f"{action.body}_line_design", kin.design(record.end) - kin.design(record.anchor)
+    )
+    arm = Arm.of(kin, action.body, line, base.point, action.end)
     rod_anchor = kin.point_motion(action.anchor_body, action.anchor)
-    placed, gap = _turned_axes(kin, action, record, constants, rod_anchor)
-    _turn_motion(kin, action, record, constants, rod_anchor, placed, gap)
+    reach = _reach(kin, action.body, record, base, arm, rod_anchor)
+    fit = fit_rod(kin, action, arm, record.direction, reach)
+    placed = Placed(
+        action.body,
+        origin=base.motion.position,
+        axes=fit.axes,
+        design_origin=kin.design(base.point),
+        design_axes=arm.design_axes,
+        local={base.point: ZERO, action.end: arm.local},
+        carrier=(base.carrier, kin.local(kin.placed[base.carrier], base.point)),
+    )
+    _turn_motion(kin, placed, record, base, arm.local, fit, rod_anchor)
     kin.placed[action.body] = placed
-    place_rod(kin, action, rod_anchor, constants.rod_length)
+    place_rod(kin, action, rod_anchor, fit.rod_length)
 
 
-def _is_end_link(kin: Kinematics, body: str, record: OnLine) -> bool:
-    """Tell whether a body holds the end point of the line and not its anchor."""
-    return all(record.anchor != j.center for j in kin.mechanism.joints_of(body))
+@dataclass(frozen=True)
+class _Base:
+    """The point of the line that is fixed in the body, and where it lies along the line."""
+
+    point: Point
+    motion: PointMotion
+    carrier: str
+    from_anchor: sp.Expr
+
+    @classmethod
+    def of(cls, kin: Kinematics, body: str, record: OnLine) -> _Base:
+        """Return the anchor of the line, or its end if the body holds only that."""
+        if any(record.anchor == j.center for j in kin.mechanism.joints_of(body)):
+            return cls(record.anchor, record.anchor_motion, record.anchor_body, sp.Integer(0))
+        return cls(record.end, record.end_motion, record.end_body, record.length)
 
 
-class _TurnConstants:
-    """Dimensions of the body, from the design position."""
-
-    def __init__(
-        self, kin: Kinematics, action: SolveTurn, record: OnLine, *, base_is_end: bool
-    ) -> None:
-        body, program = action.body, kin.program
-        self.base_is_end = base_is_end
-        self.base = record.end if base_is_end else record.anchor
-        self.base_motion = record.end_motion if base_is_end else record.anchor_motion
-        self.carrier = record.end_body if base_is_end else record.anchor_body
-        base, end, anchor = (kin.design(p) for p in (self.base, action.end, action.anchor))
-        n = kin.unit(f"{body}_line_design", kin.design(record.end) - kin.design(record.anchor))
-        arm = program.vector(f"{body}_arm_design", end - base)
-        self.along = program.define(f"{body}_arm_along", arm.dot(n))
-        across = program.vector(f"{body}_arm_across", arm - n * self.along)
-        self.radius = program.define(f"{body}_arm_radius", sp.sqrt(across.dot(across)))
-        t = program.vector(f"{body}_arm_unit", across * (1 / self.radius))
-        m = program.vector(f"{body}_normal_design", n.cross(t))
-        rod = program.vector(f"{action.rod}_design", end - anchor)
-        self.rod_length = program.define(f"{action.rod}_length", sp.sqrt(rod.dot(rod)))
-        self.branch = program.define(f"{body}_branch", SignOf(rod.dot(m)))
-        self.design_origin, self.design_axes = base, (n, t, m)
-        self.arm = Vector(self.along, self.radius, ZERO.z)
-
-
-def _turned_axes(
+def _reach(
     kin: Kinematics,
-    action: SolveTurn,
+    body: str,
     record: OnLine,
-    constants: _TurnConstants,
+    base: _Base,
+    arm: Arm,
     rod_anchor: PointMotion,
-) -> tuple[Placed, Vector]:
-    """Solve for t; return the placed body, and D - E in its axes."""
-    body, program = action.body, kin.program
-    n, rho = record.direction, constants.radius
+) -> Reach:
+    """Return the rod's anchor as seen from the line.
+
+    From the span and not from its direction, so that nothing waits for the root of the length.
+    """
+    program = kin.program
     e = program.vector(f"{body}_reach", rod_anchor.position - record.anchor_motion.position)
-    # from the span and not from its direction, so that nothing waits for the length's root
     on_span = program.define(f"{body}_reach_on_span", e.dot(record.span))
     part = program.define(f"{body}_reach_part", on_span * record.inverse_squared)
     along = program.define(f"{body}_reach_along", on_span * record.inverse_length)
-    foot = constants.along + (record.length if constants.base_is_end else 0)
-    w_n = program.define(f"{body}_reach_axial", along - foot)
-    w_p = program.vector(f"{body}_reach_across", e - record.span * part)
-    normal = program.vector(f"{body}_reach_normal", n.cross(e))
-    squared = program.guarded(
-        f"{body}_reach_squared",
-        w_p.dot(w_p),
-        f"{kin.loop_of(action)}: point {action.anchor.name} lies on the line of {body}, whose "
-        "rotation is undetermined",
-        "m^2",
+    return Reach(
+        program.define(f"{body}_reach_axial", along - (arm.along + base.from_anchor)),
+        program.vector(f"{body}_reach_across", e - record.span * part),
+        program.vector(f"{body}_reach_normal", record.direction.cross(e)),
     )
-    k = program.define(
-        f"{body}_reach_needed",
-        (squared + w_n**2 + (rho**2 - constants.rod_length**2)) * (1 / (2 * rho)),
-    )
-    room = program.guarded(
-        f"{body}_closure",
-        squared - k**2,
-        f"{kin.loop_of(action)} cannot close: the rod {action.rod} cannot reach {body}, beyond its "
-        "dead point",
-        "m^2",
-    )
-    root = program.define(f"{body}_closure_root", sp.sqrt(room))
-    height = program.define(f"{body}_rod_height", constants.branch * root)
-    inverse = program.define(f"{body}_reach_inverse", 1 / squared)
-    signed = program.define(f"{body}_reach_inverse_signed", constants.branch * inverse)
-    cosine = program.define(f"{body}_turn_cosine", k * inverse)
-    sine = program.define(f"{body}_turn_sine", root * signed)
-    axes: Axes = (
-        n,
-        program.vector(f"{body}_arm", w_p * cosine + normal * sine),
-        program.vector(f"{body}_normal", normal * cosine - w_p * sine),
-    )
-    placed = Placed(
-        body,
-        origin=constants.base_motion.position,
-        axes=axes,
-        design_origin=constants.design_origin,
-        design_axes=constants.design_axes,
-        local={constants.base: ZERO, action.end: constants.arm},
-        carrier=(constants.carrier, kin.local(kin.placed[constants.carrier], constants.base)),
-    )
-    gap = program.vector(f"{body}_rod", Vector(-w_n, rho - k, height), "123")
-    return placed, gap
 
 
 def _turn_motion(
     kin: Kinematics,
-    action: SolveTurn,
-    record: OnLine,
-    constants: _TurnConstants,
-    rod_anchor: PointMotion,
     placed: Placed,
-    gap: Vector,
+    record: OnLine,
+    base_point: _Base,
+    arm: Vector,
+    fit: Fit,
+    rod_anchor: PointMotion,
 ) -> None:
     """Velocities and bias: the line turns with its points, the rod keeps its length."""
-    body, program = action.body, kin.program
+    body, program = placed.body, kin.program
     to_body = projector(kin, placed)
-    arm = constants.arm
-    hold = program.define(
-        f"{body}_hold", 1 / (-constants.radius * constants.branch * (constants.branch * gap.z))
-    )
+    gap, hold = fit.gap, fit.hold
     rod_rate = ZERO
-    names = dict.fromkeys(
-        [*constants.base_motion.motion, *record.relative.motion, *rod_anchor.motion]
-    )
+    names = dict.fromkeys([*base_point.motion.motion, *record.relative.motion, *rod_anchor.motion])
     for k in names:
-        base = to_body(f"velocity_{k}", constants.base_motion.motion.get(k, ZERO))
+        base = to_body(f"velocity_{k}", base_point.motion.motion.get(k, ZERO))
         across = line_omega(record, to_body(f"swing_{k}", record.relative.motion.get(k, ZERO)))
         across = program.vector(f"{body}_omega_{k}", across, "123")
         anchor = to_body(f"rod_anchor_{k}", rod_anchor.motion.get(k, ZERO))
@@ -175,7 +121,7 @@ def _turn_motion(
     def bias() -> Twist:
         rate = program.vector(f"{body}_rod_rate", rod_rate, "123")
         omega = kin.total(placed).angular
-        base = to_body("acceleration", constants.base_motion.bias)
+        base = to_body("acceleration", base_point.motion.bias)
         anchor = to_body("rod_anchor_bias", rod_anchor.bias)
         alpha = line_alpha(kin, record, omega, to_body("swing_bias", record.relative.bias))
         alpha = program.vector(f"{body}_alpha", alpha, "123")
