@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from c_text import sources
-from cases import MODELS
+from cases import MODELS, car_parameters
 from kintrafo import Model, state_at_height
 from kintrafo.solvers import native_available
 
@@ -103,8 +103,8 @@ int main(void)
 """
 
 
-def assignments(model):
-    values = enumerate(entry["default"] for entry in model.PARAMETERS.values())
+def assignments(model, parameters):
+    values = enumerate(parameters[name] for name in model.PARAMETERS)
     return " ".join(f"parameters[{i}] = {value!r};" for i, value in values)
 
 
@@ -137,7 +137,7 @@ def test_generated_functions(tmp_path, name):
         constant_count=len(model.CONSTANTS),
         state_count=len(model.STATE),
         input_count=len(model.INPUTS),
-        parameters=assignments(model),
+        parameters=assignments(model, car_parameters(1, model)),
         calls="\n        ".join(calls),
     )
     run_clean(tmp_path, text, sources(name))
@@ -149,7 +149,7 @@ def test_generated_functions(tmp_path, name):
 def test_native_solver(tmp_path):
     start = state_at_height(Model("reference_car"), 0.325, spin_rate=93.0)
     text = INTEGRATION.format(
-        parameters=assignments(MODELS["macpherson"]),
+        parameters=assignments(MODELS["macpherson"], car_parameters(0)),
         state=", ".join(repr(float(v)) for v in start),
     )
     files = [*sources("macpherson"), ROOT / "runtime/native/integrate.c"]
