@@ -1,0 +1,462 @@
+"""Mechanisms in three dimensions that use every closed form in its general position.
+
+None of them ships. Axes are oblique, points lie in no common plane, and what carries a loop turns
+or slides itself, so that no term of a velocity or of a bias is zero by accident.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from kintrafo.generator.forces import AlongLine, ForceElement, JointForce, Weight
+from kintrafo.generator.geometry import FORWARD, Direction, Line, Point
+from kintrafo.generator.joints import Joint, Prismatic, Revolute, Spherical, Universal
+from kintrafo.generator.laws import LinearDamper, LinearSpring
+from kintrafo.generator.mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
+from kintrafo.generator.mechanisms.suspension import direction, point, rotor
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+Place = tuple[float, float, float]
+
+INERTIA: dict[str, float] = {
+    "xx": 0.021,
+    "yy": 0.034,
+    "zz": 0.029,
+    "xy": 0.004,
+    "xz": -0.003,
+    "yz": 0.005,
+}
+"""Of every body, kg m^2; those of a body differ by its number."""
+
+
+def hinge(name: str, first: str, second: str, at: str, along: str) -> Revolute:
+    """Return a hinge through a point along a direction, both of them parameters."""
+    axis = Line(Point(at), Direction(along))
+    return Revolute(name=name, first=first, second=second, axis=axis, angle_from=FORWARD)
+
+
+def guide(name: str, first: str, second: str, along: str) -> Prismatic:
+    """Return a guide along a direction."""
+    return Prismatic(name=name, first=first, second=second, direction=Direction(along))
+
+
+def ball(name: str, first: str, second: str, at: str) -> Spherical:
+    """Return a ball joint at a point."""
+    return Spherical(name=name, first=first, second=second, at=Point(at))
+
+
+def cross(name: str, first: str, rod: str, at: str, to: str, axis: str) -> Universal:
+    """Return a universal joint that holds a rod at a point; the rod runs to another point."""
+    return Universal(
+        name=name,
+        first=first,
+        second=rod,
+        at=Point(at),
+        shaft=Line(Point(at), Point(to)),
+        first_axis=Direction(axis),
+    )
+
+
+def declare(
+    name: str,
+    bodies: Mapping[str, Place],
+    joints: Sequence[Joint],
+    points: Mapping[str, Place],
+    directions: Mapping[str, Place],
+    independent: tuple[str, ...],
+    *,
+    spring: tuple[str, str],
+    prescribed: Mapping[str, str] | None = None,
+    wheel: tuple[str, Place] | None = None,
+    unreported: tuple[str, ...] = (),
+) -> Model:
+    """Return a model with weight, a spring with a damper, and a force on every coordinate.
+
+    Parameters
+    ----------
+    bodies
+        Name of every moving body, with its centre of mass.
+    spring
+        Two points; each is taken with the body whose name begins its own.
+    wheel
+        Name of a rotor among the bodies, with the direction of its axis.
+    unreported
+        Hinges whose angle no closed form gives: those between two bodies that a loop places.
+    """
+    prescribed = prescribed or {}
+    centers = {f"{body}_com": place for body, place in bodies.items()}
+    directions = dict(directions) | ({"spin": wheel[1]} if wheel else {})
+    spinning = {wheel[0]: Direction("spin")} if wheel else {}
+    seats = tuple((p.split("_", maxsplit=1)[0], Point(p)) for p in spring)
+    reported = [
+        j for j in joints if isinstance(j, Revolute | Prismatic) and j.name not in unreported
+    ]
+    parameters = [
+        *(entry for n, place in {**points, **centers}.items() for entry in point(n, place, n)),
+        *(entry for n, along in directions.items() for entry in direction(n, along, n)),
+        *(
+            entry
+            for number, body in enumerate(bodies, 1)
+            for entry in (rotor(body, 1.5, 0.03, 0.02) if body in spinning else mass(body, number))
+        ),
+        Parameter("spring_rate", 300.0, "N/m", "rate of the spring"),
+        Parameter("spring_free_length", 0.3, "m", "free length of the spring"),
+        Parameter("damper_rate", 5.0, "N s/m", "rate of the damper"),
+        Parameter("gravity", 9.81, "m/s^2", "acceleration of gravity"),
+    ]
+    inputs = {f"{j}_force": ("N or N m", f"force along {j}") for j in independent}
+    for motion in prescribed.values():
+        for kind, unit in (("position", ""), ("velocity", "/s"), ("acceleration", "/s^2")):
+            inputs[f"{motion}_{kind}"] = (f"rad{unit}", f"{kind} of {motion}")
+    mechanism = Mechanism(
+        name=name,
+        title=name,
+        bodies=(
+            Body("ground", 0, center=Point(f"{next(iter(bodies))}_com")),
+            *(
+                Body(body, i, center=Point(f"{body}_com"), rotor_axis=spinning.get(body))
+                for i, body in enumerate(bodies, 1)
+            ),
+        ),
+        joints=tuple(joints),
+        forces=(
+            Weight(gravity="gravity"),
+            ForceElement(
+                name="spring",
+                path=AlongLine(*seats),
+                laws=(
+                    LinearSpring(rate="spring_rate", free_length="spring_free_length"),
+                    LinearDamper(rate="damper_rate"),
+                ),
+            ),
+            *(JointForce(joint=j, input=f"{j}_force") for j in independent),
+        ),
+        parameters=tuple(parameters),
+        coordinates=tuple(
+            RelativeCoordinate(
+                f"{j.name}_{j.coordinates[0]}",
+                j.name,
+                j.coordinates[0],
+                "rad" if isinstance(j, Revolute) else "m",
+                f"{j.coordinates[0]} of {j.name}",
+            )
+            for j in reported
+        ),
+        inputs=inputs,
+    )
+    return Model(
+        name=name,
+        title=name,
+        mechanism=mechanism,
+        independent=independent,
+        prescribed=prescribed,
+        massive=tuple(bodies),
+        held={"still": tuple(prescribed)} if prescribed else {},
+    )
+
+
+def mass(body: str, number: int) -> list[Parameter]:
+    """Return mass and inertia of a body: a full tensor, not that of its neighbours."""
+    scale = 1.0 + 0.3 * number
+    return [
+        Parameter(f"{body}_mass", 0.8 * scale, "kg", "mass"),
+        *(
+            Parameter(f"{body}_inertia_{element}", scale * value, "kg m^2", element)
+            for element, value in INERTIA.items()
+        ),
+    ]
+
+
+# -- planes that lie askew ------------------------------------------------------------------------
+
+_NORMAL = np.array([0.48, -0.36, 0.8])
+_ACROSS = np.array([0.6, 0.8, 0.0])
+_UPWARD = np.cross(_NORMAL, _ACROSS)
+_CORNER = np.array([0.1, -0.2, 0.3])
+
+
+def askew(x: float, y: float, off: float = 0.0) -> Place:
+    """Return a place of the oblique plane, or off it."""
+    return tuple((_CORNER + x * _ACROSS + y * _UPWARD + off * _NORMAL).tolist())
+
+
+def heading(angle: float) -> Place:
+    """Return a direction in the oblique plane, not of unit length."""
+    return tuple((1.7 * (np.cos(angle) * _ACROSS + np.sin(angle) * _UPWARD)).tolist())
+
+
+NORMAL: Place = tuple((2.0 * _NORMAL).tolist())
+
+
+# -- a spatial four-bar: hinge, rod with a cross and a ball joint, hinge on a skew axis ------------
+
+
+def spatial_four_bar(name: str, *, cross_at_rocker: bool = False) -> Model:
+    """Return hinge - rod - hinge on skew axes; the rod's cross at either of its ends."""
+    if cross_at_rocker:
+        rod = (
+            ball("pin", "crank", "rod", "crank_end"),
+            cross("cross", "rocker", "rod", "rocker_end", "crank_end", "cross_axis"),
+        )
+    else:
+        rod = (
+            cross("cross", "crank", "rod", "crank_end", "rocker_end", "cross_axis"),
+            ball("pin", "rod", "rocker", "rocker_end"),
+        )
+    return declare(
+        name,
+        {"crank": (0.02, 0.08, 0.03), "rod": (0.21, 0.16, 0.16), "rocker": (0.42, 0.12, 0.2)},
+        (
+            hinge("drive", "ground", "crank", "crank_bearing", "crank_line"),
+            *rod,
+            # its second body is the ground: the angle counts the other way round
+            hinge("pivot", "rocker", "ground", "rocker_bearing", "rocker_line"),
+        ),
+        {
+            "crank_bearing": (0.0, 0.0, 0.0),
+            "crank_end": (0.03, 0.14, 0.05),
+            "rocker_bearing": (0.45, 0.02, 0.1),
+            "rocker_end": (0.4, 0.2, 0.3),
+            "ground_seat": (0.2, -0.1, 0.4),
+            "rod_seat": (0.18, 0.2, 0.21),
+        },
+        {
+            "crank_line": (0.9, -0.2, 0.3),
+            "rocker_line": (0.3, 1.1, -0.5),
+            "cross_axis": (0.2, -0.4, 1.0),
+        },
+        ("drive",),
+        spring=("ground_seat", "rod_seat"),
+    )
+
+
+# -- a spatial slider-crank between two bodies that both turn --------------------------------------
+
+
+def moving_slider_crank(name: str, *, prescribed: bool = False) -> Model:
+    """Return crank, rod and slider; the crank's bearing and the slider's guide move by themselves.
+
+    The guide is declared from the slider to its table: the slide counts the other way round.
+    """
+    return declare(
+        name,
+        {
+            "base": (0.05, -0.1, 0.02),
+            "crank": (0.1, 0.03, 0.12),
+            "rod": (0.25, 0.12, 0.2),
+            "slider": (0.46, 0.17, 0.3),
+            "table": (0.55, 0.1, 0.2),
+        },
+        (
+            hinge("swing", "ground", "base", "base_bearing", "base_line"),
+            hinge("drive", "base", "crank", "crank_bearing", "crank_line"),
+            cross("cross", "crank", "rod", "crank_end", "slider_end", "cross_axis"),
+            ball("pin", "rod", "slider", "slider_end"),
+            guide("way", "slider", "table", "way_axis"),
+            hinge("tilt", "ground", "table", "table_bearing", "table_line"),
+        ),
+        {
+            "base_bearing": (0.0, -0.2, 0.0),
+            "crank_bearing": (0.1, 0.0, 0.1),
+            "crank_end": (0.14, 0.07, 0.16),
+            "slider_end": (0.44, 0.2, 0.26),
+            "table_bearing": (0.6, 0.0, 0.1),
+            "crank_seat": (0.12, 0.09, 0.1),
+            "slider_seat": (0.5, 0.1, 0.33),
+        },
+        {
+            "base_line": (0.2, 1.0, 0.4),
+            "crank_line": (0.5, -0.7, 0.6),
+            "cross_axis": (0.1, 0.3, 1.0),
+            "way_axis": (1.0, 0.3, -0.2),
+            "table_line": (-0.3, 0.8, 0.7),
+        },
+        ("swing", "drive") if prescribed else ("swing", "drive", "tilt"),
+        spring=("crank_seat", "slider_seat"),
+        prescribed={"tilt": "tilt"} if prescribed else None,
+    )
+
+
+# -- planar loops in an oblique plane, on a base that turns ----------------------------------------
+
+
+def oblique_four_bar() -> Model:
+    """Return a planar four-bar on a base that turns, with a rotor on its coupler.
+
+    Its hinges' points lie at different heights over the plane, as in a real mechanism.
+    """
+    return declare(
+        "oblique_four_bar",
+        {
+            "base": (0.15, -0.3, 0.2),
+            "crank": askew(0.02, 0.06, 0.04),
+            "coupler": askew(0.14, 0.2, -0.03),
+            "rocker": askew(0.27, 0.13, 0.02),
+            "wheel": askew(0.1, 0.25, 0.08),
+        },
+        (
+            hinge("swing", "ground", "base", "base_bearing", "base_line"),
+            hinge("drive", "base", "crank", "crank_bearing", "normal"),
+            hinge("knee", "crank", "coupler", "crank_pin", "normal"),
+            hinge("knuckle", "rocker", "coupler", "rocker_pin", "normal"),
+            hinge("pivot", "rocker", "base", "rocker_bearing", "normal"),
+            Revolute(
+                name="spinning",
+                first="coupler",
+                second="wheel",
+                axis=Line(Point("wheel_com"), Direction("spin")),
+            ),
+        ),
+        {
+            "base_bearing": (0.0, -0.1, 0.1),
+            "crank_bearing": askew(0.0, 0.0, 0.05),
+            "crank_pin": askew(0.0, 0.1, -0.02),
+            "rocker_pin": askew(0.24, 0.26, 0.03),
+            "rocker_bearing": askew(0.3, 0.0, -0.04),
+            "ground_seat": (0.5, 0.2, 0.4),
+            "coupler_seat": askew(0.2, 0.15, 0.06),
+        },
+        {"base_line": (0.3, -0.5, 0.9), "normal": NORMAL},
+        ("swing", "drive", "spinning"),
+        spring=("ground_seat", "coupler_seat"),
+        wheel=("wheel", (0.4, 0.7, -0.3)),
+        unreported=("knuckle",),
+    )
+
+
+def oblique_slider_crank(name: str, *, driven: str) -> Model:
+    """Return a planar slider-crank on a base that turns; the crank or the piston is driven."""
+    return declare(
+        name,
+        {
+            "base": (0.15, -0.3, 0.2),
+            "crank": askew(0.02, 0.06, 0.04),
+            "rod": askew(0.14, 0.1, -0.03),
+            "piston": askew(0.33, 0.04, 0.02),
+        },
+        (
+            hinge("swing", "ground", "base", "base_bearing", "base_line"),
+            hinge("drive", "base", "crank", "crank_bearing", "normal"),
+            hinge("knee", "crank", "rod", "crank_pin", "normal"),
+            hinge("wrist", "piston", "rod", "piston_pin", "normal"),
+            guide("way", "base", "piston", "way_axis"),
+        ),
+        {
+            "base_bearing": (0.0, -0.1, 0.1),
+            "crank_bearing": askew(0.0, 0.0, 0.05),
+            "crank_pin": askew(0.0, 0.1, -0.02),
+            "piston_pin": askew(0.3, 0.02, 0.03),
+            "ground_seat": (0.5, 0.2, 0.4),
+            "rod_seat": askew(0.2, 0.15, 0.06),
+        },
+        {"base_line": (0.3, -0.5, 0.9), "normal": NORMAL, "way_axis": heading(0.2)},
+        ("swing", driven),
+        spring=("ground_seat", "rod_seat"),
+        unreported=("wrist",) if driven == "drive" else ("knee",),
+    )
+
+
+def oblique_trammel() -> Model:
+    """Return two sliders on guides of one base, joined by a rod: Archimedes' trammel."""
+    return declare(
+        "oblique_trammel",
+        {
+            "base": (0.15, -0.3, 0.2),
+            "ram": askew(0.02, 0.06, 0.04),
+            "rod": askew(0.14, 0.1, -0.03),
+            "piston": askew(0.33, 0.04, 0.02),
+        },
+        (
+            hinge("swing", "ground", "base", "base_bearing", "base_line"),
+            guide("drive", "base", "ram", "drive_axis"),
+            hinge("knee", "ram", "rod", "ram_pin", "normal"),
+            hinge("wrist", "piston", "rod", "piston_pin", "normal"),
+            guide("way", "base", "piston", "way_axis"),
+        ),
+        {
+            "base_bearing": (0.0, -0.1, 0.1),
+            "ram_pin": askew(0.0, 0.15, -0.02),
+            "piston_pin": askew(0.3, 0.02, 0.03),
+            "ground_seat": (0.5, 0.2, 0.4),
+            "rod_seat": askew(0.2, 0.15, 0.06),
+        },
+        {
+            "base_line": (0.3, -0.5, 0.9),
+            "normal": NORMAL,
+            "drive_axis": heading(1.4),
+            "way_axis": heading(0.2),
+        },
+        ("swing", "drive"),
+        spring=("ground_seat", "rod_seat"),
+        unreported=("wrist",),
+    )
+
+
+# -- one loop after another ------------------------------------------------------------------------
+
+
+def chain() -> Model:
+    """Return a planar four-bar whose rocker drives a spatial one, which drives a slider."""
+    return declare(
+        "chain",
+        {
+            "crank": askew(0.02, 0.06, 0.04),
+            "coupler": askew(0.14, 0.2, -0.03),
+            "rocker": askew(0.27, 0.13, 0.02),
+            "link": (0.4, 0.15, 0.5),
+            "lever": (0.6, 0.1, 0.45),
+            "rod": (0.75, 0.2, 0.5),
+            "slider": (0.95, 0.2, 0.4),
+        },
+        (
+            hinge("drive", "ground", "crank", "crank_bearing", "normal"),
+            hinge("knee", "crank", "coupler", "crank_pin", "normal"),
+            hinge("knuckle", "coupler", "rocker", "rocker_pin", "normal"),
+            hinge("pivot", "ground", "rocker", "rocker_bearing", "normal"),
+            cross("link_cross", "rocker", "link", "rocker_horn", "lever_end", "cross_axis"),
+            ball("link_pin", "link", "lever", "lever_end"),
+            hinge("bell", "ground", "lever", "lever_bearing", "lever_line"),
+            cross("rod_cross", "lever", "rod", "lever_horn", "slider_end", "cross_axis"),
+            ball("rod_pin", "rod", "slider", "slider_end"),
+            guide("way", "ground", "slider", "way_axis"),
+        ),
+        {
+            "crank_bearing": askew(0.0, 0.0, 0.05),
+            "crank_pin": askew(0.0, 0.06, -0.02),
+            "rocker_pin": askew(0.24, 0.26, 0.03),
+            "rocker_bearing": askew(0.3, 0.0, -0.04),
+            "rocker_horn": askew(0.33, 0.14, 0.1),
+            "lever_bearing": (0.62, 0.0, 0.4),
+            "lever_end": (0.55, 0.15, 0.55),
+            "lever_horn": (0.66, 0.18, 0.47),
+            "slider_end": (0.93, 0.22, 0.45),
+            "ground_seat": (0.8, -0.1, 0.7),
+            "rod_seat": (0.78, 0.21, 0.52),
+        },
+        {
+            "normal": NORMAL,
+            "cross_axis": (0.1, 0.3, 1.0),
+            "lever_line": (0.8, -0.1, 0.5),
+            "way_axis": (1.0, 0.25, -0.2),
+        },
+        ("drive",),
+        spring=("ground_seat", "rod_seat"),
+        unreported=("knuckle",),
+    )
+
+
+MODELS = (
+    spatial_four_bar("spatial_four_bar"),
+    spatial_four_bar("cross_at_rocker", cross_at_rocker=True),
+    moving_slider_crank("moving_slider_crank"),
+    moving_slider_crank("tilted_slider_crank", prescribed=True),
+    oblique_four_bar(),
+    oblique_slider_crank("oblique_crank", driven="drive"),
+    oblique_slider_crank("oblique_piston", driven="way"),
+    oblique_trammel(),
+    chain(),
+)
+"""All of them, each as one model."""

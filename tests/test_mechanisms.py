@@ -1,0 +1,400 @@
+"""Every declared mechanism against maximal coordinates: poses, velocities, equations of motion.
+
+Beside the mechanisms that ship there are those of `own_mechanisms`, in which no axis and no plane
+is a special one. The states are random, within all but the last part of the reach; closer to a dead
+point the rounding of any method grows without bound (`test_mechanisms_branches`).
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import mpmath
+import numpy as np
+import own_mechanisms
+import pytest
+from kintrafo.generator.mechanism import Model
+from kintrafo.generator.mechanisms import MODELS as SHIPPED
+from kintrafo.generator.outputs import GeneratedModel, generate
+from oracle.constraints import Array
+from oracle.maximal import Jet, Motion
+from oracle.reference import completed, general_parameters
+from own_models import Built, needs_gcc, own, shipped
+from scipy.integrate import solve_ivp
+from symbolic import constants_of, python
+
+MODELS = {m.name: m for m in (*SHIPPED, *own_mechanisms.MODELS)}
+OWN = {m.name for m in own_mechanisms.MODELS}
+SEEDS = range(3)  # 0 is the declaration's own geometry
+STATES = 4  # for each geometry
+
+SCALES = {
+    "m": 0.02,
+    "m/s": 0.3,
+    "m/s^2": 5.0,
+    "rad": 0.2,
+    "rad/s": 2.0,
+    "rad/s^2": 10.0,
+    "N": 100.0,
+    "N m": 1.0,
+    "N or N m": 1.0,
+}
+"""Size of the inputs by unit."""
+
+
+@dataclass(frozen=True)
+class At:
+    """A model at a state and inputs, with the motion that it says its bodies have."""
+
+    built: Built
+    state: Array
+    inputs: Array
+    motion: Motion
+
+    def __call__(self, function: str) -> Array:
+        return self.built(function, self.state, self.inputs)
+
+    @property
+    def given(self) -> dict[str, float]:
+        """Accelerations of the prescribed joints."""
+        named = self.built.named(self.inputs)
+        prescribed = self.built.model.prescribed
+        return {joint: named[f"{name}_acceleration"] for joint, name in prescribed.items()}
+
+
+# -- models, geometries, states -------------------------------------------------------------------
+
+
+@pytest.fixture(scope="session")
+def derive() -> Callable[[str], GeneratedModel]:
+    return cache(lambda name: generate(MODELS[name]))
+
+
+@pytest.fixture(scope="session")
+def module(
+    derive: Callable[[str], GeneratedModel], tmp_path_factory: pytest.TempPathFactory
+) -> Callable[[str], Any]:
+    def find(name: str) -> Any:
+        if name in OWN:
+            return own(derive(name), tmp_path_factory.mktemp(name))
+        return shipped(MODELS[name])
+
+    return cache(find)
+
+
+def cases(*seeds: int, names: Any = MODELS, wrong: dict[str, str] | None = None) -> Any:
+    """Parametrise a test by model and geometry; `wrong`: models that fail it, and why."""
+    parameters = []
+    for name in names:
+        marks = [needs_gcc] if name in OWN else []
+        if name in (wrong or {}):
+            marks.append(pytest.mark.xfail(reason=wrong[name], strict=True))
+        parameters += [pytest.param(name, seed, marks=marks, id=f"{name}-{seed}") for seed in seeds]
+    return pytest.mark.parametrize(("name", "seed"), parameters)
+
+
+def places(name: str, seed: int, found: Any) -> list[At]:
+    """Return a geometry of a model at random states."""
+    rng = np.random.default_rng([seed, *name.encode()])
+    built = geometry(MODELS[name], found, rng) if seed else Built.of(MODELS[name], found)
+    return [random_place(built, rng) for _ in range(STATES)]
+
+
+def geometry(model: Model, found: Any, rng: np.random.Generator) -> Built:
+    """Return a model of other dimensions; its loops are about as far from dead points."""
+    reference = margins(Built.of(model, found))
+    for _ in range(100):
+        built = Built.of(model, found, changed(model, rng))
+        if (margins(built) > 0.4 * reference).all():
+            return built
+    raise AssertionError(f"{model.name}: no other geometry found")
+
+
+def changed(model: Model, rng: np.random.Generator) -> dict[str, float]:
+    """Return other values of all parameters that may be chosen freely."""
+    if model.name.startswith("macpherson"):
+        car = completed(general_parameters(rng, offset=rng.uniform(0.0, 0.08)))
+        return {p.name: car[p.name] for p in model.mechanism.parameters}
+    points = {
+        p.name[:-2] for p in model.mechanism.parameters if p.unit == "m" and p.name[-2] == "_"
+    }
+    places = [p.default for p in model.mechanism.parameters if p.name[:-2] in points]
+    oblique = any(p.name.startswith("normal_") for p in model.mechanism.parameters)
+    inertia = {b.name: rng.uniform(0.7, 1.4) for b in model.mechanism.bodies}
+    new = {}
+    for p in model.mechanism.parameters:
+        if p.name[:-2] in points:
+            new[p.name] = p.default + 0.02 * np.ptp(places) * rng.standard_normal()
+        elif p.unit == "1":  # directions; those of a planar loop must stay in its plane
+            new[p.name] = p.default + (0.0 if oblique else 0.1 * rng.standard_normal())
+        elif p.unit == "kg m^2":
+            new[p.name] = p.default * inertia[p.name.split("_inertia_")[0]]
+        else:
+            new[p.name] = p.default * rng.uniform(0.8, 1.2)
+    return new
+
+
+def margins(built: Built) -> Array:
+    """Return what must be positive, at the design position."""
+    state = np.concatenate((built.design, np.zeros(built.size)))
+    return built("margins", state)
+
+
+def random_place(built: Built, rng: np.random.Generator) -> At:
+    """Return a random state within the reach, at most where the design's margins are a tenth."""
+    least = 0.1 * margins(built)
+    states = list(built.module.STATE.values())[: built.size]
+    spread = np.array([1.2 if entry["unit"] == "rad" else 0.1 for entry in states])
+    units = [entry["unit"] for entry in built.module.INPUTS.values()]
+    for _ in range(1000):
+        q = built.design + spread * rng.uniform(-1.0, 1.0, built.size)
+        inputs = np.array([SCALES[unit] * rng.standard_normal() for unit in units])
+        state = np.concatenate((q, 4.0 * spread * rng.standard_normal(built.size)))
+        if (built("margins", state, inputs) > least).all():
+            return At(built, state, inputs, built.motion(state, inputs))
+    raise AssertionError(f"{built.model.name}: no state in reach found")
+
+
+# -- kinematics ------------------------------------------------------------------------------------
+
+
+@cases(*SEEDS)
+def test_the_design_position_is_the_declared_one(name, seed, module):
+    built = places(name, seed, module(name))[0].built
+    motion = built.motion(np.concatenate((built.design, np.zeros(built.size))), None)
+    np.testing.assert_allclose(motion.position[1:], built.oracle.centers[1:], atol=1e-14)
+    np.testing.assert_allclose(motion.rotation, built.at_design.rotation, atol=1e-14)
+    assert not motion.twist.any()
+
+
+@cases(*SEEDS)
+def test_bodies_fulfil_all_joints(name, seed, module):
+    # 1e-13: a hundred roundings of lengths below 1 m, times up to five near the end of the reach
+    for at in places(name, seed, module(name)):
+        closure = at.built.oracle.closure(at.motion)
+        np.testing.assert_allclose(closure.value, 0.0, atol=1e-13)
+        fastest = np.abs(at.motion.twist).max()
+        np.testing.assert_allclose(closure.rate, 0.0, atol=1e-13 * fastest)
+
+
+@cases(*SEEDS)
+def test_rotations_are_rotations(name, seed, module):
+    for at in places(name, seed, module(name)):
+        for rotation in at.motion.rotation:
+            np.testing.assert_allclose(rotation @ rotation.T, np.eye(3), atol=1e-13)
+            assert np.linalg.det(rotation) > 0.0
+
+
+@cases(*SEEDS)
+def test_bodies_stand_and_move_as_the_state_says(name, seed, module):
+    for at in places(name, seed, module(name)):
+        driven = [at.built.oracle.driven(at.motion, j) for j in at.built.model.independent]
+        q, rates = np.split(at.state, 2)
+        for jet, coordinate, rate in zip(driven, q, rates, strict=True):
+            assert whole_turns_off(jet, coordinate) < 1e-13
+            assert jet.rate[0] == pytest.approx(rate, rel=1e-12, abs=1e-12)
+
+
+def whole_turns_off(jet: Jet, value: float) -> float:
+    """Return how far a coordinate is from a value; angles count up to whole turns."""
+    return abs(np.remainder(jet.value[0] - value + np.pi, 2.0 * np.pi) - np.pi)
+
+
+def reported(at: At) -> list[Jet]:
+    """Return all relative coordinates by the oracle."""
+    mechanism = at.built.model.mechanism
+    return [
+        at.built.oracle.coordinate(at.motion, mechanism.joint(c.joint), c.kind)
+        for c in mechanism.coordinates
+    ]
+
+
+@cases(*SEEDS)
+def test_relative_coordinates_are_those_of_the_joints(name, seed, module):
+    for at in places(name, seed, module(name)):
+        for value, jet in zip(at("relative_coordinates"), reported(at), strict=True):
+            assert whole_turns_off(jet, value) < 1e-13
+
+
+@cases(*SEEDS)
+def test_residuals_vanish_at_the_relative_coordinates_only(name, seed, module):
+    for at in places(name, seed, module(name)):
+        beta = at("relative_coordinates")
+        left = at.built.residuals(beta, at.state, at.inputs)
+        np.testing.assert_allclose(left, 0.0, atol=1e-13)
+        # each sees its own coordinate: a step of 1e-3 leaves much more than rounding
+        for i in range(len(beta)):
+            moved = beta + 1e-3 * np.eye(len(beta))[i]
+            assert abs(at.built.residuals(moved, at.state, at.inputs)[i]) > 1e-6
+
+
+# -- Jacobians -------------------------------------------------------------------------------------
+
+
+@cases(*SEEDS)
+def test_global_jacobian_is_the_twists_for_unit_rates(name, seed, module):
+    for at in places(name, seed, module(name)):
+        jacobian = oracle_jacobian(at)
+        found = at("global_jacobian").reshape(-1, 6, at.built.size)
+        found = np.concatenate((found[:, 3:], found[:, :3]), axis=1)
+        np.testing.assert_allclose(found, jacobian, atol=1e-12 * np.abs(jacobian).max())
+
+
+def oracle_jacobian(at: At) -> Array:
+    """Return the twists of the massive bodies for unit rates of the independent coordinates."""
+    bodies = [b.name for b in at.built.model.mechanism.bodies[1:]]
+    massive = [bodies.index(b) for b in at.built.module.MASSIVE_BODIES]
+    return reduced(at).jacobian[massive]
+
+
+@cases(*SEEDS)
+def test_relative_jacobian_is_the_rates_for_unit_rates(name, seed, module):
+    for at in places(name, seed, module(name)):
+        columns = reduced(at).jacobian.reshape(-1, at.built.size)
+        found = at("relative_jacobian")
+        for row, jet in zip(found, reported(at), strict=True):
+            if not np.isnan(jet.rows).any():  # of a telescope's angle the oracle has no rate
+                expected = jet.rows[0] @ columns
+                np.testing.assert_allclose(row, expected, atol=1e-12 * np.abs(found).max())
+
+
+GUIDE = "a guide on a body that turns: its screw keeps the direction of the design position"
+
+
+@cases(*SEEDS, wrong=dict.fromkeys(("oblique_crank", "oblique_piston", "oblique_trammel"), GUIDE))
+def test_absolute_times_relative_is_global_jacobian(name, seed, module):
+    found = module(name)
+    if not hasattr(found, "absolute_jacobian"):
+        pytest.skip("a body hangs on joints whose coordinates are not reported")
+    for at in places(name, seed, found):
+        expected = at("global_jacobian")
+        product = at("absolute_jacobian") @ at("relative_jacobian")
+        np.testing.assert_allclose(product, expected, atol=1e-12 * np.abs(expected).max())
+
+
+@cases(0, 1, names=[n for n in MODELS if not n.startswith("macpherson")])
+def test_state_jacobian_of_the_right_hand_side_is_exact(name, seed, module, derive):
+    # central differences of the program in 50 digits, with errors below 1e-20
+    at, derived = places(name, seed, module(name))[0], derive(name)
+    found = at("rhs_jacobian")
+    with mpmath.workdps(50):
+        rhs, step = python(derived.functions["rhs"]), mpmath.mpf("1e-15")
+        values = constants_of(derived, at.built.parameters) | at.built.named(at.inputs)
+        values |= dict(zip(at.built.module.STATE, map(mpmath.mpf, at.state), strict=True))
+        columns = []
+        for variable in at.built.module.STATE:
+            ahead, behind = (
+                rhs(values | {variable: values[variable] + side * step}) for side in (1, -1)
+            )
+            columns.append(
+                [float((a - b) / (2 * step)) for a, b in zip(ahead, behind, strict=True)]
+            )
+    expected = np.transpose(columns)
+    scale = np.abs(expected).max(axis=1, keepdims=True)
+    np.testing.assert_allclose(found / scale, expected / scale, atol=1e-11)
+
+
+# -- dynamics --------------------------------------------------------------------------------------
+
+CROSS = "a cross at the far end of its rod: the rod's mass is counted with the wrong body"
+TORQUE = "a torque on the bearing of a rotor has no effect on the accelerations"
+
+
+def reduced(at: At, **given: float) -> Any:
+    """Solve the equations of motion with the oracle."""
+    return at.built.oracle.reduced(at.motion, at.built.named(at.inputs), at.given | given)
+
+
+@cases(*SEEDS, wrong={"cross_at_rocker": CROSS})
+def test_mass_matrix_and_forces_are_those_of_the_maximal_coordinates(name, seed, module):
+    for at in places(name, seed, module(name)):
+        oracle = reduced(at)
+        for function, expected in (
+            ("mass_matrix", oracle.mass_matrix),
+            ("bias", oracle.inertial),
+            ("forces", oracle.applied),
+        ):
+            # 1e-11: forces and bias are sums whose terms may be larger than what remains
+            allowed = 1e-11 * np.abs(expected).max()
+            np.testing.assert_allclose(at(function), expected, atol=allowed, err_msg=function)
+
+
+@cases(*SEEDS, wrong={"cross_at_rocker": CROSS, "oblique_four_bar": TORQUE})
+def test_accelerations_are_those_of_the_maximal_coordinates(name, seed, module):
+    for at in places(name, seed, module(name)):
+        oracle = reduced(at)
+        allowed = 1e-11 * acceleration_scale(oracle)
+        np.testing.assert_allclose(
+            at("rhs"), [*at.state[at.built.size :], *oracle.accelerations], rtol=0.0, atol=allowed
+        )
+
+
+def acceleration_scale(oracle: Any) -> float:
+    """Return how large accelerations would be if forces and inertia did not cancel."""
+    inverse = np.abs(np.linalg.inv(oracle.mass_matrix))
+    return float((inverse @ (np.abs(oracle.applied) + np.abs(oracle.inertial))).max())
+
+
+@cases(0, 1, names=[n for n, m in MODELS.items() if m.held])
+def test_held_joints_stand_still(name, seed, module):
+    for at in places(name, seed, module(name)):
+        (variant, joints), *_ = MODELS[name].held.items()
+        moving = [MODELS[name].prescribed[j] for j in joints]
+        still = at.inputs.copy()
+        for i, entry in enumerate(at.built.module.INPUTS):
+            if entry in {f"{m}_{kind}" for m in moving for kind in ("velocity", "acceleration")}:
+                still[i] = 0.0
+        halted = At(at.built, at.state, still, at.built.motion(at.state, still))
+        oracle = reduced(halted)
+        np.testing.assert_allclose(
+            at(f"rhs_{variant}")[at.built.size :],
+            oracle.accelerations,
+            rtol=0.0,
+            atol=1e-11 * acceleration_scale(oracle),
+        )
+
+
+@cases(*SEEDS)
+def test_lengths_of_force_elements(name, seed, module):
+    for at in places(name, seed, module(name)):
+        signals = dict(zip(at.built.module.SIGNALS, at("signals"), strict=True))
+        for element in at.built.model.mechanism.elements:
+            path = at.built.oracle.length(at.motion, element)
+            assert signals[f"{element.name}_length"] == pytest.approx(path.value[0], rel=1e-13)
+            rate = signals[f"{element.name}_velocity"]
+            assert rate == pytest.approx(path.rate[0], rel=1e-12, abs=1e-13)
+
+
+CONSERVATIVE = [n for n in MODELS if not n.startswith("macpherson")]
+START = {"andrews": 100.0, "oblique_piston": 0.3, "oblique_trammel": 0.3}
+"""Rates at the start where they are not 2 rad/s (or m/s)."""
+AFLOAT = {"tyre_rate": 0.0, "spring_free_length": 0.44}
+"""A double wishbone without a road, on a spring that carries the arms only."""
+
+
+@cases(0, names=CONSERVATIVE, wrong={"cross_at_rocker": CROSS})
+def test_energy_stays_where_nothing_dissipates(name, seed, module):
+    del seed
+    built = Built.of(MODELS[name], module(name))
+    lossless = {p: 0.0 for p in built.parameters if "damper" in p}
+    lossless |= AFLOAT if name == "double_wishbone" else {}
+    built = Built.of(MODELS[name], module(name), lossless)
+    inputs = np.zeros(len(built.module.INPUTS))
+    start = np.concatenate((built.design, np.full(built.size, START.get(name, 2.0))))
+    result = solve_ivp(
+        lambda _, y: built("rhs", y, inputs), (0.0, 0.1), start, "DOP853", rtol=1e-12, atol=1e-12
+    )
+    assert result.success
+    energies = [built.oracle.energy(built.motion(y, inputs)) for y in result.y.T]
+    kinetic = [kinetic_energy(built, y) for y in result.y.T]
+    # the integrator's tolerance, over some hundred steps
+    assert np.ptp(energies) < 1e-9 * max(kinetic)
+    rates = result.y[built.size :]
+    assert (np.ptp(rates, axis=1) > 1e-3 * np.abs(rates).max(axis=1)).all()  # it does move
+
+
+def kinetic_energy(built: Built, state: Array) -> float:
+    """Return half of q' M q'."""
+    rates = state[built.size :]
+    return float(0.5 * rates @ built("mass_matrix", state) @ rates)
