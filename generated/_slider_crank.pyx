@@ -48,15 +48,6 @@ cdef extern from "slider_crank.h" nogil:
     int slider_crank_velocities(
         const double *constants, const double *state, const double *inputs,
         double *out)
-    int slider_crank_signals(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int slider_crank_signals_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int slider_crank_signals_input_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
     int slider_crank_margins(
         const double *constants, const double *state, const double *inputs,
         double *out)
@@ -77,8 +68,5 @@ ADDRESSES = {
     "positions": <uintptr_t> &slider_crank_positions,
     "orientations": <uintptr_t> &slider_crank_orientations,
     "velocities": <uintptr_t> &slider_crank_velocities,
-    "signals": <uintptr_t> &slider_crank_signals,
-    "signals_jacobian": <uintptr_t> &slider_crank_signals_jacobian,
-    "signals_input_jacobian": <uintptr_t> &slider_crank_signals_input_jacobian,
     "margins": <uintptr_t> &slider_crank_margins,
 }

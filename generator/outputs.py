@@ -405,6 +405,8 @@ class _Builder:
                 self._add_wheel_signals(force, results)
             elif isinstance(force, ForceElement):
                 self._add_element_signals(force, results)
+        if not results:
+            return
         self._add("signals", "Physical signals, see the enumeration of signals.", results)
         for by, name in (("state", "signals_jacobian"), ("inputs", "signals_input_jacobian")):
             self._add_derivatives(

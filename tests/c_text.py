@@ -7,11 +7,17 @@ import re
 from collections import Counter
 from collections.abc import Iterator
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 
 from kintrafo import generated
 
 FOLDER = Path(generated.__file__).parent / "c"
+EMITTED = {
+    path.stem: import_module(f"kintrafo.generated.{path.stem}")
+    for path in sorted(FOLDER.glob("*.h"))
+}
+"""All generated modules by name."""
 
 _LAYOUT = re.compile(r"/\*.*?\*/|^\s*#[^\n]*$", re.DOTALL | re.MULTILINE)
 _TOKEN = re.compile(

@@ -1,16 +1,18 @@
 """Expressions as text: what is written means the expression, and has the operations counted."""
 
 import ast
+import re
 from collections import Counter
 from typing import ClassVar
 
 import mpmath
+import numpy as np
 import pytest
 import sympy as sp
 from c_text import count, tokens
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kintrafo.generator.arithmetic import NUMPY, Guarded, SignOf, write
+from kintrafo.generator.arithmetic import NUMPY, Guarded, IsPositive, Positive, SignOf, write
 
 SYMBOLS = sp.symbols("x y z")
 VALUES = dict(zip(SYMBOLS, (1.37, -0.58, 2.91), strict=True))
@@ -40,6 +42,8 @@ def compound(parts: st.SearchStrategy[sp.Expr]) -> st.SearchStrategy[sp.Expr]:
         pairs.map(lambda pair: sp.atan2(pair[0], positive(pair[1]))),
         parts.map(lambda part: Guarded(positive(part))),
         parts.map(lambda part: SignOf(positive(part))),
+        parts.map(Positive),
+        parts.map(IsPositive),
     )
 
 
@@ -49,7 +53,7 @@ numbers = st.one_of(
 )
 
 
-KNOWN = (sp.sin, sp.cos, sp.atan2, Guarded, SignOf)
+KNOWN = (sp.sin, sp.cos, sp.atan2, Guarded, SignOf, Positive, IsPositive)
 
 
 def is_written(expression: sp.Expr) -> bool:
@@ -79,7 +83,7 @@ class _Functions:
     """What the written text calls ``np``, in mpmath's precision."""
 
     sin, cos, arcsin, arctan2, sqrt = mpmath.sin, mpmath.cos, mpmath.asin, mpmath.atan2, mpmath.sqrt
-    fmax = staticmethod(max)
+    maximum = staticmethod(max)
 
     @staticmethod
     def copysign(size: mpmath.mpf, sign: mpmath.mpf) -> mpmath.mpf:
@@ -95,8 +99,10 @@ def evaluate(text: str) -> mpmath.mpf:
 
 
 def meaning(expression: sp.Expr) -> sp.Expr:
-    """Return the expression with the project's two functions replaced by what they mean."""
-    return expression.replace(Guarded, lambda x: x).replace(SignOf, lambda _: sp.Integer(1))
+    """Return the expression with the project's functions replaced by what they mean."""
+    expression = expression.replace(Guarded, lambda x: x).replace(SignOf, lambda _: sp.Integer(1))
+    expression = expression.replace(Positive, lambda x: sp.Max(x, 0))
+    return expression.replace(IsPositive, lambda x: sp.Heaviside(x, 0))
 
 
 @given(expressions)
@@ -145,6 +151,9 @@ class _Counting(ast.NodeVisitor):
         operands = node.left, node.right
         if isinstance(node.op, ast.Div) and all(map(self.is_number, operands)):
             return  # a fraction
+        if isinstance(node.right, ast.Compare):
+            self.visit_alone(node.right.left)  # a comparison made a number
+            return
         self.total[self.kinds[type(node.op)]] += 1
         self.generic_visit(node)
 
@@ -180,8 +189,8 @@ def test_c_is_the_same_arithmetic(expression: sp.Expr) -> None:
     """The dialects differ in the names of functions only, so what holds for one holds for C."""
     in_c, in_numpy = write(expression), write(expression, NUMPY)
     assert in_c.operations == in_numpy.operations
-    renamed = in_numpy.text.replace("np.arc", "a").replace("np.fmax", "at_least")
-    renamed = renamed.replace("np.", "")
+    renamed = in_numpy.text.replace("np.arc", "a").replace("np.maximum", "at_least")
+    renamed = re.sub(r"(?<![\d.])1\.0\*\((?=.* > 0\.0\))", "(double)(", renamed.replace("np.", ""))
     assert in_c.text == renamed
 
 
@@ -207,6 +216,10 @@ x, y, z = SYMBOLS
         (sp.Rational(1, 3) * x, "(1.0/3.0)*x"),
         (x / 2, "0.5*x"),
         (Guarded(x), "at_least(x, GUARD_FLOOR)"),
+        (Positive(x - y), "at_least(x - y, 0.0)"),
+        (IsPositive(x - y), "(double)(x - y > 0.0)"),
+        (x * Positive(y) ** 2, "x*at_least(y, 0.0)*at_least(y, 0.0)"),
+        (z * IsPositive(x) * y, "y*z*(double)(x > 0.0)"),
         (SignOf(x - y), "copysign(1.0, x - y)"),
         (sp.atan2(y, x), "atan2(y, x)"),
         (sp.asin(x), "asin(x)"),
@@ -232,6 +245,30 @@ def test_pi() -> None:
 
 def test_guard_is_differentiated_as_the_identity() -> None:
     assert Guarded(x**2).diff(x) == 2 * x
+
+
+def test_kinks_are_differentiated_on_their_sides() -> None:
+    assert Positive(x**3).diff(x) == 3 * x**2 * IsPositive(x**3)
+    assert Positive(x - y).diff(y) == -IsPositive(x - y)
+    assert Positive(x).diff(y) == 0
+    assert IsPositive(x**3).diff(x) == 0
+    assert (y * IsPositive(x)).diff(y) == IsPositive(x)
+
+
+@pytest.mark.parametrize("value", [-2.0, -1e-300, -0.0, 0.0, 1e-300, 3.0, np.inf, -np.inf])
+def test_kinks_in_numpy(value: float) -> None:
+    """At zero itself the derivative is that of the side where nothing acts."""
+    names = {"np": np, "x": np.array([value])}
+    (positive_part,) = eval(write(Positive(x), NUMPY).text, names)
+    (side,) = eval(write(IsPositive(x), NUMPY).text, names)
+    assert positive_part == max(value, 0.0)
+    assert side == float(value > 0.0)
+
+
+def test_no_number_goes_through_a_kink_unseen() -> None:
+    names = {"np": np, "x": np.array([np.nan]), "GUARD_FLOOR": 1e-24}
+    for kink in (Positive(x), Guarded(x), Positive(x) * IsPositive(x)):
+        assert np.isnan(eval(write(kink, NUMPY).text, names)).all()
 
 
 def test_what_is_there_first_is_put_together_first() -> None:

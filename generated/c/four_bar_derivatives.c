@@ -12,10 +12,10 @@
 /* The smallest value that a guarded quantity is given; see the status bits. */
 #define GUARD_FLOOR 1.0e-24
 
-/* The greater of two numbers; `least` for a NaN. One instruction, where fmax may be a call. */
+/* The greater of two numbers; NaN for a NaN. One instruction, where fmax may be a call. */
 static inline double at_least(double x, double least)
 {
-    return x > least ? x : least;
+    return x < least ? least : x;
 }
 
 /* Whether any of some values is NaN or infinite. */

@@ -48,10 +48,10 @@ def mechanism_hash(model: GeneratedModel) -> str:
 
 
 AT_LEAST = """\
-/* The greater of two numbers; `least` for a NaN. One instruction, where fmax may be a call. */
+/* The greater of two numbers; NaN for a NaN. One instruction, where fmax may be a call. */
 static inline double at_least(double x, double least)
 {
-    return x > least ? x : least;
+    return x < least ? least : x;
 }"""
 
 NOT_FINITE = """\
