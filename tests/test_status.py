@@ -400,12 +400,19 @@ def test_overflow_is_no_silent_nan(model, rate: float) -> None:
         model.rhs(*Instant(BETA1_DESIGN, beta1_rate=rate, spin_rate=rate).arrays(model))
 
 
-@each_model
-def test_nan_among_the_constants_is_no_silent_nan(model) -> None:
-    constants = model.DEFAULT_CONSTANTS.copy()
-    constants[model.CONSTANTS.index("spring_rate")] = np.nan
-    with pytest.raises(ModelError):
-        model.rhs(Instant(BETA1_DESIGN).state(model), None, constants)
+@every_refusing_function
+def test_nan_among_the_constants_is_no_silent_number(model, function: str) -> None:
+    """No constant that is read may vanish, as in a law that takes a NaN for "not touched"."""
+    constants = model.prepare(car_parameters(1, model))
+    arrays = Instant(BETA1_DESIGN, 0.2, 0.01, 1.0, 50.0, 0.1).arrays(model)
+    read = set(functions(model.NAME)[function])
+    prefix = f"{model.NAME}_constant_"
+    for index, name in enumerate(model.CONSTANTS):
+        if f"{prefix}{name}".upper() in read:
+            wrong = constants.copy()
+            wrong[index] = np.nan
+            with pytest.raises(ModelError):
+                getattr(model, function)(*arrays, wrong)
 
 
 # -- parameters -----------------------------------------------------------------------------------
