@@ -1,7 +1,7 @@
 """Times under watch, with pytest-benchmark: ``make benchmark-speed``. Nothing is asserted.
 
-To compare with an earlier state: ``make benchmark-speed ARGS=--benchmark-autosave`` before a change,
-``ARGS=--benchmark-compare`` after it.
+To compare with an earlier state: ``make benchmark-speed ARGS=--benchmark-autosave`` before a
+change, ``ARGS=--benchmark-compare`` after it.
 """
 
 import subprocess
