@@ -1,0 +1,199 @@
+"""The closed form of a strut whose axis misses the ball joint: many geometries, up to the edges.
+
+Two oracles: Newton's poses, and the joints' own equations at the poses of the closed form. The
+first are as good as the mechanism is conditioned, the second need not know.
+
+A rounding of the rod's equation turns the knuckle by as much over the sine of the angle between the
+lever and the plane in which the rod would be dead. Errors are therefore measured in multiples of
+`slackness`, lever over distance from that plane, which is one at best.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from cases import At, Instant, of_model
+from kintrafo.generated import macpherson_general
+from kintrafo.generated._support import ClosureError
+from oracle.constraints import Array, Pose
+from oracle.newton import AssemblyError, Mechanism, residual_norm, solve_pose
+from oracle.reference import (
+    Parameters,
+    general_parameters,
+    mirrored_parameters,
+    set_vector,
+    vector,
+)
+
+MODEL = macpherson_general
+GUARDS = [name for name, _ in MODEL.GUARDS]
+
+# Four times the worst of some 1400 poses (2.4e-15): coordinates and sines of order one.
+ROUNDING = 1e-14
+
+
+@dataclass(frozen=True)
+class Offset:
+    """A car with an offset strut, for the oracle and for the compiled model."""
+
+    car: Mechanism
+    constants: Array
+
+    def at(self, turn: float, rack: float = 0.0, spin: float = 0.3) -> At:
+        """Return the model with the arm turned from design (rad) and the rack moved (m)."""
+        instant = Instant(self.car.beta1_design + turn, spin, rack)
+        return At(MODEL, instant, self.constants)
+
+    def slackness(self, at: At) -> float:
+        """Return the lever of the rod over how far it is from its dead point."""
+        lever = self.car.points["tie_rod_outer"] - self.car.points["ball_joint"]
+        return float(np.linalg.norm(lever) / np.sqrt(margin(at, "knuckle_closure")))
+
+
+def offset_car(parameters: Parameters) -> Offset:
+    """Return a car from parameters of any model."""
+    given = of_model(MODEL, parameters)
+    return Offset(Mechanism(given), MODEL.prepare(given))
+
+
+def random_car(seed: int, offset: float | None = None) -> Offset:
+    """Return a general car with an offset of up to 120 mm, every second one on the left."""
+    rng = np.random.default_rng(seed)
+    parameters = general_parameters(rng, rng.uniform(0.0, 0.12) if offset is None else offset)
+    return offset_car(mirrored_parameters(parameters) if seed % 2 else parameters)
+
+
+def margin(at: At, guard: str) -> float:
+    """Return one of the margins, whether it is positive or not."""
+    return float(at("margins")[GUARDS.index(guard)])
+
+
+def closed_form(at: At) -> Pose | None:
+    """Return the pose of the closed form; None where it refuses."""
+    try:
+        return Pose(at("positions"), at("orientations"))
+    except ClosureError:
+        return None
+
+
+def by_newton(car: Mechanism, at: At) -> Pose | None:
+    """Return the pose that Newton finds on the branch of the design position; None without."""
+    try:
+        return solve_pose(car, at.instant.beta1, at.instant.rack, at.instant.spin)
+    except AssemblyError:
+        return None
+
+
+def difference(one: Pose, other: Pose) -> float:
+    """Return the largest difference of positions (m) and direction cosines."""
+    positions = np.abs(one.position - other.position).max()
+    return float(max(positions, np.abs(one.rotation - other.rotation).max()))
+
+
+@pytest.mark.parametrize(
+    ("seed", "offset"),
+    [(0, 0.0), (1, 0.0), (2, 0.12), (3, 0.12), *((s, None) for s in range(4, 24))],
+)
+def test_poses_of_many_geometries(seed: int, offset: float | None) -> None:
+    """Over travel and rack: the same poses as Newton's, and the same reach."""
+    subject = random_car(1000 + seed, offset)
+    found = 0
+    for rack in np.linspace(-0.06, 0.06, 5):
+        for turn in np.linspace(-0.45, 0.45, 5):
+            at = subject.at(turn, rack)
+            pose, expected = closed_form(at), by_newton(subject.car, at)
+            assert (pose is None) == (expected is None)
+            if pose is not None and expected is not None:
+                found += 1
+                assert difference(pose, expected) < ROUNDING * subject.slackness(at)
+                assert residual_norm(subject.car, pose) < ROUNDING
+    assert found > 15  # of 25; some geometries do not reach the ends
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+@pytest.mark.parametrize("seed", range(4))
+def test_up_to_the_dead_point(seed: int, side: float) -> None:
+    """As the rack nears the place where the rod just reaches, the joints stay closed."""
+    subject = random_car(2000 + seed)
+    reached, missed = 0.0, 0.4 * side
+
+    def room(rack: float) -> float:
+        return margin(subject.at(-0.1, rack), "knuckle_closure")
+
+    assert room(missed) < 0.0
+    for _ in range(60):  # bisection to the last digit
+        middle = 0.5 * (reached + missed)
+        reached, missed = (middle, missed) if room(middle) > 0.0 else (reached, middle)
+    for gap in 10.0 ** np.arange(-2, -13, -1):
+        at = subject.at(-0.1, reached - side * gap)
+        pose = closed_form(at)
+        assert pose is not None
+        assert residual_norm(subject.car, pose) < ROUNDING
+        expected = by_newton(subject.car, at)
+        if gap > 1e-9:  # beyond, Newton's own steps may end on the other branch
+            assert expected is not None
+        if expected is not None:
+            assert difference(pose, expected) < ROUNDING * subject.slackness(at)
+    assert closed_form(subject.at(-0.1, reached + 1e-9 * side)) is None
+
+
+def almost_touching(seed: int, reach: float) -> Offset:
+    """Return a car whose strut top is, along the strut's axis, a reach (m) from the ball joint."""
+    parameters = general_parameters(np.random.default_rng(seed), 0.06)
+    ball, top, lower = (
+        vector(parameters, name) for name in ("ball_joint", "strut_top", "strut_lower")
+    )
+    axis = (lower - top) / np.linalg.norm(lower - top)
+    offset = (ball - top) - ((ball - top) @ axis) * axis
+    top = ball - reach * axis - offset
+    set_vector(parameters, "strut_top", top)
+    set_vector(parameters, "strut_lower", top + 0.3 * axis)
+    return offset_car(parameters)
+
+
+@pytest.mark.parametrize("exponent", range(1, 7))
+@pytest.mark.parametrize("seed", range(3))
+def test_up_to_where_the_axis_passes_the_ball_joint(seed: int, exponent: int) -> None:
+    """The strut top as near to the ball joint as the axis is: there the reach is zero.
+
+    A rounding of the square of the reach is divided by the reach, and so is the knuckle's turn.
+    """
+    subject = almost_touching(seed, 10.0**-exponent)
+    solved = 0
+    for turn in 0.3 * 10.0**-exponent * np.array([-1.0, 1.0]):
+        at = subject.at(turn, 0.1 * turn)
+        pose = closed_form(at)
+        if pose is None:
+            # of the two sides of so small a reach, one may be beyond the edge
+            assert exponent > 2
+            assert min(margin(at, "length_squared_BC"), margin(at, "knuckle_closure")) < 0.0
+            continue
+        solved += 1
+        assert residual_norm(subject.car, pose) < ROUNDING
+        reach = np.sqrt(margin(at, "length_squared_BC"))
+        expected = by_newton(subject.car, at)
+        assert expected is not None
+        allowed = ROUNDING * subject.slackness(at) * max(1.0, 0.1 / reach)
+        assert difference(pose, expected) < allowed
+    assert solved > 0
+
+
+def test_either_branch_is_that_of_the_design() -> None:
+    """The rod's end in front of the axle or behind it: two signs of the root."""
+    signs = set()
+    for seed in range(6):
+        rng = np.random.default_rng(seed)
+        parameters = general_parameters(rng)
+        if seed % 2:  # steering in front of the axle
+            for name in ("tie_rod_outer", "tie_rod_inner"):
+                place = vector(parameters, name) * np.array([-1.0, 1.0, 1.0])
+                set_vector(parameters, name, place)
+        subject = offset_car(parameters)
+        signs.add(float(subject.constants[MODEL.CONSTANTS.index("knuckle_branch")]))
+        for turn, rack in ((0.0, 0.0), (0.2, 0.01), (-0.2, -0.01)):
+            at = subject.at(turn, rack)
+            pose, expected = closed_form(at), by_newton(subject.car, at)
+            assert pose is not None
+            assert expected is not None
+            assert difference(pose, expected) < ROUNDING * subject.slackness(at)
+    assert signs == {-1.0, 1.0}
