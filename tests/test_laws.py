@@ -1,0 +1,254 @@
+"""Laws of force elements by themselves: value, sign, derivative, and both ends of every curve."""
+
+from collections.abc import Callable, Mapping
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from kintrafo.generator.laws import (
+    Actuator,
+    DamperTable,
+    Friction,
+    Law,
+    LinearDamper,
+    LinearSpring,
+    Stop,
+    Stretch,
+)
+from kintrafo.generator.program import ConstantStage, Function, Program
+from oracle import laws as oracle
+from oracle.reference import completed, reference_parameters, set_damper_curve
+from scipy.interpolate import PchipInterpolator
+from symbolic import python
+from sympy import Symbol
+
+STATE = {"length": 0.6, "velocity": 0.2, "slide": 0.25}
+TABLE = DamperTable(name="damper_table", segments=10)
+
+calm = settings(deadline=None, max_examples=60)
+velocities = st.floats(-5.0, 5.0)
+
+
+def programs(law: Law) -> tuple[Function, Function]:
+    """Return the program of a law's force, and that of its derivatives by length and velocity."""
+    program = Program(ConstantStage(()))
+    length, velocity, slide = map(Symbol, STATE)
+    force = program.define("force", law.force(Stretch(program, "strut", length, velocity, slide)))
+    value = program.function("force", "", {"force": force})
+    slopes = {
+        f"by_{name}": program.tangents(Symbol(name), [force], f"by_{name}")[0] for name in STATE
+    }
+    return value, program.function("slopes", "", slopes)
+
+
+def evaluated(function: Function, given: Mapping[str, float], **state: float) -> list[float]:
+    """Evaluate a program; parameters that it does not read are left out."""
+    return [float(value) for value in python(function)(dict(given) | STATE | state)]
+
+
+def force_of(law: Law, given: Mapping[str, float]) -> Callable[..., float]:
+    """Return the force of a law as a function of length, velocity and slide."""
+    function, _ = programs(law)
+    return lambda **state: evaluated(function, given, **state)[0]
+
+
+def test_spring_by_slide_and_by_length() -> None:
+    """Both push when the element is short: the slide grows as the length falls."""
+    by_slide = force_of(LinearSpring(rate="k", free_slide="free"), {"k": 2e4, "free": 0.05})
+    by_length = force_of(LinearSpring(rate="k", free_length="free"), {"k": 2e4, "free": 0.8})
+    assert by_slide(slide=0.3) == pytest.approx(5000.0, rel=1e-15)
+    assert by_length(length=0.55) == pytest.approx(5000.0, rel=1e-15)
+    assert by_slide(slide=0.05) == by_length(length=0.8) == 0.0
+    assert by_slide(slide=0.0) == pytest.approx(-1000.0, rel=1e-15)
+    assert by_length(length=0.85) == pytest.approx(-1000.0, rel=1e-13)
+
+
+def test_damper_resists() -> None:
+    force = force_of(LinearDamper(rate="c"), {"c": 1500.0})
+    assert force(velocity=-2.0) == 3000.0
+    assert force(velocity=2.0) == -3000.0
+    assert force(velocity=0.0) == 0.0
+
+
+def test_actuator_is_its_input() -> None:
+    assert force_of(Actuator(input="push"), {"push": 123.0})() == 123.0
+
+
+# -- friction -------------------------------------------------------------------------------------
+
+FRICTION = Friction(level="level", speed="speed")
+
+
+@given(velocities, st.floats(1e-3, 1.0))
+@calm
+def test_friction_is_a_saturated_odd_resistance(velocity: float, speed: float) -> None:
+    force = force_of(FRICTION, {"level": 80.0, "speed": speed})
+    found = force(velocity=velocity)
+    # the sine of the angle whose tangent is velocity / speed, to a few roundings
+    expected = -80.0 * np.sin(np.arctan2(velocity, speed))
+    assert found == pytest.approx(expected, rel=1e-13, abs=1e-300)
+    assert found == -force(velocity=-velocity)
+    assert abs(found) <= 80.0
+
+
+def test_friction_at_its_speed_and_at_rest() -> None:
+    given_values = {"level": 80.0, "speed": 0.02}
+    force = force_of(FRICTION, given_values)
+    assert force(velocity=0.0) == 0.0
+    assert force(velocity=-0.02) == pytest.approx(80.0 / np.sqrt(2.0), rel=1e-15)
+    # most steeply at rest: level / speed
+    _, slopes = programs(FRICTION)
+    assert evaluated(slopes, given_values, velocity=0.0)[1] == pytest.approx(-4000.0, rel=1e-15)
+
+
+# -- stops ----------------------------------------------------------------------------------------
+
+STOPS = {
+    side: Stop(side=side, length="touch", rate="rate", progression="progression")
+    for side in ("bump", "rebound")
+}
+STOP = {"touch": 0.6, "rate": 3e4, "progression": 2e7}
+
+
+@pytest.mark.parametrize(("side", "sense"), [("bump", 1.0), ("rebound", -1.0)])
+def test_stops_act_on_their_side_only(side: str, sense: float) -> None:
+    force = force_of(STOPS[side], STOP)
+    _, slopes = programs(STOPS[side])
+    for depth in (1e-12, 1e-4, 0.01, 0.05):
+        pressed, free = 0.6 - sense * depth, 0.6 + sense * depth
+        assert force(length=free) == 0.0
+        assert evaluated(slopes, STOP, length=free) == [0.0, 0.0, 0.0]
+        x = sense * (0.6 - pressed)
+        assert force(length=pressed) == pytest.approx(sense * (3e4 * x + 2e7 * x**3), rel=1e-14)
+        # stiffer the further it is pressed in, on either side
+        rigidity = -evaluated(slopes, STOP, length=pressed)[0]
+        assert rigidity == pytest.approx(3e4 + 6e7 * x**2, rel=1e-14)
+    assert force(length=0.6) == 0.0
+    # at first touch the rigidity is that of the free side
+    assert evaluated(slopes, STOP, length=0.6) == [0.0, 0.0, 0.0]
+
+
+def test_names_of_signals() -> None:
+    assert [stop.signal for stop in STOPS.values()] == ["bump_stop_force", "rebound_stop_force"]
+    assert [stop.meaning for stop in STOPS.values()] == [
+        "force of the bump stop",
+        "force of the rebound stop",
+    ]
+    assert TABLE.signal == LinearDamper(rate="c").signal  # shown as one force
+
+
+# -- the damper's table ---------------------------------------------------------------------------
+
+
+def table(count: int, seed: int) -> tuple[PchipInterpolator, dict[str, float]]:
+    """Return a curve with some knots, not always rising, and the parameters that describe it."""
+    rng = np.random.default_rng(seed)
+    knots = np.cumsum(rng.uniform(0.02, 0.6, count)) - 1.2
+    curve = PchipInterpolator(knots, np.cumsum(rng.uniform(-200.0, 500.0, count)))
+    parameters = completed(reference_parameters())
+    set_damper_curve(parameters, curve)
+    return curve, {name: parameters[name] for name, *_ in TABLE.parameters()}
+
+
+CURVES = [(count, seed) for count in (2, 5, 11) for seed in range(3)]
+
+
+@pytest.mark.parametrize(("count", "seed"), CURVES)
+def test_table_is_the_curve_with_straight_ends(count: int, seed: int) -> None:
+    curve, parameters = table(count, seed)
+    force = force_of(TABLE, parameters)
+    _, slopes = programs(TABLE)
+    middles = [0.5 * (a + b) for a, b in pairwise(curve.x)]
+    for v in (*np.linspace(-4.0, 4.0, 21), *middles):
+        inside = np.clip(v, curve.x[0], curve.x[-1])
+        slope = float(curve.derivative()(inside))
+        expected = float(curve(inside)) + slope * (v - inside)
+        # Sums of up to ten cubics of some hundred newtons; 2e-13 relative to the largest force.
+        assert force(velocity=-v) == pytest.approx(expected, rel=1e-12, abs=1e-9)
+        by_length, by_velocity, by_slide = evaluated(slopes, parameters, velocity=-v)
+        assert by_velocity == pytest.approx(-slope, rel=1e-11, abs=1e-8)
+        assert by_length == by_slide == 0.0
+
+
+@pytest.mark.parametrize(("count", "seed"), CURVES)
+def test_table_is_smooth_at_its_knots(count: int, seed: int) -> None:
+    """Value and slope at each knot, and beside it, are those of the curve: no jump, no gap."""
+    curve, parameters = table(count, seed)
+    force = force_of(TABLE, parameters)
+    _, slopes = programs(TABLE)
+    derivative = curve.derivative()
+    for knot in curve.x:
+        for v in (knot, np.nextafter(knot, 9.0), np.nextafter(knot, -9.0)):
+            assert force(velocity=-v) == pytest.approx(float(curve(knot)), rel=1e-12, abs=1e-9)
+            found = evaluated(slopes, parameters, velocity=-v)[1]
+            # Rounding of a coefficient over the width of its segment, 0.02 m/s at least.
+            assert found == pytest.approx(-float(derivative(knot)), rel=1e-10, abs=1e-8)
+
+
+@given(velocities, st.integers(0, 50))
+@calm
+def test_table_is_that_of_the_oracle(velocity: float, seed: int) -> None:
+    """With coefficients of no interpolation at all, as no program of ours would write them."""
+    rng = np.random.default_rng(seed)
+    names = [name for name, *_ in TABLE.parameters()]
+    parameters = {name: rng.uniform(-300.0, 300.0) for name in names}
+    knots = np.cumsum(rng.uniform(0.1, 0.5, 11)) - 1.5
+    parameters |= {f"damper_table_knot_{i}": knots[i] for i in range(11)}
+    parameters |= {
+        f"damper_table_inverse_width_{i}": 1.0 / (knots[i + 1] - knots[i]) for i in range(10)
+    }
+    expected = oracle.damper_curve(parameters)(-velocity)
+    # sums of up to forty terms of up to 300 N
+    assert force_of(TABLE, parameters)(velocity=velocity) == pytest.approx(
+        expected, rel=1e-11, abs=1e-9
+    )
+
+
+def test_table_without_force() -> None:
+    """The defaults are no damper at all."""
+    parameters = {name: default for name, default, *_ in TABLE.parameters()}
+    force = force_of(TABLE, parameters)
+    assert [force(velocity=v) for v in (-3.0, -1e-9, 0.0, 1e-9, 3.0)] == [0.0] * 5
+    assert len(parameters) == 3 + 11 + 4 * 10
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        LinearSpring(rate="rate", free_slide="touch"),
+        LinearSpring(rate="rate", free_length="touch"),
+        LinearDamper(rate="rate"),
+        FRICTION,
+        *STOPS.values(),
+        TABLE,
+    ],
+    ids=repr,
+)
+def test_slopes_are_the_differences_of_the_force(law: Law) -> None:
+    """Away from kinks: a central difference of the sixth order, good to 1e-9."""
+    given_values = STOP | {"level": 80.0, "speed": 0.3, "touch": 0.61} | table(11, 1)[1]
+    value, slopes = programs(law)
+    for length in (0.57, 0.64):
+        for velocity in (-0.93, 0.41):
+            state = {"length": length, "velocity": velocity, "slide": 0.85 - length}
+            found = evaluated(slopes, given_values, **state)
+            for name, slope in zip(STATE, found, strict=True):
+                h = 2e-3
+                expected = (
+                    sum(
+                        weight
+                        * evaluated(value, given_values, **state | {name: state[name] + k * h})[0]
+                        for k, weight in (
+                            (-3, -1 / 60),
+                            (-2, 3 / 20),
+                            (-1, -3 / 4),
+                            (1, 3 / 4),
+                            (2, -3 / 20),
+                            (3, 1 / 60),
+                        )
+                    )
+                    / h
+                )
+                assert slope == pytest.approx(expected, rel=1e-8, abs=1e-6)
