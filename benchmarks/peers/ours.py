@@ -24,5 +24,6 @@ def source() -> Source:
 
 
 def constants() -> Array:
-    """Return the prepared constants of the reference car."""
-    return macpherson.prepare(parameters())
+    """Return the prepared constants of the reference car, without what the paper's model lacks."""
+    given = parameters()
+    return macpherson.prepare({name: given[name] for name in macpherson.PARAMETERS})
