@@ -8,11 +8,11 @@ lever and the plane in which the rod would be dead. Errors are therefore measure
 `slackness`, lever over distance from that plane, which is one at best.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
-from cases import At, Instant, of_model
+from cases import At, Instant, counted_by, of_model
 from kintrafo.generated import macpherson_general
 from kintrafo.generated._support import ClosureError
 from oracle.constraints import Array, Pose
@@ -30,6 +30,8 @@ GUARDS = [name for name, _ in MODEL.GUARDS]
 
 # Four times the worst of some 1400 poses (2.4e-15): coordinates and sines of order one.
 ROUNDING = 1e-14
+
+TURN = -0.1  # of the arm, rad, where the rack is moved up to the dead point
 
 
 @dataclass(frozen=True)
@@ -110,22 +112,25 @@ def test_poses_of_many_geometries(seed: int, offset: float | None) -> None:
     assert found > 15  # of 25; some geometries do not reach the ends
 
 
+def last_reached(subject: Offset, side: float) -> float:
+    """Return the last rack displacement (m) to one side at which the rod reaches the knuckle."""
+    reached, missed = 0.0, 0.4 * side
+    assert margin(subject.at(TURN, missed), "knuckle_closure") < 0.0
+    for _ in range(60):  # bisection to the last digit
+        middle = 0.5 * (reached + missed)
+        closes = margin(subject.at(TURN, middle), "knuckle_closure") > 0.0
+        reached, missed = (middle, missed) if closes else (reached, middle)
+    return reached
+
+
 @pytest.mark.parametrize("side", [-1.0, 1.0])
 @pytest.mark.parametrize("seed", range(4))
 def test_up_to_the_dead_point(seed: int, side: float) -> None:
     """As the rack nears the place where the rod just reaches, the joints stay closed."""
     subject = random_car(2000 + seed)
-    reached, missed = 0.0, 0.4 * side
-
-    def room(rack: float) -> float:
-        return margin(subject.at(-0.1, rack), "knuckle_closure")
-
-    assert room(missed) < 0.0
-    for _ in range(60):  # bisection to the last digit
-        middle = 0.5 * (reached + missed)
-        reached, missed = (middle, missed) if room(middle) > 0.0 else (reached, middle)
+    reached = last_reached(subject, side)
     for gap in 10.0 ** np.arange(-2, -13, -1):
-        at = subject.at(-0.1, reached - side * gap)
+        at = subject.at(TURN, reached - side * gap)
         pose = closed_form(at)
         assert pose is not None
         assert residual_norm(subject.car, pose) < ROUNDING
@@ -134,7 +139,32 @@ def test_up_to_the_dead_point(seed: int, side: float) -> None:
             assert expected is not None
         if expected is not None:
             assert difference(pose, expected) < ROUNDING * subject.slackness(at)
-    assert closed_form(subject.at(-0.1, reached + 1e-9 * side)) is None
+    assert closed_form(subject.at(TURN, reached + 1e-9 * side)) is None
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_accelerations_up_to_the_dead_point(seed: int) -> None:
+    """Towards it they grow without limit; their relative error grows with the slackness squared.
+
+    A rounding of the equation of the rod changes its distance from the dead point, by which
+    velocities are divided, by a relative amount of that square.
+    """
+    subject = random_car(3000 + seed, 0.06)
+    car = Mechanism(counted_by(MODEL, subject.car.parameters))
+    reached = last_reached(subject, 1.0)
+    for gap in 10.0 ** np.arange(-2, -7, -1):
+        instant = replace(
+            subject.at(TURN, reached - gap).instant,
+            beta1_rate=0.5,
+            spin_rate=60.0,
+            rack_rate=0.05,
+            rack_acceleration=1.0,
+        )
+        at = At(MODEL, instant, subject.constants)
+        expected = instant.solution(MODEL, car).coordinate_accelerations[:2]
+        # seven times the worst measured (3e-15)
+        allowed = 2e-14 * subject.slackness(at) ** 2 * np.abs(expected).max()
+        assert np.abs(at("rhs")[2:] - expected).max() < allowed
 
 
 def almost_touching(seed: int, reach: float) -> Offset:
