@@ -413,8 +413,9 @@ class Dynamics:
     def _solve(self) -> dict[str, sp.Expr]:
         """Forward dynamics: rotors are eliminated first, the rest is a small symmetric system.
 
-        The spin equation ``inertia (axis . omega' + spin') = torque`` has no part in the others:
-        what a rotor adds to M and B there cancels when its coordinate is eliminated.
+        The spin equation ``inertia (axis . omega' + spin') = torque`` leaves only the torque's
+        reaction in the others: what a rotor adds to M and B there cancels when its coordinate is
+        eliminated.
         """
         program = self.program
         program.section("equations of motion")
@@ -432,12 +433,22 @@ class Dynamics:
         solution = self._cholesky(rest, matrix, right)
         for rotor in self.rotors:
             solution[rotor.coordinate] = program.define(
-                f"{rotor.coordinate}_acceleration", -self._spin_bias(rotor, solution)
+                f"{rotor.coordinate}_acceleration",
+                self._force[rotor.coordinate] / rotor.inertia - self._spin_bias(rotor, solution),
             )
         return {k: solution[k] for k in self.names}
 
     def _net(self, k: str) -> sp.Expr:
-        return self._force[k] - self._bias[k] * self.kin.pace**2
+        """Return force less bias; a torque on a rotor's bearing acts back on its carrier."""
+        back = sum(
+            (self._rotor_share(r, k) * self._force[r.coordinate] for r in self._driven_on(k)), NONE
+        )
+        return self._force[k] - self._bias[k] * self.kin.pace**2 - back
+
+    def _driven_on(self, k: str) -> list[Rotor]:
+        """Return the rotors with a torque on their bearing whose carrier a coordinate moves."""
+        rotors = [r for r in self.rotors if self._force[r.coordinate] != 0]
+        return [r for r in rotors if k in self._carried(r)]
 
     def _spin_bias(self, rotor: Rotor, accelerations: dict[str, sp.Expr]) -> sp.Expr:
         """Return the rate of ``axis . omega`` of the carrier."""

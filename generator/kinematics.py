@@ -74,7 +74,8 @@ class Kinematics:
         self.telescopes: dict[str, OnLine] = {}
         self.slides: dict[str, sp.Expr] = {}
         self.angles: dict[str, sp.Expr] = {}
-        self._points: dict[Point, PointMotion] = {}
+        self._points: dict[tuple[str, Point], PointMotion] = {}
+        self._owners: dict[Point, str] = {}
         self._set_work_axes()
         self._run()
 
@@ -223,7 +224,12 @@ class Kinematics:
     def position(self, placed: Placed, point: Point) -> Vector:
         """Return where a point of a placed body is, in work axes."""
         offset = from_axes(placed.axes, self.local(placed, point))
-        return self.program.vector(f"at_{point.name}", placed.origin + offset)
+        return self.program.vector(f"at_{self._label(placed.body, point)}", placed.origin + offset)
+
+    def _label(self, body: str, point: Point) -> str:
+        """Return a name for a point's motion; the first body that carries it needs none in it."""
+        owner = self._owners.setdefault(point, body)
+        return point.name if owner == body else f"{point.name}_on_{body}"
 
     def total(self, placed: Placed) -> Twist:
         """Return the twist at the rates at which biases are computed."""
@@ -253,19 +259,19 @@ class Kinematics:
 
     def point_motion(self, body: str, point: Point) -> PointMotion:
         """Return position, velocities and bias acceleration of a point, in work axes."""
-        if point in self._points:
-            return self._points[point]
-        placed = self.placed[body]
+        if (body, point) in self._points:
+            return self._points[body, point]
+        placed, label = self.placed[body], self._label(body, point)
         local = self.local(placed, point)
         motion = {}
         for coordinate, twist in placed.motion.items():
             velocity = from_axes(placed.axes, twist.linear + twist.angular.cross(local))
-            motion[coordinate] = self.program.vector(f"d_{point.name}_{coordinate}", velocity)
+            motion[coordinate] = self.program.vector(f"d_{label}_{coordinate}", velocity)
         bias = self.program.vector(
-            f"bias_{point.name}", from_axes(placed.axes, self.point_bias(placed, local))
+            f"bias_{label}", from_axes(placed.axes, self.point_bias(placed, local))
         )
-        self._points[point] = PointMotion(self.position(placed, point), motion, bias)
-        return self._points[point]
+        self._points[body, point] = PointMotion(self.position(placed, point), motion, bias)
+        return self._points[body, point]
 
     # -- carrying out the plan ------------------------------------------------------------------
 

@@ -237,7 +237,8 @@ class RelativeCoordinates:
             child = self.kin.placed[joint.second]
             return [_Screw(names["angle"], child.axes[0], child.origin, ZERO)]
         if isinstance(joint, Prismatic):
-            direction = self.kin.design_direction(joint.direction)
+            parent = self.kin.placed[joint.first]
+            direction = from_axes(parent.axes, self.kin.local_direction(parent, joint.direction))
             return [_Screw(names["slide"], ZERO, ZERO, direction)]
         if isinstance(joint, Universal):
             shaft = self._shaft(joint)

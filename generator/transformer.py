@@ -378,10 +378,21 @@ class Plan:
         settled = {rod, body} & self._placed or self._unknowns_of(joint) == 0
         if settled or not {parent, view.others[0]} <= self._placed:
             return None
+        self._refuse_reference(joint)
         held = parent, rod, view.end, view.anchor, view.others[0]
         if isinstance(joint, Revolute):
             return SolveHinge(body, joint, *held)
         return SolveSlide(body, joint, *held) if isinstance(joint, Prismatic) else None
+
+    @staticmethod
+    def _refuse_reference(joint: Joint) -> None:
+        """See that a hinge that is solved counts from the design position."""
+        if isinstance(joint, Revolute) and joint.angle_to is not None:
+            message = (
+                f"joint {joint.name!r}: the angle of a hinge that a loop determines counts from "
+                "the design position; leave out its angle_to"
+            )
+            raise NoClosedFormError(message)
 
     def _telescope(self, view: _CutLoop) -> SolveTelescope | None:
         """Return the action for two links on a common axis, both ends on placed bodies."""
@@ -442,6 +453,7 @@ class Plan:
         self._placed.add(action.body)
         carrier = self.topology.joint_between(action.anchor_body, action.rod)
         if isinstance(carrier, Revolute):
+            self._refuse_reference(carrier)
             self.actions.append(
                 PlaceByPin(action.rod, carrier, action.anchor_body, action.end, action.body)
             )

@@ -5,7 +5,7 @@ is a special one. The states are random, within all but the last part of the rea
 point the rounding of any method grows without bound (`test_mechanisms_branches`).
 """
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
@@ -19,6 +19,7 @@ from kintrafo.generator.forces import AlongLine
 from kintrafo.generator.mechanism import Model
 from kintrafo.generator.mechanisms import MODELS as SHIPPED
 from kintrafo.generator.outputs import GeneratedModel, generate
+from kintrafo.generator.transformer import NoClosedFormError, Plan
 from oracle.constraints import Array
 from oracle.maximal import Jet, Motion
 from oracle.reference import completed, general_parameters
@@ -86,15 +87,11 @@ def module(derive: Derived, tmp_path_factory: pytest.TempPathFactory) -> Modules
     return cache(find)
 
 
-def cases(
-    *seeds: int, names: Iterable[str] = MODELS, wrong: Mapping[str, str] | None = None
-) -> pytest.MarkDecorator:
-    """Parametrise a test by model and geometry; `wrong`: models that fail it, and why."""
+def cases(*seeds: int, names: Iterable[str] = MODELS) -> pytest.MarkDecorator:
+    """Parametrise a test by model and geometry."""
     parameters = []
     for name in names:
         marks = [needs_gcc] if name in OWN else []
-        if name in (wrong or {}):
-            marks.append(pytest.mark.xfail(reason=wrong[name], strict=True, raises=AssertionError))
         parameters += [pytest.param(name, seed, marks=marks, id=f"{name}-{seed}") for seed in seeds]
     return pytest.mark.parametrize(("name", "seed"), parameters)
 
@@ -272,10 +269,7 @@ def test_relative_jacobian_is_the_rates_for_unit_rates(
                 np.testing.assert_allclose(row, expected, atol=1e-12 * np.abs(found).max())
 
 
-GUIDE = "a guide on a body that turns: its screw keeps the direction of the design position"
-
-
-@cases(*SEEDS, wrong=dict.fromkeys(("oblique_crank", "oblique_piston", "oblique_trammel"), GUIDE))
+@cases(*SEEDS)
 def test_absolute_times_relative_is_global_jacobian(name: str, seed: int, module: Modules) -> None:
     found = module(name)
     if not hasattr(found, "absolute_jacobian"):
@@ -312,16 +306,13 @@ def test_state_jacobian_of_the_right_hand_side_is_exact(
 
 # -- dynamics --------------------------------------------------------------------------------------
 
-CROSS = "a cross at the far end of its rod: the rod's mass is counted with the wrong body"
-TORQUE = "a torque on the bearing of a rotor has no effect on the accelerations"
-
 
 def reduced(at: At, **given: float) -> Any:
     """Solve the equations of motion with the oracle."""
     return at.built.oracle.reduced(at.motion, at.built.named(at.inputs), at.given | given)
 
 
-@cases(*SEEDS, wrong={"cross_at_rocker": CROSS})
+@cases(*SEEDS)
 def test_mass_matrix_and_forces_are_those_of_the_maximal_coordinates(
     name: str, seed: int, module: Modules
 ) -> None:
@@ -337,7 +328,7 @@ def test_mass_matrix_and_forces_are_those_of_the_maximal_coordinates(
             np.testing.assert_allclose(at(function), expected, atol=allowed, err_msg=function)
 
 
-@cases(*SEEDS, wrong={"cross_at_rocker": CROSS, "oblique_four_bar": TORQUE})
+@cases(*SEEDS)
 def test_accelerations_are_those_of_the_maximal_coordinates(
     name: str, seed: int, module: Modules
 ) -> None:
@@ -392,7 +383,7 @@ AFLOAT = {"tyre_rate": 0.0, "spring_free_length": 0.44}
 """A double wishbone without a road, on a spring that carries the arms only."""
 
 
-@cases(0, names=CONSERVATIVE, wrong={"cross_at_rocker": CROSS})
+@cases(0, names=CONSERVATIVE)
 def test_energy_stays_where_nothing_dissipates(name: str, seed: int, module: Modules) -> None:
     del seed
     built = Built.of(MODELS[name], module(name))
@@ -429,9 +420,6 @@ def four_bar(name: str, **changes: Any) -> Model:
 
 
 @needs_gcc
-@pytest.mark.xfail(
-    reason="the motion of a point is kept by its name alone", strict=True, raises=AssertionError
-)
 def test_a_hardpoint_may_be_carried_by_two_bodies(tmp_path: Path) -> None:
     # the seat of the second spring is where the centre of the coupler is, but on the rocker
     mechanism = MODELS["four_bar"].mechanism
@@ -446,17 +434,9 @@ def test_a_hardpoint_may_be_carried_by_two_bodies(tmp_path: Path) -> None:
     assert signals["second_length"] == pytest.approx(length, rel=1e-13)
 
 
-@needs_gcc
-@pytest.mark.xfail(
-    reason="a hinge that a loop solves counts from the design", strict=True, raises=AssertionError
-)
-def test_a_solved_hinge_counts_from_where_it_says(tmp_path: Path) -> None:
+def test_a_solved_hinge_that_counts_from_elsewhere_is_refused() -> None:
     mechanism = MODELS["four_bar"].mechanism
     pin = mechanism.joint("C").axis.through
     joints = [replace(j, angle_to=pin) if j.name == "D" else j for j in mechanism.joints]
-    model = four_bar("counted", joints=tuple(joints))
-    built = Built.of(model, own(generate(model), tmp_path))
-    state, inputs = np.array([0.4, 1.0]), np.zeros(1)
-    at = At(built, state, inputs, built.motion(state, inputs))
-    for value, jet in zip(at("relative_coordinates"), reported(at), strict=True):
-        assert whole_turns_off(jet, value) < 1e-13
+    with pytest.raises(NoClosedFormError, match=r"'D': .* leave out its angle_to"):
+        Plan.of(four_bar("counted", joints=tuple(joints)))

@@ -44,7 +44,10 @@ def place_by_cross(kin: Kinematics, action: PlaceByCross) -> None:
         design_origin=kin.design(record.anchor),
         design_axes=_cross_design_axes(kin, action, record),
         local={record.anchor: ZERO},
-        carrier=(action.parent, kin.local(parent, record.anchor)),
+        carrier=(
+            record.anchor_body,
+            kin.local(kin.placed[record.anchor_body], record.anchor),
+        ),
     )
     _cross_motion(kin, parent, record, placed, lever, program.define(f"{body}_tilt", axis.dot(n)))
     kin.placed[body] = placed
