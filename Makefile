@@ -1,7 +1,7 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
 .PHONY: help setup generate build run test package lint types format baseline clean \
-	benchmark benchmark-page benchmark-peers benchmark-speed report-assets
+	benchmark benchmark-page benchmark-peers benchmark-speed format-page report-assets
 PYTHON := .venv/bin/python
 
 EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/native/*.pyx runtime/native/*.[ch])
@@ -58,6 +58,9 @@ benchmark-peers: build ## The same suspension in CasADi, Exudyn, SymPy and Pinoc
 
 report-assets: ## Bundle the HTML report's script and style again (needs Node.js)
 	@cd runtime/report/web && npm ci --silent && npm run --silent build
+
+format-page: build ## The input file's JSON Schema, and its page in docs/
+	@$(PYTHON) -m kintrafo.input.schema runtime/data/suspension.schema.json docs/file-format.md
 
 benchmark-speed: build ## Times of everything, with pytest-benchmark (ARGS=--benchmark-compare)
 	@$(PYTHON) -m pytest -q benchmarks/test_speed.py -p no:xdist --benchmark-only \
