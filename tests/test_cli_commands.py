@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from kintrafo import Model, cli
+from kintrafo import Model, Suspension, characteristics, cli
 from kintrafo.cli.console import number, significant
 from matplotlib.image import imread
 
@@ -57,12 +57,15 @@ def test_every_command_has_help_with_examples(kintrafo, command):
 
 # -- the page of the documentation --------------------------------------------------------------
 
+
+def commands_of(page):
+    """Return the lines of the shell blocks of a page, without their comments."""
+    blocks = re.findall(r"```sh\n(.*?)```", page, flags=re.DOTALL)
+    return [line.partition("  #")[0].strip() for block in blocks for line in block.splitlines()]
+
+
 PAGE = (ROOT / "docs/command-line.md").read_text(encoding="utf-8")
-LINES = [
-    line.partition("  #")[0].strip()
-    for block in re.findall(r"```sh\n(.*?)```", PAGE, flags=re.DOTALL)
-    for line in block.splitlines()
-]
+LINES = commands_of(PAGE)
 
 
 def test_the_documented_commands_run(kintrafo, tmp_path):
@@ -81,6 +84,33 @@ def test_the_documented_commands_run(kintrafo, tmp_path):
             for suffix in ("_travel", "_rack") if both else ("",):
                 assert (tmp_path / f"{stem}{suffix}.{ending}").stat().st_size > 0
     assert not list(tmp_path.glob(".*"))
+
+
+def test_the_tutorial_runs(kintrafo, tmp_path):
+    page = (ROOT / "docs/tutorial.md").read_text(encoding="utf-8")
+    (changed,) = re.findall(r"```toml\n(.*?)\n```", page, flags=re.DOTALL)
+    for line in commands_of(page):
+        program, *arguments = shlex.split(line)
+        assert program == "kintrafo"
+        if arguments[0] == "compare":  # the change that the reader has made
+            text = (tmp_path / "my_car.toml").read_text(encoding="utf-8")
+            text, count = re.subn(r"^tie_rod_inner = .*$", changed, text, flags=re.MULTILINE)
+            assert count == 1
+            (tmp_path / "lower_rod.toml").write_text(text, encoding="utf-8")
+        code, out, err = kintrafo(*arguments)
+        assert (code, bool(out)) == (0, True), (line, err)
+    for name in ("curves_travel.csv", "curves_rack.pdf", "compared.png", "step.csv"):
+        assert (tmp_path / name).stat().st_size > 1000, name
+    assert "Front axle, stage 1" in (tmp_path / "front_axle.html").read_text(encoding="utf-8")
+
+
+def test_the_change_of_the_tutorial_turns_bump_steer_round():
+    car = Suspension.load("reference_car")
+    lower = car.with_changes({"hardpoints.tie_rod_inner.z": 272.0})
+    before, after = (
+        float(characteristics.travel(Model(c), np.zeros(1))["bump_steer"][0]) for c in (car, lower)
+    )
+    assert after < 0.0 < before
 
 
 def test_the_documentation_names_every_command():
