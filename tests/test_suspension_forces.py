@@ -1,11 +1,14 @@
 """Spring, damper, stops and tyre as users describe them, seen through the compiled equations."""
 
+import re
+from importlib import resources
+
 import kintrafo
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kintrafo import InputError, Model, Suspension
+from kintrafo import InputError, Model, Suspension, data
 from scipy.interpolate import PchipInterpolator
 
 CAR = Suspension.load("reference_car")
@@ -232,3 +235,23 @@ def test_refusals(sections, words):
 def test_refused_damper_curves(velocities, forces, words):
     with pytest.raises(InputError, match=words):
         with_damper(velocities, forces)
+
+
+STARTER = (resources.files(data) / "reference_car.toml").read_text(encoding="utf-8")
+BLOCKS = re.findall(r"^(?:# .*\n)*?(# \[\w+\].*\n(?:# .*\n)+)", STARTER, flags=re.MULTILINE)
+
+
+@pytest.mark.parametrize("block", BLOCKS, ids=lambda block: block.split("]")[0][3:])
+def test_commented_blocks_of_the_starter_file_are_valid(block, tmp_path):
+    text = STARTER.replace(block, re.sub(r"^# ", "", block, flags=re.MULTILINE))
+    if "[damper]" in block:
+        text = re.sub(r"^damper_rate_N_s_per_m.*\n", "", text, flags=re.MULTILINE)
+    file = tmp_path / "car.toml"
+    file.write_text(text, encoding="utf-8")
+    model = Model(file)
+    assert model.equations.NAME == "macpherson_general"
+    assert kintrafo.equilibrium(model) is not None
+
+
+def test_the_starter_file_shows_all_optional_sections():
+    assert [block.split("]")[0][3:] for block in BLOCKS] == ["bump_stop", "rebound_stop", "damper"]
