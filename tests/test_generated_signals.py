@@ -89,4 +89,4 @@ def test_tyre_force_is_in_the_wheel_plane(seed: int) -> None:
         for instant in random_instants(np.random.default_rng(seed), car, POINTS):
             forces = At(model, instant, constants)("forces")
             assert forces[1] == 0.0
-            assert abs(forces[0]) > 1.0
+            assert abs(forces[0]) > 0.1  # N m: something acts

@@ -477,7 +477,9 @@ def general_parameters(rng: np.random.Generator, offset: float = 0.06) -> Parame
             f"{side}_stop_progression": rng.uniform(1e7, 4e7),
         }
     knots = np.sort(rng.uniform(-2.0, 2.0, DAMPER_SEGMENTS + 1)) + np.linspace(-0.5, 0.5, 11)
-    forces = np.cumsum(rng.uniform(-50.0, 400.0, DAMPER_SEGMENTS + 1)) - 1000.0
+    rises = rng.uniform(50.0, 400.0, DAMPER_SEGMENTS + 1)
+    rises[DAMPER_SEGMENTS // 2] = -30.0  # not at the ends, where the slopes would be zero
+    forces = np.cumsum(rises) - 1000.0
     set_damper_curve(parameters, PchipInterpolator(knots, forces))
     return completed(parameters)
 
