@@ -62,11 +62,16 @@ Functions
     mean nothing. Result (..., 7).
 """
 
+from collections.abc import Mapping
 from typing import Any, Final
 
+import numpy as np
+
+from kintrafo.generated._support import (
+    Array, ClosureError, CompiledModel, ModelError, ParameterError, Residuals,
+)
+
 from . import _andrews
-from ._native import Function
-from ._support import Array, ClosureError, CompiledModel, ModelError, ParameterError, Residuals
 
 __all__ = [
     "ADDRESSES",
@@ -89,6 +94,7 @@ __all__ = [
     "ClosureError",
     "ModelError",
     "ParameterError",
+    "design_state",
     "prepare",
     "rhs",
     "rhs_jacobian",
@@ -342,19 +348,23 @@ MOBILITY: Final[int] = 1
 
 LOOPS: Final[tuple[tuple[str, ...], ...]] = (('ground', 'k1', 'k2', 'k3'), ('ground', 'k3', 'k4', 'k5'), ('ground', 'k3', 'k6', 'k7'))
 
-ADDRESSES: Final = _andrews.ADDRESSES
-
 _model = CompiledModel(
-    NAME, PARAMETERS, STATE, INPUTS, CONSTANTS, GUARDS, RELATIVE_COORDINATES, ADDRESSES,
+    NAME, PARAMETERS, STATE, INPUTS, CONSTANTS, GUARDS, RELATIVE_COORDINATES, _andrews.ADDRESSES,
     GUARD_UNITS,
 )
 prepare = _model.prepare
+ADDRESSES: Final[dict[str, int]] = _model.addresses
 DEFAULT_CONSTANTS: Final[Array] = _model.default_constants
 
-rhs = Function(
-    _model,
+
+def design_state(parameters: Mapping[str, float]) -> Array:
+    """Return the state at the design position of some parameters, at rest."""
+    state = np.zeros(2)
+    return state
+
+
+rhs = _model.function(
     "rhs",
-    ADDRESSES["rhs"],
     (2,),
     ('d(beta)/dt', 'd(beta_rate)/dt'),
     {'total': 416, 'add': 179, 'multiply': 224, 'divide': 7, 'root': 4, 'trigonometric': 2},
@@ -362,10 +372,8 @@ rhs = Function(
 
 Result (..., 2); 416 operations (179 add, 224 multiply, 7 divide, 4 root, 2 trigonometric).""",
 )
-rhs_jacobian = Function(
-    _model,
+rhs_jacobian = _model.function(
     "rhs_jacobian",
-    ADDRESSES["rhs_jacobian"],
     (2, 2),
     ('d(beta)/dt by beta', 'd(beta)/dt by beta_rate', 'd(beta_rate)/dt by beta',
      'd(beta_rate)/dt by beta_rate'),
@@ -374,10 +382,8 @@ rhs_jacobian = Function(
 
 Result (..., 2, 2); 1131 operations (451 add, 663 multiply, 11 divide, 4 root, 2 trigonometric).""",
 )
-rhs_input_jacobian = Function(
-    _model,
+rhs_input_jacobian = _model.function(
     "rhs_input_jacobian",
-    ADDRESSES["rhs_input_jacobian"],
     (2, 1),
     ('d(beta)/dt by drive_torque', 'd(beta_rate)/dt by drive_torque'),
     {'total': 224, 'add': 95, 'multiply': 118, 'divide': 6, 'root': 3, 'trigonometric': 2},
@@ -385,10 +391,8 @@ rhs_input_jacobian = Function(
 
 Result (..., 2, 1); 224 operations (95 add, 118 multiply, 6 divide, 3 root, 2 trigonometric).""",
 )
-mass_matrix = Function(
-    _model,
+mass_matrix = _model.function(
     "mass_matrix",
-    ADDRESSES["mass_matrix"],
     (1, 1),
     ('M[beta,beta]',),
     {'total': 223, 'add': 95, 'multiply': 118, 'divide': 5, 'root': 3, 'trigonometric': 2},
@@ -396,10 +400,8 @@ mass_matrix = Function(
 
 Result (..., 1, 1); 223 operations (95 add, 118 multiply, 5 divide, 3 root, 2 trigonometric).""",
 )
-bias = Function(
-    _model,
+bias = _model.function(
     "bias",
-    ADDRESSES["bias"],
     (1,),
     ('B[beta]',),
     {'total': 367, 'add': 156, 'multiply': 201, 'divide': 5, 'root': 3, 'trigonometric': 2},
@@ -407,10 +409,8 @@ bias = Function(
 
 Result (..., 1); 367 operations (156 add, 201 multiply, 5 divide, 3 root, 2 trigonometric).""",
 )
-forces = Function(
-    _model,
+forces = _model.function(
     "forces",
-    ADDRESSES["forces"],
     (1,),
     ('Q[beta]',),
     {'total': 77, 'add': 31, 'multiply': 39, 'divide': 3, 'root': 2, 'trigonometric': 2},
@@ -418,10 +418,8 @@ forces = Function(
 
 Result (..., 1); 77 operations (31 add, 39 multiply, 3 divide, 2 root, 2 trigonometric).""",
 )
-relative_coordinates = Function(
-    _model,
+relative_coordinates = _model.function(
     "relative_coordinates",
-    ADDRESSES["relative_coordinates"],
     (7,),
     ('beta', 'theta', 'gamma', 'delta', 'epsilon', 'knee_34', 'knee_36'),
     {'total': 152, 'add': 56, 'multiply': 83, 'divide': 2, 'root': 3, 'trigonometric': 8},
@@ -429,10 +427,8 @@ relative_coordinates = Function(
 
 Result (..., 7); 152 operations (56 add, 83 multiply, 2 divide, 3 root, 8 trigonometric).""",
 )
-relative_jacobian = Function(
-    _model,
+relative_jacobian = _model.function(
     "relative_jacobian",
-    ADDRESSES["relative_jacobian"],
     (7, 1),
     ('beta by beta', 'theta by beta', 'gamma by beta', 'delta by beta', 'epsilon by beta',
      'knee_34 by beta', 'knee_36 by beta'),
@@ -441,10 +437,8 @@ relative_jacobian = Function(
 
 Result (..., 7, 1); 422 operations (146 add, 260 multiply, 11 divide, 3 root, 2 trigonometric).""",
 )
-absolute_jacobian = Function(
-    _model,
+absolute_jacobian = _model.function(
     "absolute_jacobian",
-    ADDRESSES["absolute_jacobian"],
     (42, 7),
     ('k1 omega_x by beta', 'k1 omega_x by theta', 'k1 omega_x by gamma',
      'k1 omega_x by delta', 'k1 omega_x by epsilon', 'k1 omega_x by knee_34',
@@ -549,10 +543,8 @@ absolute_jacobian = Function(
 
 Result (..., 42, 7); 186 operations (104 add, 75 multiply, 2 divide, 3 root, 2 trigonometric).""",
 )
-global_jacobian = Function(
-    _model,
+global_jacobian = _model.function(
     "global_jacobian",
-    ADDRESSES["global_jacobian"],
     (42, 1),
     ('k1 omega_x by beta', 'k1 omega_y by beta', 'k1 omega_z by beta',
      'k1 velocity_x by beta', 'k1 velocity_y by beta', 'k1 velocity_z by beta',
@@ -573,10 +565,8 @@ global_jacobian = Function(
 
 Result (..., 42, 1); 254 operations (104 add, 140 multiply, 5 divide, 3 root, 2 trigonometric).""",
 )
-positions = Function(
-    _model,
+positions = _model.function(
     "positions",
-    ADDRESSES["positions"],
     (7, 3),
     ('k1 x', 'k1 y', 'k1 z', 'k2 x', 'k2 y', 'k2 z', 'k3 x', 'k3 y', 'k3 z', 'k4 x', 'k4 y',
      'k4 z', 'k5 x', 'k5 y', 'k5 z', 'k6 x', 'k6 y', 'k6 z', 'k7 x', 'k7 y', 'k7 z'),
@@ -585,10 +575,8 @@ positions = Function(
 
 Result (..., 7, 3); 147 operations (65 add, 75 multiply, 2 divide, 3 root, 2 trigonometric).""",
 )
-orientations = Function(
-    _model,
+orientations = _model.function(
     "orientations",
-    ADDRESSES["orientations"],
     (7, 3, 3),
     ('k1 Rxx', 'k1 Rxy', 'k1 Rxz', 'k1 Ryx', 'k1 Ryy', 'k1 Ryz', 'k1 Rzx', 'k1 Rzy',
      'k1 Rzz', 'k2 Rxx', 'k2 Rxy', 'k2 Rxz', 'k2 Ryx', 'k2 Ryy', 'k2 Ryz', 'k2 Rzx',
@@ -603,10 +591,8 @@ orientations = Function(
 
 Result (..., 7, 3, 3); 134 operations (56 add, 71 multiply, 2 divide, 3 root, 2 trigonometric).""",
 )
-velocities = Function(
-    _model,
+velocities = _model.function(
     "velocities",
-    ADDRESSES["velocities"],
     (7, 6),
     ('k1 omega_x', 'k1 omega_y', 'k1 omega_z', 'k1 velocity_x', 'k1 velocity_y',
      'k1 velocity_z', 'k2 omega_x', 'k2 omega_y', 'k2 omega_z', 'k2 velocity_x',
@@ -622,10 +608,8 @@ velocities = Function(
 
 Result (..., 7, 6); 274 operations (104 add, 160 multiply, 5 divide, 3 root, 2 trigonometric).""",
 )
-signals = Function(
-    _model,
+signals = _model.function(
     "signals",
-    ADDRESSES["signals"],
     (3,),
     ('spring_length', 'spring_velocity', 'spring_force'),
     {'total': 76, 'add': 30, 'multiply': 39, 'divide': 3, 'root': 2, 'trigonometric': 2},
@@ -633,10 +617,8 @@ signals = Function(
 
 Result (..., 3); 76 operations (30 add, 39 multiply, 3 divide, 2 root, 2 trigonometric).""",
 )
-signals_jacobian = Function(
-    _model,
+signals_jacobian = _model.function(
     "signals_jacobian",
-    ADDRESSES["signals_jacobian"],
     (3, 2),
     ('spring_length by beta', 'spring_length by beta_rate', 'spring_velocity by beta',
      'spring_velocity by beta_rate', 'spring_force by beta', 'spring_force by beta_rate'),
@@ -645,10 +627,8 @@ signals_jacobian = Function(
 
 Result (..., 3, 2); 177 operations (63 add, 105 multiply, 5 divide, 2 root, 2 trigonometric).""",
 )
-signals_input_jacobian = Function(
-    _model,
+signals_input_jacobian = _model.function(
     "signals_input_jacobian",
-    ADDRESSES["signals_input_jacobian"],
     (3, 1),
     ('spring_length by drive_torque', 'spring_velocity by drive_torque',
      'spring_force by drive_torque'),
@@ -657,10 +637,8 @@ signals_input_jacobian = Function(
 
 Result (..., 3, 1); 0 operations (none).""",
 )
-margins = Function(
-    _model,
+margins = _model.function(
     "margins",
-    ADDRESSES["margins"],
     (7,),
     ('k3_reach_squared', 'k3_closure', 'k5_reach_squared', 'k5_closure', 'k7_closure',
      'spring_length_squared', 'pivot_beta'),

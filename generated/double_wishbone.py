@@ -63,11 +63,16 @@ Functions
     mean nothing. Result (..., 8).
 """
 
+from collections.abc import Mapping
 from typing import Any, Final
 
+import numpy as np
+
+from kintrafo.generated._support import (
+    Array, ClosureError, CompiledModel, ModelError, ParameterError, Residuals,
+)
+
 from . import _double_wishbone
-from ._native import Function
-from ._support import Array, ClosureError, CompiledModel, ModelError, ParameterError, Residuals
 
 __all__ = [
     "ADDRESSES",
@@ -90,6 +95,7 @@ __all__ = [
     "ClosureError",
     "ModelError",
     "ParameterError",
+    "design_state",
     "prepare",
     "rhs",
     "rhs_jacobian",
@@ -736,19 +742,43 @@ MOBILITY: Final[int] = 3
 LOOPS: Final[tuple[tuple[str, ...], ...]] = (('chassis', 'lower_arm', 'knuckle', 'upper_arm'),
  ('chassis', 'lower_arm', 'knuckle', 'tie_rod', 'rack'))
 
-ADDRESSES: Final = _double_wishbone.ADDRESSES
-
 _model = CompiledModel(
-    NAME, PARAMETERS, STATE, INPUTS, CONSTANTS, GUARDS, RELATIVE_COORDINATES, ADDRESSES,
+    NAME, PARAMETERS, STATE, INPUTS, CONSTANTS, GUARDS, RELATIVE_COORDINATES, _double_wishbone.ADDRESSES,
     GUARD_UNITS,
 )
 prepare = _model.prepare
+ADDRESSES: Final[dict[str, int]] = _model.addresses
 DEFAULT_CONSTANTS: Final[Array] = _model.default_constants
 
-rhs = Function(
-    _model,
+
+def design_state(parameters: Mapping[str, float]) -> Array:
+    """Return the state at the design position of some parameters, at rest."""
+    lower_arm_front_x = parameters["lower_arm_front_x"]
+    lower_arm_front_y = parameters["lower_arm_front_y"]
+    lower_arm_front_z = parameters["lower_arm_front_z"]
+    lower_arm_rear_x = parameters["lower_arm_rear_x"]
+    lower_arm_rear_y = parameters["lower_arm_rear_y"]
+    lower_arm_rear_z = parameters["lower_arm_rear_z"]
+    lower_ball_joint_x = parameters["lower_ball_joint_x"]
+    lower_ball_joint_y = parameters["lower_ball_joint_y"]
+    lower_ball_joint_z = parameters["lower_ball_joint_z"]
+    arm_angle_axis_x = lower_arm_front_x - lower_arm_rear_x
+    arm_angle_axis_y = lower_arm_front_y - lower_arm_rear_y
+    arm_angle_axis_z = lower_arm_front_z - lower_arm_rear_z
+    arm_angle_arm_x = lower_ball_joint_x - lower_arm_rear_x
+    arm_angle_arm_y = lower_ball_joint_y - lower_arm_rear_y
+    arm_angle_arm_z = lower_ball_joint_z - lower_arm_rear_z
+    arm_angle_across = arm_angle_arm_x*arm_angle_axis_y - arm_angle_arm_y*arm_angle_axis_x
+    arm_angle_axis_squared = arm_angle_axis_x*arm_angle_axis_x + arm_angle_axis_y*arm_angle_axis_y + arm_angle_axis_z*arm_angle_axis_z
+    arm_angle_along = arm_angle_arm_z*arm_angle_axis_squared - arm_angle_axis_z*(arm_angle_arm_x*arm_angle_axis_x + arm_angle_arm_y*arm_angle_axis_y + arm_angle_arm_z*arm_angle_axis_z)
+    arm_angle = np.arctan2(arm_angle_across*np.copysign(1.0, arm_angle_across)*np.sqrt(arm_angle_axis_squared), arm_angle_along)
+    state = np.zeros(4)
+    state[0] = arm_angle
+    return state
+
+
+rhs = _model.function(
     "rhs",
-    ADDRESSES["rhs"],
     (4,),
     ('d(arm_angle)/dt', 'd(spin_angle)/dt', 'd(arm_angle_rate)/dt', 'd(spin_angle_rate)/dt'),
     {'total': 678, 'add': 280, 'multiply': 386, 'divide': 7, 'root': 3, 'trigonometric': 2},
@@ -756,10 +786,8 @@ rhs = Function(
 
 Result (..., 4); 678 operations (280 add, 386 multiply, 7 divide, 3 root, 2 trigonometric).""",
 )
-rhs_jacobian = Function(
-    _model,
+rhs_jacobian = _model.function(
     "rhs_jacobian",
-    ADDRESSES["rhs_jacobian"],
     (4, 4),
     ('d(arm_angle)/dt by arm_angle', 'd(arm_angle)/dt by spin_angle',
      'd(arm_angle)/dt by arm_angle_rate', 'd(arm_angle)/dt by spin_angle_rate',
@@ -774,10 +802,8 @@ rhs_jacobian = Function(
 
 Result (..., 4, 4); 1945 operations (786 add, 1143 multiply, 11 divide, 3 root, 2 trigonometric).""",
 )
-rhs_input_jacobian = Function(
-    _model,
+rhs_input_jacobian = _model.function(
     "rhs_input_jacobian",
-    ADDRESSES["rhs_input_jacobian"],
     (4, 5),
     ('d(arm_angle)/dt by rack_position', 'd(arm_angle)/dt by rack_velocity',
      'd(arm_angle)/dt by rack_acceleration', 'd(arm_angle)/dt by spring_actuator',
@@ -794,10 +820,8 @@ rhs_input_jacobian = Function(
 
 Result (..., 4, 5); 1413 operations (571 add, 828 multiply, 9 divide, 3 root, 2 trigonometric).""",
 )
-mass_matrix = Function(
-    _model,
+mass_matrix = _model.function(
     "mass_matrix",
-    ADDRESSES["mass_matrix"],
     (2, 2),
     ('M[arm_angle,arm_angle]', 'M[arm_angle,spin_angle]', 'M[spin_angle,arm_angle]',
      'M[spin_angle,spin_angle]'),
@@ -806,10 +830,8 @@ mass_matrix = Function(
 
 Result (..., 2, 2); 252 operations (105 add, 139 multiply, 4 divide, 2 root, 2 trigonometric).""",
 )
-bias = Function(
-    _model,
+bias = _model.function(
     "bias",
-    ADDRESSES["bias"],
     (2,),
     ('B[arm_angle]', 'B[spin_angle]'),
     {'total': 513, 'add': 207, 'multiply': 298, 'divide': 4, 'root': 2, 'trigonometric': 2},
@@ -817,10 +839,8 @@ bias = Function(
 
 Result (..., 2); 513 operations (207 add, 298 multiply, 4 divide, 2 root, 2 trigonometric).""",
 )
-forces = Function(
-    _model,
+forces = _model.function(
     "forces",
-    ADDRESSES["forces"],
     (2,),
     ('Q[arm_angle]', 'Q[spin_angle]'),
     {'total': 327, 'add': 135, 'multiply': 181, 'divide': 6, 'root': 3, 'trigonometric': 2},
@@ -828,10 +848,8 @@ forces = Function(
 
 Result (..., 2); 327 operations (135 add, 181 multiply, 6 divide, 3 root, 2 trigonometric).""",
 )
-rhs_rack_held = Function(
-    _model,
+rhs_rack_held = _model.function(
     "rhs_rack_held",
-    ADDRESSES["rhs_rack_held"],
     (4,),
     ('d(arm_angle)/dt', 'd(spin_angle)/dt', 'd(arm_angle_rate)/dt', 'd(spin_angle_rate)/dt'),
     {'total': 511, 'add': 216, 'multiply': 283, 'divide': 7, 'root': 3, 'trigonometric': 2},
@@ -839,10 +857,8 @@ rhs_rack_held = Function(
 
 Result (..., 4); 511 operations (216 add, 283 multiply, 7 divide, 3 root, 2 trigonometric).""",
 )
-rhs_jacobian_rack_held = Function(
-    _model,
+rhs_jacobian_rack_held = _model.function(
     "rhs_jacobian_rack_held",
-    ADDRESSES["rhs_jacobian_rack_held"],
     (4, 4),
     ('d(arm_angle)/dt by arm_angle', 'd(arm_angle)/dt by spin_angle',
      'd(arm_angle)/dt by arm_angle_rate', 'd(arm_angle)/dt by spin_angle_rate',
@@ -857,10 +873,8 @@ rhs_jacobian_rack_held = Function(
 
 Result (..., 4, 4); 1306 operations (527 add, 763 multiply, 11 divide, 3 root, 2 trigonometric).""",
 )
-relative_coordinates = Function(
-    _model,
+relative_coordinates = _model.function(
     "relative_coordinates",
-    ADDRESSES["relative_coordinates"],
     (4,),
     ('arm_angle', 'spin_angle', 'upper_angle', 'rack_displacement'),
     {'total': 62, 'add': 25, 'multiply': 32, 'divide': 1, 'root': 1, 'trigonometric': 3},
@@ -868,10 +882,8 @@ relative_coordinates = Function(
 
 Result (..., 4); 62 operations (25 add, 32 multiply, 1 divide, 1 root, 3 trigonometric).""",
 )
-relative_jacobian = Function(
-    _model,
+relative_jacobian = _model.function(
     "relative_jacobian",
-    ADDRESSES["relative_jacobian"],
     (4, 2),
     ('arm_angle by arm_angle', 'arm_angle by spin_angle', 'spin_angle by arm_angle',
      'spin_angle by spin_angle', 'upper_angle by arm_angle', 'upper_angle by spin_angle',
@@ -881,10 +893,8 @@ relative_jacobian = Function(
 
 Result (..., 4, 2); 147 operations (56 add, 85 multiply, 3 divide, 1 root, 2 trigonometric).""",
 )
-global_jacobian = Function(
-    _model,
+global_jacobian = _model.function(
     "global_jacobian",
-    ADDRESSES["global_jacobian"],
     (24, 2),
     ('lower_arm omega_x by arm_angle', 'lower_arm omega_x by spin_angle',
      'lower_arm omega_y by arm_angle', 'lower_arm omega_y by spin_angle',
@@ -915,10 +925,8 @@ global_jacobian = Function(
 
 Result (..., 24, 2); 513 operations (202 add, 301 multiply, 4 divide, 2 root, 4 trigonometric).""",
 )
-positions = Function(
-    _model,
+positions = _model.function(
     "positions",
-    ADDRESSES["positions"],
     (6, 3),
     ('lower_arm x', 'lower_arm y', 'lower_arm z', 'knuckle x', 'knuckle y', 'knuckle z',
      'tie_rod x', 'tie_rod y', 'tie_rod z', 'rack x', 'rack y', 'rack z', 'upper_arm x',
@@ -928,10 +936,8 @@ positions = Function(
 
 Result (..., 6, 3); 334 operations (143 add, 183 multiply, 3 divide, 3 root, 2 trigonometric).""",
 )
-orientations = Function(
-    _model,
+orientations = _model.function(
     "orientations",
-    ADDRESSES["orientations"],
     (6, 3, 3),
     ('lower_arm Rxx', 'lower_arm Rxy', 'lower_arm Rxz', 'lower_arm Ryx', 'lower_arm Ryy',
      'lower_arm Ryz', 'lower_arm Rzx', 'lower_arm Rzy', 'lower_arm Rzz', 'knuckle Rxx',
@@ -949,10 +955,8 @@ orientations = Function(
 
 Result (..., 6, 3, 3); 609 operations (246 add, 353 multiply, 3 divide, 3 root, 4 trigonometric).""",
 )
-velocities = Function(
-    _model,
+velocities = _model.function(
     "velocities",
-    ADDRESSES["velocities"],
     (6, 6),
     ('lower_arm omega_x', 'lower_arm omega_y', 'lower_arm omega_z', 'lower_arm velocity_x',
      'lower_arm velocity_y', 'lower_arm velocity_z', 'knuckle omega_x', 'knuckle omega_y',
@@ -968,10 +972,8 @@ velocities = Function(
 
 Result (..., 6, 6); 979 operations (370 add, 597 multiply, 5 divide, 3 root, 4 trigonometric).""",
 )
-signals = Function(
-    _model,
+signals = _model.function(
     "signals",
-    ADDRESSES["signals"],
     (13,),
     ('spring_length', 'spring_velocity', 'spring_force', 'damper_force', 'wheel_center_x',
      'wheel_center_y', 'wheel_center_z', 'wheel_velocity', 'wheel_acceleration', 'camber',
@@ -981,10 +983,8 @@ signals = Function(
 
 Result (..., 13); 787 operations (324 add, 447 multiply, 7 divide, 4 root, 5 trigonometric).""",
 )
-signals_jacobian = Function(
-    _model,
+signals_jacobian = _model.function(
     "signals_jacobian",
-    ADDRESSES["signals_jacobian"],
     (13, 4),
     ('spring_length by arm_angle', 'spring_length by spin_angle',
      'spring_length by arm_angle_rate', 'spring_length by spin_angle_rate',
@@ -1015,10 +1015,8 @@ signals_jacobian = Function(
 
 Result (..., 13, 4); 2256 operations (917 add, 1318 multiply, 15 divide, 4 root, 2 trigonometric).""",
 )
-signals_input_jacobian = Function(
-    _model,
+signals_input_jacobian = _model.function(
     "signals_input_jacobian",
-    ADDRESSES["signals_input_jacobian"],
     (13, 5),
     ('spring_length by rack_position', 'spring_length by rack_velocity',
      'spring_length by rack_acceleration', 'spring_length by spring_actuator',
@@ -1055,10 +1053,8 @@ signals_input_jacobian = Function(
 
 Result (..., 13, 5); 1658 operations (667 add, 972 multiply, 13 divide, 4 root, 2 trigonometric).""",
 )
-margins = Function(
-    _model,
+margins = _model.function(
     "margins",
-    ADDRESSES["margins"],
     (8,),
     ('upper_arm_reach_squared', 'upper_arm_closure', 'knuckle_reach_squared',
      'knuckle_closure', 'tie_rod_cross_squared', 'spring_length_squared',

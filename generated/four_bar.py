@@ -62,11 +62,16 @@ Functions
     mean nothing. Result (..., 4).
 """
 
+from collections.abc import Mapping
 from typing import Any, Final
 
+import numpy as np
+
+from kintrafo.generated._support import (
+    Array, ClosureError, CompiledModel, ModelError, ParameterError, Residuals,
+)
+
 from . import _four_bar
-from ._native import Function
-from ._support import Array, ClosureError, CompiledModel, ModelError, ParameterError, Residuals
 
 __all__ = [
     "ADDRESSES",
@@ -89,6 +94,7 @@ __all__ = [
     "ClosureError",
     "ModelError",
     "ParameterError",
+    "design_state",
     "prepare",
     "rhs",
     "rhs_jacobian",
@@ -257,19 +263,23 @@ MOBILITY: Final[int] = 1
 
 LOOPS: Final[tuple[tuple[str, ...], ...]] = (('ground', 'crank', 'coupler', 'rocker'),)
 
-ADDRESSES: Final = _four_bar.ADDRESSES
-
 _model = CompiledModel(
-    NAME, PARAMETERS, STATE, INPUTS, CONSTANTS, GUARDS, RELATIVE_COORDINATES, ADDRESSES,
+    NAME, PARAMETERS, STATE, INPUTS, CONSTANTS, GUARDS, RELATIVE_COORDINATES, _four_bar.ADDRESSES,
     GUARD_UNITS,
 )
 prepare = _model.prepare
+ADDRESSES: Final[dict[str, int]] = _model.addresses
 DEFAULT_CONSTANTS: Final[Array] = _model.default_constants
 
-rhs = Function(
-    _model,
+
+def design_state(parameters: Mapping[str, float]) -> Array:
+    """Return the state at the design position of some parameters, at rest."""
+    state = np.zeros(2)
+    return state
+
+
+rhs = _model.function(
     "rhs",
-    ADDRESSES["rhs"],
     (2,),
     ('d(crank_angle)/dt', 'd(crank_angle_rate)/dt'),
     {'total': 169, 'add': 73, 'multiply': 88, 'divide': 4, 'root': 2, 'trigonometric': 2},
@@ -277,10 +287,8 @@ rhs = Function(
 
 Result (..., 2); 169 operations (73 add, 88 multiply, 4 divide, 2 root, 2 trigonometric).""",
 )
-rhs_jacobian = Function(
-    _model,
+rhs_jacobian = _model.function(
     "rhs_jacobian",
-    ADDRESSES["rhs_jacobian"],
     (2, 2),
     ('d(crank_angle)/dt by crank_angle', 'd(crank_angle)/dt by crank_angle_rate',
      'd(crank_angle_rate)/dt by crank_angle', 'd(crank_angle_rate)/dt by crank_angle_rate'),
@@ -289,10 +297,8 @@ rhs_jacobian = Function(
 
 Result (..., 2, 2); 430 operations (171 add, 249 multiply, 6 divide, 2 root, 2 trigonometric).""",
 )
-rhs_input_jacobian = Function(
-    _model,
+rhs_input_jacobian = _model.function(
     "rhs_input_jacobian",
-    ADDRESSES["rhs_input_jacobian"],
     (2, 1),
     ('d(crank_angle)/dt by crank_torque', 'd(crank_angle_rate)/dt by crank_torque'),
     {'total': 83, 'add': 35, 'multiply': 42, 'divide': 3, 'root': 1, 'trigonometric': 2},
@@ -300,10 +306,8 @@ rhs_input_jacobian = Function(
 
 Result (..., 2, 1); 83 operations (35 add, 42 multiply, 3 divide, 1 root, 2 trigonometric).""",
 )
-mass_matrix = Function(
-    _model,
+mass_matrix = _model.function(
     "mass_matrix",
-    ADDRESSES["mass_matrix"],
     (1, 1),
     ('M[crank_angle,crank_angle]',),
     {'total': 82, 'add': 35, 'multiply': 42, 'divide': 2, 'root': 1, 'trigonometric': 2},
@@ -311,10 +315,8 @@ mass_matrix = Function(
 
 Result (..., 1, 1); 82 operations (35 add, 42 multiply, 2 divide, 1 root, 2 trigonometric).""",
 )
-bias = Function(
-    _model,
+bias = _model.function(
     "bias",
-    ADDRESSES["bias"],
     (1,),
     ('B[crank_angle]',),
     {'total': 122, 'add': 52, 'multiply': 65, 'divide': 2, 'root': 1, 'trigonometric': 2},
@@ -322,10 +324,8 @@ bias = Function(
 
 Result (..., 1); 122 operations (52 add, 65 multiply, 2 divide, 1 root, 2 trigonometric).""",
 )
-forces = Function(
-    _model,
+forces = _model.function(
     "forces",
-    ADDRESSES["forces"],
     (1,),
     ('Q[crank_angle]',),
     {'total': 109, 'add': 46, 'multiply': 56, 'divide': 3, 'root': 2, 'trigonometric': 2},
@@ -333,10 +333,8 @@ forces = Function(
 
 Result (..., 1); 109 operations (46 add, 56 multiply, 3 divide, 2 root, 2 trigonometric).""",
 )
-relative_coordinates = Function(
-    _model,
+relative_coordinates = _model.function(
     "relative_coordinates",
-    ADDRESSES["relative_coordinates"],
     (3,),
     ('crank_angle', 'coupler_angle', 'rocker_angle'),
     {'total': 59, 'add': 22, 'multiply': 31, 'divide': 1, 'root': 1, 'trigonometric': 4},
@@ -344,10 +342,8 @@ relative_coordinates = Function(
 
 Result (..., 3); 59 operations (22 add, 31 multiply, 1 divide, 1 root, 4 trigonometric).""",
 )
-relative_jacobian = Function(
-    _model,
+relative_jacobian = _model.function(
     "relative_jacobian",
-    ADDRESSES["relative_jacobian"],
     (3, 1),
     ('crank_angle by crank_angle', 'coupler_angle by crank_angle',
      'rocker_angle by crank_angle'),
@@ -356,10 +352,8 @@ relative_jacobian = Function(
 
 Result (..., 3, 1); 151 operations (52 add, 92 multiply, 4 divide, 1 root, 2 trigonometric).""",
 )
-absolute_jacobian = Function(
-    _model,
+absolute_jacobian = _model.function(
     "absolute_jacobian",
-    ADDRESSES["absolute_jacobian"],
     (18, 3),
     ('crank omega_x by crank_angle', 'crank omega_x by coupler_angle',
      'crank omega_x by rocker_angle', 'crank omega_y by crank_angle',
@@ -393,10 +387,8 @@ absolute_jacobian = Function(
 
 Result (..., 18, 3); 77 operations (42 add, 31 multiply, 1 divide, 1 root, 2 trigonometric).""",
 )
-global_jacobian = Function(
-    _model,
+global_jacobian = _model.function(
     "global_jacobian",
-    ADDRESSES["global_jacobian"],
     (18, 1),
     ('crank omega_x by crank_angle', 'crank omega_y by crank_angle',
      'crank omega_z by crank_angle', 'crank velocity_x by crank_angle',
@@ -412,10 +404,8 @@ global_jacobian = Function(
 
 Result (..., 18, 1); 97 operations (40 add, 52 multiply, 2 divide, 1 root, 2 trigonometric).""",
 )
-positions = Function(
-    _model,
+positions = _model.function(
     "positions",
-    ADDRESSES["positions"],
     (3, 3),
     ('crank x', 'crank y', 'crank z', 'coupler x', 'coupler y', 'coupler z', 'rocker x',
      'rocker y', 'rocker z'),
@@ -424,10 +414,8 @@ positions = Function(
 
 Result (..., 3, 3); 62 operations (27 add, 31 multiply, 1 divide, 1 root, 2 trigonometric).""",
 )
-orientations = Function(
-    _model,
+orientations = _model.function(
     "orientations",
-    ADDRESSES["orientations"],
     (3, 3, 3),
     ('crank Rxx', 'crank Rxy', 'crank Rxz', 'crank Ryx', 'crank Ryy', 'crank Ryz',
      'crank Rzx', 'crank Rzy', 'crank Rzz', 'coupler Rxx', 'coupler Rxy', 'coupler Rxz',
@@ -439,10 +427,8 @@ orientations = Function(
 
 Result (..., 3, 3, 3); 53 operations (22 add, 27 multiply, 1 divide, 1 root, 2 trigonometric).""",
 )
-velocities = Function(
-    _model,
+velocities = _model.function(
     "velocities",
-    ADDRESSES["velocities"],
     (3, 6),
     ('crank omega_x', 'crank omega_y', 'crank omega_z', 'crank velocity_x',
      'crank velocity_y', 'crank velocity_z', 'coupler omega_x', 'coupler omega_y',
@@ -454,10 +440,8 @@ velocities = Function(
 
 Result (..., 3, 6); 105 operations (40 add, 60 multiply, 2 divide, 1 root, 2 trigonometric).""",
 )
-signals = Function(
-    _model,
+signals = _model.function(
     "signals",
-    ADDRESSES["signals"],
     (4,),
     ('spring_length', 'spring_velocity', 'spring_force', 'damper_force'),
     {'total': 106, 'add': 44, 'multiply': 55, 'divide': 3, 'root': 2, 'trigonometric': 2},
@@ -465,10 +449,8 @@ signals = Function(
 
 Result (..., 4); 106 operations (44 add, 55 multiply, 3 divide, 2 root, 2 trigonometric).""",
 )
-signals_jacobian = Function(
-    _model,
+signals_jacobian = _model.function(
     "signals_jacobian",
-    ADDRESSES["signals_jacobian"],
     (4, 2),
     ('spring_length by crank_angle', 'spring_length by crank_angle_rate',
      'spring_velocity by crank_angle', 'spring_velocity by crank_angle_rate',
@@ -479,10 +461,8 @@ signals_jacobian = Function(
 
 Result (..., 4, 2); 250 operations (97 add, 144 multiply, 5 divide, 2 root, 2 trigonometric).""",
 )
-signals_input_jacobian = Function(
-    _model,
+signals_input_jacobian = _model.function(
     "signals_input_jacobian",
-    ADDRESSES["signals_input_jacobian"],
     (4, 1),
     ('spring_length by crank_torque', 'spring_velocity by crank_torque',
      'spring_force by crank_torque', 'damper_force by crank_torque'),
@@ -491,10 +471,8 @@ signals_input_jacobian = Function(
 
 Result (..., 4, 1); 0 operations (none).""",
 )
-margins = Function(
-    _model,
+margins = _model.function(
     "margins",
-    ADDRESSES["margins"],
     (4,),
     ('rocker_reach_squared', 'rocker_closure', 'spring_length_squared', 'pivot_crank_angle'),
     {'total': 95, 'add': 42, 'multiply': 48, 'divide': 2, 'root': 1, 'trigonometric': 2},

@@ -66,11 +66,16 @@ Functions
     mean nothing. Result (..., 8).
 """
 
+from collections.abc import Mapping
 from typing import Any, Final
 
+import numpy as np
+
+from kintrafo.generated._support import (
+    Array, ClosureError, CompiledModel, ModelError, ParameterError, Residuals,
+)
+
 from . import _macpherson
-from ._native import Function
-from ._support import Array, ClosureError, CompiledModel, ModelError, ParameterError, Residuals
 
 __all__ = [
     "ADDRESSES",
@@ -93,6 +98,7 @@ __all__ = [
     "ClosureError",
     "ModelError",
     "ParameterError",
+    "design_state",
     "prepare",
     "rhs",
     "rhs_jacobian",
@@ -662,19 +668,43 @@ MOBILITY: Final[int] = 3
 LOOPS: Final[tuple[tuple[str, ...], ...]] = (('chassis', 'control_arm', 'knuckle', 'upper_strut'),
  ('chassis', 'upper_strut', 'knuckle', 'tie_rod', 'rack'))
 
-ADDRESSES: Final = _macpherson.ADDRESSES
-
 _model = CompiledModel(
-    NAME, PARAMETERS, STATE, INPUTS, CONSTANTS, GUARDS, RELATIVE_COORDINATES, ADDRESSES,
+    NAME, PARAMETERS, STATE, INPUTS, CONSTANTS, GUARDS, RELATIVE_COORDINATES, _macpherson.ADDRESSES,
     GUARD_UNITS,
 )
 prepare = _model.prepare
+ADDRESSES: Final[dict[str, int]] = _model.addresses
 DEFAULT_CONSTANTS: Final[Array] = _model.default_constants
 
-rhs = Function(
-    _model,
+
+def design_state(parameters: Mapping[str, float]) -> Array:
+    """Return the state at the design position of some parameters, at rest."""
+    arm_front_x = parameters["arm_front_x"]
+    arm_front_y = parameters["arm_front_y"]
+    arm_front_z = parameters["arm_front_z"]
+    arm_rear_x = parameters["arm_rear_x"]
+    arm_rear_y = parameters["arm_rear_y"]
+    arm_rear_z = parameters["arm_rear_z"]
+    ball_joint_x = parameters["ball_joint_x"]
+    ball_joint_y = parameters["ball_joint_y"]
+    ball_joint_z = parameters["ball_joint_z"]
+    beta1_axis_x = arm_front_x - arm_rear_x
+    beta1_axis_y = arm_front_y - arm_rear_y
+    beta1_axis_z = arm_front_z - arm_rear_z
+    beta1_arm_x = ball_joint_x - arm_rear_x
+    beta1_arm_y = ball_joint_y - arm_rear_y
+    beta1_arm_z = ball_joint_z - arm_rear_z
+    beta1_across = beta1_arm_x*beta1_axis_y - beta1_arm_y*beta1_axis_x
+    beta1_axis_squared = beta1_axis_x*beta1_axis_x + beta1_axis_y*beta1_axis_y + beta1_axis_z*beta1_axis_z
+    beta1_along = beta1_arm_z*beta1_axis_squared - beta1_axis_z*(beta1_arm_x*beta1_axis_x + beta1_arm_y*beta1_axis_y + beta1_arm_z*beta1_axis_z)
+    beta1 = np.arctan2(beta1_across*np.copysign(1.0, beta1_across)*np.sqrt(beta1_axis_squared), beta1_along)
+    state = np.zeros(4)
+    state[0] = beta1
+    return state
+
+
+rhs = _model.function(
     "rhs",
-    ADDRESSES["rhs"],
     (4,),
     ('d(beta1)/dt', 'd(beta5)/dt', 'd(beta1_rate)/dt', 'd(beta5_rate)/dt'),
     {'total': 491, 'add': 202, 'multiply': 280, 'divide': 5, 'root': 2, 'trigonometric': 2},
@@ -682,10 +712,8 @@ rhs = Function(
 
 Result (..., 4); 491 operations (202 add, 280 multiply, 5 divide, 2 root, 2 trigonometric).""",
 )
-rhs_jacobian = Function(
-    _model,
+rhs_jacobian = _model.function(
     "rhs_jacobian",
-    ADDRESSES["rhs_jacobian"],
     (4, 4),
     ('d(beta1)/dt by beta1', 'd(beta1)/dt by beta5', 'd(beta1)/dt by beta1_rate',
      'd(beta1)/dt by beta5_rate', 'd(beta5)/dt by beta1', 'd(beta5)/dt by beta5',
@@ -699,10 +727,8 @@ rhs_jacobian = Function(
 
 Result (..., 4, 4); 1402 operations (573 add, 817 multiply, 8 divide, 2 root, 2 trigonometric).""",
 )
-rhs_input_jacobian = Function(
-    _model,
+rhs_input_jacobian = _model.function(
     "rhs_input_jacobian",
-    ADDRESSES["rhs_input_jacobian"],
     (4, 5),
     ('d(beta1)/dt by rack_position', 'd(beta1)/dt by rack_velocity',
      'd(beta1)/dt by rack_acceleration', 'd(beta1)/dt by strut_force',
@@ -719,10 +745,8 @@ rhs_input_jacobian = Function(
 
 Result (..., 4, 5); 1209 operations (486 add, 712 multiply, 7 divide, 2 root, 2 trigonometric).""",
 )
-mass_matrix = Function(
-    _model,
+mass_matrix = _model.function(
     "mass_matrix",
-    ADDRESSES["mass_matrix"],
     (2, 2),
     ('M[beta1,beta1]', 'M[beta1,beta5]', 'M[beta5,beta1]', 'M[beta5,beta5]'),
     {'total': 146, 'add': 59, 'multiply': 80, 'divide': 3, 'root': 2, 'trigonometric': 2},
@@ -730,10 +754,8 @@ mass_matrix = Function(
 
 Result (..., 2, 2); 146 operations (59 add, 80 multiply, 3 divide, 2 root, 2 trigonometric).""",
 )
-bias = Function(
-    _model,
+bias = _model.function(
     "bias",
-    ADDRESSES["bias"],
     (2,),
     ('B[beta1]', 'B[beta5]'),
     {'total': 365, 'add': 144, 'multiply': 214, 'divide': 3, 'root': 2, 'trigonometric': 2},
@@ -741,10 +763,8 @@ bias = Function(
 
 Result (..., 2); 365 operations (144 add, 214 multiply, 3 divide, 2 root, 2 trigonometric).""",
 )
-forces = Function(
-    _model,
+forces = _model.function(
     "forces",
-    ADDRESSES["forces"],
     (2,),
     ('Q[beta1]', 'Q[beta5]'),
     {'total': 198, 'add': 79, 'multiply': 111, 'divide': 4, 'root': 2, 'trigonometric': 2},
@@ -752,10 +772,8 @@ forces = Function(
 
 Result (..., 2); 198 operations (79 add, 111 multiply, 4 divide, 2 root, 2 trigonometric).""",
 )
-rhs_rack_held = Function(
-    _model,
+rhs_rack_held = _model.function(
     "rhs_rack_held",
-    ADDRESSES["rhs_rack_held"],
     (4,),
     ('d(beta1)/dt', 'd(beta5)/dt', 'd(beta1_rate)/dt', 'd(beta5_rate)/dt'),
     {'total': 331, 'add': 140, 'multiply': 182, 'divide': 5, 'root': 2, 'trigonometric': 2},
@@ -763,10 +781,8 @@ rhs_rack_held = Function(
 
 Result (..., 4); 331 operations (140 add, 182 multiply, 5 divide, 2 root, 2 trigonometric).""",
 )
-rhs_jacobian_rack_held = Function(
-    _model,
+rhs_jacobian_rack_held = _model.function(
     "rhs_jacobian_rack_held",
-    ADDRESSES["rhs_jacobian_rack_held"],
     (4, 4),
     ('d(beta1)/dt by beta1', 'd(beta1)/dt by beta5', 'd(beta1)/dt by beta1_rate',
      'd(beta1)/dt by beta5_rate', 'd(beta5)/dt by beta1', 'd(beta5)/dt by beta5',
@@ -780,10 +796,8 @@ rhs_jacobian_rack_held = Function(
 
 Result (..., 4, 4); 858 operations (345 add, 501 multiply, 8 divide, 2 root, 2 trigonometric).""",
 )
-relative_coordinates = Function(
-    _model,
+relative_coordinates = _model.function(
     "relative_coordinates",
-    ADDRESSES["relative_coordinates"],
     (10,),
     ('beta1', 'beta2', 'beta3', 'beta4', 'beta5', 'beta6', 'beta7', 'beta8', 'beta9',
      'beta10'),
@@ -792,10 +806,8 @@ relative_coordinates = Function(
 
 Result (..., 10); 159 operations (57 add, 91 multiply, 3 divide, 3 root, 5 trigonometric).""",
 )
-relative_jacobian = Function(
-    _model,
+relative_jacobian = _model.function(
     "relative_jacobian",
-    ADDRESSES["relative_jacobian"],
     (10, 2),
     ('beta1 by beta1', 'beta1 by beta5', 'beta2 by beta1', 'beta2 by beta5',
      'beta3 by beta1', 'beta3 by beta5', 'beta4 by beta1', 'beta4 by beta5',
@@ -807,10 +819,8 @@ relative_jacobian = Function(
 
 Result (..., 10, 2); 462 operations (161 add, 287 multiply, 9 divide, 3 root, 2 trigonometric).""",
 )
-absolute_jacobian = Function(
-    _model,
+absolute_jacobian = _model.function(
     "absolute_jacobian",
-    ADDRESSES["absolute_jacobian"],
     (18, 10),
     ('control_arm omega_x by beta1', 'control_arm omega_x by beta2',
      'control_arm omega_x by beta3', 'control_arm omega_x by beta4',
@@ -893,10 +903,8 @@ absolute_jacobian = Function(
 
 Result (..., 18, 10); 322 operations (126 add, 188 multiply, 3 divide, 3 root, 2 trigonometric).""",
 )
-global_jacobian = Function(
-    _model,
+global_jacobian = _model.function(
     "global_jacobian",
-    ADDRESSES["global_jacobian"],
     (18, 2),
     ('control_arm omega_x by beta1', 'control_arm omega_x by beta5',
      'control_arm omega_y by beta1', 'control_arm omega_y by beta5',
@@ -918,10 +926,8 @@ global_jacobian = Function(
 
 Result (..., 18, 2); 380 operations (147 add, 224 multiply, 3 divide, 2 root, 4 trigonometric).""",
 )
-positions = Function(
-    _model,
+positions = _model.function(
     "positions",
-    ADDRESSES["positions"],
     (6, 3),
     ('control_arm x', 'control_arm y', 'control_arm z', 'knuckle x', 'knuckle y',
      'knuckle z', 'tie_rod x', 'tie_rod y', 'tie_rod z', 'rack x', 'rack y', 'rack z',
@@ -931,10 +937,8 @@ positions = Function(
 
 Result (..., 6, 3); 321 operations (137 add, 174 multiply, 4 divide, 4 root, 2 trigonometric).""",
 )
-orientations = Function(
-    _model,
+orientations = _model.function(
     "orientations",
-    ADDRESSES["orientations"],
     (6, 3, 3),
     ('control_arm Rxx', 'control_arm Rxy', 'control_arm Rxz', 'control_arm Ryx',
      'control_arm Ryy', 'control_arm Ryz', 'control_arm Rzx', 'control_arm Rzy',
@@ -952,10 +956,8 @@ orientations = Function(
 
 Result (..., 6, 3, 3); 578 operations (225 add, 341 multiply, 4 divide, 4 root, 4 trigonometric).""",
 )
-velocities = Function(
-    _model,
+velocities = _model.function(
     "velocities",
-    ADDRESSES["velocities"],
     (6, 6),
     ('control_arm omega_x', 'control_arm omega_y', 'control_arm omega_z',
      'control_arm velocity_x', 'control_arm velocity_y', 'control_arm velocity_z',
@@ -972,10 +974,8 @@ velocities = Function(
 
 Result (..., 6, 6); 955 operations (353 add, 589 multiply, 5 divide, 4 root, 4 trigonometric).""",
 )
-signals = Function(
-    _model,
+signals = _model.function(
     "signals",
-    ADDRESSES["signals"],
     (13,),
     ('strut_length', 'strut_velocity', 'spring_force', 'damper_force', 'wheel_center_x',
      'wheel_center_y', 'wheel_center_z', 'wheel_velocity', 'wheel_acceleration', 'camber',
@@ -985,10 +985,8 @@ signals = Function(
 
 Result (..., 13); 603 operations (249 add, 341 multiply, 5 divide, 3 root, 5 trigonometric).""",
 )
-signals_jacobian = Function(
-    _model,
+signals_jacobian = _model.function(
     "signals_jacobian",
-    ADDRESSES["signals_jacobian"],
     (13, 4),
     ('strut_length by beta1', 'strut_length by beta5', 'strut_length by beta1_rate',
      'strut_length by beta5_rate', 'strut_velocity by beta1', 'strut_velocity by beta5',
@@ -1014,10 +1012,8 @@ signals_jacobian = Function(
 
 Result (..., 13, 4); 1713 operations (704 add, 992 multiply, 12 divide, 3 root, 2 trigonometric).""",
 )
-signals_input_jacobian = Function(
-    _model,
+signals_input_jacobian = _model.function(
     "signals_input_jacobian",
-    ADDRESSES["signals_input_jacobian"],
     (13, 5),
     ('strut_length by rack_position', 'strut_length by rack_velocity',
      'strut_length by rack_acceleration', 'strut_length by strut_force',
@@ -1054,10 +1050,8 @@ signals_input_jacobian = Function(
 
 Result (..., 13, 5); 1454 operations (582 add, 856 multiply, 11 divide, 3 root, 2 trigonometric).""",
 )
-margins = Function(
-    _model,
+margins = _model.function(
     "margins",
-    ADDRESSES["margins"],
     (8,),
     ('length_squared_BC', 'upper_strut_cross_squared', 'knuckle_reach_squared',
      'knuckle_closure', 'tie_rod_cross_squared', 'cos_camber_squared', 'pivot_beta1',

@@ -62,11 +62,16 @@ Functions
     mean nothing. Result (..., 10).
 """
 
+from collections.abc import Mapping
 from typing import Any, Final
 
+import numpy as np
+
+from kintrafo.generated._support import (
+    Array, ClosureError, CompiledModel, ModelError, ParameterError, Residuals,
+)
+
 from . import _macpherson_free_rack
-from ._native import Function
-from ._support import Array, ClosureError, CompiledModel, ModelError, ParameterError, Residuals
 
 __all__ = [
     "ADDRESSES",
@@ -89,6 +94,7 @@ __all__ = [
     "ClosureError",
     "ModelError",
     "ParameterError",
+    "design_state",
     "prepare",
     "rhs",
     "rhs_jacobian",
@@ -686,19 +692,43 @@ MOBILITY: Final[int] = 3
 LOOPS: Final[tuple[tuple[str, ...], ...]] = (('chassis', 'control_arm', 'knuckle', 'upper_strut'),
  ('chassis', 'upper_strut', 'knuckle', 'tie_rod', 'rack'))
 
-ADDRESSES: Final = _macpherson_free_rack.ADDRESSES
-
 _model = CompiledModel(
-    NAME, PARAMETERS, STATE, INPUTS, CONSTANTS, GUARDS, RELATIVE_COORDINATES, ADDRESSES,
+    NAME, PARAMETERS, STATE, INPUTS, CONSTANTS, GUARDS, RELATIVE_COORDINATES, _macpherson_free_rack.ADDRESSES,
     GUARD_UNITS,
 )
 prepare = _model.prepare
+ADDRESSES: Final[dict[str, int]] = _model.addresses
 DEFAULT_CONSTANTS: Final[Array] = _model.default_constants
 
-rhs = Function(
-    _model,
+
+def design_state(parameters: Mapping[str, float]) -> Array:
+    """Return the state at the design position of some parameters, at rest."""
+    arm_front_x = parameters["arm_front_x"]
+    arm_front_y = parameters["arm_front_y"]
+    arm_front_z = parameters["arm_front_z"]
+    arm_rear_x = parameters["arm_rear_x"]
+    arm_rear_y = parameters["arm_rear_y"]
+    arm_rear_z = parameters["arm_rear_z"]
+    ball_joint_x = parameters["ball_joint_x"]
+    ball_joint_y = parameters["ball_joint_y"]
+    ball_joint_z = parameters["ball_joint_z"]
+    beta1_axis_x = arm_front_x - arm_rear_x
+    beta1_axis_y = arm_front_y - arm_rear_y
+    beta1_axis_z = arm_front_z - arm_rear_z
+    beta1_arm_x = ball_joint_x - arm_rear_x
+    beta1_arm_y = ball_joint_y - arm_rear_y
+    beta1_arm_z = ball_joint_z - arm_rear_z
+    beta1_across = beta1_arm_x*beta1_axis_y - beta1_arm_y*beta1_axis_x
+    beta1_axis_squared = beta1_axis_x*beta1_axis_x + beta1_axis_y*beta1_axis_y + beta1_axis_z*beta1_axis_z
+    beta1_along = beta1_arm_z*beta1_axis_squared - beta1_axis_z*(beta1_arm_x*beta1_axis_x + beta1_arm_y*beta1_axis_y + beta1_arm_z*beta1_axis_z)
+    beta1 = np.arctan2(beta1_across*np.copysign(1.0, beta1_across)*np.sqrt(beta1_axis_squared), beta1_along)
+    state = np.zeros(6)
+    state[0] = beta1
+    return state
+
+
+rhs = _model.function(
     "rhs",
-    ADDRESSES["rhs"],
     (6,),
     ('d(beta1)/dt', 'd(beta5)/dt', 'd(beta9)/dt', 'd(beta1_rate)/dt', 'd(beta5_rate)/dt',
      'd(beta9_rate)/dt'),
@@ -707,10 +737,8 @@ rhs = Function(
 
 Result (..., 6); 1041 operations (418 add, 609 multiply, 8 divide, 4 root, 2 trigonometric).""",
 )
-rhs_jacobian = Function(
-    _model,
+rhs_jacobian = _model.function(
     "rhs_jacobian",
-    ADDRESSES["rhs_jacobian"],
     (6, 6),
     ('d(beta1)/dt by beta1', 'd(beta1)/dt by beta5', 'd(beta1)/dt by beta9',
      'd(beta1)/dt by beta1_rate', 'd(beta1)/dt by beta5_rate', 'd(beta1)/dt by beta9_rate',
@@ -732,10 +760,8 @@ rhs_jacobian = Function(
 
 Result (..., 6, 6); 4636 operations (1934 add, 2683 multiply, 13 divide, 4 root, 2 trigonometric).""",
 )
-rhs_input_jacobian = Function(
-    _model,
+rhs_input_jacobian = _model.function(
     "rhs_input_jacobian",
-    ADDRESSES["rhs_input_jacobian"],
     (6, 3),
     ('d(beta1)/dt by strut_force', 'd(beta1)/dt by road_height',
      'd(beta1)/dt by rack_force', 'd(beta5)/dt by strut_force',
@@ -751,10 +777,8 @@ rhs_input_jacobian = Function(
 
 Result (..., 6, 3); 507 operations (200 add, 293 multiply, 8 divide, 4 root, 2 trigonometric).""",
 )
-mass_matrix = Function(
-    _model,
+mass_matrix = _model.function(
     "mass_matrix",
-    ADDRESSES["mass_matrix"],
     (3, 3),
     ('M[beta1,beta1]', 'M[beta1,beta5]', 'M[beta1,beta9]', 'M[beta5,beta1]',
      'M[beta5,beta5]', 'M[beta5,beta9]', 'M[beta9,beta1]', 'M[beta9,beta5]',
@@ -764,10 +788,8 @@ mass_matrix = Function(
 
 Result (..., 3, 3); 435 operations (171 add, 253 multiply, 5 divide, 4 root, 2 trigonometric).""",
 )
-bias = Function(
-    _model,
+bias = _model.function(
     "bias",
-    ADDRESSES["bias"],
     (3,),
     ('B[beta1]', 'B[beta5]', 'B[beta9]'),
     {'total': 729, 'add': 283, 'multiply': 435, 'divide': 5, 'root': 4, 'trigonometric': 2},
@@ -775,10 +797,8 @@ bias = Function(
 
 Result (..., 3); 729 operations (283 add, 435 multiply, 5 divide, 4 root, 2 trigonometric).""",
 )
-forces = Function(
-    _model,
+forces = _model.function(
     "forces",
-    ADDRESSES["forces"],
     (3,),
     ('Q[beta1]', 'Q[beta5]', 'Q[beta9]'),
     {'total': 440, 'add': 167, 'multiply': 261, 'divide': 6, 'root': 4, 'trigonometric': 2},
@@ -786,10 +806,8 @@ forces = Function(
 
 Result (..., 3); 440 operations (167 add, 261 multiply, 6 divide, 4 root, 2 trigonometric).""",
 )
-relative_coordinates = Function(
-    _model,
+relative_coordinates = _model.function(
     "relative_coordinates",
-    ADDRESSES["relative_coordinates"],
     (12,),
     ('beta1', 'beta2', 'beta3', 'beta4', 'beta5', 'beta6', 'beta7', 'beta8', 'beta9',
      'beta10', 'beta11', 'beta12'),
@@ -798,10 +816,8 @@ relative_coordinates = Function(
 
 Result (..., 12); 197 operations (73 add, 110 multiply, 3 divide, 4 root, 7 trigonometric).""",
 )
-relative_jacobian = Function(
-    _model,
+relative_jacobian = _model.function(
     "relative_jacobian",
-    ADDRESSES["relative_jacobian"],
     (12, 3),
     ('beta1 by beta1', 'beta1 by beta5', 'beta1 by beta9', 'beta2 by beta1',
      'beta2 by beta5', 'beta2 by beta9', 'beta3 by beta1', 'beta3 by beta5',
@@ -817,10 +833,8 @@ relative_jacobian = Function(
 
 Result (..., 12, 3); 681 operations (245 add, 418 multiply, 12 divide, 4 root, 2 trigonometric).""",
 )
-absolute_jacobian = Function(
-    _model,
+absolute_jacobian = _model.function(
     "absolute_jacobian",
-    ADDRESSES["absolute_jacobian"],
     (36, 12),
     ('control_arm omega_x by beta1', 'control_arm omega_x by beta2',
      'control_arm omega_x by beta3', 'control_arm omega_x by beta4',
@@ -1009,10 +1023,8 @@ absolute_jacobian = Function(
 
 Result (..., 36, 12); 729 operations (291 add, 422 multiply, 8 divide, 6 root, 2 trigonometric).""",
 )
-global_jacobian = Function(
-    _model,
+global_jacobian = _model.function(
     "global_jacobian",
-    ADDRESSES["global_jacobian"],
     (36, 3),
     ('control_arm omega_x by beta1', 'control_arm omega_x by beta5',
      'control_arm omega_x by beta9', 'control_arm omega_y by beta1',
@@ -1064,10 +1076,8 @@ global_jacobian = Function(
 
 Result (..., 36, 3); 880 operations (332 add, 535 multiply, 5 divide, 4 root, 4 trigonometric).""",
 )
-positions = Function(
-    _model,
+positions = _model.function(
     "positions",
-    ADDRESSES["positions"],
     (6, 3),
     ('control_arm x', 'control_arm y', 'control_arm z', 'knuckle x', 'knuckle y',
      'knuckle z', 'tie_rod x', 'tie_rod y', 'tie_rod z', 'rack x', 'rack y', 'rack z',
@@ -1077,10 +1087,8 @@ positions = Function(
 
 Result (..., 6, 3); 321 operations (137 add, 174 multiply, 4 divide, 4 root, 2 trigonometric).""",
 )
-orientations = Function(
-    _model,
+orientations = _model.function(
     "orientations",
-    ADDRESSES["orientations"],
     (6, 3, 3),
     ('control_arm Rxx', 'control_arm Rxy', 'control_arm Rxz', 'control_arm Ryx',
      'control_arm Ryy', 'control_arm Ryz', 'control_arm Rzx', 'control_arm Rzy',
@@ -1098,10 +1106,8 @@ orientations = Function(
 
 Result (..., 6, 3, 3); 578 operations (225 add, 341 multiply, 4 divide, 4 root, 4 trigonometric).""",
 )
-velocities = Function(
-    _model,
+velocities = _model.function(
     "velocities",
-    ADDRESSES["velocities"],
     (6, 6),
     ('control_arm omega_x', 'control_arm omega_y', 'control_arm omega_z',
      'control_arm velocity_x', 'control_arm velocity_y', 'control_arm velocity_z',
@@ -1118,10 +1124,8 @@ velocities = Function(
 
 Result (..., 6, 6); 955 operations (353 add, 589 multiply, 5 divide, 4 root, 4 trigonometric).""",
 )
-signals = Function(
-    _model,
+signals = _model.function(
     "signals",
-    ADDRESSES["signals"],
     (13,),
     ('strut_length', 'strut_velocity', 'spring_force', 'damper_force', 'wheel_center_x',
      'wheel_center_y', 'wheel_center_z', 'wheel_velocity', 'wheel_acceleration', 'camber',
@@ -1131,10 +1135,8 @@ signals = Function(
 
 Result (..., 13); 1149 operations (464 add, 667 multiply, 8 divide, 5 root, 5 trigonometric).""",
 )
-signals_jacobian = Function(
-    _model,
+signals_jacobian = _model.function(
     "signals_jacobian",
-    ADDRESSES["signals_jacobian"],
     (13, 6),
     ('strut_length by beta1', 'strut_length by beta5', 'strut_length by beta9',
      'strut_length by beta1_rate', 'strut_length by beta5_rate',
@@ -1171,10 +1173,8 @@ signals_jacobian = Function(
 
 Result (..., 13, 6); 5055 operations (2110 add, 2921 multiply, 17 divide, 5 root, 2 trigonometric).""",
 )
-signals_input_jacobian = Function(
-    _model,
+signals_input_jacobian = _model.function(
     "signals_input_jacobian",
-    ADDRESSES["signals_input_jacobian"],
     (13, 3),
     ('strut_length by strut_force', 'strut_length by road_height',
      'strut_length by rack_force', 'strut_velocity by strut_force',
@@ -1199,10 +1199,8 @@ signals_input_jacobian = Function(
 
 Result (..., 13, 3); 508 operations (198 add, 295 multiply, 8 divide, 5 root, 2 trigonometric).""",
 )
-margins = Function(
-    _model,
+margins = _model.function(
     "margins",
-    ADDRESSES["margins"],
     (10,),
     ('length_squared_BC', 'upper_strut_cross_squared', 'knuckle_reach_squared',
      'knuckle_closure', 'tie_rod_cross_squared', 'cos_camber_squared', 'pivot_beta1',

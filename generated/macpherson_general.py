@@ -66,11 +66,16 @@ Functions
     mean nothing. Result (..., 10).
 """
 
+from collections.abc import Mapping
 from typing import Any, Final
 
+import numpy as np
+
+from kintrafo.generated._support import (
+    Array, ClosureError, CompiledModel, ModelError, ParameterError, Residuals,
+)
+
 from . import _macpherson_general
-from ._native import Function
-from ._support import Array, ClosureError, CompiledModel, ModelError, ParameterError, Residuals
 
 __all__ = [
     "ADDRESSES",
@@ -93,6 +98,7 @@ __all__ = [
     "ClosureError",
     "ModelError",
     "ParameterError",
+    "design_state",
     "prepare",
     "rhs",
     "rhs_jacobian",
@@ -994,19 +1000,43 @@ MOBILITY: Final[int] = 3
 LOOPS: Final[tuple[tuple[str, ...], ...]] = (('chassis', 'control_arm', 'knuckle', 'upper_strut'),
  ('chassis', 'control_arm', 'knuckle', 'tie_rod', 'rack'))
 
-ADDRESSES: Final = _macpherson_general.ADDRESSES
-
 _model = CompiledModel(
-    NAME, PARAMETERS, STATE, INPUTS, CONSTANTS, GUARDS, RELATIVE_COORDINATES, ADDRESSES,
+    NAME, PARAMETERS, STATE, INPUTS, CONSTANTS, GUARDS, RELATIVE_COORDINATES, _macpherson_general.ADDRESSES,
     GUARD_UNITS,
 )
 prepare = _model.prepare
+ADDRESSES: Final[dict[str, int]] = _model.addresses
 DEFAULT_CONSTANTS: Final[Array] = _model.default_constants
 
-rhs = Function(
-    _model,
+
+def design_state(parameters: Mapping[str, float]) -> Array:
+    """Return the state at the design position of some parameters, at rest."""
+    arm_front_x = parameters["arm_front_x"]
+    arm_front_y = parameters["arm_front_y"]
+    arm_front_z = parameters["arm_front_z"]
+    arm_rear_x = parameters["arm_rear_x"]
+    arm_rear_y = parameters["arm_rear_y"]
+    arm_rear_z = parameters["arm_rear_z"]
+    ball_joint_x = parameters["ball_joint_x"]
+    ball_joint_y = parameters["ball_joint_y"]
+    ball_joint_z = parameters["ball_joint_z"]
+    beta1_axis_x = arm_front_x - arm_rear_x
+    beta1_axis_y = arm_front_y - arm_rear_y
+    beta1_axis_z = arm_front_z - arm_rear_z
+    beta1_arm_x = ball_joint_x - arm_rear_x
+    beta1_arm_y = ball_joint_y - arm_rear_y
+    beta1_arm_z = ball_joint_z - arm_rear_z
+    beta1_across = beta1_arm_x*beta1_axis_y - beta1_arm_y*beta1_axis_x
+    beta1_axis_squared = beta1_axis_x*beta1_axis_x + beta1_axis_y*beta1_axis_y + beta1_axis_z*beta1_axis_z
+    beta1_along = beta1_arm_z*beta1_axis_squared - beta1_axis_z*(beta1_arm_x*beta1_axis_x + beta1_arm_y*beta1_axis_y + beta1_arm_z*beta1_axis_z)
+    beta1 = np.arctan2(beta1_across*np.copysign(1.0, beta1_across)*np.sqrt(beta1_axis_squared), beta1_along)
+    state = np.zeros(4)
+    state[0] = beta1
+    return state
+
+
+rhs = _model.function(
     "rhs",
-    ADDRESSES["rhs"],
     (4,),
     ('d(beta1)/dt', 'd(beta5)/dt', 'd(beta1_rate)/dt', 'd(beta5_rate)/dt'),
     {'total': 849, 'add': 376, 'multiply': 459, 'divide': 8, 'root': 4, 'trigonometric': 2},
@@ -1014,10 +1044,8 @@ rhs = Function(
 
 Result (..., 4); 849 operations (376 add, 459 multiply, 8 divide, 4 root, 2 trigonometric).""",
 )
-rhs_jacobian = Function(
-    _model,
+rhs_jacobian = _model.function(
     "rhs_jacobian",
-    ADDRESSES["rhs_jacobian"],
     (4, 4),
     ('d(beta1)/dt by beta1', 'd(beta1)/dt by beta5', 'd(beta1)/dt by beta1_rate',
      'd(beta1)/dt by beta5_rate', 'd(beta5)/dt by beta1', 'd(beta5)/dt by beta5',
@@ -1031,10 +1059,8 @@ rhs_jacobian = Function(
 
 Result (..., 4, 4); 2423 operations (1018 add, 1384 multiply, 15 divide, 4 root, 2 trigonometric).""",
 )
-rhs_input_jacobian = Function(
-    _model,
+rhs_input_jacobian = _model.function(
     "rhs_input_jacobian",
-    ADDRESSES["rhs_input_jacobian"],
     (4, 6),
     ('d(beta1)/dt by rack_position', 'd(beta1)/dt by rack_velocity',
      'd(beta1)/dt by rack_acceleration', 'd(beta1)/dt by strut_force',
@@ -1053,10 +1079,8 @@ rhs_input_jacobian = Function(
 
 Result (..., 4, 6); 2033 operations (847 add, 1166 multiply, 14 divide, 4 root, 2 trigonometric).""",
 )
-mass_matrix = Function(
-    _model,
+mass_matrix = _model.function(
     "mass_matrix",
-    ADDRESSES["mass_matrix"],
     (2, 2),
     ('M[beta1,beta1]', 'M[beta1,beta5]', 'M[beta5,beta1]', 'M[beta5,beta5]'),
     {'total': 248, 'add': 99, 'multiply': 141, 'divide': 4, 'root': 2, 'trigonometric': 2},
@@ -1064,10 +1088,8 @@ mass_matrix = Function(
 
 Result (..., 2, 2); 248 operations (99 add, 141 multiply, 4 divide, 2 root, 2 trigonometric).""",
 )
-bias = Function(
-    _model,
+bias = _model.function(
     "bias",
-    ADDRESSES["bias"],
     (2,),
     ('B[beta1]', 'B[beta5]'),
     {'total': 501, 'add': 201, 'multiply': 292, 'divide': 4, 'root': 2, 'trigonometric': 2},
@@ -1075,10 +1097,8 @@ bias = Function(
 
 Result (..., 2); 501 operations (201 add, 292 multiply, 4 divide, 2 root, 2 trigonometric).""",
 )
-forces = Function(
-    _model,
+forces = _model.function(
     "forces",
-    ADDRESSES["forces"],
     (2,),
     ('Q[beta1]', 'Q[beta5]'),
     {'total': 540, 'add': 242, 'multiply': 285, 'divide': 7, 'root': 4, 'trigonometric': 2},
@@ -1086,10 +1106,8 @@ forces = Function(
 
 Result (..., 2); 540 operations (242 add, 285 multiply, 7 divide, 4 root, 2 trigonometric).""",
 )
-rhs_rack_held = Function(
-    _model,
+rhs_rack_held = _model.function(
     "rhs_rack_held",
-    ADDRESSES["rhs_rack_held"],
     (4,),
     ('d(beta1)/dt', 'd(beta5)/dt', 'd(beta1_rate)/dt', 'd(beta5_rate)/dt'),
     {'total': 661, 'add': 302, 'multiply': 345, 'divide': 8, 'root': 4, 'trigonometric': 2},
@@ -1097,10 +1115,8 @@ rhs_rack_held = Function(
 
 Result (..., 4); 661 operations (302 add, 345 multiply, 8 divide, 4 root, 2 trigonometric).""",
 )
-rhs_jacobian_rack_held = Function(
-    _model,
+rhs_jacobian_rack_held = _model.function(
     "rhs_jacobian_rack_held",
-    ADDRESSES["rhs_jacobian_rack_held"],
     (4, 4),
     ('d(beta1)/dt by beta1', 'd(beta1)/dt by beta5', 'd(beta1)/dt by beta1_rate',
      'd(beta1)/dt by beta5_rate', 'd(beta5)/dt by beta1', 'd(beta5)/dt by beta5',
@@ -1114,10 +1130,8 @@ rhs_jacobian_rack_held = Function(
 
 Result (..., 4, 4); 1778 operations (750 add, 1007 multiply, 15 divide, 4 root, 2 trigonometric).""",
 )
-relative_coordinates = Function(
-    _model,
+relative_coordinates = _model.function(
     "relative_coordinates",
-    ADDRESSES["relative_coordinates"],
     (10,),
     ('beta1', 'beta2', 'beta3', 'beta4', 'beta5', 'beta6', 'beta7', 'beta8', 'beta9',
      'beta10'),
@@ -1126,10 +1140,8 @@ relative_coordinates = Function(
 
 Result (..., 10); 230 operations (86 add, 133 multiply, 3 divide, 3 root, 5 trigonometric).""",
 )
-relative_jacobian = Function(
-    _model,
+relative_jacobian = _model.function(
     "relative_jacobian",
-    ADDRESSES["relative_jacobian"],
     (10, 2),
     ('beta1 by beta1', 'beta1 by beta5', 'beta2 by beta1', 'beta2 by beta5',
      'beta3 by beta1', 'beta3 by beta5', 'beta4 by beta1', 'beta4 by beta5',
@@ -1141,10 +1153,8 @@ relative_jacobian = Function(
 
 Result (..., 10, 2); 656 operations (241 add, 400 multiply, 10 divide, 3 root, 2 trigonometric).""",
 )
-absolute_jacobian = Function(
-    _model,
+absolute_jacobian = _model.function(
     "absolute_jacobian",
-    ADDRESSES["absolute_jacobian"],
     (18, 10),
     ('control_arm omega_x by beta1', 'control_arm omega_x by beta2',
      'control_arm omega_x by beta3', 'control_arm omega_x by beta4',
@@ -1227,10 +1237,8 @@ absolute_jacobian = Function(
 
 Result (..., 18, 10); 392 operations (154 add, 230 multiply, 3 divide, 3 root, 2 trigonometric).""",
 )
-global_jacobian = Function(
-    _model,
+global_jacobian = _model.function(
     "global_jacobian",
-    ADDRESSES["global_jacobian"],
     (18, 2),
     ('control_arm omega_x by beta1', 'control_arm omega_x by beta5',
      'control_arm omega_y by beta1', 'control_arm omega_y by beta5',
@@ -1252,10 +1260,8 @@ global_jacobian = Function(
 
 Result (..., 18, 2); 473 operations (184 add, 279 multiply, 4 divide, 2 root, 4 trigonometric).""",
 )
-positions = Function(
-    _model,
+positions = _model.function(
     "positions",
-    ADDRESSES["positions"],
     (6, 3),
     ('control_arm x', 'control_arm y', 'control_arm z', 'knuckle x', 'knuckle y',
      'knuckle z', 'tie_rod x', 'tie_rod y', 'tie_rod z', 'rack x', 'rack y', 'rack z',
@@ -1265,10 +1271,8 @@ positions = Function(
 
 Result (..., 6, 3); 391 operations (165 add, 216 multiply, 4 divide, 4 root, 2 trigonometric).""",
 )
-orientations = Function(
-    _model,
+orientations = _model.function(
     "orientations",
-    ADDRESSES["orientations"],
     (6, 3, 3),
     ('control_arm Rxx', 'control_arm Rxy', 'control_arm Rxz', 'control_arm Ryx',
      'control_arm Ryy', 'control_arm Ryz', 'control_arm Rzx', 'control_arm Rzy',
@@ -1286,10 +1290,8 @@ orientations = Function(
 
 Result (..., 6, 3, 3); 648 operations (253 add, 383 multiply, 4 divide, 4 root, 4 trigonometric).""",
 )
-velocities = Function(
-    _model,
+velocities = _model.function(
     "velocities",
-    ADDRESSES["velocities"],
     (6, 6),
     ('control_arm omega_x', 'control_arm omega_y', 'control_arm omega_z',
      'control_arm velocity_x', 'control_arm velocity_y', 'control_arm velocity_z',
@@ -1306,10 +1308,8 @@ velocities = Function(
 
 Result (..., 6, 6); 1276 operations (490 add, 771 multiply, 7 divide, 4 root, 4 trigonometric).""",
 )
-signals = Function(
-    _model,
+signals = _model.function(
     "signals",
-    ADDRESSES["signals"],
     (18,),
     ('spring_length', 'spring_velocity', 'spring_force', 'strut_length', 'strut_velocity',
      'damper_force', 'friction_force', 'bump_stop_force', 'rebound_stop_force',
@@ -1320,10 +1320,8 @@ signals = Function(
 
 Result (..., 18); 979 operations (430 add, 531 multiply, 8 divide, 5 root, 5 trigonometric).""",
 )
-signals_jacobian = Function(
-    _model,
+signals_jacobian = _model.function(
     "signals_jacobian",
-    ADDRESSES["signals_jacobian"],
     (18, 4),
     ('spring_length by beta1', 'spring_length by beta5', 'spring_length by beta1_rate',
      'spring_length by beta5_rate', 'spring_velocity by beta1', 'spring_velocity by beta5',
@@ -1357,10 +1355,8 @@ signals_jacobian = Function(
 
 Result (..., 18, 4); 2781 operations (1172 add, 1583 multiply, 19 divide, 5 root, 2 trigonometric).""",
 )
-signals_input_jacobian = Function(
-    _model,
+signals_input_jacobian = _model.function(
     "signals_input_jacobian",
-    ADDRESSES["signals_input_jacobian"],
     (18, 6),
     ('spring_length by rack_position', 'spring_length by rack_velocity',
      'spring_length by rack_acceleration', 'spring_length by strut_force',
@@ -1418,10 +1414,8 @@ signals_input_jacobian = Function(
 
 Result (..., 18, 6); 2380 operations (992 add, 1363 multiply, 18 divide, 5 root, 2 trigonometric).""",
 )
-margins = Function(
-    _model,
+margins = _model.function(
     "margins",
-    ADDRESSES["margins"],
     (10,),
     ('length_squared_BC', 'knuckle_reach_squared', 'knuckle_closure',
      'knuckle_plane_squared', 'upper_strut_cross_squared', 'tie_rod_cross_squared',

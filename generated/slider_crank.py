@@ -56,11 +56,16 @@ Functions
     mean nothing. Result (..., 2).
 """
 
+from collections.abc import Mapping
 from typing import Any, Final
 
+import numpy as np
+
+from kintrafo.generated._support import (
+    Array, ClosureError, CompiledModel, ModelError, ParameterError, Residuals,
+)
+
 from . import _slider_crank
-from ._native import Function
-from ._support import Array, ClosureError, CompiledModel, ModelError, ParameterError, Residuals
 
 __all__ = [
     "ADDRESSES",
@@ -83,6 +88,7 @@ __all__ = [
     "ClosureError",
     "ModelError",
     "ParameterError",
+    "design_state",
     "prepare",
     "rhs",
     "rhs_jacobian",
@@ -206,19 +212,23 @@ MOBILITY: Final[int] = 1
 
 LOOPS: Final[tuple[tuple[str, ...], ...]] = (('ground', 'crank', 'rod', 'piston'),)
 
-ADDRESSES: Final = _slider_crank.ADDRESSES
-
 _model = CompiledModel(
-    NAME, PARAMETERS, STATE, INPUTS, CONSTANTS, GUARDS, RELATIVE_COORDINATES, ADDRESSES,
+    NAME, PARAMETERS, STATE, INPUTS, CONSTANTS, GUARDS, RELATIVE_COORDINATES, _slider_crank.ADDRESSES,
     GUARD_UNITS,
 )
 prepare = _model.prepare
+ADDRESSES: Final[dict[str, int]] = _model.addresses
 DEFAULT_CONSTANTS: Final[Array] = _model.default_constants
 
-rhs = Function(
-    _model,
+
+def design_state(parameters: Mapping[str, float]) -> Array:
+    """Return the state at the design position of some parameters, at rest."""
+    state = np.zeros(2)
+    return state
+
+
+rhs = _model.function(
     "rhs",
-    ADDRESSES["rhs"],
     (2,),
     ('d(crank_angle)/dt', 'd(crank_angle_rate)/dt'),
     {'total': 90, 'add': 43, 'multiply': 42, 'divide': 2, 'root': 1, 'trigonometric': 2},
@@ -226,10 +236,8 @@ rhs = Function(
 
 Result (..., 2); 90 operations (43 add, 42 multiply, 2 divide, 1 root, 2 trigonometric).""",
 )
-rhs_jacobian = Function(
-    _model,
+rhs_jacobian = _model.function(
     "rhs_jacobian",
-    ADDRESSES["rhs_jacobian"],
     (2, 2),
     ('d(crank_angle)/dt by crank_angle', 'd(crank_angle)/dt by crank_angle_rate',
      'd(crank_angle_rate)/dt by crank_angle', 'd(crank_angle_rate)/dt by crank_angle_rate'),
@@ -238,10 +246,8 @@ rhs_jacobian = Function(
 
 Result (..., 2, 2); 205 operations (89 add, 110 multiply, 3 divide, 1 root, 2 trigonometric).""",
 )
-rhs_input_jacobian = Function(
-    _model,
+rhs_input_jacobian = _model.function(
     "rhs_input_jacobian",
-    ADDRESSES["rhs_input_jacobian"],
     (2, 1),
     ('d(crank_angle)/dt by crank_torque', 'd(crank_angle_rate)/dt by crank_torque'),
     {'total': 54, 'add': 26, 'multiply': 23, 'divide': 2, 'root': 1, 'trigonometric': 2},
@@ -249,10 +255,8 @@ rhs_input_jacobian = Function(
 
 Result (..., 2, 1); 54 operations (26 add, 23 multiply, 2 divide, 1 root, 2 trigonometric).""",
 )
-mass_matrix = Function(
-    _model,
+mass_matrix = _model.function(
     "mass_matrix",
-    ADDRESSES["mass_matrix"],
     (1, 1),
     ('M[crank_angle,crank_angle]',),
     {'total': 53, 'add': 26, 'multiply': 23, 'divide': 1, 'root': 1, 'trigonometric': 2},
@@ -260,10 +264,8 @@ mass_matrix = Function(
 
 Result (..., 1, 1); 53 operations (26 add, 23 multiply, 1 divide, 1 root, 2 trigonometric).""",
 )
-bias = Function(
-    _model,
+bias = _model.function(
     "bias",
-    ADDRESSES["bias"],
     (1,),
     ('B[crank_angle]',),
     {'total': 81, 'add': 39, 'multiply': 38, 'divide': 1, 'root': 1, 'trigonometric': 2},
@@ -271,10 +273,8 @@ bias = Function(
 
 Result (..., 1); 81 operations (39 add, 38 multiply, 1 divide, 1 root, 2 trigonometric).""",
 )
-forces = Function(
-    _model,
+forces = _model.function(
     "forces",
-    ADDRESSES["forces"],
     (1,),
     ('Q[crank_angle]',),
     {'total': 0, 'add': 0, 'multiply': 0, 'divide': 0, 'root': 0, 'trigonometric': 0},
@@ -282,10 +282,8 @@ forces = Function(
 
 Result (..., 1); 0 operations (none).""",
 )
-relative_coordinates = Function(
-    _model,
+relative_coordinates = _model.function(
     "relative_coordinates",
-    ADDRESSES["relative_coordinates"],
     (3,),
     ('crank_angle', 'rod_angle', 'piston_slide'),
     {'total': 36, 'add': 16, 'multiply': 16, 'divide': 0, 'root': 1, 'trigonometric': 3},
@@ -293,10 +291,8 @@ relative_coordinates = Function(
 
 Result (..., 3); 36 operations (16 add, 16 multiply, 1 root, 3 trigonometric).""",
 )
-relative_jacobian = Function(
-    _model,
+relative_jacobian = _model.function(
     "relative_jacobian",
-    ADDRESSES["relative_jacobian"],
     (3, 1),
     ('crank_angle by crank_angle', 'rod_angle by crank_angle',
      'piston_slide by crank_angle'),
@@ -305,10 +301,8 @@ relative_jacobian = Function(
 
 Result (..., 3, 1); 83 operations (32 add, 46 multiply, 2 divide, 1 root, 2 trigonometric).""",
 )
-absolute_jacobian = Function(
-    _model,
+absolute_jacobian = _model.function(
     "absolute_jacobian",
-    ADDRESSES["absolute_jacobian"],
     (18, 3),
     ('crank omega_x by crank_angle', 'crank omega_x by rod_angle',
      'crank omega_x by piston_slide', 'crank omega_y by crank_angle',
@@ -342,10 +336,8 @@ absolute_jacobian = Function(
 
 Result (..., 18, 3); 48 operations (29 add, 16 multiply, 1 root, 2 trigonometric).""",
 )
-global_jacobian = Function(
-    _model,
+global_jacobian = _model.function(
     "global_jacobian",
-    ADDRESSES["global_jacobian"],
     (18, 1),
     ('crank omega_x by crank_angle', 'crank omega_y by crank_angle',
      'crank omega_z by crank_angle', 'crank velocity_x by crank_angle',
@@ -361,10 +353,8 @@ global_jacobian = Function(
 
 Result (..., 18, 1); 59 operations (28 add, 27 multiply, 1 divide, 1 root, 2 trigonometric).""",
 )
-positions = Function(
-    _model,
+positions = _model.function(
     "positions",
-    ADDRESSES["positions"],
     (3, 3),
     ('crank x', 'crank y', 'crank z', 'rod x', 'rod y', 'rod z', 'piston x', 'piston y',
      'piston z'),
@@ -373,10 +363,8 @@ positions = Function(
 
 Result (..., 3, 3); 39 operations (20 add, 16 multiply, 1 root, 2 trigonometric).""",
 )
-orientations = Function(
-    _model,
+orientations = _model.function(
     "orientations",
-    ADDRESSES["orientations"],
     (3, 3, 3),
     ('crank Rxx', 'crank Rxy', 'crank Rxz', 'crank Ryx', 'crank Ryy', 'crank Ryz',
      'crank Rzx', 'crank Rzy', 'crank Rzz', 'rod Rxx', 'rod Rxy', 'rod Rxz', 'rod Ryx',
@@ -388,10 +376,8 @@ orientations = Function(
 
 Result (..., 3, 3, 3); 30 operations (15 add, 12 multiply, 1 root, 2 trigonometric).""",
 )
-velocities = Function(
-    _model,
+velocities = _model.function(
     "velocities",
-    ADDRESSES["velocities"],
     (3, 6),
     ('crank omega_x', 'crank omega_y', 'crank omega_z', 'crank velocity_x',
      'crank velocity_y', 'crank velocity_z', 'rod omega_x', 'rod omega_y', 'rod omega_z',
@@ -403,10 +389,8 @@ velocities = Function(
 
 Result (..., 3, 6); 65 operations (28 add, 33 multiply, 1 divide, 1 root, 2 trigonometric).""",
 )
-margins = Function(
-    _model,
+margins = _model.function(
     "margins",
-    ADDRESSES["margins"],
     (2,),
     ('piston_closure', 'pivot_crank_angle'),
     {'total': 53, 'add': 26, 'multiply': 23, 'divide': 1, 'root': 1, 'trigonometric': 2},

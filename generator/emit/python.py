@@ -1,4 +1,8 @@
-"""Print the Python face of a model: its module, and the Cython file that links it to the C code."""
+"""Print the Python face of a model: its module, and the file that links it to the C code.
+
+The module imports addresses from a file beside it, which is Cython where the C code is built with
+this project, and Python where it lies in a shared library.
+"""
 
 from __future__ import annotations
 
@@ -8,14 +12,15 @@ from importlib.resources import files
 from string import Template
 from typing import TYPE_CHECKING
 
-from ..arithmetic import OPERATIONS
+from ..arithmetic import NUMPY, OPERATIONS, write
+from ..design import design_coordinates
 from .c import CPrinter, count_line, mechanism_hash
 
 if TYPE_CHECKING:
     from ..outputs import Entry, GeneratedModel
     from ..program import Function
 
-SHARED = ("__init__.py", "_support.py", "_native.pyx", "_native.pyi")
+SHARED = ("__init__.py", "_support.py", "_arrays.py", "_native.pyx", "_native.pyi")
 
 
 def template(name: str) -> Template:
@@ -42,16 +47,27 @@ class PythonPrinter:
         """Return the functions with the common signature."""
         return [f for f in self._functions if not CPrinter.reads_given(f)]
 
-    # -- Cython ---------------------------------------------------------------------------------
+    # -- addresses ------------------------------------------------------------------------------
+
+    @property
+    def _names(self) -> list[str]:
+        return ["prepare", *(f.name for f in self._functions)]
+
+    def addresses_in(self, library: str) -> str:
+        """Return the text of a ``.py`` file that finds the addresses in a library beside it."""
+        return template("addresses.py").substitute(
+            name=self.name,
+            library=library,
+            functions="\n".join(f'        "{n}",' for n in self._names),
+        )
 
     def addresses(self) -> str:
         """Return the text of the ``.pyx`` file."""
-        names = ["prepare", *(f.name for f in self._functions)]
         prepare = f"    int {self.name}_prepare(const double *parameters, double *constants)"
         return template("addresses.pyx").substitute(
             name=self.name,
             declarations="\n".join([prepare, *map(self._declaration, self._functions)]),
-            addresses="\n".join(f'    "{n}": <uintptr_t> &{self.name}_{n},' for n in names),
+            addresses="\n".join(f'    "{n}": <uintptr_t> &{self.name}_{n},' for n in self._names),
         )
 
     def addresses_stub(self) -> str:
@@ -80,6 +96,7 @@ class PythonPrinter:
             "ClosureError",
             "ModelError",
             "ParameterError",
+            "design_state",
             "prepare",
             *(f.name for f in self._functions),
         ]
@@ -101,8 +118,26 @@ class PythonPrinter:
                 f"{name}: Final[{kind}] = {pprint.pformat(table, width=98, sort_dicts=False)}"
                 for name, (kind, table) in self._tables().items()
             ),
+            design=self._design(),
             functions="\n".join(map(self._function, self._called())),
         )
+
+    def _design(self) -> str:
+        """Return the function that computes the state at the design position."""
+        coordinates = design_coordinates(self.model.model)
+        order = [e.name for e in self.model.state]
+        steps = [step for found in coordinates.values() for step in found]
+        read = set().union(*(e.free_symbols for _, e in steps)) - {s for s, _ in steps}
+        lines = [
+            "def design_state(parameters: Mapping[str, float]) -> Array:",
+            '    """Return the state at the design position of some parameters, at rest."""',
+            *(f'    {s} = parameters["{s}"]' for s in sorted(read, key=str)),
+            *(f"    {symbol} = {write(e, NUMPY).text}" for symbol, e in steps),
+            f"    state = np.zeros({len(order)})",
+            *(f"    state[{order.index(name)}] = {name}" for name in coordinates),
+            "    return state",
+        ]
+        return "\n".join(lines)
 
     def _tables(self) -> dict[str, tuple[str, object]]:
         model = self.model
@@ -142,8 +177,7 @@ class PythonPrinter:
         labels = pprint.pformat(function.labels, width=88, compact=True)
         doc = f"{function.doc}\n\nResult (..., {_shape(function)}); {count_line(function)}."
         return (
-            f'{function.name} = Function(\n    _model,\n    "{function.name}",\n'
-            f'    ADDRESSES["{function.name}"],\n    {function.shape!r},\n'
+            f'{function.name} = _model.function(\n    "{function.name}",\n    {function.shape!r},\n'
             f"{textwrap.indent(labels, '    ')},\n    {operations!r},\n"
             f'    """{doc}""",\n)'
         )

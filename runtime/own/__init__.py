@@ -1,0 +1,1 @@
+"""A user's own mechanism: derived, compiled and loaded outside of the source tree."""
