@@ -903,8 +903,8 @@ class TestFiles:
     def test_syntax_error_names_and_shows_the_line(self, tmp_path, right, wrong):
         text = CAR_TEXT.replace(right, wrong, 1)
         problem = refusal(Suspension.load, self.write(tmp_path, text)).problems[0]
-        number = text[: text.rindex(wrong)].count("\n") + 1
-        assert problem.startswith(f"Line {number} `{wrong}")
+        number = CAR_TEXT[: CAR_TEXT.index(right)].count("\n") + 1
+        assert problem.startswith(f"Line {number} `{text.splitlines()[number - 1].strip()}")
         assert "is not valid TOML" in problem
         assert "Write `key = value`" in problem
 
