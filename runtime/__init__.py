@@ -33,6 +33,7 @@ if TYPE_CHECKING:
         travel_range,
     )
     from .simulation import Simulation, SimulationError, simulate
+    from .system import System
 
 __version__ = version("kintrafo")
 
@@ -51,6 +52,7 @@ __all__ = [
     "Simulation",
     "SimulationError",
     "Suspension",
+    "System",
     "arm_angles",
     "equilibrium",
     "linearise",
@@ -80,6 +82,7 @@ _MODULES = {
         "travel_range",
     ),
     ".simulation": ("Simulation", "SimulationError", "simulate"),
+    ".system": ("System",),
 }
 _HOMES = {name: module for module, names in _MODULES.items() for name in names}
 

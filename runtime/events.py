@@ -6,7 +6,7 @@ from typing import Any
 
 from .errors import InputError
 from .input.suggestions import suggestion
-from .model import Model
+from .system import System
 
 
 @dataclass(frozen=True)
@@ -76,12 +76,12 @@ class Events:
         return len(self.order)
 
 
-def events_of(model: Model, given: Event | Sequence[Event] | None) -> Events:
+def events_of(model: System, given: Event | Sequence[Event] | None) -> Events:
     """Sort the events that a caller gave.
 
     Parameters
     ----------
-    model : Model
+    model : System or Model
     given : str, SignalEvent, callable, or sequence of these
 
     Returns
@@ -95,7 +95,7 @@ def events_of(model: Model, given: Event | Sequence[Event] | None) -> Events:
     functions: list[tuple[int, EventFunction]] = []
     for index, event in enumerate(listed):
         if isinstance(event, str):
-            signal.append((index, _named(model, event)))
+            signal.append((index, _checked(model, _named(model, event))))
         elif isinstance(event, SignalEvent):
             signal.append((index, _checked(model, event)))
         elif callable(event):
@@ -107,19 +107,19 @@ def events_of(model: Model, given: Event | Sequence[Event] | None) -> Events:
     return Events(tuple(e for _, e in signal), tuple(f for _, f in functions), order)
 
 
-def _named(model: Model, name: str) -> SignalEvent:
+def _named(model: System, name: str) -> SignalEvent:
     if name == "wheel_leaves_ground":
         return SignalEvent("tyre_force", 0.0, direction=-1.0)
     if name == "wheel_touches_ground":
         return SignalEvent("tyre_force", 0.0, direction=+1.0)
-    if name == "strut_fully_extended":
-        length = model.suspension.parameters()["strut_length_max"]
+    if name == "strut_fully_extended" and "strut_length_max" in model.parameters:
+        length = model.parameters["strut_length_max"]
         return SignalEvent("strut_length", length, direction=+1.0, terminal=True)
     problem = f"event {name!r} is not known. {suggestion(name, NAMED)}"
     raise InputError([problem], "events")
 
 
-def _checked(model: Model, event: SignalEvent) -> SignalEvent:
+def _checked(model: System, event: SignalEvent) -> SignalEvent:
     if event.signal not in model.signal_names:
         known = suggestion(event.signal, model.signal_names)
         raise InputError([f"signal {event.signal!r} is not known. {known}"], "events")

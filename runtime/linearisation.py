@@ -23,7 +23,7 @@ from .modes import Mode, eigenvalues_of, mode_of_states, modes_of
 if TYPE_CHECKING:
     from scipy.signal import StateSpace
 
-    from .model import Model
+    from .system import System
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -157,7 +157,7 @@ class Linearisation:
 
 
 def linearise(
-    model: "Model",
+    model: "System",
     state: ArrayLike,
     inputs: ArrayLike | None = None,
     *,
@@ -167,7 +167,7 @@ def linearise(
 
     Parameters
     ----------
-    model : Model
+    model : System or Model
     state, inputs : array_like
         One state, and inputs, zero by default. A state of rest is found by
         `kintrafo.equilibrium`; any other is allowed, see `Linearisation.steady`.

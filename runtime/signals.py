@@ -11,18 +11,17 @@ from scipy.interpolate import CubicSpline
 
 from .errors import InputError
 from .input.suggestions import suggestion
-from .model import Model
+from .system import System
 
 Array = NDArray[np.float64]
 Samples = tuple[Any, Any] | list[Any]
 Signal = float | Samples | Callable[[float], Any]
 
-RACK = "rack"
-# What follows from an input by differentiation in time, where a model takes it. A jump of the road
-# passes the tyre's damper without a blow.
+# What follows by differentiation in time from an input that ends so, where a model takes it. A jump
+# of the road passes the tyre's damper without a blow.
 _RATES = {
-    f"{RACK}_position": (f"{RACK}_velocity", f"{RACK}_acceleration"),
-    "road_height": ("road_velocity",),
+    "_position": ("_velocity", "_acceleration"),
+    "_height": ("_velocity",),
 }
 _FIRST_GRID = 33
 _LARGEST_GRID = 2**17 + 1
@@ -73,18 +72,14 @@ class TimeInputs:
         Values of those that do not vary.
     segments : tuple of Segment
         In the order of time; at their borders an input may jump.
-    rack_held : bool
-        Whether the rack stands still.
+    variant : str
+        What ends the names of the functions that leave out what stands still; empty if nothing
+        does.
     """
 
     constant: Array
     segments: tuple[Segment, ...]
-    rack_held: bool
-
-    @property
-    def variant(self) -> str:
-        """What ends the names of the functions that leave out what stands still."""
-        return "_rack_held" if self.rack_held else ""
+    variant: str
 
     def at(self, time: float, segment: Segment) -> Array:
         """Return the array of inputs at a time within a segment."""
@@ -115,17 +110,17 @@ class _Collected:
 
 
 def time_inputs(
-    model: Model, signals: Mapping[str, Signal] | None, t_span: tuple[float, float]
+    model: System, signals: Mapping[str, Signal] | None, t_span: tuple[float, float]
 ) -> TimeInputs:
     """Check the inputs of a simulation and bring them into one form.
 
     Parameters
     ----------
-    model : Model
+    model : System or Model
     signals : mapping, optional
         Input name to a number, to samples ``(times, values)``, or to a function of time; SI units.
         A cubic spline with continuous second derivative goes through the samples; a time that is
-        given twice is a jump. Velocity and acceleration of the rack follow from its position.
+        given twice is a jump. Velocity and acceleration follow from a prescribed position.
     t_span : tuple of float
         First and last time of the simulation, which samples must cover [s].
 
@@ -140,20 +135,39 @@ def time_inputs(
         if name not in names or name in derived:
             raise InputError([_refusal(name, names, derived)], "inputs")
         _collect(collected, names, name, signal, t_span)
-    segments = _segments(collected, names, t_span)
-    moving = f"{RACK}_position" in collected.curves
-    return TimeInputs(collected.constant, segments, not model.free_rack and not moving)
+    return TimeInputs(
+        collected.constant, _segments(collected, names, t_span), _variant(model, collected)
+    )
 
 
-def _derived(names: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the inputs that follow from another one."""
-    following = {n for name in _RATES for n in _RATES[name]}
-    return tuple(n for n in names if n in following)
+def _rates(name: str, names: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the inputs of a model that are the derivatives of another one, in order."""
+    for ending, rates in _RATES.items():
+        if name.endswith(ending):
+            return tuple(
+                r for r in (name.removesuffix(ending) + rate for rate in rates) if r in names
+            )
+    return ()
 
 
-def _refusal(name: str, names: tuple[str, ...], derived: tuple[str, ...]) -> str:
+def _derived(names: tuple[str, ...]) -> dict[str, str]:
+    """Return the inputs that follow from another one, and from which."""
+    return {rate: name for name in names for rate in _rates(name, names)}
+
+
+def _variant(model: System, collected: _Collected) -> str:
+    """Return the ending of the shortest functions that have all that moves."""
+    names = model.input_names
+    moving = {rate for name in collected.curves for rate in _rates(name, names)}
+    for variant, still in model.equations.HELD_VARIANTS.items():
+        if moving.isdisjoint(still):
+            return f"_{variant}"
+    return ""
+
+
+def _refusal(name: str, names: tuple[str, ...], derived: dict[str, str]) -> str:
     if name in derived:
-        source = next(n for n, rates in _RATES.items() if name in rates)
+        source = derived[name]
         return (
             f"{name!r} follows from {source!r}: give that alone, as samples or as a function of "
             "time."
@@ -175,10 +189,10 @@ def _collect(
         collected.curves[name] = [_fitted(name, signal, t_span)]
     elif isinstance(signal, tuple | list):
         pieces = _sampled(name, signal, t_span)
-        if len(pieces) > 1 and name == f"{RACK}_position":
+        if len(pieces) > 1 and name.endswith("_position"):
             problem = (
-                f"{name!r} jumps at t = {pieces[1].x[0]:g} s: the rack would need an infinite "
-                "velocity. Give one value for each time."
+                f"{name!r} jumps at t = {pieces[1].x[0]:g} s: the {name.removesuffix('_position')} "
+                "would need an infinite velocity. Give one value for each time."
             )
             raise InputError([problem], "inputs")
         collected.curves[name] = pieces
@@ -228,8 +242,7 @@ def _covering(curves: list[CubicSpline], time: float) -> CubicSpline:
 
 def _targets(name: str, names: tuple[str, ...]) -> tuple[int, int, int]:
     """Return where a value and its two derivatives go; -1 for what the model does not take."""
-    rates = (*_RATES.get(name, ()), "", "")[:2]
-    first, second = (names.index(rate) if rate in names else -1 for rate in rates)
+    first, second, *_ = (*(names.index(rate) for rate in _rates(name, names)), -1, -1)
     return names.index(name), first, second
 
 

@@ -10,9 +10,8 @@ from scipy.optimize import OptimizeResult
 
 from .errors import InputError, KintrafoError
 from .events import Event, Events, events_of
-from .generated.macpherson import ModelError
+from .generated._support import ModelError
 from .input.suggestions import suggestion
-from .model import Model
 from .signals import Segment, Signal, TimeInputs, time_inputs
 from .solvers import (
     SCIPY_METHODS,
@@ -25,6 +24,7 @@ from .solvers import (
     solve_native,
     solve_scipy,
 )
+from .system import System
 
 Array = NDArray[np.float64]
 Method = Literal[
@@ -126,7 +126,7 @@ class DenseOutput:
 
 
 def simulate(
-    model: Model,
+    model: System,
     t_span: tuple[float, float],
     y0: ArrayLike,
     *,
@@ -147,7 +147,7 @@ def simulate(
 
     Parameters
     ----------
-    model : Model
+    model : System or Model
     t_span : tuple of float
         First and last time [s].
     y0 : array_like
@@ -225,7 +225,7 @@ def simulate(
 
 
 def _check_arguments(
-    model: Model, t_span: tuple[float, float], y0: Array, times: Array | None, options: Options
+    model: System, t_span: tuple[float, float], y0: Array, times: Array | None, options: Options
 ) -> None:
     problems = []
     if options.method not in {**SUNDIALS_METHODS, **SCIPY_METHODS}:
@@ -323,7 +323,7 @@ class _Run:
 
     def __init__(
         self,
-        model: Model,
+        model: System,
         inputs: TimeInputs,
         options: Options,
         events: Events,

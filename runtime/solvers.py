@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from .events import Events
-from .generated.macpherson import ModelError
-from .model import Model
+from .generated._support import ModelError
 from .signals import Segment, TimeInputs
+from .system import System
 
 try:
     from .native import _sundials as sundials
@@ -115,7 +115,7 @@ def native_methods() -> tuple[str, ...]:
 
 
 def solve_native(
-    model: Model,
+    model: System,
     inputs: TimeInputs,
     segment: Segment,
     state: Array,
@@ -195,7 +195,7 @@ class _RightHandSide:
     """The compiled functions as SciPy calls them."""
 
     def __init__(
-        self, model: Model, inputs: TimeInputs, segment: Segment, max_evaluations: float
+        self, model: System, inputs: TimeInputs, segment: Segment, max_evaluations: float
     ) -> None:
         self._function = getattr(model.equations, f"rhs{inputs.variant}")
         self._derivative = getattr(model.equations, f"rhs_jacobian{inputs.variant}")
@@ -231,7 +231,7 @@ class _RightHandSide:
 
 
 def solve_scipy(
-    model: Model,
+    model: System,
     inputs: TimeInputs,
     segment: Segment,
     state: Array,

@@ -1,0 +1,190 @@
+"""Compiled equations of motion together with one set of parameters."""
+
+from collections.abc import Mapping
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .errors import InputError
+from .input.suggestions import suggestion
+from .modes import eigenvalues_of
+
+Array = NDArray[np.float64]
+
+
+class System:
+    """The compiled equations of one mechanism, with the values of its parameters.
+
+    Parameters
+    ----------
+    equations : module
+        One of `kintrafo.generated`, or what `kintrafo.compile` returns.
+    parameters : mapping, optional
+        Values by name, SI units, instead of the declared defaults.
+
+    Attributes
+    ----------
+    equations : module
+        The compiled module.
+    parameters : dict
+        Value of every parameter, SI units.
+    constants : ndarray
+        What the compiled functions take for these parameters.
+    design_state : ndarray
+        State at the design position, at rest.
+
+    Examples
+    --------
+    >>> from kintrafo.generated import four_bar
+    >>> system = System(four_bar, {"crank_mass": 2.0})
+    >>> system.state_names
+    ('crank_angle', 'crank_angle_rate')
+    """
+
+    def __init__(
+        self, equations: ModuleType, parameters: Mapping[str, float] | None = None
+    ) -> None:
+        self.equations = equations
+        self.parameters = _filled(equations, parameters or {})
+        self.constants: Array = equations.prepare(self.parameters)
+        self.design_state: Array = equations.design_state(self.parameters)
+
+    def __repr__(self) -> str:
+        return f"<System {self.equations.NAME}>"
+
+    # -- names ----------------------------------------------------------------------------------
+
+    @property
+    def state_names(self) -> tuple[str, ...]:
+        """Names of the state's elements, in order."""
+        return tuple(self.equations.STATE)
+
+    @property
+    def input_names(self) -> tuple[str, ...]:
+        """Names of the inputs, in order."""
+        return tuple(self.equations.INPUTS)
+
+    @property
+    def signal_names(self) -> tuple[str, ...]:
+        """Names of the physical signals, in order."""
+        return tuple(self.equations.SIGNALS)
+
+    # -- building arrays --------------------------------------------------------------------------
+
+    def state(self, **values: float) -> Array:
+        """Return a state, at the design position and at rest where nothing is given.
+
+        Parameters
+        ----------
+        **values : float
+            Elements of the state by name, SI units: ``beta1`` [rad], ``beta5_rate`` [rad/s], ...
+
+        Returns
+        -------
+        ndarray, shape (number of state elements,)
+        """
+        state = self.design_state.copy()
+        _assign(state, self.state_names, values, "state")
+        return state
+
+    def inputs(self, values: Mapping[str, float] | None = None) -> Array:
+        """Return the array of inputs, zero where nothing is given.
+
+        Parameters
+        ----------
+        values : mapping, optional
+            Inputs by name, SI units.
+
+        Returns
+        -------
+        ndarray, shape (number of inputs,)
+        """
+        array = np.zeros(len(self.input_names))
+        _assign(array, self.input_names, values or {}, "inputs")
+        return array
+
+    # -- evaluation -------------------------------------------------------------------------------
+
+    def evaluate(self, function: str, state: ArrayLike, inputs: ArrayLike | None = None) -> Array:
+        """Evaluate a compiled function with the constants of this suspension.
+
+        Parameters
+        ----------
+        function : str
+            Name of a function of `equations`.
+        state, inputs : array_like
+            One or many, as in the compiled module.
+
+        Returns
+        -------
+        ndarray
+            Shape of the result behind the leading dimensions.
+        """
+        result: Array = getattr(self.equations, function)(state, inputs, self.constants)
+        return result
+
+    def signals(self, state: ArrayLike, inputs: ArrayLike | None = None) -> dict[str, Array]:
+        """Return all physical signals by name, in SI units.
+
+        Parameters
+        ----------
+        state, inputs : array_like
+            One or many, as in the compiled module.
+
+        Returns
+        -------
+        dict
+            Name to array over the leading dimensions; see ``equations.SIGNALS`` for units, signs.
+        """
+        values = self.evaluate("signals", state, inputs)
+        return {name: values[..., i] for i, name in enumerate(self.signal_names)}
+
+    def signal(self, name: str, state: ArrayLike, inputs: ArrayLike | None = None) -> Array:
+        """Return one physical signal."""
+        if name not in self.signal_names:
+            message = f"no signal {name!r}; there are {', '.join(self.signal_names)}"
+            raise InputError([message], "signals")
+        return self.signals(state, inputs)[name]
+
+    def eigenvalues(
+        self, state: ArrayLike, inputs: ArrayLike | None = None
+    ) -> NDArray[np.complex128]:
+        """Return the eigenvalues of the equations linearised at a state, inputs held.
+
+        Parameters
+        ----------
+        state, inputs : array_like
+            One state.
+
+        Returns
+        -------
+        ndarray of complex
+            Eigenvalues of the exact Jacobian of the right-hand side [1/s], those with the largest
+            imaginary part first. `kintrafo.linearise` has the modes that belong to them.
+        """
+        return eigenvalues_of(self.evaluate("rhs_jacobian", state, inputs))
+
+
+def _filled(equations: ModuleType, values: Mapping[str, float]) -> dict[str, float]:
+    """Return values for all parameters, the defaults where nothing is given."""
+    known = {name: entry["default"] for name, entry in equations.PARAMETERS.items()}
+    unknown = [name for name in values if name not in known]
+    if unknown:
+        problems = [
+            f"parameter {name!r} is not known. {suggestion(name, known)}".rstrip()
+            for name in unknown
+        ]
+        raise InputError(problems, equations.NAME)
+    return known | dict(values)
+
+
+def _assign(array: Array, names: tuple[str, ...], values: Mapping[str, Any], what: str) -> None:
+    unknown = [name for name in values if name not in names]
+    if unknown:
+        raise InputError(
+            [f"{what}: {name!r} is not known; there are {', '.join(names)}." for name in unknown]
+        )
+    for name, value in values.items():
+        array[names.index(name)] = value
