@@ -17,7 +17,7 @@ from .geometry import Direction
 from .joints import Prismatic, Revolute
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from .joints import Joint
     from .mechanism import Mechanism
@@ -115,10 +115,11 @@ class Topology:
     @cached_property
     def planar_loop_count(self) -> int:
         """Number of loops of a minimal basis that move in a plane."""
-        basis: list[Cycle] = []
-        while len(basis) < self.loop_count:
-            basis.append(self.minimal_next(basis)[0])
-        return sum(cycle.planar for cycle in basis)
+        basis, count = MinimalBasis(self), 0
+        while options := basis.options():
+            basis.choose(options[0])
+            count += options[0].planar
+        return count
 
     @property
     def loop_count(self) -> int:
@@ -132,15 +133,29 @@ class Topology:
 
         The paper's Table 2 shows one of them where several have the same length.
         """
-        paths = nx.all_shortest_paths(self.graph, start, end, weight="length")
-        return sorted((tuple(p) for p in paths), key=self._path_numbers)
+        return self._paths_from(start).to(end)
+
+    def _paths_from(self, start: str) -> _ShortestPaths:
+        """Return the shortest paths from a body; one search serves all that ask for them."""
+        if start not in self._searches:
+            self._searches[start] = _ShortestPaths(self.graph, start, self._numbers)
+        return self._searches[start]
+
+    @cached_property
+    def _searches(self) -> dict[str, _ShortestPaths]:
+        return {}
+
+    @cached_property
+    def _numbers(self) -> dict[str, int]:
+        """The number of each body, by its name."""
+        return {b.name: b.number for b in self.mechanism.bodies}
 
     def path_length(self, path: Sequence[str]) -> int:
         """Return the sum of the joint freedoms along a path."""
         return sum(self.joint_between(a, b).freedoms for a, b in pairwise(path))
 
     def _path_numbers(self, path: Sequence[str]) -> tuple[int, ...]:
-        return tuple(self.mechanism.body(b).number for b in path)
+        return tuple(self._numbers[b] for b in path)
 
     # -- cycles ---------------------------------------------------------------------------------
 
@@ -160,9 +175,12 @@ class Topology:
         """Return every simple cycle that a pair of vertex and edge gives, with repetitions."""
         cycles = []
         for vertex in self.graph.nodes:
+            paths = self._paths_from(vertex)
             for joint in self.mechanism.joints:
-                for there in self.shortest_paths(vertex, joint.first):
-                    for back in self.shortest_paths(vertex, joint.second):
+                if paths.all_part_alike(*joint.bodies):
+                    continue
+                for there in paths.to(joint.first):
+                    for back in paths.to(joint.second):
                         round_trip = (*there, *reversed(back[1:]))
                         if len(set(round_trip)) == len(round_trip) > 2:
                             cycles.append(self.cycle(round_trip))
@@ -177,20 +195,12 @@ class Topology:
         return Cycle(joints, tuple(turned), sum(j.freedoms for j in joints))
 
     def _cycle_numbers(self, cycle: Cycle) -> tuple[int, ...]:
-        return tuple(sorted(self.mechanism.body(b).number for b in cycle.bodies))
+        return tuple(sorted(self._numbers[b] for b in cycle.bodies))
 
     def independent(self, cycles: Sequence[Cycle]) -> bool:
         """Tell whether no cycle is a sum of others (edges modulo two)."""
-        rows: list[int] = []
-        index = {j.name: i for i, j in enumerate(self.mechanism.joints)}
-        for cycle in cycles:
-            row = sum(1 << index[name] for name in cycle.key)
-            for pivot in rows:
-                row = min(row, row ^ pivot)
-            if row == 0:
-                return False
-            rows.append(row)
-        return True
+        span = CycleSpan(self)
+        return all(span.add(cycle) for cycle in cycles)
 
     def minimal_next(self, chosen: Sequence[Cycle]) -> list[Cycle]:
         """Return the shortest cycles that extend a basis.
@@ -198,5 +208,79 @@ class Topology:
         Taking any one of them until `loop_count` are chosen gives a minimal cycle basis (the
         independent sets of cycles are a matroid, so the greedy choice is optimal).
         """
-        extending = [c for c in self.candidate_cycles if self.independent([*chosen, c])]
-        return [c for c in extending if c.length == extending[0].length] if extending else []
+        return MinimalBasis(self, chosen).options()
+
+
+class _ShortestPaths:
+    """All shortest paths of a joint graph from one body."""
+
+    def __init__(self, graph: nx.Graph, start: str, numbers: Mapping[str, int]) -> None:
+        self.start = start
+        self._numbers = numbers
+        self._before, _ = nx.dijkstra_predecessor_and_distance(graph, start, weight="length")
+        self._paths: dict[str, list[tuple[str, ...]]] = {start: [(start,)]}
+
+    def to(self, end: str) -> list[tuple[str, ...]]:
+        """Return the paths to a body, in the order of the bodies' numbers."""
+        if end not in self._paths:
+            found = [(*path, end) for body in self._before[end] for path in self.to(body)]
+            found.sort(key=lambda path: [self._numbers[b] for b in path])
+            self._paths[end] = found
+        return self._paths[end]
+
+    def all_part_alike(self, one: str, other: str) -> bool:
+        """Tell whether all paths to two bodies go to the same neighbour of the start first."""
+        if self.start in (one, other):
+            return False
+        return len({path[1] for body in (one, other) for path in self.to(body)}) == 1
+
+
+class CycleSpan:
+    """The cycles that are sums of some cycles (edges modulo two), as a matrix in echelon form.
+
+    A cycle is a number with a bit for each of its joints.
+    """
+
+    def __init__(self, topology: Topology) -> None:
+        self._bits = {j.name: 1 << i for i, j in enumerate(topology.mechanism.joints)}
+        self._rows: dict[int, int] = {}  # by the place of their highest bit
+
+    def contains(self, cycle: Cycle) -> bool:
+        """Tell whether a cycle is a sum of those that were added."""
+        return self._rest(cycle) == 0
+
+    def add(self, cycle: Cycle) -> bool:
+        """Add a cycle; tell whether it was not contained before."""
+        rest = self._rest(cycle)
+        if rest:
+            self._rows[rest.bit_length()] = rest
+        return rest != 0
+
+    def _rest(self, cycle: Cycle) -> int:
+        """Return what is left of a cycle when all that is contained has been taken away."""
+        rest = sum(self._bits[joint.name] for joint in cycle.joints)
+        while rest.bit_length() in self._rows:
+            rest ^= self._rows[rest.bit_length()]
+        return rest
+
+
+class MinimalBasis:
+    """A minimal cycle basis in the making: what is chosen, and what can be chosen next.
+
+    A cycle that is a sum of chosen ones remains so, and is not looked at again.
+    """
+
+    def __init__(self, topology: Topology, chosen: Sequence[Cycle] = ()) -> None:
+        self._span = CycleSpan(topology)
+        self._open = list(topology.candidate_cycles)
+        for cycle in chosen:
+            self._span.add(cycle)
+
+    def options(self) -> list[Cycle]:
+        """Return the shortest cycles that extend the basis; none if it is complete."""
+        self._open = [c for c in self._open if not self._span.contains(c)]
+        return [c for c in self._open if c.length == self._open[0].length]
+
+    def choose(self, cycle: Cycle) -> None:
+        """Take a cycle into the basis."""
+        self._span.add(cycle)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from .geometry import Point
 from .joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
-from .topology import Cycle, Topology
+from .topology import Cycle, MinimalBasis, Topology
 
 if TYPE_CHECKING:
     from .mechanism import Mechanism, Model
@@ -241,11 +241,10 @@ class Plan:
             joint = plan._mechanism.joint(name)
             plan._known.update((name, c) for c in joint.coordinates)
         plan._place_neighbours()
-        chosen: list[Cycle] = []
-        while len(chosen) < plan.topology.loop_count:
-            options = plan.topology.minimal_next(chosen)
+        basis = MinimalBasis(plan.topology)
+        while options := basis.options():
             options.sort(key=plan._unknowns)  # stable: ties keep the order of the figure's numbers
-            chosen.append(options[0])
+            basis.choose(options[0])
             plan._solve(options[0], options[1:])
         plan._check_complete()
         return plan
