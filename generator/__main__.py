@@ -9,11 +9,11 @@ from rich.console import Console
 from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
-from .emit.c import CPrinter
-from .emit.python import PythonPrinter, shared_files
-from .emit.report import block_diagram, bodies_of, joint_rows, markdown, mobility_line, path_rows
+from .emit.files import project_files
+from .emit.python import shared_files
+from .emit.report import block_diagram, bodies_of, joint_rows, mobility_line, path_rows
 from .mechanisms import MODELS
-from .outputs import GeneratedModel, generate
+from .outputs import generate
 from .transformer import Plan
 
 if TYPE_CHECKING:
@@ -21,20 +21,6 @@ if TYPE_CHECKING:
 
 app = typer.Typer(help=__doc__, no_args_is_help=True, add_completion=False)
 console = Console(width=None if sys.stdout.isatty() else 110)
-
-
-def files_of(model: GeneratedModel) -> dict[str, str]:
-    """Return the emitted files of a model: path below the output folder to text."""
-    name = model.model.name
-    c, python = CPrinter(model), PythonPrinter(model)
-    return {
-        f"c/{name}.h": c.header(),
-        **{f"c/{c.file_name(part)}": c.source(part) for part in c.parts},
-        f"_{name}.pyx": python.addresses(),
-        f"_{name}.pyi": python.addresses_stub(),
-        f"{name}.py": python.module(),
-        f"{name}.md": markdown(model),
-    }
 
 
 def _write(target: Path, text: str) -> bool:
@@ -55,7 +41,7 @@ def generate_all(
     with Progress(*columns, console=console) as progress:
         for model in MODELS:
             task = progress.add_task(f"deriving {model.name}", total=1)
-            texts |= files_of(generate(model))
+            texts |= project_files(generate(model))
             progress.advance(task)
     changed = 0
     for path, text in texts.items():

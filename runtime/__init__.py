@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from .linearisation import Linearisation, linearise
     from .model import Model
     from .modes import Mode
+    from .own import CompilerError, MechanismError
+    from .own import compile_mechanism as compile  # noqa: A004 (what the user calls it)
     from .positions import (
         PositionError,
         Range,
@@ -39,9 +41,11 @@ __version__ = version("kintrafo")
 
 __all__ = [
     "ClosureError",
+    "CompilerError",
     "InputError",
     "KintrafoError",
     "Linearisation",
+    "MechanismError",
     "Mode",
     "Model",
     "ModelError",
@@ -54,6 +58,7 @@ __all__ = [
     "Suspension",
     "System",
     "arm_angles",
+    "compile",
     "equilibrium",
     "linearise",
     "road_under_load",
@@ -72,6 +77,7 @@ _MODULES = {
     ".linearisation": ("Linearisation", "linearise"),
     ".model": ("Model",),
     ".modes": ("Mode",),
+    ".own": ("CompilerError", "MechanismError", "compile_mechanism"),
     ".positions": (
         "PositionError",
         "Range",
@@ -85,6 +91,8 @@ _MODULES = {
     ".system": ("System",),
 }
 _HOMES = {name: module for module, names in _MODULES.items() for name in names}
+# Where this name would hide one of Python's at home.
+_OTHER_NAMES = {"compile": "compile_mechanism"}
 
 
 # Modules that are themselves part of the interface.
@@ -105,10 +113,11 @@ _INTERFACES = (
 def __getattr__(name: str) -> Any:
     if name in _INTERFACES:
         return import_module(f".{name}", __name__)
-    if name not in _HOMES:
+    at_home = _OTHER_NAMES.get(name, name)
+    if at_home not in _HOMES:
         message = f"module {__name__!r} has no attribute {name!r}"
         raise AttributeError(message)
-    return getattr(import_module(_HOMES[name], __name__), name)
+    return getattr(import_module(_HOMES[at_home], __name__), at_home)
 
 
 def __dir__() -> list[str]:

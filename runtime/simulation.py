@@ -217,8 +217,8 @@ def simulate(
     _check_arguments(model, t_span, y0, times, options)
     given = time_inputs(model, inputs, t_span)
     watched = events_of(model, events)
-    run = _Run(model, given, options, watched, times, _choose_backend(method, backend, options))
-    return run.over(y0)
+    solve = _choose_backend(model, backend, options)
+    return _Run(model, given, options, watched, times, solve).over(y0)
 
 
 # -- arguments ----------------------------------------------------------------------------------
@@ -277,24 +277,29 @@ def _tolerance_problems(y0: Array, options: Options) -> list[str]:
     return problems
 
 
-def _choose_backend(method: str, backend: Backend, options: Options) -> Callable[..., Piece]:
+def _choose_backend(model: System, backend: Backend, options: Options) -> Callable[..., Piece]:
     """Return the solver for a method, and say once if it is not the one that was meant."""
-    native = method in native_methods()
-    if backend in ("auto", "sundials") and native:
-        return solve_native
+    method, compiled = options.method, bool(model.equations.ADDRESSES)
     if backend not in ("auto", "sundials", "scipy"):
         known = "'auto', 'sundials' and 'scipy'"
         raise InputError([f"backend {backend!r} is not known; there are {known}."], "simulate")
+    if backend != "scipy" and method in native_methods() and compiled:
+        return solve_native
     if backend == "sundials" or options.stop_at_outputs or method not in SCIPY_METHODS:
-        raise InputError([_missing(method)], "simulate")
-    if backend == "auto" and method in SUNDIALS_METHODS:
+        raise InputError([_missing(method, compiled=compiled)], "simulate")
+    if backend == "auto" and method in SUNDIALS_METHODS and compiled:
         _tell_once()
     return solve_scipy
 
 
-def _missing(method: str) -> str:
+def _missing(method: str, *, compiled: bool) -> str:
     if method not in SUNDIALS_METHODS:
         return f"method {method!r} is one of SciPy; SUNDIALS has {', '.join(native_methods())}."
+    if not compiled:
+        return (
+            f"method {method!r} of SUNDIALS needs compiled equations, and these are functions over "
+            "NumPy arrays. Use a method of SciPy, which 'BDF' is too, without stop_at_outputs."
+        )
     if not native_available():
         return f"method {method!r} needs SUNDIALS. {_REMEDY}, or use 'BDF'."
     return (

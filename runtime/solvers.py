@@ -130,7 +130,7 @@ def solve_native(
     names = (f"rhs{inputs.variant}", f"rhs_jacobian{inputs.variant}", "signals")
     signal_index = {name: i for i, name in enumerate(model.signal_names)}
     raw = sundials.integrate(
-        tuple(equations.ADDRESSES[name] for name in names),
+        tuple(equations.ADDRESSES.get(name, 0) for name in names),  # signals may be none
         model.constants,
         inputs.constant,
         [_contiguous(spline.curve, spline.targets) for spline in segment.splines],

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from .errors import InputError
 from .input.suggestions import suggestion
 from .modes import eigenvalues_of
+from .own.loader import find
 
 Array = NDArray[np.float64]
 
@@ -50,6 +51,11 @@ class System:
         self.parameters = _filled(equations, parameters or {})
         self.constants: Array = equations.prepare(self.parameters)
         self.design_state: Array = equations.design_state(self.parameters)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # modules cannot be pickled, but found again
+        where = self.equations.__name__, self.equations.__file__
+        return _found_again, (*where, self.parameters)
 
     def __repr__(self) -> str:
         return f"<System {self.equations.NAME}>"
@@ -138,6 +144,8 @@ class System:
         dict
             Name to array over the leading dimensions; see ``equations.SIGNALS`` for units, signs.
         """
+        if not self.signal_names:
+            return {}
         values = self.evaluate("signals", state, inputs)
         return {name: values[..., i] for i, name in enumerate(self.signal_names)}
 
@@ -165,6 +173,10 @@ class System:
             imaginary part first. `kintrafo.linearise` has the modes that belong to them.
         """
         return eigenvalues_of(self.evaluate("rhs_jacobian", state, inputs))
+
+
+def _found_again(name: str, file: str, parameters: Mapping[str, float]) -> System:
+    return System(find(name, file), parameters)
 
 
 def _filled(equations: ModuleType, values: Mapping[str, float]) -> dict[str, float]:

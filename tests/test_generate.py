@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from kintrafo import generated
-from kintrafo.generator.__main__ import files_of
+from kintrafo.generator.emit.files import project_files
 from kintrafo.generator.emit.python import shared_files
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.outputs import GeneratedModel, generate
@@ -39,7 +39,7 @@ def differing(ones: dict[str, bytes], others: dict[str, bytes]) -> dict[str, str
 def emitted(models: list[GeneratedModel]) -> dict[str, bytes]:
     texts = dict(shared_files())
     for model in models:
-        texts |= files_of(model)
+        texts |= project_files(model)
     return {name: text.encode() for name, text in texts.items()}
 
 

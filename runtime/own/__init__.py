@@ -1,1 +1,14 @@
-"""A user's own mechanism: derived, compiled and loaded outside of the source tree."""
+"""A user's own mechanism: derived, emitted, compiled and loaded outside of the source tree.
+
+`build`        from a declaration to a module, by way of the cache
+`declaration`  what a person wrote: a file, a mechanism or a model
+`cache`        where compiled mechanisms are kept, and under which name
+`compiler`     the C compiler of this machine
+`loader`       a folder of the cache as a Python module
+"""
+
+from .build import compile_mechanism
+from .compiler import CompilerError
+from .declaration import MechanismError
+
+__all__ = ["CompilerError", "MechanismError", "compile_mechanism"]

@@ -1,0 +1,119 @@
+"""What a person wrote: a file with a declaration, a mechanism, or a model of one."""
+
+import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+from ..errors import InputError, KintrafoError
+from ..input.suggestions import suggestion
+
+if TYPE_CHECKING:
+    from ..generator.mechanism import Mechanism, Model
+
+
+class MechanismError(KintrafoError, ValueError):
+    """A mechanism whose declaration contradicts itself, or whose loops do not close."""
+
+
+@contextmanager
+def telling() -> Iterator[None]:
+    """Turn the generator's refusals into errors of this package."""
+    from ..generator.checks import DeclarationError
+    from ..generator.topology import TopologyError
+    from ..generator.transformer import NoClosedFormError
+
+    try:
+        yield
+    except (DeclarationError, TopologyError, NoClosedFormError) as error:
+        raise MechanismError(str(error)) from error
+
+
+def model_of(declared: "Model | Mechanism | str | Path", name: str | None = None) -> "Model":
+    """Return the model that is meant.
+
+    Parameters
+    ----------
+    declared : Model, Mechanism, str or Path
+        A model; a mechanism, of which a model with proposed coordinates is made; or a Python file
+        with one of these.
+    name : str, optional
+        Which one, where a file has several.
+
+    Returns
+    -------
+    Model
+
+    Raises
+    ------
+    InputError
+        If the file cannot be run, or does not say what is meant.
+    MechanismError
+        If the declaration contradicts itself.
+    """
+    from ..generator.mechanism import Mechanism, Model
+    from ..generator.proposal import model_of as proposed
+
+    with telling():
+        given: Any = declared
+        if isinstance(declared, str | Path):
+            given = _chosen(_run(Path(declared)), str(declared), name)
+        if isinstance(given, Mechanism):
+            given = proposed(given)
+    if isinstance(given, Model):
+        return given
+    problem = (
+        "a Model, a Mechanism (kintrafo.generator.mechanism) or the path of a Python file with one "
+        f"is needed, not {type(declared).__name__}."
+    )
+    raise InputError([problem], "compile")
+
+
+def _run(path: Path) -> ModuleType:
+    """Run a file and return what it defines."""
+    try:
+        source = path.read_text(encoding="utf-8")
+    except UnicodeDecodeError as error:
+        problem = f"is no text in UTF-8 (byte {error.start}). Give a Python file."
+        raise InputError([problem], str(path)) from error
+    module = ModuleType(path.stem)
+    module.__file__ = str(path)
+    try:
+        exec(compile(source, str(path), "exec"), vars(module))
+    except SyntaxError as error:
+        problem = f"Line {error.lineno}: {error.msg}: {(error.text or '').strip()}"
+        raise InputError([problem], str(path)) from error
+    except Exception as error:
+        raise InputError([_where(error, path)], str(path)) from error
+    return module
+
+
+def _where(error: Exception, path: Path) -> str:
+    """Say at which line of a file an error occurred, which may be deep in what the line calls."""
+    lines = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == str(path)]
+    place = f"Line {lines[-1]}: " if lines else ""
+    return f"{place}{type(error).__name__}: {error}"
+
+
+def _chosen(module: ModuleType, path: str, name: str | None) -> "Model | Mechanism":
+    """Return the model of a file or, where it has none, the mechanism."""
+    from ..generator.mechanism import Mechanism, Model
+
+    defined = [v for v in vars(module).values() if isinstance(v, Model | Mechanism)]
+    listed = [m for v in vars(module).values() if isinstance(v, tuple | list) for m in v]
+    defined += [m for m in listed if isinstance(m, Model | Mechanism)]
+    models = [m for m in defined if isinstance(m, Model)]
+    found: dict[str, Model | Mechanism] = {m.name: m for m in models or defined}
+    if name is not None and name in found:
+        return found[name]
+    if name is not None:
+        raise InputError([f"{name!r} is not defined. {suggestion(name, found)}"], path)
+    if not found:
+        problem = "defines no Model and no Mechanism. Assign one to a name at its top level."
+        raise InputError([problem], path)
+    if len(found) > 1:
+        problem = f"defines {', '.join(found)}. Say which one is meant: --model {next(iter(found))}"
+        raise InputError([problem], path)
+    return next(iter(found.values()))
