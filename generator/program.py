@@ -21,7 +21,7 @@ from .arithmetic import Guarded, Written, write
 from .vectors import Vector
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 
 @dataclass(frozen=True)
@@ -375,20 +375,28 @@ def _chain_rule(
     A root or a reciprocal that is a step of its own is differentiated in terms of its own symbol,
     so that it is not computed again.
     """
-    moving = sorted((s for s in expression.free_symbols if s in tangent), key=str)
-    total = sp.Integer(0)
-    for s in moving:
-        if symbol is not None and expression.is_Pow and expression.exp in (sp.Rational(1, 2), -1):
-            inner = expression.base.diff(s)
-            partial = (
-                inner / (2 * symbol)
-                if expression.exp == sp.Rational(1, 2)
-                else (-inner * symbol * symbol)
-            )
-        else:
-            partial = expression.diff(s)
-        total += partial * tangent[s]
-    return total
+    own = symbol is not None and expression.is_Pow and expression.exp in (sp.Rational(1, 2), -1)
+    if not own:
+        return sp.Add(*(partial * tangent[s] for s, partial in _partials(expression, tangent)))
+    factor = 1 / (2 * symbol) if expression.exp > 0 else -symbol * symbol
+    inner = _partials(expression.base, tangent)
+    return sp.Add(*(partial * factor * tangent[s] for s, partial in inner))
+
+
+def _partials(
+    expression: sp.Expr, moving: Mapping[sp.Symbol, sp.Expr]
+) -> Iterator[tuple[sp.Symbol, sp.Expr]]:
+    """Yield each moving symbol of an expression with the derivative by it.
+
+    Of a sum, only the terms with the symbol are looked at: the equation of motion of a long chain
+    is one sum over all of its bodies.
+    """
+    having: dict[sp.Symbol, list[sp.Expr]] = {}
+    for term in sp.Add.make_args(expression):
+        for s in term.free_symbols & moving.keys():
+            having.setdefault(s, []).append(term)
+    for s in sorted(having, key=str):
+        yield s, sp.Add(*(term.diff(s) for term in having[s]))
 
 
 def _drop_dead(steps: list[Step], results: list[sp.Expr]) -> tuple[list[Step], list[sp.Expr]]:
