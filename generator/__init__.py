@@ -2,7 +2,7 @@
 
 The rooms, in the order in which a mechanism passes through them:
 
-``mechanism``, ``joints``, ``forces``
+``mechanism``, ``joints``, ``geometry``, ``forces``, ``laws``, ``parameters``
     what a person declares;
 ``topology``
     mobility, joint graph, shortest paths, minimal cycle basis;
@@ -16,4 +16,47 @@ The rooms, in the order in which a mechanism passes through them:
     named steps, stages, derivatives, common subexpressions, operation counts;
 ``emit``
     printers: C, Cython, the derivation report.
+
+What a declaration is made of can be imported from here.
 """
+
+from .forces import AlongLine, AlongTelescope, ForceElement, JointForce, LinearTyre, Weight
+from .geometry import FORWARD, UP, Direction, Line, Point
+from .joints import Cylindrical, Prismatic, Revolute, Spherical, Universal
+from .laws import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
+from .mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
+from .parameters import direction, point, rigid_body, rotor
+
+__all__ = [
+    "FORWARD",
+    "UP",
+    "Actuator",
+    "AlongLine",
+    "AlongTelescope",
+    "Body",
+    "Cylindrical",
+    "DamperTable",
+    "Direction",
+    "ForceElement",
+    "Friction",
+    "JointForce",
+    "Line",
+    "LinearDamper",
+    "LinearSpring",
+    "LinearTyre",
+    "Mechanism",
+    "Model",
+    "Parameter",
+    "Point",
+    "Prismatic",
+    "RelativeCoordinate",
+    "Revolute",
+    "Spherical",
+    "Stop",
+    "Universal",
+    "Weight",
+    "direction",
+    "point",
+    "rigid_body",
+    "rotor",
+]

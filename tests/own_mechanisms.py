@@ -14,7 +14,7 @@ from kintrafo.generator.geometry import FORWARD, Direction, Line, Point
 from kintrafo.generator.joints import Joint, Prismatic, Revolute, Spherical, Universal
 from kintrafo.generator.laws import LinearDamper, LinearSpring
 from kintrafo.generator.mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
-from kintrafo.generator.mechanisms.suspension import direction, point, rotor
+from kintrafo.generator.parameters import direction, point, rotor
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

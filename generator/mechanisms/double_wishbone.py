@@ -12,7 +12,8 @@ from ..geometry import UP, Direction, Line, Point
 from ..joints import Prismatic, Revolute, Spherical, Universal
 from ..laws import Actuator, LinearDamper, LinearSpring
 from ..mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
-from .suspension import INPUTS, direction, point, rigid_body, rotor
+from ..parameters import direction, point, rigid_body, rotor
+from .suspension import INPUTS
 
 LOWER_FRONT, LOWER_REAR = Point("lower_arm_front"), Point("lower_arm_rear")
 UPPER_FRONT, UPPER_REAR = Point("upper_arm_front"), Point("upper_arm_rear")

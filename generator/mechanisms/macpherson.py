@@ -11,8 +11,8 @@ from ..geometry import FORWARD, UP, Direction, Line, Point
 from ..joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
 from ..laws import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
 from ..mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
+from ..parameters import direction, point, rigid_body, rotor
 from .suspension import INPUTS as SUSPENSION_INPUTS
-from .suspension import direction, point, rigid_body, rotor
 
 A = Point("arm_front")
 O = Point("arm_rear")

@@ -1,9 +1,4 @@
-"""What the declarations of suspensions share: parameters of points and bodies, inputs."""
-
-from __future__ import annotations
-
-from ..mechanism import Parameter
-from ..vectors import ELEMENTS
+"""What the declarations of suspensions share: their inputs."""
 
 INPUTS = {
     "rack_position": ("m", "displacement of the rack along its axis"),
@@ -13,58 +8,3 @@ INPUTS = {
     "road_velocity": ("m/s", "rate of the road's height"),
     "rack_force": ("N", "force on the rack along its axis"),
 }
-
-
-def point(name: str, position: tuple[float, float, float], meaning: str) -> list[Parameter]:
-    """Coordinates of a point at the design position, chassis axes."""
-    return [
-        Parameter(f"{name}_{axis}", value, "m", f"{meaning}, {axis} at the design position")
-        for axis, value in zip("xyz", position, strict=True)
-    ]
-
-
-def direction(name: str, components: tuple[float, float, float], meaning: str) -> list[Parameter]:
-    """Components of a direction, of any length, chassis axes."""
-    return [
-        Parameter(f"{name}_{axis}", value, "1", f"{meaning}, {axis} component")
-        for axis, value in zip("xyz", components, strict=True)
-    ]
-
-
-def rigid_body(
-    name: str,
-    mass: float,
-    com: tuple[float, float, float],
-    inertia: tuple[float, float, float] = (0.0, 0.0, 0.0),
-) -> list[Parameter]:
-    """Mass, centre of mass and inertia tensor (about it, chassis axes, at the design position)."""
-    tensor = (*inertia, 0.0, 0.0, 0.0)
-    return [
-        Parameter(f"{name}_mass", mass, "kg", f"mass of the {name}"),
-        *point(f"{name}_com", com, f"centre of mass of the {name}"),
-        *(
-            Parameter(
-                f"{name}_inertia_{element}",
-                value,
-                "kg m^2",
-                f"{element} element of the inertia tensor of the {name}",
-            )
-            for element, value in zip(ELEMENTS, tensor, strict=True)
-        ),
-    ]
-
-
-def rotor(name: str, mass: float, spin: float, diametral: float) -> list[Parameter]:
-    """Mass of a body of revolution, and its inertia about its axis and across it."""
-    return [
-        Parameter(f"{name}_mass", mass, "kg", f"mass of the {name}"),
-        Parameter(
-            f"{name}_inertia_spin", spin, "kg m^2", f"inertia of the {name} about its spin axis"
-        ),
-        Parameter(
-            f"{name}_inertia_diametral",
-            diametral,
-            "kg m^2",
-            f"inertia of the {name} across its axis",
-        ),
-    ]

@@ -1,24 +1,119 @@
-"""``kintrafo generate``: derive the equations anew, where the generator is installed."""
+"""``kintrafo generate``: equations of a user's own mechanism, derived and compiled."""
 
+import time
 from pathlib import Path
+from types import ModuleType
 from typing import Annotated
 
 import typer
+from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
-EXAMPLES = ("kintrafo generate generated",)
+from .console import console, print_json, problems, say
+from .options import Json
+
+EXAMPLES = (
+    "kintrafo generate my_mechanism.py",
+    "kintrafo generate my_mechanism.py --model crane --to equations",
+    "kintrafo generate my_mechanism.py --numpy --json",
+)
 
 
 def command(
-    folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="Where the C and Python go.")],
+    file: Annotated[
+        Path,
+        typer.Argument(
+            metavar="FILE",
+            help="Python file that declares a mechanism.",
+            exists=True,
+            dir_okay=False,
+        ),
+    ],
+    *,
+    model: Annotated[
+        str | None, typer.Option(metavar="NAME", help="Which model, where the file has several.")
+    ] = None,
+    to: Annotated[
+        Path | None,
+        typer.Option(metavar="FOLDER", help="Write the C, the Python and the report here as well."),
+    ] = None,
+    numpy: Annotated[
+        bool, typer.Option("--numpy", help="Functions over NumPy arrays instead of compiled C.")
+    ] = False,
+    json: Json = False,
 ) -> None:
-    """Derive the equations of motion and write them as C and Python.
+    """Derive and compile the equations of motion of your own mechanism.
 
-    Needs the packages of the extra "generator": pip install "kintrafo[generator]".
+    The file declares it with the classes of kintrafo.generator; docs/own-mechanism.md builds one
+    from a sketch. What was compiled before is found again. Needs the packages of the extra
+    "generator": pip install "kintrafo[generator]".
     """
-    from ..optional import require
+    from ..own.build import compile_mechanism
 
-    for package in ("sympy", "networkx"):
-        require(package, purpose="Deriving equations", extra="generator")
-    from ..generator.__main__ import generate_all
+    started = time.perf_counter()
+    columns = SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn()
+    with Progress(*columns, console=problems, transient=True) as progress:
+        task = progress.add_task("reading the declaration", total=None)
+        module = compile_mechanism(
+            file,
+            name=model,
+            backend="numpy" if numpy else "auto",
+            progress=lambda text: progress.update(task, description=text),
+        )
+    seconds = time.perf_counter() - started
+    if to is not None:
+        _copy(module, to)
+    if json:
+        print_json(_facts(module))
+    else:
+        _show(module, file, seconds)
 
-    generate_all(folder)
+
+def _facts(module: ModuleType) -> dict[str, object]:
+    return {
+        "name": module.NAME,
+        "file": module.__file__,
+        "compiled": bool(module.ADDRESSES),
+        "mobility": module.MOBILITY,
+        "state": list(module.STATE),
+        "inputs": list(module.INPUTS),
+        "signals": list(module.SIGNALS),
+        "loops": module.LOOPS,
+        "operations": module.rhs.operations,
+        "hash": module.MECHANISM_HASH,
+    }
+
+
+def _show(module: ModuleType, file: Path, seconds: float) -> None:
+    """Print what was found, and how to go on."""
+    loops = [" - ".join(loop) for loop in module.LOOPS]
+    how = "C" if module.ADDRESSES else "NumPy"
+    rows = {
+        "coordinates": ", ".join(list(module.STATE)[: module.MOBILITY]),
+        "inputs": ", ".join(module.INPUTS) or "none",
+        "loops": "\n".join(loops) or "none",
+        "right-hand side": f"{module.rhs.operations['total']} operations, {how}",
+        "ready after": f"{seconds:.1f} s",
+        "files": str(Path(str(module.__file__)).parent),
+    }
+    say(f"{module.__doc__.partition('.')[0]} ({module.NAME})")
+    width = max(map(len, rows))
+    for name, text in rows.items():
+        say(f"  {name:{width}}  {text}".replace("\n", "\n" + " " * (width + 4)))
+    console.print()
+    for line in (
+        "import kintrafo",
+        f'system = kintrafo.System(kintrafo.compile("{file}"))',
+        "result = kintrafo.simulate(system, (0.0, 1.0), system.state())",
+    ):
+        say(f"  {line}")
+
+
+def _copy(module: ModuleType, folder: Path) -> None:
+    """Copy the sources of a compiled mechanism to where a person reads them."""
+    from ..files import replacing
+
+    source = Path(str(module.__file__)).parent
+    for path in sorted(source.iterdir()):
+        if path.suffix in (".c", ".h", ".py", ".md"):
+            with replacing(folder / path.name) as temporary:
+                temporary.write_bytes(path.read_bytes())

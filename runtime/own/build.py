@@ -16,6 +16,7 @@ from .loader import load
 
 if TYPE_CHECKING:
     from ..generator.mechanism import Mechanism, Model
+    from ..generator.outputs import GeneratedModel
 
 Backend = Literal["auto", "c", "numpy"]
 Report = Callable[[str], None]
@@ -81,6 +82,8 @@ def compile_mechanism(
     """
     for package in ("sympy", "networkx"):
         require(package, purpose="Deriving equations", extra="generator")
+    from ..generator.outputs import generate
+
     model = model_of(declared, name)
     compiler = _compiler(backend)
     built_by = " ".join((*compiler.command, compiler.version)) if compiler else "numpy"
@@ -88,8 +91,13 @@ def compile_mechanism(
     key = fingerprint(repr(model), built_by=built_by)
     target = (cache_folder() if folder is None else Path(folder)) / f"{model.name}-{key}"
     if not target.is_dir():
+        report = progress or (lambda _: None)
         with appearing(target) as temporary:
-            _fill(temporary, model, compiler, progress or (lambda _: None))
+            report("deriving the equations")
+            with telling():
+                derived = generate(model)
+            report("compiling" if compiler else "writing the functions")
+            build(derived, temporary, compiler)
     return load(target)
 
 
@@ -121,20 +129,24 @@ def _tell_once() -> None:
         )
 
 
-def _fill(folder: Path, model: "Model", compiler: Compiler | None, report: Report) -> None:
-    """Write the package of a model into a folder."""
-    from ..generator.emit.files import own_files
-    from ..generator.outputs import generate
+def build(derived: "GeneratedModel", folder: Path, compiler: Compiler | None) -> None:
+    """Write the package of a derived model into a folder, and compile it.
 
-    library = f"lib{model.name}.so" if compiler else None
-    report("deriving the equations")
-    with telling():
-        derived = generate(model)
-    report("writing the program")
+    Parameters
+    ----------
+    derived : GeneratedModel
+        From `kintrafo.generator.outputs.generate`.
+    folder : Path
+        An empty folder; `kintrafo.own.loader.load` makes a module of it.
+    compiler : Compiler or None
+        None: functions over NumPy arrays instead of C.
+    """
+    from ..generator.emit.files import own_files
+
+    library = f"lib{derived.model.name}.so" if compiler else None
     texts = own_files(derived, library)
     for name, text in texts.items():
         (folder / name).write_text(text, encoding="utf-8", newline="\n")
     if compiler and library:
-        report("compiling")
         sources = [folder / name for name in texts if name.endswith(".c")]
         compiler.build(sources, folder / library)

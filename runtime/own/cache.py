@@ -15,7 +15,6 @@ from pathlib import Path
 
 from platformdirs import user_cache_path
 
-from .. import generator
 from ..errors import InputError
 
 VARIABLE = "KINTRAFO_CACHE"
@@ -51,6 +50,8 @@ def fingerprint(declared: str, *, built_by: str) -> str:
 def _generator_hash() -> str:
     """Return a hash of everything that derives and emits."""
     import sympy
+
+    from .. import generator
 
     digest = hashlib.sha256(sympy.__version__.encode())
     for name, content in sorted(_contents(files(generator), "")):
