@@ -15,6 +15,10 @@ from ._native import Function
 Array = NDArray[np.float64]
 Described = Mapping[str, Mapping[str, Any]]
 
+# As in the C code: guards from here on share a bit, and a guarded quantity must be over the floor.
+_LAST_GUARD_BIT = 29
+_GUARD_FLOOR = 1e-24
+
 
 class KintrafoError(Exception):
     """Base of every exception that kintrafo raises on purpose."""
@@ -204,15 +208,20 @@ class CompiledModel:
             raise ModelError(message)
         margins = np.empty(len(self.guards))
         self._calls.call_margins(self._code["margins"], constants, state, inputs, margins)
-        hit = [bit for bit in range(len(self.guards)) if status >> bit & 1]
+        hit = [
+            place
+            for place in range(len(self.guards))
+            if status >> min(place, _LAST_GUARD_BIT) & 1
+            and (place < _LAST_GUARD_BIT or not margins[place] > _GUARD_FLOOR)
+        ]
         if not hit:
             shown = ", ".join(f"{name} = {value:.6g}" for name, value in coordinates.items())
             message = f"{where}: the result overflows double precision, at {shown}{_place(index)}"
             raise ModelError(message)
         raise ClosureError(
             where,
-            [self.guards[bit][1] for bit in hit],
-            {self.guards[bit][0]: float(margins[bit]) for bit in hit},
+            [self.guards[place][1] for place in hit],
+            {self.guards[place][0]: float(margins[place]) for place in hit},
             coordinates,
             index,
             self.guard_units,

@@ -55,8 +55,8 @@ class ArraysPrinter:
             names = [f"given_{e.name}" for e in self.model.relative]
             loads += _loads("given", names, function)
         holds = [
-            f"{bit}: {guard.quantity} > GUARD_FLOOR"
-            for bit, guard in enumerate(self.model.guards)
+            f"{place}: {guard.quantity} > GUARD_FLOOR"
+            for place, guard in enumerate(self.model.guards)
             if guard in function.guards
         ]
         return _definition(function, arguments, loads, holds)

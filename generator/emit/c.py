@@ -27,6 +27,10 @@ ARGUMENTS = "const double *restrict constants, const double *restrict state,"
 # any physical size (a closure within 1e-12 m of its dead point) and far over what would overflow.
 GUARD_FLOOR = "1.0e-24"
 
+# A status word has 30 bits for guards, under that for results that are not finite. The last one is
+# for all guards that are left: which of those it is follows from the margins.
+LAST_GUARD_BIT = 29
+
 
 def count_line(function: Function) -> str:
     """Describe the operations of a function in one line."""
@@ -155,7 +159,8 @@ class CPrinter:
         lines = ["/* Status bits. */", f"enum {self.prefix}_status {{"]
         for bit, guard in enumerate(self.model.guards):
             name = self.enumerator("status", guard.name)
-            lines.append(f"    {name} = 1 << {bit}, /* {guard.meaning} */")
+            place = min(bit, LAST_GUARD_BIT)
+            lines.append(f"    {name} = 1 << {place}, /* {guard.meaning} */")
         lines.append(
             f"    {self.enumerator('status', 'not_finite')} = 1 << 30 /* a result is NaN or "
             "infinite */"
