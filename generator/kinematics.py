@@ -74,6 +74,7 @@ class Kinematics:
         self.telescopes: dict[str, OnLine] = {}
         self.slides: dict[str, sp.Expr] = {}
         self.angles: dict[str, sp.Expr] = {}
+        self.rod_lengths: dict[str, sp.Expr] = {}
         self._points: dict[tuple[str, Point], PointMotion] = {}
         self._owners: dict[Point, str] = {}
         self._set_work_axes()

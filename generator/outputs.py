@@ -86,7 +86,9 @@ class _Builder:
         self.model = model
         self.mechanism: Mechanism = model.mechanism
         self.plan = Plan.of(model)
-        self.constants = ConstantStage(tuple(sp.Symbol(p.name) for p in self.mechanism.parameters))
+        self.constants = ConstantStage(
+            tuple(sp.Symbol(p.name) for p in self.mechanism.parameters), self._varying_names()
+        )
         self.program = Program(self.constants)
         self.kin = Kinematics(self.program, self.plan)
         self.dynamics = Dynamics(self.kin)
@@ -146,6 +148,14 @@ class _Builder:
             varying - given - states - set(self._input_names()),
             [p.name for p in self.mechanism.parameters],
         )
+
+    def _varying_names(self) -> frozenset[str]:
+        """Return the names of states, inputs and given coordinates."""
+        coordinates = self.mechanism.coordinates
+        states = [c.name for c in coordinates if c.joint in self.model.independent]
+        rates = [f"{name}_rate" for name in states]
+        given = [f"given_{c.name}" for c in coordinates]
+        return frozenset([*states, *rates, *given, *self.mechanism.inputs])
 
     # -- arrays ---------------------------------------------------------------------------------
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import chain, count
 from typing import TYPE_CHECKING, Any
 
 import sympy as sp
@@ -21,7 +22,7 @@ from .arithmetic import Guarded, Written, write
 from .vectors import Vector
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 
 @dataclass(frozen=True)
@@ -115,13 +116,17 @@ class ConstantStage:
     ----------
     parameters
         Symbols that are fixed for one parameter set.
+    reserved
+        Names that no step may have: those of states and inputs.
     steps
         The steps, in order.
     """
 
     parameters: tuple[sp.Symbol, ...]
+    reserved: frozenset[str] = frozenset()
     steps: dict[sp.Symbol, Step] = field(default_factory=dict)
     _known: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
+    _varying: set[str] = field(default_factory=set)  # names of steps of the programs
     _collected: int = 0
 
     def contains(self, expression: sp.Expr) -> bool:
@@ -132,16 +137,25 @@ class ConstantStage:
     def _given(self) -> frozenset[sp.Symbol]:
         return frozenset(self.parameters)
 
+    def has(self, name: str) -> bool:
+        """Tell whether a name is that of a constant, a parameter, a state or an input."""
+        symbol = sp.Symbol(name)
+        return symbol in self.steps or symbol in self._given or name in self.reserved
+
+    def note(self, name: str) -> None:
+        """Keep the name of a program's step from being used for a constant."""
+        self._varying.add(name)
+
     def define(self, name: str, expression: sp.Expr, section: str) -> sp.Expr:
-        """Append a step and return its symbol, or that of the same step defined before."""
+        """Append a step and return its symbol, or that of the same step defined before.
+
+        The symbol has a number behind its name where something else has that name already.
+        """
         if expression in self._known:
             return self._known[expression]
         if -expression in self._known:
             return -self._known[-expression]
-        symbol = sp.Symbol(name)
-        if symbol in self.steps or symbol in self._given:
-            message = f"the constant {name!r} is defined twice"
-            raise ValueError(message)
+        symbol = _first_free(name, lambda n: self.has(n) or n in self._varying)
         self.steps[symbol] = Step(symbol, expression, section)
         self._known[expression] = symbol
         return symbol
@@ -198,7 +212,8 @@ class Program:
         """Append a step and return its symbol.
 
         Numbers, symbols and their negatives are returned as they are, and an expression that is
-        already a step is not repeated, so that zeros and shared values disappear on the way.
+        already a step is not repeated, so that zeros and shared values disappear on the way. The
+        symbol has a number behind its name where something else has that name already.
         """
         expression = sp.sympify(expression)
         if expression.is_Atom or (-expression).is_Symbol:
@@ -209,13 +224,14 @@ class Program:
             return self._known[expression]
         if -expression in self._known:
             return -self._known[-expression]
-        symbol = sp.Symbol(name)
-        if symbol in self.steps or self.constants.contains(symbol):
-            message = f"the name {name!r} is defined twice"
-            raise ValueError(message)
+        symbol = _first_free(name, self._has)
+        self.constants.note(symbol.name)
         self.steps[symbol] = Step(symbol, expression, self._section)
         self._known[expression] = symbol
         return symbol
+
+    def _has(self, name: str) -> bool:
+        return sp.Symbol(name) in self.steps or self.constants.has(name)
 
     def vector(self, name: str, vector: Vector, suffixes: str = "xyz") -> Vector:
         """Append a step for each component of a vector."""
@@ -322,7 +338,8 @@ class Program:
             if s.symbol in needed
         ]
         steps, expressions = _drop_dead(steps, expressions)
-        steps, expressions = _share(steps, expressions)
+        names = (sp.Symbol(f"shared_{i}") for i in count(1) if not self._has(f"shared_{i}"))
+        steps, expressions = _share(steps, expressions, names)
         acting = set().union(*(e.atoms(Guarded) for e in [s.expression for s in steps]), set())
         acting |= set().union(*(e.atoms(Guarded) for e in expressions), set())
         quantities = {g.args[0] for g in acting}
@@ -353,6 +370,12 @@ class Program:
                 group = self.constants.collect(expression.func(*constant))
                 return expression.func(group, *rest)
         return expression.func(*arguments)
+
+
+def _first_free(name: str, taken: Callable[[str], bool]) -> sp.Symbol:
+    """Return the symbol of a name, with a number behind it if the name is taken."""
+    names = chain([name], (f"{name}_{i}" for i in count(2)))
+    return sp.Symbol(next(n for n in names if not taken(n)))
 
 
 def ancestors(steps: Mapping[sp.Symbol, Step], expressions: Iterable[sp.Expr]) -> set[sp.Symbol]:
@@ -410,11 +433,13 @@ def _drop_dead(steps: list[Step], results: list[sp.Expr]) -> tuple[list[Step], l
     return alive[::-1], results
 
 
-def _share(steps: list[Step], results: list[sp.Expr]) -> tuple[list[Step], list[sp.Expr]]:
+def _share(
+    steps: list[Step], results: list[sp.Expr], names: Iterator[sp.Symbol]
+) -> tuple[list[Step], list[sp.Expr]]:
     """Name the common subexpressions of the whole program (SymPy's ``cse``)."""
     replacements, reduced = sp.cse(
         [*(s.expression for s in steps), *results],
-        symbols=(sp.Symbol(f"shared_{i}") for i in range(1, 100_000)),
+        symbols=names,
         order="canonical",
         list=True,
     )

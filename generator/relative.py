@@ -336,7 +336,7 @@ class _Closure:
         gap = self.program.vector(f"given_gap_{joint.name}", gap)
         if isinstance(action, PlaceByPin):
             return gap.dot(self.kin.placed[action.body].axes[2])
-        return sp.sqrt(gap.dot(gap)) - sp.Symbol(f"{action.rod}_length")
+        return sp.sqrt(gap.dot(gap)) - self.kin.rod_lengths[action.rod]
 
     def _action_at(self, joint: Joint) -> PlaceByPin | SolveHinge | SolveSlide | None:
         kinds = PlaceByPin | SolveHinge | SolveSlide
@@ -423,7 +423,7 @@ class _Closure:
             a for a in self.kin.plan.actions if isinstance(a, SolveTurn) and a.body == joint.second
         )
         span = self._rod_span(turn)
-        return sp.sqrt(span.dot(span)) - sp.Symbol(f"{turn.rod}_length")
+        return sp.sqrt(span.dot(span)) - self.kin.rod_lengths[turn.rod]
 
     def _telescopes(self) -> list[SolveTelescope]:
         return [a for a in self.kin.plan.actions if isinstance(a, SolveTelescope)]

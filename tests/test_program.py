@@ -62,17 +62,25 @@ def test_names_are_unique() -> None:
     program.define("step", X + A)
     program.define("constant", A + B)
     for name in ("step", "constant"):
-        with pytest.raises(ValueError, match=f"'{name}' is defined twice"):
-            program.define(name, X + Y)
+        assert str(program.define(name, X + Y + len(name))) == f"{name}_2"
     for name in ("constant", "a"):
-        with pytest.raises(ValueError, match=f"'{name}' is defined twice"):
-            program.define(name, A * B)
+        assert str(program.define(name, A * B + len(name))).startswith(f"{name}_")
 
 
-def test_parameters_keep_their_names() -> None:
+def test_parameters_states_and_inputs_keep_their_names() -> None:
+    program = Program(ConstantStage((A, B), frozenset({"x", "shared_1"})))
+    assert program.define("a", X * Y) == sp.Symbol("a_2")
+    assert program.define("x", X * A) == sp.Symbol("x_2")
+    assert program.define("x", A * B) == sp.Symbol("x_3")
+    both = {"sum": (X + Y) * (X * Y + 1), "other": (X + Y) * sp.sin(X * Y + 1)}
+    shared = [step.symbol for step in program.function("two", "", both).steps]
+    assert shared == [sp.Symbol("shared_2"), sp.Symbol("shared_3")]
+
+
+def test_a_constant_does_not_take_the_name_of_a_step_that_came_before() -> None:
     program = new_program(A, B)
-    with pytest.raises(ValueError, match="'a' is defined twice"):
-        program.define("a", X * Y)
+    assert program.define("length", X + A) == sp.Symbol("length")
+    assert program.define("length", A + B) == sp.Symbol("length_2")
 
 
 def test_constants_are_what_depends_on_parameters_only() -> None:

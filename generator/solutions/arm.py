@@ -93,6 +93,7 @@ def fit_rod(
     program, body, rho = kin.program, action.body, arm.radius
     rod = program.vector(f"{action.rod}_design", kin.design(action.end) - kin.design(action.anchor))
     length = program.define(f"{action.rod}_length", sp.sqrt(rod.dot(rod)))
+    kin.rod_lengths[action.rod] = length
     branch = program.define(f"{body}_branch", SignOf(rod.dot(arm.design_axes[2])))
     loop = kin.loop_of(action)
     squared = program.guarded(

@@ -83,6 +83,7 @@ class _OffsetTurn:
         e3 = program.vector(f"{body}_normal_design", e1.cross(e2))
         rod = program.vector(f"{self.action.rod}_design", end - anchor)
         self.rod_length = program.define(f"{self.action.rod}_length", sp.sqrt(rod.dot(rod)))
+        kin.rod_lengths[self.action.rod] = self.rod_length
         span = kin.design(self.base) - kin.design(telescope.anchor)
         self.branch = program.define(f"{body}_branch", SignOf(arm.dot(span.cross(anchor - base))))
         self.arm = Vector(along, radius, ZERO.z)

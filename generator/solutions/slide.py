@@ -35,6 +35,7 @@ def solve_slide(kin: Kinematics, action: SolveSlide) -> None:
     anchor = kin.point_motion(action.anchor_body, action.anchor)
     rod = program.vector(f"{action.rod}_design", kin.design(action.end) - kin.design(action.anchor))
     length = program.define(f"{action.rod}_length", sp.sqrt(rod.dot(rod)))
+    kin.rod_lengths[action.rod] = length
     branch = program.define(
         f"{body}_branch", SignOf(rod.dot(kin.design_direction(joint.direction)))
     )
