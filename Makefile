@@ -72,7 +72,9 @@ package: .venv/.ready ## Build a source package and a wheel from it, and import 
 		|| { tail -n 20 build/package.log; exit 1; }
 	@$(PYTHON) -m pip install -q --no-deps --target build/package/site build/package/*.whl
 	@cd build/package/site && ../../../$(PYTHON) -P -c "import sys; sys.path.insert(0, '.'); \
-		import kintrafo; print('packaged:', kintrafo.Model('reference_car'))"
+		import kintrafo; print('packaged:', kintrafo.Model('reference_car')); \
+		from kintrafo.generator.mechanisms.four_bar import FOUR_BAR; \
+		print('compiled by it:', kintrafo.compile(FOUR_BAR, folder='cache').__name__)"
 
 baseline: build ## Store the present operation counts as the baseline
 	@$(PYTHON) -m pytest -q tests/test_operation_counts.py --update-baseline

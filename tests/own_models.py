@@ -6,32 +6,30 @@ that the shipped ones have.
 
 from __future__ import annotations
 
-import ctypes
 import importlib
 import shutil
-import subprocess
-import sys
 from dataclasses import dataclass
 from functools import cached_property
-from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from kintrafo.generator.emit.c import CPrinter
-from kintrafo.generator.emit.python import PythonPrinter
+from kintrafo.own.build import build
+from kintrafo.own.compiler import FLAGS, Compiler
+from kintrafo.own.loader import load
 from oracle.maximal import Motion, Oracle
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
+    from types import ModuleType
 
     from kintrafo.generator.mechanism import Model
     from kintrafo.generator.outputs import GeneratedModel
     from oracle.constraints import Array
 
-FLAGS = ["-std=c99", "-O1", "-fno-math-errno", "-ffp-contract=off", "-shared", "-fPIC"]
-FLAGS += ["-Wall", "-Wextra", "-Wpedantic", "-Werror"]
+# Emitted code gives no warning.
+STRICT = ("-Wall", "-Wextra", "-Wpedantic", "-Werror")
 
 needs_gcc = pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc")
 
@@ -43,32 +41,10 @@ def shipped(model: Model) -> ModuleType:
 
 def own(derived: GeneratedModel, folder: Path) -> ModuleType:
     """Emit and compile a derived model in a folder."""
-    package, name = "kintrafo.generated", derived.model.name
-    addresses = ModuleType(f"{package}._{name}")
-    addresses.ADDRESSES = _addresses(derived, folder)
-    sys.modules[addresses.__name__] = addresses
-    module = ModuleType(f"{package}.{name}")
-    module.__package__ = package
-    exec(compile(PythonPrinter(derived).module(), f"{name}.py", "exec"), vars(module))
-    return module
-
-
-def _addresses(derived: GeneratedModel, folder: Path) -> dict[str, int]:
-    """Compile a model and return where its functions are."""
-    printer, name = CPrinter(derived), derived.model.name
-    (folder / f"{name}.h").write_text(printer.header(), encoding="utf-8")
-    sources = []
-    for part in printer.parts:
-        sources.append(folder / printer.file_name(part))
-        sources[-1].write_text(printer.source(part), encoding="utf-8")
-    path = folder / f"{name}.so"
-    subprocess.run(["gcc", *FLAGS, *sources, "-o", path, "-lm"], check=True)
-    library = ctypes.CDLL(str(path))
-    found = {
-        function: ctypes.cast(getattr(library, f"{name}_{function}"), ctypes.c_void_p).value
-        for function in ("prepare", *derived.functions)
-    }
-    return {function: address for function, address in found.items() if address is not None}
+    target = folder / f"{derived.model.name}-{folder.name}"
+    target.mkdir()
+    build(derived, target, Compiler(("gcc", *FLAGS, *STRICT), "of the tests"))
+    return load(target)
 
 
 @dataclass(frozen=True)
