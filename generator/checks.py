@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from .forces import AlongTelescope, ForceElement, JointForce, LinearTyre, Weight
 from .laws import Actuator, LinearSpring
+from .names import name_problems
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -45,6 +46,7 @@ def check_mechanism(mechanism: Mechanism) -> None:
             joints.get(coordinate.joint, (coordinate.kind,)),
         )
     problems += _force_problems(mechanism)
+    problems += name_problems(mechanism)
     if problems:
         raise DeclarationError(mechanism.name, problems)
 

@@ -13,9 +13,10 @@ from kintrafo.generator.forces import (
     Weight,
 )
 from kintrafo.generator.laws import Actuator, LinearDamper, LinearSpring
-from kintrafo.generator.mechanism import Body, RelativeCoordinate
-from kintrafo.generator.mechanisms import macpherson
+from kintrafo.generator.mechanism import Body, Parameter, RelativeCoordinate
+from kintrafo.generator.mechanisms import four_bar, macpherson
 from kintrafo.generator.outputs import generate
+from symbolic import constants_of, python
 
 MODEL, FREE, GENERAL = macpherson.MODELS
 MECHANISM = MODEL.mechanism
@@ -121,3 +122,74 @@ def test_body_that_nothing_holds():
     loose = Body("loose", 8, center=macpherson.G)
     with pytest.raises(ValueError, match="no joint path leads from the ground to loose"):
         generate(replace(MODEL, mechanism=replace(MECHANISM, bodies=(*MECHANISM.bodies, loose))))
+
+
+# -- names ----------------------------------------------------------------------------------------
+
+
+def renamed(old: str, new: str) -> tuple[Parameter, ...]:
+    """Return the parameters, one of them under another name."""
+    return tuple(replace(p, name=new) if p.name == old else p for p in MECHANISM.parameters)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"parameters": renamed("gravity", "9.81 g")}, "parameter '9.81 g' cannot be written in C"),
+        ({"parameters": renamed("gravity", "double")}, "parameter 'double' has a name that"),
+        ({"parameters": renamed("gravity", "given_g")}, "parameter 'given_g' has a name that"),
+        ({"parameters": renamed("gravity", "Count")}, "parameter 'Count' has a name that"),
+        (
+            {"parameters": renamed("gravity", "Damper_Rate")},
+            "parameter 'Damper_Rate' differs from 'damper_rate' in capital letters only",
+        ),
+        (
+            {"parameters": renamed("gravity", "beta1_rate")},
+            "'beta1_rate' is the name of a parameter and of the rate of a coordinate; rename",
+        ),
+        (
+            {"parameters": renamed("gravity", "rack_force")},
+            "'rack_force' is the name of a parameter and of an input; rename the parameter",
+        ),
+        ({"inputs": {**MECHANISM.inputs, "for": ("N", "")}}, "input 'for' has a name that"),
+        (
+            {"bodies": (*MECHANISM.bodies, Body("tie-rod", 9, center=macpherson.G))},
+            "body 'tie-rod' cannot be written in C; use letters",
+        ),
+    ],
+)
+def test_names_that_code_cannot_have(changes, words):
+    with pytest.raises(DeclarationError, match=words):
+        replace(MECHANISM, **changes)
+
+
+@pytest.mark.parametrize("name", ["rocker_length", "shared_1", "constant_1", "coupler_reach_x"])
+def test_parameter_with_the_name_of_an_internal_step(name, tmp_path):
+    """The step gives way, and the numbers stay."""
+    (model,) = four_bar.MODELS
+    parameters = [
+        replace(p, name=name) if p.name == "spring_rate" else p for p in model.mechanism.parameters
+    ]
+    (spring,) = model.mechanism.elements
+    laws = (replace(spring.laws[0], rate=name), spring.laws[1])
+    forces = (replace(spring, laws=laws), *model.mechanism.forces[1:])
+    mechanism = replace(model.mechanism, parameters=tuple(parameters), forces=forces)
+    derived = generate(replace(model, mechanism=mechanism))
+    before = generate(model)
+    assert {k: f.operations() for k, f in derived.functions.items()} == {
+        k: f.operations() for k, f in before.functions.items()
+    }
+    given, state = (
+        defaults(mechanism),
+        {"crank_torque": 1.5} | {"crank_angle": 0.3, "crank_angle_rate": 2.0},
+    )
+    found = python(derived.functions["rhs"])(constants_of(derived, given) | state)
+    given = defaults(model.mechanism)
+    expected = python(before.functions["rhs"])(constants_of(before, given) | state)
+    for one, other in zip(found, expected, strict=True):
+        assert float(one) == pytest.approx(float(other), rel=1e-14)  # sums in another order
+
+
+def defaults(mechanism):
+    """Return the values of all parameters."""
+    return {p.name: p.default for p in mechanism.parameters}

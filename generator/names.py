@@ -1,0 +1,80 @@
+"""Names of a declaration that the emitted C and Python could not have."""
+
+from __future__ import annotations
+
+import keyword
+import re
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .mechanism import Mechanism
+
+# What the emitted C and Python call their own, and the words of both languages.
+_C_WORDS = """
+auto break case char const continue default do double else enum extern float for goto if inline int
+long register restrict return short signed sizeof static struct switch typedef union unsigned void
+volatile while
+"""
+_OWN_WORDS = """
+sqrt sin cos asin atan2 copysign isfinite fabs at_least not_finite
+parameters constants state inputs given out status i np design_state prepare
+"""
+_WORDS = frozenset([*_C_WORDS.split(), *_OWN_WORDS.split(), *keyword.kwlist])
+_COUNTED = ("count",)  # an enumeration ends with the number of its elements
+
+
+def name_problems(mechanism: Mechanism) -> list[str]:
+    """Find names that code cannot have: no identifiers, reserved words, one name for two things."""
+    coordinates = [c.name for c in mechanism.coordinates]
+    kinds = {
+        "body": [b.name for b in mechanism.bodies],
+        "joint": [j.name for j in mechanism.joints],
+        "parameter": [p.name for p in mechanism.parameters],
+        "coordinate": coordinates,
+        "input": list(mechanism.inputs),
+    }
+    problems = [p for kind, names in kinds.items() for n in names for p in _misnamed(kind, n)]
+    for kind, names in kinds.items():
+        if kind != "joint":  # of joints there is no enumeration
+            problems += _differ_in_case_only(kind, names)
+    owners: dict[str, str] = {}
+    rates = [f"{name}_rate" for name in coordinates]
+    read = {k: kinds[k] for k in ("parameter", "coordinate", "input")} | {"rate": rates}
+    for kind, names in read.items():
+        for name in dict.fromkeys(names):
+            if name in owners:
+                problems.append(
+                    f"{name!r} is the name of a {owners[name]} and of {_article(kind)}; "
+                    f"rename the {owners[name]}"
+                )
+            owners.setdefault(name, kind)
+    return problems
+
+
+def _misnamed(kind: str, name: str) -> list[str]:
+    if not re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name):
+        return [
+            f"{kind} {name!r} cannot be written in C; use letters, digits and underscores, a "
+            "letter first"
+        ]
+    reserved = name in _WORDS or name.lower() in _COUNTED or name.startswith("given_")
+    if reserved and kind in ("parameter", "coordinate", "input"):
+        return [f"{kind} {name!r} has a name that the generated code needs; choose another one"]
+    return []
+
+
+def _differ_in_case_only(kind: str, names: list[str]) -> list[str]:
+    alike: dict[str, str] = {}
+    problems = []
+    for name in names:
+        other = alike.setdefault(name.lower(), name)
+        if other != name:
+            problems.append(
+                f"{kind} {name!r} differs from {other!r} in capital letters only; rename one, since "
+                "the enumerations in C have capital letters"
+            )
+    return problems
+
+
+def _article(kind: str) -> str:
+    return {"rate": "the rate of a coordinate", "input": "an input"}.get(kind, f"a {kind}")
