@@ -1,7 +1,7 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
 .PHONY: help setup generate build run test package lint types format baseline clean \
-	benchmark benchmark-page benchmark-peers benchmark-speed format-page report-assets
+	benchmark benchmark-andrews benchmark-page benchmark-peers benchmark-speed format-page report-assets
 PYTHON := .venv/bin/python
 
 EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/native/*.pyx runtime/native/*.[ch])
@@ -55,6 +55,10 @@ benchmark-page: build ## The same, and its page in docs/
 benchmark-peers: build ## The same suspension in CasADi, Exudyn, SymPy and Pinocchio
 	@.venv/bin/pip install -q -e ".[peers]" --no-build-isolation
 	@PYTHONPATH=tests $(PYTHON) -m benchmarks.peers --out out/benchmark --page docs/other-tools.md
+
+benchmark-andrews: build ## Andrews' squeezer here and as a differential-algebraic equation
+	@.venv/bin/pip install -q -e ".[peers]" --no-build-isolation
+	@$(PYTHON) -m benchmarks.andrews --out out/benchmark --page docs/andrews.md
 
 report-assets: ## Bundle the HTML report's script and style again (needs Node.js)
 	@cd runtime/report/web && npm ci --silent && npm run --silent build

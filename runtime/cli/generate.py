@@ -95,7 +95,7 @@ def _show(module: ModuleType, file: Path, seconds: float) -> None:
         "ready after": f"{seconds:.1f} s",
         "files": str(Path(str(module.__file__)).parent),
     }
-    say(f"{module.__doc__.partition('.')[0]} ({module.NAME})")
+    say(f"{str(module.__doc__).partition('.')[0]} ({module.NAME})")
     width = max(map(len, rows))
     for name, text in rows.items():
         say(f"  {name:{width}}  {text}".replace("\n", "\n" + " " * (width + 4)))
