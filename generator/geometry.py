@@ -43,14 +43,28 @@ class Point:
 
 @dataclass(frozen=True)
 class Direction:
-    """A direction: one of the chassis axes, or a parameter of any length."""
+    """A direction: a chassis axis, a parameter of any length, or from one point to another.
+
+    Parameters
+    ----------
+    name
+        Begins the names of its parameters, ``<name>_x`` and so on, if the others are left out.
+    fixed
+        Components of a direction that is no parameter.
+    between
+        Two points; the direction is from the first to the second at the design position.
+    """
 
     name: str
     fixed: Vector | None = None
+    between: tuple[Point, Point] | None = None
 
     @property
     def components(self) -> Vector:
         """Components at the design position, in chassis axes, not normalised."""
+        if self.between is not None:
+            start, end = self.between
+            return end.position - start.position
         return self.fixed if self.fixed is not None else _symbols(self.name)
 
 

@@ -9,19 +9,10 @@ import sympy as sp
 from . import solutions
 from .arithmetic import SignOf
 from .geometry import UP, Direction, Point
+from .hinge_angles import HingeDesign
 from .joints import Joint, Prismatic, Revolute
 from .placement import IDENTITY, Axes, OffLine, OnLine, Placed, PointMotion, from_axes, to_axes
-from .transformer import (
-    PlaceByCross,
-    PlaceByJoint,
-    PlaceByPin,
-    Plan,
-    Solution,
-    SolveHinge,
-    SolveSlide,
-    SolveTelescope,
-    SolveTurn,
-)
+from .transformer import PlaceByJoint, Plan, Solution, SolveTelescope
 from .vectors import NO_TWIST, UNIT_X, UNIT_Z, ZERO, Twist, Vector
 
 if TYPE_CHECKING:
@@ -92,6 +83,10 @@ class Kinematics:
         if joint.name in self.model.prescribed:
             return self.model.prescribed[joint.name]
         return next(c.name for c in self.mechanism.coordinates if c.joint == joint.name)
+
+    def is_driven(self, joint: Joint) -> bool:
+        """Tell whether a joint's coordinate is independent or prescribed."""
+        return joint.name in (*self.model.independent, *self.model.prescribed)
 
     def _coordinate_symbol(self, joint: Joint) -> str:
         name = self.coordinate_of(joint)
@@ -278,27 +273,11 @@ class Kinematics:
 
     def _run(self) -> None:
         for action in self.plan.actions:
+            self.program.section(action.title)
             if isinstance(action, PlaceByJoint):
-                self.program.section(f"{action.child}: {action.joint.kind} joint")
                 self._place_by_joint(action)
-            elif isinstance(action, PlaceByCross):
-                self.program.section(f"{action.child}: cross of the universal joint")
-                solutions.place_by_cross(self, action)
-            elif isinstance(action, SolveTelescope):
-                self.program.section(f"transformer: telescope {action.joint.name}")
-                solutions.solve_telescope(self, action)
-            elif isinstance(action, SolveHinge):
-                self.program.section(f"transformer: {action.body} held by {action.rod}")
-                solutions.solve_hinge(self, action)
-            elif isinstance(action, SolveSlide):
-                self.program.section(f"transformer: {action.body} held by {action.rod}")
-                solutions.solve_slide(self, action)
-            elif isinstance(action, PlaceByPin):
-                self.program.section(f"{action.body}: pinned to {action.pin_body}")
-                solutions.place_by_pin(self, action)
-            elif isinstance(action, SolveTurn):
-                self.program.section(f"transformer: {action.body} held by {action.rod}")
-                solutions.solve_turn(self, action)
+            else:
+                solutions.CATALOGUE[type(action)](self, action)
 
     def _place_by_joint(self, action: PlaceByJoint) -> None:
         if isinstance(action.joint, Revolute):
@@ -368,6 +347,11 @@ class Kinematics:
             radius = self.program.define(f"{child}_radius", sp.sqrt(arm.y**2 + arm.z**2))
             z_child = self.program.vector(f"{child}_top_design", arm * (1 / radius))
             local = {joint.angle_to: Vector(ZERO.x, ZERO.y, radius)}
+        elif joint.angle_to is not None:
+            design = HingeDesign.of(self, joint)
+            axis, z_parent, z_child = design.axis, design.zero, design.mark
+            origin = self.program.vector(f"{child}_foot", through + axis * design.along)
+            local = {joint.angle_to: Vector(ZERO.x, ZERO.y, design.radius)}
         else:
             axis = self.unit(f"{child}_axis_design", self.to_work(joint.axis.vector))
             reference = self.design_direction(joint.angle_from)

@@ -53,10 +53,8 @@ def name_problems(mechanism: Mechanism) -> list[str]:
 
 def _misnamed(kind: str, name: str) -> list[str]:
     if not re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name):
-        return [
-            f"{kind} {name!r} cannot be written in C; use letters, digits and underscores, a "
-            "letter first"
-        ]
+        allowed = "use letters, digits and underscores, a letter first"
+        return [f"{kind} {name!r} cannot be written in C; {allowed}"]
     reserved = name in _WORDS or name.lower() in _COUNTED or name.startswith("given_")
     if reserved and kind in ("parameter", "coordinate", "input"):
         return [f"{kind} {name!r} has a name that the generated code needs; choose another one"]
@@ -70,8 +68,8 @@ def _differ_in_case_only(kind: str, names: list[str]) -> list[str]:
         other = alike.setdefault(name.lower(), name)
         if other != name:
             problems.append(
-                f"{kind} {name!r} differs from {other!r} in capital letters only; rename one, since "
-                "the enumerations in C have capital letters"
+                f"{kind} {name!r} differs from {other!r} in capital letters only; rename one, "
+                "since the enumerations in C have capital letters"
             )
     return problems
 

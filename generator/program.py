@@ -398,8 +398,8 @@ def _chain_rule(
     A root or a reciprocal that is a step of its own is differentiated in terms of its own symbol,
     so that it is not computed again.
     """
-    own = symbol is not None and expression.is_Pow and expression.exp in (sp.Rational(1, 2), -1)
-    if not own:
+    own = expression.is_Pow and expression.exp in (sp.Rational(1, 2), -1)
+    if symbol is None or not own:
         return sp.Add(*(partial * tangent[s] for s, partial in _partials(expression, tangent)))
     factor = 1 / (2 * symbol) if expression.exp > 0 else -symbol * symbol
     inner = _partials(expression.base, tangent)

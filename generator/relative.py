@@ -15,6 +15,7 @@ import networkx as nx
 import sympy as sp
 
 from .geometry import Point
+from .hinge_angles import positive_axis_at_design, turn_between
 from .joints import Cylindrical, Joint, Prismatic, Revolute, Universal
 from .placement import IDENTITY, Axes, Placed, from_axes, to_axes
 from .transformer import PlaceByPin, SolveHinge, SolveSlide, SolveTelescope, SolveTurn
@@ -98,12 +99,15 @@ class RelativeCoordinates:
         return self._telescope_angle(joint)
 
     def _hinge_or_guide(self, joint: Revolute | Prismatic) -> sp.Expr:
-        """Return the coordinate of a joint that is driven or solved."""
-        if joint.name in self.kin.angles:
-            return self.program.define(f"angle_{joint.name}", self.kin.angles[joint.name])
-        if joint.name in self.kin.slides:
+        """Return the coordinate of a joint that is driven, solved, or between placed bodies."""
+        if self.kin.is_driven(joint):
+            return self.kin.coordinates[self.kin.coordinate_of(joint)]
+        if isinstance(joint, Prismatic):
             return self.kin.slides[joint.name]
-        return self.kin.coordinates[self.kin.coordinate_of(joint)]
+        if joint.name in self.kin.angles and joint.angle_to is None:
+            return self.program.define(f"angle_{joint.name}", self.kin.angles[joint.name])
+        sine, cosine = turn_between(self.kin, joint)
+        return self.program.define(f"angle_{joint.name}", sp.atan2(sine, cosine))
 
     def _shaft(self, joint: Universal) -> _Shaft:
         """Angles of a shaft relative to the first body of its universal joint."""
@@ -234,8 +238,7 @@ class RelativeCoordinates:
     def _screws(self, joint: Joint) -> list[_Screw]:
         names = {c: self.reported(joint.name, c) or "" for c in joint.coordinates}
         if isinstance(joint, Revolute):
-            child = self.kin.placed[joint.second]
-            return [_Screw(names["angle"], child.axes[0], child.origin, ZERO)]
+            return [self._screw_of_hinge(joint, names["angle"])]
         if isinstance(joint, Prismatic):
             parent = self.kin.placed[joint.first]
             direction = from_axes(parent.axes, self.kin.local_direction(parent, joint.direction))
@@ -254,6 +257,17 @@ class RelativeCoordinates:
             _Screw(names["slide"], ZERO, ZERO, -line.direction),
             _Screw(names["angle"], -line.direction, through, ZERO),
         ]
+
+    def _screw_of_hinge(self, joint: Revolute, name: str) -> _Screw:
+        """Return the screw of a hinge; where it placed its second body, that has it as its axis."""
+        kin, first, second = self.kin, self.kin.placed[joint.first], self.kin.placed[joint.second]
+        kinds = PlaceByPin | SolveHinge
+        turned = [a.body for a in kin.plan.actions if isinstance(a, kinds) and a.joint == joint]
+        if kin.is_driven(joint) or (turned == [joint.second] and joint.angle_to is None):
+            return _Screw(name, second.axes[0], second.origin, ZERO)
+        n = positive_axis_at_design(kin, joint)
+        axis = from_axes(first.axes, to_axes(first.design_axes, n))
+        return _Screw(name, axis, kin.position(first, joint.axis.through), ZERO)
 
     def _on_cross(self, body: str, screw: _Screw) -> _Screw:
         """Let a shaft turn about itself as its cross demands, not as the z-x sequence does."""
@@ -320,9 +334,11 @@ class _Closure:
 
         The length of the rod for one that a rod holds, the meeting at the pin for a rod's own.
         """
-        action = self._action_at(joint)
-        if action is None:
+        if self.kin.is_driven(joint):
             return given - self.kin.coordinates[self.kin.coordinate_of(joint)]
+        action = self._action_at(joint)
+        if action is None or (isinstance(joint, Revolute) and joint.angle_to is not None):
+            return self._placed_residual(joint, given)
         parent, sense = self.kin.placed[action.parent], 1 if joint.second == action.body else -1
         if isinstance(action, PlaceByPin):
             target = self.kin.point_motion(action.pin_body, action.pin).position
@@ -337,6 +353,21 @@ class _Closure:
         if isinstance(action, PlaceByPin):
             return gap.dot(self.kin.placed[action.body].axes[2])
         return sp.sqrt(gap.dot(gap)) - self.kin.rod_lengths[action.rod]
+
+    def _placed_residual(self, joint: Revolute | Prismatic, given: sp.Symbol) -> sp.Expr:
+        """Return how far a given coordinate is from that of the poses; of an angle, the sine."""
+        if isinstance(joint, Prismatic):
+            return given - self._slide_between(joint)
+        sine, cosine = turn_between(self.kin, joint)
+        return cosine * sp.sin(given) - sine * sp.cos(given)
+
+    def _slide_between(self, joint: Prismatic) -> sp.Expr:
+        """Return how far the second body of a guide has come along it, as the first one sees it."""
+        first, second = (self.kin.placed[body] for body in joint.bodies)
+        start = to_axes(first.design_axes, second.design_origin - first.design_origin)
+        start = self.program.vector(f"{joint.name}_start", start, "123")
+        way = to_axes(first.axes, second.origin - first.origin) - start
+        return self.kin.local_direction(first, joint.direction).dot(way)
 
     def _action_at(self, joint: Joint) -> PlaceByPin | SolveHinge | SolveSlide | None:
         kinds = PlaceByPin | SolveHinge | SolveSlide
@@ -386,7 +417,7 @@ class _Closure:
         replaced = {}
         for coordinate in self.mechanism.coordinates:
             joint = self.mechanism.joint(coordinate.joint)
-            if isinstance(joint, Revolute | Prismatic) and self._action_at(joint) is None:
+            if self.kin.is_driven(joint):
                 symbol = self.kin.coordinates[self.kin.coordinate_of(joint)]
                 replaced[symbol] = self._given(coordinate.name)
         return replaced

@@ -35,6 +35,11 @@ class PlaceByJoint:
     parent: str
     child: str
 
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"{self.child}: {self.joint.kind} joint"
+
 
 @dataclass(frozen=True)
 class SolveTelescope:
@@ -63,6 +68,11 @@ class SolveTelescope:
         """Whether the axis passes beside the end point."""
         return self.axis_point != self.end
 
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"transformer: telescope {self.joint.name}"
+
 
 @dataclass(frozen=True)
 class SolveTurn:
@@ -74,10 +84,74 @@ class SolveTurn:
     anchor: Point
     anchor_body: str
 
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"transformer: {self.body} held by {self.rod}"
+
+
+@dataclass(frozen=True)
+class PinnedTelescope:
+    """Two links on a common guide, each of them pinned to another body, in a plane.
+
+    Attributes
+    ----------
+    joint
+        The guide between the two links.
+    near, near_hinge, anchor, anchor_body
+        The link at the anchor; its hinge, at that point, and the body at the other side of it.
+    far, far_hinge, end, end_body
+        The same of the link at the end.
+    """
+
+    joint: Prismatic
+    near: str
+    near_hinge: Revolute
+    anchor: Point
+    anchor_body: str
+    far: str
+    far_hinge: Revolute
+    end: Point
+    end_body: str
+
+    @property
+    def sense(self) -> int:
+        """Return 1 if the telescope grows with the slide and its direction, -1 if it shrinks."""
+        return 1 if self.joint.second == self.far else -1
+
+    @property
+    def along_pins(self) -> bool:
+        """Whether the guide is declared to lie along the line of the two pins."""
+        between = self.joint.direction.between
+        return between is not None and set(between) == {self.anchor, self.end}
+
+
+@dataclass(frozen=True)
+class SolveStroke(PinnedTelescope):
+    """Two placed pins are the ends of a telescope in a plane: slide and direction follow."""
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"transformer: telescope {self.near}, {self.far}"
+
+
+@dataclass(frozen=True)
+class PlaceTelescope(PinnedTelescope):
+    """Two placed pins are the ends of a telescope of known slide: its direction follows."""
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"{self.near}, {self.far}: telescope"
+
 
 @dataclass(frozen=True)
 class SolveHinge:
-    """A body on a hinge of a placed body is held by a rod: its angle follows."""
+    """A body on a hinge of a placed body is held by a rod: its angle follows.
+
+    The rod may be a telescope of known slide; `rod` then is its link at the anchor.
+    """
 
     body: str
     joint: Revolute
@@ -86,11 +160,20 @@ class SolveHinge:
     end: Point
     anchor: Point
     anchor_body: str
+    telescope: PlaceTelescope | None = None
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"transformer: {self.body} held by {self.rod}"
 
 
 @dataclass(frozen=True)
 class SolveSlide:
-    """A body on a guide of a placed body is held by a rod: its slide follows."""
+    """A body on a guide of a placed body is held by a rod: its slide follows.
+
+    The rod may be a telescope of known slide; `rod` then is its link at the anchor.
+    """
 
     body: str
     joint: Prismatic
@@ -99,6 +182,12 @@ class SolveSlide:
     end: Point
     anchor: Point
     anchor_body: str
+    telescope: PlaceTelescope | None = None
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"transformer: {self.body} held by {self.rod}"
 
 
 @dataclass(frozen=True)
@@ -111,6 +200,11 @@ class PlaceByPin:
     pin: Point
     pin_body: str
 
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"{self.body}: pinned to {self.pin_body}"
+
 
 @dataclass(frozen=True)
 class PlaceByCross:
@@ -120,9 +214,14 @@ class PlaceByCross:
     parent: str
     child: str
 
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"{self.child}: cross of the universal joint"
 
-Solution = SolveTelescope | SolveTurn | SolveHinge | SolveSlide
-Action = PlaceByJoint | PlaceByPin | PlaceByCross | Solution
+
+Solution = SolveTelescope | SolveTurn | SolveHinge | SolveSlide | SolveStroke
+Action = PlaceByJoint | PlaceByPin | PlaceByCross | PlaceTelescope | Solution
 
 
 @dataclass(frozen=True)
@@ -260,6 +359,7 @@ class Plan:
     def lines(self) -> list[SolveTurn | SolveHinge | SolveSlide]:
         """Return the solutions that leave their rod on a line, free to turn about it."""
         pinned = {a.body for a in self.actions if isinstance(a, PlaceByPin)}
+        pinned |= {a.near for a in self.actions if isinstance(a, PlaceTelescope)}
         held = [a for a in self.actions if isinstance(a, SolveTurn | SolveHinge | SolveSlide)]
         return [a for a in held if a.rod not in pinned]
 
@@ -363,35 +463,57 @@ class Plan:
         if pair.equations != 1:
             return None
         for view in _views(cycle, pair):
-            action = self._telescope(view) or self._turn(view) or self._driven_by_rod(view)
+            action = (
+                self._telescope(view)
+                or self._stroke(view)
+                or self._turn(view)
+                or self._driven_by_rod(view)
+            )
             if action is not None:
                 return action
         return None
 
+    def _stroke(self, view: _CutLoop) -> SolveStroke | None:
+        """Return the action for two links on a guide in a plane, both pins on placed bodies."""
+        telescope = self._pinned_telescope(view)
+        placed = {view.others[0], view.others[-1]} <= self._placed
+        if telescope is None or not placed or self._unknowns_of(telescope.joint) == 0:
+            return None
+        return SolveStroke(**vars(telescope))
+
+    def _pinned_telescope(self, view: _CutLoop) -> PinnedTelescope | None:
+        """Return the telescope in a plane that one arc of a loop is."""
+        if len(view.joints) != 1 or not isinstance(view.joints[0], Prismatic):
+            return None
+        near, far = view.bodies
+        near_hinge = self.topology.joint_between(view.others[0], near)
+        far_hinge = self.topology.joint_between(view.others[-1], far)
+        if not (isinstance(near_hinge, Revolute) and isinstance(far_hinge, Revolute)):
+            return None
+        if {near, far} & self._placed:
+            return None
+        at_anchor = near, near_hinge, view.anchor, view.others[0]
+        return PinnedTelescope(
+            view.joints[0], *at_anchor, far, far_hinge, view.end, view.others[-1]
+        )
+
     def _driven_by_rod(self, view: _CutLoop) -> SolveHinge | SolveSlide | None:
         """Return the action for a rod from a placed point to a body on a hinge or a guide."""
-        if len(view.bodies) != 1 or not view.other_joints:
+        pinned = self._pinned_telescope(view)
+        if not (len(view.bodies) == 1 or pinned) or not view.other_joints:
             return None
-        (rod,), joint, body = view.bodies, view.other_joints[-1], view.others[-1]
+        rod, joint, body = view.bodies[0], view.other_joints[-1], view.others[-1]
         parent = joint.other(body)
         settled = {rod, body} & self._placed or self._unknowns_of(joint) == 0
         if settled or not {parent, view.others[0]} <= self._placed:
             return None
-        self._refuse_reference(joint)
-        held = parent, rod, view.end, view.anchor, view.others[0]
+        if pinned and self._unknowns_of(pinned.joint) > 0:
+            return None
+        telescope = PlaceTelescope(**vars(pinned)) if pinned else None
+        held = parent, rod, view.end, view.anchor, view.others[0], telescope
         if isinstance(joint, Revolute):
             return SolveHinge(body, joint, *held)
         return SolveSlide(body, joint, *held) if isinstance(joint, Prismatic) else None
-
-    @staticmethod
-    def _refuse_reference(joint: Joint) -> None:
-        """See that a hinge that is solved counts from the design position."""
-        if isinstance(joint, Revolute) and joint.angle_to is not None:
-            message = (
-                f"joint {joint.name!r}: the angle of a hinge that a loop determines counts from "
-                "the design position; leave out its angle_to"
-            )
-            raise NoClosedFormError(message)
 
     def _telescope(self, view: _CutLoop) -> SolveTelescope | None:
         """Return the action for two links on a common axis, both ends on placed bodies."""
@@ -421,6 +543,9 @@ class Plan:
         """Record what a solution makes known; return the coordinates that are new."""
         if isinstance(action, SolveHinge | SolveSlide):
             return self._accept_driven(action)
+        if isinstance(action, SolveStroke):
+            self.actions.append(action)
+            return self._accept_telescope(action)
         if isinstance(action, SolveTelescope):
             new = {(action.joint.name, "slide")}
             self._on_line.add(action.end_link)
@@ -450,9 +575,13 @@ class Plan:
         """Record the body that a rod drives, and the rod: placed by its hinge, or on its line."""
         self.actions.append(action)
         self._placed.add(action.body)
+        if action.telescope is not None:
+            self.actions.append(action.telescope)
+            own = {(action.joint.name, c) for c in action.joint.coordinates}
+            self._known |= own
+            return own | self._accept_telescope(action.telescope)
         carrier = self.topology.joint_between(action.anchor_body, action.rod)
         if isinstance(carrier, Revolute):
-            self._refuse_reference(carrier)
             self.actions.append(
                 PlaceByPin(action.rod, carrier, action.anchor_body, action.end, action.body)
             )
@@ -466,6 +595,14 @@ class Plan:
             new -= {
                 (j.name, c) for j in self._mechanism.joints_of(action.rod) for c in j.coordinates
             }
+        self._known |= new
+        return new
+
+    def _accept_telescope(self, action: PinnedTelescope) -> set[tuple[str, str]]:
+        """Record the two links of a telescope in a plane, and the joints at them."""
+        self._placed |= {action.near, action.far}
+        links = (action.joint, action.near_hinge, action.far_hinge)
+        new = {(j.name, c) for j in links for c in j.coordinates} - self._known
         self._known |= new
         return new
 

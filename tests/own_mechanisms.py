@@ -32,10 +32,18 @@ INERTIA: dict[str, float] = {
 """Of every body, kg m^2; those of a body differ by its number."""
 
 
-def hinge(name: str, first: str, second: str, at: str, along: str) -> Revolute:
-    """Return a hinge through a point along a direction, both of them parameters."""
+def hinge(
+    name: str, first: str, second: str, at: str, along: str, to: str | None = None
+) -> Revolute:
+    """Return a hinge through a point along a direction, both of them parameters.
+
+    Its angle counts from the design position, or from forward to a point.
+    """
     axis = Line(Point(at), Direction(along))
-    return Revolute(name=name, first=first, second=second, axis=axis, angle_from=FORWARD)
+    mark = None if to is None else Point(to)
+    return Revolute(
+        name=name, first=first, second=second, axis=axis, angle_from=FORWARD, angle_to=mark
+    )
 
 
 def guide(name: str, first: str, second: str, along: str) -> Prismatic:
@@ -71,7 +79,6 @@ def declare(
     spring: tuple[str, str],
     prescribed: Mapping[str, str] | None = None,
     wheel: tuple[str, Place] | None = None,
-    unreported: tuple[str, ...] = (),
 ) -> Model:
     """Return a model with weight, a spring with a damper, and a force on every coordinate.
 
@@ -83,17 +90,13 @@ def declare(
         Two points; each is taken with the body whose name begins its own.
     wheel
         Name of a rotor among the bodies, with the direction of its axis.
-    unreported
-        Hinges whose angle no closed form gives: those between two bodies that a loop places.
     """
     prescribed = prescribed or {}
     centers = {f"{body}_com": place for body, place in bodies.items()}
     directions = dict(directions) | ({"spin": wheel[1]} if wheel else {})
     spinning = {wheel[0]: Direction("spin")} if wheel else {}
     seats = tuple((p.split("_", maxsplit=1)[0], Point(p)) for p in spring)
-    reported = [
-        j for j in joints if isinstance(j, Revolute | Prismatic) and j.name not in unreported
-    ]
+    reported = [j for j in joints if isinstance(j, Revolute | Prismatic)]
     parameters = [
         *(entry for n, place in {**points, **centers}.items() for entry in point(n, place, n)),
         *(entry for n, along in directions.items() for entry in direction(n, along, n)),
@@ -108,9 +111,11 @@ def declare(
         Parameter("gravity", 9.81, "m/s^2", "acceleration of gravity"),
     ]
     inputs = {f"{j}_force": ("N or N m", f"force along {j}") for j in independent}
-    for motion in prescribed.values():
+    slides = {j.name for j in joints if isinstance(j, Prismatic)}
+    for joint, motion in prescribed.items():
+        base = "m" if joint in slides else "rad"
         for kind, unit in (("position", ""), ("velocity", "/s"), ("acceleration", "/s^2")):
-            inputs[f"{motion}_{kind}"] = (f"rad{unit}", f"{kind} of {motion}")
+            inputs[f"{motion}_{kind}"] = (f"{base}{unit}", f"{kind} of {motion}")
     mechanism = Mechanism(
         name=name,
         title=name,
@@ -323,7 +328,6 @@ def oblique_four_bar() -> Model:
         ("swing", "drive", "spinning"),
         spring=("ground_seat", "coupler_seat"),
         wheel=("wheel", (0.4, 0.7, -0.3)),
-        unreported=("knuckle",),
     )
 
 
@@ -355,7 +359,6 @@ def oblique_slider_crank(name: str, *, driven: str) -> Model:
         {"base_line": (0.3, -0.5, 0.9), "normal": NORMAL, "way_axis": heading(0.2)},
         ("swing", driven),
         spring=("ground_seat", "rod_seat"),
-        unreported=("wrist",) if driven == "drive" else ("knee",),
     )
 
 
@@ -391,7 +394,102 @@ def oblique_trammel() -> Model:
         },
         ("swing", "drive"),
         spring=("ground_seat", "rod_seat"),
-        unreported=("wrist",),
+    )
+
+
+# -- telescopes in an oblique plane, on a base that turns ------------------------------------------
+
+
+def given_telescope() -> Model:
+    """Return a boom held by a cylinder of given stroke, whose guide passes beside both pins."""
+    return declare(
+        "given_telescope",
+        {
+            "base": (0.15, -0.3, 0.2),
+            "boom": askew(0.1, 0.2, 0.04),
+            "barrel": askew(0.24, 0.05, -0.03),
+            "piston": askew(0.2, 0.15, 0.02),
+        },
+        (
+            hinge("swing", "ground", "base", "base_bearing", "base_line"),
+            hinge("foot", "base", "barrel", "barrel_pin", "normal"),
+            guide("bore", "piston", "barrel", "bore_axis"),
+            hinge("head", "piston", "boom", "piston_pin", "normal"),
+            hinge("pivot", "base", "boom", "boom_bearing", "normal", to="boom_seat"),
+        ),
+        {
+            "base_bearing": (0.0, -0.1, 0.1),
+            "boom_bearing": askew(0.0, 0.0, 0.05),
+            "barrel_pin": askew(0.3, -0.05, -0.02),
+            "piston_pin": askew(0.12, 0.25, 0.03),
+            "ground_seat": (0.5, 0.2, 0.4),
+            "boom_seat": askew(0.1, 0.4, 0.06),
+        },
+        {"base_line": (0.3, -0.5, 0.9), "normal": NORMAL, "bore_axis": heading(2.4)},
+        ("swing",),
+        spring=("ground_seat", "boom_seat"),
+        prescribed={"bore": "bore"},
+    )
+
+
+def inverted_slider_crank() -> Model:
+    """Return a crank whose pin carries a block that slides along a rocker.
+
+    All joints but the driven ones are declared from the far body to the near one.
+    """
+    return declare(
+        "inverted_crank",
+        {
+            "base": (0.15, -0.3, 0.2),
+            "crank": askew(0.02, 0.06, 0.04),
+            "block": askew(0.05, 0.12, -0.03),
+            "rocker": askew(0.2, 0.15, 0.02),
+        },
+        (
+            hinge("swing", "ground", "base", "base_bearing", "base_line"),
+            hinge("pivot", "rocker", "base", "rocker_bearing", "normal", to="ground_seat"),
+            guide("way", "rocker", "block", "way_axis"),
+            hinge("pin", "block", "crank", "crank_pin", "normal"),
+            hinge("drive", "base", "crank", "crank_bearing", "normal", to="crank_pin"),
+        ),
+        {
+            "base_bearing": (0.0, -0.1, 0.1),
+            "crank_bearing": askew(0.0, 0.0, 0.05),
+            "crank_pin": askew(0.0, 0.1, -0.02),
+            "rocker_bearing": askew(0.4, 0.05, 0.03),
+            "ground_seat": (0.5, 0.2, 0.4),
+            "rocker_seat": askew(0.2, 0.15, 0.06),
+        },
+        {"base_line": (0.3, -0.5, 0.9), "normal": NORMAL, "way_axis": heading(0.1)},
+        ("swing", "drive"),
+        spring=("ground_seat", "rocker_seat"),
+    )
+
+
+def pushed_slider() -> Model:
+    """Return a slider on a guide, pushed by a cylinder whose stroke is driven."""
+    return declare(
+        "pushed_slider",
+        {
+            "barrel": askew(0.06, 0.1, 0.04),
+            "piston": askew(0.2, 0.06, -0.03),
+            "slider": askew(0.33, 0.04, 0.02),
+        },
+        (
+            hinge("foot", "ground", "barrel", "barrel_pin", "normal"),
+            guide("bore", "barrel", "piston", "bore_axis"),
+            hinge("wrist", "slider", "piston", "slider_pin", "normal"),
+            guide("way", "slider", "ground", "way_axis"),
+        ),
+        {
+            "barrel_pin": askew(0.0, 0.12, 0.05),
+            "slider_pin": askew(0.3, 0.02, 0.03),
+            "ground_seat": (0.5, 0.2, 0.4),
+            "slider_seat": askew(0.36, 0.1, 0.06),
+        },
+        {"normal": NORMAL, "bore_axis": heading(-0.5), "way_axis": heading(0.2)},
+        ("bore",),
+        spring=("ground_seat", "slider_seat"),
     )
 
 
@@ -444,7 +542,6 @@ def chain() -> Model:
         },
         ("drive",),
         spring=("ground_seat", "rod_seat"),
-        unreported=("knuckle",),
     )
 
 
@@ -457,6 +554,9 @@ MODELS = (
     oblique_slider_crank("oblique_crank", driven="drive"),
     oblique_slider_crank("oblique_piston", driven="way"),
     oblique_trammel(),
+    given_telescope(),
+    inverted_slider_crank(),
+    pushed_slider(),
     chain(),
 )
 """All of them, each as one model."""

@@ -164,7 +164,7 @@ def test_names_that_code_cannot_have(changes, words):
 
 
 @pytest.mark.parametrize("name", ["rocker_length", "shared_1", "constant_1", "coupler_reach_x"])
-def test_parameter_with_the_name_of_an_internal_step(name, tmp_path):
+def test_parameter_with_the_name_of_an_internal_step(name):
     """The step gives way, and the numbers stay."""
     (model,) = four_bar.MODELS
     parameters = [

@@ -16,12 +16,12 @@ import numpy as np
 import own_mechanisms
 import pytest
 from kintrafo.generator.forces import AlongLine
-from kintrafo.generator.mechanism import Model
+from kintrafo.generator.geometry import FORWARD
+from kintrafo.generator.mechanism import Model, RelativeCoordinate
 from kintrafo.generator.mechanisms import MODELS as SHIPPED
 from kintrafo.generator.outputs import GeneratedModel, generate
-from kintrafo.generator.transformer import NoClosedFormError, Plan
 from oracle.constraints import Array
-from oracle.maximal import Jet, Motion
+from oracle.maximal import Jet, Motion, Oracle
 from oracle.reference import completed, general_parameters
 from own_models import Built, needs_gcc, own, shipped
 from scipy.integrate import solve_ivp
@@ -377,7 +377,12 @@ def test_lengths_of_force_elements(name: str, seed: int, module: Modules) -> Non
 
 
 CONSERVATIVE = [n for n in MODELS if not n.startswith("macpherson")]
-START = {"andrews": 100.0, "oblique_piston": 0.3, "oblique_trammel": 0.3}
+START = {
+    "andrews": 100.0,
+    "oblique_piston": 0.3,
+    "oblique_trammel": 0.3,
+    "pushed_slider": 0.3,
+}
 """Rates at the start where they are not 2 rad/s (or m/s)."""
 AFLOAT = {"tyre_rate": 0.0, "spring_free_length": 0.44}
 """A double wishbone without a road, on a spring that carries the arms only."""
@@ -434,9 +439,46 @@ def test_a_hardpoint_may_be_carried_by_two_bodies(tmp_path: Path) -> None:
     assert signals["second_length"] == pytest.approx(length, rel=1e-13)
 
 
-def test_a_solved_hinge_that_counts_from_elsewhere_is_refused() -> None:
+@pytest.mark.parametrize("joint", ["A", "B", "C", "D"])
+@pytest.mark.parametrize("counted", [False, True], ids=["from design", "to a point"])
+def test_every_angle_of_a_planar_loop_can_be_reported(joint: str, *, counted: bool) -> None:
+    """The pin at which the loop closes, too; also where the angle counts to a hardpoint."""
     mechanism = MODELS["four_bar"].mechanism
-    pin = mechanism.joint("C").axis.through
-    joints = [replace(j, angle_to=pin) if j.name == "D" else j for j in mechanism.joints]
-    with pytest.raises(NoClosedFormError, match=r"'D': .* leave out its angle_to"):
-        Plan.of(four_bar("counted", joints=tuple(joints)))
+    declared = mechanism.joint(joint)
+    if counted:
+        marker = mechanism.body(declared.second).center
+        declared = replace(declared, angle_to=marker, angle_from=FORWARD)
+    model = four_bar(
+        "reported",
+        joints=tuple(declared if j.name == joint else j for j in mechanism.joints),
+        coordinates=(
+            *(c for c in mechanism.coordinates if c.joint in {"A"} - {joint}),
+            RelativeCoordinate("shown", joint, "angle", "rad", "angle"),
+        ),
+    )
+    derived = generate(model)
+    given = {p.name: p.default for p in mechanism.parameters}
+    constants = constants_of(derived, given)
+    (crank, _), shown = derived.state, derived.functions["relative_coordinates"]
+    oracle = Oracle(model, given)
+    for turn in np.linspace(-3.0, 3.0, 7):
+        start = oracle.driven(Built(model, None, given).at_design, "A").value[0]
+        values = constants | {crank.name: start + turn, f"{crank.name}_rate": 0.0}
+        pose = motion_of(derived, values | {"crank_torque": 0.0})
+        angle = dict(zip(shown.labels, python(shown)(values), strict=True))["shown"]
+        expected = oracle.coordinate(pose, declared, "angle")
+        assert whole_turns_off(expected, float(angle)) < 1e-13
+
+
+def motion_of(derived: GeneratedModel, values: dict[str, Any]) -> Motion:
+    """Return poses and twists of all bodies, from the symbolic program."""
+
+    def found(name: str, *shape: int) -> Array:
+        numbers = python(derived.functions[name])(values)
+        return np.array([float(n) for n in numbers]).reshape(-1, *shape)
+
+    return Motion(
+        np.concatenate((np.zeros((1, 3)), found("positions", 3))),
+        np.concatenate((np.eye(3)[None], found("orientations", 3, 3))),
+        np.concatenate((np.zeros((1, 6)), np.roll(found("velocities", 6), 3, axis=1))),
+    )

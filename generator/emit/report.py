@@ -6,7 +6,7 @@ from itertools import zip_longest
 from typing import TYPE_CHECKING
 
 from ..arithmetic import OPERATIONS
-from ..transformer import SolveSlide, SolveTelescope, Transformer
+from ..transformer import SolveSlide, SolveStroke, SolveTelescope, Transformer
 from .c import mechanism_hash
 
 if TYPE_CHECKING:
@@ -84,6 +84,12 @@ def equation(transformer: Transformer) -> tuple[str, str]:
         return (
             f"{ends} = {joint.length_at_zero_slide} - {joint.name}.slide",
             "explicit: the length is the root of a sum of squares",
+        )
+    if isinstance(action, SolveStroke):
+        ends = f"|{action.end.name} - {action.anchor.name}|"
+        return (
+            f"{ends} = length of {action.near} and {action.far} at {action.joint.name}.slide",
+            "explicit: the way along the guide is the root of a difference of squares",
         )
     if isinstance(action, SolveSlide):
         return (

@@ -6,17 +6,38 @@ serves the acceleration level again. Everything is written in the axes that the 
 gives to the body (line, steering arm, normal), in which most components vanish.
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ..transformer import (
+    PlaceByCross,
+    PlaceByPin,
+    PlaceTelescope,
+    SolveHinge,
+    SolveSlide,
+    SolveStroke,
+    SolveTelescope,
+    SolveTurn,
+)
 from .cross import place_by_cross
 from .hinge import place_by_pin, solve_hinge
 from .slide import solve_slide
+from .stroke import place_telescope, solve_stroke
 from .telescope import solve_telescope
 from .turn import solve_turn
 
-__all__ = [
-    "place_by_cross",
-    "place_by_pin",
-    "solve_hinge",
-    "solve_slide",
-    "solve_telescope",
-    "solve_turn",
-]
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+CATALOGUE: dict[type, Callable[..., Any]] = {
+    PlaceByCross: place_by_cross,
+    PlaceByPin: place_by_pin,
+    PlaceTelescope: place_telescope,
+    SolveHinge: solve_hinge,
+    SolveSlide: solve_slide,
+    SolveStroke: solve_stroke,
+    SolveTelescope: solve_telescope,
+    SolveTurn: solve_turn,
+}
+"""What carries out each action of a plan, on kinematics and action."""

@@ -14,7 +14,8 @@ Branch: s is the sign of (D - E) . (n x t) at the design position. Valid while `
 the edge is the dead point where rod, D and the line are in one plane. Singular: E on the line.
 
 The body axes are (n, t, n x t). In them D - E = (-w_n, rho - k, s sqrt(|w_p|^2 - k^2)), so the
-turning rate follows from ``(D - E) . (v_D - v_E) = 0`` with one division.
+turning rate follows from ``(D - E) . (v_D - v_E) = l l'`` with one division. The right side is zero
+but for a telescope of known slide, which is a rod of known variable length (`rod`).
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ import sympy as sp
 
 from ..arithmetic import SignOf
 from ..vectors import ZERO, Vector
+from .rod import Rod
 
 if TYPE_CHECKING:
     from ..geometry import Point
@@ -78,12 +80,12 @@ class Reach:
 
 @dataclass(frozen=True)
 class Fit:
-    """The solution: body axes, D - E in them, and the factor of the turning rate."""
+    """The solution: body axes, D - E in them, the factor of the turning rate, and the rod."""
 
     axes: Axes
     gap: Vector
     hold: sp.Expr
-    rod_length: sp.Expr
+    rod: Rod
 
 
 def fit_rod(
@@ -91,10 +93,8 @@ def fit_rod(
 ) -> Fit:
     """Turn an arm about a line until the rod of an action fits."""
     program, body, rho = kin.program, action.body, arm.radius
-    rod = program.vector(f"{action.rod}_design", kin.design(action.end) - kin.design(action.anchor))
-    length = program.define(f"{action.rod}_length", sp.sqrt(rod.dot(rod)))
-    kin.rod_lengths[action.rod] = length
-    branch = program.define(f"{body}_branch", SignOf(rod.dot(arm.design_axes[2])))
+    rod = Rod.of(kin, action)
+    branch = program.define(f"{body}_branch", SignOf(rod.design.dot(arm.design_axes[2])))
     loop = kin.loop_of(action)
     squared = program.guarded(
         f"{body}_reach_squared",
@@ -105,7 +105,7 @@ def fit_rod(
     )
     k = program.define(
         f"{body}_reach_needed",
-        (squared + reach.axial**2 + (rho**2 - length**2)) * (1 / (2 * rho)),
+        (squared + reach.axial**2 + (rho**2 - rod.squared)) * (1 / (2 * rho)),
     )
     room = program.guarded(
         f"{body}_closure",
@@ -126,4 +126,4 @@ def fit_rod(
     height = program.define(f"{body}_rod_height", branch * root)
     gap = program.vector(f"{body}_rod", Vector(-reach.axial, rho - k, height), "123")
     hold = program.define(f"{body}_hold", -branch / (rho * root))
-    return Fit(axes, gap, hold, length)
+    return Fit(axes, gap, hold, rod)

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from ..joints import Revolute
     from ..kinematics import Kinematics
     from ..transformer import PlaceByPin, SolveHinge
+    from .rod import Rod
 
 
 @dataclass(frozen=True)
@@ -62,7 +63,8 @@ def solve_hinge(kin: Kinematics, action: SolveHinge) -> None:
     """Turn a body about its hinge until a rod fits: two ball joints and a hinge, or three hinges.
 
     The equation is that of `arm`, about the axis of the hinge, which is fixed in the parent. In a
-    plane w_n is zero, and this is the dyad of three hinges.
+    plane w_n is zero, and this is the dyad of three hinges. A telescope of known slide may be the
+    rod: boom, cylinder and chassis of a crane, driven by the stroke.
     """
     program, body = kin.program, action.body
     hinge = _hinge(kin, body, action.joint, action.parent, action.end)
@@ -75,10 +77,10 @@ def solve_hinge(kin: Kinematics, action: SolveHinge) -> None:
         program.vector(f"{body}_reach_normal", hinge.axis.cross(e)),
     )
     fit = fit_rod(kin, action, hinge.arm, hinge.axis, reach)
-    _place(kin, hinge, fit.axes, _Condition(anchor, fit.gap, fit.hold))
+    _place(kin, hinge, fit.axes, _Condition(anchor, fit.gap, fit.hold, fit.rod))
     _report_angle(kin, action.joint, hinge, fit.axes)
     if any(a.rod == action.rod for a in kin.plan.lines()):
-        place_rod(kin, action, anchor, fit.rod_length)
+        place_rod(kin, action, anchor, fit.rod.length)
 
 
 def place_by_pin(kin: Kinematics, action: PlaceByPin) -> None:
@@ -103,11 +105,24 @@ def place_by_pin(kin: Kinematics, action: PlaceByPin) -> None:
 
 @dataclass(frozen=True)
 class _Condition:
-    """What determines the rate of the angle: ``gap . (v_D - v_E) = 0`` for a target E."""
+    """What determines the rate of the angle: ``gap . (v_D - v_E) = l l'`` for a target E.
+
+    Without a rod the right side is zero.
+    """
 
     target: PointMotion
     gap: Vector
     hold: sp.Expr
+    rod: Rod | None = None
+
+    def stretch(self, coordinate: str) -> sp.Expr:
+        """Return l l' per unit rate of a coordinate."""
+        return self.rod.stretch.get(coordinate, sp.Integer(0)) if self.rod else sp.Integer(0)
+
+    @property
+    def stretch_bias(self) -> sp.Expr:
+        """What l l' changes by without accelerations of the independent coordinates."""
+        return self.rod.stretch_bias if self.rod else sp.Integer(0)
 
 
 def _place(kin: Kinematics, hinge: _Hinge, axes: Axes, condition: _Condition) -> None:
@@ -129,13 +144,15 @@ def _place(kin: Kinematics, hinge: _Hinge, axes: Axes, condition: _Condition) ->
     def carried(label: str, v: Vector) -> Vector:
         return to_body(label, from_axes(parent.axes, v))
 
-    names = dict.fromkeys([*hinge.origin.motion, *parent.motion, *condition.target.motion])
-    for k in names:
+    stretching = condition.rod.stretch if condition.rod else {}
+    names = [*hinge.origin.motion, *parent.motion, *condition.target.motion, *stretching]
+    for k in dict.fromkeys(names):
         base = to_body(f"velocity_{k}", hinge.origin.motion.get(k, ZERO))
         swing = carried(f"carried_{k}", parent.motion[k].angular) if k in parent.motion else ZERO
         target = to_body(f"target_{k}", condition.target.motion.get(k, ZERO))
         slip = base - target + swing.cross(arm)
-        turn = program.define(f"{body}_turn_{k}", gap.dot(slip) * hold)
+        fitted = gap.dot(slip) - condition.stretch(k)
+        turn = program.define(f"{body}_turn_{k}", fitted * hold)
         omega = program.vector(f"{body}_omega_{k}", swing + UNIT_X * turn, "123")
         placed.motion[k] = Twist(omega, base)
         rate += (base - target + omega.cross(arm)) * kin.rate(k)
@@ -152,7 +169,8 @@ def _place(kin: Kinematics, hinge: _Hinge, axes: Axes, condition: _Condition) ->
         whirl = program.vector(f"{body}_whirl", omega.cross(arm), "123")
         pull = base - target + omega.cross(whirl) + alpha.cross(arm)
         slack = now.dot(now) if gap.x != 0 or gap.y != 0 else sp.Integer(0)
-        turn = program.define(f"{body}_turn_bias", (gap.dot(pull) + slack) * hold)
+        fitted = gap.dot(pull) + slack - condition.stretch_bias
+        turn = program.define(f"{body}_turn_bias", fitted * hold)
         return kin.define_bias(body, Twist(alpha + UNIT_X * turn, base))
 
     placed.bias = once(bias)

@@ -10,6 +10,7 @@ from ..arithmetic import SignOf
 from ..placement import Placed, from_axes
 from ..vectors import ZERO, Twist
 from .lines import once, place_rod, projector
+from .rod import Rod
 
 if TYPE_CHECKING:
     from ..kinematics import Kinematics
@@ -26,18 +27,17 @@ def solve_slide(kin: Kinematics, action: SolveSlide) -> None:
 
     Branch: s is the sign of d . (D - E) at the design position. Valid while the root is real; the
     edge is the dead point where the rod stands across the guide. The rate follows from
-    ``(D - E) . (v_D - v_E) = 0``, whose factor is (D - E) . d = s sqrt(...).
+    ``(D - E) . (v_D - v_E) = l l'``, whose factor is (D - E) . d = s sqrt(...) and whose right side
+    is zero but for a telescope of known slide (`rod`).
     """
     program, body, joint = kin.program, action.body, action.joint
     parent = kin.placed[action.parent]
     local = kin.local_direction(parent, joint.direction)
     d = program.vector(f"{body}_guide", from_axes(parent.axes, local))
     anchor = kin.point_motion(action.anchor_body, action.anchor)
-    rod = program.vector(f"{action.rod}_design", kin.design(action.end) - kin.design(action.anchor))
-    length = program.define(f"{action.rod}_length", sp.sqrt(rod.dot(rod)))
-    kin.rod_lengths[action.rod] = length
+    rod = Rod.of(kin, action)
     branch = program.define(
-        f"{body}_branch", SignOf(rod.dot(kin.design_direction(joint.direction)))
+        f"{body}_branch", SignOf(rod.design.dot(kin.design_direction(joint.direction)))
     )
     start = program.vector(
         f"{body}_start", parent.origin + from_axes(parent.axes, kin.local(parent, action.end))
@@ -47,7 +47,7 @@ def solve_slide(kin: Kinematics, action: SolveSlide) -> None:
     across = program.vector(f"{body}_reach_across", w - d * along)
     room = program.guarded(
         f"{body}_closure",
-        length**2 - across.dot(across),
+        rod.squared - across.dot(across),
         f"{kin.loop_of(action)} cannot close: the rod {action.rod} is too short to reach the guide "
         f"of {body}",
         "m^2",
@@ -70,12 +70,13 @@ def solve_slide(kin: Kinematics, action: SolveSlide) -> None:
     gap = program.vector(f"{body}_rod", to_body("rod_now", d * (branch * root) - across), "123")
     hold = program.define(f"{body}_hold", -branch / root)
     rate = ZERO
-    for k in dict.fromkeys([*parent.motion, *anchor.motion]):
+    for k in dict.fromkeys([*parent.motion, *anchor.motion, *rod.stretch]):
         carried = parent.motion.get(k, Twist(ZERO, ZERO))
         base = carried.linear + carried.angular.cross(offset)
         target = to_body(f"target_{k}", anchor.motion.get(k, ZERO))
         slip = base - target + carried.angular.cross(arm)
-        speed = program.define(f"{body}_speed_{k}", gap.dot(slip) * hold)
+        fitted = gap.dot(slip) - rod.stretch.get(k, sp.Integer(0))
+        speed = program.define(f"{body}_speed_{k}", fitted * hold)
         twist = kin.define_twist(body, k, Twist(carried.angular, base + local * speed))
         placed.motion[k] = twist
         rate += (twist.linear - target + carried.angular.cross(arm)) * kin.rate(k)
@@ -89,9 +90,10 @@ def solve_slide(kin: Kinematics, action: SolveSlide) -> None:
         base = kin.point_bias(parent, offset) + omega.cross(pace) * 2
         target = to_body("target_bias", anchor.bias)
         pull = base - target + carried.angular.cross(arm) + omega.cross(omega.cross(arm))
-        speed = program.define(f"{body}_speed_bias", (gap.dot(pull) + now.dot(now)) * hold)
+        fitted = gap.dot(pull) + now.dot(now) - rod.stretch_bias
+        speed = program.define(f"{body}_speed_bias", fitted * hold)
         return kin.define_bias(body, Twist(carried.angular, base + local * speed))
 
     placed.bias = once(bias)
     if any(a.rod == action.rod for a in kin.plan.lines()):
-        place_rod(kin, action, anchor, length)
+        place_rod(kin, action, anchor, rod.length)

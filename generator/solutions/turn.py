@@ -48,7 +48,7 @@ def solve_turn(kin: Kinematics, action: SolveTurn) -> None:
     )
     _turn_motion(kin, placed, record, base, arm.local, fit, rod_anchor)
     kin.placed[action.body] = placed
-    place_rod(kin, action, rod_anchor, fit.rod_length)
+    place_rod(kin, action, rod_anchor, fit.rod.length)
 
 
 @dataclass(frozen=True)

@@ -215,6 +215,9 @@ class Oracle:
         """Return the unit vector of a direction at design."""
         if direction.fixed is not None:
             return unit(np.array([float(c) for c in direction.fixed]))
+        if direction.between is not None:
+            start, end = map(self.place, direction.between)
+            return unit(end - start)
         return unit(np.array([self.parameters[f"{direction.name}_{axis}"] for axis in "xyz"]))
 
     def axis(self, line: Line) -> Array:

@@ -1,0 +1,136 @@
+"""What holds a body: a link of constant length, or a telescope of known slide.
+
+A telescope in a plane whose slide x is known is a rod of known variable length. With d the
+direction of the guide, n that of the hinges, and (h, c, e) the way from pin to pin at the design
+position, along n, along d and along n x d,
+
+    l^2 = (c + x)^2 + e^2 + h^2,    l l' = (c + x) x',    (l l')' = x'^2 + (c + x) x''.
+
+These three are all that the closed forms of `arm` and `slide` read of it, at position, velocity and
+acceleration level. Where the guide lies along the line of the pins, e = h = 0 and c is the length.
+Valid while c + x has the sign that it has at the design position.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ..arithmetic import SignOf
+from ..vectors import ZERO, Vector
+
+if TYPE_CHECKING:
+    from ..kinematics import Kinematics
+    from ..placement import Axes
+    from ..transformer import PinnedTelescope, SolveHinge, SolveSlide, SolveTurn
+
+
+@dataclass(frozen=True)
+class Rod:
+    """A rod between two points, from the anchor to the end.
+
+    Attributes
+    ----------
+    design
+        The way from the anchor to the end at the design position (work axes).
+    length, squared
+        Length and its square.
+    stretch
+        Length times its rate, per unit rate of each coordinate that changes it.
+    stretch_bias
+        What the second derivative of half the square is without accelerations of the independent
+        coordinates.
+    """
+
+    design: Vector
+    length: sp.Expr
+    squared: sp.Expr
+    stretch: dict[str, sp.Expr] = field(default_factory=dict)
+    stretch_bias: sp.Expr = sp.S.Zero
+
+    @classmethod
+    def of(cls, kin: Kinematics, action: SolveTurn | SolveHinge | SolveSlide) -> Rod:
+        """Return the rod of an action."""
+        design = kin.design(action.end) - kin.design(action.anchor)
+        design = kin.program.vector(f"{action.rod}_design", design)
+        telescope = getattr(action, "telescope", None)
+        if telescope is None:
+            length = kin.program.define(f"{action.rod}_length", sp.sqrt(design.dot(design)))
+            rod = cls(design, length, length**2)
+        else:
+            rod = cls._telescopic(kin, telescope, design)
+        kin.rod_lengths[action.rod] = rod.length
+        return rod
+
+    @classmethod
+    def _telescopic(cls, kin: Kinematics, telescope: PinnedTelescope, design: Vector) -> Rod:
+        """Return a telescope of known slide as a rod."""
+        near = telescope.near
+        guide = Guide.of(kin, telescope)
+        extension = guide.known_extension(kin)
+        beside = guide.start.x**2 + guide.start.z**2
+        squared = kin.program.define(f"{near}_length_squared", extension**2 + beside)
+        coordinate = kin.coordinate_of(telescope.joint)
+        stretch, bias = {}, sp.Integer(0)
+        if coordinate in kin.moving:
+            stretch[coordinate] = telescope.sense * extension
+            given = telescope.sense * kin.acceleration(coordinate)
+            bias = kin.rate(coordinate) ** 2 + extension * given
+        return cls(design, sp.sqrt(squared), squared, stretch, bias)
+
+
+@dataclass(frozen=True)
+class Guide:
+    """The guide of a telescope in a plane, from the design position (constants).
+
+    Attributes
+    ----------
+    axes
+        Axes of both links: hinge n, guide d, and n x d; in work axes.
+    start
+        The way from pin to pin along these axes, (h, c, e).
+    branch
+        Sign of c.
+    """
+
+    telescope: PinnedTelescope
+    axes: Axes
+    start: Vector
+    branch: sp.Expr
+
+    @classmethod
+    def of(cls, kin: Kinematics, telescope: PinnedTelescope) -> Guide:
+        """Describe the guide of a telescope."""
+        program, near = kin.program, telescope.near
+        n = kin.unit(f"{near}_hinge_design", kin.to_work(telescope.near_hinge.axis.vector))
+        span = kin.design(telescope.end) - kin.design(telescope.anchor)
+        span = program.vector(f"{near}_span_design", span)
+        if telescope.along_pins:
+            branch = telescope.joint.direction.between == (telescope.anchor, telescope.end)
+            sign = sp.Integer(1 if branch else -1)
+            length = program.define(f"{near}_length_design", sp.sqrt(span.dot(span)))
+            d = program.vector(f"{near}_guide_design", span * (sign / length))
+            start = Vector(ZERO.x, sign * length, ZERO.z)
+        else:
+            d = kin.design_direction(telescope.joint.direction)
+            side = program.vector(f"{near}_side_design", n.cross(d))
+            along = (span.dot(axis) for axis in (n, d, side))
+            start = program.vector(f"{near}_start", Vector(*along), "123")
+            sign = program.define(f"{near}_branch", SignOf(start.y))
+        side = program.vector(f"{near}_side_design", n.cross(d))
+        return cls(telescope, (n, d, side), start, sign)
+
+    def known_extension(self, kin: Kinematics) -> sp.Expr:
+        """Return c + x of a telescope of known slide x."""
+        telescope = self.telescope
+        slide = kin.coordinates[kin.coordinate_of(telescope.joint)]
+        drawn = kin.program.guarded(
+            f"{telescope.near}_extension",
+            self.branch * (self.start.y + telescope.sense * slide),
+            f"the telescope of {telescope.near} and {telescope.far} is drawn in until its pins "
+            f"{telescope.anchor.name} and {telescope.end.name} meet, or pass each other",
+            "m",
+        )
+        return self.branch * drawn
