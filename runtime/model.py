@@ -7,7 +7,8 @@ from types import ModuleType
 from typing import Any
 
 from .errors import InputError
-from .generated import macpherson, macpherson_free_rack, macpherson_general
+from .generated import double_wishbone, macpherson, macpherson_free_rack, macpherson_general
+from .input.macpherson import MacPherson
 from .input.suspension import Suspension
 from .system import System
 
@@ -31,7 +32,8 @@ class Model(System):
     ----------
     suspension : Suspension
     equations : module
-        `kintrafo.generated.macpherson`, ``macpherson_free_rack`` or ``macpherson_general``.
+        `kintrafo.generated.macpherson`, ``macpherson_free_rack``, ``macpherson_general`` or
+        ``double_wishbone``.
     parameters, constants, design_state
         As of `System`.
 
@@ -72,6 +74,15 @@ def _suspension_of(given: Any) -> Suspension:
 
 def _equations_for(suspension: Suspension, *, free_rack: bool) -> ModuleType:
     """Return the shortest equations that have everything that a suspension has."""
+    if isinstance(suspension, MacPherson):
+        return _macpherson(suspension, free_rack=free_rack)
+    if free_rack:
+        problem = f"free_rack=True: the rack of a {suspension.TITLE} is prescribed. Leave that out."
+        raise InputError([problem], "Model")
+    return double_wishbone
+
+
+def _macpherson(suspension: MacPherson, *, free_rack: bool) -> ModuleType:
     beyond = suspension.beyond_the_paper()
     if not beyond:
         return macpherson_free_rack if free_rack else macpherson
@@ -85,7 +96,7 @@ def _equations_for(suspension: Suspension, *, free_rack: bool) -> ModuleType:
 
 
 def _refuse_neglected_mass(parameters: Mapping[str, float]) -> None:
-    heavy = [body for body in _MASSLESS_IN_THE_PAPER if parameters[f"{body}_mass"] > 0.0]
+    heavy = [body for body in _MASSLESS_IN_THE_PAPER if parameters.get(f"{body}_mass", 0.0) > 0.0]
     if heavy:
         raise InputError(
             [

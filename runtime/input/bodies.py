@@ -1,4 +1,4 @@
-"""The bodies of a MacPherson suspension: masses, centres of mass and inertia tensors."""
+"""The bodies of a suspension: masses, centres of mass and inertia tensors."""
 
 from abc import abstractmethod
 
@@ -11,9 +11,6 @@ from .units import in_metres
 from .vectors import Vector, components
 
 _ELEMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
-
-# Where the knuckle's centre of mass lies on the strut axis, above the ball joint, if not given.
-_DEFAULT_COM_ALONG_STRUT_MM = 120.0
 
 # What rounding may do to a principal moment of inertia, relative to the largest element.
 _ROUNDING = 1e-9
@@ -80,40 +77,6 @@ class RigidBody(Section):
         return [f"{names} kg m^2: {reason}"] if reason else []
 
 
-class ControlArm(RigidBody):
-    """The control arm."""
-
-    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
-        """Return the centroid of the arm's three hardpoints, in m."""
-        bearings = points.metres("arm_front") + points.metres("arm_rear")
-        return (bearings + points.metres("ball_joint")) / 3.0
-
-
-class Knuckle(RigidBody):
-    """The knuckle with the lower tube of the strut."""
-
-    com_along_strut_mm: Number | None = Field(
-        default=None, description="distance of the centre of mass from ball_joint to strut_top"
-    )
-
-    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
-        """Return the point on the strut axis at the given distance above the ball joint, in m."""
-        given = self.com_along_strut_mm
-        distance = in_metres(_DEFAULT_COM_ALONG_STRUT_MM if given is None else given, "mm")
-        return points.metres("ball_joint") + distance * points.strut_axis()
-
-    def problems(self) -> list[str]:
-        """Refuse two places of the centre of mass, besides what holds for every body."""
-        problems = super().problems()
-        if self.com_mm is not None and self.com_along_strut_mm is not None:
-            problems.append(
-                f"com_mm = {list(self.com_mm)} mm and com_along_strut_mm = "
-                f"{self.com_along_strut_mm} mm both place the centre of mass; one is allowed. "
-                "Remove the other."
-            )
-        return problems
-
-
 class TieRod(RigidBody):
     """The tie rod."""
 
@@ -128,14 +91,6 @@ class Rack(RigidBody):
     def default_centre_of_mass(self, points: Hardpoints) -> Vector:
         """Return the joint with the tie rod, in m."""
         return points.metres("tie_rod_inner")
-
-
-class UpperStrut(RigidBody):
-    """The upper strut: the piston rod with what turns with it."""
-
-    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
-        """Return the upper mount, in m."""
-        return points.metres("strut_top")
 
 
 class WheelBody(Section):
@@ -162,19 +117,14 @@ class WheelBody(Section):
 
 
 class Bodies(Section):
-    """All bodies that may carry mass. Tie rod, rack and upper strut are massless if left out."""
+    """All bodies that may carry mass: those of a suspension are its `RigidBody` attributes."""
 
-    control_arm: ControlArm = Field(description="the control arm")
-    knuckle: Knuckle = Field(description="the knuckle with the lower tube of the strut")
     wheel: WheelBody = Field(description="the wheel")
-    tie_rod: TieRod = Field(default=TieRod(mass_kg=0.0), description="the tie rod")
-    rack: Rack = Field(default=Rack(mass_kg=0.0), description="the rack")
-    upper_strut: UpperStrut = Field(default=UpperStrut(mass_kg=0.0), description="the upper strut")
 
     def rigid(self) -> dict[str, RigidBody]:
         """Return all bodies but the wheel, by their names."""
-        names = ("control_arm", "knuckle", "tie_rod", "rack", "upper_strut")
-        return {name: getattr(self, name) for name in names}
+        found = {name: getattr(self, name) for name in type(self).model_fields}
+        return {name: body for name, body in found.items() if isinstance(body, RigidBody)}
 
     def parameters(self, points: Hardpoints) -> dict[str, float]:
         """Return masses in kg, centres of mass in m and inertia tensors in kg m^2.

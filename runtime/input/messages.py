@@ -69,7 +69,7 @@ class _Place:
     ) -> None:
         sections: list[str] = []
         rest = list(location)
-        while rest and (below := _subsection(model, rest[0])):
+        while rest and (below := subsection(model, rest[0])):
             sections.append(str(rest.pop(0)))
             model = below
             inner = data.get(sections[-1])
@@ -94,7 +94,7 @@ class _Place:
         return next(item for item in metadata if isinstance(item, Range))
 
 
-def _subsection(model: type[Section], name: int | str) -> type[Section] | None:
+def subsection(model: type[Section], name: int | str) -> type[Section] | None:
     """Return the model of a section's subsection, or None if `name` is a key."""
     field = model.model_fields.get(str(name))
     kinds = (field.annotation, *get_args(field.annotation)) if field else ()

@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from .macpherson import MacPherson as Suspension
 from .section import Section
-from .suspension import Suspension
 from .units import unit_of
 
 _LIMITS = {
@@ -37,6 +37,8 @@ Where the spring is free of force is said in one of four ways: by the slide of t
 the strut extended (`spring_preload_N`), or by its force at the design position
 (`spring_force_at_design_N`). The damper has a rate in `[strut]`, or a curve in `[damper]`.
 """
+
+_TABLE_HEAD = "| key | unit | allowed | left out | meaning |\n|---|---|---|---|---|"
 
 
 def schema() -> dict[str, Any]:
@@ -76,7 +78,7 @@ def schema_text() -> str:
 def page_text() -> str:
     """Return the reference page, a table for each section."""
     data = schema()
-    parts = [_HEAD, *_sections(data, data, "", Suspension)]
+    parts = [_HEAD, _TABLE_HEAD, *_rows(data, data), "", *_sections(data, data, "", Suspension)]
     return "\n".join(parts).rstrip() + "\n"
 
 
@@ -93,7 +95,7 @@ def _sections(
         yield f"## [{title}]{optional}\n\n{_capital(model.model_fields[name].description)}.\n"
         rows = list(_rows(data, section))
         if rows:
-            yield "| key | unit | allowed | left out | meaning |\n|---|---|---|---|---|"
+            yield _TABLE_HEAD
             yield "\n".join(rows) + "\n"
         inner = _model_of(model, name)
         yield from _sections(data, section, f"{title}.", inner)
@@ -133,8 +135,9 @@ def _allowed(entry: dict[str, Any]) -> str:
     """Return the range of a value in words."""
     options = [entry, *entry.get("anyOf", ())]
     for option in options:
-        if "enum" in option:
-            return " or ".join(f'`"{value}"`' for value in option["enum"])
+        choices = [option["const"]] if "const" in option else option.get("enum", ())
+        if choices:
+            return " or ".join(f'`"{value}"`' for value in choices)
         if option.get("type") == "boolean":
             return "true or false"
         if option.get("type") == "array":

@@ -3,7 +3,6 @@
 from pydantic import Field
 
 from .damper import Damper
-from .hardpoints import Hardpoints
 from .section import NonNegative, Number, Positive, Section
 from .units import in_metres
 
@@ -104,10 +103,10 @@ class Strut(Section):
             return self.length_max + self.spring_preload_N / self.spring_rate_N_per_m
         return self.length_max - self.free_slide(seats)
 
-    def spring_problems(self, points: Hardpoints) -> list[str]:
+    def spring_problems(self, *, own_seats: bool) -> list[str]:
         """Refuse what a spring with seats of its own cannot be described by."""
         given = self.spring_free_slide_mm if self.spring_preload_N is None else 0.0
-        if given is None or not points.has_spring_seats():
+        if given is None or not own_seats:
             return []
         key = "spring_preload_N" if self.spring_preload_N is not None else _FREE[0]
         problem = (

@@ -1,0 +1,125 @@
+"""What any suspension is part of: vehicle, wheel, tyre, steering rack, gravity."""
+
+import math
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from .section import NonNegative, Number, Positive, Range, Section, Triple
+from .units import in_metres
+from .vectors import Vector, unit_vector
+
+Angle = Annotated[
+    Number,
+    Field(ge=-45.0, le=45.0),
+    Range(
+        "-45 {unit} to 45 {unit}",
+        "Enter the angle at design in degrees, with the sign that the file states.",
+    ),
+]
+
+
+Share = Annotated[
+    Number,
+    Field(ge=0.0, le=1.0),
+    Range("0 to 1", "Enter the part of the whole: 0.7 for 70 %."),
+]
+
+
+class Vehicle(Section):
+    """The side that the suspension is on, and what the whole vehicle adds to its characteristics.
+
+    Only the side enters the equations of motion.
+    """
+
+    side: Literal["left", "right"] = Field(description="the vehicle's side, left or right")
+    wheelbase_mm: Positive | None = Field(
+        default=None, description="distance of front and rear wheel centres along x"
+    )
+    center_of_gravity_height_mm: Positive | None = Field(
+        default=None, description="height of the whole vehicle's centre of gravity above the ground"
+    )
+    front_brake_share: Share | None = Field(
+        default=None, description="part of the braking force that acts at the front wheels"
+    )
+
+    @property
+    def sign(self) -> float:
+        """The sign of y at the wheel: +1 left, -1 right."""
+        return 1.0 if self.side == "left" else -1.0
+
+
+class Wheel(Section):
+    """Alignment of the wheel at the design position.
+
+    Camber is positive with the wheel's top outboard, toe is positive with its front inboard.
+    """
+
+    camber_deg: Angle = Field(description="camber at design, positive with the top outboard")
+    toe_deg: Angle = Field(description="toe at design, positive toe-in")
+
+    def spin_axis(self, side_sign: float) -> Vector:
+        """Return the direction of the spin axis that points left at zero camber and toe.
+
+        Parameters
+        ----------
+        side_sign : float
+            +1 for a left, -1 for a right suspension.
+
+        Returns
+        -------
+        numpy.ndarray
+            Unit vector in chassis axes.
+        """
+        # The unit vector n that points outboard has camber = atan2(-n_z, s n_y) and
+        # toe = atan2(n_x, s n_y), hence n ~ (tan toe, s, -tan camber); the spin axis is s n.
+        toe, camber = math.radians(self.toe_deg), math.radians(self.camber_deg)
+        return unit_vector([side_sign * math.tan(toe), 1.0, -side_sign * math.tan(camber)]) + 0.0
+
+
+class Tyre(Section):
+    """The tyre as a vertical spring in the plane of the wheel."""
+
+    rate_N_per_m: NonNegative = Field(  # noqa: N815 (N is the newton)
+        description="rate of the tyre"
+    )
+    free_height_mm: Number = Field(description="z of wheel_center with the tyre force-free")
+    radius_mm: Positive | None = Field(
+        default=None,
+        description="radius of the wheel as a thin disc that touches the ground; only for "
+        "characteristics, left out: the height of wheel_center above z = 0",
+    )
+
+    def parameters(self) -> dict[str, float]:
+        """Return the rate in N/m and the height in m by the names in the equations."""
+        return {
+            "tyre_rate": self.rate_N_per_m,
+            "tyre_free_height": in_metres(self.free_height_mm, "mm"),
+        }
+
+
+class Steering(Section):
+    """The steering rack."""
+
+    axis: Triple = Field(description="direction in which the rack moves for positive displacement")
+    travel_per_turn_mm: Positive | None = Field(
+        default=None, description="rack travel for one turn of the steering wheel"
+    )
+
+    def problems(self) -> list[str]:
+        """Refuse an axis that points nowhere."""
+        length = math.hypot(*self.axis)
+        if 1e-6 < length < math.inf:
+            return []
+        problem = (
+            f"axis = {list(self.axis)} (without unit) has the length {length:g} and no direction; "
+            "allowed are lengths of more than 1e-6. Enter [0.0, 1.0, 0.0] for a rack that moves "
+            "to the left."
+        )
+        return [problem]
+
+
+class Gravity(Section):
+    """Gravity, which acts downward (-z)."""
+
+    acceleration_m_per_s2: NonNegative = Field(description="acceleration of free fall")
