@@ -99,6 +99,7 @@ _OTHER_NAMES = {"compile": "compile_mechanism"}
 _INTERFACES = (
     "characteristics",
     "checkup",
+    "chrono",
     "compare",
     "excitation",
     "export",

@@ -9,6 +9,7 @@ from . import (
     check,
     compare,
     generate,
+    import_chrono,
     kinematics,
     new,
     paper,
@@ -37,13 +38,13 @@ app = typer.Typer(
 
 # In the order in which an engineer needs them.
 _PANELS = {
-    "Begin": (new, check, topology),
+    "Begin": (new, import_chrono, check, topology),
     "Compute": (kinematics, characteristics, simulate, compare),
     "Hand over": (report, paper, generate),
 }
 for panel, modules in _PANELS.items():
     for module in modules:
-        name = module.__name__.rpartition(".")[2]
+        name = module.__name__.rpartition(".")[2].replace("_", "-")
         examples = "\n\n".join(("Examples:", *module.EXAMPLES))
         app.command(name, epilog=examples, rich_help_panel=panel)(module.command)
 
