@@ -7,17 +7,6 @@ from .model import Model
 
 Array = NDArray[np.float64]
 
-# Which body carries a point; the others are fixed to the chassis.
-_CARRIERS = {
-    "ball_joint": "knuckle",
-    "tie_rod_outer": "knuckle",
-    "wheel_center": "knuckle",
-    "tie_rod_inner": "rack",
-    "strut_lower": "knuckle",
-    "spring_seat": "knuckle",
-}
-_FIXED = ("arm_front", "arm_rear", "strut_top", "spring_top")
-
 
 def hardpoints(model: Model, state: ArrayLike, inputs: ArrayLike | None = None) -> dict[str, Array]:
     """Return the hardpoints in chassis axes.
@@ -41,13 +30,21 @@ def hardpoints(model: Model, state: ArrayLike, inputs: ArrayLike | None = None) 
     [-0.14, -0.31, 0.28]
     """
     points, bodies = model.suspension.hardpoints, model.equations.BODIES
-    rigid = model.suspension.bodies.rigid()
+    design_centers = _centers_of_mass(model)
     centers = model.evaluate("positions", state, inputs)
     rotations = model.evaluate("orientations", state, inputs)
     moved = {}
-    for point, body in _CARRIERS.items():
+    for point, body in points.CARRIERS.items():
         index = bodies.index(body)
-        arm = points.metres(point) - rigid[body].centre_of_mass(points)
+        arm = points.metres(point) - design_centers[body]
         moved[point] = centers[..., index, :] + rotations[..., index, :, :] @ arm
+    fixed = [p for p in (*points.names(), *points.STAND_INS) if p not in points.CARRIERS]
     shape = centers.shape[:-2]
-    return moved | {point: np.broadcast_to(points.metres(point), (*shape, 3)) for point in _FIXED}
+    return moved | {point: np.broadcast_to(points.metres(point), (*shape, 3)) for point in fixed}
+
+
+def _centers_of_mass(model: Model) -> dict[str, Array]:
+    """Return the centres of mass of the rigid bodies at design [m], by the bodies' names."""
+    points = model.suspension.hardpoints
+    bodies = model.suspension.bodies.rigid()
+    return {name: body.centre_of_mass(points) for name, body in bodies.items()}

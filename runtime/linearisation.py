@@ -30,9 +30,10 @@ Complex = NDArray[np.complex128]
 
 # A rate, relative to the forces' own accelerations, below which a state counts as steady.
 _STEADY = 1e-6
-# Coordinates that no equation depends on: a balanced wheel looks the same at every angle.
-_CYCLIC = ("beta5",)
-_ARM = ("beta1", "beta1_rate")
+# Of a suspension: coordinates that no equation depends on, as a balanced wheel looks the same at
+# every angle, and those of the arm that swings in wheel hop.
+_CYCLIC = ("beta5", "spin_angle")
+_ARM = ("beta1", "beta1_rate", "arm_angle", "arm_angle_rate")
 
 
 @dataclass(frozen=True)
@@ -95,7 +96,8 @@ class Linearisation:
         `mode_of_states`). The two zeros of the spin have no part of the arm: a wheel may stand at
         any angle, and roll at any speed.
         """
-        return mode_of_states(self.A, self.state_names, _ARM)
+        arm = tuple(name for name in self.state_names if name in _ARM)
+        return mode_of_states(self.A, self.state_names, arm)
 
     def state_space(self) -> "StateSpace":
         """Return the matrices as SciPy's ``StateSpace``."""

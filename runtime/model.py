@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, NamedTuple
 
 from .errors import InputError
 from .generated import double_wishbone, macpherson, macpherson_free_rack, macpherson_general
@@ -14,6 +14,30 @@ from .system import System
 
 # Bodies that the paper's equations leave without mass.
 _MASSLESS_IN_THE_PAPER = ("tie_rod", "rack", "upper_strut")
+
+
+class Names(NamedTuple):
+    """What the equations call that which every suspension has.
+
+    Attributes
+    ----------
+    arm, spin : str
+        States: angle of the lower arm, which falls as the wheel rises, and of the wheel [rad].
+    rack : str
+        Relative coordinate, and with a free rack a state: displacement of the rack [m].
+    actuator : str
+        Input: force of an actuator in the strut, or beside the spring [N].
+    """
+
+    arm: str
+    spin: str
+    rack: str
+    actuator: str
+
+
+# The equations of the paper's suspension, whatever was added to it, keep the paper's names.
+_MACPHERSON = Names("beta1", "beta5", "beta9", "strut_force")
+_DOUBLE_WISHBONE = Names("arm_angle", "spin_angle", "rack_displacement", "spring_actuator")
 
 
 class Model(System):
@@ -34,6 +58,8 @@ class Model(System):
     equations : module
         `kintrafo.generated.macpherson`, ``macpherson_free_rack``, ``macpherson_general`` or
         ``double_wishbone``.
+    names : Names
+        What these equations call the coordinates that every suspension has.
     parameters, constants, design_state
         As of `System`.
 
@@ -54,6 +80,7 @@ class Model(System):
         super().__init__(_equations_for(suspension, free_rack=free_rack), parameters)
         self.suspension = suspension
         self.free_rack = free_rack
+        self.names = _MACPHERSON if isinstance(suspension, MacPherson) else _DOUBLE_WISHBONE
 
     def __reduce__(self) -> tuple[Any, ...]:
         return partial(Model, free_rack=self.free_rack), (self.suspension,)

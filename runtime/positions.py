@@ -148,7 +148,8 @@ def equilibrium(
         Instead of a road: the vertical force that the road exerts on the wheel, positive up [N].
         `road_under_load` returns where the road then is.
     strut_force : float, optional
-        Actuator force in the strut [N].
+        Actuator force in the strut, or beside the spring of a double wishbone, positive when it
+        pushes chassis and wheel apart [N].
     spin_rate : float, optional
         Rate of the wheel relative to the knuckle [rad/s].
 
@@ -181,7 +182,7 @@ def equilibrium(
             road[...] = road_height
         else:
             road[...] = road_under_load(model, wheel_load, states, inputs)
-        inputs[..., model.input_names.index("strut_force")] = strut_force
+        inputs[..., model.input_names.index(model.names.actuator)] = strut_force
         return model.evaluate("forces", states, inputs)[..., 0]
 
     angle = _stable_root(moment, travel_range(model, rack_position), model.design_state[0])
@@ -227,7 +228,7 @@ def road_under_load(
 
 def _state(model: Model, angle: float, rack_position: float, spin_rate: float) -> Array:
     state, _ = at_rest(model, angle, rack_position)
-    state[model.state_names.index("beta5_rate")] = spin_rate
+    state[model.state_names.index(f"{model.names.spin}_rate")] = spin_rate
     return state
 
 
@@ -313,14 +314,14 @@ def _stable_root(moment: Callable[[ArrayLike], Array], reach: Range, design: flo
     low, high = reach.arm_angle
     grid = np.linspace(low, high, 1 + round(abs(high - low) / _STEP))
     values = moment(grid)
-    # from low to high wheel position beta1 falls, so a stable moment goes from negative to positive
+    # from low to high wheel position the angle falls: a stable moment goes from below to above zero
     stable = np.flatnonzero((values[:-1] <= 0.0) & (values[1:] > 0.0))
     if stable.size == 0:
         message = (
             "no stable equilibrium between wheel heights "
             f"{reach.height[0] * 1e3:.1f} mm and {reach.height[1] * 1e3:.1f} mm: the moment about "
             f"the arm's hinge is {values[0]:.4g} N m at the lower and {values[-1]:.4g} N m at the "
-            "upper end. Check spring rate, spring_free_slide, tyre rate and free height, or the "
+            "upper end. Check the spring's rate and free state, tyre rate and free height, or the "
             "wheel load."
         )
         raise PositionError(message)

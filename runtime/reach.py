@@ -181,10 +181,10 @@ def at_rest(
     names = model.state_names
     states = np.broadcast_to(model.design_state, (*angles.shape, len(names))).copy()
     inputs = np.zeros((*angles.shape, len(model.input_names)))
-    states[..., names.index("beta1")] = angles
-    states[..., names.index("beta1_rate")] = arm_rate
+    states[..., names.index(model.names.arm)] = angles
+    states[..., names.index(f"{model.names.arm}_rate")] = arm_rate
     if model.free_rack:
-        states[..., names.index("beta9")] = racks
+        states[..., names.index(model.names.rack)] = racks
     else:
         inputs[..., model.input_names.index("rack_position")] = racks
     return states, inputs
@@ -268,7 +268,7 @@ def _look(model: Model, angles: Array, racks: Array) -> _Look:
     heights, slopes = np.zeros(closes.shape), np.zeros(closes.shape)
     signals = model.signals(states[closes], inputs[closes])
     heights[closes], slopes[closes] = signals["wheel_center_z"], signals["wheel_velocity"]
-    # beta1 falls as the wheel rises (Eq. 6)
+    # the arm's angle falls as the wheel rises (Eq. 6)
     return _Look(slopes < 0.0, np.where(closes, -1, failed.argmax(axis=-1)), heights)
 
 

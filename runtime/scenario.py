@@ -78,7 +78,7 @@ class Scenario:
             model,
             rack_position=rack,
             road_height=known["road_height"],
-            strut_force=known["strut_force"],
+            strut_force=known[model.names.actuator],
             spin_rate=self.spin_rate,
         )
 

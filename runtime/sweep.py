@@ -25,8 +25,6 @@ USUAL_RACK = 0.060  # to either side [m]
 # A sweep that is not told otherwise keeps clear of the ends of the motion by this part of them.
 _CLEARANCE = 0.02
 _MOST_POINTS = 100_000
-# Joints that move with the wheel; the names are those of the input file.
-_MOVING = ("ball_joint", "tie_rod_outer", "tie_rod_inner")
 # Signals in these units follow from the position alone; forces and rates need more.
 _OF_POSITION = ("m", "rad")
 
@@ -221,7 +219,7 @@ def _evaluated(model: Model, angles: Array, racks: Array) -> dict[str, Array]:
     described = model.equations.SIGNALS
     columns = {n: v for n, v in signals.items() if described[n]["unit"] in _OF_POSITION}
     points = hardpoints(model, states, inputs)
-    for point in _MOVING:
+    for point in model.suspension.hardpoints.JOINTS:
         columns |= {f"{point}_{axis}": points[point][..., i] for i, axis in enumerate("xyz")}
     return columns | {"arm_angle": angles}
 
@@ -247,6 +245,6 @@ def _described(name: str, model: Model) -> tuple[str, str]:
         signal = model.equations.SIGNALS[name]
         return signal["meaning"], signal["unit"]
     if name == "arm_angle":
-        return "arm angle beta1 from the chassis vertical", "rad"
+        return "angle of the lower arm from the chassis vertical", "rad"
     point, _, axis = name.rpartition("_")
     return f"{point.replace('_', ' ')}, {axis} in chassis axes", "m"

@@ -17,7 +17,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo import InputError, Model, PositionError, Suspension, characteristics, travel_range
 from kintrafo.characteristics import axle, wheel
-from kintrafo.characteristics.macpherson import corner
+from kintrafo.characteristics.from_model import corner
 from oracle.constraints import KNUCKLE
 from oracle.newton import Mechanism, observe, solve_pose_at_height
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from kintrafo import Model, Suspension
 from kintrafo.characteristics import wheel
-from kintrafo.characteristics.macpherson import corner
+from kintrafo.characteristics.from_model import corner
 from kintrafo.figures import BLUE, GREEN, ORANGE, STYLE
 from kintrafo.hardpoints import hardpoints
 from matplotlib import rc_context

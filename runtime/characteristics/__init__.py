@@ -3,7 +3,8 @@
     `travel`, `steering`     the characteristics as labelled arrays
     `corner`                 what they are computed from: points and first motions of one corner
     `wheel`, `axle`          the formulas, independent of the mechanism
-    `macpherson`             the corner of a MacPherson suspension, from its compiled model
+    `from_model`             the corner of a suspension, from its compiled model
+    `macpherson`, `double_wishbone`   what each has of its own: links, spring, damper, stops
     `catalogue`              name, unit, definition and sign of each
 
 Definitions and signs: docs/characteristics.md.

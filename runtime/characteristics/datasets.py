@@ -13,7 +13,7 @@ from ..sweep import usual_rack, usual_travel
 from . import axle, catalogue
 from .catalogue import Quantity
 from .corner import Array, Corner
-from .macpherson import corner
+from .from_model import corner
 from .wheel import steer, steer_gradient
 
 _TRAVEL = Quantity(
