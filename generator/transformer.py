@@ -340,13 +340,31 @@ class Plan:
             joint = plan._mechanism.joint(name)
             plan._known.update((name, c) for c in joint.coordinates)
         plan._place_neighbours()
-        basis = MinimalBasis(plan.topology)
-        while options := basis.options():
-            options.sort(key=plan._unknowns)  # stable: ties keep the order of the figure's numbers
-            basis.choose(options[0])
-            plan._solve(options[0], options[1:])
+        plan._solve_loops()
         plan._check_complete()
         return plan
+
+    def _solve_loops(self) -> None:
+        """Choose a minimal cycle basis, and solve each loop as soon as it can be solved.
+
+        Of equally short cycles the one with the fewest unknowns goes first; one that cannot be
+        solved yet waits until another one has placed more bodies.
+        """
+        basis = MinimalBasis(self.topology)
+        waiting: list[tuple[Cycle, list[Cycle]]] = []
+        while (options := basis.options()) or waiting:
+            options.sort(key=self._unknowns)  # stable: ties keep the order of the figure's numbers
+            offers = [(c, [o for o in options if o is not c]) for c in options]
+            solved = next((offer for offer in (*waiting, *offers) if self._solve(*offer)), None)
+            if solved is None and not offers:
+                cycle, _ = waiting[0]
+                raise NoClosedFormError(self._refusal(cycle, self._pair_candidates(cycle)))
+            taken = solved or offers[0]
+            if taken in waiting:
+                waiting.remove(taken)
+            else:
+                basis.choose(taken[0])
+                waiting += [] if solved else [taken]
 
     @property
     def _mechanism(self) -> Mechanism:
@@ -403,7 +421,8 @@ class Plan:
 
     # -- solving a loop -------------------------------------------------------------------------
 
-    def _solve(self, cycle: Cycle, rivals: list[Cycle]) -> None:
+    def _solve(self, cycle: Cycle, rivals: list[Cycle]) -> bool:
+        """Solve a loop if its equation is in the catalogue and all that it reads is known."""
         candidates = self._pair_candidates(cycle)
         for pair in candidates:
             action = self._closed_form(cycle, pair)
@@ -426,8 +445,8 @@ class Plan:
                 )
             )
             self._place_neighbours()
-            return
-        raise NoClosedFormError(self._refusal(cycle, candidates))
+            return True
+        return False
 
     def _unknowns_before(self, cycle: Cycle, solved: set[tuple[str, str]]) -> int:
         own = {(j.name, c) for j in cycle.joints for c in j.coordinates}

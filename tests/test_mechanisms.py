@@ -382,6 +382,7 @@ START = {
     "oblique_piston": 0.3,
     "oblique_trammel": 0.3,
     "pushed_slider": 0.3,
+    "excavator": 0.3,
 }
 """Rates at the start where they are not 2 rad/s (or m/s)."""
 AFLOAT = {"tyre_rate": 0.0, "spring_free_length": 0.44}

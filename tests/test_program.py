@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 
-import pytest
 import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st

@@ -6,7 +6,7 @@ from itertools import zip_longest
 from typing import TYPE_CHECKING
 
 from ..arithmetic import OPERATIONS
-from ..transformer import SolveSlide, SolveStroke, SolveTelescope, Transformer
+from ..transformer import SolveHinge, SolveSlide, SolveStroke, SolveTelescope, Transformer
 from .c import mechanism_hash
 
 if TYPE_CHECKING:
@@ -91,13 +91,16 @@ def equation(transformer: Transformer) -> tuple[str, str]:
             f"{ends} = length of {action.near} and {action.far} at {action.joint.name}.slide",
             "explicit: the way along the guide is the root of a difference of squares",
         )
+    rod = action.rod
+    if isinstance(action, SolveHinge | SolveSlide) and action.telescope is not None:
+        rod = f"{rod} and {action.telescope.far} at {action.telescope.joint.name}.slide"
     if isinstance(action, SolveSlide):
         return (
-            f"|{action.end.name} - {action.anchor.name}| = length of {action.rod}",
+            f"|{action.end.name} - {action.anchor.name}| = length of {rod}",
             f"quadratic in the slide of {action.joint.name}, branch as at design",
         )
     return (
-        f"|{action.end.name} - {action.anchor.name}| = length of {action.rod}",
+        f"|{action.end.name} - {action.anchor.name}| = length of {rod}",
         (
             "a cos x + b sin x = c for the turn of "
             f"{action.body} about its line, branch as at design"

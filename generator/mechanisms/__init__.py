@@ -1,6 +1,6 @@
 """The mechanisms that come with the project, each declared on a page of its own."""
 
-from . import andrews, double_wishbone, four_bar, macpherson, slider_crank
+from . import andrews, double_wishbone, excavator, four_bar, macpherson, slider_crank
 
 MODELS = (
     *macpherson.MODELS,
@@ -8,4 +8,5 @@ MODELS = (
     *four_bar.MODELS,
     *slider_crank.MODELS,
     *andrews.MODELS,
+    *excavator.MODELS,
 )
