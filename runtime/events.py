@@ -39,6 +39,9 @@ NAMED = {
     "wheel_touches_ground": "the tyre force rises through zero",
     "strut_fully_extended": "the strut reaches its greatest length",
 }
+_AT_THE_GROUND = {"wheel_leaves_ground": -1.0, "wheel_touches_ground": 1.0}
+# Force at which a tyre that can lift off is taken to touch [N]: nanometres of its deflection.
+_TOUCH = 1e-3
 
 
 @dataclass(frozen=True)
@@ -108,10 +111,10 @@ def events_of(model: System, given: Event | Sequence[Event] | None) -> Events:
 
 
 def _named(model: System, name: str) -> SignalEvent:
-    if name == "wheel_leaves_ground":
-        return SignalEvent("tyre_force", 0.0, direction=-1.0)
-    if name == "wheel_touches_ground":
-        return SignalEvent("tyre_force", 0.0, direction=+1.0)
+    if name in _AT_THE_GROUND:
+        # a tyre that lifts off has no force in the air: a zero would last as long as the flight
+        level = _TOUCH if model.parameters.get("tyre_lifts_off") else 0.0
+        return SignalEvent("tyre_force", level, direction=_AT_THE_GROUND[name])
     if name == "strut_fully_extended" and "strut_length_max" in model.parameters:
         length = model.parameters["strut_length_max"]
         return SignalEvent("strut_length", length, direction=+1.0, terminal=True)

@@ -342,6 +342,8 @@ class _Run:
     def over(self, state: Array) -> Simulation:
         """Integrate over all segments."""
         for segment in self._inputs.segments:
+            if self._pieces and self._jumped_over(segment, state):
+                break
             piece = self._solve(
                 self._model,
                 self._inputs,
@@ -359,6 +361,23 @@ class _Run:
             if piece.outcome == "event":
                 break
         return self._assembled()
+
+    def _jumped_over(self, segment: Segment, state: Array) -> bool:
+        """Note what signals jump across at the begin of a segment; tell if that is the end."""
+        before, piece = self._pieces[-1]
+        signals = [
+            self._model.signals(state, self._inputs.at(segment.start, part))
+            for part in (before, segment)
+        ]
+        terminal = False
+        for index, event in enumerate(self._events.signal):
+            low, high = (float(found[event.signal]) - event.level for found in signals)
+            if low * high < 0.0 and event.direction * (high - low) >= 0.0:
+                piece.events.append((index, segment.start, state))
+                terminal = terminal or bool(event.terminal)
+        if terminal:
+            piece.outcome = "event"
+        return terminal
 
     def _asked(self, segment: Segment) -> Array:
         """Return the output times of a segment; its own two ends come first and last."""
@@ -391,6 +410,8 @@ class _Run:
             "too_accurate": f"rtol = {options.rtol:g} and the given atol ask for more accuracy "
             "than the arithmetic has. Loosen them.",
             "bad_table": f"method {options.method!r} is not in SUNDIALS {native_version()}.",
+            "flat_event": "the function of an event stays at zero. Watch another level, or another "
+            "signal.",
             "memory": "out of memory. Ask for fewer outputs with t_eval.",
         }
         failed = f"the solver gave up ({piece.detail}). Loosen rtol, or try another method."

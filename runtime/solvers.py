@@ -111,6 +111,10 @@ def native_methods() -> tuple[str, ...]:
     )
 
 
+# What CVODE and ARKODE return, the arguments being checked, when an event's function stays at zero.
+_ILL_INPUT = -22
+
+
 # -- SUNDIALS -----------------------------------------------------------------------------------
 
 
@@ -156,7 +160,7 @@ def solve_native(
     return Piece(
         t=output[:, 0],
         y=output[:, 1:],
-        outcome=raw["outcome"],
+        outcome="flat_event" if raw["code"] == _ILL_INPUT and len(events) else raw["outcome"],
         counts={name: raw[name] for name in counts},
         events=[(int(row[0]), float(row[1]), row[2:]) for row in raw["events"]],
         interpolants=[_taylor(row, state.size) for row in raw["dense"]],
