@@ -1,0 +1,242 @@
+"""The input file of a double wishbone: what it says, and what is refused."""
+
+import pickle
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from kintrafo import InputError, Model, Suspension
+from kintrafo.generated import double_wishbone
+from kintrafo.input.double_wishbone import DoubleWishbone
+from kintrafo.input.macpherson import MacPherson
+
+CAR = Suspension.load("double_wishbone_car")
+CAR_OF_THE_PAPER = Suspension.load("reference_car")
+POINTS = [key for key in CAR.to_dict()["hardpoints"] if key != "unit"]
+
+
+def problems(changes):
+    with pytest.raises(InputError) as caught:
+        CAR.with_changes(changes)
+    return list(caught.value.problems)
+
+
+def problems_of(data):
+    with pytest.raises(InputError) as caught:
+        Suspension.from_dict(data)
+    return list(caught.value.problems)
+
+
+# -- which suspension a file describes ------------------------------------------------------------
+
+
+def test_the_file_says_what_it_describes():
+    assert type(CAR) is DoubleWishbone
+    assert type(CAR_OF_THE_PAPER) is MacPherson
+    assert CAR.to_dict()["suspension"] == "double_wishbone"
+    data = CAR_OF_THE_PAPER.to_dict()
+    del data["suspension"]  # as in files from before there were two
+    assert Suspension.from_dict(data) == CAR_OF_THE_PAPER
+
+
+def test_without_the_key_the_hardpoints_tell_what_was_forgotten():
+    data = CAR.to_dict()
+    del data["suspension"]
+    (problem,) = problems_of(data)
+    assert "lower_arm_front" in problem
+    assert "points of a double wishbone suspension" in problem
+    assert 'Add a line `suspension = "double_wishbone"` above the first section.' in problem
+
+
+@pytest.mark.parametrize("kind", ["double_wishbon", "multilink", 3, None, ["macpherson"]])
+def test_unknown_kinds_are_refused_with_the_known_ones(kind):
+    (problem,) = problems_of(CAR.to_dict() | {"suspension": kind})
+    assert problem.startswith(f"suspension = {kind!r} is not a known kind of suspension.")
+    assert problem.endswith(("double_wishbone?", "macpherson?", "macpherson, double_wishbone."))
+
+
+def test_a_kind_loads_only_its_own_files():
+    assert DoubleWishbone.load("double_wishbone_car") == CAR
+    with pytest.raises(InputError, match="a double wishbone suspension is needed here"):
+        DoubleWishbone.load("reference_car")
+    with pytest.raises(InputError, match="a MacPherson suspension is needed here"):
+        MacPherson.from_dict(CAR.to_dict())
+
+
+# -- what it says ---------------------------------------------------------------------------------
+
+
+def test_parameters_are_those_of_the_equations():
+    parameters = CAR.parameters()
+    assert set(parameters) == set(double_wishbone.PARAMETERS)
+    assert {type(value) for value in parameters.values()} == {float}
+    assert parameters["upper_arm_rear_z"] == 0.474
+    assert parameters["spring_rate"] == 60000.0
+    assert parameters["damper_rate"] == 4000.0
+    assert parameters["rack_axis_y"] == parameters["spin_axis_y"] == 1.0
+    assert Model(CAR).equations is double_wishbone
+
+
+def test_centres_of_mass_follow_their_rules():
+    p = CAR.with_changes({"bodies.knuckle.com_mm": None}).parameters()
+    assert p["lower_arm_com_y"] == pytest.approx((-0.36 - 0.36 - 0.72) / 3.0, rel=1e-15)
+    assert p["upper_arm_com_z"] == pytest.approx((0.5 + 0.474 + 0.505) / 3.0, rel=1e-15)
+    assert p["knuckle_com_x"] == pytest.approx(-0.01, rel=1e-15)
+    assert p["tie_rod_com_y"] == pytest.approx(-0.557, rel=1e-15)
+    assert p["rack_com_z"] == 0.258
+
+
+def test_spring_can_be_given_in_two_ways():
+    by_length = CAR.with_changes({"spring.force_at_design_N": None, "spring.free_length_mm": 530.0})
+    assert by_length.parameters()["spring_free_length"] == 0.53
+    # at design it is sqrt(20^2 + 100^2 + 420^2) mm long
+    length = (0.02**2 + 0.1**2 + 0.42**2) ** 0.5
+    expected = length + 5360.268 / 60000.0
+    assert CAR.parameters()["spring_free_length"] == pytest.approx(expected, rel=1e-15)
+    model = Model(CAR)
+    assert float(model.signal("spring_force", model.design_state)) == pytest.approx(5360.268)
+
+
+def test_round_trips():
+    assert Suspension.from_dict(CAR.to_dict()) == CAR
+    assert CAR.with_changes({}) == CAR
+    assert pickle.loads(pickle.dumps(CAR)) == CAR
+    assert pickle.loads(pickle.dumps(Model(CAR))).suspension == CAR
+    assert CAR.mirrored().mirrored() == CAR
+
+
+def test_mirror_image():
+    left = CAR.mirrored()
+    assert left.vehicle.side == "left"
+    right, mirrored = CAR.parameters(), left.parameters()
+    for point in POINTS:
+        assert mirrored[f"{point}_y"] == -right[f"{point}_y"]
+        assert mirrored[f"{point}_x"] == right[f"{point}_x"]
+    assert mirrored["rack_axis_y"] == 1.0
+
+
+def test_metres():
+    data = CAR.to_dict()
+    points = {
+        name: value if name == "unit" else [x / 1000.0 for x in value]
+        for name, value in data["hardpoints"].items()
+    }
+    in_metres = Suspension.from_dict(data | {"hardpoints": points | {"unit": "m"}})
+    assert in_metres.parameters() == CAR.parameters()
+
+
+# -- what is refused ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"spring.rate_N_per_m": -1.0}, "[spring] rate_N_per_m = -1.0 N/m is out of range"),
+        ({"damper.rate_N_s_per_m": -1.0}, "[damper] rate_N_s_per_m = -1.0 N s/m is out of range"),
+        ({"damper.velocity_m_per_s": [0.0]}, "velocity_m_per_s is not a known key"),
+        ({"spring.free_length_mm": 530.0}, "both are given. Keep one."),
+        ({"spring.force_at_design_N": None}, "neither is given. Keep one."),
+        ({"spring.rate_N_per_m": 0.0}, "needs a spring, but rate_N_per_m = 0.0 N/m"),
+        ({"tyre.lifts_off": True}, "[tyre] lifts_off is not a known key"),
+        ({"bodies.tie_rod.mass_kg": 1.0}, "tie_rod.mass_kg = 1.0 kg"),
+        ({"bodies.rack.mass_kg": 2.0}, "leave this body without mass; allowed is 0 kg"),
+        ({"vehicle.side": "left"}, "a left wheel must have y above 1 mm"),
+        ({"hardpoints.unit": "m"}, "out of range, allowed is -20 m to 20 m"),
+        (
+            {"hardpoints.upper_ball_joint.z": 180.0},
+            "the upper ball joint is -5.000 mm above the lower one",
+        ),
+        (
+            {"hardpoints.lower_ball_joint.y": -360.5, "hardpoints.lower_ball_joint.z": 195.0},
+            "the arm needs at least 1 mm to move the wheel. Move lower_ball_joint outboard",
+        ),
+        (
+            {"hardpoints.upper_arm_front.x": -150.0},
+            "the front bearing must have the greater x",
+        ),
+        (
+            {"hardpoints.spring_top": [-10.0, -600.0, 200.0]},
+            "two points of the spring must be at least 1 mm apart",
+        ),
+        (
+            {"hardpoints.tie_rod_outer": [5.0, -720.0, 185.5]},
+            "two points of the knuckle must be at least 1 mm apart",
+        ),
+        (
+            {"hardpoints.tie_rod_outer": [-10.0, -695.0, 345.0]},
+            "from the steering axis through lower_ball_joint and upper_ball_joint",
+        ),
+        (
+            {"hardpoints.tie_rod_inner": [-130.0, -700.0, 100.0]},
+            "the tie rod is 0.000 deg from the vertical",
+        ),
+        (
+            {"hardpoints.tie_rod_inner": [-257.97, -691.72, 260.0]},
+            "the tie rod pulls with a lever of",
+        ),
+    ],
+)
+def test_refused(changes, words):
+    found = problems(changes)
+    assert any(words in problem for problem in found), found
+
+
+def test_upper_arm_at_its_dead_centre():
+    # arms about x, the lower ball joint in the plane of the upper arm
+    points = {
+        "upper_arm_front": [120.0, -600.0, 600.0],
+        "upper_arm_rear": [-140.0, -600.0, 600.0],
+        "upper_ball_joint": [0.0, -660.0, 400.0],
+        "lower_ball_joint": [0.0, -720.0, 200.0],
+    }
+    (problem,) = problems({f"hardpoints.{name}": point for name, point in points.items()})
+    assert "the knuckle pulls the upper arm with a lever of 0.000 mm" in problem
+    assert "Move lower_ball_joint out of the plane" in problem
+
+
+def test_all_problems_are_told_at_once():
+    found = problems(
+        {"spring.rate_N_per_m": "60000", "wheel.camber_deg": 60.0, "hardpoints.tie_rod_outer": 1.0}
+    )
+    assert len(found) == 3
+
+
+@pytest.mark.parametrize("key", ["suspension", "spring", "damper", "hardpoints", "bodies"])
+def test_missing_sections(key):
+    data = CAR.to_dict()
+    del data[key]
+    assert any(key in problem for problem in problems_of(data))
+
+
+def test_there_are_no_equations_with_a_free_rack():
+    with pytest.raises(InputError, match=r"the rack of a double wishbone suspension is prescribed"):
+        Model(CAR, free_rack=True)
+
+
+anything = st.one_of(
+    st.none(),
+    st.booleans(),
+    st.floats(),
+    st.text(max_size=5),
+    st.lists(st.floats(-2e3, 2e3), min_size=3, max_size=3),
+)
+PLACES = [
+    "suspension",
+    "spring",
+    "spring.rate_N_per_m",
+    "spring.free_length_mm",
+    "damper.rate_N_s_per_m",
+    "bodies.rack",
+    "wheel.toe_deg",
+    *(f"hardpoints.{point}" for point in POINTS),
+]
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.dictionaries(st.sampled_from(PLACES), anything, min_size=1, max_size=3))
+def test_whatever_stands_in_a_file_ends_in_a_readable_error_or_a_model(changes):
+    try:
+        car = CAR.with_changes(changes)
+    except InputError:
+        return
+    Model(car)
