@@ -82,7 +82,7 @@ def arm_angles(model: Model, height: ArrayLike, rack_position: ArrayLike = 0.0) 
     if heights.size == 0:
         return np.empty(heights.shape)
     distinct, index = np.unique(racks.ravel(), return_inverse=True)
-    table = branch(model, distinct)
+    table = branch(model, distinct, covering=(float(heights.min()), float(heights.max())))
     if _beyond(heights.ravel(), table, index).any():
         table = branch(model, distinct, to_the_end=True)
     _refuse_out_of_reach(model, heights.ravel(), distinct[index], table, index)

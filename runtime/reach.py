@@ -25,6 +25,7 @@ _HALVINGS = 37
 # clear of its rounding, and the wheel is less than a nanometre from its last position.
 _CLEARANCE = 1e-12
 _CHUNK = 500  # racks that are looked at together, to bound the memory
+_PROBES = 9  # racks that show how much of the reach is of interest
 
 _TURNS_BACK = "the wheel centre turns back there"
 _RIGHT_ANGLE = "the arm has swung by a right angle"
@@ -107,7 +108,13 @@ class Branch:
     height: Array
 
 
-def branch(model: Model, rack_positions: ArrayLike, *, to_the_end: bool = False) -> Branch:
+def branch(
+    model: Model,
+    rack_positions: ArrayLike,
+    *,
+    covering: tuple[float, float] | None = None,
+    to_the_end: bool = False,
+) -> Branch:
     """Tabulate the reach for each rack position.
 
     Parameters
@@ -115,6 +122,10 @@ def branch(model: Model, rack_positions: ArrayLike, *, to_the_end: bool = False)
     model : Model
     rack_positions : array_like, shape (racks,)
         Displacements of the rack [m].
+    covering : tuple of float, optional
+        Lowest and highest wheel height that are of interest [m]: of many racks, the rest is left
+        out as far as a few of them show where it begins. What the table covers must be seen from
+        its heights.
     to_the_end : bool, optional
         Whether to locate the ends of the reach, as `travel_range` does. Otherwise the table ends up
         to two degrees before them, and is made much faster.
@@ -129,8 +140,12 @@ def branch(model: Model, rack_positions: ArrayLike, *, to_the_end: bool = False)
         If the rack cannot be there with the arm in its design position.
     """
     racks = np.asarray(rack_positions, dtype=np.float64)
+    steps = _STEPS, _STEPS
+    if covering is not None and racks.size > _CHUNK:
+        steps = _steps_to(model, racks, covering)
     chunks = [
-        _tabulate(model, racks[i : i + _CHUNK], to_the_end) for i in range(0, racks.size, _CHUNK)
+        _tabulate(model, racks[i : i + _CHUNK], steps, to_the_end=to_the_end)
+        for i in range(0, racks.size, _CHUNK)
     ]
     return Branch(
         np.concatenate([chunk.angle for chunk in chunks]),
@@ -138,13 +153,24 @@ def branch(model: Model, rack_positions: ArrayLike, *, to_the_end: bool = False)
     )
 
 
-def _tabulate(model: Model, racks: Array, to_the_end: bool) -> Branch:
-    grid = model.design_state[0] - _STEP * np.arange(-_STEPS, _STEPS + 1)
+def _steps_to(model: Model, racks: Array, covering: tuple[float, float]) -> tuple[int, int]:
+    """Return how many steps from design, down and up, some of the racks need, and one more."""
+    some = np.quantile(racks, np.linspace(0.0, 1.0, _PROBES), method="nearest")
+    heights = _tabulate(model, some, (_STEPS, _STEPS), to_the_end=False).height
+    below = (heights[:, _STEPS::-1] > covering[0]).sum(axis=1).max()
+    above = (heights[:, _STEPS:] < covering[1]).sum(axis=1).max()
+    return min(int(below) + 1, _STEPS), min(int(above) + 1, _STEPS)
+
+
+def _tabulate(model: Model, racks: Array, steps: tuple[int, int], *, to_the_end: bool) -> Branch:
+    """Look at so many steps down and up from design."""
+    design = steps[0]
+    grid = model.design_state[0] - _STEP * np.arange(-steps[0], steps[1] + 1)
     look = _look(model, grid, racks[:, None])
-    _refuse_design_that_cannot_close(model, racks, look, _STEPS)
-    down = np.logical_and.accumulate(look.usable[:, _STEPS::-1], axis=1).sum(axis=1)
-    up = np.logical_and.accumulate(look.usable[:, _STEPS:], axis=1).sum(axis=1)
-    first, last = _STEPS + 1 - np.maximum(down, 1), _STEPS - 1 + np.maximum(up, 1)
+    _refuse_design_that_cannot_close(model, racks, look, design)
+    down = np.logical_and.accumulate(look.usable[:, design::-1], axis=1).sum(axis=1)
+    up = np.logical_and.accumulate(look.usable[:, design:], axis=1).sum(axis=1)
+    first, last = design + 1 - np.maximum(down, 1), design - 1 + np.maximum(up, 1)
     columns = np.arange(grid.size)
     inner = np.clip(columns, first[:, None], last[:, None])
     angles, heights = grid[inner], np.take_along_axis(look.height, inner, axis=1)

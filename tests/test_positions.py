@@ -16,7 +16,7 @@ from kintrafo import (
     travel_range,
 )
 from kintrafo.hardpoints import hardpoints
-from kintrafo.positions import arm_angles, road_under_load
+from kintrafo.positions import arm_angles, design_height, road_under_load
 from kintrafo.reach import at_rest, branch, height_and_slope
 from oracle import newton
 from oracle.multipliers import solve_prescribed
@@ -327,3 +327,23 @@ def test_a_tyre_without_stiffness_carries_no_load():
 def test_a_load_without_equilibrium_is_refused():
     with pytest.raises(PositionError, match="no stable equilibrium"):
         equilibrium(MODEL, wheel_load=3000.0, strut_force=1e6)
+
+
+@pytest.mark.parametrize("name", ["reference_car", "offset_strut_car", "double_wishbone_car"])
+def test_many_racks_are_as_each_of_them(name):
+    """A table of many racks leaves out what no height asks for; positions are the same bits."""
+    model = Model(name)
+    random = np.random.default_rng(3)
+    racks = random.uniform(-0.06, 0.06, 1200)
+    heights = design_height(model) + random.uniform(-0.05, 0.05, racks.size)
+    together = arm_angles(model, heights, racks)
+    alone = [float(arm_angles(model, h, r)) for h, r in zip(heights[:60], racks[:60], strict=True)]
+    np.testing.assert_array_equal(together[:60], alone)
+
+
+def test_one_of_many_out_of_reach_is_refused_by_name():
+    racks = np.linspace(-0.06, 0.06, 1001)
+    heights = np.full(racks.size, 0.3)
+    heights[500] = 1.0
+    with pytest.raises(PositionError, match="wheel height 1000 mm is out of reach"):
+        arm_angles(Model("reference_car"), heights, racks)
