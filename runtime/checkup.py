@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from . import paper
 from .input.suspension import Suspension
-from .input.vectors import unit_vector
+from .input.vectors import distance_from_line, unit_vector
 from .model import Model
 from .positions import PositionError, Range, design_height, equilibrium, travel_range
 from .starter import packaged
@@ -53,6 +53,8 @@ class Checkup:
 
     Attributes
     ----------
+    title : str
+        What the suspension is called.
     side : str
         'left' or 'right'.
     geometry : dict
@@ -71,6 +73,7 @@ class Checkup:
         What works but is unusual.
     """
 
+    title: str
     side: str
     geometry: dict[str, float]
     reach: Range
@@ -109,6 +112,7 @@ def checkup(model: Model) -> Checkup:
         problems.append(str(error))
     extension = _extension_travel(model, reach)
     return Checkup(
+        title=model.suspension.TITLE,
         side=model.suspension.vehicle.side,
         geometry=_geometry(model),
         reach=reach,
@@ -136,30 +140,51 @@ def _equilibrium(model: Model) -> Equilibrium:
 
 def _geometry(model: Model) -> dict[str, float]:
     points = model.suspension.hardpoints
-    # a MacPherson knuckle is steered about the line from its ball joint to the strut's mount
-    axis = unit_vector(points.metres("strut_top") - points.metres("ball_joint"))
+    low, high = points.STEERING_AXIS
+    axis = unit_vector(points.metres(high) - points.metres(low))
     side = model.suspension.vehicle.sign
     wheel = points.metres("wheel_center")
-    outer, ball = points.metres("tie_rod_outer"), points.metres("ball_joint")
+    outer = points.metres("tie_rod_outer")
     return {
         "half_track": abs(float(wheel[1])),
         "wheel_center_height": float(wheel[2]),
-        "strut_length": points.distance("strut_lower", "strut_top"),
-        "strut_length_max": model.suspension.parameters()["strut_length_max"],
+        **_lengths(model),
         "tie_rod_length": points.distance("tie_rod_outer", "tie_rod_inner"),
-        "steering_arm_length": float(np.linalg.norm(np.cross(outer - ball, axis))),
+        "steering_arm_length": float(np.linalg.norm(np.cross(outer - points.metres(low), axis))),
         "caster_angle": float(np.arctan2(-axis[0], axis[2])),
         "kingpin_inclination_angle": float(np.arctan2(-side * axis[1], axis[2])),
     }
 
 
+def _lengths(model: Model) -> dict[str, float]:
+    """Return the lengths at design that only this kind of suspension has."""
+    points = model.suspension.hardpoints
+    if "strut_length_max" in model.parameters:
+        return {
+            "strut_length": points.distance("strut_lower", "strut_top"),
+            "strut_length_max": model.parameters["strut_length_max"],
+        }
+    arms = {
+        f"{arm}_arm_length": distance_from_line(
+            *(points.metres(f"{arm}_{end}") for end in ("ball_joint", "arm_front", "arm_rear"))
+        )
+        for arm in ("lower", "upper")
+    }
+    return arms | {"spring_length": points.distance("spring_seat", "spring_top")}
+
+
 def _extension_travel(model: Model, reach: Range) -> float | None:
-    """Return the travel at which the strut has its greatest length, looked up in a table."""
+    """Return the travel at which the strut has its greatest length, looked up in a table.
+
+    None if there is no strut, or it never is.
+    """
+    if "strut_length_max" not in model.parameters:
+        return None
     angles = np.linspace(*reach.arm_angle, 721)
     states = np.tile(model.design_state, (angles.size, 1))
     states[:, 0] = angles
     signals: dict[str, Array] = model.signals(states)
-    longer = signals["strut_length"] - model.suspension.parameters()["strut_length_max"]
+    longer = signals["strut_length"] - model.parameters["strut_length_max"]
     # from low to high positions the strut becomes shorter
     below = np.flatnonzero((longer[:-1] > 0.0) & (longer[1:] <= 0.0))
     if below.size == 0:
@@ -182,8 +207,8 @@ def _notes(
         return notes
     if abs(rest.travel) > _FAR_FROM_DESIGN:
         notes.append(
-            f"the wheel rests {rest.travel * 1e3:+.1f} mm from design. [strut] "
-            "spring_free_slide_mm and [tyre] free_height_mm decide where."
+            f"the wheel rests {rest.travel * 1e3:+.1f} mm from design. Where the spring is free "
+            "of force and [tyre] free_height_mm decide where."
         )
     if extension is not None and rest.travel < extension:
         notes.append("at rest, the strut is longer than [strut] length_max_mm.")
@@ -200,6 +225,7 @@ def as_dict(found: Checkup) -> dict[str, Any]:
     """Return a checkup as plain numbers, texts and nested dictionaries, SI units."""
     rest = found.equilibrium
     return {
+        "suspension": found.title,
         "side": found.side,
         "geometry": dict(found.geometry),
         "travel": {

@@ -1,6 +1,5 @@
 """A suspension together with its compiled equations of motion."""
 
-from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 from types import ModuleType
@@ -74,10 +73,10 @@ class Model(System):
 
     def __init__(self, suspension: Suspension | str | Path, *, free_rack: bool = False) -> None:
         suspension = _suspension_of(suspension)
-        parameters = suspension.parameters()
         if not free_rack:
-            _refuse_neglected_mass(parameters)
-        super().__init__(_equations_for(suspension, free_rack=free_rack), parameters)
+            _refuse_neglected_mass(suspension)
+        equations = _equations_for(suspension, free_rack=free_rack)
+        super().__init__(equations, suspension.parameters())
         self.suspension = suspension
         self.free_rack = free_rack
         self.names = _MACPHERSON if isinstance(suspension, MacPherson) else _DOUBLE_WISHBONE
@@ -122,14 +121,28 @@ def _macpherson(suspension: MacPherson, *, free_rack: bool) -> ModuleType:
     return macpherson_general
 
 
-def _refuse_neglected_mass(parameters: Mapping[str, float]) -> None:
-    heavy = [body for body in _MASSLESS_IN_THE_PAPER if parameters.get(f"{body}_mass", 0.0) > 0.0]
-    if heavy:
-        raise InputError(
-            [
-                f"[bodies.{body}] mass_kg = {parameters[f'{body}_mass']:g} kg: the equations with "
-                "a prescribed rack leave this body without mass. Set it to zero, or use "
-                "free_rack=True."
-                for body in heavy
-            ]
-        )
+def neglected_masses(suspension: Suspension) -> dict[str, float]:
+    """Return the bodies whose mass counts only with a free rack.
+
+    Parameters
+    ----------
+    suspension : Suspension
+
+    Returns
+    -------
+    dict of str to float
+        Name to mass [kg], more than zero; empty where the rack may be prescribed.
+    """
+    rigid = suspension.bodies.rigid()
+    masses = {name: rigid[name].mass_kg for name in _MASSLESS_IN_THE_PAPER if name in rigid}
+    return {name: mass for name, mass in masses.items() if mass > 0.0}
+
+
+def _refuse_neglected_mass(suspension: Suspension) -> None:
+    problems = [
+        f"[bodies.{body}] mass_kg = {mass:g} kg: the equations with a prescribed rack leave this "
+        "body without mass. Set it to zero, or use free_rack=True."
+        for body, mass in neglected_masses(suspension).items()
+    ]
+    if problems:
+        raise InputError(problems)

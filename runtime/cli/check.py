@@ -48,7 +48,7 @@ def command(file: File, *, json: Json = False) -> None:
 
 
 def _table(found: "Checkup", file: str) -> Table:
-    table = Table(title=f"{escape(file)}: {found.side} MacPherson suspension", show_header=False)
+    table = Table(title=f"{escape(file)}: {found.side} {found.title}", show_header=False)
     for name, text in {**_geometry(found), **_travel(found), **_rest(found)}.items():
         table.add_row(name, text)
     return table

@@ -69,15 +69,11 @@ def load(file: str) -> "Model":
     -------
     Model
     """
-    from ..generated import macpherson
     from ..input.suspension import Suspension
-    from ..model import Model
+    from ..model import Model, neglected_masses
 
     suspension = Suspension.load(file)
-    parameters = suspension.parameters()
-    neglected = set(macpherson.BODIES) - set(macpherson.MASSIVE_BODIES)
-    free_rack = any(parameters[f"{body}_mass"] > 0.0 for body in neglected)
-    return Model(suspension, free_rack=free_rack)
+    return Model(suspension, free_rack=bool(neglected_masses(suspension)))
 
 
 def metres(millimetres: float | None) -> float | None:

@@ -53,6 +53,7 @@ _DRAWN = (
     "spring_force",
     "damper_force",
     "strut_length",
+    "spring_length",
     "camber",
     "toe",
 )
