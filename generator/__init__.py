@@ -20,7 +20,15 @@ The rooms, in the order in which a mechanism passes through them:
 What a declaration is made of can be imported from here.
 """
 
-from .forces import AlongLine, AlongTelescope, ForceElement, JointForce, LinearTyre, Weight
+from .forces import (
+    AlongLine,
+    AlongTelescope,
+    ForceElement,
+    JointForce,
+    LinearTyre,
+    TwistOfHinges,
+    Weight,
+)
 from .geometry import FORWARD, UP, Direction, Line, Point
 from .joints import Cylindrical, Prismatic, Revolute, Spherical, Universal
 from .laws import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
@@ -53,6 +61,7 @@ __all__ = [
     "Revolute",
     "Spherical",
     "Stop",
+    "TwistOfHinges",
     "Universal",
     "Weight",
     "direction",

@@ -6,7 +6,8 @@ import difflib
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from .forces import AlongTelescope, ForceElement, JointForce, LinearTyre, Weight
+from .forces import AlongLine, AlongTelescope, ForceElement, JointForce, LinearTyre, Weight
+from .joints import Revolute
 from .laws import Actuator, LinearSpring
 from .names import name_problems
 
@@ -76,9 +77,12 @@ def _element_problems(mechanism: Mechanism, element: ForceElement) -> list[str]:
     telescopic = isinstance(path, AlongTelescope)
     if isinstance(path, AlongTelescope):
         problems = _unknown(f"{what}: joint", [path.joint], [j.name for j in mechanism.joints])
-    else:
+    elif isinstance(path, AlongLine):
         bodies = [body for body, _ in (path.first, path.second)]
         problems = _unknown(f"{what}: body", bodies, [b.name for b in mechanism.bodies])
+    else:
+        hinges = [j.name for j in mechanism.joints if isinstance(j, Revolute)]
+        problems = _unknown(f"{what}: revolute joint", [path.first, path.second], hinges)
     for law in element.laws:
         if isinstance(law, Actuator):
             problems += _unknown(f"{what}: input", [law.input], mechanism.inputs)

@@ -17,8 +17,17 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from .arithmetic import IsPositive, Positive
-from .forces import AlongTelescope, ForceElement, JointForce, LinearTyre, Weight
+from .forces import (
+    AlongTelescope,
+    ForceElement,
+    JointForce,
+    LinearTyre,
+    TwistOfHinges,
+    Weight,
+)
 from .geometry import UP
+from .hinge_angles import angle_of, turning_rates
+from .joints import Revolute
 from .laws import Stretch
 from .placement import Placed, to_axes
 from .vectors import ELEMENTS, SymmetricTensor, Twist, Vector
@@ -296,7 +305,9 @@ class Dynamics:
         if isinstance(element.path, AlongTelescope):
             slide = self.kin.slides[element.path.joint]
         stretch = Stretch(program, name, length, velocity, slide)
-        self.signals |= {f"{name}_length": length, f"{name}_velocity": velocity}
+        shown = ("angle", "angular_velocity") if element.turns else ("length", "velocity")
+        values = zip(shown, (length, velocity), strict=True)
+        self.signals |= {f"{name}_{what}": value for what, value in values}
         total = NONE
         for signal, laws in self._by_signal(element).items():
             shown = self.kin.mechanism.signal_name(element, signal)
@@ -312,7 +323,7 @@ class Dynamics:
     def _by_signal(element: ForceElement) -> dict[str, list[Law]]:
         groups: dict[str, list[Law]] = {}
         for law in element.laws:
-            groups.setdefault(law.signal, []).append(law)
+            groups.setdefault(element.signal(law), []).append(law)
         return groups
 
     def _path_of(self, element: ForceElement) -> tuple[sp.Expr, dict[str, sp.Expr]]:
@@ -320,6 +331,8 @@ class Dynamics:
         if isinstance(element.path, AlongTelescope):
             line = self.kin.telescopes[element.path.joint]
             return line.length, line.length_motion
+        if isinstance(element.path, TwistOfHinges):
+            return self._twist_of(element.path)
         program, name = self.program, element.name
         first, second = (
             self.kin.point_motion(body, point)
@@ -337,6 +350,17 @@ class Dynamics:
             for k, v in relative.motion.items()
         }
         return length, motion
+
+    def _twist_of(self, path: TwistOfHinges) -> tuple[sp.Expr, dict[str, sp.Expr]]:
+        """Return the angle between two hinges, and its rate per unit rate of each coordinate."""
+        twist, motion = NONE, dict.fromkeys(self.kin.moving, NONE)
+        for sense, name in ((-1, path.first), (1, path.second)):
+            joint = self.kin.mechanism.joint(name)
+            assert isinstance(joint, Revolute)
+            twist += sense * angle_of(self.kin, joint)
+            for k, rate in turning_rates(self.kin, joint).items():
+                motion[k] += sense * rate
+        return twist, {k: rate for k, rate in motion.items() if rate != 0}
 
     def _add_tyre(self, force: LinearTyre) -> None:
         program, carrier = self.program, self.kin.placed[force.carrier]

@@ -50,6 +50,27 @@ class AlongLine:
     second: tuple[str, Point]
 
 
+@dataclass(frozen=True)
+class TwistOfHinges:
+    """The angle of one hinge less that of another: what twists a bar between them.
+
+    What elsewhere is a length is an angle here [rad], and what is a force is a moment [N m]: it
+    acts with its sign on the second hinge and against it on the first, so that its power is that
+    of the moment at the rate of the twist.
+
+    Parameters
+    ----------
+    first, second
+        Names of the two revolute joints.
+    """
+
+    first: str
+    second: str
+
+
+Path = AlongTelescope | AlongLine | TwistOfHinges
+
+
 @dataclass(frozen=True, kw_only=True)
 class ForceElement:
     """Springs, dampers and stops that act along one path between two bodies (Eq. 23).
@@ -57,7 +78,8 @@ class ForceElement:
     Parameters
     ----------
     name
-        Begins the names of its signals: ``<name>_length``, ``<name>_velocity``.
+        Begins the names of its signals: ``<name>_length``, ``<name>_velocity``; of a twist,
+        ``<name>_angle`` and ``<name>_angular_velocity``.
     path
         What it acts along.
     laws
@@ -65,8 +87,17 @@ class ForceElement:
     """
 
     name: str
-    path: AlongTelescope | AlongLine
+    path: Path
     laws: tuple[Law, ...]
+
+    @property
+    def turns(self) -> bool:
+        """Whether it acts on an angle, by moments."""
+        return isinstance(self.path, TwistOfHinges)
+
+    def signal(self, law: Law) -> str:
+        """Return what the signal of one of its laws is called, without the element's name."""
+        return law.signal.replace("force", "moment") if self.turns else law.signal
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,7 +9,8 @@ import sympy as sp
 
 from .arithmetic import SignOf
 from .placement import Placed, from_axes, to_axes
-from .vectors import ZERO, Vector
+from .transformer import PlaceByPin, SolveHinge
+from .vectors import UNIT_X, ZERO, Vector
 
 if TYPE_CHECKING:
     from .joints import Revolute
@@ -63,6 +64,46 @@ def axis_at_design(kin: Kinematics, joint: Revolute) -> Vector:
 def positive_axis_at_design(kin: Kinematics, joint: Revolute) -> Vector:
     """Return the unit vector about which the angle of a hinge is positive, at design."""
     return axis_at_design(kin, joint) if joint.angle_to is None else HingeDesign.of(kin, joint).axis
+
+
+def angle_of(kin: Kinematics, joint: Revolute) -> sp.Expr:
+    """Return the angle of a hinge [rad]: driven, solved, or from the poses of its two bodies."""
+    if kin.is_driven(joint):
+        return kin.coordinates[kin.coordinate_of(joint)]
+    if joint.name in kin.angles and joint.angle_to is None:
+        return kin.program.define(f"angle_{joint.name}", kin.angles[joint.name])
+    sine, cosine = turn_between(kin, joint)
+    return kin.program.define(f"angle_{joint.name}", sp.atan2(sine, cosine))
+
+
+def turning_rates(kin: Kinematics, joint: Revolute) -> dict[str, sp.Expr]:
+    """Return the rate of a hinge's angle per unit rate of each coordinate that turns it.
+
+    The axis is fixed in both bodies: ``n . omega`` of the second less that of the first.
+    """
+    rates: dict[str, sp.Expr] = {}
+    for sense, name in ((1, joint.second), (-1, joint.first)):
+        placed = kin.placed[name]
+        n = _axis_on(kin, joint, placed)
+        for k, twist in placed.motion.items():
+            share = kin.program.define(f"{joint.name}_turn_of_{name}_{k}", n.dot(twist.angular))
+            rates[k] = rates.get(k, sp.Integer(0)) + sense * share
+    return rates
+
+
+def is_first_axis(kin: Kinematics, joint: Revolute) -> bool:
+    """Tell whether a hinge placed its second body, so that it is the first of the body's axes."""
+    kinds = PlaceByPin | SolveHinge
+    turned = [a.body for a in kin.plan.actions if isinstance(a, kinds) and a.joint == joint]
+    return kin.is_driven(joint) or (turned == [joint.second] and joint.angle_to is None)
+
+
+def _axis_on(kin: Kinematics, joint: Revolute, placed: Placed) -> Vector:
+    """Return the axis of a hinge in the axes of one of its bodies."""
+    if placed.body == joint.second and is_first_axis(kin, joint):
+        return UNIT_X
+    n = to_axes(placed.design_axes, positive_axis_at_design(kin, joint))
+    return kin.program.vector(f"{joint.name}_axis_on_{placed.body}", n, "123")
 
 
 def turn_between(kin: Kinematics, joint: Revolute) -> tuple[sp.Expr, sp.Expr]:

@@ -12,6 +12,8 @@ from .joints import Joint, Universal
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    import sympy as sp
+
     from .forces import Force
     from .geometry import Direction, Point
 
@@ -71,7 +73,8 @@ class Mechanism:
     """Bodies and joints with everything that acts on them.
 
     The first body is the ground. `coordinates` are the relative coordinates of the report, in the
-    numbering of the figure; `inputs` gives unit and meaning of each time-varying input.
+    numbering of the figure; `inputs` gives unit and meaning of each time-varying input; `derived`
+    gives, by name, what the declaration reads like a parameter but is an expression in parameters.
     """
 
     name: str
@@ -82,6 +85,7 @@ class Mechanism:
     parameters: tuple[Parameter, ...]
     coordinates: tuple[RelativeCoordinate, ...]
     inputs: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+    derived: Mapping[str, sp.Expr] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         check_mechanism(self)
@@ -106,7 +110,7 @@ class Mechanism:
 
     def signal_name(self, element: ForceElement, signal: str) -> str:
         """Return the name of a force signal, with the element's where others have it too."""
-        having = [e for e in self.elements if any(law.signal == signal for law in e.laws)]
+        having = [e for e in self.elements if any(e.signal(law) == signal for law in e.laws)]
         return signal if len(having) == 1 else f"{element.name}_{signal}"
 
     @property

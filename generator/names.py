@@ -40,6 +40,7 @@ def name_problems(mechanism: Mechanism) -> list[str]:
     owners: dict[str, str] = {}
     rates = [f"{name}_rate" for name in coordinates]
     read = {k: kinds[k] for k in ("parameter", "coordinate", "input")} | {"rate": rates}
+    read["derived"] = list(mechanism.derived)
     for kind, names in read.items():
         for name in dict.fromkeys(names):
             if name in owners:
@@ -75,4 +76,8 @@ def _differ_in_case_only(kind: str, names: list[str]) -> list[str]:
 
 
 def _article(kind: str) -> str:
-    return {"rate": "the rate of a coordinate", "input": "an input"}.get(kind, f"a {kind}")
+    return {
+        "rate": "the rate of a coordinate",
+        "input": "an input",
+        "derived": "a parameter of a copy",
+    }.get(kind, f"a {kind}")

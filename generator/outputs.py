@@ -22,6 +22,7 @@ from .vectors import ZERO, Vector
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
+    from .laws import Law
     from .mechanism import Mechanism, Model
 
 AXES = ("x", "y", "z")
@@ -87,7 +88,9 @@ class _Builder:
         self.mechanism: Mechanism = model.mechanism
         self.plan = Plan.of(model)
         self.constants = ConstantStage(
-            tuple(sp.Symbol(p.name) for p in self.mechanism.parameters), self._varying_names()
+            tuple(sp.Symbol(p.name) for p in self.mechanism.parameters),
+            self._varying_names(),
+            derived={sp.Symbol(n): value for n, value in self.mechanism.derived.items()},
         )
         self.program = Program(self.constants)
         self.kin = Kinematics(self.program, self.plan)
@@ -495,14 +498,39 @@ class _Builder:
         )
 
     def _add_element_signals(self, element: ForceElement, results: dict[str, sp.Expr]) -> None:
-        name = element.name
-        described = {
-            f"{name}_length": ("m", f"length of the {name}"),
-            f"{name}_velocity": ("m/s", f"rate of the {name}'s length, positive in rebound"),
-        }
-        for law in element.laws:
-            if not isinstance(law, Actuator):
-                shown = self.mechanism.signal_name(element, law.signal)
-                described[shown] = ("N", f"{law.meaning}, positive when it pushes the ends apart")
+        described = self._described_turning(element) if element.turns else self._described(element)
         for signal, (unit, meaning) in described.items():
             self._signal(results, signal, self.dynamics.signals[signal], unit, meaning)
+
+    def _described(self, element: ForceElement) -> dict[str, tuple[str, str]]:
+        """Return unit and meaning of each signal of an element that acts along a line."""
+        name = element.name
+        return {
+            f"{name}_length": ("m", f"length of the {name}"),
+            f"{name}_velocity": ("m/s", f"rate of the {name}'s length, positive in rebound"),
+        } | {
+            self._shown(element, law): (
+                "N",
+                f"{law.meaning}, positive when it pushes the ends apart",
+            )
+            for law in element.laws
+            if not isinstance(law, Actuator)
+        }
+
+    def _described_turning(self, element: ForceElement) -> dict[str, tuple[str, str]]:
+        """Return unit and meaning of each signal of an element that acts on an angle."""
+        name = element.name
+        return {
+            f"{name}_angle": ("rad", f"twist of the {name}"),
+            f"{name}_angular_velocity": ("rad/s", f"rate of the {name}'s twist"),
+        } | {
+            self._shown(element, law): (
+                "N m",
+                f"{law.meaning.replace('force', 'moment')}, positive when it increases the twist",
+            )
+            for law in element.laws
+            if not isinstance(law, Actuator)
+        }
+
+    def _shown(self, element: ForceElement, law: Law) -> str:
+        return self.mechanism.signal_name(element, element.signal(law))

@@ -1,4 +1,4 @@
-"""The straight-line program: named steps, no iteration, no branch.
+"""The straight-line program: named steps, no branch, and no iteration but where one is allowed.
 
 A *step* is a name and a small expression in earlier names. Everything the generator derives is a
 step of one `Program`; an emitted `Function` is the part of the program that its results need.
@@ -18,11 +18,13 @@ from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
-from .arithmetic import Guarded, Written, write
+from .arithmetic import Component, Guarded, Iterated, Written, write
 from .vectors import Vector
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+
+    from .iteration import Block
 
 
 @dataclass(frozen=True)
@@ -72,6 +74,8 @@ class Function:
         The guards that act in this function.
     part
         What the file that it is printed in adds to the model's name; empty: nothing.
+    blocks
+        The iterations that it calls; none in a model whose loops all have a closed form.
     """
 
     name: str
@@ -82,6 +86,7 @@ class Function:
     shape: tuple[int, ...]
     guards: tuple[Guard, ...]
     part: str = ""
+    blocks: tuple[Block, ...] = ()
 
     @property
     def free_symbols(self) -> set[sp.Symbol]:
@@ -91,10 +96,17 @@ class Function:
         return used - {step.symbol for step in self.steps}
 
     def operations(self) -> Counter[str]:
-        """Count the arithmetic operations of one call, exactly as they are printed."""
+        """Count the arithmetic operations of one call, exactly as they are printed.
+
+        Of a block that iterates, those of one iteration.
+        """
         total: Counter[str] = Counter()
         for written in (*self.written.steps, *self.written.results):
             total.update(written.operations)
+        blocks = {block.name: block for block in self.blocks}
+        for step in self.steps:
+            if isinstance(step.expression, Iterated):
+                total.update(blocks[step.expression.args[0].name].once.operations())
         return total
 
     @cached_property
@@ -118,12 +130,15 @@ class ConstantStage:
         Symbols that are fixed for one parameter set.
     reserved
         Names that no step may have: those of states and inputs.
+    derived
+        What stands for other symbols that the equations name like parameters.
     steps
         The steps, in order.
     """
 
     parameters: tuple[sp.Symbol, ...]
     reserved: frozenset[str] = frozenset()
+    derived: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
     steps: dict[sp.Symbol, Step] = field(default_factory=dict)
     _known: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
     _varying: set[str] = field(default_factory=set)  # names of steps of the programs
@@ -136,6 +151,12 @@ class ConstantStage:
     @cached_property
     def _given(self) -> frozenset[sp.Symbol]:
         return frozenset(self.parameters)
+
+    def insert_derived(self, expression: sp.Expr) -> sp.Expr:
+        """Write an expression without derived symbols."""
+        if self.derived.keys().isdisjoint(expression.free_symbols):
+            return expression
+        return expression.xreplace(self.derived)
 
     def has(self, name: str) -> bool:
         """Tell whether a name is that of a constant, a parameter, a state or an input."""
@@ -201,6 +222,7 @@ class Program:
     constants: ConstantStage
     steps: dict[sp.Symbol, Step] = field(default_factory=dict)
     guards: dict[sp.Symbol, Guard] = field(default_factory=dict)
+    blocks: dict[str, Block] = field(default_factory=dict)
     _section: str = ""
     _known: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
 
@@ -215,7 +237,7 @@ class Program:
         already a step is not repeated, so that zeros and shared values disappear on the way. The
         symbol has a number behind its name where something else has that name already.
         """
-        expression = sp.sympify(expression)
+        expression = self.constants.insert_derived(sp.sympify(expression))
         if expression.is_Atom or (-expression).is_Symbol:
             return expression
         if self.constants.contains(expression):
@@ -256,6 +278,15 @@ class Program:
             return symbol
         self.guards.setdefault(symbol, Guard(symbol, name, meaning, unit))
         return Guarded(symbol)
+
+    def iterated(self, name: str, block: Block, given: Iterable[sp.Expr]) -> dict[str, sp.Expr]:
+        """Append the call of a block that iterates, and return its results by name."""
+        self.blocks[block.name] = block
+        results = self.define(name, Iterated(block.symbol, *given))
+        return {
+            label: self.define(f"{name}_{label}", Component(results, place))
+            for place, label in enumerate(block.results)
+        }
 
     # -- differentiation ------------------------------------------------------------------------
 
@@ -330,7 +361,8 @@ class Program:
         shape: Sequence[int] | None = None,
     ) -> Function:
         """Prune the program to some results and share their common subexpressions."""
-        expressions = [self._hoist(e) for e in results.values()]
+        written = (self.constants.insert_derived(sp.sympify(e)) for e in results.values())
+        expressions = [self._hoist(e) for e in written]
         needed = ancestors(self.steps, expressions)
         steps = [
             Step(s.symbol, self._hoist(s.expression), s.section)
@@ -344,6 +376,7 @@ class Program:
         acting |= set().union(*(e.atoms(Guarded) for e in expressions), set())
         quantities = {g.args[0] for g in acting}
         guards = tuple(g for q, g in self.guards.items() if q in quantities)
+        called = {s.expression.args[0].name for s in steps if isinstance(s.expression, Iterated)}
         return Function(
             name,
             doc,
@@ -352,6 +385,7 @@ class Program:
             tuple(results),
             tuple(shape) if shape is not None else (len(expressions),),
             guards,
+            blocks=tuple(block for n, block in self.blocks.items() if n in called),
         )
 
     # -- constants ------------------------------------------------------------------------------

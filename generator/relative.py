@@ -15,7 +15,7 @@ import networkx as nx
 import sympy as sp
 
 from .geometry import Point
-from .hinge_angles import positive_axis_at_design, turn_between
+from .hinge_angles import angle_of, is_first_axis, positive_axis_at_design, turn_between
 from .joints import Cylindrical, Joint, Prismatic, Revolute, Universal
 from .placement import IDENTITY, Axes, Placed, from_axes, to_axes
 from .transformer import PlaceByPin, SolveHinge, SolveSlide, SolveTelescope, SolveTurn
@@ -104,10 +104,7 @@ class RelativeCoordinates:
             return self.kin.coordinates[self.kin.coordinate_of(joint)]
         if isinstance(joint, Prismatic):
             return self.kin.slides[joint.name]
-        if joint.name in self.kin.angles and joint.angle_to is None:
-            return self.program.define(f"angle_{joint.name}", self.kin.angles[joint.name])
-        sine, cosine = turn_between(self.kin, joint)
-        return self.program.define(f"angle_{joint.name}", sp.atan2(sine, cosine))
+        return angle_of(self.kin, joint)
 
     def _shaft(self, joint: Universal) -> _Shaft:
         """Angles of a shaft relative to the first body of its universal joint."""
@@ -261,9 +258,7 @@ class RelativeCoordinates:
     def _screw_of_hinge(self, joint: Revolute, name: str) -> _Screw:
         """Return the screw of a hinge; where it placed its second body, that has it as its axis."""
         kin, first, second = self.kin, self.kin.placed[joint.first], self.kin.placed[joint.second]
-        kinds = PlaceByPin | SolveHinge
-        turned = [a.body for a in kin.plan.actions if isinstance(a, kinds) and a.joint == joint]
-        if kin.is_driven(joint) or (turned == [joint.second] and joint.angle_to is None):
+        if is_first_axis(kin, joint):
             return _Screw(name, second.axes[0], second.origin, ZERO)
         n = positive_axis_at_design(kin, joint)
         axis = from_axes(first.axes, to_axes(first.design_axes, n))
