@@ -66,6 +66,41 @@ class IsPositive(sp.Function):  # type: ignore[misc]
         return sp.Integer(0)
 
 
+class Iterated(sp.Function):  # type: ignore[misc]
+    """All results of an iteration (`iteration.Block`) together, as one value.
+
+    The first argument is the name of the block, the others are what it is given.
+
+    Its derivative is zero by definition: what follows the iteration corrects its result once more,
+    in straight-line code, and the derivative of that correction is the exact one.
+    """
+
+    def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
+        del s
+        return sp.Integer(0)
+
+
+class Component(sp.Function):  # type: ignore[misc]
+    """One result of an iteration, by its place; the derivative is zero by definition."""
+
+    nargs = 2
+
+    def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
+        del s
+        return sp.Integer(0)
+
+
+class Frozen(sp.Function):  # type: ignore[misc]
+    """The argument itself, with a derivative of zero: an estimate that is corrected afterwards."""
+
+    nargs = 1
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """Differentiate: zero by definition."""
+        del argindex
+        return sp.Integer(0)
+
+
 # Comparisons, not arithmetic: they are not counted as operations.
 _SELECTIONS = (Guarded, SignOf, Positive, IsPositive)
 
@@ -76,6 +111,7 @@ class Dialect:
 
     functions: Mapping[type, str]
     root: str
+    component: str
 
 
 C = Dialect(
@@ -90,6 +126,7 @@ C = Dialect(
         IsPositive: "(double)({} > 0.0)",
     },
     root="sqrt({})",
+    component="{}.at[{}]",
 )
 NUMPY = Dialect(
     {
@@ -103,6 +140,7 @@ NUMPY = Dialect(
         IsPositive: "1.0*({} > 0.0)",
     },
     root="np.sqrt({})",
+    component="{}[{}]",
 )
 
 # binding strength of a written expression, loosest first
@@ -110,7 +148,15 @@ _SUM, _NEGATIVE, _PRODUCT, _ATOM = range(4)
 
 # About how many cycles the result of an operation is waited for on present processors. Only the
 # order of operations follows from these numbers, never their count.
-_LATENCY = {"sum": 4, "product": 4, "quotient": 14, "root": 18, "selection": 4, "function": 45}
+_LATENCY = {
+    "sum": 4,
+    "product": 4,
+    "quotient": 14,
+    "root": 18,
+    "selection": 4,
+    "function": 45,
+    "iteration": 500,
+}
 
 
 @dataclass(frozen=True)
@@ -172,6 +218,12 @@ class _Writer:
         return self._function(expression)
 
     def _function(self, expression: sp.Expr) -> Written:
+        if isinstance(expression, Frozen):
+            return self.write(expression.args[0])
+        if isinstance(expression, Component):
+            return self._component(*expression.args)
+        if isinstance(expression, Iterated):
+            return self._iterated(*expression.args)
         spelling = self.dialect.functions.get(type(expression))
         if spelling is None:
             message = f"{expression} cannot be written: {type(expression).__name__} has no spelling"
@@ -184,6 +236,16 @@ class _Writer:
             _total(arguments, trigonometric=int(not selection)),
             _after(arguments, "selection" if selection else "function"),
         )
+
+    def _component(self, results: sp.Symbol, place: sp.Integer) -> Written:
+        text = self.dialect.component.format(results.name, int(place))
+        return Written(text, _ATOM, Counter(), self.ready.get(results, 0))
+
+    def _iterated(self, block: sp.Basic, *given: sp.Expr) -> Written:
+        """Write the call of a block; who knows the block counts what is in it."""
+        arguments = [self.write(a) for a in given]
+        text = f"{block.name}({', '.join(a.text for a in arguments)})"
+        return Written(text, _ATOM, _total(arguments), _after(arguments, "iteration"))
 
     def _sum(self, expression: sp.Expr) -> Written:
         """Add the terms that are there first, and subtract rather than put a sign in front."""
