@@ -1,0 +1,98 @@
+"""A chain of many loops: its exact motion, what grows with its length, and which loop fails."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from kintrafo.generator.emit.arrays import ArraysPrinter
+from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
+from kintrafo.generator.outputs import GeneratedModel, generate
+from kintrafo.generator.transformer import Plan
+from own_models import Built, needs_gcc, own
+
+ROOT = Path(__file__).parents[1]
+LONG = 16  # loops: more guards than a status word has bits
+
+
+@pytest.fixture(scope="module")
+def derived() -> GeneratedModel:
+    return generate(n_four_bar(LONG))
+
+
+@pytest.fixture(scope="module")
+def chain(derived: GeneratedModel, tmp_path_factory: pytest.TempPathFactory) -> Built:
+    return Built.of(derived.model, own(derived, tmp_path_factory.mktemp("chain")))
+
+
+@needs_gcc
+@pytest.mark.parametrize("angle", [-1.2, -0.3, 0.0, 0.7, 1.4])
+def test_chain_is_a_pendulum(chain: Built, angle: float) -> None:
+    """All rockers stay parallel: (N + (N + 1) / 3) angle'' = (N + (N + 1) / 2) g sin(angle)."""
+    found = chain("rhs", np.array([angle, 1.7]), np.zeros(1))[1]
+    ratio = (LONG + (LONG + 1) / 2) / (LONG + (LONG + 1) / 3)
+    # each loop hands its rounding on to the next, divided by the sine of the angle to level
+    allowed = 1e-15 * LONG**2 / np.cos(angle) ** 3
+    assert found == pytest.approx(9.81 * ratio * np.sin(angle), rel=0.0, abs=10.0 * allowed)
+
+
+@needs_gcc
+def test_rockers_stay_parallel(chain: Built) -> None:
+    turned = chain("orientations", np.array([0.8, 0.0]), np.zeros(1))
+    bodies = chain.module.BODIES
+    for name, rotation in zip(bodies, turned, strict=True):
+        angle = 0.8 if name.startswith("rocker") else 0.0
+        c, s = np.cos(angle), np.sin(angle)
+        expected = [[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]]
+        # 1e-13: some ten roundings a loop
+        np.testing.assert_allclose(rotation, expected, atol=1e-13)
+
+
+@needs_gcc
+@pytest.mark.parametrize("loop", [1, LONG - 1, LONG])
+def test_the_loop_that_cannot_close_is_named(chain: Built, loop: int) -> None:
+    """Also where guards share a bit of the status word."""
+    built = Built.of(chain.model, chain.module, {f"top_{loop}_z": 2.0})  # a rocker too long
+    with pytest.raises(built.module.ClosureError, match=f"coupler_{loop} cannot reach") as error:
+        built("rhs", np.array([1.4, 0.0]), np.zeros(1))
+    first = next(iter(error.value.margins))
+    assert first == f"rocker_{loop}_closure"
+    assert error.value.margins[first] < 0.0
+
+
+def test_arrays_share_the_last_bit_too(derived: GeneratedModel) -> None:
+    source = ArraysPrinter(derived).source()
+    assert len(derived.guards) > 32
+    assert f"{len(derived.guards) - 1}: " in source
+
+
+def test_operations_grow_by_the_same_for_every_loop() -> None:
+    """No loop costs more than another one."""
+    lengths = (1, 2, 3)
+    counts = [generate(n_four_bar(n)).functions["rhs"].operations().total() for n in lengths]
+    assert counts[2] - counts[1] == counts[1] - counts[0]
+
+
+def test_long_chain_is_planned_loop_by_loop() -> None:
+    plan = Plan.of(n_four_bar(40))
+    assert plan.topology.mobility == 1
+    names = [{f"rocker_{i - 1}", f"coupler_{i}", f"rocker_{i}"} for i in range(1, 41)]
+    assert [set(t.cycle.bodies) - {"ground"} for t in plan.transformers] == names
+
+
+@needs_gcc
+def test_benchmark_writes_everything(tmp_path: Path) -> None:
+    page = tmp_path / "docs" / "page.md"
+    (page.parent / "images").mkdir(parents=True)
+    page.write_text((ROOT / "docs/growth.md").read_text(encoding="utf-8"), encoding="utf-8")
+    command = [sys.executable, "-m", "benchmarks.growth", "--quick"]
+    command += ["--out", str(tmp_path), "--page", str(page)]
+    subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
+    points = json.loads((tmp_path / "growth.json").read_text(encoding="utf-8"))["points"]
+    assert [p["loops"] for p in points] == [1, 2, 3]
+    for point in points:
+        assert point["error"] < 1e-6  # a hundred times the tolerance of the integrator
+    assert (page.parent / "images/growth.png").stat().st_size > 10_000
+    assert "proportion" in page.read_text(encoding="utf-8")
