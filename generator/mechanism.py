@@ -144,6 +144,9 @@ class Model:
         Bodies whose inertia enters the equations.
     held
         Variants of the right-hand side: name to the prescribed inputs that stand still in it.
+    allow_iteration
+        Whether a loop without a closed form may be solved by Newton's method, for that loop alone.
+        Without it such a loop is refused.
     """
 
     name: str
@@ -153,6 +156,7 @@ class Model:
     massive: tuple[str, ...]
     prescribed: Mapping[str, str] = field(default_factory=dict)
     held: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    allow_iteration: bool = False
 
     def __post_init__(self) -> None:
         check_model(self)
