@@ -17,7 +17,15 @@ from .joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universa
 from .topology import Cycle, MinimalBasis, Topology
 
 if TYPE_CHECKING:
-    from .mechanism import Mechanism, Model
+    from .mechanism import Body, Mechanism, Model
+
+
+# A rod is one equation; the pose of a body about a known point has three unknowns, else six.
+_RODS_ABOUT_A_POINT = 3
+_RODS_WITHOUT_A_POINT = 6
+
+_Offer = tuple[Cycle, list[Cycle]]
+"""A cycle of the basis, with the others that could have been taken."""
 
 
 class NoClosedFormError(ValueError):
@@ -220,7 +228,40 @@ class PlaceByCross:
         return f"{self.child}: cross of the universal joint"
 
 
-Solution = SolveTelescope | SolveTurn | SolveHinge | SolveSlide | SolveStroke
+@dataclass(frozen=True)
+class HeldByRod:
+    """A rod from a placed body to a point of a body that several rods hold together."""
+
+    body: str
+    rod: str
+    end: Point
+    anchor: Point
+    anchor_body: str
+
+
+@dataclass(frozen=True)
+class SolveCarrier:
+    """A body that only rods hold, all together: its pose follows by iteration.
+
+    Attributes
+    ----------
+    base, base_body
+        A ball joint at a placed body, and that body; then three rods hold the orientation. Without
+        them six rods hold position and orientation.
+    """
+
+    body: str
+    rods: tuple[HeldByRod, ...]
+    base: Point | None = None
+    base_body: str | None = None
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"transformers with iteration: {self.body} held by {len(self.rods)} rods"
+
+
+Solution = SolveTelescope | SolveTurn | SolveHinge | SolveSlide | SolveStroke | SolveCarrier
 Action = PlaceByJoint | PlaceByPin | PlaceByCross | PlaceTelescope | Solution
 
 
@@ -351,14 +392,14 @@ class Plan:
         solved yet waits until another one has placed more bodies.
         """
         basis = MinimalBasis(self.topology)
-        waiting: list[tuple[Cycle, list[Cycle]]] = []
+        waiting: list[_Offer] = []
         while (options := basis.options()) or waiting:
             options.sort(key=self._unknowns)  # stable: ties keep the order of the figure's numbers
             offers = [(c, [o for o in options if o is not c]) for c in options]
             solved = next((offer for offer in (*waiting, *offers) if self._solve(*offer)), None)
             if solved is None and not offers:
-                cycle, _ = waiting[0]
-                raise NoClosedFormError(self._refusal(cycle, self._pair_candidates(cycle)))
+                waiting = self._iterate(waiting)
+                continue
             taken = solved or offers[0]
             if taken in waiting:
                 waiting.remove(taken)
@@ -429,7 +470,7 @@ class Plan:
             if action is None:
                 continue
             unknowns = self._unknowns(cycle)
-            before = {(j.name, c) for j in cycle.joints for c in j.coordinates} & self._known
+            before = self._coordinates(cycle) & self._known
             after = self._accept(action)
             self.transformers.append(
                 Transformer(
@@ -447,6 +488,90 @@ class Plan:
             self._place_neighbours()
             return True
         return False
+
+    @staticmethod
+    def _coordinates(cycle: Cycle) -> set[tuple[str, str]]:
+        return {(j.name, c) for j in cycle.joints for c in j.coordinates}
+
+    # -- loops without a closed form ------------------------------------------------------------
+
+    def _iterate(self, waiting: list[_Offer]) -> list[_Offer]:
+        """Solve a body that rods hold together, by iteration; return the loops that still wait."""
+        action = next(filter(None, map(self._carrier, self._mechanism.bodies)), None)
+        cycle, _ = waiting[0]
+        if action is None or not self.model.allow_iteration:
+            message = self._refusal(cycle, self._pair_candidates(cycle))
+            raise NoClosedFormError(message + self._remedy(action))
+        inside = {action.body, *(held.rod for held in action.rods)} | self._placed
+        solved = [offer for offer in waiting if inside.issuperset(offer[0].bodies)]
+        self._solve_together(action, solved)
+        self._place_neighbours()
+        return [offer for offer in waiting if offer not in solved]
+
+    def _solve_together(self, action: SolveCarrier, offers: list[_Offer]) -> None:
+        """Record the loops that one iteration solves: a transformer for each of them."""
+        pairs = self._rod_pairs(action, [cycle for cycle, _ in offers])
+        unknowns = [self._unknowns(cycle) for cycle, _ in offers]
+        given = [self._coordinates(cycle) & self._known for cycle, _ in offers]
+        found = self._accept(action)
+        left = set(found)
+        for i, (cycle, rivals) in enumerate(offers):
+            own = self._coordinates(cycle) & left
+            left -= own
+            self.transformers.append(
+                Transformer(
+                    number=len(self.transformers) + 1,
+                    cycle=cycle,
+                    unknowns=unknowns[i],
+                    candidates=(pairs[i],),
+                    pair=pairs[i],
+                    action=action,
+                    inputs=self._labels(given[i]),
+                    outputs=self._labels(own),
+                    rivals=tuple((c, self._unknowns_before(c, found)) for c in rivals),
+                )
+            )
+
+    def _rod_pairs(self, action: SolveCarrier, cycles: list[Cycle]) -> list[PairCandidate]:
+        """Return for each loop the two joints of a rod whose length is its equation."""
+        pairs: list[PairCandidate] = []
+        for cycle in cycles:
+            joints = [
+                tuple(j for j in cycle.joints if held.rod in j.bodies)
+                for held in action.rods
+                if held.rod in cycle.bodies
+            ]
+            candidates = [self._pair(cycle, a, b) for a, b in joints]
+            pairs.append(next((p for p in candidates if p not in pairs), candidates[0]))
+        return pairs
+
+    def _carrier(self, body: Body) -> SolveCarrier | None:
+        """Return the action for a body that three rods and a point hold, or six rods."""
+        if body.name in self._placed | self._on_line:
+            return None
+        rods = [held for j in self._mechanism.joints_of(body.name) if (held := self._rod(body, j))]
+        bases = [
+            j
+            for j in self._mechanism.joints_of(body.name)
+            if isinstance(j, Spherical) and j.other(body.name) in self._placed
+        ]
+        if len(bases) == 1 and len(rods) == _RODS_ABOUT_A_POINT:
+            (base,) = bases
+            return SolveCarrier(body.name, tuple(rods), base.at, base.other(body.name))
+        if not bases and len(rods) == _RODS_WITHOUT_A_POINT:
+            return SolveCarrier(body.name, tuple(rods))
+        return None
+
+    def _rod(self, body: Body, joint: Joint) -> HeldByRod | None:
+        """Return the rod that holds a body at a joint, if its other end is at a placed body."""
+        rod = joint.other(body.name)
+        joints = [j for j in self._mechanism.joints_of(rod) if j != joint]
+        if rod in self._placed or len(joints) != 1 or joint.center is None:
+            return None
+        (other,) = joints
+        if other.center is None or other.other(rod) not in self._placed:
+            return None
+        return HeldByRod(body.name, rod, joint.center, other.center, other.other(rod))
 
     def _unknowns_before(self, cycle: Cycle, solved: set[tuple[str, str]]) -> int:
         own = {(j.name, c) for j in cycle.joints for c in j.coordinates}
@@ -565,6 +690,8 @@ class Plan:
         if isinstance(action, SolveStroke):
             self.actions.append(action)
             return self._accept_telescope(action)
+        if isinstance(action, SolveCarrier):
+            return self._accept_carrier(action)
         if isinstance(action, SolveTelescope):
             new = {(action.joint.name, "slide")}
             self._on_line.add(action.end_link)
@@ -617,6 +744,17 @@ class Plan:
         self._known |= new
         return new
 
+    def _accept_carrier(self, action: SolveCarrier) -> set[tuple[str, str]]:
+        """Record a body that rods hold together, and the rods: each on its line."""
+        self.actions.append(action)
+        self._placed.add(action.body)
+        self._on_line |= {held.rod for held in action.rods}
+        at_rods = [j for held in action.rods for j in self._mechanism.joints_of(held.rod)]
+        at_body = [j for j in self._mechanism.joints_of(action.body) if self._joins_solved(j)]
+        new = {(j.name, c) for j in (*at_rods, *at_body) for c in j.coordinates} - self._known
+        self._known |= new
+        return new
+
     def _accept_telescope(self, action: PinnedTelescope) -> set[tuple[str, str]]:
         """Record the two links of a telescope in a plane, and the joints at them."""
         self._placed |= {action.near, action.far}
@@ -647,6 +785,18 @@ class Plan:
             f"the loop {loop} (joints {', '.join(j.name for j in cycle.joints)}) has no closed "
             f"form in the catalogue. {self._unknowns(cycle)} of its coordinates are unknown. "
             f"Pairs tried: {tried or 'none, since no two of its joints keep a point in common'}."
+        )
+
+    @staticmethod
+    def _remedy(action: SolveCarrier | None) -> str:
+        """Say whether an iteration would solve what has no closed form."""
+        if action is None:
+            return ""
+        rods = ", ".join(held.rod for held in action.rods)
+        return (
+            f" {action.body} is held by {rods} together: {len(action.rods)} equations remain in as "
+            "many unknowns. Newton's method solves them, for these loops alone, if the model is "
+            "declared with allow_iteration=True."
         )
 
     def _check_complete(self) -> None:
