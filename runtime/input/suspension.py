@@ -79,6 +79,7 @@ class Suspension(Section):
 
     TITLE: ClassVar[str]
 
+    suspension: str = Field(description="the kind of suspension")
     vehicle: Vehicle = Field(description="where the suspension is mounted")
     hardpoints: Hardpoints = Field(description="the points that define the geometry")
     wheel: Wheel = Field(description="alignment of the wheel")

@@ -126,7 +126,7 @@ def _simulate(model: Model) -> Motion:
     result = simulate(model, (0.0, DURATION), start, t_eval=times, rtol=1e-8, atol=1e-10)
     travel = result.signals["wheel_center_z"] - design
     rack = (
-        result.y[model.state_names.index("beta9")]
+        result.y[model.state_names.index(model.names.rack)]
         if model.free_rack
         else result.inputs[:, model.input_names.index("rack_position")]
     )
@@ -137,7 +137,7 @@ def _simulate(model: Model) -> Motion:
         time=time,
         travel=travel[kept],
         rack=rack[kept],
-        spin=result.y[model.state_names.index("beta5")][kept],
+        spin=result.y[model.state_names.index(model.names.spin)][kept],
         signals=[
             _time_curve(model, name, result.signals[name][kept])
             for name in SIGNALS

@@ -23,6 +23,12 @@ from .plotted import decimals, meaningful, shown_range
 from .poses import Poses, poses, reachable_grid
 from .tables import input_tables, summary
 
+# What is drawn in these colours, by the kind of suspension.
+_PARTS = {
+    "macpherson": {"arm": "control arm", "strut": "strut"},
+    "double_wishbone": {"arm": "control arms", "strut": "damper"},
+}
+
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -86,20 +92,25 @@ def render(
     side = model.suspension.vehicle.side
     template = _environment().get_template("page.html.jinja")
     return template.render(
-        title=title or f"MacPherson suspension, front {side}",
+        title=title or f"{_capital(model.suspension.TITLE)}, front {side}",
         side=side,
         version=version("kintrafo"),
         samples=samples,
         over_travel=_over_travel(samples.curves),
         over_rack=_over_rack(samples.curves),
-        rows=summary(samples.curves, samples.grid, samples.looks),
+        rows=summary(samples.curves, samples.grid, samples.looks, model.suspension.suspension),
         inputs=input_tables(model.suspension),
+        parts=_PARTS[model.suspension.suspension],
         drop=DROP,
         spin=SPIN_RATE / (2.0 * np.pi),
         data=Markup(_data(model, samples)),  # noqa: S704 (page_data leaves no end tag in it)
         script=_asset("report.js"),
         style=_asset("report.css"),
     )
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]
 
 
 def _sample(model: Model, tell: Callable[[str], None]) -> _Samples:

@@ -152,6 +152,7 @@ def _drawing(suspension: Suspension, grid: Grid, sampled: Poses) -> dict[str, An
     corners = np.array([*at_design.values(), [x, y, z + radius], [x, y, z - loaded]])
     low, high = corners.min(axis=0), corners.max(axis=0)
     return {
+        "suspension": suspension.suspension,
         "side_sign": suspension.vehicle.sign,
         "road_height": float(z) - loaded,
         "tyre": {"radius": radius, "width": TYRE_WIDTH},

@@ -70,7 +70,7 @@ def reachable_grid(model: Model) -> Grid:
     message = (
         f"the wheel cannot travel {TRAVEL_STEP * 1e3:g} mm up and down with the rack "
         f"{RACK_STEP * 1e3:g} mm to either side, so there is nothing to report. Check the "
-        "lengths of tie rod and strut."
+        "lengths of tie rod, arms and strut."
     )
     raise PositionError(message)
 

@@ -51,7 +51,7 @@ class InputTable:
     Attributes
     ----------
     name : str
-        As in the file.
+        As in the file; empty for what stands above the first section.
     meaning : str
         What the section is.
     rows : list of tuple of str
@@ -63,7 +63,7 @@ class InputTable:
     rows: list[tuple[str, str, str]]
 
 
-def summary(drawn: list[Curve], grid: Grid, looks: dict[str, Look]) -> list[Row]:
+def summary(drawn: list[Curve], grid: Grid, looks: dict[str, Look], kind: str) -> list[Row]:
     """Return the characteristics over travel at the design position.
 
     Parameters
@@ -73,12 +73,14 @@ def summary(drawn: list[Curve], grid: Grid, looks: dict[str, Look]) -> list[Row]
     grid : Grid
     looks : dict
         How each is written, by its key.
+    kind : str
+        Kind of the suspension, as in the input file.
 
     Returns
     -------
     list of Row
     """
-    usual = typical_ranges()
+    usual = typical_ranges(kind)
     design = grid.travel.zero, grid.rack.zero
     return [
         _row(curve, curve.values[design], looks[curve.key].decimals, usual.get(curve.name))
@@ -87,10 +89,22 @@ def summary(drawn: list[Curve], grid: Grid, looks: dict[str, Look]) -> list[Row]
     ]
 
 
-def typical_ranges() -> dict[str, dict[str, Any]]:
-    """Return the usual ranges of front suspensions by the name of the characteristic."""
+def typical_ranges(kind: str) -> dict[str, dict[str, Any]]:
+    """Return the usual ranges of front suspensions by the name of the characteristic.
+
+    Parameters
+    ----------
+    kind : str
+        Kind of the suspension, as in the input file.
+
+    Returns
+    -------
+    dict
+        ``low``, ``high``, ``unit`` and ``source`` of each.
+    """
     text = resources.files(__package__).joinpath("typical.toml").read_text(encoding="utf-8")
-    return tomllib.loads(text)
+    ranges: dict[str, dict[str, Any]] = tomllib.loads(text)
+    return {name: usual for name, usual in ranges.items() if usual.get("only", kind) == kind}
 
 
 def _row(curve: Curve, value: float, decimals: int, usual: dict[str, Any] | None) -> Row:
@@ -124,22 +138,23 @@ def input_tables(suspension: Suspension) -> list[InputTable]:
     -------
     list of InputTable
     """
-    return list(_tables(suspension, ""))
+    return list(_tables(suspension, "", "above the first section"))
 
 
-def _tables(section: Section, path: str) -> Iterator[InputTable]:
-    for name, field in type(section).model_fields.items():
-        value = getattr(section, name)
-        if not isinstance(value, Section):
-            continue
-        rows = [
-            (key, _text(item), inner.description or "")
-            for key, inner in type(value).model_fields.items()
-            if (item := getattr(value, key)) is not None and not isinstance(item, Section)
-        ]
-        if rows:
-            yield InputTable(f"{path}{name}", field.description or "", rows)
-        yield from _tables(value, f"{path}{name}.")
+def _tables(section: Section, name: str, meaning: str) -> Iterator[InputTable]:
+    """Return the table of a section's own values, then those of the sections in it."""
+    fields = type(section).model_fields
+    values = {key: getattr(section, key) for key in fields}
+    rows = [
+        (key, _text(value), fields[key].description or "")
+        for key, value in values.items()
+        if value is not None and not isinstance(value, Section)
+    ]
+    if rows:
+        yield InputTable(name, meaning, rows)
+    for key, value in values.items():
+        if isinstance(value, Section):
+            yield from _tables(value, f"{name}.{key}".lstrip("."), fields[key].description or "")
 
 
 def _text(value: Any) -> str:

@@ -19,15 +19,20 @@ import {
   Vector3,
 } from "three";
 
+import * as doubleWishbone from "./double_wishbone.js";
+import { UP, nearestOnLine, place } from "./geometry.js";
+import * as macpherson from "./macpherson.js";
 import { colour } from "./theme.js";
 
-const UP = new Vector3(0, 1, 0); // the axis of three's cylinders and of the wheel's own axes
+// What guides the wheel, by the name in the input file.
+const LINKAGES = { macpherson, double_wishbone: doubleWishbone };
 
 // Drawing only: what the model does not know about the shape of its bodies [m].
 const ARM = 0.012;
+const BAR = 0.013;
 const ROD = 0.009;
 const JOINT = 0.017;
-const TUBE_RADIUS = 0.023;
+const TUBE = 0.023;
 const PISTON = 0.01;
 const MOUNT = 0.02; // height of the upper mount, under which the spring ends
 const COIL = 0.058;
@@ -35,11 +40,6 @@ const WIRE = 0.006;
 const TURNS = 5.5;
 const SPOKES_AT = 0.34; // from the middle of the tyre outboard, as part of its width
 const GLASS = 0.22; // opacity of a wheel that is looked through
-// parts of the strut's design length, from where the knuckle holds it
-const TUBE = 0.585;
-const SEAT = 0.46;
-// A spring seat nearer to the ball joint stands for "in line with the strut", not for a place [m].
-const OWN_SEAT = 0.05;
 
 const MATERIALS = [
   "arm",
@@ -70,14 +70,15 @@ export class Mechanism extends Group {
     );
     this.lines = { axis: new LineBasicMaterial(), path: new LineBasicMaterial() };
     this.recolour();
-    this.#buildLinks();
-    this.#buildStrut();
     const atDesign = Object.entries(data.points).map(([n, { design }]) => [
       n,
       new Vector3(...design),
     ]);
     this.design = Object.fromEntries(atDesign);
-    this.strutLength = strutClamp(this.design).distanceTo(this.design.strut_top);
+    this.linkage = LINKAGES[data.suspension];
+    this.linkage.build(this);
+    this.#buildKnuckle();
+    this.#buildSteering();
     this.wheel = this.#buildWheel(data.tyre);
     this.pad = this.#solid("pad", new BoxGeometry(0.46, 0.34, 0.012));
     this.axis = this.#line("axis", 2);
@@ -103,11 +104,12 @@ export class Mechanism extends Group {
 
   /** Put everything where it is: points by name and the wheel's axis, all as Vector3. */
   pose(points, spinAxis, spin, roadHeight) {
-    this.#poseLinks(points);
-    this.#poseStrut(points);
+    this.linkage.pose(this, points);
+    this.#poseKnuckle(points);
+    this.#poseSteering(points);
     this.#poseWheel(points.wheel_center, spinAxis, spin);
     this.pad.position.set(points.wheel_center.x, points.wheel_center.y, roadHeight - 0.006);
-    this.#poseSteeringAxis(points, roadHeight);
+    this.#poseSteeringAxis(this.linkage.steeringAxis(points), roadHeight);
   }
 
   /** Draw the path of the wheel centre. */
@@ -145,30 +147,40 @@ export class Mechanism extends Group {
     return line;
   }
 
-  #buildLinks() {
-    for (const name of ["arm_front", "arm_rear"]) {
+  /** An arm between two bearings on the chassis and its tip. */
+  buildArm(front, rear, tip) {
+    for (const name of [front, rear]) {
       this.#cylinder(name, "arm", ARM);
       this.#cylinder(`${name}_bearing`, "chassis", 0.02);
     }
-    this.#joint("ball_joint", "arm", 0.019);
-    for (const name of ["upright", "spindle", "lower_web", "steering_arm"]) {
-      this.#cylinder(name, "knuckle", 0.013);
-    }
+    this.#joint(tip, "arm", 0.019);
+  }
+
+  buildBars(names, material) {
+    for (const name of names) this.#cylinder(name, material, BAR);
+  }
+
+  /** Tube and piston, with a spring around them or beside. */
+  buildSpringAndDamper() {
+    this.#cylinder("tube", "strut", TUBE);
+    this.#cylinder("piston", "strut", PISTON);
+    this.#cylinder("seat", "strut", COIL + 0.01);
+    this.#cylinder("top_mount", "chassis", COIL + 0.014);
+    this.spring = this.#solid("spring", coil());
+  }
+
+  #buildKnuckle() {
+    this.buildBars(["upright", "spindle", "lower_web", "steering_arm"], "knuckle");
     this.#solids.spindle.userData.radius = 0.021;
     this.#joint("hub", "knuckle", 0.034);
+  }
+
+  #buildSteering() {
     this.#cylinder("tie_rod", "rod", ROD);
     this.#joint("tie_rod_outer", "rod");
     this.#joint("tie_rod_inner", "rod");
     this.#cylinder("rack", "rack", 0.012);
     this.#cylinder("rack_housing", "chassis", 0.021);
-  }
-
-  #buildStrut() {
-    this.#cylinder("tube", "strut", TUBE_RADIUS);
-    this.#cylinder("piston", "strut", PISTON);
-    this.#cylinder("seat", "strut", COIL + 0.01);
-    this.#cylinder("top_mount", "chassis", COIL + 0.014);
-    this.spring = this.#solid("spring", coil());
   }
 
   #buildWheel({ radius, width }) {
@@ -207,56 +219,64 @@ export class Mechanism extends Group {
 
   // -- posing -----------------------------------------------------------------------------------
 
-  #span(name, from, to) {
+  poseBar(name, from, to) {
     place(this.#solids[name], from, to, this.#solids[name].userData.radius);
   }
 
-  #poseLinks(points) {
-    const hinge = points.arm_front.clone().sub(points.arm_rear).normalize();
-    for (const name of ["arm_front", "arm_rear"]) {
-      this.#span(name, points[name], points.ball_joint);
+  poseArm(points, front, rear, tip) {
+    const hinge = points[front].clone().sub(points[rear]).normalize();
+    for (const name of [front, rear]) {
+      this.poseBar(name, points[name], points[tip]);
       const half = hinge.clone().multiplyScalar(0.028);
-      this.#span(`${name}_bearing`, points[name].clone().sub(half), points[name].clone().add(half));
+      this.poseBar(
+        `${name}_bearing`,
+        points[name].clone().sub(half),
+        points[name].clone().add(half),
+      );
     }
-    for (const name of ["ball_joint", "tie_rod_outer", "tie_rod_inner"]) {
+    this.#solids[tip].position.copy(points[tip]);
+  }
+
+  /** Tube from its foot to so far along [m], and piston from there to the mount. */
+  poseDamper(foot, top, tube) {
+    const along = top.clone().sub(foot).normalize();
+    const end = foot.clone().addScaledVector(along, tube);
+    this.poseBar("tube", foot, end);
+    this.poseBar("piston", end, top);
+    this.poseBar("top_mount", top.clone().addScaledVector(along, -MOUNT), top);
+  }
+
+  poseSpring(seat, top) {
+    const along = top.clone().sub(seat).normalize();
+    this.poseBar("seat", seat.clone().addScaledVector(along, -0.008), seat);
+    place(this.spring, seat, top.clone().addScaledVector(along, -MOUNT), 1);
+  }
+
+  /** The knuckle between its joints: an upright, and arms to the wheel and to the tie rod. */
+  #poseKnuckle(points) {
+    const [foot, head] = this.linkage.upright(points);
+    const middle = nearestOnLine(points.wheel_center, foot, head);
+    this.poseBar("upright", foot, head);
+    this.poseBar("spindle", middle, points.wheel_center);
+    this.poseBar("lower_web", foot, points.wheel_center);
+    this.poseBar("steering_arm", middle, points.tie_rod_outer);
+    this.#solids.hub.position.copy(points.wheel_center);
+  }
+
+  #poseSteering(points) {
+    for (const name of ["tie_rod_outer", "tie_rod_inner"]) {
       this.#solids[name].position.copy(points[name]);
     }
-    this.#solids.hub.position.copy(points.wheel_center);
-    this.#span("tie_rod", points.tie_rod_outer, points.tie_rod_inner);
-    const clamp = strutClamp(points);
-    this.#span("upright", points.ball_joint, clamp);
-    this.#span("spindle", clamp, points.wheel_center);
-    this.#span("lower_web", points.ball_joint, points.wheel_center);
-    this.#span("steering_arm", clamp, points.tie_rod_outer);
+    this.poseBar("tie_rod", points.tie_rod_outer, points.tie_rod_inner);
     const inward = new Vector3(...this.data.rack_inward);
     const inner = points.tie_rod_inner;
-    this.#span("rack", inner, inner.clone().addScaledVector(inward, 0.2));
+    this.poseBar("rack", inner, inner.clone().addScaledVector(inward, 0.2));
     const housing = this.design.tie_rod_inner;
-    this.#span(
+    this.poseBar(
       "rack_housing",
       housing.clone().addScaledVector(inward, 0.1),
       housing.clone().addScaledVector(inward, 0.3),
     );
-  }
-
-  #poseStrut(points) {
-    const { strut_top: top } = points;
-    const clamp = strutClamp(points);
-    const along = top.clone().sub(clamp).normalize();
-    const at = (part) => clamp.clone().addScaledVector(along, part * this.strutLength);
-    const under = top.clone().addScaledVector(along, -MOUNT);
-    this.#span("tube", at(0), at(TUBE));
-    this.#span("piston", at(TUBE), top);
-    this.#span("top_mount", under, top);
-    const own = points.spring_seat?.distanceTo(points.ball_joint) > OWN_SEAT;
-    if (own) this.#poseSpring(points.spring_seat, points.spring_top);
-    else this.#poseSpring(at(SEAT), top);
-  }
-
-  #poseSpring(seat, top) {
-    const along = top.clone().sub(seat).normalize();
-    this.#span("seat", seat.clone().addScaledVector(along, -0.008), seat);
-    place(this.spring, seat, top.clone().addScaledVector(along, -MOUNT), 1);
   }
 
   #poseWheel(center, spinAxis, spin) {
@@ -266,7 +286,7 @@ export class Mechanism extends Group {
     this.wheel.quaternion.copy(aligned).multiply(spun);
   }
 
-  #poseSteeringAxis({ ball_joint: foot, strut_top: top }, roadHeight) {
+  #poseSteeringAxis([foot, top], roadHeight) {
     const along = top.clone().sub(foot);
     const ground = foot.clone().addScaledVector(along, (roadHeight - foot.z) / along.z);
     const above = top.clone().addScaledVector(along.normalize(), 0.08);
@@ -275,25 +295,6 @@ export class Mechanism extends Group {
     ends.setXYZ(1, ...above.toArray());
     ends.needsUpdate = true;
   }
-}
-
-/** Stretch a solid of unit length between two points. */
-function place(mesh, from, to, radius) {
-  const along = to.clone().sub(from);
-  const length = along.length();
-  mesh.position.copy(from).addScaledVector(along, 0.5);
-  mesh.quaternion.setFromUnitVectors(UP, along.divideScalar(length));
-  mesh.scale.set(radius, length, radius);
-}
-
-/** Where the knuckle is drawn to hold the strut: on its axis, beside the wheel centre. */
-function strutClamp({ ball_joint, strut_lower = ball_joint, strut_top, wheel_center }) {
-  return nearestOnLine(wheel_center, strut_lower, strut_top);
-}
-
-function nearestOnLine(point, from, to) {
-  const along = to.clone().sub(from).normalize();
-  return from.clone().addScaledVector(along, point.clone().sub(from).dot(along));
 }
 
 /** A spring of unit length; stretching it flattens its wire, which nobody sees. */
