@@ -17,7 +17,7 @@ angles of a universal joint, the declaration's own rule holds on both sides.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
@@ -358,7 +358,7 @@ class _Copy:
 
     def _law(self, law: Law) -> Law:
         """Copy a law: all that it names are parameters, but for inputs and a stop's side."""
-        named = {}
+        named: dict[str, Any] = {}
         for entry in fields(law):
             value = getattr(law, entry.name)
             if not isinstance(value, str) or (isinstance(law, Stop) and entry.name == "side"):

@@ -26,12 +26,14 @@ def design_coordinates(model: Model) -> dict[str, Steps]:
     The last step of each is the coordinate itself [rad].
     """
     found = {}
+    derived = {sp.Symbol(n): value for n, value in model.mechanism.derived.items()}
     for name in model.independent:
         joint = model.mechanism.joint(name)
         if isinstance(joint, Revolute) and joint.angle_to is not None:
             entries = model.mechanism.coordinates
             coordinate = next(c.name for c in entries if c.joint == name)
-            found[coordinate] = _angle(coordinate, joint)
+            steps = _angle(coordinate, joint)
+            found[coordinate] = [(s, e.xreplace(derived)) for s, e in steps]
     return found
 
 

@@ -224,7 +224,7 @@ class Dynamics:
                     energy = one.angular.dot(angular[other]) + two.angular.dot(offset[k])
                 energy += inertia.mass * one.linear.dot(two.linear)
                 self._matrix[k, other] = self._matrix.get((k, other), NONE) + energy
-        if len(columns) == 1 and self.kin.unit_rate:
+        if len(columns) == 1 and columns[0] in self.kin.alone:
             self._add_single_bias(placed, columns[0], angular[columns[0]])
         else:
             self._add_full_bias(placed, inertia, columns)
@@ -257,7 +257,7 @@ class Dynamics:
 
     def _add_rotor(self, rotor: Rotor) -> None:
         """Gyroscopic part of a rotor on its carrier; the rest is in `_solve` and `full`."""
-        if self.kin.unit_rate:
+        if self.kin.pace_of(rotor.carrier) != 1:
             return  # axis x omega is perpendicular to omega, the only direction of motion
         omega = self.kin.total(rotor.carrier).angular
         spin = self.kin.true_rate(rotor.coordinate) + rotor.axis.dot(omega)
@@ -305,8 +305,8 @@ class Dynamics:
         if isinstance(element.path, AlongTelescope):
             slide = self.kin.slides[element.path.joint]
         stretch = Stretch(program, name, length, velocity, slide)
-        shown = ("angle", "angular_velocity") if element.turns else ("length", "velocity")
-        values = zip(shown, (length, velocity), strict=True)
+        names = ("angle", "angular_velocity") if element.turns else ("length", "velocity")
+        values = zip(names, (length, velocity), strict=True)
         self.signals |= {f"{name}_{what}": value for what, value in values}
         total = NONE
         for signal, laws in self._by_signal(element).items():
@@ -467,7 +467,7 @@ class Dynamics:
         back = sum(
             (self._rotor_share(r, k) * self._force[r.coordinate] for r in self._driven_on(k)), NONE
         )
-        return self._force[k] - self._bias[k] * self.kin.pace**2 - back
+        return self._force[k] - self._bias[k] * self.kin.pace(k) ** 2 - back
 
     def _driven_on(self, k: str) -> list[Rotor]:
         """Return the rotors with a torque on their bearing whose carrier a coordinate moves."""
@@ -476,7 +476,8 @@ class Dynamics:
 
     def _spin_bias(self, rotor: Rotor, accelerations: dict[str, sp.Expr]) -> sp.Expr:
         """Return the rate of ``axis . omega`` of the carrier."""
-        total = rotor.axis.dot(rotor.carrier.bias().angular) * self.kin.pace**2
+        carrier = rotor.carrier
+        total = rotor.axis.dot(carrier.bias().angular) * self.kin.pace_of(carrier) ** 2
         for k in self._carried(rotor):
             total += self._rotor_share(rotor, k) * accelerations.get(k, NONE)
         return total
@@ -537,7 +538,7 @@ class Dynamics:
 
     def full_bias(self) -> list[sp.Expr]:
         """Return B of all independent coordinates, rotors included."""
-        bias = {k: self._bias[k] * self.kin.pace**2 for k in self.names}
+        bias = {k: self._bias[k] * self.kin.pace(k) ** 2 for k in self.names}
         for rotor in self.rotors:
             rate = self._spin_bias(rotor, {})
             for k, share in self._rotor_row(rotor).items():

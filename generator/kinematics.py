@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import networkx as nx
 import sympy as sp
 
 from . import solutions
@@ -16,7 +17,7 @@ from .transformer import PlaceByJoint, Plan, Solution, SolveTelescope
 from .vectors import NO_TWIST, UNIT_X, UNIT_Z, ZERO, Twist, Vector
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
     from .mechanism import Body
     from .program import Program
@@ -36,9 +37,10 @@ class Kinematics:
 
     Notes
     -----
-    *Unit rate.* When a single coordinate moves everything that has inertia (rotors apart), all
-    biases are computed for a unit rate of that coordinate and scaled by the square of the true
-    rate at the very end; `pace` is that factor.
+    *Unit rate.* Bodies that hang together without the ground, and that a single coordinate moves
+    (rotors apart), have their biases computed for a unit rate of that coordinate; they are scaled
+    by the square of the true rate at the very end. `pace` is the true rate for such a coordinate,
+    and one for all others, whose biases are computed at the true rates.
 
     *Work axes.* The ground-fixed axes in which positions are computed are chosen so that most
     components vanish: x along the hinge of the first ground-fixed revolute joint, z upward, origin
@@ -56,9 +58,7 @@ class Kinematics:
         }
         self.moving = [self.coordinate_of(j) for j in self._driven if j.name not in self.held]
         self.rotors = self._rotors()
-        pacing = [k for k in self.moving if k not in self.rotors]
-        self.unit_rate = len(pacing) == 1
-        self.pace = self.true_rate(pacing[0]) if self.unit_rate else sp.Integer(1)
+        self.alone = frozenset(self._moving_alone())
         self.placed: dict[str, Placed] = {}
         self.on_line: dict[str, OnLine] = {}
         self.off_line: dict[str, OffLine] = {}
@@ -103,8 +103,37 @@ class Kinematics:
         return sp.Symbol(f"{coordinate}_velocity" if prescribed else f"{coordinate}_rate")
 
     def rate(self, coordinate: str) -> sp.Expr:
-        """Return the rate at which biases are computed (one, in a unit-rate model)."""
-        return sp.Integer(1) if self.unit_rate else self.true_rate(coordinate)
+        """Return the rate of a coordinate at which biases are computed."""
+        return sp.Integer(1) if coordinate in self.alone else self.true_rate(coordinate)
+
+    def pace(self, coordinate: str) -> sp.Expr:
+        """Return by whose square the biases of what a coordinate moves are to be scaled."""
+        return self.true_rate(coordinate) if coordinate in self.alone else sp.Integer(1)
+
+    def pace_of(self, placed: Placed) -> sp.Expr:
+        """Return by whose square the bias of a body is to be scaled."""
+        alone = [k for k in placed.motion if k in self.alone]
+        return self.pace(alone[0]) if alone else sp.Integer(1)
+
+    def _moving_alone(self) -> Iterator[str]:
+        """Yield the independent coordinates that alone move bodies that hang together."""
+        moving = set(self.plan.topology.graph) - self._still()
+        drives = {
+            j.second: self.coordinate_of(j)
+            for j in self._driven
+            if self.coordinate_of(j) in self.moving and self.coordinate_of(j) not in self.rotors
+        }
+        for bodies in nx.connected_components(self.plan.topology.graph.subgraph(moving)):
+            pacing = [k for body, k in drives.items() if body in bodies]
+            if len(pacing) == 1 and pacing[0] in self.independent:
+                yield pacing[0]
+
+    def _still(self) -> set[str]:
+        """Return the ground, and the bodies that held joints tie to it."""
+        held = [self.mechanism.joint(name) for name in self.held]
+        tied = nx.Graph([joint.bodies for joint in held])
+        tied.add_node(self.mechanism.ground)
+        return set(nx.node_connected_component(tied, self.mechanism.ground))
 
     def acceleration(self, coordinate: str) -> sp.Expr:
         """Return the part of a coordinate's acceleration that is given: that of an input."""
@@ -320,8 +349,8 @@ class Kinematics:
             placed.motion[coordinate] = Twist(UNIT_X, ZERO)
 
         def bias() -> Twist:
-            if self.unit_rate and coordinate in self.rotors:
-                message = f"the bias of rotor {child!r} is not available in a unit-rate model"
+            if coordinate in self.rotors and self.pace_of(parent) != 1:
+                message = f"the bias of rotor {child!r} is not available at a unit rate"
                 raise ValueError(message)
             carried = parent.bias()
             omega = turn(self.total(parent).angular)

@@ -109,9 +109,13 @@ class Mechanism:
         return "" if alone else f"{tyre.name}_"
 
     def signal_name(self, element: ForceElement, signal: str) -> str:
-        """Return the name of a force signal, with the element's where others have it too."""
+        """Return the name of a force signal, with the element's where others have it too.
+
+        That of a moment always has it: it is rarely the only thing that springs.
+        """
         having = [e for e in self.elements if any(e.signal(law) == signal for law in e.laws)]
-        return signal if len(having) == 1 else f"{element.name}_{signal}"
+        alone = len(having) == 1 and not element.turns
+        return signal if alone else f"{element.name}_{signal}"
 
     @property
     def elements(self) -> list[ForceElement]:

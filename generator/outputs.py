@@ -448,7 +448,8 @@ class _Builder:
             share = up.dot(self.dynamics.wheel_velocity(carrier, center, k))
             velocity += share * self.kin.true_rate(k)
             acceleration += share * self.dynamics.accelerations.get(k, sp.Integer(0))
-        acceleration += up.dot(self.kin.point_bias(carrier, center)) * self.kin.pace**2
+        own = up.dot(self.kin.point_bias(carrier, center))
+        acceleration += own * self.kin.pace_of(carrier) ** 2
         self._signal(
             results,
             f"{prefix}wheel_velocity",

@@ -24,7 +24,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from kintrafo.generator.forces import AlongLine, ForceElement, JointForce, LinearTyre, Weight
+from kintrafo.generator.forces import (
+    AlongLine,
+    AlongTelescope,
+    ForceElement,
+    JointForce,
+    LinearTyre,
+    Weight,
+)
 from kintrafo.generator.joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
 from kintrafo.generator.laws import (
     Actuator,
@@ -190,7 +197,9 @@ class Oracle:
     def __init__(self, model: Model, parameters: Mapping[str, float]) -> None:
         self.model = model
         self.mechanism = model.mechanism
-        self.parameters = parameters
+        self.parameters = dict(parameters) | {
+            name: float(value.subs(parameters)) for name, value in self.mechanism.derived.items()
+        }
         self.bodies = self.mechanism.bodies
         self.index = {body.name: i for i, body in enumerate(self.bodies)}
         self.size = len(self.bodies) - 1
@@ -436,14 +445,20 @@ class Oracle:
         return self._tyre(force, motion, center, inputs) @ center.rows
 
     def length(self, motion: Motion, element: ForceElement) -> Jet:
-        """Return the length of an element's path."""
+        """Return the length of an element's path, or its twist."""
         if isinstance(element.path, AlongLine):
             first, second = (
                 self.point(motion, body, self.place(point))
                 for body, point in (element.path.first, element.path.second)
             )
             return (second - first).norm()
-        return self.telescope_length(motion, self.mechanism.joint(element.path.joint))
+        if isinstance(element.path, AlongTelescope):
+            return self.telescope_length(motion, self.mechanism.joint(element.path.joint))
+        first, second = (
+            self._hinge_angle(motion, self.mechanism.joint(name))
+            for name in (element.path.first, element.path.second)
+        )
+        return second - first
 
     def _push(
         self, element: ForceElement, law: Law, path: Jet, inputs: Mapping[str, float]
