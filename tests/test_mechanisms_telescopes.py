@@ -1,0 +1,377 @@
+"""A boom and its cylinder over their whole range, against the law of cosines in many digits.
+
+Boom and cylinder stand on two hinges of the ground, and the guide of the cylinder passes beside
+its pins. Either the boom is driven and the stroke follows, or the stroke is driven and the boom
+follows.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import permutations, product
+from typing import TYPE_CHECKING, Any
+
+import mpmath
+import numpy as np
+import pytest
+from kintrafo.generator.geometry import Direction
+from kintrafo.generator.joints import Prismatic, Revolute, Spherical, Universal
+from kintrafo.generator.mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
+from kintrafo.generator.mechanisms.planar import flat, hinge, inertia, places
+from kintrafo.generator.outputs import generate
+from kintrafo.generator.transformer import (
+    NoClosedFormError,
+    PlaceTelescope,
+    Plan,
+    SolveHinge,
+    SolveStroke,
+)
+from mpmath import mpf
+from own_models import Built, needs_gcc, own
+from symbolic import constants_of, python
+
+if TYPE_CHECKING:
+    from kintrafo.generator.joints import Joint
+
+EPSILON = 2.0**-52
+BOOM, BASE = (
+    1.3,
+    1.0,
+)  # from the boom's hinge to the cylinder's pin on it, and to that on the ground
+
+
+def crane(driven: str) -> Model:
+    """Return the crane with the boom's hinge or the bore of the cylinder driven."""
+    names = ("boom", "barrel", "piston")
+    at_pins = {"foot": (0.0, 0.0), "barrel_pin": (BASE, 0.0), "piston_pin": (0.0, BOOM)}
+    centers = {"boom_com": (0.1, 0.9), "barrel_com": (0.8, 0.3), "piston_com": (0.3, 0.9)}
+    mechanism = Mechanism(
+        name=f"crane_{driven}",
+        title="Crane",
+        bodies=(
+            Body("ground", 0, center=flat("foot")),
+            *(Body(name, i, center=flat(f"{name}_com")) for i, name in enumerate(names, 1)),
+        ),
+        joints=(
+            hinge("pivot", "ground", "boom", "foot"),
+            hinge("low", "ground", "barrel", "barrel_pin"),
+            Prismatic(name="bore", first="barrel", second="piston", direction=Direction("way")),
+            hinge("high", "piston", "boom", "piston_pin"),
+        ),
+        forces=(),
+        parameters=(
+            *places({name: (place, name) for name, place in {**at_pins, **centers}.items()}),
+            *(Parameter(f"way_{axis}", value, "1", "guide") for axis, value in WAY.items()),
+            *(entry for name in names for entry in inertia(name, 2.0, 0.3)),
+        ),
+        coordinates=(
+            RelativeCoordinate("boom_angle", "pivot", "angle", "rad", "angle of the boom"),
+            RelativeCoordinate("barrel_angle", "low", "angle", "rad", "angle of the barrel"),
+            RelativeCoordinate("stroke", "bore", "slide", "m", "stroke"),
+        ),
+    )
+    return Model(mechanism.name, "Crane", mechanism, independent=(driven,), massive=names)
+
+
+WAY = {"x": -0.5, "y": 0.7, "z": 0.0}
+
+
+@pytest.fixture(scope="module", params=["pivot", "bore"])
+def built(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Built:
+    model = crane(request.param)
+    return Built.of(model, own(generate(model), tmp_path_factory.mktemp(request.param)))
+
+
+# -- the law of cosines ---------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Exact:
+    """The crane in many digits, from the numbers that the model is given.
+
+    Attributes
+    ----------
+    boom, base
+        Sides of the triangle at the boom's hinge.
+    along, beside
+        The way from pin to pin at the start, along the guide and across it.
+    side
+        1 where the boom is left of the line to the barrel's hinge, -1 right.
+    """
+
+    boom: mpf
+    base: mpf
+    along: mpf
+    beside: mpf
+    side: int
+    start: mpf
+
+    @classmethod
+    def of(cls, built: Built) -> Exact:
+        given = {name: mpf(value) for name, value in built.parameters.items()}
+
+        def place(name: str) -> tuple[mpf, mpf]:
+            return given[f"{name}_x"] - given["foot_x"], given[f"{name}_y"] - given["foot_y"]
+
+        barrel, piston = place("barrel_pin"), place("piston_pin")
+        size = mpmath.hypot(given["way_x"], given["way_y"])
+        way = given["way_x"] / size, given["way_y"] / size
+        span = piston[0] - barrel[0], piston[1] - barrel[1]
+        turned = barrel[0] * piston[1] - barrel[1] * piston[0]
+        return cls(
+            mpmath.hypot(*piston),
+            mpmath.hypot(*barrel),
+            span[0] * way[0] + span[1] * way[1],
+            way[0] * span[1] - way[1] * span[0],
+            1 if turned > 0 else -1,
+            mpmath.atan2(turned, barrel[0] * piston[0] + barrel[1] * piston[1]),
+        )
+
+    def boom_angle(self, stroke: float) -> mpf:
+        """Return the turn of the boom from the start at a stroke."""
+        squared = (self.along + mpf(stroke)) ** 2 + self.beside**2
+        cosine = (self.boom**2 + self.base**2 - squared) / (2 * self.boom * self.base)
+        return self.side * mpmath.acos(cosine) - self.start
+
+    def stroke(self, turn: float) -> mpf:
+        """Return the stroke at a turn of the boom from the start."""
+        cosine = mpmath.cos(self.start + mpf(turn))
+        squared = self.boom**2 + self.base**2 - 2 * self.boom * self.base * cosine
+        return mpmath.sign(self.along) * mpmath.sqrt(squared - self.beside**2) - self.along
+
+    def barrel_angle(self, turn: mpf, stroke: mpf) -> mpf:
+        """Return the turn of the barrel: that of the line from pin to pin, less that in it."""
+        now = self.start + turn
+        line = mpmath.atan2(self.boom * mpmath.sin(now), self.boom * mpmath.cos(now) - self.base)
+        first = mpmath.atan2(
+            self.boom * mpmath.sin(self.start), self.boom * mpmath.cos(self.start) - self.base
+        )
+        inside = mpmath.atan2(self.beside, self.along + stroke)
+        return line - first - inside + mpmath.atan2(self.beside, self.along)
+
+    def all_at(self, built: Built, driven: float) -> tuple[mpf, mpf, mpf]:
+        """Return boom angle, barrel angle and stroke."""
+        if "pivot" in built.model.independent:
+            turn, stroke = mpf(driven), self.stroke(driven)
+        else:
+            turn, stroke = self.boom_angle(driven), mpf(driven)
+        return turn, self.barrel_angle(turn, stroke), stroke
+
+
+def off_by(found: np.ndarray[Any, Any], expected: tuple[mpf, ...]) -> float:
+    """Return how far the coordinates are off, angles without whole turns."""
+    off = [mpf(float(f)) - e for f, e in zip(found, expected, strict=True)]
+    turn = 2 * mpmath.pi
+    off[:2] = [o - turn * mpmath.nint(o / turn) for o in off[:2]]
+    return float(max(map(abs, off)))
+
+
+# -- the whole range ------------------------------------------------------------------------------
+
+GEOMETRIES: dict[str, dict[str, float]] = {
+    "as declared": {},
+    "boom on the right": {"piston_pin_y": -BOOM, "way_y": -0.7},
+    "guide the other way": {"way_x": 0.5, "way_y": -0.7},
+    "guide far beside": {"way_x": -0.9, "way_y": 0.5},
+}
+
+
+@needs_gcc
+@pytest.mark.parametrize("geometry", GEOMETRIES)
+def test_position_over_the_whole_range(built: Built, geometry: str) -> None:
+    built = Built.of(built.model, built.module, GEOMETRIES[geometry])
+    exact = Exact.of(built)
+    for driven in np.linspace(*reach(built, exact), 43)[1:-1]:
+        found = built("relative_coordinates", np.array([driven, 0.0]))
+        with mpmath.workdps(40):
+            # some ten roundings; roots of a twentieth at the ends
+            assert off_by(found, Exact.of(built).all_at(built, driven)) < 5e-15
+
+
+def reach(built: Built, exact: Exact) -> tuple[float, float]:
+    """Return the ends of the driven coordinate: of the boom half a turn, of the stroke its ends."""
+    if "pivot" in built.model.independent:
+        return nearest_pins(exact), float(exact.side * mpmath.pi - exact.start)
+    sign = mpmath.sign(exact.along)
+    lengths = (abs(exact.boom - exact.base), exact.boom + exact.base)
+    ways = [mpmath.sqrt(max(l**2 - exact.beside**2, 0)) for l in lengths]
+    shortest, longest = (float(sign * way - exact.along) for way in ways)
+    return shortest, longest
+
+
+def nearest_pins(exact: Exact) -> float:
+    """Return the boom's angle at which the pins are as near as boom or guide lets them be."""
+    least = max(exact.beside**2, (exact.boom - exact.base) ** 2)
+    cosine = (exact.boom**2 + exact.base**2 - least) / (2 * exact.boom * exact.base)
+    return float(exact.side * mpmath.acos(min(cosine, mpf(1))) - exact.start)
+
+
+# -- the ends -------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class End:
+    """An end of the range: the driven coordinate there, which way is inward, and the guard."""
+
+    driven: float
+    inward: float
+    guard: str
+
+
+def end_of(built: Built, which: str) -> End:
+    """Return an end of the range of a crane whose guide passes far beside its pins."""
+    with mpmath.workdps(40):
+        exact = Exact.of(built)
+        if "pivot" in built.model.independent:
+            return End(nearest_pins(exact), float(exact.side), "barrel_extension_squared")
+        shortest, longest = reach(built, exact)
+        inward = float(mpmath.sign(exact.along))
+        if which == "longest":
+            return End(longest, -inward, "boom_closure")
+        return End(shortest, inward, "boom_closure")
+
+
+def with_end(built: Built, which: str) -> Built:
+    """Return a crane that has such an end.
+
+    Where the stroke follows, both stand for the pins coming together, on either side of the boom:
+    the guide is so far beside them that they cannot meet.
+    """
+    if "pivot" not in built.model.independent:
+        return Built.of(built.model, built.module)
+    side = 1.0 if which == "shortest" else -1.0
+    bent = {"way_x": -0.99, "way_y": 0.3 * side, "piston_pin_y": side * BOOM}
+    return Built.of(built.model, built.module, bent)
+
+
+ENDS = pytest.mark.parametrize("which", ["shortest", "longest"])
+
+
+@needs_gcc
+@ENDS
+def test_beyond_the_end_the_loop_is_named(built: Built, which: str) -> None:
+    built = with_end(built, which)
+    end = end_of(built, which)
+    for beyond in (1e-9, 1e-3, 0.05):
+        state = np.array([end.driven - end.inward * beyond, 1.0])
+        for function in ("rhs", "rhs_jacobian", "positions", "relative_coordinates"):
+            with pytest.raises(built.module.ClosureError, match="cannot close") as error:
+                built(function, state)
+            assert error.value.margins[end.guard] < 0.0
+
+
+@needs_gcc
+@ENDS
+@pytest.mark.parametrize("before", [1e-2, 1e-4, 1e-6, 1e-8, 1e-10])
+def test_accuracy_before_the_end(built: Built, which: str, before: float) -> None:
+    built = with_end(built, which)
+    end = end_of(built, which)
+    driven = end.driven + end.inward * before
+    found = built("relative_coordinates", np.array([driven, 0.0]))
+    with mpmath.workdps(40):
+        off = off_by(found, Exact.of(built).all_at(built, driven))
+    # a root of the distance to the end: some ten roundings over that root
+    assert off < 10.0 * EPSILON / np.sqrt(before)
+
+
+@needs_gcc
+@ENDS
+@pytest.mark.parametrize("before", [1e-2, 1e-4, 1e-6])
+def test_equations_of_motion_before_the_end(built: Built, which: str, before: float) -> None:
+    built = with_end(built, which)
+    end = end_of(built, which)
+    state = np.array([end.driven + end.inward * before, 0.3 * before])
+    oracle = built.oracle.reduced(built.motion(state, np.zeros(0)), {}, {})
+    found = built("rhs", state)[1]
+    scale = np.abs(oracle.inertial[0])
+    # both lose digits like the inverse of the distance
+    assert abs(found - oracle.accelerations[0]) * oracle.mass_matrix[0, 0] < 2e-16 * scale / before
+
+
+@needs_gcc
+def test_a_cylinder_drawn_in_beyond_its_pins_is_named(built: Built) -> None:
+    if "pivot" in built.model.independent:
+        pytest.skip("the stroke follows")
+    at_once = Built.of(built.model, built.module, {"piston_pin_x": BASE, "piston_pin_y": 0.2})
+    with pytest.raises(built.module.ClosureError, match="drawn in until its pins") as error:
+        at_once("rhs", np.array([-0.2, 0.0]))
+    assert error.value.margins["barrel_extension"] < 0.0
+
+
+# -- declarations ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("driven", ["pivot", "bore"])
+def test_any_order_of_declaration(driven: str) -> None:
+    """Joints in any order, and those that are not driven from either end."""
+    model = crane(driven)
+    free = [j.name for j in model.mechanism.joints if j.name != driven]
+    for order in permutations(model.mechanism.joints):
+        for flips in product([False, True], repeat=len(free)):
+            flipped = {name for name, flip in zip(free, flips, strict=True) if flip}
+            joints = tuple(reversed_joint(j) if j.name in flipped else j for j in order)
+            plan = Plan.of(replace(model, mechanism=replace(model.mechanism, joints=joints)))
+            kinds = [type(action) for action in plan.actions if type(action) in ANSWERS[driven]]
+            assert kinds == ANSWERS[driven]
+
+
+ANSWERS = {"pivot": [SolveStroke], "bore": [SolveHinge, PlaceTelescope]}
+
+
+def reversed_joint(joint: Joint) -> Joint:
+    return replace(joint, first=joint.second, second=joint.first)
+
+
+@needs_gcc
+def test_guide_along_the_pins_is_a_guide_that_does_not_miss_them(built: Built) -> None:
+    """Declared from pin to pin it costs less, and the numbers are those of a direction."""
+    mechanism = built.model.mechanism
+    pins = flat("barrel_pin"), flat("piston_pin")
+    along = {"way_x": -BASE, "way_y": BOOM}
+    state = np.array([0.2, 1.3])
+    expected = Built.of(built.model, built.module, along)("rhs", state)
+    for between in (pins, pins[::-1]):
+        joints = tuple(
+            replace(j, direction=Direction("bore", between=between)) if j.name == "bore" else j
+            for j in mechanism.joints
+        )
+        parameters = tuple(p for p in mechanism.parameters if not p.name.startswith("way"))
+        direct = replace(mechanism, joints=joints, parameters=parameters)
+        derived = generate(replace(built.model, mechanism=direct))
+        sign = -1.0 if between != pins and "bore" in built.model.independent else 1.0
+        found = evaluated(derived, sign * state)
+        np.testing.assert_allclose(sign * found, expected, rtol=1e-13)
+        general = sum(built.module.rhs.operations[kind] for kind in ("add", "multiply"))
+        assert derived.functions["rhs"].operations().total() < general
+
+
+def evaluated(derived: Any, state: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    """Evaluate the right-hand side of a derived model in many digits."""
+    defaults = {p.name: p.default for p in derived.model.mechanism.parameters}
+    values = constants_of(derived, defaults)
+    values |= dict(zip([e.name for e in derived.state], map(mpf, state), strict=True))
+    return np.array([float(x) for x in python(derived.functions["rhs"])(values)])
+
+
+def test_known_telescope_in_space_is_refused_by_name() -> None:
+    """A guide does not say where its line is: in space a telescope is a cylindrical joint."""
+    model = crane("bore")
+    pivot = model.mechanism.joint("pivot")
+    assert isinstance(pivot, Revolute)
+    at, to = pivot.axis.through, flat("piston_pin")
+    pins = {
+        "low": Universal(
+            name="low",
+            first="ground",
+            second="barrel",
+            at=flat("barrel_pin"),
+            shaft=replace(pivot.axis, through=flat("barrel_pin"), towards=to),
+        ),
+        "high": Spherical(name="high", first="piston", second="boom", at=to),
+    }
+    assert at == flat("foot")
+    joints = tuple(pins.get(j.name, j) for j in model.mechanism.joints)
+    coordinates = tuple(c for c in model.mechanism.coordinates if c.joint == "bore")
+    mechanism = replace(model.mechanism, joints=joints, coordinates=coordinates)
+    with pytest.raises(NoClosedFormError, match="ground - barrel - piston - boom"):
+        Plan.of(replace(model, mechanism=mechanism))
