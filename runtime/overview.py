@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
-from .figures import BLUE, ORANGE, STYLE
+from .figures import BLUE, GREEN, ORANGE, STYLE
 from .hardpoints import hardpoints
 from .model import Model
 from .positions import state_at_height
@@ -19,6 +19,31 @@ Array = NDArray[np.float64]
 GREY = "#b8b8b8"
 TYRE_WIDTH = 0.205  # of the drawing only [m]
 TYRE_RADIUS = 0.300
+
+# What is drawn of each kind of suspension: ends and colour of each link, corners of the knuckle.
+_LINKS = {
+    "macpherson": {
+        "control arm": ("arm_front", "ball_joint", BLUE),
+        "strut": ("strut_top", "ball_joint", "black"),
+        "tie rod": ("tie_rod_inner", "tie_rod_outer", ORANGE),
+    },
+    "double_wishbone": {
+        "lower arm": ("lower_arm_front", "lower_ball_joint", BLUE),
+        "upper arm": ("upper_arm_front", "upper_ball_joint", GREEN),
+        "spring and damper": ("spring_top", "spring_seat", "black"),
+        "tie rod": ("tie_rod_inner", "tie_rod_outer", ORANGE),
+    },
+}
+_KNUCKLES = {
+    "macpherson": ("ball_joint", "tie_rod_outer", "wheel_center"),
+    "double_wishbone": (
+        "tie_rod_outer",
+        "lower_ball_joint",
+        "upper_ball_joint",
+        "wheel_center",
+        "lower_ball_joint",
+    ),
+}
 
 
 def write_overview(model: Model, path: Path, travel: float = 0.08) -> None:
@@ -39,9 +64,11 @@ def write_overview(model: Model, path: Path, travel: float = 0.08) -> None:
         for offset, colour in ((-travel, GREY), (travel, GREY), (0.0, "black")):
             _draw_front(front, model, state_at_height(model, design + offset), colour)
         _finish_front(front, travel)
+        figure.legend(loc="outside lower left", ncols=4, frameon=False, fontsize=9)
         _draw_angles(camber, toe, model, design, travel)
         figure.suptitle(
-            f"MacPherson suspension, front {model.suspension.vehicle.side}: closed-form kinematics"
+            f"{model.suspension.heading()}, front {model.suspension.vehicle.side}: closed-form "
+            "kinematics"
         )
         path.parent.mkdir(parents=True, exist_ok=True)
         figure.savefig(path, dpi=160)
@@ -50,24 +77,19 @@ def write_overview(model: Model, path: Path, travel: float = 0.08) -> None:
 def _draw_front(axes: Axes, model: Model, state: Array, colour: str) -> None:
     points = {name: p[1:] * 1e3 for name, p in hardpoints(model, state).items()}
     strong = colour != GREY
-    links = {
-        "control arm": ("arm_front", "ball_joint"),
-        "strut": ("strut_top", "ball_joint"),
-        "tie rod": ("tie_rod_inner", "tie_rod_outer"),
-    }
-    colours = {"control arm": BLUE, "strut": "black", "tie rod": ORANGE}
-    for name, ends in links.items():
-        line = np.array([points[end] for end in ends])
+    kind = model.suspension.suspension
+    for name, (first, second, own) in _LINKS[kind].items():
+        line = np.array([points[first], points[second]])
         axes.plot(
             *line.T,
-            color=colours[name] if strong else colour,
+            color=own if strong else colour,
             linewidth=3.0 if strong else 1.4,
             marker="o",
             markersize=5 if strong else 3,
             label=name if strong else None,
             zorder=3 if strong else 2,
         )
-    spokes = np.array([points["ball_joint"], points["tie_rod_outer"], points["wheel_center"]])
+    spokes = np.array([points[name] for name in _KNUCKLES[kind]])
     axes.plot(*spokes.T, color="#666666" if strong else colour, linewidth=1.6, zorder=2)
     _draw_tyre(axes, model, state, points["wheel_center"], strong=strong)
 
@@ -96,7 +118,6 @@ def _finish_front(axes: Axes, travel: float) -> None:
     axes.set_xlabel("y [mm], positive left")
     axes.set_ylabel("z [mm]")
     axes.set_title(f"from behind, at design and \u00b1{travel * 1e3:.0f} mm")
-    axes.legend(frameon=False, fontsize=9, loc="upper left")
 
 
 def _draw_angles(camber: Axes, toe: Axes, model: Model, design: float, travel: float) -> None:

@@ -10,6 +10,9 @@ from .input.suggestions import suggestion
 
 _ENDING = ".toml"
 
+# What a file of each kind of suspension begins with.
+STARTERS = {"macpherson": "reference_car", "double_wishbone": "double_wishbone_car"}
+
 
 def packaged() -> tuple[str, ...]:
     """Return the names of the data sets that come with kintrafo.

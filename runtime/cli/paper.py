@@ -65,7 +65,9 @@ def summary(model: "Model", rest: "paper.Rest", dynamics: "paper.Dynamics") -> T
         f"Pentium: {PAPER_GEAR_S:.0f} s with Gear's method, more than "
         f"{PAPER_RUNGE_KUTTA_S / 60:.0f} min with Runge-Kutta",
     }
-    table = Table(title=f"{model.suspension.vehicle.side} MacPherson suspension", show_header=False)
+    table = Table(
+        title=f"{model.suspension.vehicle.side} {model.suspension.TITLE}", show_header=False
+    )
     for name, text in rows.items():
         table.add_row(name, text)
     return table

@@ -198,6 +198,11 @@ class Suspension(Section):
             raise InputError(problems, source)
         return self.from_dict(data, source)
 
+    @classmethod
+    def heading(cls) -> str:
+        """Return what the suspension is called, as the beginning of a heading."""
+        return cls.TITLE[:1].upper() + cls.TITLE[1:]
+
     def tyre_radius(self) -> float | None:
         """Return the radius of the wheel as a thin disc.
 

@@ -92,7 +92,7 @@ def render(
     side = model.suspension.vehicle.side
     template = _environment().get_template("page.html.jinja")
     return template.render(
-        title=title or f"{_capital(model.suspension.TITLE)}, front {side}",
+        title=title or f"{model.suspension.heading()}, front {side}",
         side=side,
         version=version("kintrafo"),
         samples=samples,
@@ -107,10 +107,6 @@ def render(
         script=_asset("report.js"),
         style=_asset("report.css"),
     )
-
-
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]
 
 
 def _sample(model: Model, tell: Callable[[str], None]) -> _Samples:
