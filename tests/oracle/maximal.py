@@ -198,7 +198,8 @@ class Oracle:
         self.model = model
         self.mechanism = model.mechanism
         self.parameters = dict(parameters) | {
-            name: float(value.subs(parameters)) for name, value in self.mechanism.derived.items()
+            name: float(value.xreplace({s: parameters[s.name] for s in value.free_symbols}))
+            for name, value in self.mechanism.derived.items()
         }
         self.bodies = self.mechanism.bodies
         self.index = {body.name: i for i, body in enumerate(self.bodies)}
