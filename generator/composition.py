@@ -197,8 +197,14 @@ class _Copy:
 
     def _derived(self) -> dict[str, sp.Expr]:
         """Return what the copy's names of parameters stand for."""
-        names = [p.name for p in self.mechanism.parameters if p.name not in self.own]
-        return {self._new(n): self._sign(n) * sp.Symbol(n) for n in names}
+        values = {p.name: sp.Symbol(p.name) for p in self.mechanism.parameters}
+        values |= self.mechanism.derived
+        own = {sp.Symbol(n): self._sign(n) * sp.Symbol(self._new(n)) for n in self.own}
+        return {
+            self._new(n): self._sign(n) * value.xreplace(own)
+            for n, value in values.items()
+            if n not in self.own
+        }
 
     def _sign(self, parameter: str) -> int:
         name, _, component = parameter.rpartition("_")
