@@ -118,6 +118,9 @@ def _named(model: System, name: str) -> SignalEvent:
     if name == "strut_fully_extended" and "strut_length_max" in model.parameters:
         length = model.parameters["strut_length_max"]
         return SignalEvent("strut_length", length, direction=+1.0, terminal=True)
+    if name in NAMED:
+        problem = f"event {name!r} belongs to a strut, which {model.equations.NAME} has not."
+        raise InputError([problem], "events")
     problem = f"event {name!r} is not known. {suggestion(name, NAMED)}"
     raise InputError([problem], "events")
 

@@ -36,6 +36,7 @@ _COLUMNS = {
     "rack_position_mm": _Column("rack_position", 1e-3),
     "rack_position_m": _Column("rack_position", 1.0),
     "strut_force_N": _Column("strut_force", 1.0),
+    "spring_actuator_N": _Column("spring_actuator", 1.0),
 }
 _ABSCISSAE = ("time", "distance")
 
@@ -49,8 +50,8 @@ class Measurement:
     times : ndarray, shape (n,)
         Beginning with zero [s].
     values : dict
-        Input name (``road_height``, ``rack_position``, ``strut_force``) to samples of shape (n,),
-        SI units.
+        Input name (``road_height``, ``rack_position``, ``strut_force``; of a double wishbone
+        ``spring_actuator``) to samples of shape (n,), SI units.
     """
 
     times: Array
@@ -70,10 +71,10 @@ def measured(path: str | Path, *, speed: float | None = None) -> Measurement:
     """Read inputs from a CSV file.
 
     The first line names the columns: ``time_s`` or ``time_ms``, or ``distance_m`` along the road;
-    and at least one of ``road_height_mm``, ``rack_position_mm`` (also in ``_m``) and
-    ``strut_force_N``. Columns are separated by commas, semicolons or tabs; with the latter two,
-    decimals may have a comma. Times increase and are shifted to begin with zero; a time that is
-    given twice is a jump. A cubic spline goes through the samples.
+    and at least one of ``road_height_mm``, ``rack_position_mm`` (also in ``_m``), ``strut_force_N``
+    and, of a double wishbone, ``spring_actuator_N``. Columns are separated by commas, semicolons or
+    tabs; with the latter two, decimals may have a comma. Times increase and are shifted to begin
+    with zero; a time that is given twice is a jump. A cubic spline goes through the samples.
 
     Parameters
     ----------
