@@ -216,8 +216,8 @@ def test_angles_of_the_bar_are_those_at_which_the_link_fits(seed: int) -> None:
     for step in np.linspace(-0.25, 0.25, 11):  # of the right arm only
         state = axle.state(right_beta1=axle.design_state[0] + step)
         found = axle.evaluate("relative_coordinates", state)
-        # about the hinge from rear to front, the right arm's angle counts backwards
-        now = hinge + turned(arm_axis, -step, foot - hinge)
+        # the right arm's angle counts right-handed about the hinge from rear to front
+        now = hinge + turned(arm_axis, step, foot - hinge)
 
         def misfit(angle: float, now: Array = now) -> float:
             end = bush + turned(bar_axis, angle, top - bush)
