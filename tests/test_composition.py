@@ -1,0 +1,293 @@
+"""Copies and mirror images of declarations, and the twist between two hinges.
+
+The mirror is tested by what it means: at the same coordinates, rates and inputs the image of a
+mechanism has the same accelerations, and its bodies are where a mirror shows those of the original.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+import sympy as sp
+from kintrafo.generator.checks import DeclarationError
+from kintrafo.generator.composition import combined, copy
+from kintrafo.generator.forces import ForceElement, JointForce, TwistOfHinges, Weight
+from kintrafo.generator.geometry import Direction, Line, Point
+from kintrafo.generator.joints import Revolute
+from kintrafo.generator.laws import Actuator, Friction, LinearDamper, LinearSpring, Stop
+from kintrafo.generator.mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
+from kintrafo.generator.mechanisms import double_wishbone, four_bar, macpherson, slider_crank
+from kintrafo.generator.outputs import generate
+from kintrafo.generator.parameters import direction, point, rigid_body
+from oracle.reference import completed, general_parameters
+from own_models import Built, shipped
+from symbolic import constants_of, python
+
+if TYPE_CHECKING:
+    from kintrafo.generator.outputs import GeneratedModel
+    from oracle.constraints import Array
+
+IMAGE = np.diag([1.0, -1.0, 1.0])
+DECLARED = {
+    m.name: m
+    for m in (
+        *four_bar.MODELS,
+        *slider_crank.MODELS,
+        *double_wishbone.MODELS,
+        macpherson.MODELS[2],
+    )
+}
+
+
+def image_of(model: Model) -> Model:
+    """Return the mirror image of a model, under other names."""
+    return replace(
+        model,
+        mechanism=copy(model.mechanism, "m_", mirrored=True),
+        independent=tuple(f"m_{name}" for name in model.independent),
+        prescribed={f"m_{joint}": f"m_{name}" for joint, name in model.prescribed.items()},
+        massive=tuple(f"m_{name}" for name in model.massive),
+        held={},
+    )
+
+
+def parameters_of(model: Model) -> dict[str, float]:
+    """Return the declared parameters, or for a general strut those of a car that uses them all."""
+    names = [p.name for p in model.mechanism.parameters]
+    if model.name.startswith("macpherson"):
+        car = completed(general_parameters(np.random.default_rng(5), offset=0.03))
+        return {name: car[name] for name in names}
+    return {p.name: p.default for p in model.mechanism.parameters}
+
+
+def evaluated(derived: GeneratedModel, function: str, values: dict[str, float]) -> Array:
+    """Evaluate a function of the symbolic program."""
+    return np.array([float(x) for x in python(derived.functions[function])(values)])
+
+
+# -- the mirror ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", DECLARED)
+def test_a_mirror_image_moves_as_a_mirror_shows(name: str) -> None:
+    model = DECLARED[name]
+    built = Built.of(model, shipped(model), parameters_of(model))
+    rng = np.random.default_rng([*name.encode()])
+    size = built.size
+    state = np.concatenate((built.design + rng.uniform(-0.1, 0.1, size), rng.normal(size=size)))
+    inputs = 0.02 * rng.standard_normal(len(built.module.INPUTS))
+
+    image = generate(image_of(model))
+    named = [e.name for e in (*image.state, *image.inputs)]
+    values = dict(zip(named, [*state, *inputs], strict=True))
+    values |= constants_of(image, built.parameters)
+
+    expected = built("rhs", state, inputs)
+    # the same numbers in other axes: some hundred roundings
+    scale = 1e-12 * np.abs(expected).max()
+    np.testing.assert_allclose(evaluated(image, "rhs", values), expected, rtol=0.0, atol=scale)
+    places = evaluated(image, "positions", values).reshape(-1, 3)
+    np.testing.assert_allclose(places, built("positions", state, inputs) @ IMAGE, atol=1e-13)
+    turns = evaluated(image, "orientations", values).reshape(-1, 3, 3)
+    expected = IMAGE @ built("orientations", state, inputs) @ IMAGE
+    np.testing.assert_allclose(turns, expected, atol=1e-13)
+
+
+def test_the_image_of_an_image_is_the_original() -> None:
+    source = double_wishbone.DOUBLE_WISHBONE
+    twice = copy(copy(source, "a_", mirrored=True), "b_", mirrored=True)
+    for parameter in source.parameters:
+        assert twice.derived[f"b_a_{parameter.name}"] == sp.Symbol(parameter.name)
+    axis = twice.joint("b_a_upper_hinge").axis.vector.x  # turned round twice, too
+    start, end = (sp.Symbol(f"b_a_upper_arm_{where}_x") for where in ("rear", "front"))
+    assert axis == end - start
+
+
+def test_fixed_directions_that_are_their_own_image_stay() -> None:
+    source = macpherson.mechanism()
+    image = copy(source, "m_", mirrored=True)
+    assert image.joint("m_C").first_axis is source.joint("C").first_axis
+    assert image.joint("m_OA").angle_from is source.joint("OA").angle_from
+
+
+# -- parameters and names --------------------------------------------------------------------------
+
+
+def test_copies_read_the_parameters_of_the_declaration() -> None:
+    source = macpherson.mechanism()
+    left = copy(source, "left_", mirrored=True, shared=("rack", "rack_force"))
+    assert left.parameters == source.parameters
+    read = left.derived
+    assert read["left_ball_joint_x"] == sp.Symbol("ball_joint_x")
+    assert read["left_ball_joint_y"] == -sp.Symbol("ball_joint_y")
+    assert read["left_spin_axis_x"] == -sp.Symbol("spin_axis_x")
+    assert read["left_spin_axis_y"] == sp.Symbol("spin_axis_y")
+    assert read["left_knuckle_inertia_xy"] == -sp.Symbol("knuckle_inertia_xy")
+    assert read["left_knuckle_inertia_xz"] == sp.Symbol("knuckle_inertia_xz")
+    assert read["left_wheel_inertia_spin"] == sp.Symbol("wheel_inertia_spin")
+    assert left.joint("y") == source.joint("y")
+    assert "rack_force" in left.inputs
+    assert "left_road_height" in left.inputs
+
+
+def test_a_copy_may_have_parameters_of_its_own() -> None:
+    source = macpherson.mechanism()
+    left = copy(source, "left_", mirrored=True, own=("spring_rate", "ball_joint_y"))
+    own = {p.name: p.default for p in left.parameters if p.name.startswith("left_")}
+    assert own == {"left_spring_rate": 25000.0, "left_ball_joint_y": 0.71}
+    assert "left_spring_rate" not in left.derived
+    assert "spring_rate" not in {p.name for p in left.parameters}
+
+
+def test_what_parts_have_in_common_is_there_once() -> None:
+    source = macpherson.mechanism()
+    shared = ("rack", "rack_position", "rack_velocity", "rack_acceleration", "rack_force")
+    parts = [copy(source, p, shared=shared) for p in ("a_", "b_")]
+    whole = combined("pair", "Two on one rack", parts)
+    names = [b.name for b in whole.bodies]
+    assert names.count("rack") == names.count("chassis") == 1
+    assert len(names) == 2 * len(source.bodies) - 2
+    assert [b.number for b in whole.bodies] == list(range(1, len(names) + 1))
+    assert sum(isinstance(f, Weight) for f in whole.forces) == 1
+    assert sum(isinstance(f, JointForce) for f in whole.forces) == 1
+    assert [c.name for c in whole.coordinates].count("beta9") == 1
+    assert len(whole.parameters) == len(source.parameters)
+
+
+@pytest.mark.parametrize(
+    ("asked", "message"),
+    [
+        ({"shared": ("track",)}, "shared 'track' is neither a body nor an input"),
+        ({"own": ("spring_rte",)}, "own 'spring_rte' is no parameter"),
+    ],
+)
+def test_names_that_a_copy_does_not_know(asked: dict[str, tuple[str, ...]], message: str) -> None:
+    with pytest.raises(DeclarationError, match=message):
+        copy(macpherson.mechanism(), "left_", **asked)
+
+
+def test_a_direction_that_the_mirror_would_turn_both_ways() -> None:
+    source = macpherson.mechanism()
+    hinge = source.joint("OA")
+    skew = replace(hinge, axis=Line(hinge.axis.through, Direction("rack_axis")))
+    joints = tuple(skew if j == hinge else j for j in source.joints)
+    with pytest.raises(DeclarationError, match="'rack_axis' is an axis of rotation and"):
+        copy(replace(source, joints=joints), "left_", mirrored=True)
+
+
+def test_a_prefix_that_makes_the_name_of_a_parameter() -> None:
+    source = macpherson.mechanism()
+    clash = Parameter("left_spring_rate", 1.0, "N/m", "in the way")
+    with pytest.raises(DeclarationError, match="'left_spring_rate' is the name of a"):
+        copy(replace(source, parameters=(*source.parameters, clash)), "left_")
+
+
+# -- twist -----------------------------------------------------------------------------------------
+
+PIVOT, ELBOW, TIP = Point("pivot"), Point("elbow"), Point("tip")
+LAWS = (
+    LinearSpring(rate="rate", free_length="free"),
+    LinearDamper(rate="damper"),
+    Friction(level="friction", speed="speed"),
+    Stop(side="bump", length="stop", rate="stop_rate", progression="stop_growth"),
+    Actuator(input="motor"),
+)
+
+
+def pendulum(first: str, second: str) -> Model:
+    """Return a double pendulum about oblique axes, with everything between its two hinges."""
+    mechanism = Mechanism(
+        name="pendulum",
+        title="Double pendulum",
+        bodies=(
+            Body("ground", 0, center=PIVOT),
+            Body("upper", 1, center=Point("upper_com")),
+            Body("lower", 2, center=Point("lower_com")),
+        ),
+        joints=(
+            Revolute(
+                name="shoulder",
+                first="ground",
+                second="upper",
+                axis=Line(PIVOT, Direction("shoulder_axis")),
+                angle_to=ELBOW,
+            ),
+            Revolute(
+                name="elbow",
+                first="upper",
+                second="lower",
+                axis=Line(ELBOW, Direction("elbow_axis")),
+            ),
+        ),
+        forces=(
+            Weight(gravity="gravity"),
+            ForceElement(name="bar", path=TwistOfHinges(first, second), laws=LAWS),
+        ),
+        parameters=(
+            *point("pivot", (0.0, 0.0, 1.0), "pivot"),
+            *point("elbow", (0.3, 0.1, 0.9), "elbow"),
+            *point("tip", (0.5, 0.3, 0.6), "tip"),
+            *direction("shoulder_axis", (0.1, 1.0, 0.2), "axis of the shoulder"),
+            *direction("elbow_axis", (1.0, 0.2, -0.1), "axis of the elbow"),
+            *rigid_body("upper", 1.5, (0.2, 0.05, 0.95), (0.02, 0.03, 0.01)),
+            *rigid_body("lower", 0.8, (0.4, 0.2, 0.7), (0.01, 0.02, 0.015)),
+            Parameter("rate", 30.0, "N m/rad", "rate"),
+            Parameter("free", 0.2, "rad", "free angle"),
+            Parameter("damper", 0.4, "N m s/rad", "damping"),
+            Parameter("friction", 0.7, "N m", "friction"),
+            Parameter("speed", 0.5, "rad/s", "speed of friction"),
+            Parameter("stop", 1.0, "rad", "stop"),
+            Parameter("stop_rate", 50.0, "N m/rad", "rate of the stop"),
+            Parameter("stop_growth", 20.0, "N m/rad^3", "progression of the stop"),
+            Parameter("gravity", 9.81, "m/s^2", "gravity"),
+        ),
+        coordinates=(
+            RelativeCoordinate("q1", "shoulder", "angle", "rad", "angle of the shoulder"),
+            RelativeCoordinate("q2", "elbow", "angle", "rad", "angle of the elbow"),
+        ),
+        inputs={"motor": ("N m", "moment of a motor")},
+    )
+    return Model(
+        name="pendulum",
+        title="Double pendulum",
+        mechanism=mechanism,
+        independent=("shoulder", "elbow"),
+        massive=("upper", "lower"),
+    )
+
+
+@pytest.mark.parametrize("order", [("shoulder", "elbow"), ("elbow", "shoulder")])
+def test_moments_between_hinges_are_those_of_their_angles(order: tuple[str, str]) -> None:
+    """Both hinges are driven, so the moment acts on the coordinates as it is, with both signs."""
+    model = pendulum(*order)
+    derived = generate(model)
+    given = {p.name: p.default for p in model.mechanism.parameters}
+    sense = 1.0 if order[1] == "elbow" else -1.0
+    q, rates = np.array([1.2, 0.6]), np.array([1.5, -0.8])
+    values = dict(zip(("q1", "q2", "q1_rate", "q2_rate"), [*q, *rates], strict=True))
+    values |= constants_of(derived, given) | {"motor": 1.3}
+    forces = evaluated(derived, "forces", values)
+    calm = dict.fromkeys(("rate", "damper", "friction", "stop_rate", "stop_growth"), 0.0)
+    weight = constants_of(derived, given | calm) | {"motor": 0.0}
+    weight = evaluated(derived, "forces", values | weight)
+    twist, speed = sense * (q[1] - q[0]), sense * (rates[1] - rates[0])
+    pressed = max(1.0 - twist, 0.0)
+    moment = 30.0 * (0.2 - twist) - 0.4 * speed - 0.7 * speed / np.hypot(speed, 0.5)
+    moment += 50.0 * pressed + 20.0 * pressed**3 + 1.3
+    expected = moment * sense * np.array([-1.0, 1.0])
+    np.testing.assert_allclose(forces - weight, expected, rtol=1e-13)
+    signals = dict(
+        zip(derived.functions["signals"].labels, evaluated(derived, "signals", values), strict=True)
+    )
+    assert signals["bar_angle"] == pytest.approx(twist, rel=1e-14)
+    assert signals["bar_angular_velocity"] == pytest.approx(speed, rel=1e-14)
+    assert signals["bar_spring_moment"] == pytest.approx(30.0 * (0.2 - twist), rel=1e-13)
+    assert {s.unit for s in derived.signals} == {"rad", "rad/s", "N m"}
+
+
+def test_a_twist_of_what_is_no_hinge() -> None:
+    with pytest.raises(DeclarationError, match="revolute joint 'elbw' is not declared"):
+        pendulum("shoulder", "elbw")
