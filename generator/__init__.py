@@ -20,6 +20,7 @@ The rooms, in the order in which a mechanism passes through them:
 What a declaration is made of can be imported from here.
 """
 
+from . import memory  # noqa: F401 (before SymPy is imported)
 from .forces import (
     AlongLine,
     AlongTelescope,
