@@ -45,7 +45,6 @@ LONGEST = sp.Rational(3, 10)
 """Longest correction of an iteration: longer ones jump to other branches of the solution."""
 
 Matrix = list[list[sp.Expr]]
-Define = "Callable[[str, sp.Expr], sp.Expr]"
 
 
 @dataclass(frozen=True)
@@ -150,9 +149,7 @@ def adjugate(program: Program, matrix: Matrix) -> tuple[Matrix, sp.Expr]:
     )
 
 
-def _minors(
-    program: Program, name: str, matrix: Matrix
-) -> list[dict[tuple[int, ...], sp.Expr]]:
+def _minors(program: Program, name: str, matrix: Matrix) -> list[dict[tuple[int, ...], sp.Expr]]:
     """Append all minors of the first rows of a matrix: by number of rows, then by columns."""
     size = len(matrix)
     minors: list[dict[tuple[int, ...], sp.Expr]] = [{(): sp.Integer(1)}]
@@ -173,16 +170,14 @@ def _minors(
 
 def _sign(order: Sequence[int]) -> int:
     """Return the sign of a permutation."""
-    return (-1) ** sum(a > b for a, b in combinations(order, 2))
+    return -1 if sum(a > b for a, b in combinations(order, 2)) % 2 else 1
 
 
 def _reversal(count: int) -> int:
     """Return the sign of turning round some rows."""
-    return (-1) ** (count * (count - 1) // 2)
+    return _sign(range(count)[::-1])
 
 
 def times(matrix: Matrix, vector: Sequence[sp.Expr]) -> list[sp.Expr]:
     """Return the product of a matrix and a vector."""
-    return [
-        sum((a * b for a, b in zip(row, vector, strict=True)), sp.Integer(0)) for row in matrix
-    ]
+    return [sum((a * b for a, b in zip(row, vector, strict=True)), sp.Integer(0)) for row in matrix]

@@ -245,15 +245,19 @@ class SolveCarrier:
 
     Attributes
     ----------
-    base, base_body
-        A ball joint at a placed body, and that body; then three rods hold the orientation. Without
-        them six rods hold position and orientation.
+    pin
+        A ball joint at a placed body, and that body: then three rods hold the orientation. Without
+        it six rods hold position and orientation.
     """
 
     body: str
     rods: tuple[HeldByRod, ...]
-    base: Point | None = None
-    base_body: str | None = None
+    pin: tuple[Point, str] | None = None
+
+    @property
+    def rod_names(self) -> str:
+        """The rods, for messages."""
+        return ", ".join(held.rod for held in self.rods)
 
     @property
     def title(self) -> str:
@@ -557,7 +561,7 @@ class Plan:
         ]
         if len(bases) == 1 and len(rods) == _RODS_ABOUT_A_POINT:
             (base,) = bases
-            return SolveCarrier(body.name, tuple(rods), base.at, base.other(body.name))
+            return SolveCarrier(body.name, tuple(rods), (base.at, base.other(body.name)))
         if not bases and len(rods) == _RODS_WITHOUT_A_POINT:
             return SolveCarrier(body.name, tuple(rods))
         return None
@@ -792,11 +796,10 @@ class Plan:
         """Say whether an iteration would solve what has no closed form."""
         if action is None:
             return ""
-        rods = ", ".join(held.rod for held in action.rods)
         return (
-            f" {action.body} is held by {rods} together: {len(action.rods)} equations remain in as "
-            "many unknowns. Newton's method solves them, for these loops alone, if the model is "
-            "declared with allow_iteration=True."
+            f" {action.body} is held by {action.rod_names} together: {len(action.rods)} equations "
+            "remain in as many unknowns. Newton's method solves them, for these loops alone, if "
+            "the model is declared with allow_iteration=True."
         )
 
     def _check_complete(self) -> None:

@@ -9,7 +9,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..arithmetic import NUMPY, write
-from .c import GUARD_FLOOR, CPrinter
+from ..iteration import CONVERGED, ITERATIONS
+from .c import GUARD_FLOOR, CPrinter, blocks_of
 from .python import template
 
 if TYPE_CHECKING:
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
 
     import sympy as sp
 
+    from ..iteration import Block
     from ..outputs import GeneratedModel
     from ..program import Function
 
@@ -34,7 +36,11 @@ class ArraysPrinter:
             name=self.model.model.name,
             floor=GUARD_FLOOR,
             functions="\n\n\n".join(
-                [self._prepare(), *map(self._body, self.model.functions.values())]
+                [
+                    *map(_block, blocks_of(self.model.functions.values())),
+                    self._prepare(),
+                    *map(self._body, self.model.functions.values()),
+                ]
             ),
             table="\n".join(f'    "{name}": {name},' for name in names),
         )
@@ -72,6 +78,35 @@ def _definition(function: Function, arguments: str, loads: list[str], holds: lis
         *(f"        {result}," for result in results),
         "    )",
         f"    return results, {{{', '.join(holds)}}}",
+    ]
+    return "\n".join(lines)
+
+
+def _block(block: Block) -> str:
+    """Return an iteration: where one state has converged, its unknowns wait for the others."""
+    steps, results = _written(block.once)
+    count = len(block.results)
+    found, following, change = results[:count], results[count:-1], results[-1]
+    lines = [
+        f"def {block.name}({', '.join(map(str, block.arguments))}):",
+        f'    """{block.doc}"""',
+        *(f"    {u} = 0.0" for u in block.unknowns),
+        f"    for _ in range({ITERATIONS}):",
+        *(f"        {step}" for step in steps),
+        "        found = (",
+        *(f"            {value}," for value in found),
+        "        )",
+        f"        moving = {change} > {CONVERGED} * {CONVERGED}",
+        "        if not np.any(moving):",
+        "            break",
+        "        following = (",
+        *(f"            {value}," for value in following),
+        "        )",
+        *(
+            f"        {u} = np.where(moving, following[{i}], {u})"
+            for i, u in enumerate(block.unknowns)
+        ),
+        "    return found",
     ]
     return "\n".join(lines)
 

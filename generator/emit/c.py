@@ -11,11 +11,13 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ..arithmetic import OPERATIONS
+from ..arithmetic import OPERATIONS, Iterated
+from ..iteration import CONVERGED, ITERATIONS
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
+    from ..iteration import Block
     from ..outputs import Entry, GeneratedModel
     from ..program import Function
 
@@ -36,13 +38,35 @@ def count_line(function: Function) -> str:
     """Describe the operations of a function in one line."""
     counts = function.operations()
     parts = ", ".join(f"{counts[name]} {name}" for name in OPERATIONS if counts[name])
-    return f"{counts.total()} operations ({parts or 'none'})"
+    line = f"{counts.total()} operations ({parts or 'none'})"
+    iterating = "; iterates: " + ", ".join(block.name for block in function.blocks)
+    return line + iterating if function.blocks else line
+
+
+def iteration_note(model: GeneratedModel) -> str:
+    """Say which loops of a model are solved by iteration; nothing where all have a closed form."""
+    blocks = blocks_of(model.functions.values())
+    if not blocks:
+        return ""
+    found = " ".join(block.doc for block in blocks)
+    return (
+        f"This model is not free of iteration. {found} Newton's method, from the design position "
+        f"on, in at most {ITERATIONS} iterations, until a correction is below {CONVERGED}; a "
+        "status bit says where that fails. Operations are counted for one iteration."
+    )
+
+
+def blocks_of(functions: Iterable[Function]) -> list[Block]:
+    """Return the iterations of some functions, each once."""
+    return list({block.name: block for f in functions for block in f.blocks}.values())
 
 
 def mechanism_hash(model: GeneratedModel) -> str:
     """Return a hash of everything that the emitted arithmetic depends on."""
     digest = hashlib.sha256()
-    for function in (model.prepare, *model.functions.values()):
+    blocks = blocks_of(model.functions.values())
+    once = (block.once for block in blocks)
+    for function in (model.prepare, *once, *model.functions.values()):
         digest.update(function.name.encode())
         for step, written in zip(function.steps, function.written.steps, strict=True):
             digest.update(f"{step.symbol}={written.text};".encode())
@@ -134,7 +158,12 @@ class CPrinter:
             "dimensions are row-major.\nAll functions are pure: no allocation, no global state, "
             "safe to call from any thread. They return 0,\nor status bits that say what is wrong; "
             "the results then are finite but meaningless."
+            f"{self._iteration_note()}"
         )
+
+    def _iteration_note(self) -> str:
+        note = iteration_note(self.model)
+        return f"\n\n{textwrap.fill(note, WIDTH - 4)}" if note else ""
 
     def _enum(self, kind: str, title: str, entries: Sequence[Entry]) -> str:
         described = [(e.name, f"[{e.unit}] {e.meaning}") for e in entries]
@@ -219,10 +248,54 @@ class CPrinter:
             ),
             AT_LEAST,
             NOT_FINITE,
+            *self._blocks(blocks_of(functions)),
             *([] if part else [self._prepare_body()]),
             *(self._body(f) for f in functions),
         ]
         return "\n\n".join(blocks) + "\n"
+
+    def _blocks(self, blocks: Sequence[Block]) -> list[str]:
+        if not blocks:
+            return []
+        limits = (
+            "/* Most iterations, and the length of a correction that ends them. */\n"
+            f"#define ITERATIONS {ITERATIONS}\n#define CONVERGED {CONVERGED}"
+        )
+        return [limits, *map(self._block, blocks)]
+
+    def _block(self, block: Block) -> str:
+        """Print an iteration: the one loop, and the one branch, of the code."""
+        results = len(block.results)
+        written = block.once.written.results
+        found, following, change = written[:results], written[results:-1], written[-1]
+        arguments = ", ".join(f"double {a}" for a in block.arguments)
+        signature = f"static struct {block.name} {block.name}({arguments})"
+        lines = [
+            f"/* {block.doc} */",
+            f"struct {block.name} {{",
+            f"    double at[{results}];",
+            "};",
+            "",
+            *textwrap.wrap(signature, WIDTH, subsequent_indent="    "),
+            "{",
+            f"    struct {block.name} found;",
+            *(f"    double {u} = 0.0;" for u in block.unknowns),
+            "    for (int i = 0; i < ITERATIONS; ++i) {",
+            *(f"    {line}".rstrip() for line in self._steps(block.once)),
+            "",
+        ]
+        for i, (name, result) in enumerate(zip(block.results, found, strict=True)):
+            text = f"        found.at[{i}] = {result.text};"
+            lines.append(f"{text:<70} /* {name} */")
+        lines += [
+            f"        if (!({change.text} > CONVERGED * CONVERGED)) {{",
+            "            break;",
+            "        }",
+        ]
+        for unknown, result in zip(block.unknowns, following, strict=True):
+            lines.append(f"        const double next_{unknown} = {result.text};")
+        lines += [f"        {unknown} = next_{unknown};" for unknown in block.unknowns]
+        return "\n".join([*lines, "    }", "    return found;", "}"])
 
     def _prepare_body(self) -> str:
         prepare = self.model.prepare
@@ -287,7 +360,7 @@ class CPrinter:
             if step.section != section:
                 section = step.section
                 lines += ["", f"    /* {section} */"]
-            text = f"const double {step.symbol} = {written.text};"
+            text = f"{_type(step.expression)} {step.symbol} = {written.text};"
             lines += textwrap.wrap(
                 text,
                 WIDTH,
@@ -313,3 +386,10 @@ class CPrinter:
         lines = [f"    unsigned status = {bits[0][0]} * {bits[0][1]};"]
         lines += [f"    status |= {test} * {bit};" for test, bit in bits[1:]]
         return [*lines, "    return (int)status;"]
+
+
+def _type(expression: sp.Expr) -> str:
+    """Return the type of a step: a number, or what an iteration returns."""
+    if isinstance(expression, Iterated):
+        return f"const struct {expression.args[0].name}"
+    return "const double"

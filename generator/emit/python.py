@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from ..arithmetic import NUMPY, OPERATIONS, write
 from ..design import design_coordinates
-from .c import CPrinter, count_line, mechanism_hash
+from .c import CPrinter, count_line, iteration_note, mechanism_hash
 
 if TYPE_CHECKING:
     from ..outputs import Entry, GeneratedModel
@@ -104,6 +104,7 @@ class PythonPrinter:
             name=self.name,
             title=model.model.title,
             hash=mechanism_hash(model),
+            iteration=self._iteration_note(),
             state_count=len(model.state),
             input_count=len(model.inputs),
             constant_count=len(model.prepare.results),
@@ -121,6 +122,10 @@ class PythonPrinter:
             design=self._design(),
             functions="\n".join(map(self._function, self._called())),
         )
+
+    def _iteration_note(self) -> str:
+        note = iteration_note(self.model)
+        return f"\n\n{_fill(note, 0)}" if note else ""
 
     def _design(self) -> str:
         """Return the function that computes the state at the design position."""

@@ -14,12 +14,14 @@ from ..transformer import (
     PlaceByCross,
     PlaceByPin,
     PlaceTelescope,
+    SolveCarrier,
     SolveHinge,
     SolveSlide,
     SolveStroke,
     SolveTelescope,
     SolveTurn,
 )
+from .carrier import solve_carrier
 from .cross import place_by_cross
 from .hinge import place_by_pin, solve_hinge
 from .slide import solve_slide
@@ -34,6 +36,7 @@ CATALOGUE: dict[type, Callable[..., Any]] = {
     PlaceByCross: place_by_cross,
     PlaceByPin: place_by_pin,
     PlaceTelescope: place_telescope,
+    SolveCarrier: solve_carrier,
     SolveHinge: solve_hinge,
     SolveSlide: solve_slide,
     SolveStroke: solve_stroke,

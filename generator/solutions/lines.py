@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from ..geometry import Point
     from ..kinematics import Kinematics
-    from ..transformer import SolveHinge, SolveSlide, SolveTurn
+    from ..transformer import HeldByRod, SolveHinge, SolveSlide, SolveTurn
 
 
 def line_between(
@@ -63,7 +63,7 @@ def line_between(
 
 def place_rod(
     kin: Kinematics,
-    action: SolveTurn | SolveHinge | SolveSlide,
+    action: SolveTurn | SolveHinge | SolveSlide | HeldByRod,
     rod_anchor: PointMotion,
     length: sp.Expr,
 ) -> None:

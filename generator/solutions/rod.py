@@ -24,7 +24,7 @@ from ..vectors import ZERO, Vector
 if TYPE_CHECKING:
     from ..kinematics import Kinematics
     from ..placement import Axes
-    from ..transformer import PinnedTelescope, SolveHinge, SolveSlide, SolveTurn
+    from ..transformer import HeldByRod, PinnedTelescope, SolveHinge, SolveSlide, SolveTurn
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class Rod:
     stretch_bias: sp.Expr = sp.S.Zero
 
     @classmethod
-    def of(cls, kin: Kinematics, action: SolveTurn | SolveHinge | SolveSlide) -> Rod:
+    def of(cls, kin: Kinematics, action: SolveTurn | SolveHinge | SolveSlide | HeldByRod) -> Rod:
         """Return the rod of an action."""
         design = kin.design(action.end) - kin.design(action.anchor)
         design = kin.program.vector(f"{action.rod}_design", design)

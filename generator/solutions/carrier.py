@@ -1,0 +1,308 @@
+"""A body that only rods hold, all together: a wheel carrier on several links. No closed form.
+
+The equations, and the iteration that solves them from the design position on, are those of
+`carrier_equations`. Here is what surrounds them, in straight-line code.
+
+*Position.* What the iteration has found is corrected once more. That changes nothing but the last
+digits, and carries all derivatives: by the implicit function theorem they are ``-J^-1 g_v``.
+
+*Velocities and accelerations* fulfil ``J x = b``, b being what the starts of the rods do. This is
+solved twice: ``x = x0 + J^-1 (b - J x0)``, where x0 = J^-1 b is frozen. Although J^-1 comes from
+the iteration, the derivative of this is the exact one, ``J^-1 (b' - J' x)``; no inverse is
+differentiated.
+
+Guard: with e the square of what the iteration has left of g, over that of `_TOLERANCE`, and d the
+determinant of J with the sign that it has at the design position, ``(d - e) / (1 + e)``. It is not
+positive where the rods cannot reach the body, where they lose their hold on it (J is singular), and
+on the branches behind. Elsewhere it is d to the last digit, and serves as the divisor in J^-1.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ..arithmetic import Frozen, SignOf
+from ..iteration import ITERATIONS, Matrix, determinant, times
+from ..placement import Placed, PointMotion, from_axes
+from ..transformer import NoClosedFormError
+from ..vectors import ZERO, Twist, Vector
+from .carrier_equations import Pose, RodEquation, block, named, rotation, split, turned
+from .lines import once, place_rod, projector
+from .rod import Rod
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from ..kinematics import Kinematics
+    from ..transformer import HeldByRod, SolveCarrier
+
+# What the iteration may leave of g. Of what converges, 1e-16 is left.
+_TOLERANCE = sp.Rational(1, 10**8)
+
+
+def solve_carrier(kin: Kinematics, action: SolveCarrier) -> None:
+    """Find the pose of a body that rods hold together, and its motion."""
+    held = _Held.of(kin, action)
+    _place(kin, held, _corrected(kin, held, _found(kin, held)))
+    for rod in held.rods:
+        place_rod(kin, rod.entry, rod.anchor, rod.rod.length)
+
+
+@dataclass(frozen=True)
+class _Held:
+    """The body and what holds it.
+
+    Attributes
+    ----------
+    base
+        Motion of the known point; None if there is none.
+    origin
+        Origin of the body axes at design: the known point, or else the end of the first rod.
+    size
+        The length c of the equations: root mean square of the ways from there to the rods.
+    rods
+        In the order of the action.
+    """
+
+    action: SolveCarrier
+    base: PointMotion | None
+    origin: Vector
+    size: sp.Expr
+    rods: list[_RodAtBody]
+
+    @classmethod
+    def of(cls, kin: Kinematics, action: SolveCarrier) -> _Held:
+        """Describe what an action is about."""
+        program, body = kin.program, action.body
+        if action.pin is None:
+            base, origin = None, kin.design(action.rods[0].end)
+            start = origin
+        else:
+            point, parent = action.pin
+            base, origin = kin.point_motion(parent, point), kin.design(point)
+            start = base.position
+        ends = [
+            program.vector(f"{body}_{entry.end.name}", kin.design(entry.end) - origin, "123")
+            for entry in action.rods
+        ]
+        squares = sum((end.dot(end) for end in ends), sp.Integer(0))
+        size = program.define(f"{body}_size", sp.sqrt(squares / len(ends)))
+        rods = [
+            _RodAtBody.of(kin, entry, end, start, size, pinned=base is not None)
+            for entry, end in zip(action.rods, ends, strict=True)
+        ]
+        if all(program.constants.contains(c) for rod in rods for c in rod.equation.values):
+            message = (
+                f"{body}, held by {action.rod_names}, cannot move: all that holds it stands still. "
+                "Declare it as a part of the ground"
+            )
+            raise NoClosedFormError(message)
+        return cls(action, base, origin, size, rods)
+
+    @property
+    def equations(self) -> list[RodEquation]:
+        """Those of the rods."""
+        return [rod.equation for rod in self.rods]
+
+
+@dataclass(frozen=True)
+class _RodAtBody:
+    """A rod: its length, the motion of where it starts, and its equation."""
+
+    entry: HeldByRod
+    rod: Rod
+    anchor: PointMotion
+    equation: RodEquation
+
+    @classmethod
+    def of(
+        cls,
+        kin: Kinematics,
+        entry: HeldByRod,
+        end: Vector,
+        start: Vector,
+        size: sp.Expr,
+        *,
+        pinned: bool,
+    ) -> _RodAtBody:
+        """Describe a rod that ends at a point of the body; positions are from a start."""
+        program, rod = kin.program, Rod.of(kin, entry)
+        anchor = kin.point_motion(entry.anchor_body, entry.anchor)
+        length = program.define(f"{entry.rod}_length_design", sp.sqrt(rod.design.dot(rod.design)))
+        equation = RodEquation(
+            program.vector(f"{entry.rod}_start", anchor.position - start),
+            end,
+            program.define(f"{entry.rod}_length_squared", rod.squared),
+            program.define(f"{entry.rod}_scale", 1 / (length * size)),
+            None if pinned else size,
+        )
+        return cls(entry, rod, anchor, equation)
+
+
+@dataclass(frozen=True)
+class _System:
+    """The linear equations ``J x = b`` of a pose that is found.
+
+    Attributes
+    ----------
+    adjugate, factor
+        J^-1 is their product. They come from the iteration, their derivatives are zero.
+    rows
+        J.
+    """
+
+    adjugate: Matrix
+    factor: sp.Expr
+    rows: Matrix
+
+    def solve(self, kin: Kinematics, name: str, b: Sequence[sp.Expr]) -> list[sp.Expr]:
+        """Append the solution, with its exact derivative."""
+        program = kin.program
+        b = [program.define(f"{name}_given_{i}", value) for i, value in enumerate(b, 1)]
+        first = [
+            program.define(f"{name}_first_{i}", Frozen(value * self.factor))
+            for i, value in enumerate(times(self.adjugate, b), 1)
+        ]
+        left = [
+            program.define(f"{name}_left_{i}", value - done)
+            for i, (value, done) in enumerate(zip(b, times(self.rows, first), strict=True), 1)
+        ]
+        more = times(self.adjugate, left)
+        return [x + self.factor * dx for x, dx in zip(first, more, strict=True)]
+
+
+@dataclass(frozen=True)
+class _Solved:
+    """The pose, the ways along the rods from their starts to their ends, and the linear system."""
+
+    pose: Pose
+    gaps: list[Vector]
+    system: _System
+
+
+# -- position -------------------------------------------------------------------------------------
+
+
+def _found(kin: Kinematics, held: _Held) -> dict[str, sp.Expr]:
+    """Append the call of the iteration, and return its results."""
+    body, pinned = held.action.body, held.base is not None
+    values = [x for equation in held.equations for x in equation.values]
+    values += [] if pinned else [held.size]
+    return kin.program.iterated(f"{body}_found", block(body, len(held.rods), pinned=pinned), values)
+
+
+def _corrected(kin: Kinematics, held: _Held, found: dict[str, sp.Expr]) -> _Solved:
+    """Correct what was found, and return the pose with its linear equations."""
+    program, body, count = kin.program, held.action.body, len(held.rods)
+    u, sigma = split(list(found.values())[:count])
+    axes = rotation(program, f"{body}_found", u)
+    start = Pose(axes, program.vector(f"{body}_found_shift", sigma * held.size))
+    left = [
+        program.define(f"{rod.entry.rod}_misfit", rod.equation.misfit(rod.equation.gap(start)))
+        for rod in held.rods
+    ]
+    places = range(1, count + 1)
+    adjugate = [[found[f"adjugate_{i}{j}"] for j in places] for i in places]
+    factor = _factor(kin, held, found["determinant"], left)
+    step = [
+        program.define(f"{body}_correction_{i}", -factor * value)
+        for i, value in enumerate(times(adjugate, left), 1)
+    ]
+    turn, way = split(step)
+    names = (f"{body}_forward", f"{body}_side", f"{body}_top")
+    moved = start.shift + from_axes(axes, way * held.size)
+    pose = Pose(program.axes(names, turned(axes, turn)), program.vector(f"{body}_shift", moved))
+    gaps = [
+        program.vector(f"{rod.entry.rod}_gap", rod.equation.gap(pose), "123") for rod in held.rods
+    ]
+    rows = [rod.equation.row(gap) for rod, gap in zip(held.rods, gaps, strict=True)]
+    return _Solved(pose, gaps, _System(adjugate, factor, named(program, f"{body}_row", rows)))
+
+
+def _factor(kin: Kinematics, held: _Held, found: sp.Expr, left: Sequence[sp.Expr]) -> sp.Expr:
+    """Return the reciprocal of the determinant, which is guarded."""
+    program, body = kin.program, held.action.body
+    design = [rod.equation.row(rod.rod.design) for rod in held.rods]
+    at_design = determinant(program, f"{body}_design", named(program, f"{body}_row_design", design))
+    branch = program.define(f"{body}_branch", SignOf(at_design))
+    squares = sum((g * g for g in left), sp.Integer(0))
+    excess = program.define(f"{body}_excess", squares / _TOLERANCE**2)
+    hold = program.guarded(
+        f"{body}_closure",
+        (branch * found - excess) / (1 + excess),
+        f"the loops of {body} through {held.action.rod_names} cannot close, or an iteration has "
+        f"not found how in {ITERATIONS} steps: the rods cannot reach {body}, or they have no hold "
+        "on it",
+        "1",
+    )
+    return program.define(f"{body}_hold", Frozen(branch / hold))
+
+
+# -- motion ---------------------------------------------------------------------------------------
+
+
+def _place(kin: Kinematics, held: _Held, solved: _Solved) -> None:
+    """Record pose, velocities and bias."""
+    action, program, pose = held.action, kin.program, solved.pose
+    placed = Placed(
+        action.body,
+        origin=held.base.position
+        if held.base
+        else program.vector(f"{action.body}_origin", held.origin + pose.shift),
+        axes=pose.axes,
+        design_origin=held.origin,
+        local={rod.entry.end: rod.equation.end for rod in held.rods},
+    )
+    if action.pin is not None:
+        point, parent = action.pin
+        placed.local[point] = ZERO
+        placed.carrier = parent, kin.local(kin.placed[parent], point)
+    _add_motion(kin, held, solved, placed)
+    kin.placed[action.body] = placed
+
+
+def _add_motion(kin: Kinematics, held: _Held, solved: _Solved, placed: Placed) -> None:
+    """Velocities and bias: every rod keeps its length, or has that of a known slide."""
+    body, program, system = placed.body, kin.program, solved.system
+    to_body = projector(kin, placed)
+    rates = [ZERO for _ in held.rods]  # of the ends of the rods, as seen from where they start
+
+    def twist_of(x: Sequence[sp.Expr], base: Vector) -> Twist:
+        """Return a twist (or a bias) from the solution, and from the base where that is known."""
+        turn, way = split(x)
+        return Twist(turn, base if held.base else way * held.size)
+
+    moving = [held.base] if held.base else []
+    motions = [m.motion for m in (*moving, *(rod.anchor for rod in held.rods))]
+    for k in dict.fromkeys(k for m in (*motions, *(r.rod.stretch for r in held.rods)) for k in m):
+        base = to_body(f"velocity_{k}", held.base.motion.get(k, ZERO)) if held.base else ZERO
+        starts = [
+            to_body(f"{rod.entry.rod}_start_{k}", rod.anchor.motion.get(k, ZERO))
+            for rod in held.rods
+        ]
+        b = [
+            (rod.rod.stretch.get(k, sp.Integer(0)) - gap.dot(base - start)) * rod.equation.scale
+            for rod, gap, start in zip(held.rods, solved.gaps, starts, strict=True)
+        ]
+        twist = twist_of(system.solve(kin, f"{body}_{k}", b), base)
+        placed.motion[k] = kin.define_twist(body, k, twist)
+        omega, linear = placed.motion[k].angular, placed.motion[k].linear
+        for i, (rod, start) in enumerate(zip(held.rods, starts, strict=True)):
+            rates[i] += (linear - start + omega.cross(rod.equation.end)) * kin.rate(k)
+
+    def bias() -> Twist:
+        omega = kin.total(placed).angular
+        base = to_body("acceleration", held.base.bias) if held.base else ZERO
+        b = []
+        for rod, gap, rate in zip(held.rods, solved.gaps, rates, strict=True):
+            now = program.vector(f"{rod.entry.rod}_rate", rate, "123")
+            start = to_body(f"{rod.entry.rod}_start_bias", rod.anchor.bias)
+            pull = base - start + omega.cross(omega.cross(rod.equation.end))
+            given = rod.rod.stretch_bias - gap.dot(pull) - now.dot(now)
+            b.append(given * rod.equation.scale)
+        return kin.define_bias(body, twist_of(system.solve(kin, f"{body}_bias", b), base))
+
+    placed.bias = once(bias)
