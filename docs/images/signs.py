@@ -1,0 +1,210 @@
+"""Draw docs/images/signs.png: ``python docs/images/signs.py``.
+
+Every angle and displacement in its positive sense, on the left and on the right side. Wheels and
+axes are drawn from the definitions in docs/conventions.md, with angles large enough to be seen.
+"""  # noqa: INP001 (a script beside its picture)
+
+from pathlib import Path
+
+import numpy as np
+from kintrafo.figures import BLUE, GREEN, ORANGE, STYLE
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle, FancyArrowPatch, Polygon
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+DARK, GREY, FILL = "#333333", "#8a8a8a", "#ececec"
+RADIUS, HALF_WIDTH, HALF_TRACK = 300.0, 90.0, 760.0  # of the drawing [mm]
+CAMBER, TOE, STEER, CASTER, KINGPIN = np.deg2rad([9.0, 14.0, 20.0, 14.0, 13.0])
+LEFT, RIGHT = 1.0, -1.0
+SIDES = {LEFT: "left", RIGHT: "right"}
+
+# Seen from behind and from above, y runs to the left of the picture.
+Place = tuple[float, float]
+
+
+def turned(vector: Place, angle: float) -> Array:
+    """Return a vector of the picture, turned counterclockwise."""
+    cos, sin = np.cos(angle), np.sin(angle)
+    return np.array([cos * vector[0] - sin * vector[1], sin * vector[0] + cos * vector[1]])
+
+
+def box(axes: Axes, center: Array, angle: float, *, shade: str = FILL) -> None:
+    """Draw a wheel edge on: upright in the picture, turned counterclockwise."""
+    corners = [(a * HALF_WIDTH, b * RADIUS) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    outline = [center + turned(corner, angle) for corner in corners]
+    axes.add_patch(Polygon(outline, closed=True, fc=shade, ec=DARK, lw=1.3))
+    ends = [center + turned((0.0, end * 1.3 * RADIUS), angle) for end in (-1.0, 1.0)]
+    axes.plot(*np.transpose(ends), color=DARK, lw=0.9, ls="-.")
+
+
+def upright(axes: Axes, center: Array, length: float) -> None:
+    """Draw the line from which an angle counts."""
+    axes.plot([center[0]] * 2, [center[1], center[1] + length], color=GREY, lw=0.9, ls=":")
+
+
+def arc(axes: Axes, center: Array, radius: float, angle: float, name: str, colour: str) -> None:
+    """Draw an arrow from upright to an angle, counterclockwise, with its name outside."""
+    steps = np.linspace(0.0, angle, 24)
+    points = np.array([center + turned((0.0, radius), step) for step in steps])
+    axes.plot(*points[:-2].T, color=colour, lw=1.6)
+    arrow(axes, points[-4], points[-1], colour)
+    beyond = center + turned((0.0, radius + 40.0), 1.25 * angle)
+    ha = "right" if angle > 0.0 else "left"
+    axes.text(*beyond, name, color=colour, ha=ha, va="center", fontsize=9)
+
+
+def arrow(axes: Axes, start: Array, end: Array, colour: str, style: str = "-|>") -> None:
+    """Draw an arrow."""
+    axes.add_patch(
+        FancyArrowPatch(
+            tuple(start),
+            tuple(end),
+            arrowstyle=style,
+            mutation_scale=13,
+            color=colour,
+            lw=1.6,
+            shrinkA=0,
+            shrinkB=0,
+        )
+    )
+
+
+def named_arrow(axes: Axes, start: Place, way: Place, name: str, colour: str) -> None:
+    """Draw a displacement with its name at the tip."""
+    end = np.add(start, way)
+    arrow(axes, np.array(start), end, colour)
+    beyond = end + 26.0 * np.array(way) / np.hypot(*way)
+    ha = "center" if way[0] == 0.0 else "right" if way[0] < 0.0 else "left"
+    va = "center" if way[1] == 0.0 else "top" if way[1] < 0.0 else "bottom"
+    axes.text(*beyond, name, color=colour, ha=ha, va=va, fontsize=9)
+
+
+def axes_cross(axes: Axes, at: Place, right: str, up: str) -> None:
+    """Draw two of the vehicle's axes; a minus before the name lets it point the other way."""
+    for name, way in ((right, (1.0, 0.0)), (up, (0.0, 1.0))):
+        sense = -1.0 if name.startswith("-") else 1.0
+        label = {"x": "x forward", "y": "y left", "z": "z up"}[name.removeprefix("-")]
+        named_arrow(axes, at, tuple(110.0 * sense * np.array(way)), label, DARK)
+    axes.add_patch(Circle(at, 11.0, color=DARK))
+
+
+def finish(axes: Axes, title: str, x: Place, y: Place) -> None:
+    """Put a panel into its frame."""
+    axes.set(title=title, xlim=x, ylim=y, aspect="equal")
+    axes.axis("off")
+
+
+def from_behind(axes: Axes) -> None:
+    """Draw camber, kingpin inclination, arm angle, wheel travel and the rack."""
+    axes.axhline(0.0, color=DARK, lw=1.2)
+    for side, name in SIDES.items():
+        out = -side  # outboard in the picture
+        wheel = np.array([out * HALF_TRACK, RADIUS])
+        box(axes, wheel, side * CAMBER)
+        upright(axes, wheel, 1.45 * RADIUS)
+        arc(axes, wheel, 1.25 * RADIUS, side * CAMBER, "camber", ORANGE)
+        ball = wheel + np.array([-out * 150.0, -130.0])
+        top = ball + turned((0.0, 640.0), -side * KINGPIN)
+        axes.plot(*np.transpose([ball, top]), color=BLUE, lw=2.2)
+        upright(axes, ball, 640.0)
+        arc(axes, ball, 560.0, -side * KINGPIN, "kingpin inclination", BLUE)
+        contact = np.array([wheel[0] - out * RADIUS * np.sin(CAMBER), 0.0])
+        meets = np.array([ball[0] + out * ball[1] * np.tan(KINGPIN), 0.0])
+        axes.plot(*np.transpose([meets, ball]), color=BLUE, lw=1.0, ls="--")
+        arrow(axes, contact - np.array([0.0, 45.0]), meets - np.array([0.0, 45.0]), GREEN)
+        axes.text(
+            meets[0], -80.0, "steering-axis offset", color=GREEN, ha="center", va="top", fontsize=9
+        )
+        hinge = ball + np.array([-out * 300.0, 0.0])
+        axes.plot(*np.transpose([hinge, ball]), color=DARK, lw=2.2)
+        axes.plot(*hinge, "^", color=DARK, ms=9)
+        axes.plot(*ball, "o", color=DARK, ms=5)
+        upright(axes, hinge, 270.0)
+        steps = np.linspace(0.0, side * np.pi / 2, 40)
+        swing = np.array([hinge + turned((0.0, 190.0), step) for step in steps])
+        axes.plot(*swing.T, color=GREEN, lw=1.6)
+        arrow(axes, swing[-3], swing[-1], GREEN)
+        label = hinge + turned((0.0, 215.0), side * np.pi / 4)
+        axes.text(*label, "β1", color=GREEN, ha="right" if side > 0 else "left", fontsize=10)
+        travel = (out * (HALF_TRACK + 220.0), RADIUS - 70.0)
+        named_arrow(axes, travel, (0.0, 150.0), "wheel\ntravel", DARK)
+        axes.text(out * (HALF_TRACK + 60.0), -150.0, f"{name} wheel", ha="center", va="top")
+    axes.plot([-130.0, 130.0], [420.0, 420.0], color=DARK, lw=5, solid_capstyle="butt")
+    arrow(axes, np.array([75.0, 380.0]), np.array([-75.0, 380.0]), ORANGE)
+    axes.text(0.0, 350.0, "rack displacement", color=ORANGE, ha="center", va="top", fontsize=9)
+    axes_cross(axes, (0.0, 640.0), "-y", "z")
+    finish(axes, "from behind", (-1150.0, 1150.0), (-220.0, 960.0))
+
+
+def from_above(axes: Axes) -> None:
+    """Draw toe and the rolling wheel's spin axis."""
+    for side, name in SIDES.items():
+        wheel = np.array([-side * 420.0, 0.0])
+        box(axes, wheel, -side * TOE)
+        upright(axes, wheel, 1.45 * RADIUS)
+        arc(axes, wheel, 1.25 * RADIUS, -side * TOE, "toe", ORANGE)
+        ends = [wheel + turned((x, 0.0), -side * TOE) for x in (150.0, -230.0)]
+        arrow(axes, *ends, BLUE)
+        axes.text(
+            *(ends[1] + np.array([-14.0, 26.0])), "spin axis", color=BLUE, ha="center", fontsize=9
+        )
+        axes.text(wheel[0], -1.5 * RADIUS, f"{name} wheel", ha="center", va="top")
+    axes_cross(axes, (0.0, 60.0), "-y", "x")
+    finish(axes, "from above: toe, spin", (-760.0, 700.0), (-560.0, 560.0))
+
+
+def steered(axes: Axes) -> None:
+    """Draw steer, the same sense on both sides."""
+    for side, name in SIDES.items():
+        wheel = np.array([-side * 420.0, 0.0])
+        box(axes, wheel, STEER)
+        upright(axes, wheel, 1.45 * RADIUS)
+        arc(axes, wheel, 1.25 * RADIUS, STEER, "steer", ORANGE)
+        axes.text(wheel[0], -1.5 * RADIUS, f"{name} wheel", ha="center", va="top")
+    axes_cross(axes, (0.0, 60.0), "-y", "x")
+    finish(axes, "from above: steer", (-760.0, 700.0), (-560.0, 560.0))
+
+
+def from_the_side(axes: Axes, side: float) -> None:
+    """Draw caster, trail and the sense of rolling, from outside: forward is left on the left."""
+    ahead = -side  # forward in the picture
+    axes.axhline(0.0, color=DARK, lw=1.2)
+    axes.add_patch(Circle((0.0, RADIUS), RADIUS, fc=FILL, ec=DARK, lw=1.3))
+    axes.plot(0.0, RADIUS, "o", color=DARK, ms=5)
+    ground = np.array([ahead * 120.0, 0.0])
+    top = ground + turned((0.0, 780.0), -side * CASTER)
+    axes.plot(*np.transpose([ground, top]), color=BLUE, lw=2.2)
+    upright(axes, ground, 780.0)
+    arc(axes, ground, 690.0, -side * CASTER, "caster", BLUE)
+    arrow(axes, np.array([0.0, -45.0]), ground - np.array([0.0, 45.0]), GREEN)
+    axes.text(ahead * 60.0, -75.0, "trail", color=GREEN, ha="center", va="top", fontsize=9)
+    steps = np.linspace(-0.5, 0.5, 30)
+    spin = [np.array([0.0, RADIUS]) + turned((0.0, 190.0), side * step) for step in steps]
+    axes.plot(*np.transpose(spin[:-2]), color=ORANGE, lw=1.6)
+    arrow(axes, spin[-4], spin[-1], ORANGE)
+    axes.text(-ahead * 130.0, RADIUS + 85.0, "spin", color=ORANGE, ha="center", fontsize=9)
+    x = "-x" if side == LEFT else "x"
+    axes_cross(axes, (-ahead * 690.0, 140.0), x, "z")
+    finish(axes, f"{SIDES[side]} wheel, from outside", (-780.0, 780.0), (-170.0, 900.0))
+
+
+def main() -> None:
+    """Write the picture."""
+    with rc_context(STYLE):
+        figure = Figure(figsize=(11.0, 10.6), layout="constrained")
+        upper, middle, lower = figure.subfigures(3, 1, height_ratios=(1.25, 1.0, 1.05))
+        from_behind(upper.subplots())
+        toe, steer = middle.subplots(1, 2)
+        from_above(toe)
+        steered(steer)
+        for axes, side in zip(lower.subplots(1, 2), SIDES, strict=True):
+            from_the_side(axes, side)
+        figure.savefig(Path(__file__).with_suffix(".png"), dpi=110)
+
+
+if __name__ == "__main__":
+    main()

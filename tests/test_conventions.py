@@ -1,0 +1,160 @@
+"""The signs that docs/conventions.md states, on both sides: from points that move, not formulas.
+
+Points of the wheel are carried along as a person would watch them: its top, its foremost point,
+where the steering axis pierces the ground. Nothing here knows the definitions of the angles.
+"""
+
+import numpy as np
+import pytest
+from kintrafo import Model, Suspension, state_at_height
+from kintrafo.characteristics import steering, travel
+from kintrafo.hardpoints import hardpoints
+from kintrafo.positions import design_height
+from kintrafo.reach import at_rest
+
+RIGHT = Suspension.load("reference_car")
+CARS = {"right": RIGHT, "left": RIGHT.mirrored()}
+OUTBOARD = {"right": -1.0, "left": 1.0}  # in y
+
+side = pytest.mark.parametrize("side", CARS)
+
+
+def one(dataset, name):
+    return float(dataset[name].values[0])
+
+
+def at_design(car, name):
+    return one(travel(Model(car), [0.0]), name)
+
+
+def wheel_plane(car):
+    """Return the directions to the wheel's top and to its foremost point at design."""
+    spin = car.wheel.spin_axis(car.vehicle.sign)
+    up = np.array([0.0, 0.0, 1.0]) - spin * spin[2]
+    return up / np.linalg.norm(up), np.cross(spin, up)
+
+
+@side
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+class TestWheel:
+    def test_camber_is_positive_with_the_top_outboard(self, side, sign):
+        car = CARS[side].with_changes({"wheel.camber_deg": 3.0 * sign})
+        up, _ = wheel_plane(car)
+        assert np.sign(up[1]) == sign * OUTBOARD[side]
+        assert at_design(car, "camber") == pytest.approx(np.deg2rad(3.0 * sign), abs=1e-14)
+
+    def test_toe_is_positive_with_the_front_inboard(self, side, sign):
+        car = CARS[side].with_changes({"wheel.toe_deg": 2.0 * sign})
+        _, front = wheel_plane(car)
+        assert front[0] > 0.9
+        assert np.sign(front[1]) == -sign * OUTBOARD[side]
+        assert at_design(car, "toe") == pytest.approx(np.deg2rad(2.0 * sign), abs=1e-14)
+
+    def test_steer_is_positive_with_the_front_to_the_left(self, side, sign):
+        model = Model(CARS[side])
+        steered = steering(model, [sign * 0.03])
+        states, inputs = at_rest(model, model.design_state[0], sign * 0.03)
+        knuckle = model.evaluate("orientations", states, inputs)[
+            model.equations.BODIES.index("knuckle")
+        ]
+        _, front = wheel_plane(CARS[side])
+        assert np.sign(one(steered, "steer")) == np.sign((knuckle @ front)[1])
+
+
+@side
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+class TestSteeringAxis:
+    def leaning(self, side, x=0.0, y=0.0):
+        """Return the car with its strut top moved from right above the ball joint."""
+        foot = CARS[side].hardpoints.ball_joint
+        changes = {"hardpoints.strut_top.x": foot[0] + x, "hardpoints.strut_top.y": foot[1] + y}
+        return CARS[side].with_changes(changes)
+
+    def test_caster_is_positive_with_the_top_rearward(self, side, sign):
+        car = self.leaning(side, x=-40.0 * sign)
+        assert np.sign(at_design(car, "caster")) == sign
+
+    def test_kingpin_inclination_is_positive_with_the_top_inboard(self, side, sign):
+        car = self.leaning(side, y=-OUTBOARD[side] * 60.0 * sign)
+        assert np.sign(at_design(car, "kingpin_inclination")) == sign
+
+    def test_trail_is_positive_with_the_axis_ahead(self, side, sign):
+        # upright, the axis stands where the ball joint is
+        ball = self.leaning(side).hardpoints.wheel_center[0] + 30.0 * sign
+        upright = {"hardpoints.ball_joint.x": ball, "hardpoints.strut_top.x": ball}
+        car = self.leaning(side).with_changes(upright)
+        assert at_design(car, "trail") == pytest.approx(0.030 * sign, abs=1e-12)
+        assert at_design(car, "hub_trail") == pytest.approx(0.030 * sign, abs=1e-12)
+
+    def test_offset_is_positive_with_the_axis_inboard(self, side, sign):
+        car = self.leaning(side)
+        wheel = car.hardpoints.ball_joint[1] + OUTBOARD[side] * 50.0 * sign
+        car = car.with_changes({"hardpoints.wheel_center.y": wheel})
+        assert at_design(car, "steering_axis_offset") == pytest.approx(0.050 * sign, abs=1e-12)
+        assert at_design(car, "spindle_offset") == pytest.approx(0.050 * sign, abs=1e-12)
+
+
+@side
+class TestMotion:
+    def test_travel_is_up_and_the_arm_angle_falls(self, side):
+        model = Model(CARS[side])
+        state = state_at_height(model, design_height(model) + 0.02)
+        assert float(model.signal("wheel_center_z", state)) > design_height(model)
+        assert state[0] < model.design_state[0]
+
+    def test_arm_angle_counts_from_upright_to_the_arm(self, side):
+        """An arm that points outboard and level has a right angle."""
+        model = Model(CARS[side])
+        level = np.arange(0.0, np.pi, 0.001)
+        points = hardpoints(model, *at_rest(model, level[1400:1750], 0.0))
+        rise = points["ball_joint"][:, 2] - CARS[side].hardpoints.metres("arm_rear")[2]
+        assert np.interp(0.0, -rise, level[1400:1750]) == pytest.approx(np.pi / 2, abs=1e-6)
+
+    def test_changes_are_positive_outboard_and_forward(self, side):
+        model = Model(CARS[side])
+        found = travel(model, [0.05])
+        points = hardpoints(model, state_at_height(model, design_height(model) + 0.05))
+        shift = points["wheel_center"] - CARS[side].hardpoints.metres("wheel_center")
+        # the contact moves as the wheel centre does, but for camber and caster
+        lean = 0.3 * np.sin(one(found, "camber"))
+        assert one(found, "half_track_change") == pytest.approx(
+            OUTBOARD[side] * shift[1] - lean, abs=2e-3
+        )
+        assert one(found, "wheelbase_change") == pytest.approx(shift[0], abs=2e-3)
+
+    def test_rack_moves_to_the_left(self, side):
+        model = Model(CARS[side])
+        ends = [
+            hardpoints(model, *at_rest(model, model.design_state[0], rack))["tie_rod_inner"][1]
+            for rack in (0.0, 0.01)
+        ]
+        assert ends[1] - ends[0] == pytest.approx(0.01, abs=1e-15)
+
+    def test_spin_is_positive_rolling_forward(self, side):
+        """The lowest point of the wheel moves rearward relative to its centre."""
+        model = Model(CARS[side])
+        state = model.state(beta5_rate=1.0)
+        twist = model.evaluate("velocities", state)[model.equations.BODIES.index("wheel")]
+        lowest = np.cross(twist[:3], [0.0, 0.0, -0.3])
+        assert lowest[0] == pytest.approx(-0.3, abs=1e-12)
+
+    def test_bump_compresses_the_spring_with_a_positive_motion_ratio(self, side):
+        model = Model(CARS[side])
+        lengths = [
+            float(model.signal("strut_length", state_at_height(model, design_height(model) + rise)))
+            for rise in (0.0, 0.001)
+        ]
+        assert lengths[1] < lengths[0]
+        assert at_design(CARS[side], "motion_ratio") > 0.5
+
+    def test_roll_centre_height_is_that_of_a_level_car_above_the_ground(self, side):
+        """With the arm falling outboard, it is above the ground (Reimpell's construction)."""
+        assert at_design(CARS[side], "roll_center_height_geometric") > 0.0
+        assert at_design(CARS[side], "roll_center_height_kinematic") > 0.0
+
+
+@pytest.mark.parametrize("name", sorted(travel(Model(RIGHT), [0.0]).data_vars))
+def test_what_is_mirrored_and_what_is_the_same_on_both_sides(name):
+    right, left = (one(travel(Model(car), [0.03]), name) for car in CARS.values())
+    same_sense = name == "steer"
+    assert left == pytest.approx(-right if same_sense else right, rel=1e-9, abs=1e-12)
