@@ -1,6 +1,9 @@
 """Every command of ``kintrafo`` with a double wishbone, and what runs behind them."""
 
 import json
+import re
+import shlex
+from pathlib import Path
 
 import kintrafo
 import numpy as np
@@ -169,6 +172,27 @@ def test_linearisation_knows_the_wheel_hop_and_the_spinning_wheel():
     )
     # the square of 1e-4 m over the size of the suspension
     assert abs(slow) == pytest.approx((high - low) / 2e-4, rel=1e-6)
+
+
+# -- the page of the documentation ---------------------------------------------------------------
+
+PAGE = (Path(__file__).parent.parent / "docs/double-wishbone.md").read_text(encoding="utf-8")
+
+
+def test_the_documented_commands_run(run):
+    blocks = re.findall(r"```sh\n(.*?)```", PAGE, flags=re.DOTALL)
+    commands = [line for block in blocks for line in block.splitlines()]
+    assert len(commands) == 5
+    for command in commands:
+        code, _, error = run(*shlex.split(command)[1:])
+        assert code == 0, error
+
+
+def test_the_documented_code_prints_what_it_says(capsys):
+    (block,) = re.findall(r"```python\n(.*?)```", PAGE, flags=re.DOTALL)
+    exec(compile(block, "double-wishbone.md", "exec"), {})
+    (said,) = re.findall(r"print.*# (.*)\n", block)
+    assert capsys.readouterr().out.strip() == said
 
 
 # -- handing over ---------------------------------------------------------------------------------
