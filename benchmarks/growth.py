@@ -36,6 +36,7 @@ from rich.console import Console
 from rich.markdown import Markdown
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from scipy.integrate import solve_ivp
+from sympy.core.cache import clear_cache
 
 from .report import (
     count,
@@ -100,6 +101,7 @@ def measure(loops: int, compiler: Compiler, rounds: int, advance: Callable[[str]
     """Derive, compile and run a chain of some length."""
     model = n_four_bar(loops)
     found: list[GeneratedModel] = []
+    clear_cache()  # shorter chains are parts of this one, and SymPy remembers them
     advance(f"N = {loops}: deriving")
     derive = seconds_of(lambda: found.append(generate(model)))
     derived = found[0]
