@@ -54,7 +54,7 @@ class Block:
     Attributes
     ----------
     name, doc
-        Name of the function in C, and what it finds.
+        Name of the function in C, and what it finds (behind a verb, without a full stop).
     arguments
         What it is given, in order; the names are its own.
     unknowns
@@ -105,6 +105,7 @@ class Block:
 
 def limited(program: Program, correction: Sequence[sp.Expr]) -> tuple[list[sp.Expr], sp.Expr]:
     """Return a correction that is at most `LONGEST`, and the square of its length before."""
+    correction = [program.define(f"correction_{i}", c) for i, c in enumerate(correction, 1)]
     squared = program.define("change", sum((c * c for c in correction), sp.Integer(0)))
     most = LONGEST**2
     length = program.define("length", sp.sqrt(most + Positive(squared - most)))

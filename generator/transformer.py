@@ -514,7 +514,8 @@ class Plan:
 
     def _solve_together(self, action: SolveCarrier, offers: list[_Offer]) -> None:
         """Record the loops that one iteration solves: a transformer for each of them."""
-        pairs = self._rod_pairs(action, [cycle for cycle, _ in offers])
+        candidates = [self._pair_candidates(cycle) for cycle, _ in offers]
+        pairs = self._rod_pairs(action, candidates)
         unknowns = [self._unknowns(cycle) for cycle, _ in offers]
         given = [self._coordinates(cycle) & self._known for cycle, _ in offers]
         found = self._accept(action)
@@ -527,7 +528,7 @@ class Plan:
                     number=len(self.transformers) + 1,
                     cycle=cycle,
                     unknowns=unknowns[i],
-                    candidates=(pairs[i],),
+                    candidates=tuple(candidates[i]),
                     pair=pairs[i],
                     action=action,
                     inputs=self._labels(given[i]),
@@ -536,17 +537,20 @@ class Plan:
                 )
             )
 
-    def _rod_pairs(self, action: SolveCarrier, cycles: list[Cycle]) -> list[PairCandidate]:
+    @staticmethod
+    def _rod_pairs(
+        action: SolveCarrier, candidates: list[list[PairCandidate]]
+    ) -> list[PairCandidate]:
         """Return for each loop the two joints of a rod whose length is its equation."""
         pairs: list[PairCandidate] = []
-        for cycle in cycles:
-            joints = [
-                tuple(j for j in cycle.joints if held.rod in j.bodies)
+        for offered in candidates:
+            at_rods = [
+                pair
                 for held in action.rods
-                if held.rod in cycle.bodies
+                for pair in offered
+                if all(held.rod in joint.bodies for joint in pair.joints)
             ]
-            candidates = [self._pair(cycle, a, b) for a, b in joints]
-            pairs.append(next((p for p in candidates if p not in pairs), candidates[0]))
+            pairs.append(next((p for p in at_rods if p not in pairs), at_rods[0]))
         return pairs
 
     def _carrier(self, body: Body) -> SolveCarrier | None:

@@ -89,7 +89,7 @@ def _block(block: Block) -> str:
     found, following, change = results[:count], results[count:-1], results[-1]
     lines = [
         f"def {block.name}({', '.join(map(str, block.arguments))}):",
-        f'    """{block.doc}"""',
+        f'    """Find {block.doc}."""',
         *(f"    {u} = 0.0" for u in block.unknowns),
         f"    for _ in range({ITERATIONS}):",
         *(f"        {step}" for step in steps),

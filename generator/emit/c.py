@@ -48,11 +48,12 @@ def iteration_note(model: GeneratedModel) -> str:
     blocks = blocks_of(model.functions.values())
     if not blocks:
         return ""
-    found = " ".join(block.doc for block in blocks)
+    found = "; ".join(block.doc for block in blocks)
     return (
-        f"This model is not free of iteration. {found} Newton's method, from the design position "
-        f"on, in at most {ITERATIONS} iterations, until a correction is below {CONVERGED}; a "
-        "status bit says where that fails. Operations are counted for one iteration."
+        f"This model is not free of iteration. Newton's method finds {found}: from the design "
+        f"position on, in at most {ITERATIONS} iterations, until a correction is below "
+        f"{CONVERGED}. A status bit says where that fails. Operations are counted for one "
+        "iteration."
     )
 
 
@@ -74,6 +75,9 @@ def mechanism_hash(model: GeneratedModel) -> str:
             digest.update(f"{written.text};".encode())
     return digest.hexdigest()[:16]
 
+
+_KEPT = "\N{NO-BREAK SPACE}"
+"""Stands for a space at which no line is broken."""
 
 AT_LEAST = """\
 /* The greater of two numbers; NaN for a NaN. One instruction, where fmax may be a call. */
@@ -268,20 +272,24 @@ class CPrinter:
         results = len(block.results)
         written = block.once.written.results
         found, following, change = written[:results], written[results:-1], written[-1]
-        arguments = ", ".join(f"double {a}" for a in block.arguments)
+        arguments = ", ".join(f"double{_KEPT}{a}" for a in block.arguments)
         signature = f"static struct {block.name} {block.name}({arguments})"
+        indent = " " * (signature.index("(") + 1)
         lines = [
-            f"/* {block.doc} */",
+            *textwrap.wrap(f"/* Finds {block.doc}. */", WIDTH, subsequent_indent="   "),
             f"struct {block.name} {{",
             f"    double at[{results}];",
             "};",
             "",
-            *textwrap.wrap(signature, WIDTH, subsequent_indent="    "),
+            *(
+                line.replace(_KEPT, " ")
+                for line in textwrap.wrap(signature, WIDTH, subsequent_indent=indent)
+            ),
             "{",
             f"    struct {block.name} found;",
             *(f"    double {u} = 0.0;" for u in block.unknowns),
             "    for (int i = 0; i < ITERATIONS; ++i) {",
-            *(f"    {line}".rstrip() for line in self._steps(block.once)),
+            *(f"    {line}".rstrip() for line in self._steps(block.once)[1:]),
             "",
         ]
         for i, (name, result) in enumerate(zip(block.results, found, strict=True)):

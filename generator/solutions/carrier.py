@@ -191,7 +191,8 @@ def _found(kin: Kinematics, held: _Held) -> dict[str, sp.Expr]:
     body, pinned = held.action.body, held.base is not None
     values = [x for equation in held.equations for x in equation.values]
     values += [] if pinned else [held.size]
-    return kin.program.iterated(f"{body}_found", block(body, len(held.rods), pinned=pinned), values)
+    names = [rod.rod for rod in held.action.rods]
+    return kin.program.iterated(f"{body}_found", block(body, names, pinned=pinned), values)
 
 
 def _corrected(kin: Kinematics, held: _Held, found: dict[str, sp.Expr]) -> _Solved:

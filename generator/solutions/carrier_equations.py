@@ -113,13 +113,13 @@ def split(values: Sequence[sp.Expr]) -> tuple[Vector, Vector]:
     return Vector(*values[:3]), Vector(*values[3:]) if values[3:] else ZERO
 
 
-def block(body: str, rods: int, *, pinned: bool) -> Block:
-    """Return the iteration that finds the pose of a body.
+def block(body: str, rods: Sequence[str], *, pinned: bool) -> Block:
+    """Return the iteration that finds the pose of a body held by some rods.
 
     Its results are the unknowns (u, and sigma where the body has no known point), the adjugate of
     J, row by row, and its determinant.
     """
-    equations = [_formal(f"{i}", pinned=pinned) for i in range(1, rods + 1)]
+    equations = [_formal(f"{i}", pinned=pinned) for i in range(1, len(rods) + 1)]
     unknowns = [sp.Symbol(f"u_{a}") for a in "xyz"]
     unknowns += [] if pinned else [sp.Symbol(f"shift_{a}") for a in "xyz"]
 
@@ -127,14 +127,18 @@ def block(body: str, rods: int, *, pinned: bool) -> Block:
         program: Program,
     ) -> tuple[Mapping[str, sp.Expr], Sequence[sp.Expr], sp.Expr]:
         u, sigma = split(unknowns)
+        program.section("pose of this iteration")
         axes = rotation(program, "body", u)
-        size = sp.Integer(1) if pinned else _SIZE
-        pose = Pose(axes, program.vector("moved", sigma * size))
+        pose = Pose(axes, program.vector("moved", sigma * (1 if pinned else _SIZE)))
+        program.section("what the rods leave of their lengths, and how that changes with the pose")
         gaps = [program.vector(f"gap_{i}", e.gap(pose), "123") for i, e in enumerate(equations, 1)]
-        left = [e.misfit(gap) for e, gap in zip(equations, gaps, strict=True)]
-        jacobian = [e.row(gap) for e, gap in zip(equations, gaps, strict=True)]
-        jacobian = named(program, "row", jacobian)
-        inverse, scale = adjugate(program, jacobian)
+        left = [
+            program.define(f"misfit_{i}", e.misfit(gap))
+            for i, (e, gap) in enumerate(zip(equations, gaps, strict=True), 1)
+        ]
+        rows = [e.row(gap) for e, gap in zip(equations, gaps, strict=True)]
+        inverse, scale = adjugate(program, named(program, "row", rows))
+        program.section("next pose")
         step, change = limited(program, [-c / scale for c in times(inverse, left)])
         turn, way = split([program.define(f"step_{i}", s) for i, s in enumerate(step, 1)])
         following = [*_composed(program, u, turn)]
@@ -149,7 +153,7 @@ def block(body: str, rods: int, *, pinned: bool) -> Block:
 
     return Block.of(
         f"pose_of_{body}",
-        f"Pose of {body}, so that {rods} rods keep their lengths.",
+        f"the pose of {body}, held by {', '.join(rods)}",
         [x for e in equations for x in e.values] + ([] if pinned else [_SIZE]),
         unknowns,
         derive,
