@@ -1,7 +1,7 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
 .PHONY: help setup generate build run test package lint types format baseline clean \
-	benchmark benchmark-andrews benchmark-growth benchmark-page benchmark-peers benchmark-speed format-page report-assets
+	benchmark benchmark-andrews benchmark-growth benchmark-page benchmark-peers benchmark-speed format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
 EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/native/*.pyx runtime/native/*.[ch])
@@ -65,6 +65,9 @@ benchmark-growth: build ## A chain of 1 to 40 loops: derivation, code and run ti
 
 report-assets: ## Bundle the HTML report's script and style again (needs Node.js)
 	@cd runtime/report/web && npm ci --silent && npm run --silent build
+
+front-axle-page: build ## The page of the front axle: operations, wheel rates, a bump
+	@$(PYTHON) -m benchmarks.front_axle --page docs/front-axle.md
 
 format-page: build ## The input file's JSON Schema, and its page in docs/
 	@$(PYTHON) -m kintrafo.input.schema runtime/data/suspension.schema.json docs/file-format.md

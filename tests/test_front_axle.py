@@ -7,7 +7,9 @@ that a whole is worth its parts: with a bar that resists nothing, each side move
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,10 +22,14 @@ from oracle.reference import perturbed_parameters
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
+from benchmarks.front_axle import COUNTED, WITH, WITHOUT, rates, wheel_rate
+
 if TYPE_CHECKING:
     from oracle.constraints import Array
 
 SIDES = ("right", "left")
+PAGE = Path(__file__).parents[1] / "docs" / "front-axle.md"
+BASELINE = Path(__file__).with_name("operation_counts.json")
 SEEDS = range(4)  # 0 is the reference car
 AGAINST = {  # of the right side's parameters, those that the left one has with the other sign
     "spin_axis": "xz",
@@ -326,3 +332,26 @@ def test_a_kerb_on_one_side_lifts_the_other_wheel_only_with_a_bar() -> None:
     assert np.abs(without["right"]).max() < 1e-6
     assert stiff["right"].max() > 1e-4
     assert stiff["left"].max() < without["left"].max()
+
+
+# -- the page --------------------------------------------------------------------------------------
+
+
+def cells(page: str, first: str) -> list[str]:
+    """Return the numbers of a table's row, by what it begins with."""
+    row = next(line for line in page.splitlines() if line.startswith(f"| {first} "))
+    return [cell.strip().replace(" ", "") for cell in row.split("|")[2:-1]]
+
+
+@pytest.mark.parametrize("function", COUNTED)
+def test_operations_on_the_page_are_the_present_ones(function: str) -> None:
+    stored = json.loads(BASELINE.read_text(encoding="utf-8"))
+    one, axle = (sum(stored[m][function].values()) for m in ("macpherson", "front_axle"))
+    row = cells(PAGE.read_text(encoding="utf-8"), COUNTED[function])
+    assert [row[0], row[1], row[3]] == [str(one), str(2 * one), str(axle)]
+
+
+def test_wheel_rates_on_the_page_are_the_present_ones() -> None:
+    assert rates() in PAGE.read_text(encoding="utf-8")
+    # equal travel: the suspension's own rate; opposite travel: the bar adds to it
+    assert wheel_rate(WITH, 1.0) == pytest.approx(wheel_rate(WITHOUT, -1.0), rel=1e-6)
