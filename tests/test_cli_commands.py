@@ -107,6 +107,19 @@ def test_the_tutorial_runs(kintrafo, tmp_path):
     assert "Front axle, stage 1" in (tmp_path / "front_axle.html").read_text(encoding="utf-8")
 
 
+def test_the_commands_about_the_report_run(kintrafo, tmp_path):
+    assert kintrafo("new", "my_car.toml")[0] == 0
+    for line in commands_of((ROOT / "docs/report.md").read_text(encoding="utf-8")):
+        program, *arguments = shlex.split(line)
+        assert program == "kintrafo"
+        code, out, err = kintrafo(*arguments)
+        assert (code, bool(out)) == (0, True), (line, err)
+    for name in ("my_car.html", "front_axle.html"):
+        text = (tmp_path / name).read_text(encoding="utf-8")
+        # the licences of what the page is made with
+        assert text.count("MIT License") >= 2
+
+
 def test_the_change_of_the_tutorial_turns_bump_steer_round():
     car = Suspension.load("reference_car")
     lower = car.with_changes({"hardpoints.tie_rod_inner.z": 272.0})
