@@ -1,13 +1,17 @@
 """The JSON Schema of the input file and its page: up to date, and of one mind with the checks."""
 
 import json
+import tomllib
 from importlib import resources
 from pathlib import Path
 
+import jsonschema
 import pytest
 from kintrafo import Suspension, data
+from kintrafo.cli import app
+from kintrafo.errors import InputError
 from kintrafo.input import schema
-from kintrafo.input.section import Section
+from typer.testing import CliRunner
 
 ROOT = Path(__file__).parents[1]
 PUBLISHED = resources.files(data).joinpath("suspension.schema.json").read_text(encoding="utf-8")
@@ -40,7 +44,16 @@ def test_ranges_are_in_the_words_of_json_schema(section, key, limits):
     assert limits.items() <= entry.items()
 
 
-def test_page_has_a_row_for_every_key_of_the_reference_car():
+CARS = ("reference_car", "offset_strut_car", "chrono_generic", "double_wishbone_car")
+
+
+def read(name):
+    text = resources.files(data).joinpath(f"{name}.toml").read_text(encoding="utf-8")
+    return tomllib.loads(text)
+
+
+@pytest.mark.parametrize("name", CARS)
+def test_page_has_a_row_for_every_key_of_a_car(name):
     page = schema.page_text()
 
     def keys(section):
@@ -50,7 +63,70 @@ def test_page_has_a_row_for_every_key_of_the_reference_car():
             else:
                 yield key
 
-    for key in keys(Suspension.load("reference_car").to_dict()):
+    for key in keys({k: v for k, v in read(name).items() if k != "suspension"}):
         assert f"| `{key}` |" in page
     assert "## [bodies.wheel]" in page
-    assert issubclass(schema.Suspension, Section)
+
+
+def test_what_every_kind_has_is_on_the_page_once():
+    page = schema.page_text()
+    for section in ("vehicle", "wheel", "rack", "gravity"):
+        assert page.count(f"### [{section}]") == 1
+    assert page.count("| `inertia_xy_kg_m2` |") == 1
+
+
+# -- with a validator of its own ----------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def validator():
+    published = json.loads(PUBLISHED)
+    jsonschema.Draft202012Validator.check_schema(published)
+    return jsonschema.Draft202012Validator(published)
+
+
+@pytest.mark.parametrize("name", CARS)
+def test_packaged_cars_are_valid(validator, name):
+    car = read(name)
+    validator.validate(car)
+    if name != "double_wishbone_car":  # the kind may be left out
+        validator.validate({k: v for k, v in car.items() if k != "suspension"})
+
+
+@pytest.mark.parametrize(
+    ("name", "section", "key", "value", "complaint"),
+    [
+        ("reference_car", "wheel", "camber_deg", 46.0, "greater than the maximum of 45"),
+        ("reference_car", "wheel", "camber_degree", 1.0, "'camber_degree' was unexpected"),
+        ("reference_car", "hardpoints", "ball_joint", [1.0, 2.0], "too short"),
+        ("reference_car", "hardpoints", "upper_ball_joint", [0.0] * 3, "was unexpected"),
+        ("double_wishbone_car", "strut", "length_max_mm", 1.0, "'strut' was unexpected"),
+        ("double_wishbone_car", "spring", "rate_N_per_m", -1.0, "less than the minimum of 0"),
+    ],
+)
+def test_what_the_program_refuses_the_schema_refuses_too(
+    validator, name, section, key, value, complaint
+):
+    car = read(name)
+    car.setdefault(section, {})[key] = value
+    (error,) = validator.iter_errors(car)
+    assert complaint in error.message
+    with pytest.raises(InputError):
+        Suspension.from_dict(car)
+
+
+def test_a_kind_that_there_is_not(validator):
+    errors = list(validator.iter_errors(read("reference_car") | {"suspension": "leaf_spring"}))
+    assert [error.validator for error in errors] == ["enum"]
+
+
+# -- the command ----------------------------------------------------------------------------------
+
+
+def test_the_command_prints_or_writes_it(tmp_path):
+    run = CliRunner().invoke
+    assert run(app, ["schema"]).output == PUBLISHED
+    path = tmp_path / "folder" / "kintrafo.schema.json"
+    assert run(app, ["schema", str(path)]).exit_code == 0
+    assert path.read_text(encoding="utf-8") == PUBLISHED
+    assert [file.name for file in path.parent.iterdir()] == [path.name]

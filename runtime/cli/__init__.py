@@ -14,6 +14,7 @@ from . import (
     new,
     paper,
     report,
+    schema,
     simulate,
     topology,
 )
@@ -38,7 +39,7 @@ app = typer.Typer(
 
 # In the order in which an engineer needs them.
 _PANELS = {
-    "Begin": (new, import_chrono, check, topology),
+    "Begin": (new, import_chrono, schema, check, topology),
     "Compute": (kinematics, characteristics, simulate, compare),
     "Hand over": (report, paper, generate),
 }

@@ -5,12 +5,16 @@
 
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Container, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from .macpherson import MacPherson as Suspension
+from pydantic.json_schema import models_json_schema
+
+from .bodies import RigidBody
+from .kinds import DEFAULT, KINDS
 from .section import Section
+from .suspension import KIND
 from .units import unit_of
 
 _LIMITS = {
@@ -28,15 +32,41 @@ all of its points. Points are `[x, y, z]` in chassis axes of ISO 8855 (x forward
 the design position. What a file says is checked as a whole: every problem is reported at once, with
 the value, the unit, what is allowed and what to do.
 
-`kintrafo new FILE` writes an annotated file to begin with. Editors that know JSON Schema complete
-keys and show their meaning with [the schema](../runtime/data/suspension.schema.json). Both it and
-this page are written by `make format-page`.
+`kintrafo new FILE` writes an annotated file to begin with. The line `suspension = "..."` above the
+first section names the kind; what only one kind has is in its own part below.
+
+Editors that know JSON Schema complete keys, show their meaning and underline what is not allowed.
+`kintrafo schema kintrafo.schema.json` writes [the schema](../runtime/data/suspension.schema.json)
+beside your files; a first line
+
+```toml
+#:schema ./kintrafo.schema.json
+```
+
+says so to editors with a TOML language server, such as Even Better TOML for Visual Studio Code.
+Whether the points make a mechanism that can be assembled is not in the schema: that is what
+`kintrafo check FILE` says. The schema and this page are written by `make format-page`.
+"""
+
+_EVERY_BODY = """\
+### Every body
+
+Except for the wheel, which is round and has keys of its own. The inertia is the tensor about the
+centre of mass, in chassis axes; `xy` is the element of the matrix, minus the product of inertia.
+"""
+
+_NOTES = {
+    "macpherson": """, which may be left out.
 
 Where the spring is free of force is said in one of four ways: by the slide of the strut
 (`spring_free_slide_mm`), by the distance of its seats (`spring_free_length_mm`), by its force with
 the strut extended (`spring_preload_N`), or by its force at the design position
-(`spring_force_at_design_N`). The damper has a rate in `[strut]`, or a curve in `[damper]`.
-"""
+(`spring_force_at_design_N`). The damper has a rate in `[strut]`, or a curve in `[damper]`.""",
+    "double_wishbone": """.
+
+Where the spring is free of force is said by the distance of its ends (`free_length_mm`) or by its
+force at the design position (`force_at_design_N`). Spring and damper are on the lower arm.""",
+}
 
 _TABLE_HEAD = "| key | unit | allowed | left out | meaning |\n|---|---|---|---|---|"
 
@@ -47,20 +77,41 @@ def schema() -> dict[str, Any]:
     Returns
     -------
     dict
-        Every key with its description, its unit as ``x-unit`` and its range.
+        Every key with its description, its unit as ``x-unit`` and its range. The kind that the
+        file names decides which sections there are.
     """
-    data: dict[str, Any] = _in_json_schema(Suspension.model_json_schema())
-    data["$schema"] = "https://json-schema.org/draft/2020-12/schema"
-    data["title"] = "MacPherson suspension"
-    for section in data["$defs"].values():
-        for key, entry in section.get("properties", {}).items():
-            entry.pop("title", None)
-            unit = unit_of(key)
-            if unit:
-                entry["x-unit"] = unit
-    for entry in data["properties"].values():
+    _, made = models_json_schema([(kind, "validation") for kind in KINDS.values()])
+    sections = {name: _with_units(section) for name, section in made["$defs"].items()}
+    kinds = {"description": "the kind of suspension", "enum": list(KINDS), "default": DEFAULT}
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "suspension",
+        "type": "object",
+        "properties": {KIND: kinds},
+        "allOf": [{"if": _names(name), "then": _reference(name)} for name in KINDS],
+        "$defs": sections,
+    }
+
+
+def _names(kind: str) -> dict[str, Any]:
+    """Return the schema of a file that names a kind; the default may be left out."""
+    required = [] if kind == DEFAULT else [KIND]
+    return {"properties": {KIND: {"const": kind}}, "required": required}
+
+
+def _reference(kind: str) -> dict[str, str]:
+    return {"$ref": f"#/$defs/{KINDS[kind].__name__}"}
+
+
+def _with_units(made: dict[str, Any]) -> dict[str, Any]:
+    """Return the schema of a section as we publish it, from that of pydantic."""
+    section: dict[str, Any] = _in_json_schema(made)
+    for key, entry in section["properties"].items():
         entry.pop("title", None)
-    return data
+        unit = unit_of(key)
+        if unit:
+            entry["x-unit"] = unit
+    return section
 
 
 def _in_json_schema(part: Any) -> Any:
@@ -76,54 +127,74 @@ def schema_text() -> str:
 
 
 def page_text() -> str:
-    """Return the reference page, a table for each section."""
-    data = schema()
-    parts = [_HEAD, _TABLE_HEAD, *_rows(data, data), "", *_sections(data, data, "", Suspension)]
+    """Return the reference page: what every kind has, then what each has of its own."""
+    sections, shared = schema()["$defs"], _shared()
+    first, *_ = KINDS.values()
+    parts = [_HEAD, "## Every suspension\n"]
+    parts += _described(sections, first, [name for name in first.model_fields if name in shared])
+    parts.append(_EVERY_BODY)
+    parts += _table(_with_units(RigidBody.model_json_schema()))
+    for name, kind in KINDS.items():
+        own = [section for section in kind.model_fields if section not in shared]
+        parts.append(f'## {_capital(kind.TITLE)}\n\n`{KIND} = "{name}"`{_NOTES[name]}\n')
+        parts += _described(sections, kind, own)
     return "\n".join(parts).rstrip() + "\n"
 
 
-def _sections(
-    data: dict[str, Any], owner: dict[str, Any], prefix: str, model: type[Section]
+def _shared() -> set[str]:
+    """Return the names of the sections that are the same for every kind."""
+    first, *others = (
+        {name: _model_of(kind, name) for name in kind.model_fields} for kind in KINDS.values()
+    )
+    return {name for name, model in first.items() if all(o.get(name) is model for o in others)}
+
+
+def _described(
+    sections: dict[str, Any], model: type[Section], names: Iterable[str], prefix: str = ""
 ) -> Iterator[str]:
-    required = owner.get("required", [])
-    for name, entry in owner["properties"].items():
-        section = _section(data, entry)
-        if section is None:
+    """Describe sections in a section, each with a table of its keys."""
+    required = sections[model.__name__].get("required", [])
+    for name in names:
+        inner = _model_of(model, name)
+        if inner is None:
             continue
         title = f"{prefix}{name}"
         optional = "" if name in required else " (optional)"
-        yield f"## [{title}]{optional}\n\n{_capital(model.model_fields[name].description)}.\n"
-        rows = list(_rows(data, section))
-        if rows:
-            yield _TABLE_HEAD
-            yield "\n".join(rows) + "\n"
-        inner = _model_of(model, name)
-        yield from _sections(data, section, f"{title}.", inner)
+        is_body = issubclass(inner, RigidBody)
+        also = ", with the keys of every body" if is_body else ""
+        meaning = _capital(model.model_fields[name].description)
+        yield f"### [{title}]{optional}\n\n{meaning}{also}.\n"
+        yield from _table(sections[inner.__name__], RigidBody.model_fields if is_body else ())
+        yield from _described(sections, inner, inner.model_fields, f"{title}.")
 
 
-def _model_of(model: type[Section], name: str) -> type[Section]:
+def _table(section: dict[str, Any], known: Container[str] = ()) -> Iterator[str]:
+    """Return the table of a section's values, without those that are described elsewhere."""
+    rows = list(_rows(section, known))
+    if rows:
+        yield _TABLE_HEAD
+        yield "\n".join(rows) + "\n"
+
+
+def _model_of(model: type[Section], name: str) -> type[Section] | None:
+    """Return the section that a key holds, or may hold; None if it holds a value."""
     annotation = model.model_fields[name].annotation
     kinds = (annotation, *getattr(annotation, "__args__", ()))
-    return next(k for k in kinds if isinstance(k, type) and issubclass(k, Section))
+    return next((k for k in kinds if isinstance(k, type) and issubclass(k, Section)), None)
 
 
-def _section(data: dict[str, Any], entry: dict[str, Any]) -> dict[str, Any] | None:
-    """Return the section that an entry refers to; None if it is a value."""
-    for option in (entry, *entry.get("anyOf", ()), *entry.get("allOf", ())):
-        if "$ref" in option:
-            found: dict[str, Any] = data["$defs"][option["$ref"].rpartition("/")[2]]
-            return found
-    return None
-
-
-def _rows(data: dict[str, Any], section: dict[str, Any]) -> Iterator[str]:
+def _rows(section: dict[str, Any], known: Container[str]) -> Iterator[str]:
     required = section.get("required", [])
     for key, entry in section["properties"].items():
-        if _section(data, entry) is not None:
+        if _is_section(entry) or key in known:
             continue
         unit = entry.get("x-unit", "")
         left_out = "refused" if key in required else _default(entry)
         yield f"| `{key}` | {unit} | {_allowed(entry)} | {left_out} | {entry['description']} |"
+
+
+def _is_section(entry: dict[str, Any]) -> bool:
+    return any("$ref" in option for option in (entry, *entry.get("anyOf", ())))
 
 
 def _default(entry: dict[str, Any]) -> str:
