@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from .actions import PlaceByPin, SolveHinge
 from .arithmetic import SignOf
 from .placement import Placed, from_axes, to_axes
-from .transformer import PlaceByPin, SolveHinge
 from .vectors import UNIT_X, ZERO, Vector
 
 if TYPE_CHECKING:

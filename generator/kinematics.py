@@ -8,12 +8,12 @@ import networkx as nx
 import sympy as sp
 
 from . import solutions
+from .actions import PlaceByJoint, Solution, SolveTelescope
 from .arithmetic import SignOf
 from .geometry import UP, Direction, Point
 from .hinge_angles import HingeDesign
 from .joints import Joint, Prismatic, Revolute
 from .placement import IDENTITY, Axes, OffLine, OnLine, Placed, PointMotion, from_axes, to_axes
-from .transformer import PlaceByJoint, Plan, Solution, SolveTelescope
 from .vectors import NO_TWIST, UNIT_X, UNIT_Z, ZERO, Twist, Vector
 
 if TYPE_CHECKING:
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     from .mechanism import Body
     from .program import Program
+    from .transformer import Plan
 
 
 class Kinematics:

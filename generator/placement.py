@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
     import sympy as sp
 
+    from .actions import SolveTelescope
     from .geometry import Point
-    from .transformer import SolveTelescope
 
 Axes = tuple[Vector, Vector, Vector]
 IDENTITY: Axes = (UNIT_X, UNIT_Y, UNIT_Z)

@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING
 import networkx as nx
 import sympy as sp
 
+from .actions import PlaceByPin, SolveHinge, SolveSlide, SolveTelescope, SolveTurn
 from .geometry import Point
 from .hinge_angles import angle_of, is_first_axis, positive_axis_at_design, turn_between
 from .joints import Cylindrical, Joint, Prismatic, Revolute, Universal
 from .placement import IDENTITY, Axes, Placed, from_axes, to_axes
-from .transformer import PlaceByPin, SolveHinge, SolveSlide, SolveTelescope, SolveTurn
 from .vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Vector
 
 if TYPE_CHECKING:

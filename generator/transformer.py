@@ -12,11 +12,27 @@ from dataclasses import dataclass, field
 from itertools import combinations
 from typing import TYPE_CHECKING
 
-from .geometry import Point
+from .actions import (
+    Action,
+    HeldByRod,
+    PinnedTelescope,
+    PlaceByCross,
+    PlaceByJoint,
+    PlaceByPin,
+    PlaceTelescope,
+    Solution,
+    SolveCarrier,
+    SolveHinge,
+    SolveSlide,
+    SolveStroke,
+    SolveTelescope,
+    SolveTurn,
+)
 from .joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
 from .topology import Cycle, MinimalBasis, Topology
 
 if TYPE_CHECKING:
+    from .geometry import Point
     from .mechanism import Body, Mechanism, Model
 
 
@@ -30,243 +46,6 @@ _Offer = tuple[Cycle, list[Cycle]]
 
 class NoClosedFormError(ValueError):
     """A loop has no solution in the catalogue of closed forms."""
-
-
-# -- actions: what the kinematics carries out, in order -------------------------------------------
-
-
-@dataclass(frozen=True)
-class PlaceByJoint:
-    """A body follows from its placed neighbour, because the joint's coordinate is known."""
-
-    joint: Revolute | Prismatic
-    parent: str
-    child: str
-
-    @property
-    def title(self) -> str:
-        """What the derivation calls this step."""
-        return f"{self.child}: {self.joint.kind} joint"
-
-
-@dataclass(frozen=True)
-class SolveTelescope:
-    """Two placed points are the ends of a telescope: its length follows.
-
-    Its direction follows too, unless the axis misses the end: then the rod that holds the body at
-    the end decides.
-    """
-
-    joint: Cylindrical
-    anchor: Point
-    anchor_body: str
-    anchor_link: str
-    end: Point
-    end_body: str
-    end_link: str
-
-    @property
-    def axis_point(self) -> Point:
-        """The point of the end's link that the axis passes through."""
-        assert isinstance(self.joint.axis.through, Point)
-        return self.joint.axis.through
-
-    @property
-    def misses_end(self) -> bool:
-        """Whether the axis passes beside the end point."""
-        return self.axis_point != self.end
-
-    @property
-    def title(self) -> str:
-        """What the derivation calls this step."""
-        return f"transformer: telescope {self.joint.name}"
-
-
-@dataclass(frozen=True)
-class SolveTurn:
-    """A body known up to a rotation about a line is held by a rod: its rotation follows."""
-
-    body: str
-    rod: str
-    end: Point
-    anchor: Point
-    anchor_body: str
-
-    @property
-    def title(self) -> str:
-        """What the derivation calls this step."""
-        return f"transformer: {self.body} held by {self.rod}"
-
-
-@dataclass(frozen=True)
-class PinnedTelescope:
-    """Two links on a common guide, each of them pinned to another body, in a plane.
-
-    Attributes
-    ----------
-    joint
-        The guide between the two links.
-    near, near_hinge, anchor, anchor_body
-        The link at the anchor; its hinge, at that point, and the body at the other side of it.
-    far, far_hinge, end, end_body
-        The same of the link at the end.
-    """
-
-    joint: Prismatic
-    near: str
-    near_hinge: Revolute
-    anchor: Point
-    anchor_body: str
-    far: str
-    far_hinge: Revolute
-    end: Point
-    end_body: str
-
-    @property
-    def sense(self) -> int:
-        """Return 1 if the telescope grows with the slide and its direction, -1 if it shrinks."""
-        return 1 if self.joint.second == self.far else -1
-
-    @property
-    def along_pins(self) -> bool:
-        """Whether the guide is declared to lie along the line of the two pins."""
-        between = self.joint.direction.between
-        return between is not None and set(between) == {self.anchor, self.end}
-
-
-@dataclass(frozen=True)
-class SolveStroke(PinnedTelescope):
-    """Two placed pins are the ends of a telescope in a plane: slide and direction follow."""
-
-    @property
-    def title(self) -> str:
-        """What the derivation calls this step."""
-        return f"transformer: telescope {self.near}, {self.far}"
-
-
-@dataclass(frozen=True)
-class PlaceTelescope(PinnedTelescope):
-    """Two placed pins are the ends of a telescope of known slide: its direction follows."""
-
-    @property
-    def title(self) -> str:
-        """What the derivation calls this step."""
-        return f"{self.near}, {self.far}: telescope"
-
-
-@dataclass(frozen=True)
-class SolveHinge:
-    """A body on a hinge of a placed body is held by a rod: its angle follows.
-
-    The rod may be a telescope of known slide; `rod` then is its link at the anchor.
-    """
-
-    body: str
-    joint: Revolute
-    parent: str
-    rod: str
-    end: Point
-    anchor: Point
-    anchor_body: str
-    telescope: PlaceTelescope | None = None
-
-    @property
-    def title(self) -> str:
-        """What the derivation calls this step."""
-        return f"transformer: {self.body} held by {self.rod}"
-
-
-@dataclass(frozen=True)
-class SolveSlide:
-    """A body on a guide of a placed body is held by a rod: its slide follows.
-
-    The rod may be a telescope of known slide; `rod` then is its link at the anchor.
-    """
-
-    body: str
-    joint: Prismatic
-    parent: str
-    rod: str
-    end: Point
-    anchor: Point
-    anchor_body: str
-    telescope: PlaceTelescope | None = None
-
-    @property
-    def title(self) -> str:
-        """What the derivation calls this step."""
-        return f"transformer: {self.body} held by {self.rod}"
-
-
-@dataclass(frozen=True)
-class PlaceByPin:
-    """A body on a hinge of a placed body meets another placed body at a pin: its angle follows."""
-
-    body: str
-    joint: Revolute
-    parent: str
-    pin: Point
-    pin_body: str
-
-    @property
-    def title(self) -> str:
-        """What the derivation calls this step."""
-        return f"{self.body}: pinned to {self.pin_body}"
-
-
-@dataclass(frozen=True)
-class PlaceByCross:
-    """A shaft of known direction is turned by the cross of its universal joint."""
-
-    joint: Universal
-    parent: str
-    child: str
-
-    @property
-    def title(self) -> str:
-        """What the derivation calls this step."""
-        return f"{self.child}: cross of the universal joint"
-
-
-@dataclass(frozen=True)
-class HeldByRod:
-    """A rod from a placed body to a point of a body that several rods hold together."""
-
-    body: str
-    rod: str
-    end: Point
-    anchor: Point
-    anchor_body: str
-
-
-@dataclass(frozen=True)
-class SolveCarrier:
-    """A body that only rods hold, all together: its pose follows by iteration.
-
-    Attributes
-    ----------
-    pin
-        A ball joint at a placed body, and that body: then three rods hold the orientation. Without
-        it six rods hold position and orientation.
-    """
-
-    body: str
-    rods: tuple[HeldByRod, ...]
-    pin: tuple[Point, str] | None = None
-
-    @property
-    def rod_names(self) -> str:
-        """The rods, for messages."""
-        return ", ".join(held.rod for held in self.rods)
-
-    @property
-    def title(self) -> str:
-        """What the derivation calls this step."""
-        return f"transformers with iteration: {self.body} held by {len(self.rods)} rods"
-
-
-Solution = SolveTelescope | SolveTurn | SolveHinge | SolveSlide | SolveStroke | SolveCarrier
-Action = PlaceByJoint | PlaceByPin | PlaceByCross | PlaceTelescope | Solution
 
 
 @dataclass(frozen=True)
@@ -501,16 +280,23 @@ class Plan:
 
     def _iterate(self, waiting: list[_Offer]) -> list[_Offer]:
         """Solve a body that rods hold together, by iteration; return the loops that still wait."""
-        action = next(filter(None, map(self._carrier, self._mechanism.bodies)), None)
-        cycle, _ = waiting[0]
+        action, solved = self._held_together(waiting)
         if action is None or not self.model.allow_iteration:
+            cycle, _ = (solved or waiting)[0]
             message = self._refusal(cycle, self._pair_candidates(cycle))
             raise NoClosedFormError(message + self._remedy(action))
-        inside = {action.body, *(held.rod for held in action.rods)} | self._placed
-        solved = [offer for offer in waiting if inside.issuperset(offer[0].bodies)]
         self._solve_together(action, solved)
         self._place_neighbours()
         return [offer for offer in waiting if offer not in solved]
+
+    def _held_together(self, waiting: list[_Offer]) -> tuple[SolveCarrier | None, list[_Offer]]:
+        """Return the first body that rods hold together, with the loops that they close."""
+        for action in filter(None, map(self._carrier, self._mechanism.bodies)):
+            inside = {action.body, *(held.rod for held in action.rods)} | self._placed
+            closed = [offer for offer in waiting if inside.issuperset(offer[0].bodies)]
+            if len(closed) == action.loops:
+                return action, closed
+        return None, []
 
     def _solve_together(self, action: SolveCarrier, offers: list[_Offer]) -> None:
         """Record the loops that one iteration solves: a transformer for each of them."""
@@ -574,7 +360,7 @@ class Plan:
         """Return the rod that holds a body at a joint, if its other end is at a placed body."""
         rod = joint.other(body.name)
         joints = [j for j in self._mechanism.joints_of(rod) if j != joint]
-        if rod in self._placed or len(joints) != 1 or joint.center is None:
+        if rod in self._placed | self._on_line or len(joints) != 1 or joint.center is None:
             return None
         (other,) = joints
         if other.center is None or other.other(rod) not in self._placed:

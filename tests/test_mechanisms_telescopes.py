@@ -14,18 +14,13 @@ from typing import TYPE_CHECKING, Any
 import mpmath
 import numpy as np
 import pytest
+from kintrafo.generator.actions import PlaceTelescope, SolveHinge, SolveStroke
 from kintrafo.generator.geometry import Direction
 from kintrafo.generator.joints import Prismatic, Revolute, Spherical, Universal
 from kintrafo.generator.mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
 from kintrafo.generator.mechanisms.planar import flat, hinge, inertia, places
 from kintrafo.generator.outputs import generate
-from kintrafo.generator.transformer import (
-    NoClosedFormError,
-    PlaceTelescope,
-    Plan,
-    SolveHinge,
-    SolveStroke,
-)
+from kintrafo.generator.transformer import NoClosedFormError, Plan
 from mpmath import mpf
 from own_models import Built, needs_gcc, own
 from symbolic import constants_of, python

@@ -5,16 +5,9 @@ from __future__ import annotations
 from itertools import zip_longest
 from typing import TYPE_CHECKING
 
+from ..actions import SolveCarrier, SolveHinge, SolveSlide, SolveStroke, SolveTelescope
 from ..arithmetic import OPERATIONS
 from ..iteration import ITERATIONS
-from ..transformer import (
-    SolveCarrier,
-    SolveHinge,
-    SolveSlide,
-    SolveStroke,
-    SolveTelescope,
-    Transformer,
-)
 from .c import iteration_note, mechanism_hash
 
 if TYPE_CHECKING:
@@ -22,6 +15,7 @@ if TYPE_CHECKING:
 
     from ..outputs import GeneratedModel
     from ..topology import Cycle, Topology
+    from ..transformer import Transformer
 
 
 def table(header: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> str:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ..transformer import (
+from ..actions import (
     PlaceByCross,
     PlaceByPin,
     PlaceTelescope,

@@ -30,10 +30,10 @@ from ..vectors import ZERO, Vector
 from .rod import Rod
 
 if TYPE_CHECKING:
+    from ..actions import SolveHinge, SolveTurn
     from ..geometry import Point
     from ..kinematics import Kinematics
     from ..placement import Axes
-    from ..transformer import SolveHinge, SolveTurn
 
 
 @dataclass(frozen=True)

@@ -36,8 +36,8 @@ from .rod import Rod
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from ..actions import HeldByRod, SolveCarrier
     from ..kinematics import Kinematics
-    from ..transformer import HeldByRod, SolveCarrier
 
 # What the iteration may leave of g. Of what converges, 1e-16 is left.
 _TOLERANCE = sp.Rational(1, 10**8)

@@ -11,8 +11,8 @@ from ..vectors import ZERO, Twist, Vector
 from .lines import line_alpha, line_omega, once, projector
 
 if TYPE_CHECKING:
+    from ..actions import PlaceByCross
     from ..kinematics import Kinematics
-    from ..transformer import PlaceByCross
 
 
 def place_by_cross(kin: Kinematics, action: PlaceByCross) -> None:

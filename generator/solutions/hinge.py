@@ -13,10 +13,10 @@ from .arm import Arm, Reach, fit_rod
 from .lines import once, place_rod, projector
 
 if TYPE_CHECKING:
+    from ..actions import PlaceByPin, SolveHinge
     from ..geometry import Point
     from ..joints import Revolute
     from ..kinematics import Kinematics
-    from ..transformer import PlaceByPin, SolveHinge
     from .rod import Rod
 
 

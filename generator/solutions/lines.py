@@ -12,9 +12,9 @@ from ..vectors import ZERO, Twist, Vector
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from ..actions import HeldByRod, SolveHinge, SolveSlide, SolveTurn
     from ..geometry import Point
     from ..kinematics import Kinematics
-    from ..transformer import HeldByRod, SolveHinge, SolveSlide, SolveTurn
 
 
 def line_between(

@@ -12,8 +12,8 @@ from ..vectors import ZERO, Twist, Vector
 from .lines import once, place_rod, projector
 
 if TYPE_CHECKING:
+    from ..actions import SolveTurn
     from ..kinematics import Kinematics
-    from ..transformer import SolveTurn
 
 
 def solve_offset_turn(kin: Kinematics, action: SolveTurn) -> None:

@@ -22,9 +22,9 @@ from ..arithmetic import SignOf
 from ..vectors import ZERO, Vector
 
 if TYPE_CHECKING:
+    from ..actions import HeldByRod, PinnedTelescope, SolveHinge, SolveSlide, SolveTurn
     from ..kinematics import Kinematics
     from ..placement import Axes
-    from ..transformer import HeldByRod, PinnedTelescope, SolveHinge, SolveSlide, SolveTurn
 
 
 @dataclass(frozen=True)

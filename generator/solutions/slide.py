@@ -13,8 +13,8 @@ from .lines import once, place_rod, projector
 from .rod import Rod
 
 if TYPE_CHECKING:
+    from ..actions import SolveSlide
     from ..kinematics import Kinematics
-    from ..transformer import SolveSlide
 
 
 def solve_slide(kin: Kinematics, action: SolveSlide) -> None:

@@ -30,8 +30,8 @@ from .lines import once, projector
 from .rod import Guide
 
 if TYPE_CHECKING:
+    from ..actions import PinnedTelescope, PlaceTelescope, SolveStroke
     from ..kinematics import Kinematics
-    from ..transformer import PinnedTelescope, PlaceTelescope, SolveStroke
 
 
 def solve_stroke(kin: Kinematics, action: SolveStroke) -> None:

@@ -10,8 +10,8 @@ from ..placement import OffLine
 from .lines import line_between
 
 if TYPE_CHECKING:
+    from ..actions import SolveTelescope
     from ..kinematics import Kinematics
-    from ..transformer import SolveTelescope
 
 
 def solve_telescope(kin: Kinematics, action: SolveTelescope) -> None:

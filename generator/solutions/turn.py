@@ -14,9 +14,9 @@ from .lines import line_alpha, line_omega, once, place_rod, projector
 from .offset_turn import solve_offset_turn
 
 if TYPE_CHECKING:
+    from ..actions import SolveTurn
     from ..geometry import Point
     from ..kinematics import Kinematics
-    from ..transformer import SolveTurn
 
 
 def solve_turn(kin: Kinematics, action: SolveTurn) -> None:

@@ -1,0 +1,253 @@
+"""What a plan is made of: the steps that the kinematics carries out, in order.
+
+Each says which bodies, joints and points take part; the algebra is in `solutions`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from .geometry import Point
+
+if TYPE_CHECKING:
+    from .joints import Cylindrical, Prismatic, Revolute, Universal
+
+
+@dataclass(frozen=True)
+class PlaceByJoint:
+    """A body follows from its placed neighbour, because the joint's coordinate is known."""
+
+    joint: Revolute | Prismatic
+    parent: str
+    child: str
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"{self.child}: {self.joint.kind} joint"
+
+
+@dataclass(frozen=True)
+class SolveTelescope:
+    """Two placed points are the ends of a telescope: its length follows.
+
+    Its direction follows too, unless the axis misses the end: then the rod that holds the body at
+    the end decides.
+    """
+
+    joint: Cylindrical
+    anchor: Point
+    anchor_body: str
+    anchor_link: str
+    end: Point
+    end_body: str
+    end_link: str
+
+    @property
+    def axis_point(self) -> Point:
+        """The point of the end's link that the axis passes through."""
+        assert isinstance(self.joint.axis.through, Point)
+        return self.joint.axis.through
+
+    @property
+    def misses_end(self) -> bool:
+        """Whether the axis passes beside the end point."""
+        return self.axis_point != self.end
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"transformer: telescope {self.joint.name}"
+
+
+@dataclass(frozen=True)
+class SolveTurn:
+    """A body known up to a rotation about a line is held by a rod: its rotation follows."""
+
+    body: str
+    rod: str
+    end: Point
+    anchor: Point
+    anchor_body: str
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"transformer: {self.body} held by {self.rod}"
+
+
+@dataclass(frozen=True)
+class PinnedTelescope:
+    """Two links on a common guide, each of them pinned to another body, in a plane.
+
+    Attributes
+    ----------
+    joint
+        The guide between the two links.
+    near, near_hinge, anchor, anchor_body
+        The link at the anchor; its hinge, at that point, and the body at the other side of it.
+    far, far_hinge, end, end_body
+        The same of the link at the end.
+    """
+
+    joint: Prismatic
+    near: str
+    near_hinge: Revolute
+    anchor: Point
+    anchor_body: str
+    far: str
+    far_hinge: Revolute
+    end: Point
+    end_body: str
+
+    @property
+    def sense(self) -> int:
+        """Return 1 if the telescope grows with the slide and its direction, -1 if it shrinks."""
+        return 1 if self.joint.second == self.far else -1
+
+    @property
+    def along_pins(self) -> bool:
+        """Whether the guide is declared to lie along the line of the two pins."""
+        between = self.joint.direction.between
+        return between is not None and set(between) == {self.anchor, self.end}
+
+
+@dataclass(frozen=True)
+class SolveStroke(PinnedTelescope):
+    """Two placed pins are the ends of a telescope in a plane: slide and direction follow."""
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"transformer: telescope {self.near}, {self.far}"
+
+
+@dataclass(frozen=True)
+class PlaceTelescope(PinnedTelescope):
+    """Two placed pins are the ends of a telescope of known slide: its direction follows."""
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"{self.near}, {self.far}: telescope"
+
+
+@dataclass(frozen=True)
+class SolveHinge:
+    """A body on a hinge of a placed body is held by a rod: its angle follows.
+
+    The rod may be a telescope of known slide; `rod` then is its link at the anchor.
+    """
+
+    body: str
+    joint: Revolute
+    parent: str
+    rod: str
+    end: Point
+    anchor: Point
+    anchor_body: str
+    telescope: PlaceTelescope | None = None
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"transformer: {self.body} held by {self.rod}"
+
+
+@dataclass(frozen=True)
+class SolveSlide:
+    """A body on a guide of a placed body is held by a rod: its slide follows.
+
+    The rod may be a telescope of known slide; `rod` then is its link at the anchor.
+    """
+
+    body: str
+    joint: Prismatic
+    parent: str
+    rod: str
+    end: Point
+    anchor: Point
+    anchor_body: str
+    telescope: PlaceTelescope | None = None
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"transformer: {self.body} held by {self.rod}"
+
+
+@dataclass(frozen=True)
+class PlaceByPin:
+    """A body on a hinge of a placed body meets another placed body at a pin: its angle follows."""
+
+    body: str
+    joint: Revolute
+    parent: str
+    pin: Point
+    pin_body: str
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"{self.body}: pinned to {self.pin_body}"
+
+
+@dataclass(frozen=True)
+class PlaceByCross:
+    """A shaft of known direction is turned by the cross of its universal joint."""
+
+    joint: Universal
+    parent: str
+    child: str
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"{self.child}: cross of the universal joint"
+
+
+@dataclass(frozen=True)
+class HeldByRod:
+    """A rod from a placed body to a point of a body that several rods hold together."""
+
+    body: str
+    rod: str
+    end: Point
+    anchor: Point
+    anchor_body: str
+
+
+@dataclass(frozen=True)
+class SolveCarrier:
+    """A body that only rods hold, all together: its pose follows by iteration.
+
+    Attributes
+    ----------
+    pin
+        A ball joint at a placed body, and that body: then three rods hold the orientation. Without
+        it six rods hold position and orientation.
+    """
+
+    body: str
+    rods: tuple[HeldByRod, ...]
+    pin: tuple[Point, str] | None = None
+
+    @property
+    def rod_names(self) -> str:
+        """The rods, for messages."""
+        return ", ".join(held.rod for held in self.rods)
+
+    @property
+    def loops(self) -> int:
+        """Number of independent loops that the rods close, of those at the body."""
+        return len(self.rods) - (self.pin is None)
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"transformers with iteration: {self.body} held by {len(self.rods)} rods"
+
+
+Solution = SolveTelescope | SolveTurn | SolveHinge | SolveSlide | SolveStroke | SolveCarrier
+Action = PlaceByJoint | PlaceByPin | PlaceByCross | PlaceTelescope | Solution
