@@ -17,6 +17,7 @@ from sympy.printing.pycode import MpmathPrinter
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from kintrafo.generator.iteration import Block
     from kintrafo.generator.outputs import GeneratedModel
     from kintrafo.generator.program import Function
 
@@ -149,6 +150,32 @@ class _Printer(MpmathPrinter):
     def _print_IsPositive(self, call: Any) -> str:
         return f"is_positive({self._print(call.args[0])})"
 
+    def _print_Frozen(self, call: Any) -> str:
+        return f"({self._print(call.args[0])})"
+
+    def _print_Iterated(self, call: Any) -> str:
+        return f"{call.args[0].name}({', '.join(map(self._print, call.args[1:]))})"
+
+    def _print_Component(self, call: Any) -> str:
+        return f"{call.args[0].name}[{int(call.args[1])}]"
+
+
+def _solved(block: Block) -> Any:
+    """Return a function that iterates a block until nothing changes in mpmath's precision."""
+    once, count = python(block.once), len(block.results)
+
+    def run(*given: Any) -> Any:
+        values = dict(zip(map(str, block.arguments), given, strict=True))
+        values |= {str(u): mpmath.mpf(0) for u in block.unknowns}
+        for _ in range(100):
+            *results, change = once(values)
+            if change <= mpmath.mpf(10) ** (10 - 2 * mpmath.mp.dps):
+                return results[:count]
+            values |= dict(zip(map(str, block.unknowns), results[count:], strict=True))
+        raise AssertionError(f"{block.name} does not converge")
+
+    return run
+
 
 @cache
 def python(function: Function) -> Any:
@@ -169,6 +196,7 @@ def python(function: Function) -> Any:
         "sign": _sign,
         "positive": _positive,
         "is_positive": _is_positive,
+        **{block.name: _solved(block) for block in function.blocks},
     }
     exec("\n".join(lines), names)
     return names["run"]
