@@ -3,10 +3,11 @@
 import numpy as np
 
 from .corner import Array, Plane, Spring, Stroke
+from .guidance import Guidance
 from .strokes import Strokes
 
 
-def links(points: dict[str, Array]) -> tuple[Plane, Plane]:
+def _links(points: dict[str, Array]) -> tuple[Plane, Plane]:
     """Return the planes of the lower and of the upper arm."""
     return _plane(points, "lower"), _plane(points, "upper")
 
@@ -17,17 +18,21 @@ def _plane(points: dict[str, Array], arm: str) -> Plane:
     return Plane(ball, np.cross(front - rear, ball - rear))
 
 
-def spring(strokes: Strokes) -> Spring:
+def _spring(strokes: Strokes) -> Spring:
     """Return the spring, which acts on the lower arm."""
     return strokes.spring("spring_force", "spring")
 
 
-def stops(strokes: Strokes) -> tuple[Spring, ...]:
+def _stops(strokes: Strokes) -> tuple[Spring, ...]:
     """Return no stops: the model has none."""
     del strokes
     return ()
 
 
-def damper(strokes: Strokes) -> Stroke:
+def _damper(strokes: Strokes) -> Stroke:
     """Return the stroke of the damper, which is on the spring's axis."""
     return strokes.stroke("spring")
+
+
+DOUBLE_WISHBONE = Guidance(_links, _spring, _stops, _damper)
+"""Two arms, of which the lower one carries spring and damper."""

@@ -1,19 +1,20 @@
 """The corner of a suspension, from its compiled model: exact, nothing is differenced."""
 
-from types import ModuleType
-
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..hardpoints import hardpoints
-from ..input.macpherson import MacPherson
 from ..input.suspension import Suspension
 from ..input.units import in_metres
 from ..model import Model
 from ..reach import at_rest
-from . import double_wishbone, macpherson
 from .corner import Array, Corner, Motion, Vehicle
+from .double_wishbone import DOUBLE_WISHBONE
+from .macpherson import MACPHERSON
 from .strokes import Strokes
+
+# By the name of the kind in the input file.
+_GUIDANCE = {"macpherson": MACPHERSON, "double_wishbone": DOUBLE_WISHBONE}
 
 
 def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -> Corner:
@@ -30,7 +31,7 @@ def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -
     -------
     Corner
     """
-    kind = _kind(model)
+    guidance = _GUIDANCE[model.suspension.suspension]
     states, inputs = at_rest(model, arm_angle, rack_position)
     points = hardpoints(model, states, inputs)
     turned = model.evaluate("orientations", states, inputs)[..., _knuckle(model), :, :]
@@ -50,17 +51,12 @@ def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -
         upper=points[high],
         travel=travel,
         steering=by_rack.minus(travel, by_rack.velocity[..., 2]),
-        links=kind.links(points),
-        spring=kind.spring(strokes),
-        stops=kind.stops(strokes),
-        damper=kind.damper(strokes),
+        links=guidance.links(points),
+        spring=guidance.spring(strokes),
+        stops=guidance.stops(strokes),
+        damper=guidance.damper(strokes),
         arm_angle=model.design_state[0] - np.broadcast_to(arm_angle, states.shape[:-1]),
     )
-
-
-def _kind(model: Model) -> ModuleType:
-    """Return what distinguishes the corner of this kind of suspension."""
-    return macpherson if isinstance(model.suspension, MacPherson) else double_wishbone
 
 
 def vehicle(suspension: Suspension) -> Vehicle:

@@ -3,27 +3,32 @@
 import numpy as np
 
 from .corner import Array, Plane, Spring, Stroke
+from .guidance import Guidance
 from .strokes import Strokes
 
 
-def links(points: dict[str, Array]) -> tuple[Plane, Plane]:
+def _links(points: dict[str, Array]) -> tuple[Plane, Plane]:
     """Return the plane of the control arm and that across the strut through its mount."""
     ball, front, rear = points["ball_joint"], points["arm_front"], points["arm_rear"]
     top, bottom = points["strut_top"], points["strut_lower"]
     return Plane(ball, np.cross(front - rear, ball - rear)), Plane(top, top - bottom)
 
 
-def spring(strokes: Strokes) -> Spring:
+def _spring(strokes: Strokes) -> Spring:
     """Return the spring, which may have an axis of its own."""
     return strokes.spring("spring_force", "spring" if "spring_length" in strokes else "strut")
 
 
-def stops(strokes: Strokes) -> tuple[Spring, ...]:
+def _stops(strokes: Strokes) -> tuple[Spring, ...]:
     """Return the stops that the model has."""
     known = ("bump_stop_force", "rebound_stop_force")
     return tuple(strokes.spring(force, "strut") for force in known if force in strokes)
 
 
-def damper(strokes: Strokes) -> Stroke:
+def _damper(strokes: Strokes) -> Stroke:
     """Return the stroke of the damper: that of the strut."""
     return strokes.stroke("strut")
+
+
+MACPHERSON = Guidance(_links, _spring, _stops, _damper)
+"""A control arm and a strut."""
