@@ -22,8 +22,8 @@ from numpy.typing import NDArray
 from .errors import InputError
 from .figures import BLUE, GREEN, ORANGE, STYLE
 from .files import replacing
+from .groups import ORDER, group_of
 from .quantities import bracketed, display_of, displayed, long_name
-from .report.groups import ORDER, group_of
 
 Array = NDArray[np.float64]
 

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import characteristics
+from ..groups import group_of
 from ..model import Model
 from .grid import Grid
-from .groups import group_of
 from .plotted import has_pole
 
 if TYPE_CHECKING:

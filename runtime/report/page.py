@@ -11,12 +11,12 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from ..files import replacing
+from ..groups import ORDER
 from ..model import Model
 from ..paper import SPIN_RATE
 from .accuracy import Accuracy, measure
 from .curves import Curve, curves, only_over_rack
 from .grid import Grid
-from .groups import ORDER
 from .motion import DROP, Motion, NoMotion, simulated_second
 from .payload import Look, page_data
 from .plotted import decimals, meaningful, shown_range

@@ -1,11 +1,11 @@
-"""Which characteristic belongs beside which others on the page."""
+"""Which characteristic belongs beside which others: on a page of the report, in a figure."""
 
 from collections.abc import Hashable
 
 OTHER = "Further characteristics"
 
-# In the order of the page. The longest of these with which a name begins decides, so that
-# quantities that are added later find their place.
+# In the order in which they are shown. The longest of these with which a name begins decides, so
+# that quantities that are added later find their place.
 _PREFIXES = {
     "Wheel angles": ("camber", "toe", "steer", "bump_steer", "spin_axis"),
     "Steering axis": (
