@@ -1,6 +1,6 @@
 """A suspension together with its compiled equations of motion."""
 
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
@@ -49,14 +49,15 @@ class Model(System):
     free_rack : bool, optional
         False: the rack follows a prescribed motion; arm, knuckle and wheel carry mass, as in the
         paper. True: the rack is a third degree of freedom driven by a force, and every moving body
-        carries mass.
+        carries mass. For a suspension that has more than the paper's, these equations are derived
+        and compiled when they are first needed, as by `kintrafo.compile`.
 
     Attributes
     ----------
     suspension : Suspension
     equations : module
         `kintrafo.generated.macpherson`, ``macpherson_free_rack``, ``macpherson_general`` or
-        ``double_wishbone``.
+        ``double_wishbone``; or compiled for this.
     names : Names
         What these equations call the coordinates that every suspension has.
     parameters, constants, design_state
@@ -109,16 +110,20 @@ def _equations_for(suspension: Suspension, *, free_rack: bool) -> ModuleType:
 
 
 def _macpherson(suspension: MacPherson, *, free_rack: bool) -> ModuleType:
-    beyond = suspension.beyond_the_paper()
-    if not beyond:
+    if not suspension.beyond_the_paper():
         return macpherson_free_rack if free_rack else macpherson
-    if free_rack:
-        problem = (
-            f"free_rack=True: the equations with a free rack are those of the paper's suspension, "
-            f"but this one has {', '.join(beyond)}. Leave that out, or prescribe the rack."
-        )
-        raise InputError([problem], "Model")
-    return macpherson_general
+    return _general_free_rack() if free_rack else macpherson_general
+
+
+@cache
+def _general_free_rack() -> ModuleType:
+    """Return the equations with everything, which do not come compiled: they are seldom wanted."""
+    from .own.build import compile_mechanism, require_generator  # noqa: PLC0415 (an extra)
+
+    require_generator()
+    from .generator.mechanisms.macpherson import GENERAL_FREE_RACK  # noqa: PLC0415
+
+    return compile_mechanism(GENERAL_FREE_RACK)
 
 
 def neglected_masses(suspension: Suspension) -> dict[str, float]:

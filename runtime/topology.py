@@ -6,7 +6,9 @@ SymPy is not needed.
 
 import re
 from dataclasses import dataclass
-from importlib import import_module, resources
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
 
 from . import generated
 
@@ -44,13 +46,13 @@ class Topology:
     sections: dict[str, str]
 
 
-def topology(model: str = "macpherson") -> Topology:
+def topology(model: str | ModuleType = "macpherson") -> Topology:
     """Return the structure of a compiled mechanism.
 
     Parameters
     ----------
-    model : str, optional
-        Name of a module of `kintrafo.generated`.
+    model : str or module, optional
+        Name of a module of `kintrafo.generated`, or what `kintrafo.compile` returns.
 
     Returns
     -------
@@ -64,8 +66,10 @@ def topology(model: str = "macpherson") -> Topology:
     >>> [pair[0]["pair with a common distance"] for pair in found.pairs]
     ['B, C', 'D, E']
     """
-    equations = import_module(f".{model}", generated.__name__)
-    report = resources.files(generated).joinpath(f"{model}.md").read_text(encoding="utf-8")
+    equations = model
+    if not isinstance(equations, ModuleType):
+        equations = import_module(f".{model}", generated.__name__)
+    report = Path(str(equations.__file__)).with_suffix(".md").read_text(encoding="utf-8")
     title = report.partition("\n")[0].removeprefix("# ")
     sections = _sections(report, "## ")
     transformers = _sections(sections["Kinematic transformers"], "### ")

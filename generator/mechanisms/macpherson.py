@@ -286,7 +286,7 @@ def mechanism(*, free_rack: bool = False) -> Mechanism:
     )
 
 
-def general() -> Mechanism:
+def general(*, free_rack: bool = False) -> Mechanism:
     """Return the suspension as it is on cars.
 
     The strut's axis may miss the ball joint, the spring has seats of its own, the damper a curve,
@@ -300,7 +300,7 @@ def general() -> Mechanism:
         joints=_joints(Line(STRUT_LOWER, C)),
         forces=GENERAL_FORCES,
         parameters=GENERAL_PARAMETERS,
-        coordinates=COORDINATES,
+        coordinates=COORDINATES + (TIE_ROD_COORDINATES if free_rack else ()),
         inputs=INPUTS,
     )
 
@@ -331,4 +331,13 @@ MODELS = (
         massive=("control_arm", "knuckle", "wheel"),
         held={"rack_held": ("y",)},
     ),
+)
+
+# Seldom wanted, and as long as all others together: `kintrafo.Model` compiles it when it is needed.
+GENERAL_FREE_RACK = Model(
+    name="macpherson_general_free_rack",
+    title="MacPherson suspension with an offset strut, spring seats, stops; rack free",
+    mechanism=general(free_rack=True),
+    independent=("OA", "HG", "y"),
+    massive=("control_arm", "knuckle", "tie_rod", "rack", "upper_strut", "wheel"),
 )

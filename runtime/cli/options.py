@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from .console import problems
+
 if TYPE_CHECKING:
     from ..model import Model
 
@@ -73,7 +75,11 @@ def load(file: str) -> "Model":
     from ..model import Model, neglected_masses
 
     suspension = Suspension.load(file)
-    return Model(suspension, free_rack=bool(neglected_masses(suspension)))
+    if not neglected_masses(suspension):
+        return Model(suspension)
+    # these equations may have to be derived first
+    with problems.status("preparing the equations with a free rack"):
+        return Model(suspension, free_rack=True)
 
 
 def metres(millimetres: float | None) -> float | None:

@@ -1,6 +1,7 @@
 """``kintrafo topology``: bodies, joints, mobility, loops and how they were solved."""
 
 import re
+from types import ModuleType
 from typing import Annotated
 
 import typer
@@ -9,7 +10,11 @@ from rich.table import Table
 from .console import console, print_json, say
 from .options import Json, complete_file, load
 
-EXAMPLES = ("kintrafo topology", "kintrafo topology my_car.toml --json")
+EXAMPLES = (
+    "kintrafo topology",
+    "kintrafo topology my_car.toml --json",
+    "kintrafo topology my_mechanism.py",
+)
 
 _FREE_RACK = "macpherson_free_rack"
 
@@ -19,7 +24,7 @@ def command(
         str | None,
         typer.Argument(
             metavar="FILE",
-            help="Hardpoint file, which decides between rack prescribed and rack free.",
+            help="Hardpoint file, or Python file with a mechanism of your own.",
             autocompletion=complete_file,
         ),
     ] = None,
@@ -35,8 +40,9 @@ def command(
     """
     from ..topology import topology
 
-    name = _FREE_RACK if free_rack else "macpherson"
-    found = topology(load(file).equations.NAME if file else name)
+    found = topology(
+        _FREE_RACK if free_rack else "macpherson" if file is None else _equations(file)
+    )
     if json:
         kept = ("title", "bodies", "joints", "mobility", "loops", "pairs")
         print_json({key: getattr(found, key) for key in kept})
@@ -51,3 +57,12 @@ def command(
     for text in (found.sections["Cycles"], found.sections["Kinematic transformers"]):
         # the tables and boxes are drawn in text, and only the fences around them are Markdown
         say("\n" + re.sub(r"^```.*\n?", "", text, flags=re.MULTILINE).replace("### ", ""))
+
+
+def _equations(file: str) -> ModuleType:
+    """Return the compiled equations that a file leads to."""
+    if not file.endswith(".py"):
+        return load(file).equations
+    from ..own.build import compile_mechanism
+
+    return compile_mechanism(file)

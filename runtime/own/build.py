@@ -80,8 +80,7 @@ def compile_mechanism(
     >>> four_bar.MOBILITY, list(four_bar.STATE)
     (1, ['crank_angle', 'crank_angle_rate'])
     """
-    for package in ("sympy", "networkx"):
-        require(package, purpose="Deriving equations", extra="generator")
+    require_generator()
     from ..generator.outputs import generate
 
     model = model_of(declared, name)
@@ -99,6 +98,18 @@ def compile_mechanism(
             report("compiling" if compiler else "writing the functions")
             build(derived, temporary, compiler)
     return load(target)
+
+
+def require_generator() -> None:
+    """See that the packages are there that deriving equations needs.
+
+    Raises
+    ------
+    MissingPackageError
+        With the command that installs them.
+    """
+    for package in ("sympy", "networkx"):
+        require(package, purpose="Deriving equations", extra="generator")
 
 
 def _compiler(backend: Backend) -> Compiler | None:
