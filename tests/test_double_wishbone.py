@@ -268,6 +268,26 @@ def test_steering(bench, place):
         assert float(found[name][0]) == pytest.approx(-one.side * one.toe(place), abs=POSE)
 
 
+shift = st.floats(-25.0, 25.0).map(lambda x: round(x, 1))
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.lists(shift, min_size=33, max_size=33), st.sampled_from(["right", "left"]))
+def test_any_car_stands_as_its_rods_say(shifts, side):
+    """Hardpoints in general position: every arm and the rack inclined."""
+    points = CAR.hardpoints
+    by = dict(zip(points.names(), np.reshape(shifts, (11, 3)), strict=True))
+    moved = {f"hardpoints.{name}": (getattr(points, name) + by[name]).tolist() for name in by}
+    car = CAR.with_changes(moved)
+    car = car if side == "right" else car.mirrored()
+    bench, place = Bench(car), (0.03, 0.01)
+    at = characteristics.travel(Model(car), [place[0]], rack_position=place[1])
+    assert float(at["camber"][0]) == pytest.approx(bench.camber(place), abs=1e-12)
+    assert float(at["toe"][0]) == pytest.approx(bench.toe(place), abs=1e-12)
+    assert float(at["caster"][0]) == pytest.approx(bench.caster(place), abs=1e-12)
+    assert float(at["spring_length"][0]) == pytest.approx(bench.spring(place), abs=1e-12)
+
+
 def test_every_characteristic_of_a_strut_is_there():
     strut = Model("reference_car")
     for curves, places in ((characteristics.travel, [0.0]), (characteristics.steering, [0.01])):
