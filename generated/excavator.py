@@ -515,8 +515,8 @@ GUARDS: Final[tuple[tuple[str, str], ...]] = (('boom_barrel_extension',
   'the telescope of boom_barrel and boom_rod is drawn in until its pins boom_barrel_pin and '
   'boom_rod_pin meet, or pass each other'),
  ('boom_closure',
-  'the loop chassis - boom_barrel - boom_rod - boom cannot close: the rod boom_barrel cannot '
-  'reach boom, beyond its dead point'),
+  'the loop chassis - boom_barrel - boom_rod - boom cannot close: the telescope of boom_barrel '
+  'and boom_rod cannot reach boom, beyond its dead point'),
  ('arm_barrel_extension',
   'the telescope of arm_barrel and arm_rod is drawn in until its pins arm_barrel_pin and '
   'arm_rod_pin meet, or pass each other'),
@@ -524,8 +524,8 @@ GUARDS: Final[tuple[tuple[str, str], ...]] = (('boom_barrel_extension',
   'the loop boom - arm_barrel - arm_rod - arm: point arm_barrel_pin lies on the line of arm, '
   'whose rotation is undetermined'),
  ('arm_closure',
-  'the loop boom - arm_barrel - arm_rod - arm cannot close: the rod arm_barrel cannot reach arm, '
-  'beyond its dead point'),
+  'the loop boom - arm_barrel - arm_rod - arm cannot close: the telescope of arm_barrel and '
+  'arm_rod cannot reach arm, beyond its dead point'),
  ('bucket_barrel_extension',
   'the telescope of bucket_barrel and bucket_rod is drawn in until its pins bucket_barrel_pin '
   'and knee meet, or pass each other'),
@@ -533,8 +533,8 @@ GUARDS: Final[tuple[tuple[str, str], ...]] = (('boom_barrel_extension',
   'the loop arm - bucket_barrel - bucket_rod - rocker: point bucket_barrel_pin lies on the line '
   'of rocker, whose rotation is undetermined'),
  ('rocker_closure',
-  'the loop arm - bucket_barrel - bucket_rod - rocker cannot close: the rod bucket_barrel cannot '
-  'reach rocker, beyond its dead point'),
+  'the loop arm - bucket_barrel - bucket_rod - rocker cannot close: the telescope of '
+  'bucket_barrel and bucket_rod cannot reach rocker, beyond its dead point'),
  ('bucket_reach_squared',
   'the loop arm - rocker - link - bucket: point knee lies on the line of bucket, whose rotation '
   'is undetermined'),

@@ -107,6 +107,11 @@ class PinnedTelescope:
         return 1 if self.joint.second == self.far else -1
 
     @property
+    def links(self) -> str:
+        """Both links, for messages."""
+        return f"{self.near} and {self.far}"
+
+    @property
     def along_pins(self) -> bool:
         """Whether the guide is declared to lie along the line of the two pins."""
         between = self.joint.direction.between
@@ -120,7 +125,7 @@ class SolveStroke(PinnedTelescope):
     @property
     def title(self) -> str:
         """What the derivation calls this step."""
-        return f"transformer: telescope {self.near}, {self.far}"
+        return f"transformer: telescope of {self.links}"
 
 
 @dataclass(frozen=True)
@@ -130,7 +135,7 @@ class PlaceTelescope(PinnedTelescope):
     @property
     def title(self) -> str:
         """What the derivation calls this step."""
-        return f"{self.near}, {self.far}: telescope"
+        return f"{self.links}: telescope"
 
 
 @dataclass(frozen=True)

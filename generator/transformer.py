@@ -579,6 +579,21 @@ class Plan:
             f"the loop {loop} (joints {', '.join(j.name for j in cycle.joints)}) has no closed "
             f"form in the catalogue. {self._unknowns(cycle)} of its coordinates are unknown. "
             f"Pairs tried: {tried or 'none, since no two of its joints keep a point in common'}."
+            f"{self._miscounted()}"
+        )
+
+    def _miscounted(self) -> str:
+        """Say by how much the driven coordinates differ from the degrees of freedom."""
+        joints = [
+            self._mechanism.joint(n) for n in (*self.model.independent, *self.model.prescribed)
+        ]
+        driven, mobility = sum(j.freedoms for j in joints), self.topology.mobility
+        if driven == mobility:
+            return ""
+        return (
+            f" The model has {driven} independent or prescribed coordinate(s), its mechanism "
+            f"{mobility} degree(s) of freedom: declare {abs(mobility - driven)} "
+            f"{'fewer' if driven > mobility else 'more'}."
         )
 
     @staticmethod

@@ -137,6 +137,7 @@ def test_blocks_hand_on_what_they_solve(plan: Plan) -> None:
         ("four_bar", 1, 1, [SolveHinge]),
         ("slider_crank", 1, 1, [SolveSlide]),
         ("andrews", 1, 3, [SolveHinge, SolveHinge, SolveHinge]),
+        ("excavator", 3, 4, [SolveHinge] * 4),
     ],
 )
 def test_loops_are_found_and_solved(
@@ -327,6 +328,20 @@ def test_too_few_coordinates_for_a_loop() -> None:
     model = replace(MODEL, prescribed={}, held={})
     with pytest.raises(NoClosedFormError, match="upper_strut - knuckle - tie_rod - rack"):
         Plan.of(model)
+
+
+@pytest.mark.parametrize(
+    ("independent", "words"),
+    [
+        (("A", "D"), "2 independent or prescribed .* 1 degree.* declare 1 fewer"),
+        ((), "0 independent or prescribed .* 1 degree.* declare 1 more"),
+    ],
+)
+def test_number_of_coordinates_is_compared_with_the_mobility(
+    independent: tuple[str, ...], words: str
+) -> None:
+    with pytest.raises(NoClosedFormError, match=words):
+        Plan.of(replace(BY_NAME["four_bar"], independent=independent))
 
 
 def test_driven_joint_declared_the_wrong_way_round() -> None:

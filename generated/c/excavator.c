@@ -725,7 +725,7 @@ int excavator_rhs(const double *restrict constants, const double *restrict state
     const double boom_hold = -constant_5/boom_closure_root;
     const double boom_turn_boom_stroke = -shared_1*boom_hold;
 
-    /* boom_barrel, boom_rod: telescope */
+    /* boom_barrel and boom_rod: telescope */
     const double shared_2 = boom_arm_radius*boom_arm_z;
     const double d_boom_rod_pin_boom_stroke_x = shared_2*boom_turn_boom_stroke;
     const double shared_3 = boom_arm_radius*boom_arm_x;
@@ -819,7 +819,7 @@ int excavator_rhs(const double *restrict constants, const double *restrict state
     const double arm_omega_boom_stroke_1 = boom_turn_boom_stroke + arm_turn_boom_stroke;
     const double arm_turn_arm_stroke = -shared_18*arm_hold;
 
-    /* arm_barrel, arm_rod: telescope */
+    /* arm_barrel and arm_rod: telescope */
     const double shared_23 = arm_velocity_boom_stroke_3 + arm_arm_radius*arm_omega_boom_stroke_1;
     const double d_arm_rod_pin_boom_stroke_x = arm_arm_x*arm_velocity_boom_stroke_2 +
         arm_arm_z*shared_23;
@@ -972,7 +972,7 @@ int excavator_rhs(const double *restrict constants, const double *restrict state
     const double rocker_omega_arm_stroke_1 = arm_turn_arm_stroke + rocker_turn_arm_stroke;
     const double rocker_turn_bucket_stroke = -shared_45*rocker_hold;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double shared_51 = rocker_velocity_boom_stroke_3 +
         rocker_arm_radius*rocker_omega_boom_stroke_1;
     const double d_knee_boom_stroke_x = rocker_arm_x*rocker_velocity_boom_stroke_2 +
@@ -1879,7 +1879,7 @@ int excavator_mass_matrix(const double *restrict constants, const double *restri
     const double boom_hold = -constant_5/boom_closure_root;
     const double boom_turn_boom_stroke = -shared_1*boom_hold;
 
-    /* boom_barrel, boom_rod: telescope */
+    /* boom_barrel and boom_rod: telescope */
     const double shared_2 = boom_arm_radius*boom_arm_z;
     const double d_boom_rod_pin_boom_stroke_x = shared_2*boom_turn_boom_stroke;
     const double shared_3 = boom_arm_radius*boom_arm_x;
@@ -1953,7 +1953,7 @@ int excavator_mass_matrix(const double *restrict constants, const double *restri
     const double arm_omega_boom_stroke_1 = boom_turn_boom_stroke + arm_turn_boom_stroke;
     const double arm_turn_arm_stroke = -shared_12*arm_hold;
 
-    /* arm_barrel, arm_rod: telescope */
+    /* arm_barrel and arm_rod: telescope */
     const double shared_15 = arm_velocity_boom_stroke_3 + arm_arm_radius*arm_omega_boom_stroke_1;
     const double d_arm_rod_pin_boom_stroke_x = arm_arm_x*arm_velocity_boom_stroke_2 +
         arm_arm_z*shared_15;
@@ -2069,7 +2069,7 @@ int excavator_mass_matrix(const double *restrict constants, const double *restri
     const double rocker_omega_arm_stroke_1 = arm_turn_arm_stroke + rocker_turn_arm_stroke;
     const double rocker_turn_bucket_stroke = -shared_28*rocker_hold;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double shared_30 = rocker_velocity_boom_stroke_3 +
         rocker_arm_radius*rocker_omega_boom_stroke_1;
     const double d_knee_boom_stroke_x = rocker_arm_x*rocker_velocity_boom_stroke_2 +
@@ -2529,7 +2529,7 @@ int excavator_bias(const double *restrict constants, const double *restrict stat
     const double boom_hold = -constant_5/boom_closure_root;
     const double boom_turn_boom_stroke = -shared_1*boom_hold;
 
-    /* boom_barrel, boom_rod: telescope */
+    /* boom_barrel and boom_rod: telescope */
     const double shared_2 = boom_arm_radius*boom_arm_z;
     const double d_boom_rod_pin_boom_stroke_x = shared_2*boom_turn_boom_stroke;
     const double shared_3 = boom_arm_radius*boom_arm_x;
@@ -2623,7 +2623,7 @@ int excavator_bias(const double *restrict constants, const double *restrict stat
     const double arm_omega_boom_stroke_1 = boom_turn_boom_stroke + arm_turn_boom_stroke;
     const double arm_turn_arm_stroke = -shared_18*arm_hold;
 
-    /* arm_barrel, arm_rod: telescope */
+    /* arm_barrel and arm_rod: telescope */
     const double shared_23 = arm_velocity_boom_stroke_3 + arm_arm_radius*arm_omega_boom_stroke_1;
     const double d_arm_rod_pin_boom_stroke_x = arm_arm_x*arm_velocity_boom_stroke_2 +
         arm_arm_z*shared_23;
@@ -2776,7 +2776,7 @@ int excavator_bias(const double *restrict constants, const double *restrict stat
     const double rocker_omega_arm_stroke_1 = arm_turn_arm_stroke + rocker_turn_arm_stroke;
     const double rocker_turn_bucket_stroke = -shared_45*rocker_hold;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double shared_51 = rocker_velocity_boom_stroke_3 +
         rocker_arm_radius*rocker_omega_boom_stroke_1;
     const double d_knee_boom_stroke_x = rocker_arm_x*rocker_velocity_boom_stroke_2 +
@@ -3341,7 +3341,7 @@ int excavator_forces(const double *restrict constants, const double *restrict st
     const double boom_hold = -constant_5/boom_closure_root;
     const double boom_turn_boom_stroke = -shared_1*boom_hold;
 
-    /* boom_barrel, boom_rod: telescope */
+    /* boom_barrel and boom_rod: telescope */
     const double shared_2 = boom_arm_radius*boom_arm_z;
     const double d_boom_rod_pin_boom_stroke_x = shared_2*boom_turn_boom_stroke;
     const double shared_3 = boom_arm_radius*boom_arm_x;
@@ -3413,7 +3413,7 @@ int excavator_forces(const double *restrict constants, const double *restrict st
     const double arm_omega_boom_stroke_1 = boom_turn_boom_stroke + arm_turn_boom_stroke;
     const double arm_turn_arm_stroke = -shared_12*arm_hold;
 
-    /* arm_barrel, arm_rod: telescope */
+    /* arm_barrel and arm_rod: telescope */
     const double shared_15 = arm_velocity_boom_stroke_3 + arm_arm_radius*arm_omega_boom_stroke_1;
     const double d_arm_rod_pin_boom_stroke_x = arm_arm_x*arm_velocity_boom_stroke_2 +
         arm_arm_z*shared_15;
@@ -3522,7 +3522,7 @@ int excavator_forces(const double *restrict constants, const double *restrict st
     const double rocker_omega_arm_stroke_1 = arm_turn_arm_stroke + rocker_turn_arm_stroke;
     const double rocker_turn_bucket_stroke = -shared_28*rocker_hold;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double shared_30 = rocker_velocity_boom_stroke_3 +
         rocker_arm_radius*rocker_omega_boom_stroke_1;
     const double d_knee_boom_stroke_x = rocker_arm_x*rocker_velocity_boom_stroke_2 +
@@ -3916,7 +3916,7 @@ int excavator_relative_coordinates(const double *restrict constants, const doubl
     const double boom_arm_x = boom_reach_x*boom_turn_cosine + boom_reach_z*boom_turn_sine;
     const double boom_arm_z = boom_reach_z*boom_turn_cosine - boom_reach_x*boom_turn_sine;
 
-    /* boom_barrel, boom_rod: telescope */
+    /* boom_barrel and boom_rod: telescope */
     const double at_boom_rod_pin_x = boom_foot_x + boom_arm_radius*boom_arm_x;
     const double at_boom_rod_pin_z = boom_foot_z + boom_arm_radius*boom_arm_z;
     const double boom_barrel_span_x = at_boom_rod_pin_x - boom_barrel_pin_x;
@@ -3949,7 +3949,7 @@ int excavator_relative_coordinates(const double *restrict constants, const doubl
     const double arm_arm_x = arm_reach_x*arm_turn_cosine + arm_reach_z*arm_turn_sine;
     const double arm_arm_z = arm_reach_z*arm_turn_cosine - arm_reach_x*arm_turn_sine;
 
-    /* arm_barrel, arm_rod: telescope */
+    /* arm_barrel and arm_rod: telescope */
     const double at_arm_rod_pin_x = at_arm_pin_x + arm_arm_radius*arm_arm_x;
     const double at_arm_rod_pin_z = at_arm_pin_z + arm_arm_radius*arm_arm_z;
     const double arm_barrel_span_x = at_arm_rod_pin_x - at_arm_barrel_pin_x;
@@ -3986,7 +3986,7 @@ int excavator_relative_coordinates(const double *restrict constants, const doubl
     const double rocker_arm_x = rocker_reach_x*rocker_turn_cosine + rocker_reach_z*rocker_turn_sine;
     const double rocker_arm_z = rocker_reach_z*rocker_turn_cosine - rocker_reach_x*rocker_turn_sine;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double at_knee_x = at_rocker_pin_x + rocker_arm_radius*rocker_arm_x;
     const double at_knee_z = at_rocker_pin_z + rocker_arm_radius*rocker_arm_z;
     const double shared_6 = -at_knee_x;
@@ -4173,7 +4173,7 @@ int excavator_relative_jacobian(const double *restrict constants, const double *
     const double boom_arm_x = boom_reach_x*boom_turn_cosine + boom_reach_z*boom_turn_sine;
     const double boom_arm_z = boom_reach_z*boom_turn_cosine - boom_reach_x*boom_turn_sine;
 
-    /* boom_barrel, boom_rod: telescope */
+    /* boom_barrel and boom_rod: telescope */
     const double at_boom_rod_pin_x = boom_foot_x + boom_arm_radius*boom_arm_x;
     const double at_boom_rod_pin_z = boom_foot_z + boom_arm_radius*boom_arm_z;
     const double boom_barrel_span_x = at_boom_rod_pin_x - boom_barrel_pin_x;
@@ -4206,7 +4206,7 @@ int excavator_relative_jacobian(const double *restrict constants, const double *
     const double arm_arm_x = arm_reach_x*arm_turn_cosine + arm_reach_z*arm_turn_sine;
     const double arm_arm_z = arm_reach_z*arm_turn_cosine - arm_reach_x*arm_turn_sine;
 
-    /* arm_barrel, arm_rod: telescope */
+    /* arm_barrel and arm_rod: telescope */
     const double at_arm_rod_pin_x = at_arm_pin_x + arm_arm_radius*arm_arm_x;
     const double at_arm_rod_pin_z = at_arm_pin_z + arm_arm_radius*arm_arm_z;
     const double arm_barrel_span_x = at_arm_rod_pin_x - at_arm_barrel_pin_x;
@@ -4243,7 +4243,7 @@ int excavator_relative_jacobian(const double *restrict constants, const double *
     const double rocker_arm_x = rocker_reach_x*rocker_turn_cosine + rocker_reach_z*rocker_turn_sine;
     const double rocker_arm_z = rocker_reach_z*rocker_turn_cosine - rocker_reach_x*rocker_turn_sine;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double at_knee_x = at_rocker_pin_x + rocker_arm_radius*rocker_arm_x;
     const double at_knee_z = at_rocker_pin_z + rocker_arm_radius*rocker_arm_z;
     const double shared_6 = -at_knee_x;
@@ -4905,7 +4905,7 @@ int excavator_residuals(const double *restrict constants, const double *restrict
     const double boom_arm_x = boom_reach_x*boom_turn_cosine + boom_reach_z*boom_turn_sine;
     const double boom_arm_z = boom_reach_z*boom_turn_cosine - boom_reach_x*boom_turn_sine;
 
-    /* boom_barrel, boom_rod: telescope */
+    /* boom_barrel and boom_rod: telescope */
     const double at_boom_rod_pin_x = boom_foot_x + boom_arm_radius*boom_arm_x;
     const double at_boom_rod_pin_z = boom_foot_z + boom_arm_radius*boom_arm_z;
     const double boom_barrel_span_x = at_boom_rod_pin_x - boom_barrel_pin_x;
@@ -4939,7 +4939,7 @@ int excavator_residuals(const double *restrict constants, const double *restrict
     const double arm_arm_x = arm_reach_x*arm_turn_cosine + arm_reach_z*arm_turn_sine;
     const double arm_arm_z = arm_reach_z*arm_turn_cosine - arm_reach_x*arm_turn_sine;
 
-    /* arm_barrel, arm_rod: telescope */
+    /* arm_barrel and arm_rod: telescope */
     const double at_arm_rod_pin_x = at_arm_pin_x + arm_arm_radius*arm_arm_x;
     const double at_arm_rod_pin_z = at_arm_pin_z + arm_arm_radius*arm_arm_z;
     const double arm_barrel_span_x = at_arm_rod_pin_x - at_arm_barrel_pin_x;
@@ -4977,7 +4977,7 @@ int excavator_residuals(const double *restrict constants, const double *restrict
     const double rocker_arm_x = rocker_reach_x*rocker_turn_cosine + rocker_reach_z*rocker_turn_sine;
     const double rocker_arm_z = rocker_reach_z*rocker_turn_cosine - rocker_reach_x*rocker_turn_sine;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double at_knee_x = at_rocker_pin_x + rocker_arm_radius*rocker_arm_x;
     const double at_knee_z = at_rocker_pin_z + rocker_arm_radius*rocker_arm_z;
     const double shared_8 = -at_knee_x;
@@ -5183,7 +5183,7 @@ int excavator_absolute_jacobian(const double *restrict constants, const double *
     const double boom_arm_x = boom_reach_x*boom_turn_cosine + boom_reach_z*boom_turn_sine;
     const double boom_arm_z = boom_reach_z*boom_turn_cosine - boom_reach_x*boom_turn_sine;
 
-    /* boom_barrel, boom_rod: telescope */
+    /* boom_barrel and boom_rod: telescope */
     const double at_boom_rod_pin_x = boom_foot_x + boom_arm_radius*boom_arm_x;
     const double at_boom_rod_pin_z = boom_foot_z + boom_arm_radius*boom_arm_z;
     const double shared_2 = -boom_barrel_pin_x;
@@ -5220,7 +5220,7 @@ int excavator_absolute_jacobian(const double *restrict constants, const double *
     const double arm_arm_x = arm_reach_x*arm_turn_cosine + arm_reach_z*arm_turn_sine;
     const double arm_arm_z = arm_reach_z*arm_turn_cosine - arm_reach_x*arm_turn_sine;
 
-    /* arm_barrel, arm_rod: telescope */
+    /* arm_barrel and arm_rod: telescope */
     const double at_arm_rod_pin_x = at_arm_pin_x + arm_arm_radius*arm_arm_x;
     const double at_arm_rod_pin_z = at_arm_pin_z + arm_arm_radius*arm_arm_z;
     const double arm_barrel_span_x = at_arm_rod_pin_x - at_arm_barrel_pin_x;
@@ -5259,7 +5259,7 @@ int excavator_absolute_jacobian(const double *restrict constants, const double *
     const double rocker_arm_x = rocker_reach_x*rocker_turn_cosine + rocker_reach_z*rocker_turn_sine;
     const double rocker_arm_z = rocker_reach_z*rocker_turn_cosine - rocker_reach_x*rocker_turn_sine;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double at_knee_x = at_rocker_pin_x + rocker_arm_radius*rocker_arm_x;
     const double at_knee_z = at_rocker_pin_z + rocker_arm_radius*rocker_arm_z;
     const double shared_12 = -at_knee_x;
@@ -6184,7 +6184,7 @@ int excavator_global_jacobian(const double *restrict constants, const double *re
     const double boom_hold = -constant_5/boom_closure_root;
     const double boom_turn_boom_stroke = -shared_1*boom_hold;
 
-    /* boom_barrel, boom_rod: telescope */
+    /* boom_barrel and boom_rod: telescope */
     const double shared_2 = boom_arm_radius*boom_arm_z;
     const double d_boom_rod_pin_boom_stroke_x = shared_2*boom_turn_boom_stroke;
     const double shared_3 = boom_arm_radius*boom_arm_x;
@@ -6258,7 +6258,7 @@ int excavator_global_jacobian(const double *restrict constants, const double *re
     const double arm_omega_boom_stroke_1 = boom_turn_boom_stroke + arm_turn_boom_stroke;
     const double arm_turn_arm_stroke = -shared_12*arm_hold;
 
-    /* arm_barrel, arm_rod: telescope */
+    /* arm_barrel and arm_rod: telescope */
     const double shared_15 = arm_velocity_boom_stroke_3 + arm_arm_radius*arm_omega_boom_stroke_1;
     const double d_arm_rod_pin_boom_stroke_x = arm_arm_x*arm_velocity_boom_stroke_2 +
         arm_arm_z*shared_15;
@@ -6375,7 +6375,7 @@ int excavator_global_jacobian(const double *restrict constants, const double *re
     const double rocker_omega_arm_stroke_1 = arm_turn_arm_stroke + rocker_turn_arm_stroke;
     const double rocker_turn_bucket_stroke = -shared_28*rocker_hold;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double shared_32 = rocker_velocity_boom_stroke_3 +
         rocker_arm_radius*rocker_omega_boom_stroke_1;
     const double d_knee_boom_stroke_x = rocker_arm_x*rocker_velocity_boom_stroke_2 +
@@ -6920,7 +6920,7 @@ int excavator_positions(const double *restrict constants, const double *restrict
     const double boom_arm_x = boom_reach_x*boom_turn_cosine + boom_reach_z*boom_turn_sine;
     const double boom_arm_z = boom_reach_z*boom_turn_cosine - boom_reach_x*boom_turn_sine;
 
-    /* boom_barrel, boom_rod: telescope */
+    /* boom_barrel and boom_rod: telescope */
     const double at_boom_rod_pin_x = boom_foot_x + boom_arm_radius*boom_arm_x;
     const double at_boom_rod_pin_z = boom_foot_z + boom_arm_radius*boom_arm_z;
     const double boom_barrel_span_x = at_boom_rod_pin_x - boom_barrel_pin_x;
@@ -6953,7 +6953,7 @@ int excavator_positions(const double *restrict constants, const double *restrict
     const double arm_arm_x = arm_reach_x*arm_turn_cosine + arm_reach_z*arm_turn_sine;
     const double arm_arm_z = arm_reach_z*arm_turn_cosine - arm_reach_x*arm_turn_sine;
 
-    /* arm_barrel, arm_rod: telescope */
+    /* arm_barrel and arm_rod: telescope */
     const double at_arm_rod_pin_x = at_arm_pin_x + arm_arm_radius*arm_arm_x;
     const double at_arm_rod_pin_z = at_arm_pin_z + arm_arm_radius*arm_arm_z;
     const double arm_barrel_span_x = at_arm_rod_pin_x - at_arm_barrel_pin_x;
@@ -6990,7 +6990,7 @@ int excavator_positions(const double *restrict constants, const double *restrict
     const double rocker_arm_x = rocker_reach_x*rocker_turn_cosine + rocker_reach_z*rocker_turn_sine;
     const double rocker_arm_z = rocker_reach_z*rocker_turn_cosine - rocker_reach_x*rocker_turn_sine;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double at_knee_x = at_rocker_pin_x + rocker_arm_radius*rocker_arm_x;
     const double at_knee_z = at_rocker_pin_z + rocker_arm_radius*rocker_arm_z;
     const double shared_6 = -at_knee_x;
@@ -7151,7 +7151,7 @@ int excavator_orientations(const double *restrict constants, const double *restr
     const double boom_arm_x = boom_reach_x*boom_turn_cosine + boom_reach_z*boom_turn_sine;
     const double boom_arm_z = boom_reach_z*boom_turn_cosine - boom_reach_x*boom_turn_sine;
 
-    /* boom_barrel, boom_rod: telescope */
+    /* boom_barrel and boom_rod: telescope */
     const double at_boom_rod_pin_x = boom_foot_x + boom_arm_radius*boom_arm_x;
     const double at_boom_rod_pin_z = boom_foot_z + boom_arm_radius*boom_arm_z;
     const double boom_barrel_span_x = at_boom_rod_pin_x - boom_barrel_pin_x;
@@ -7184,7 +7184,7 @@ int excavator_orientations(const double *restrict constants, const double *restr
     const double arm_arm_x = arm_reach_x*arm_turn_cosine + arm_reach_z*arm_turn_sine;
     const double arm_arm_z = arm_reach_z*arm_turn_cosine - arm_reach_x*arm_turn_sine;
 
-    /* arm_barrel, arm_rod: telescope */
+    /* arm_barrel and arm_rod: telescope */
     const double at_arm_rod_pin_x = at_arm_pin_x + arm_arm_radius*arm_arm_x;
     const double at_arm_rod_pin_z = at_arm_pin_z + arm_arm_radius*arm_arm_z;
     const double arm_barrel_span_x = at_arm_rod_pin_x - at_arm_barrel_pin_x;
@@ -7221,7 +7221,7 @@ int excavator_orientations(const double *restrict constants, const double *restr
     const double rocker_arm_x = rocker_reach_x*rocker_turn_cosine + rocker_reach_z*rocker_turn_sine;
     const double rocker_arm_z = rocker_reach_z*rocker_turn_cosine - rocker_reach_x*rocker_turn_sine;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double at_knee_x = at_rocker_pin_x + rocker_arm_radius*rocker_arm_x;
     const double at_knee_z = at_rocker_pin_z + rocker_arm_radius*rocker_arm_z;
     const double shared_6 = -at_knee_x;
@@ -7491,7 +7491,7 @@ int excavator_velocities(const double *restrict constants, const double *restric
     const double boom_hold = -constant_5/boom_closure_root;
     const double boom_turn_boom_stroke = -shared_1*boom_hold;
 
-    /* boom_barrel, boom_rod: telescope */
+    /* boom_barrel and boom_rod: telescope */
     const double shared_2 = boom_arm_radius*boom_arm_z;
     const double d_boom_rod_pin_boom_stroke_x = shared_2*boom_turn_boom_stroke;
     const double shared_3 = boom_arm_radius*boom_arm_x;
@@ -7565,7 +7565,7 @@ int excavator_velocities(const double *restrict constants, const double *restric
     const double arm_omega_boom_stroke_1 = boom_turn_boom_stroke + arm_turn_boom_stroke;
     const double arm_turn_arm_stroke = -shared_12*arm_hold;
 
-    /* arm_barrel, arm_rod: telescope */
+    /* arm_barrel and arm_rod: telescope */
     const double shared_15 = arm_velocity_boom_stroke_3 + arm_arm_radius*arm_omega_boom_stroke_1;
     const double d_arm_rod_pin_boom_stroke_x = arm_arm_x*arm_velocity_boom_stroke_2 +
         arm_arm_z*shared_15;
@@ -7682,7 +7682,7 @@ int excavator_velocities(const double *restrict constants, const double *restric
     const double rocker_omega_arm_stroke_1 = arm_turn_arm_stroke + rocker_turn_arm_stroke;
     const double rocker_turn_bucket_stroke = -shared_28*rocker_hold;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double shared_32 = rocker_velocity_boom_stroke_3 +
         rocker_arm_radius*rocker_omega_boom_stroke_1;
     const double d_knee_boom_stroke_x = rocker_arm_x*rocker_velocity_boom_stroke_2 +
@@ -8115,7 +8115,7 @@ int excavator_margins(const double *restrict constants, const double *restrict s
     const double boom_hold = -constant_5/boom_closure_root;
     const double boom_turn_boom_stroke = -shared_1*boom_hold;
 
-    /* boom_barrel, boom_rod: telescope */
+    /* boom_barrel and boom_rod: telescope */
     const double shared_2 = boom_arm_radius*boom_arm_z;
     const double d_boom_rod_pin_boom_stroke_x = shared_2*boom_turn_boom_stroke;
     const double shared_3 = boom_arm_radius*boom_arm_x;
@@ -8189,7 +8189,7 @@ int excavator_margins(const double *restrict constants, const double *restrict s
     const double arm_omega_boom_stroke_1 = boom_turn_boom_stroke + arm_turn_boom_stroke;
     const double arm_turn_arm_stroke = -shared_12*arm_hold;
 
-    /* arm_barrel, arm_rod: telescope */
+    /* arm_barrel and arm_rod: telescope */
     const double shared_15 = arm_velocity_boom_stroke_3 + arm_arm_radius*arm_omega_boom_stroke_1;
     const double d_arm_rod_pin_boom_stroke_x = arm_arm_x*arm_velocity_boom_stroke_2 +
         arm_arm_z*shared_15;
@@ -8305,7 +8305,7 @@ int excavator_margins(const double *restrict constants, const double *restrict s
     const double rocker_omega_arm_stroke_1 = arm_turn_arm_stroke + rocker_turn_arm_stroke;
     const double rocker_turn_bucket_stroke = -shared_28*rocker_hold;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double shared_30 = rocker_velocity_boom_stroke_3 +
         rocker_arm_radius*rocker_omega_boom_stroke_1;
     const double d_knee_boom_stroke_x = rocker_arm_x*rocker_velocity_boom_stroke_2 +

@@ -324,13 +324,13 @@ enum excavator_constant {
 /* Status bits. */
 enum excavator_status {
     EXCAVATOR_STATUS_BOOM_BARREL_EXTENSION = 1 << 0, /* the telescope of boom_barrel and boom_rod is drawn in until its pins boom_barrel_pin and boom_rod_pin meet, or pass each other */
-    EXCAVATOR_STATUS_BOOM_CLOSURE = 1 << 1, /* the loop chassis - boom_barrel - boom_rod - boom cannot close: the rod boom_barrel cannot reach boom, beyond its dead point */
+    EXCAVATOR_STATUS_BOOM_CLOSURE = 1 << 1, /* the loop chassis - boom_barrel - boom_rod - boom cannot close: the telescope of boom_barrel and boom_rod cannot reach boom, beyond its dead point */
     EXCAVATOR_STATUS_ARM_BARREL_EXTENSION = 1 << 2, /* the telescope of arm_barrel and arm_rod is drawn in until its pins arm_barrel_pin and arm_rod_pin meet, or pass each other */
     EXCAVATOR_STATUS_ARM_REACH_SQUARED = 1 << 3, /* the loop boom - arm_barrel - arm_rod - arm: point arm_barrel_pin lies on the line of arm, whose rotation is undetermined */
-    EXCAVATOR_STATUS_ARM_CLOSURE = 1 << 4, /* the loop boom - arm_barrel - arm_rod - arm cannot close: the rod arm_barrel cannot reach arm, beyond its dead point */
+    EXCAVATOR_STATUS_ARM_CLOSURE = 1 << 4, /* the loop boom - arm_barrel - arm_rod - arm cannot close: the telescope of arm_barrel and arm_rod cannot reach arm, beyond its dead point */
     EXCAVATOR_STATUS_BUCKET_BARREL_EXTENSION = 1 << 5, /* the telescope of bucket_barrel and bucket_rod is drawn in until its pins bucket_barrel_pin and knee meet, or pass each other */
     EXCAVATOR_STATUS_ROCKER_REACH_SQUARED = 1 << 6, /* the loop arm - bucket_barrel - bucket_rod - rocker: point bucket_barrel_pin lies on the line of rocker, whose rotation is undetermined */
-    EXCAVATOR_STATUS_ROCKER_CLOSURE = 1 << 7, /* the loop arm - bucket_barrel - bucket_rod - rocker cannot close: the rod bucket_barrel cannot reach rocker, beyond its dead point */
+    EXCAVATOR_STATUS_ROCKER_CLOSURE = 1 << 7, /* the loop arm - bucket_barrel - bucket_rod - rocker cannot close: the telescope of bucket_barrel and bucket_rod cannot reach rocker, beyond its dead point */
     EXCAVATOR_STATUS_BUCKET_REACH_SQUARED = 1 << 8, /* the loop arm - rocker - link - bucket: point knee lies on the line of bucket, whose rotation is undetermined */
     EXCAVATOR_STATUS_BUCKET_CLOSURE = 1 << 9, /* the loop arm - rocker - link - bucket cannot close: the rod link cannot reach bucket, beyond its dead point */
     EXCAVATOR_STATUS_PIVOT_BOOM_STROKE = 1 << 10, /* the mass matrix is not positive definite at boom_stroke */

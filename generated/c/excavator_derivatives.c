@@ -149,7 +149,7 @@ int excavator_rhs_jacobian(const double *restrict constants, const double *restr
     const double boom_hold = -constant_5*shared_2;
     const double boom_turn_boom_stroke = -shared_1*boom_hold;
 
-    /* boom_barrel, boom_rod: telescope */
+    /* boom_barrel and boom_rod: telescope */
     const double shared_3 = boom_arm_radius*boom_arm_z;
     const double d_boom_rod_pin_boom_stroke_x = shared_3*boom_turn_boom_stroke;
     const double shared_4 = boom_arm_radius*boom_arm_x;
@@ -251,7 +251,7 @@ int excavator_rhs_jacobian(const double *restrict constants, const double *restr
     const double arm_omega_boom_stroke_1 = boom_turn_boom_stroke + arm_turn_boom_stroke;
     const double arm_turn_arm_stroke = -shared_25*arm_hold;
 
-    /* arm_barrel, arm_rod: telescope */
+    /* arm_barrel and arm_rod: telescope */
     const double shared_33 = arm_arm_radius*arm_omega_boom_stroke_1;
     const double shared_34 = arm_velocity_boom_stroke_3 + shared_33;
     const double d_arm_rod_pin_boom_stroke_x = arm_arm_x*arm_velocity_boom_stroke_2 +
@@ -411,7 +411,7 @@ int excavator_rhs_jacobian(const double *restrict constants, const double *restr
     const double rocker_omega_arm_stroke_1 = arm_turn_arm_stroke + rocker_turn_arm_stroke;
     const double rocker_turn_bucket_stroke = -shared_63*rocker_hold;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double shared_74 = rocker_arm_radius*rocker_omega_boom_stroke_1;
     const double shared_75 = rocker_velocity_boom_stroke_3 + shared_74;
     const double d_knee_boom_stroke_x = rocker_arm_x*rocker_velocity_boom_stroke_2 +
@@ -6410,7 +6410,7 @@ int excavator_rhs_input_jacobian(const double *restrict constants, const double 
     const double boom_hold = -constant_5/boom_closure_root;
     const double boom_turn_boom_stroke = -shared_1*boom_hold;
 
-    /* boom_barrel, boom_rod: telescope */
+    /* boom_barrel and boom_rod: telescope */
     const double shared_2 = boom_arm_radius*boom_arm_z;
     const double d_boom_rod_pin_boom_stroke_x = shared_2*boom_turn_boom_stroke;
     const double shared_3 = boom_arm_radius*boom_arm_x;
@@ -6484,7 +6484,7 @@ int excavator_rhs_input_jacobian(const double *restrict constants, const double 
     const double arm_omega_boom_stroke_1 = boom_turn_boom_stroke + arm_turn_boom_stroke;
     const double arm_turn_arm_stroke = -shared_12*arm_hold;
 
-    /* arm_barrel, arm_rod: telescope */
+    /* arm_barrel and arm_rod: telescope */
     const double shared_15 = arm_velocity_boom_stroke_3 + arm_arm_radius*arm_omega_boom_stroke_1;
     const double d_arm_rod_pin_boom_stroke_x = arm_arm_x*arm_velocity_boom_stroke_2 +
         arm_arm_z*shared_15;
@@ -6600,7 +6600,7 @@ int excavator_rhs_input_jacobian(const double *restrict constants, const double 
     const double rocker_omega_arm_stroke_1 = arm_turn_arm_stroke + rocker_turn_arm_stroke;
     const double rocker_turn_bucket_stroke = -shared_28*rocker_hold;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double shared_30 = rocker_velocity_boom_stroke_3 +
         rocker_arm_radius*rocker_omega_boom_stroke_1;
     const double d_knee_boom_stroke_x = rocker_arm_x*rocker_velocity_boom_stroke_2 +

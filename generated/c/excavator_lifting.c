@@ -606,7 +606,7 @@ int excavator_lifting_rhs(const double *restrict constants, const double *restri
     const double boom_hold = -constant_5/boom_closure_root;
     const double boom_turn_boom_stroke = -shared_1*boom_hold;
 
-    /* boom_barrel, boom_rod: telescope */
+    /* boom_barrel and boom_rod: telescope */
     const double shared_2 = boom_stroke_velocity*boom_turn_boom_stroke;
     const double boom_rod_rate_3 = boom_arm_radius*shared_2;
     const double boom_omega_now_1 = shared_2;
@@ -680,7 +680,7 @@ int excavator_lifting_rhs(const double *restrict constants, const double *restri
     const double arm_omega_boom_stroke_1 = boom_turn_boom_stroke + arm_turn_boom_stroke;
     const double arm_turn_arm_stroke = -shared_16*arm_hold;
 
-    /* arm_barrel, arm_rod: telescope */
+    /* arm_barrel and arm_rod: telescope */
     const double arm_rod_rate_2 = boom_stroke_velocity*shared_19;
     const double shared_21 = arm_stroke_velocity*arm_turn_arm_stroke;
     const double arm_rod_rate_3 = arm_arm_radius*shared_21 + boom_stroke_velocity*(shared_20 +
@@ -793,7 +793,7 @@ int excavator_lifting_rhs(const double *restrict constants, const double *restri
     const double rocker_omega_arm_stroke_1 = arm_turn_arm_stroke + rocker_turn_arm_stroke;
     const double rocker_turn_bucket_stroke = -shared_38*rocker_hold;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double shared_44 = rocker_velocity_boom_stroke_3 +
         rocker_arm_radius*rocker_omega_boom_stroke_1;
     const double d_knee_boom_stroke_x = rocker_arm_x*rocker_velocity_boom_stroke_2 +
@@ -1067,7 +1067,7 @@ int excavator_lifting_bias(const double *restrict constants, const double *restr
     const double boom_hold = -constant_5/boom_closure_root;
     const double boom_turn_boom_stroke = -shared_1*boom_hold;
 
-    /* boom_barrel, boom_rod: telescope */
+    /* boom_barrel and boom_rod: telescope */
     const double shared_2 = boom_stroke_velocity*boom_turn_boom_stroke;
     const double boom_rod_rate_3 = boom_arm_radius*shared_2;
     const double boom_omega_now_1 = shared_2;
@@ -1141,7 +1141,7 @@ int excavator_lifting_bias(const double *restrict constants, const double *restr
     const double arm_omega_boom_stroke_1 = boom_turn_boom_stroke + arm_turn_boom_stroke;
     const double arm_turn_arm_stroke = -shared_16*arm_hold;
 
-    /* arm_barrel, arm_rod: telescope */
+    /* arm_barrel and arm_rod: telescope */
     const double arm_rod_rate_2 = boom_stroke_velocity*shared_19;
     const double shared_21 = arm_stroke_velocity*arm_turn_arm_stroke;
     const double arm_rod_rate_3 = arm_arm_radius*shared_21 + boom_stroke_velocity*(shared_20 +
@@ -1254,7 +1254,7 @@ int excavator_lifting_bias(const double *restrict constants, const double *restr
     const double rocker_omega_arm_stroke_1 = arm_turn_arm_stroke + rocker_turn_arm_stroke;
     const double rocker_turn_bucket_stroke = -shared_38*rocker_hold;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double shared_44 = rocker_velocity_boom_stroke_3 +
         rocker_arm_radius*rocker_omega_boom_stroke_1;
     const double d_knee_boom_stroke_x = rocker_arm_x*rocker_velocity_boom_stroke_2 +
@@ -1538,7 +1538,7 @@ int excavator_lifting_forces(const double *restrict constants, const double *res
     const double rocker_arm_x = rocker_reach_x*rocker_turn_cosine + rocker_reach_z*rocker_turn_sine;
     const double rocker_arm_z = rocker_reach_z*rocker_turn_cosine - rocker_reach_x*rocker_turn_sine;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double at_knee_x = at_rocker_pin_x + rocker_arm_radius*rocker_arm_x;
     const double at_knee_z = at_rocker_pin_z + rocker_arm_radius*rocker_arm_z;
 
@@ -1701,7 +1701,7 @@ int excavator_lifting_rhs_cylinders_held(const double *restrict constants, const
     const double rocker_arm_x = rocker_reach_x*rocker_turn_cosine + rocker_reach_z*rocker_turn_sine;
     const double rocker_arm_z = rocker_reach_z*rocker_turn_cosine - rocker_reach_x*rocker_turn_sine;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double at_knee_x = at_rocker_pin_x + rocker_arm_radius*rocker_arm_x;
     const double at_knee_z = at_rocker_pin_z + rocker_arm_radius*rocker_arm_z;
 
@@ -1829,7 +1829,7 @@ int excavator_lifting_relative_coordinates(const double *restrict constants, con
     const double boom_arm_x = boom_reach_x*boom_turn_cosine + boom_reach_z*boom_turn_sine;
     const double boom_arm_z = boom_reach_z*boom_turn_cosine - boom_reach_x*boom_turn_sine;
 
-    /* boom_barrel, boom_rod: telescope */
+    /* boom_barrel and boom_rod: telescope */
     const double at_boom_rod_pin_x = boom_foot_x + boom_arm_radius*boom_arm_x;
     const double at_boom_rod_pin_z = boom_foot_z + boom_arm_radius*boom_arm_z;
     const double boom_barrel_span_x = at_boom_rod_pin_x - boom_barrel_pin_x;
@@ -1862,7 +1862,7 @@ int excavator_lifting_relative_coordinates(const double *restrict constants, con
     const double arm_arm_x = arm_reach_x*arm_turn_cosine + arm_reach_z*arm_turn_sine;
     const double arm_arm_z = arm_reach_z*arm_turn_cosine - arm_reach_x*arm_turn_sine;
 
-    /* arm_barrel, arm_rod: telescope */
+    /* arm_barrel and arm_rod: telescope */
     const double at_arm_rod_pin_x = at_arm_pin_x + arm_arm_radius*arm_arm_x;
     const double at_arm_rod_pin_z = at_arm_pin_z + arm_arm_radius*arm_arm_z;
     const double arm_barrel_span_x = at_arm_rod_pin_x - at_arm_barrel_pin_x;
@@ -1899,7 +1899,7 @@ int excavator_lifting_relative_coordinates(const double *restrict constants, con
     const double rocker_arm_x = rocker_reach_x*rocker_turn_cosine + rocker_reach_z*rocker_turn_sine;
     const double rocker_arm_z = rocker_reach_z*rocker_turn_cosine - rocker_reach_x*rocker_turn_sine;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double at_knee_x = at_rocker_pin_x + rocker_arm_radius*rocker_arm_x;
     const double at_knee_z = at_rocker_pin_z + rocker_arm_radius*rocker_arm_z;
     const double shared_6 = -at_knee_x;
@@ -2124,7 +2124,7 @@ int excavator_lifting_residuals(const double *restrict constants, const double *
     const double boom_arm_x = boom_reach_x*boom_turn_cosine + boom_reach_z*boom_turn_sine;
     const double boom_arm_z = boom_reach_z*boom_turn_cosine - boom_reach_x*boom_turn_sine;
 
-    /* boom_barrel, boom_rod: telescope */
+    /* boom_barrel and boom_rod: telescope */
     const double at_boom_rod_pin_x = boom_foot_x + boom_arm_radius*boom_arm_x;
     const double at_boom_rod_pin_z = boom_foot_z + boom_arm_radius*boom_arm_z;
     const double boom_barrel_span_x = at_boom_rod_pin_x - boom_barrel_pin_x;
@@ -2158,7 +2158,7 @@ int excavator_lifting_residuals(const double *restrict constants, const double *
     const double arm_arm_x = arm_reach_x*arm_turn_cosine + arm_reach_z*arm_turn_sine;
     const double arm_arm_z = arm_reach_z*arm_turn_cosine - arm_reach_x*arm_turn_sine;
 
-    /* arm_barrel, arm_rod: telescope */
+    /* arm_barrel and arm_rod: telescope */
     const double at_arm_rod_pin_x = at_arm_pin_x + arm_arm_radius*arm_arm_x;
     const double at_arm_rod_pin_z = at_arm_pin_z + arm_arm_radius*arm_arm_z;
     const double arm_barrel_span_x = at_arm_rod_pin_x - at_arm_barrel_pin_x;
@@ -2196,7 +2196,7 @@ int excavator_lifting_residuals(const double *restrict constants, const double *
     const double rocker_arm_x = rocker_reach_x*rocker_turn_cosine + rocker_reach_z*rocker_turn_sine;
     const double rocker_arm_z = rocker_reach_z*rocker_turn_cosine - rocker_reach_x*rocker_turn_sine;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double at_knee_x = at_rocker_pin_x + rocker_arm_radius*rocker_arm_x;
     const double at_knee_z = at_rocker_pin_z + rocker_arm_radius*rocker_arm_z;
     const double shared_8 = -at_knee_x;
@@ -2430,7 +2430,7 @@ int excavator_lifting_absolute_jacobian(const double *restrict constants, const 
     const double rocker_arm_x = rocker_reach_x*rocker_turn_cosine + rocker_reach_z*rocker_turn_sine;
     const double rocker_arm_z = rocker_reach_z*rocker_turn_cosine - rocker_reach_x*rocker_turn_sine;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double at_knee_x = at_rocker_pin_x + rocker_arm_radius*rocker_arm_x;
     const double at_knee_z = at_rocker_pin_z + rocker_arm_radius*rocker_arm_z;
 
@@ -2676,7 +2676,7 @@ int excavator_lifting_global_jacobian(const double *restrict constants, const do
     const double rocker_arm_x = rocker_reach_x*rocker_turn_cosine + rocker_reach_z*rocker_turn_sine;
     const double rocker_arm_z = rocker_reach_z*rocker_turn_cosine - rocker_reach_x*rocker_turn_sine;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double at_knee_x = at_rocker_pin_x + rocker_arm_radius*rocker_arm_x;
     const double at_knee_z = at_rocker_pin_z + rocker_arm_radius*rocker_arm_z;
 
@@ -2820,7 +2820,7 @@ int excavator_lifting_positions(const double *restrict constants, const double *
     const double boom_arm_x = boom_reach_x*boom_turn_cosine + boom_reach_z*boom_turn_sine;
     const double boom_arm_z = boom_reach_z*boom_turn_cosine - boom_reach_x*boom_turn_sine;
 
-    /* boom_barrel, boom_rod: telescope */
+    /* boom_barrel and boom_rod: telescope */
     const double at_boom_rod_pin_x = boom_foot_x + boom_arm_radius*boom_arm_x;
     const double at_boom_rod_pin_z = boom_foot_z + boom_arm_radius*boom_arm_z;
     const double boom_barrel_span_x = at_boom_rod_pin_x - boom_barrel_pin_x;
@@ -2853,7 +2853,7 @@ int excavator_lifting_positions(const double *restrict constants, const double *
     const double arm_arm_x = arm_reach_x*arm_turn_cosine + arm_reach_z*arm_turn_sine;
     const double arm_arm_z = arm_reach_z*arm_turn_cosine - arm_reach_x*arm_turn_sine;
 
-    /* arm_barrel, arm_rod: telescope */
+    /* arm_barrel and arm_rod: telescope */
     const double at_arm_rod_pin_x = at_arm_pin_x + arm_arm_radius*arm_arm_x;
     const double at_arm_rod_pin_z = at_arm_pin_z + arm_arm_radius*arm_arm_z;
     const double arm_barrel_span_x = at_arm_rod_pin_x - at_arm_barrel_pin_x;
@@ -2890,7 +2890,7 @@ int excavator_lifting_positions(const double *restrict constants, const double *
     const double rocker_arm_x = rocker_reach_x*rocker_turn_cosine + rocker_reach_z*rocker_turn_sine;
     const double rocker_arm_z = rocker_reach_z*rocker_turn_cosine - rocker_reach_x*rocker_turn_sine;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double at_knee_x = at_rocker_pin_x + rocker_arm_radius*rocker_arm_x;
     const double at_knee_z = at_rocker_pin_z + rocker_arm_radius*rocker_arm_z;
     const double shared_6 = -at_knee_x;
@@ -3071,7 +3071,7 @@ int excavator_lifting_orientations(const double *restrict constants, const doubl
     const double boom_arm_x = boom_reach_x*boom_turn_cosine + boom_reach_z*boom_turn_sine;
     const double boom_arm_z = boom_reach_z*boom_turn_cosine - boom_reach_x*boom_turn_sine;
 
-    /* boom_barrel, boom_rod: telescope */
+    /* boom_barrel and boom_rod: telescope */
     const double at_boom_rod_pin_x = boom_foot_x + boom_arm_radius*boom_arm_x;
     const double at_boom_rod_pin_z = boom_foot_z + boom_arm_radius*boom_arm_z;
     const double boom_barrel_span_x = at_boom_rod_pin_x - boom_barrel_pin_x;
@@ -3104,7 +3104,7 @@ int excavator_lifting_orientations(const double *restrict constants, const doubl
     const double arm_arm_x = arm_reach_x*arm_turn_cosine + arm_reach_z*arm_turn_sine;
     const double arm_arm_z = arm_reach_z*arm_turn_cosine - arm_reach_x*arm_turn_sine;
 
-    /* arm_barrel, arm_rod: telescope */
+    /* arm_barrel and arm_rod: telescope */
     const double at_arm_rod_pin_x = at_arm_pin_x + arm_arm_radius*arm_arm_x;
     const double at_arm_rod_pin_z = at_arm_pin_z + arm_arm_radius*arm_arm_z;
     const double arm_barrel_span_x = at_arm_rod_pin_x - at_arm_barrel_pin_x;
@@ -3141,7 +3141,7 @@ int excavator_lifting_orientations(const double *restrict constants, const doubl
     const double rocker_arm_x = rocker_reach_x*rocker_turn_cosine + rocker_reach_z*rocker_turn_sine;
     const double rocker_arm_z = rocker_reach_z*rocker_turn_cosine - rocker_reach_x*rocker_turn_sine;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double at_knee_x = at_rocker_pin_x + rocker_arm_radius*rocker_arm_x;
     const double at_knee_z = at_rocker_pin_z + rocker_arm_radius*rocker_arm_z;
     const double shared_6 = -at_knee_x;
@@ -3442,7 +3442,7 @@ int excavator_lifting_velocities(const double *restrict constants, const double 
     const double boom_hold = -constant_5/boom_closure_root;
     const double boom_turn_boom_stroke = -shared_1*boom_hold;
 
-    /* boom_barrel, boom_rod: telescope */
+    /* boom_barrel and boom_rod: telescope */
     const double shared_2 = boom_arm_radius*boom_arm_z;
     const double d_boom_rod_pin_boom_stroke_x = shared_2*boom_turn_boom_stroke;
     const double shared_3 = boom_arm_radius*boom_arm_x;
@@ -3516,7 +3516,7 @@ int excavator_lifting_velocities(const double *restrict constants, const double 
     const double arm_omega_boom_stroke_1 = boom_turn_boom_stroke + arm_turn_boom_stroke;
     const double arm_turn_arm_stroke = -shared_12*arm_hold;
 
-    /* arm_barrel, arm_rod: telescope */
+    /* arm_barrel and arm_rod: telescope */
     const double shared_15 = arm_velocity_boom_stroke_3 + arm_arm_radius*arm_omega_boom_stroke_1;
     const double d_arm_rod_pin_boom_stroke_x = arm_arm_x*arm_velocity_boom_stroke_2 +
         arm_arm_z*shared_15;
@@ -3633,7 +3633,7 @@ int excavator_lifting_velocities(const double *restrict constants, const double 
     const double rocker_omega_arm_stroke_1 = arm_turn_arm_stroke + rocker_turn_arm_stroke;
     const double rocker_turn_bucket_stroke = -shared_28*rocker_hold;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double shared_32 = rocker_velocity_boom_stroke_3 +
         rocker_arm_radius*rocker_omega_boom_stroke_1;
     const double d_knee_boom_stroke_x = rocker_arm_x*rocker_velocity_boom_stroke_2 +
@@ -4131,7 +4131,7 @@ int excavator_lifting_margins(const double *restrict constants, const double *re
     const double rocker_arm_x = rocker_reach_x*rocker_turn_cosine + rocker_reach_z*rocker_turn_sine;
     const double rocker_arm_z = rocker_reach_z*rocker_turn_cosine - rocker_reach_x*rocker_turn_sine;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double at_knee_x = at_rocker_pin_x + rocker_arm_radius*rocker_arm_x;
     const double at_knee_z = at_rocker_pin_z + rocker_arm_radius*rocker_arm_z;
 

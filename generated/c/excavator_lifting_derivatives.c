@@ -105,7 +105,7 @@ int excavator_lifting_rhs_jacobian(const double *restrict constants, const doubl
     const double boom_hold = -constant_5/boom_closure_root;
     const double boom_turn_boom_stroke = -shared_1*boom_hold;
 
-    /* boom_barrel, boom_rod: telescope */
+    /* boom_barrel and boom_rod: telescope */
     const double shared_2 = boom_stroke_velocity*boom_turn_boom_stroke;
     const double boom_rod_rate_3 = boom_arm_radius*shared_2;
     const double boom_omega_now_1 = shared_2;
@@ -179,7 +179,7 @@ int excavator_lifting_rhs_jacobian(const double *restrict constants, const doubl
     const double arm_omega_boom_stroke_1 = boom_turn_boom_stroke + arm_turn_boom_stroke;
     const double arm_turn_arm_stroke = -shared_16*arm_hold;
 
-    /* arm_barrel, arm_rod: telescope */
+    /* arm_barrel and arm_rod: telescope */
     const double arm_rod_rate_2 = boom_stroke_velocity*shared_19;
     const double shared_21 = arm_stroke_velocity*arm_turn_arm_stroke;
     const double arm_rod_rate_3 = arm_arm_radius*shared_21 + boom_stroke_velocity*(shared_20 +
@@ -292,7 +292,7 @@ int excavator_lifting_rhs_jacobian(const double *restrict constants, const doubl
     const double rocker_omega_arm_stroke_1 = arm_turn_arm_stroke + rocker_turn_arm_stroke;
     const double rocker_turn_bucket_stroke = -shared_38*rocker_hold;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double shared_44 = rocker_velocity_boom_stroke_3 +
         rocker_arm_radius*rocker_omega_boom_stroke_1;
     const double d_knee_boom_stroke_x = rocker_arm_x*rocker_velocity_boom_stroke_2 +
@@ -573,7 +573,7 @@ int excavator_lifting_rhs_input_jacobian(const double *restrict constants, const
     const double boom_hold = -constant_5*shared_2;
     const double boom_turn_boom_stroke = -shared_1*boom_hold;
 
-    /* boom_barrel, boom_rod: telescope */
+    /* boom_barrel and boom_rod: telescope */
     const double shared_3 = boom_stroke_velocity*boom_turn_boom_stroke;
     const double boom_rod_rate_3 = boom_arm_radius*shared_3;
     const double boom_omega_now_1 = shared_3;
@@ -657,7 +657,7 @@ int excavator_lifting_rhs_input_jacobian(const double *restrict constants, const
     const double arm_omega_boom_stroke_1 = boom_turn_boom_stroke + arm_turn_boom_stroke;
     const double arm_turn_arm_stroke = -shared_23*arm_hold;
 
-    /* arm_barrel, arm_rod: telescope */
+    /* arm_barrel and arm_rod: telescope */
     const double arm_rod_rate_2 = boom_stroke_velocity*shared_27;
     const double shared_32 = arm_stroke_velocity*arm_turn_arm_stroke;
     const double shared_33 = arm_arm_radius*arm_omega_boom_stroke_1;
@@ -777,7 +777,7 @@ int excavator_lifting_rhs_input_jacobian(const double *restrict constants, const
     const double rocker_omega_arm_stroke_1 = arm_turn_arm_stroke + rocker_turn_arm_stroke;
     const double rocker_turn_bucket_stroke = -shared_56*rocker_hold;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double shared_68 = rocker_arm_radius*rocker_omega_boom_stroke_1;
     const double shared_69 = rocker_velocity_boom_stroke_3 + shared_68;
     const double d_knee_boom_stroke_x = rocker_arm_x*rocker_velocity_boom_stroke_2 +
@@ -3131,7 +3131,7 @@ int excavator_lifting_rhs_jacobian_cylinders_held(const double *restrict constan
     const double rocker_arm_x = rocker_reach_x*rocker_turn_cosine + rocker_reach_z*rocker_turn_sine;
     const double rocker_arm_z = rocker_reach_z*rocker_turn_cosine - rocker_reach_x*rocker_turn_sine;
 
-    /* bucket_barrel, bucket_rod: telescope */
+    /* bucket_barrel and bucket_rod: telescope */
     const double at_knee_x = at_rocker_pin_x + rocker_arm_radius*rocker_arm_x;
     const double at_knee_z = at_rocker_pin_z + rocker_arm_radius*rocker_arm_z;
 

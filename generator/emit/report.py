@@ -105,7 +105,7 @@ def equation(transformer: Transformer) -> tuple[str, str]:
         )
     rod = action.rod
     if isinstance(action, SolveHinge | SolveSlide) and action.telescope is not None:
-        rod = f"{rod} and {action.telescope.far} at {action.telescope.joint.name}.slide"
+        rod = f"{action.telescope.links} at {action.telescope.joint.name}.slide"
     if isinstance(action, SolveSlide):
         return (
             f"|{action.end.name} - {action.anchor.name}| = length of {rod}",

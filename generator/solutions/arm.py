@@ -110,7 +110,7 @@ def fit_rod(
     room = program.guarded(
         f"{body}_closure",
         squared - k**2,
-        f"{loop} cannot close: the rod {action.rod} cannot reach {body}, beyond its dead point",
+        f"{loop} cannot close: the {rod.name} cannot reach {body}, beyond its dead point",
         "m^2",
     )
     root = program.define(f"{body}_closure_root", sp.sqrt(room))

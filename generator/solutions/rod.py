@@ -33,6 +33,8 @@ class Rod:
 
     Attributes
     ----------
+    name
+        What it is and its name, for messages.
     design
         The way from the anchor to the end at the design position (work axes).
     length, squared
@@ -44,6 +46,7 @@ class Rod:
         coordinates.
     """
 
+    name: str
     design: Vector
     length: sp.Expr
     squared: sp.Expr
@@ -58,7 +61,7 @@ class Rod:
         telescope = getattr(action, "telescope", None)
         if telescope is None:
             length = kin.program.define(f"{action.rod}_length", sp.sqrt(design.dot(design)))
-            rod = cls(design, length, length**2)
+            rod = cls(f"rod {action.rod}", design, length, length**2)
         else:
             rod = cls._telescopic(kin, telescope, design)
         kin.rod_lengths[action.rod] = rod.length
@@ -78,7 +81,8 @@ class Rod:
             stretch[coordinate] = telescope.sense * extension
             given = telescope.sense * kin.acceleration(coordinate)
             bias = kin.rate(coordinate) ** 2 + extension * given
-        return cls(design, sp.sqrt(squared), squared, stretch, bias)
+        name = f"telescope of {telescope.links}"
+        return cls(name, design, sp.sqrt(squared), squared, stretch, bias)
 
 
 @dataclass(frozen=True)
@@ -129,7 +133,7 @@ class Guide:
         drawn = kin.program.guarded(
             f"{telescope.near}_extension",
             self.branch * (self.start.y + telescope.sense * slide),
-            f"the telescope of {telescope.near} and {telescope.far} is drawn in until its pins "
+            f"the telescope of {telescope.links} is drawn in until its pins "
             f"{telescope.anchor.name} and {telescope.end.name} meet, or pass each other",
             "m",
         )

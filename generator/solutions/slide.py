@@ -48,7 +48,7 @@ def solve_slide(kin: Kinematics, action: SolveSlide) -> None:
     room = program.guarded(
         f"{body}_closure",
         rod.squared - across.dot(across),
-        f"{kin.loop_of(action)} cannot close: the rod {action.rod} is too short to reach the guide "
+        f"{kin.loop_of(action)} cannot close: the {rod.name} is too short to reach the guide "
         f"of {body}",
         "m^2",
     )

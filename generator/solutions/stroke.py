@@ -43,7 +43,7 @@ def solve_stroke(kin: Kinematics, action: SolveStroke) -> None:
         f"{near}_extension_squared",
         pins.across.dot(pins.across) - e**2,
         f"{kin.loop_of(action)} cannot close: the pins {action.anchor.name} and {action.end.name} "
-        f"come nearer to each other than the guide of {near} and {action.far} allows",
+        f"come nearer to each other than the guide of {action.links} allows",
         "m^2",
     )
     extension = program.define(f"{near}_extension", pins.guide.branch * sp.sqrt(squared))
