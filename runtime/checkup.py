@@ -8,13 +8,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import paper
+from .characteristics import wheel
+from .characteristics.from_model import corner
 from .input.suspension import Suspension
-from .input.vectors import distance_from_line, unit_vector
+from .input.vectors import distance_from_line
 from .model import Model
 from .positions import PositionError, Range, design_height, equilibrium, travel_range
 from .starter import packaged
 
 Array = NDArray[np.float64]
+
+# Where passenger cars have their wheel hop [Hz]: TRL Report SR12 UC, vehicles over discontinuities
+# of the road.
+USUAL_HOP = (10.0, 15.0)
 
 # Less travel than this between design and an end is worth a word [m].
 _LITTLE_TRAVEL = 0.040
@@ -140,19 +146,17 @@ def _equilibrium(model: Model) -> Equilibrium:
 
 def _geometry(model: Model) -> dict[str, float]:
     points = model.suspension.hardpoints
-    low, high = points.STEERING_AXIS
-    axis = unit_vector(points.metres(high) - points.metres(low))
-    side = model.suspension.vehicle.sign
-    wheel = points.metres("wheel_center")
-    outer = points.metres("tie_rod_outer")
+    low, high = (points.metres(end) for end in points.STEERING_AXIS)
+    at_design = corner(model, model.design_state[0])
+    center = points.metres("wheel_center")
     return {
-        "half_track": abs(float(wheel[1])),
-        "wheel_center_height": float(wheel[2]),
+        "half_track": abs(float(center[1])),
+        "wheel_center_height": float(center[2]),
         **_lengths(model),
         "tie_rod_length": points.distance("tie_rod_outer", "tie_rod_inner"),
-        "steering_arm_length": float(np.linalg.norm(np.cross(outer - points.metres(low), axis))),
-        "caster_angle": float(np.arctan2(-axis[0], axis[2])),
-        "kingpin_inclination_angle": float(np.arctan2(-side * axis[1], axis[2])),
+        "steering_arm_length": distance_from_line(points.metres("tie_rod_outer"), low, high),
+        "caster_angle": float(wheel.caster(at_design)),
+        "kingpin_inclination_angle": float(wheel.kingpin_inclination(at_design)),
     }
 
 

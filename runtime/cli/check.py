@@ -76,13 +76,17 @@ def _travel(found: "Checkup") -> dict[str, str]:
 
 
 def _rest(found: "Checkup") -> dict[str, str]:
+    from ..checkup import USUAL_HOP
+
     rest = found.equilibrium
     if rest is None:
         return {"equilibrium": "none"}
     forces = rest.signals
+    low, high = USUAL_HOP
     return {
         "equilibrium": f"wheel centre at {rest.height * 1e3:.3f} mm, "
         f"{rest.travel * 1e3 + 0.0:+.3f} mm from design",
         "forces there": f"tyre {forces['tyre_force']:.0f} N, spring {forces['spring_force']:.0f} N",
-        "wheel-hop mode": f"{rest.frequency:.2f} Hz, damping ratio {rest.damping_ratio:.3f}",
+        "wheel-hop mode": f"{rest.frequency:.2f} Hz (passenger cars: {low:g} to {high:g}), "
+        f"damping ratio {rest.damping_ratio:.3f}",
     }
