@@ -6,10 +6,10 @@ same printers as everything else; around it are a loop with a fixed number of it
 comparison that ends it. The first estimate does not depend on any call before, so the function that
 calls a block stays a pure function.
 
-Safeguards: a correction is not longer than `LONGEST`; after `ITERATIONS` the block returns what it
-has; nothing in it divides by a determinant before the estimate that it returns is settled. Whether
-that estimate is a solution is not for the block to say: the straight-line code behind it evaluates
-the residuals again, and its guard refuses what does not fulfil them (`solutions.carrier`).
+Safeguards: a correction is not longer than `LONGEST`; after `ITERATIONS`, or where J is singular,
+the block returns what it has, which is finite. Whether that is a solution is not for the block to
+say: the straight-line code behind it evaluates the residuals again, and its guard refuses what does
+not fulfil them (`solutions.carrier`).
 
 Derivatives: a block returns the adjugate and the determinant of its Jacobian J as well. Behind it,
 one more correction ``x - J^-1 g(x, v)`` is written out, in which only g depends on the arguments v.

@@ -96,7 +96,7 @@ def _block(block: Block) -> str:
         "        found = (",
         *(f"            {value}," for value in found),
         "        )",
-        f"        moving = {change} > {CONVERGED} * {CONVERGED}",
+        f"        moving = ({change} > {CONVERGED} * {CONVERGED}) & np.isfinite({change})",
         "        if not np.any(moving):",
         "            break",
         "        following = (",

@@ -296,7 +296,7 @@ class CPrinter:
             text = f"        found.at[{i}] = {result.text};"
             lines.append(f"{text:<70} /* {name} */")
         lines += [
-            f"        if (!({change.text} > CONVERGED * CONVERGED)) {{",
+            f"        if (!({change.text} > CONVERGED * CONVERGED) || !isfinite({change.text})) {{",
             "            break;",
             "        }",
         ]

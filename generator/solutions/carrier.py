@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ..arithmetic import Frozen, SignOf
+from ..arithmetic import Frozen, IsPositive, SignOf
 from ..iteration import ITERATIONS, Matrix, determinant, times
 from ..placement import Placed, PointMotion, from_axes
 from ..transformer import NoClosedFormError
@@ -39,8 +39,9 @@ if TYPE_CHECKING:
     from ..actions import HeldByRod, SolveCarrier
     from ..kinematics import Kinematics
 
-# What the iteration may leave of g. Of what converges, 1e-16 is left.
-_TOLERANCE = sp.Rational(1, 10**8)
+# What the iteration may leave of g: the correction behind it makes about the square of that, 1e-12.
+# Of what converges, less than 1e-13 is left, so that it does not show in the determinant.
+_TOLERANCE = sp.Rational(1, 10**6)
 
 
 def solve_carrier(kin: Kinematics, action: SolveCarrier) -> None:
@@ -239,7 +240,8 @@ def _factor(kin: Kinematics, held: _Held, found: sp.Expr, left: Sequence[sp.Expr
         "on it",
         "1",
     )
-    return program.define(f"{body}_hold", Frozen(branch / hold))
+    held_at_all = IsPositive(hold.args[0])  # else no correction: what was found last stays finite
+    return program.define(f"{body}_hold", Frozen(branch * held_at_all / hold))
 
 
 # -- motion ---------------------------------------------------------------------------------------

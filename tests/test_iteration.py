@@ -1,0 +1,496 @@
+"""Loops without a closed form: the block that iterates, what surrounds it, and what is refused.
+
+The oracles: a multi-link suspension that is a double wishbone in disguise, against the closed form
+of the double wishbone; SciPy's root finder on the lengths of the rods, followed from the design
+position on; maximal coordinates; and the program itself in 50 digits.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+from functools import cache
+from itertools import product
+from typing import TYPE_CHECKING, Any
+
+import kintrafo
+import mpmath
+import numpy as np
+import pytest
+import sympy as sp
+from kintrafo.generated import double_wishbone
+from kintrafo.generated._support import ClosureError, ModelError
+from kintrafo.generator.emit.report import markdown
+from kintrafo.generator.geometry import Direction, Line, Point
+from kintrafo.generator.iteration import ITERATIONS, adjugate, determinant
+from kintrafo.generator.joints import Revolute
+from kintrafo.generator.mechanisms.multi_link import CONTROL_ARM, FIVE_LINK, MODELS
+from kintrafo.generator.outputs import GeneratedModel, generate
+from kintrafo.generator.program import ConstantStage, Program
+from kintrafo.generator.transformer import NoClosedFormError, Plan
+from kintrafo.own.build import build
+from kintrafo.own.compiler import FLAGS, Compiler
+from kintrafo.own.loader import load
+from own_models import STRICT, Built, needs_gcc
+from scipy.integrate import solve_ivp
+from scipy.optimize import root
+from scipy.spatial.transform import Rotation
+from symbolic import constants_of, python
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from pathlib import Path
+
+    from kintrafo.generator.mechanism import Mechanism
+    from oracle.constraints import Array
+
+ARM, FIVE = MODELS
+RODS = {
+    ARM.name: ("upper_link", "camber_link", "toe_link"),
+    FIVE.name: ("upper_link", "camber_link", "toe_link", "front_link", "lower_link", "push_rod"),
+}
+TRAVEL = {ARM.name: 0.35, FIVE.name: 0.5}
+"""How far the independent hinge turns from the design position, rad: more than a car uses."""
+
+
+@pytest.fixture(scope="session")
+def derive() -> Callable[[str], GeneratedModel]:
+    return cache(lambda name: generate(next(m for m in MODELS if m.name == name)))
+
+
+@pytest.fixture(scope="session")
+def built(
+    derive: Callable[[str], GeneratedModel], tmp_path_factory: pytest.TempPathFactory
+) -> Callable[[str], Built]:
+    """Return a model over NumPy arrays, which takes no compiler's time."""
+
+    def find(name: str) -> Built:
+        derived = derive(name)
+        folder = tmp_path_factory.mktemp(name) / f"{name}-arrays"
+        folder.mkdir()
+        build(derived, folder, None)
+        return Built.of(derived.model, load(folder))
+
+    return cache(find)
+
+
+def states(built: Built, count: int, seed: int = 0) -> tuple[Array, Array]:
+    """Return random states within the travel, and inputs: rack within 30 mm."""
+    rng = np.random.default_rng(seed)
+    q = built.design + np.column_stack(
+        (TRAVEL[built.model.name] * rng.uniform(-1, 1, count), rng.uniform(-3, 3, count))
+    )
+    inputs = np.zeros((count, len(built.module.INPUTS)))
+    inputs[:, :3] = rng.uniform(-1, 1, (count, 3)) * [0.03, 0.3, 3.0]
+    return np.hstack((q, rng.normal(size=(count, 2)) * [2.0, 90.0])), inputs
+
+
+MODEL_NAMES = pytest.mark.parametrize("name", [ARM.name, FIVE.name])
+
+
+# -- linear algebra of the block ------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("size", [1, 2, 3, 4, 6])
+def test_adjugate_and_determinant_in_integers(size: int) -> None:
+    rng = np.random.default_rng(size)
+    numbers = sp.Matrix(size, size, [int(n) for n in rng.integers(-9, 10, size * size)])
+    numbers[size - 1, :] = numbers[0, :] if size == 4 else numbers[size - 1, :]  # a singular one
+    matrix = [[sp.Symbol(f"a_{i}{j}") for j in range(size)] for i in range(size)]
+    program = Program(ConstantStage(()))
+    inverse, value = adjugate(program, matrix)
+    outputs = [*(entry for row in inverse for entry in row), value]
+    outputs.append(determinant(program, "again", matrix))
+    function = program.function("f", "", {str(i): e for i, e in enumerate(outputs)})
+    values = {matrix[i][j]: numbers[i, j] for i in range(size) for j in range(size)}
+    for step in function.steps:
+        values[step.symbol] = step.expression.xreplace(values)
+    *found, first, second = [e.xreplace(values) for e in function.results]
+    assert sp.Matrix(size, size, found) == numbers.adjugate()
+    assert first == second == numbers.det()
+
+
+# -- against a closed form ------------------------------------------------------------------------
+
+
+def disguised_wishbone() -> tuple[dict[str, float], dict[str, float]]:
+    """Return parameters of both models: two links to one ball joint are a wishbone.
+
+    The rods have no mass, as has the upper arm: their motion is that of other bodies.
+    """
+    wishbone = {n: entry["default"] for n, entry in double_wishbone.PARAMETERS.items()}
+    wishbone |= {n: 0.0 for n in wishbone if re.match("upper_arm_(mass|inertia)", n)}
+    links = {p.name: p.default for p in CONTROL_ARM.parameters}
+    links |= {n: 0.0 for n in links if re.match(r"(\w+_link)_(mass|inertia)", n)}
+    links |= {n: v for n, v in wishbone.items() if n in links}
+    for ours, theirs in (
+        ("upper_link_inner", "upper_arm_front"),
+        ("camber_link_inner", "upper_arm_rear"),
+        ("upper_link_outer", "upper_ball_joint"),
+        ("camber_link_outer", "upper_ball_joint"),
+        ("toe_link_inner", "tie_rod_inner"),
+        ("toe_link_outer", "tie_rod_outer"),
+    ):
+        links |= {f"{ours}_{a}": wishbone[f"{theirs}_{a}"] for a in "xyz"}
+    links |= {n.replace("knuckle", "carrier"): v for n, v in wishbone.items() if "knuckle" in n}
+    return links, wishbone
+
+
+@pytest.mark.parametrize(
+    ("function", "tolerance"),
+    # of the largest entry; the derivatives see products of two badly scaled factors more
+    [("rhs", 1e-12), ("signals", 1e-12), ("mass_matrix", 1e-12), ("rhs_jacobian", 1e-11)],
+)
+def test_two_links_to_one_ball_joint_are_a_wishbone(
+    function: str, tolerance: float, built: Callable[[str], Built]
+) -> None:
+    ours, theirs = disguised_wishbone()
+    links = replace(built(ARM.name), parameters=ours)
+    state, inputs = states(links, 50)
+    constants = double_wishbone.prepare(theirs)
+    padded = np.zeros((50, len(double_wishbone.INPUTS)))
+    for i, name in enumerate(links.module.INPUTS):
+        padded[:, list(double_wishbone.INPUTS).index(name)] = inputs[:, i]
+    expected = getattr(double_wishbone, function)(state, padded, constants)
+    found = links(function, state, inputs)
+    if function == "signals":
+        places = [list(double_wishbone.SIGNALS).index(n) for n in links.module.SIGNALS]
+        expected = expected[:, places]
+    scale = np.abs(expected).max(axis=0)
+    np.testing.assert_allclose(found, expected, rtol=0.0, atol=tolerance * scale.max())
+
+
+# -- against a root finder ------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Links:
+    """The rods of a carrier as lengths between points, m; nothing of it is the project's."""
+
+    model: str
+    parameters: Mapping[str, float]
+
+    def point(self, name: str) -> Array:
+        return np.array([self.parameters[f"{name}_{a}"] for a in "xyz"])
+
+    def carried(self, angle: float, rack: float) -> tuple[dict[str, Array], Array]:
+        """Return the inner ends of the rods, and where the ball joint of an arm is."""
+        inner = {rod: self.point(f"{rod}_inner") for rod in RODS[self.model]}
+        inner["toe_link"] = inner["toe_link"] + [0.0, rack, 0.0]
+        if self.model == FIVE.name:
+            turn = self._turn(self.point("rocker_axis"), angle)
+            pivot = self.point("rocker_pivot")
+            inner["push_rod"] = pivot + turn.apply(inner["push_rod"] - pivot)
+            return inner, np.zeros(3)
+        rear, front = self.point("lower_arm_rear"), self.point("lower_arm_front")
+        turn = self._turn(front - rear, angle)
+        return inner, rear + turn.apply(self.point("lower_ball_joint") - rear)
+
+    @staticmethod
+    def _turn(axis: Array, angle: float) -> Rotation:
+        return Rotation.from_rotvec(angle * axis / np.linalg.norm(axis))
+
+    def solve(self, angle: float, rack: float) -> Array:
+        """Return where the wheel centre is; followed from the design position in small steps."""
+        unknowns = np.zeros(3 if self.model == ARM.name else 6)
+        outer = np.array([self.point(f"{rod}_outer") for rod in RODS[self.model]])
+        lengths = np.linalg.norm(outer - [*self.carried(0.0, 0.0)[0].values()], axis=1)
+        start = self.carried(0.0, 0.0)[1]
+        for part in np.linspace(0.0, 1.0, 11):
+            ends, pin = self.carried(part * angle, part * rack)
+            inner = np.array([*ends.values()])
+
+            def left(x: Array, inner: Array = inner, pin: Array = pin) -> Array:
+                placed = self._placed(x, outer - start, pin)
+                return np.linalg.norm(placed - inner, axis=1) - lengths
+
+            unknowns = root(left, unknowns, tol=1e-14).x
+        assert np.abs(left(unknowns)).max() < 1e-14
+        return self._placed(unknowns, self.point("wheel_center") - start, pin)
+
+    @staticmethod
+    def _placed(x: Array, local: Array, pin: Array) -> Array:
+        shift = x[3:] if len(x) > 3 else pin
+        return Rotation.from_rotvec(x[:3]).apply(local) + shift
+
+
+@MODEL_NAMES
+def test_the_wheel_is_where_a_root_finder_puts_it(name: str, built: Callable[[str], Built]) -> None:
+    model = built(name)
+    links = Links(name, model.parameters)
+    columns = [list(model.module.SIGNALS).index(f"wheel_center_{a}") for a in "xyz"]
+    for angle, rack in product(TRAVEL[name] * np.linspace(-1, 1, 7), (-0.03, 0.0, 0.03)):
+        state = np.array([model.design[0] + angle, 0.0, 0.0, 0.0])
+        inputs = np.array([rack, 0.0, 0.0, 0.0])
+        found = model("signals", state, inputs)[columns]
+        # 1e-14: the rounding of lengths below 1 m, over a determinant of a tenth
+        np.testing.assert_allclose(found, links.solve(angle, rack), rtol=0.0, atol=1e-14)
+
+
+# -- against maximal coordinates ------------------------------------------------------------------
+
+
+@MODEL_NAMES
+def test_bodies_fulfil_all_joints(name: str, built: Callable[[str], Built]) -> None:
+    model = built(name)
+    for state, inputs in zip(*states(model, 30), strict=True):
+        closure = model.oracle.closure(model.motion(state, inputs))
+        np.testing.assert_allclose(closure.value, 0.0, atol=1e-15 * 10)  # lengths below 1 m
+        np.testing.assert_allclose(closure.rate, 0.0, atol=1e-15 * 10 * np.abs(state[2:]).max())
+
+
+@MODEL_NAMES
+def test_accelerations_are_those_of_the_maximal_coordinates(
+    name: str, built: Callable[[str], Built]
+) -> None:
+    model = built(name)
+    for state, inputs in zip(*states(model, 30), strict=True):
+        motion = model.motion(state, inputs)
+        oracle = model.oracle.reduced(motion, model.named(inputs), {"rack_guide": inputs[2]})
+        inverse = np.abs(np.linalg.inv(oracle.mass_matrix))
+        scale = (inverse @ (np.abs(oracle.applied) + np.abs(oracle.inertial))).max()
+        found = model("rhs", state, inputs)[2:]
+        np.testing.assert_allclose(found, oracle.accelerations, rtol=0.0, atol=1e-12 * scale)
+        np.testing.assert_allclose(
+            model("mass_matrix", state, inputs), oracle.mass_matrix, rtol=0.0, atol=1e-12
+        )
+
+
+@MODEL_NAMES
+def test_a_rack_that_is_held_stands_still(name: str, built: Callable[[str], Built]) -> None:
+    model = built(name)
+    state, inputs = states(model, 20)
+    still = inputs * [1.0, 0.0, 0.0, 1.0]
+    np.testing.assert_allclose(
+        model("rhs_rack_held", state, inputs), model("rhs", state, still), rtol=1e-11, atol=1e-9
+    )
+
+
+def test_energy_stays_where_nothing_dissipates(built: Callable[[str], Built]) -> None:
+    lossless = {"damper_rate": 0.0, "tyre_rate": 0.0, "spring_free_length": 0.45}
+    model = replace(built(ARM.name), parameters={**built(ARM.name).parameters, **lossless})
+    start = np.array([*model.design, 2.0, 30.0])
+    result = solve_ivp(
+        lambda _, y: model("rhs", y), (0.0, 0.05), start, "DOP853", rtol=1e-11, atol=1e-11
+    )
+    assert result.success
+    inputs = np.zeros(len(model.module.INPUTS))
+    energies = [model.oracle.energy(model.motion(y, inputs)) for y in result.y.T]
+    # the integrator's tolerance, of the energy that changes hands
+    assert np.ptp(energies) < 1e-8 * np.ptp(0.5 * 30.0 * result.y[2] ** 2)
+
+
+# -- derivatives ----------------------------------------------------------------------------------
+
+
+@MODEL_NAMES
+@pytest.mark.parametrize("by", ["state", "inputs"])
+def test_jacobians_are_exact(
+    name: str,
+    by: str,
+    built: Callable[[str], Built],
+    derive: Callable[[str], GeneratedModel],
+) -> None:
+    # central differences in 50 digits: every perturbed state is solved anew, to 50 digits as well
+    model, derived = built(name), derive(name)
+    state, inputs = (values[0] for values in states(model, 1, seed=3))
+    found = model("rhs_jacobian" if by == "state" else "rhs_input_jacobian", state, inputs)
+    with mpmath.workdps(50):
+        rhs, step = python(derived.functions["rhs"]), mpmath.mpf("1e-15")
+        values = constants_of(derived, model.parameters)
+        values |= {n: mpmath.mpf(v) for n, v in model.named(inputs).items()}
+        values |= dict(zip(model.module.STATE, map(mpmath.mpf, state), strict=True))
+        columns = []
+        for variable in model.module.STATE if by == "state" else model.module.INPUTS:
+            ahead, behind = (rhs(values | {variable: values[variable] + h}) for h in (step, -step))
+            columns.append(
+                [float((a - b) / (2 * step)) for a, b in zip(ahead, behind, strict=True)]
+            )
+    expected = np.transpose(columns)
+    scale = np.abs(expected).max(axis=1, keepdims=True)
+    scale[scale == 0.0] = 1.0
+    np.testing.assert_allclose(found / scale, expected / scale, rtol=0.0, atol=1e-12)
+
+
+@MODEL_NAMES
+def test_signals_jacobian_is_exact(name: str, built: Callable[[str], Built]) -> None:
+    model = built(name)
+    state, inputs = (values[0] for values in states(model, 1, seed=4))
+    h = 1e-5
+    ahead, behind = (model("signals", state + s * h * np.eye(4), inputs) for s in (1, -1))
+    expected = ((ahead - behind) / (2 * h)).T
+    scale = np.abs(expected).max(axis=1, keepdims=True) + np.abs(ahead[0])[:, None]
+    # 1e-8: differences in double precision
+    np.testing.assert_allclose(
+        model("signals_jacobian", state, inputs) / scale, expected / scale, rtol=0.0, atol=1e-8
+    )
+
+
+# -- where it fails -------------------------------------------------------------------------------
+
+
+@MODEL_NAMES
+def test_out_of_reach_is_an_error_with_the_loop(name: str, built: Callable[[str], Built]) -> None:
+    model = built(name)
+    state = np.array([*model.design, 0.0, 0.0])
+    inputs = np.array([1.5, 0.0, 0.0, 0.0])  # the rack: no toe link is that long
+    rods = ", ".join(RODS[name])
+    with pytest.raises(ClosureError, match=f"loops of carrier through {rods} cannot close") as told:
+        model("rhs", state, inputs)
+    assert told.value.margins["carrier_closure"] < 0.0
+    assert str(ITERATIONS) in str(told.value)
+
+
+@MODEL_NAMES
+def test_wherever_it_is_asked_it_closes_or_says_that_it_does_not(
+    name: str, built: Callable[[str], Built]
+) -> None:
+    model, rng = built(name), np.random.default_rng(1)
+    closed = refused = 0
+    for _ in range(80):
+        state = np.array([*(model.design + rng.uniform(-np.pi, np.pi, 2)), 1.0, 1.0])
+        inputs = np.array([rng.uniform(-0.5, 0.5), 1.0, 1.0, 0.0])
+        try:
+            motion = model.motion(state, inputs)
+        except ClosureError:
+            refused += 1
+            continue
+        closed += 1
+        assert np.isfinite(motion.twist).all()
+        # next to a singular position as well: positions are as exact as the lengths of the rods
+        assert np.abs(model.oracle.closure(motion).value).max() < 1e-12
+    assert min(closed, refused) > 10
+
+
+def test_up_to_the_end_of_the_reach(built: Callable[[str], Built]) -> None:
+    """Bisection for the angle at which the rods lose their hold: closed before, refused behind."""
+    model = built(ARM.name)
+    inside, outside = 0.3, 0.9
+
+    def margin(angle: float) -> float:
+        state = np.array([model.design[0] + angle, 0.0, 0.0, 0.0])
+        return float(model("margins", state)[0])
+
+    for _ in range(60):
+        middle = (inside + outside) / 2
+        inside, outside = (middle, outside) if margin(middle) > 0.0 else (inside, middle)
+    assert 0.3 < inside < 0.9
+    for distance in (1e-2, 1e-4, 1e-6, 1e-8):
+        assert 0.0 < margin(inside - distance) < np.sqrt(distance)  # a square root, as at any fold
+        assert margin(inside + distance) < 0.0
+        state = np.array([model.design[0] + inside - distance, 0.0, 0.0, 0.0])
+        motion = model.motion(state, np.zeros(len(model.module.INPUTS)))
+        assert np.abs(model.oracle.closure(motion).value).max() < 1e-13
+
+
+def test_what_is_not_finite_is_refused(built: Callable[[str], Built]) -> None:
+    model = built(ARM.name)
+    for value in (np.nan, np.inf):
+        with pytest.raises(ModelError, match="arm_angle"):
+            model("rhs", np.array([value, 0.0, 0.0, 0.0]))
+
+
+# -- C --------------------------------------------------------------------------------------------
+
+
+@needs_gcc
+def test_c_computes_what_numpy_computes(
+    built: Callable[[str], Built],
+    derive: Callable[[str], GeneratedModel],
+    tmp_path: Path,
+) -> None:
+    arrays = built(ARM.name)
+    folder = tmp_path / f"{ARM.name}-c"
+    folder.mkdir()
+    # compiled without optimisation, which takes a third of the time
+    build(derive(ARM.name), folder, Compiler(("gcc", *FLAGS, *STRICT, "-O0"), "of the tests"))
+    compiled = replace(arrays, module=load(folder))
+    state, inputs = states(arrays, 200)
+    for function in ("rhs", "rhs_jacobian", "positions", "signals", "margins"):
+        found, expected = compiled(function, state, inputs), arrays(function, state, inputs)
+        # the last digits of sines and cosines differ, and with them when an iteration ends
+        atol = 1e-12 * np.abs(expected).max(axis=0)
+        assert (np.abs(found - expected) <= atol).all(), function
+    state[:, 0] += np.linspace(-1.5, 1.5, len(state))
+    for one, given in zip(state, inputs, strict=True):
+        outcomes = []
+        for model in (arrays, compiled):
+            try:
+                outcomes.append(model("positions", one, given))
+            except ClosureError as error:
+                outcomes.append(tuple(error.margins))
+        assert type(outcomes[0]) is type(outcomes[1])
+    text = (folder / f"{ARM.name}.c").read_text()
+    assert text.count("for (int i = 0; i < ITERATIONS; ++i)") == 1
+    assert f"#define ITERATIONS {ITERATIONS}\n" in text
+    rest = kintrafo.System(compiled.module).state()
+    result = kintrafo.simulate(kintrafo.System(compiled.module), (0.0, 0.2), rest)
+    assert np.isfinite(result.y).all()
+
+
+@MODEL_NAMES
+def test_documents_say_that_it_iterates(name: str, built: Callable[[str], Built]) -> None:
+    module = built(name).module
+    assert "This model is not free of iteration." in module.__doc__
+    assert f"held by {', '.join(RODS[name])}" in " ".join(module.__doc__.split())
+    assert "iterates: pose_of_carrier" in module.rhs.__doc__
+    assert "iterates" not in module.relative_coordinates.__doc__
+    assert "not free of iteration" not in double_wishbone.__doc__
+
+
+def test_report_names_the_equations_of_the_loops(
+    derive: Callable[[str], GeneratedModel],
+) -> None:
+    text = markdown(derive(ARM.name))
+    assert "This model is not free of iteration." in text
+    for rod in RODS[ARM.name]:
+        assert f"|{rod}_outer - {rod}_inner| = length of {rod}" in text
+    assert text.count("no closed form: 3 equations for the pose of carrier") == 3
+
+
+# -- what is refused ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("model", MODELS, ids=lambda m: m.name)
+def test_without_permission_the_loop_is_refused(model: Any) -> None:
+    with pytest.raises(NoClosedFormError) as told:
+        Plan.of(replace(model, allow_iteration=False))
+    text = str(told.value)
+    assert "has no closed form in the catalogue" in text
+    assert "leaves 1 equation(s)" in text
+    count = len(RODS[model.name])
+    assert f"held by {', '.join(RODS[model.name])} together: {count} equations remain" in text
+    assert "allow_iteration=True" in text
+    with pytest.raises(kintrafo.MechanismError, match="allow_iteration=True"):
+        kintrafo.compile(replace(model, allow_iteration=False))
+
+
+def with_joints(mechanism: Mechanism, **joints: Any) -> Mechanism:
+    """Return a mechanism with some of its joints declared otherwise; None leaves one out."""
+    kept = [joints.get(j.name, j) for j in mechanism.joints]
+    return replace(mechanism, joints=tuple(j for j in kept if j is not None))
+
+
+def test_a_hinge_in_place_of_a_ball_joint_has_no_block() -> None:
+    """What is neither a body on rods nor in the catalogue is refused, permission or not."""
+    hinge = Revolute(
+        name="lower_ball",
+        first="lower_arm",
+        second="carrier",
+        axis=Line(Point("lower_ball_joint"), Direction("spin_axis")),
+    )
+    model = replace(ARM, mechanism=with_joints(CONTROL_ARM, lower_ball=hinge))
+    with pytest.raises(NoClosedFormError, match="no closed") as told:
+        Plan.of(model)
+    assert "allow_iteration" not in str(told.value)
+
+
+def test_rods_on_the_ground_only_cannot_move() -> None:
+    """The body they hold is a part of the ground, and its inertia is none of the equations'."""
+    at_rest = {
+        f"{rod}_cross": replace(FIVE_LINK.joint(f"{rod}_cross"), first="chassis")
+        for rod in ("toe_link", "push_rod")
+    }
+    model = replace(FIVE, mechanism=with_joints(FIVE_LINK, **at_rest))
+    with pytest.raises(NoClosedFormError, match=r"carrier, held by upper_link, .* cannot move"):
+        generate(model)
