@@ -1,11 +1,12 @@
 """The input file of a double wishbone: what it says, and what is refused."""
 
 import pickle
+from importlib import resources
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kintrafo import InputError, Model, Suspension
+from kintrafo import InputError, Model, Suspension, equilibrium
 from kintrafo.generated import double_wishbone
 from kintrafo.input.double_wishbone import DoubleWishbone
 from kintrafo.input.macpherson import MacPherson
@@ -240,3 +241,19 @@ def test_whatever_stands_in_a_file_ends_in_a_readable_error_or_a_model(changes):
     except InputError:
         return
     Model(car)
+
+
+@pytest.mark.parametrize(
+    ("key", "instead_of"), [("free_length_mm", "force_at_design_N"), ("radius_mm", "")]
+)
+def test_commented_keys_of_the_starter_file_are_valid(key, instead_of, tmp_path):
+    text = (resources.files("kintrafo") / "data" / "double_wishbone_car.toml").read_text("utf-8")
+    assert f"# {key} = " in text
+    text = text.replace(f"# {key} = ", f"{key} = ")
+    if instead_of:
+        text = text.replace(f"{instead_of} = ", f"# {instead_of} = ")
+    (tmp_path / "car.toml").write_text(text, encoding="utf-8")
+    rest = equilibrium(Model(tmp_path / "car.toml"))
+    # the length in the comment is rounded to 0.1 mm
+    height = float(Model(CAR).signal("wheel_center_z", rest))
+    assert height == pytest.approx(0.3, abs=1e-4)

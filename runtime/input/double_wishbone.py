@@ -94,8 +94,10 @@ class DoubleWishboneHardpoints(Hardpoints):
             problems += self.cross_problems(_TIE_ROD, "tie rod", _UP, "the vertical")
         if axis is not None:
             problems += self._upside_down()
-            problems += [] if "upper arm" in bad else self._dead_centre(axis)
-            problems += [] if bad & {"knuckle", "tie rod"} else self.steering_problems(axis)
+            if "upper arm" not in bad:
+                problems += self._dead_centre(axis)
+            if not bad & {"knuckle", "tie rod"}:
+                problems += self.steering_problems(axis)
         return problems
 
     def _upside_down(self) -> list[str]:
