@@ -218,7 +218,7 @@ def spatial_four_bar(name: str, *, cross_at_rocker: bool = False) -> Model:
             hinge("drive", "ground", "crank", "crank_bearing", "crank_line"),
             *rod,
             # its second body is the ground: the angle counts the other way round
-            hinge("pivot", "rocker", "ground", "rocker_bearing", "rocker_line"),
+            hinge("pivot", "rocker", "ground", "rocker_bearing", "rocker_line", to="ground_seat"),
         ),
         {
             "crank_bearing": (0.0, 0.0, 0.0),

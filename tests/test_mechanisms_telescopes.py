@@ -14,11 +14,12 @@ from typing import TYPE_CHECKING, Any
 import mpmath
 import numpy as np
 import pytest
-from kintrafo.generator.actions import PlaceTelescope, SolveHinge, SolveStroke
+from kintrafo.generator.actions import PlaceTelescope, SolveHinge, SolveSlide, SolveStroke
 from kintrafo.generator.geometry import Direction
 from kintrafo.generator.joints import Prismatic, Revolute, Spherical, Universal
 from kintrafo.generator.mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
 from kintrafo.generator.mechanisms.planar import flat, hinge, inertia, places
+from kintrafo.generator.mechanisms.slider_crank import MODELS as SLIDER_CRANKS
 from kintrafo.generator.outputs import generate
 from kintrafo.generator.transformer import NoClosedFormError, Plan
 from mpmath import mpf
@@ -284,9 +285,8 @@ def test_equations_of_motion_before_the_end(built: Built, which: str, before: fl
 
 
 @needs_gcc
+@pytest.mark.parametrize("built", ["bore"], indirect=True)
 def test_a_cylinder_drawn_in_beyond_its_pins_is_named(built: Built) -> None:
-    if "pivot" in built.model.independent:
-        pytest.skip("the stroke follows")
     at_once = Built.of(built.model, built.module, {"piston_pin_x": BASE, "piston_pin_y": 0.2})
     with pytest.raises(built.module.ClosureError, match="drawn in until its pins") as error:
         at_once("rhs", np.array([-0.2, 0.0]))
@@ -296,10 +296,10 @@ def test_a_cylinder_drawn_in_beyond_its_pins_is_named(built: Built) -> None:
 # -- declarations ---------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("driven", ["pivot", "bore"])
+@pytest.mark.parametrize("driven", ["pivot", "bore", "A", "guide"])
 def test_any_order_of_declaration(driven: str) -> None:
-    """Joints in any order, and those that are not driven from either end."""
-    model = crane(driven)
+    """Joints in any order, and those that are not driven from either end: crane, slider-crank."""
+    model = crane(driven) if driven in ("pivot", "bore") else sliding(driven)
     free = [j.name for j in model.mechanism.joints if j.name != driven]
     for order in permutations(model.mechanism.joints):
         for flips in product([False, True], repeat=len(free)):
@@ -310,7 +310,17 @@ def test_any_order_of_declaration(driven: str) -> None:
             assert kinds == ANSWERS[driven]
 
 
-ANSWERS = {"pivot": [SolveStroke], "bore": [SolveHinge, PlaceTelescope]}
+ANSWERS: dict[str, list[type]] = {
+    "pivot": [SolveStroke],
+    "bore": [SolveHinge, PlaceTelescope],
+    "A": [SolveSlide],
+    "guide": [SolveHinge],
+}
+
+
+def sliding(driven: str) -> Model:
+    """Return the slider-crank, its crank or its piston driven."""
+    return replace(SLIDER_CRANKS[0], independent=(driven,))
 
 
 def reversed_joint(joint: Joint) -> Joint:
