@@ -33,9 +33,9 @@ from .placement import Placed, to_axes
 from .vectors import ELEMENTS, SymmetricTensor, Twist, Vector
 
 if TYPE_CHECKING:
-    from .kinematics import Kinematics
     from .laws import Law
     from .mechanism import Body
+    from .parts import Parts
 
 NONE = sp.Integer(0)
 
@@ -87,7 +87,7 @@ class Dynamics:
         What the force elements show, by name.
     """
 
-    def __init__(self, kin: Kinematics) -> None:
+    def __init__(self, kin: Parts) -> None:
         self.kin = kin
         self.program = kin.program
         self.names = kin.independent
@@ -139,7 +139,8 @@ class Dynamics:
         if body.rotor_axis is None:
             return SymmetricTensor(*(sp.Symbol(f"{body.name}_inertia_{e}") for e in ELEMENTS))
         spin, across = self._rotor_moments(body)
-        axis = self.kin.to_chassis(self.kin.design_direction(body.rotor_axis))
+        part = self.kin.of(body.name)
+        axis = part.to_chassis(part.design_direction(body.rotor_axis))
         axis = self.program.vector(f"{body.name}_rotor_axis", axis)
         tensor = SymmetricTensor.transverse(across, axis)
         x, y, z = axis
@@ -155,9 +156,9 @@ class Dynamics:
 
     def _chassis_axes(self, placed: Placed) -> tuple[Vector, Vector, Vector]:
         """Return the body axes at the design position, in chassis axes."""
-        names = ("first", "second", "third")
+        names, part = ("first", "second", "third"), self.kin.of(placed.body)
         x, y, z = (
-            self.program.vector(f"{placed.body}_{name}_in_chassis", self.kin.to_chassis(axis))
+            self.program.vector(f"{placed.body}_{name}_in_chassis", part.to_chassis(axis))
             for name, axis in zip(names, placed.design_axes, strict=True)
         )
         return x, y, z
@@ -286,7 +287,7 @@ class Dynamics:
 
     def up_in(self, placed: Placed) -> Vector:
         """Return the upward unit vector in body axes."""
-        up = to_axes(placed.axes, self.kin.design_direction(UP))
+        up = to_axes(placed.axes, self.kin.of(placed.body).design_direction(UP))
         return self.program.vector(f"{placed.body}_up", up, "123")
 
     def _add_weight(self, force: Weight) -> None:
@@ -334,11 +335,7 @@ class Dynamics:
         if isinstance(element.path, TwistOfHinges):
             return self._twist_of(element.path)
         program, name = self.program, element.name
-        first, second = (
-            self.kin.point_motion(body, point)
-            for body, point in (element.path.first, element.path.second)
-        )
-        relative = second.minus(first)
+        relative = self.kin.relative_motion(element.path.first, element.path.second)
         span = program.vector(f"{name}_span", relative.position)
         squared = program.guarded(
             f"{name}_length_squared", span.dot(span), f"the ends of {name} coincide", "m^2"
@@ -357,8 +354,9 @@ class Dynamics:
         for sense, name in ((-1, path.first), (1, path.second)):
             joint = self.kin.mechanism.joint(name)
             assert isinstance(joint, Revolute)
-            twist += sense * angle_of(self.kin, joint)
-            for k, rate in turning_rates(self.kin, joint).items():
+            part = self.kin.of_joint(joint)
+            twist += sense * angle_of(part, joint)
+            for k, rate in turning_rates(part, joint).items():
                 motion[k] += sense * rate
         return twist, {k: rate for k, rate in motion.items() if rate != 0}
 
@@ -369,8 +367,8 @@ class Dynamics:
         up = self.up_in(carrier)
         axis = self.kin.local_direction(carrier, force.spin)
         lean = program.define(f"{prefix}wheel_axis_up", axis.dot(up))
-        ground = self.kin.design_direction(UP)
-        height_of_origin = carrier.origin.dot(ground) + self._origin_height()
+        part = self.kin.of(carrier.body)
+        height_of_origin = carrier.origin.dot(part.design_direction(UP)) + part.work_origin.z
         height = program.define(f"{prefix}wheel_height", height_of_origin + center.dot(up))
         pull = program.vector(f"{prefix}tyre_pull", up - axis * lean, "123")
         # not 1 - lean^2: of a wheel that lies flat, rounding would leave something positive
@@ -419,9 +417,6 @@ class Dynamics:
             twist.linear + twist.angular.cross(center),
             "123",
         )
-
-    def _origin_height(self) -> sp.Expr:
-        return self.kin.work_origin.z
 
     def _add_joint_force(self, force: JointForce) -> None:
         if force.joint in self.kin.model.independent:

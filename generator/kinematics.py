@@ -17,9 +17,10 @@ from .placement import IDENTITY, Axes, OffLine, OnLine, Placed, PointMotion, fro
 from .vectors import NO_TWIST, UNIT_X, UNIT_Z, ZERO, Twist, Vector
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Collection, Iterable, Iterator
 
-    from .mechanism import Body
+    from .actions import Action
+    from .mechanism import Body, RelativeCoordinate
     from .program import Program
     from .transformer import Plan
 
@@ -35,6 +36,8 @@ class Kinematics:
         What to solve, in which order.
     held
         Prescribed joints that stand still in this variant.
+    bodies
+        Those to place, with the ground: all, or a part that can be solved by itself.
 
     Notes
     -----
@@ -48,12 +51,19 @@ class Kinematics:
     at the ground-fixed point of the first transformer.
     """
 
-    def __init__(self, program: Program, plan: Plan, held: Iterable[str] = ()) -> None:
+    def __init__(
+        self,
+        program: Program,
+        plan: Plan,
+        held: Iterable[str] = (),
+        bodies: Collection[str] | None = None,
+    ) -> None:
         self.program = program
         self.plan = plan
         self.model = plan.model
         self.mechanism = plan.model.mechanism
         self.held = frozenset(held)
+        self.bodies = frozenset(plan.topology.graph if bodies is None else bodies)
         self.coordinates = {
             self.coordinate_of(j): sp.Symbol(self._coordinate_symbol(j)) for j in self._driven
         }
@@ -161,6 +171,7 @@ class Kinematics:
                 j
                 for j in self._driven
                 if isinstance(j, Revolute) and j.first == self.mechanism.ground and j.angle_to
+                if j.second in self.bodies
             ),
             None,
         )
@@ -176,7 +187,7 @@ class Kinematics:
         self.placed[ground] = Placed(ground)
 
     def _ground_anchor(self) -> Vector:
-        for action in self.plan.actions:
+        for action in self._actions:
             if isinstance(action, SolveTelescope) and action.anchor_body == self.mechanism.ground:
                 return action.anchor.position
         return ZERO
@@ -301,8 +312,27 @@ class Kinematics:
 
     # -- carrying out the plan ------------------------------------------------------------------
 
+    @property
+    def _actions(self) -> list[Action]:
+        """The actions of the plan that have no bodies but those of this part."""
+        everybody = self.plan.topology.graph
+        return [
+            action
+            for action in self.plan.actions
+            if all(b in self.bodies for b in vars(action).values() if b in everybody)
+        ]
+
+    @property
+    def reported(self) -> list[RelativeCoordinate]:
+        """The relative coordinates of the report at the joints of this part."""
+        return [
+            c
+            for c in self.mechanism.coordinates
+            if self.bodies.issuperset(self.mechanism.joint(c.joint).bodies)
+        ]
+
     def _run(self) -> None:
-        for action in self.plan.actions:
+        for action in self._actions:
             self.program.section(action.title)
             if isinstance(action, PlaceByJoint):
                 self._place_by_joint(action)

@@ -11,8 +11,8 @@ from .arithmetic import SignOf
 from .checks import check_symbols
 from .dynamics import Dynamics
 from .forces import ForceElement, JointForce, LinearTyre
-from .kinematics import Kinematics
 from .laws import Actuator
+from .parts import Parts
 from .placement import IDENTITY, Placed, from_axes
 from .program import ConstantStage, Function, Guard, Program
 from .relative import RelativeCoordinates
@@ -93,9 +93,9 @@ class _Builder:
             derived={sp.Symbol(n): value for n, value in self.mechanism.derived.items()},
         )
         self.program = Program(self.constants)
-        self.kin = Kinematics(self.program, self.plan)
+        self.kin = Parts(self.program, self.plan)
         self.dynamics = Dynamics(self.kin)
-        self.relative = RelativeCoordinates(self.kin)
+        self.relative = {part: RelativeCoordinates(part) for part in self.kin.parts}
         self.functions: dict[str, Function] = {}
         self.signals: list[Entry] = []
         self.moving = tuple(b.name for b in self.mechanism.bodies[1:])
@@ -104,7 +104,7 @@ class _Builder:
     def build(self) -> GeneratedModel:
         self._add_dynamics(self.dynamics, "")
         for variant, joints in self.model.held.items():
-            held = Dynamics(Kinematics(Program(self.constants), self.plan, joints))
+            held = Dynamics(Parts(Program(self.constants), self.plan, joints))
             self._add_right_hand_side(held, f"_{variant}")
         self._add_relative()
         self._add_poses()
@@ -273,7 +273,7 @@ class _Builder:
     # -- relative kinematics ----------------------------------------------------------------------
 
     def _add_relative(self) -> None:
-        values = self.relative.values
+        values = self._in_order([relative.values for relative in self.relative.values()])
         names = self.kin.independent
         self._add("relative_coordinates", "Relative joint coordinates beta (Figure 3).", values)
         columns = [self.program.tangents(sp.Symbol(k), values.values(), f"by_{k}") for k in names]
@@ -291,16 +291,24 @@ class _Builder:
         self._add(
             "residuals",
             "Closure residuals g(beta, q) of Eqs. 4 to 13 for given beta.",
-            self.relative.residuals(),
+            {f"g_{name}": left for name, left in self._residuals().items()},
         )
-        if all(self.relative.reaches(body) for body in self.massive):
+        if all(self.relative[self.kin.of(body)].reaches(body) for body in self.massive):
             self._add_absolute(list(values))
         self._add_global()
+
+    def _residuals(self) -> dict[str, sp.Expr]:
+        return self._in_order([relative.residuals() for relative in self.relative.values()])
+
+    def _in_order(self, parts: Iterable[dict[str, sp.Expr]]) -> dict[str, sp.Expr]:
+        """Return what the parts have for each relative coordinate, in the order of the report."""
+        found = {name: value for part in parts for name, value in part.items()}
+        return {c.name: found[c.name] for c in self.mechanism.coordinates}
 
     def _add_absolute(self, betas: list[str]) -> None:
         results = {}
         for body in self.massive:
-            columns = self.relative.absolute_jacobian(body)
+            columns = self.relative[self.kin.of(body)].absolute_jacobian(body)
             for row, label in enumerate(self._twist_labels(body)):
                 for beta in betas:
                     angular, linear = columns.get(beta, (ZERO, ZERO))
@@ -342,7 +350,7 @@ class _Builder:
         center = self.kin.local(placed, self.mechanism.body(body).center)
         velocity = twist.linear + twist.angular.cross(center)
         parts = (from_axes(placed.axes, v) for v in (twist.angular, velocity))
-        return [c for part in parts for c in self.kin.to_chassis(part)]
+        return [c for part in parts for c in self.kin.of(body).to_chassis(part)]
 
     # -- poses ----------------------------------------------------------------------------------
 
@@ -384,13 +392,15 @@ class _Builder:
         """Return the centre of mass in chassis axes."""
         local = self.kin.local(placed, self.mechanism.body(placed.body).center)
         work = placed.origin + from_axes(placed.axes, local)
-        return self.kin.to_chassis(work) + self.kin.work_origin
+        part = self.kin.of(placed.body)
+        return part.to_chassis(work) + part.work_origin
 
     def _orientation(self, placed: Placed) -> dict[str, sp.Expr]:
         if placed.axes is IDENTITY:
             return {f"R{a}{b}": sp.Integer(int(a == b)) for a in AXES for b in AXES}
-        now = [self.kin.to_chassis(axis) for axis in placed.axes]
-        design = [self.kin.to_chassis(axis) for axis in placed.design_axes]
+        part = self.kin.of(placed.body)
+        now = [part.to_chassis(axis) for axis in placed.axes]
+        design = [part.to_chassis(axis) for axis in placed.design_axes]
         return {
             f"R{a}{b}": sum(
                 (getattr(n, a) * getattr(d, b) for n, d in zip(now, design, strict=True)),
@@ -438,7 +448,8 @@ class _Builder:
         center = self.kin.local(carrier, tyre.center)
         up = self.dynamics.up_in(carrier)
         work = carrier.origin + from_axes(carrier.axes, center)
-        position = self.kin.to_chassis(work) + self.kin.work_origin
+        part = self.kin.of(carrier.body)
+        position = part.to_chassis(work) + part.work_origin
         for axis, value in zip(AXES, position, strict=True):
             self._signal(
                 results, f"{prefix}wheel_center_{axis}", value, "m", f"wheel centre, {axis}"
@@ -478,7 +489,8 @@ class _Builder:
     ) -> None:
         prefix = self.mechanism.prefix(tyre)
         axis = from_axes(carrier.axes, self.kin.local_direction(carrier, tyre.spin))
-        a = self.program.vector(f"{prefix}spin_axis_now", self.kin.to_chassis(axis))
+        part = self.kin.of(carrier.body)
+        a = self.program.vector(f"{prefix}spin_axis_now", part.to_chassis(axis))
         side = self.program.define(f"{prefix}wheel_side", SignOf(tyre.center.position.y))
         self._signal(
             results,

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
-from .arithmetic import Component, Guarded, Iterated, Written, write
+from .arithmetic import Component, Guarded, Iterated, SignOf, Written, write
 from .vectors import Vector
 
 if TYPE_CHECKING:
@@ -172,14 +172,24 @@ class ConstantStage:
 
         The symbol has a number behind its name where something else has that name already.
         """
-        if expression in self._known:
-            return self._known[expression]
-        if -expression in self._known:
-            return -self._known[-expression]
+        form = self._form(expression)
+        if form in self._known:
+            return self._known[form]
+        negative = SignOf(-form.args[0]) if isinstance(form, SignOf) else -form
+        if negative in self._known:
+            return -self._known[negative]
         symbol = _first_free(name, lambda n: self.has(n) or n in self._varying)
         self.steps[symbol] = Step(symbol, expression, section)
-        self._known[expression] = symbol
+        self._known[form] = symbol
         return symbol
+
+    def _form(self, expression: sp.Expr) -> sp.Expr:
+        """Return the form by which a step is found again.
+
+        What a mirror image has alike, up to the sign, is often written with its brackets and signs
+        in other places; where there are copies, steps are compared when multiplied out.
+        """
+        return sp.expand(expression) if self.derived else expression
 
     def collect(self, expression: sp.Expr) -> sp.Expr:
         """Return a name for a constant part of an equation."""
@@ -187,7 +197,7 @@ class ConstantStage:
             return expression
         if expression.could_extract_minus_sign():
             return -self.collect(-expression)
-        if expression not in self._known:
+        if self._form(expression) not in self._known:
             self._collected += 1
         return self.define(
             f"constant_{self._collected}", expression, "constants collected from the equations"

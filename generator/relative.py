@@ -82,7 +82,7 @@ class RelativeCoordinates:
         self.mechanism = kin.mechanism
         self._shafts: dict[str, _Shaft] = {}
         self.program.section("relative coordinates")
-        self.values = {c.name: self._value(c) for c in self.mechanism.coordinates}
+        self.values = {c.name: self._value(c) for c in kin.reported}
 
     # -- values ---------------------------------------------------------------------------------
 
@@ -280,13 +280,13 @@ class RelativeCoordinates:
     # -- residuals --------------------------------------------------------------------------------
 
     def residuals(self) -> dict[str, sp.Expr]:
-        """Return g(beta, q): one residual for each relative coordinate (Eqs. 4 to 13).
+        """Return g(beta, q): one residual for each relative coordinate (Eqs. 4 to 13), by its name.
 
         The coordinates are inputs of their own, named ``given_<coordinate>``.
         """
         self.program.section("closure residuals")
         closure = _Closure(self)
-        return {f"g_{c.name}": closure.residual(c) for c in self.mechanism.coordinates}
+        return {c.name: closure.residual(c) for c in self.kin.reported}
 
 
 # Which component of the closure at the end of an offset telescope stands for which coordinate.

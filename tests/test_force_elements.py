@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from kintrafo.generator.dynamics import Dynamics
 from kintrafo.generator.forces import AlongLine, ForceElement
-from kintrafo.generator.kinematics import Kinematics
 from kintrafo.generator.laws import LinearDamper, LinearSpring
 from kintrafo.generator.mechanism import Parameter
 from kintrafo.generator.mechanisms import macpherson
+from kintrafo.generator.parts import Parts
 from kintrafo.generator.program import ConstantStage, Program
 from kintrafo.generator.transformer import Plan
 from oracle.reference import perturbed_parameters
@@ -32,7 +32,7 @@ def accelerations(model, parameters):
     symbols = tuple(Symbol(p.name) for p in model.mechanism.parameters)
     constants = ConstantStage(symbols)
     program = Program(constants)
-    dynamics = Dynamics(Kinematics(program, Plan.of(model)))
+    dynamics = Dynamics(Parts(program, Plan.of(model)))
     function = program.function("rhs", "", dict(dynamics.accelerations))
     prepare = constants.function([function])
     given = {name: mpmath.mpf(value) for name, value in parameters.items()}
