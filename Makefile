@@ -1,6 +1,6 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
-.PHONY: help setup generate build run test package lint types format baseline clean \
+.PHONY: drawings help setup generate build run test package lint types format baseline clean \
 	benchmark benchmark-andrews benchmark-growth benchmark-page benchmark-peers benchmark-speed format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
@@ -62,6 +62,9 @@ benchmark-andrews: build ## Andrews' squeezer here and as a differential-algebra
 
 benchmark-growth: build ## A chain of 1 to 40 loops: derivation, code and run time against its length
 	@$(PYTHON) -m benchmarks.growth --out out/benchmark --page docs/growth.md
+
+drawings: build ## The drawings of docs/ that are computed
+	@for script in docs/images/*.py; do $(PYTHON) $$script || exit; done
 
 report-assets: ## Bundle the HTML report's script and style again (needs Node.js)
 	@cd runtime/report/web && npm ci --silent && npm run --silent build

@@ -92,6 +92,8 @@ class TestSteeringAxis:
         car = car.with_changes({"hardpoints.wheel_center.y": wheel})
         assert at_design(car, "steering_axis_offset") == pytest.approx(0.050 * sign, abs=1e-12)
         assert at_design(car, "spindle_offset") == pytest.approx(0.050 * sign, abs=1e-12)
+        # the upright axis stands 5 mm ahead of the contact, too
+        assert at_design(car, "scrub_radius") == pytest.approx(np.hypot(0.050, 0.005), abs=1e-12)
 
 
 @side
@@ -109,18 +111,6 @@ class TestMotion:
         points = hardpoints(model, *at_rest(model, level[1400:1750], 0.0))
         rise = points["ball_joint"][:, 2] - CARS[side].hardpoints.metres("arm_rear")[2]
         assert np.interp(0.0, -rise, level[1400:1750]) == pytest.approx(np.pi / 2, abs=1e-6)
-
-    def test_changes_are_positive_outboard_and_forward(self, side):
-        model = Model(CARS[side])
-        found = travel(model, [0.05])
-        points = hardpoints(model, state_at_height(model, design_height(model) + 0.05))
-        shift = points["wheel_center"] - CARS[side].hardpoints.metres("wheel_center")
-        # the contact moves as the wheel centre does, but for camber and caster
-        lean = 0.3 * np.sin(one(found, "camber"))
-        assert one(found, "half_track_change") == pytest.approx(
-            OUTBOARD[side] * shift[1] - lean, abs=2e-3
-        )
-        assert one(found, "wheelbase_change") == pytest.approx(shift[0], abs=2e-3)
 
     def test_rack_moves_to_the_left(self, side):
         model = Model(CARS[side])
@@ -147,10 +137,96 @@ class TestMotion:
         assert lengths[1] < lengths[0]
         assert at_design(CARS[side], "motion_ratio") > 0.5
 
-    def test_roll_centre_height_is_that_of_a_level_car_above_the_ground(self, side):
-        """With the arm falling outboard, it is above the ground (Reimpell's construction)."""
-        assert at_design(CARS[side], "roll_center_height_geometric") > 0.0
-        assert at_design(CARS[side], "roll_center_height_kinematic") > 0.0
+
+STEP = 1e-5  # of the wheel's travel, to either side of design [m]
+
+
+def shift_in_bump(car, offset):
+    """Return how a point of the wheel carrier moves for a metre of wheel travel at design.
+
+    The point is so far from the wheel centre [m]. It is carried along by a small bump and rebound,
+    so that the error is that of a central difference: some ten STEP^2, and rounding over STEP.
+    """
+    model = Model(car)
+    knuckle = model.equations.BODIES.index("knuckle")
+    center = car.hardpoints.metres("wheel_center")
+    arm = center + offset - model.evaluate("positions", model.design_state)[knuckle]
+    ends = []
+    for rise in (STEP, -STEP):
+        state = state_at_height(model, design_height(model) + rise)
+        origin = model.evaluate("positions", state)[knuckle]
+        ends.append(origin + model.evaluate("orientations", state)[knuckle] @ arm)
+    return (ends[0] - ends[1]) / (2.0 * STEP)
+
+
+TO_GROUND = np.array([0.0, 0.0, -RIGHT.hardpoints.metres("wheel_center")[2]])
+TO_TOP = -TO_GROUND
+
+
+@side
+class TestInstantCentres:
+    def tilted(self, side, *, hinge=205.0, rear=0.0):
+        """Return the car with the arm's hinge at a height, its rear bearing so much higher [mm]."""
+        places = {"hardpoints.arm_front.z": hinge, "hardpoints.arm_rear.z": hinge + rear}
+        return CARS[side].with_changes(places)
+
+    @pytest.mark.parametrize(("hinge", "sign"), [(205.0, 1.0), (60.0, -1.0)])
+    def test_swing_arm_is_positive_with_the_top_leaning_inboard_in_bump(self, side, hinge, sign):
+        car = self.tilted(side, hinge=hinge)
+        top, ground = shift_in_bump(car, TO_TOP), shift_in_bump(car, TO_GROUND)
+        lean = -OUTBOARD[side] * (top - ground)[1] / (TO_TOP - TO_GROUND)[2]
+        assert np.sign(lean) == sign
+        # the contact rises by its distance from the centre times the angle
+        length = ground[2] / lean
+        assert at_design(car, "swing_arm_length_kinematic") == pytest.approx(length, rel=1e-7)
+        assert np.sign(at_design(car, "swing_arm_length_geometric")) == sign
+        assert np.sign(at_design(car, "camber_gradient")) == -sign
+
+    @pytest.mark.parametrize(("hinge", "sign"), [(205.0, 1.0), (120.0, -1.0)])
+    def test_roll_centre_is_above_when_the_contact_goes_outboard(self, side, hinge, sign):
+        car = self.tilted(side, hinge=hinge)
+        shift = shift_in_bump(car, TO_GROUND)
+        assert np.sign(shift[1]) == sign * OUTBOARD[side]
+        height = abs(car.hardpoints.metres("wheel_center")[1]) * OUTBOARD[side] * shift[1]
+        found = at_design(car, "roll_center_height_kinematic")
+        assert found == pytest.approx(height / shift[2], rel=1e-7)
+        assert np.sign(at_design(car, "roll_center_height_geometric")) == sign
+
+    @pytest.mark.parametrize("sign", [1.0, -1.0])
+    def test_anti_dive_is_positive_when_the_contact_goes_ahead(self, side, sign):
+        car = self.tilted(side, rear=60.0 * sign)
+        shift = shift_in_bump(car, TO_GROUND)
+        assert np.sign(shift[0]) == sign
+        slope = np.arctan2(shift[0], shift[2])
+        assert at_design(car, "side_view_swing_arm_angle") == pytest.approx(slope, abs=1e-7)
+        assert np.sign(at_design(car, "anti_dive")) == sign
+
+    @pytest.mark.parametrize("sign", [1.0, -1.0])
+    def test_hub_angle_and_wheelbase_change_are_positive_ahead(self, side, sign):
+        car = self.tilted(side, rear=60.0 * sign)
+        shift = shift_in_bump(car, np.zeros(3))
+        assert np.sign(shift[0]) == sign
+        slope = np.arctan2(shift[0], shift[2])
+        assert at_design(car, "side_view_hub_angle") == pytest.approx(slope, abs=1e-7)
+        change = one(travel(Model(car), [STEP]), "wheelbase_change")
+        assert np.sign(change) == sign
+
+    @pytest.mark.parametrize(("hinge", "sign"), [(205.0, 1.0), (120.0, -1.0)])
+    def test_half_track_change_is_positive_outboard(self, side, hinge, sign):
+        car = self.tilted(side, hinge=hinge)
+        outboard = OUTBOARD[side] * shift_in_bump(car, TO_GROUND)[1]
+        changes = travel(Model(car), [-STEP, STEP])["half_track_change"].values
+        assert np.sign(changes[1] - changes[0]) == sign
+        assert np.diff(changes)[0] / (2.0 * STEP) == pytest.approx(outboard, abs=1e-7)
+
+    @pytest.mark.parametrize(("height", "sign"), [(300.0, 1.0), (250.0, -1.0)])
+    def test_bump_steer_is_positive_with_the_front_going_inboard(self, side, height, sign):
+        car = CARS[side].with_changes({"hardpoints.tie_rod_inner.z": height})
+        ahead = np.array([0.3, 0.0, 0.0])
+        turned = shift_in_bump(car, ahead) - shift_in_bump(car, np.zeros(3))
+        inboard = -OUTBOARD[side] * turned[1] / ahead[0]
+        assert np.sign(inboard) == sign
+        assert at_design(car, "bump_steer") == pytest.approx(inboard, abs=1e-7)
 
 
 @pytest.mark.parametrize("name", sorted(travel(Model(RIGHT), [0.0]).data_vars))
