@@ -14,7 +14,7 @@ import pytest
 import sympy as sp
 from kintrafo.generator.checks import DeclarationError
 from kintrafo.generator.composition import combined, copy
-from kintrafo.generator.forces import ForceElement, JointForce, TwistOfHinges, Weight
+from kintrafo.generator.forces import AlongLine, ForceElement, JointForce, TwistOfHinges, Weight
 from kintrafo.generator.geometry import Direction, Line, Point
 from kintrafo.generator.joints import Revolute
 from kintrafo.generator.laws import Actuator, Friction, LinearDamper, LinearSpring, Stop
@@ -22,6 +22,7 @@ from kintrafo.generator.mechanism import Body, Mechanism, Model, Parameter, Rela
 from kintrafo.generator.mechanisms import double_wishbone, four_bar, macpherson, slider_crank
 from kintrafo.generator.outputs import generate
 from kintrafo.generator.parameters import direction, point, rigid_body
+from oracle.maximal import Motion, Oracle
 from oracle.reference import completed, general_parameters
 from own_models import Built, shipped
 from symbolic import constants_of, python
@@ -291,3 +292,73 @@ def test_moments_between_hinges_are_those_of_their_angles(order: tuple[str, str]
 def test_a_twist_of_what_is_no_hinge() -> None:
     with pytest.raises(DeclarationError, match="revolute joint 'elbw' is not declared"):
         pendulum("shoulder", "elbw")
+
+
+# -- parts in axes of their own --------------------------------------------------------------------
+
+
+def pair_of_pendulums(*, roped: bool) -> Model:
+    """Return a double pendulum and its mirror image, also with a spring from tip to tip."""
+    one = pendulum("shoulder", "elbow").mechanism
+    rope = ForceElement(
+        name="rope",
+        path=AlongLine(("a_lower", Point("a_tip")), ("b_lower", Point("b_tip"))),
+        laws=(LinearSpring(rate="rope_rate", free_length="rope_length"),),
+    )
+    both = combined(
+        "pendulums",
+        "Two pendulums",
+        [copy(one, "a_"), copy(one, "b_", mirrored=True)],
+        forces=(rope,) if roped else (),
+        parameters=(
+            Parameter("rope_rate", 80.0, "N/m", "rate of the rope"),
+            Parameter("rope_length", 0.3, "m", "free length of the rope"),
+        ),
+    )
+    joints = tuple(f"{prefix}{joint}" for prefix in "ab" for joint in ("_shoulder", "_elbow"))
+    bodies = tuple(f"{prefix}{body}" for prefix in "ab" for body in ("_upper", "_lower"))
+    return Model(
+        name="pendulums",
+        title="Two pendulums",
+        mechanism=both,
+        independent=joints,
+        massive=bodies,
+    )
+
+
+def test_a_spring_between_parts_is_that_of_the_maximal_coordinates() -> None:
+    model = pair_of_pendulums(roped=True)
+    derived = generate(model)
+    given = {p.name: p.default for p in model.mechanism.parameters}
+    state = [1.2, 0.6, 0.9, -0.4, 1.5, -0.8, 0.3, 2.0]
+    values = dict(zip([e.name for e in derived.state], state, strict=True))
+    inputs = {"a_motor": 1.3, "b_motor": -0.7}
+    values |= constants_of(derived, given) | inputs
+    twists = evaluated(derived, "velocities", values).reshape(-1, 6)
+    motion = Motion(
+        np.concatenate((np.zeros((1, 3)), evaluated(derived, "positions", values).reshape(-1, 3))),
+        np.concatenate(
+            (np.eye(3)[None], evaluated(derived, "orientations", values).reshape(-1, 3, 3))
+        ),
+        np.concatenate((np.zeros((1, 6)), np.roll(twists, 3, axis=1))),
+    )
+    oracle = Oracle(model, given)
+    np.testing.assert_allclose(oracle.closure(motion).value, 0.0, atol=1e-14)
+    found, expected = evaluated(derived, "rhs", values)[4:], oracle.reduced(motion, inputs, {})
+    scale = 1e-12 * np.abs(expected.accelerations).max()
+    np.testing.assert_allclose(found, expected.accelerations, rtol=0.0, atol=scale)
+    length = oracle.length(motion, model.mechanism.elements[-1])
+    signals = dict(
+        zip(derived.functions["signals"].labels, evaluated(derived, "signals", values), strict=True)
+    )
+    assert signals["rope_length"] == pytest.approx(length.value[0], rel=1e-14)
+    assert signals["rope_velocity"] == pytest.approx(length.rate[0], rel=1e-13)
+
+
+def test_a_mirror_image_has_the_constants_of_the_original() -> None:
+    one, both = (
+        generate(m) for m in (pendulum("shoulder", "elbow"), pair_of_pendulums(roped=False))
+    )
+    # what two parts have alike is one step, whatever the signs with which it enters them
+    assert len(both.prepare.steps) == len(one.prepare.steps)
+    assert len(both.prepare.results) == len(one.prepare.results)
