@@ -78,7 +78,12 @@ class Revolute(Joint):
 
 @dataclass(frozen=True, kw_only=True)
 class Prismatic(Joint):
-    """A guide along a direction; the slide is zero at the design position."""
+    """A guide along a direction; the slide is zero at the design position.
+
+    Between two links that are pinned to other bodies in the same plane it makes a telescope, such
+    as a hydraulic cylinder. Its direction may be that from pin to pin, `Direction.between`, or pass
+    beside them.
+    """
 
     direction: Direction
 
