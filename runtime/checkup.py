@@ -21,6 +21,9 @@ Array = NDArray[np.float64]
 # Where passenger cars have their wheel hop [Hz]: TRL Report SR12 UC, vehicles over discontinuities
 # of the road.
 USUAL_HOP = (10.0, 15.0)
+# Where the body of a comfortable passenger car has its frequency [Hz]: Audi, Self-Study Programme
+# 242, page 9.
+USUAL_RIDE = (1.0, 1.5)
 
 # Less travel than this between design and an end is worth a word [m].
 _LITTLE_TRAVEL = 0.040
@@ -44,6 +47,10 @@ class Equilibrium:
         Undamped natural frequency of the wheel-hop mode [Hz].
     damping_ratio : float
         Of that mode; above one where it does not oscillate.
+    ride_frequency : float or None
+        Undamped natural frequency of the body above a wheel at rest on the road: of the mass that
+        spring and stops carry, on their rate in series with the tyre's [Hz]. None where they carry
+        nothing or have no rate.
     """
 
     height: float
@@ -51,6 +58,7 @@ class Equilibrium:
     signals: dict[str, float]
     frequency: float
     damping_ratio: float
+    ride_frequency: float | None
 
 
 @dataclass(frozen=True)
@@ -141,7 +149,20 @@ def _equilibrium(model: Model) -> Equilibrium:
         signals=signals,
         frequency=mode.natural_frequency,
         damping_ratio=mode.damping_ratio,
+        ride_frequency=_ride_frequency(model, state),
     )
+
+
+def _ride_frequency(model: Model, state: Array) -> float | None:
+    at_rest = corner(model, state[model.state_names.index(model.names.arm)])
+    # a force acts at the wheel by its motion ratio (virtual work)
+    pushing = (at_rest.spring, *at_rest.stops)
+    carried = -sum(float(spring.force * spring.stroke.slope) for spring in pushing)
+    rate = float(wheel.ride_rate(at_rest))
+    gravity = model.suspension.gravity.acceleration_m_per_s2
+    if carried <= 0.0 or not rate > 0.0:
+        return None
+    return float(np.sqrt(rate * gravity / carried)) / (2.0 * np.pi)
 
 
 def _geometry(model: Model) -> dict[str, float]:

@@ -76,17 +76,23 @@ def _travel(found: "Checkup") -> dict[str, str]:
 
 
 def _rest(found: "Checkup") -> dict[str, str]:
-    from ..checkup import USUAL_HOP
+    from ..checkup import USUAL_HOP, USUAL_RIDE
 
     rest = found.equilibrium
     if rest is None:
         return {"equilibrium": "none"}
     forces = rest.signals
-    low, high = USUAL_HOP
-    return {
+    rows = {
         "equilibrium": f"wheel centre at {rest.height * 1e3:.3f} mm, "
         f"{rest.travel * 1e3 + 0.0:+.3f} mm from design",
         "forces there": f"tyre {forces['tyre_force']:.0f} N, spring {forces['spring_force']:.0f} N",
-        "wheel-hop mode": f"{rest.frequency:.2f} Hz (passenger cars: {low:g} to {high:g}), "
+        "wheel-hop mode": f"{_frequency(rest.frequency, USUAL_HOP)}, "
         f"damping ratio {rest.damping_ratio:.3f}",
     }
+    if rest.ride_frequency is not None:
+        rows["ride frequency"] = _frequency(rest.ride_frequency, USUAL_RIDE)
+    return rows
+
+
+def _frequency(value: float, usual: tuple[float, float]) -> str:
+    return f"{value:.2f} Hz (passenger cars: {usual[0]:g} to {usual[1]:g})"

@@ -1,0 +1,41 @@
+"""The ride frequency of a checkup, from the potential of the spring."""
+
+import numpy as np
+import pytest
+from kintrafo import Model, Suspension
+from kintrafo.checkup import as_dict, checkup
+from kintrafo.hardpoints import hardpoints
+from kintrafo.positions import state_at_height
+
+STEP = 1e-3  # of the wheel's height [m]
+
+
+def spring_energy(car, free_length, height):
+    """Return the energy of a spring between its two points, with the wheel at a height [J]."""
+    model = Model(car)
+    points = hardpoints(model, state_at_height(model, height))
+    length = np.linalg.norm(points["spring_top"] - points["spring_seat"])
+    return 0.5 * car.spring.rate_N_per_m * (length - free_length) ** 2
+
+
+def test_ride_frequency_from_the_potential_of_the_spring():
+    car = Suspension.load("double_wishbone_car")
+    found = checkup(Model(car)).equilibrium
+    length = car.hardpoints.distance("spring_top", "spring_seat")
+    free = length + car.spring.force_at_design_N / car.spring.rate_N_per_m
+    below, here, above = (
+        spring_energy(car, free, found.height + rise) for rise in (-STEP, 0.0, STEP)
+    )
+    load = (above - below) / (2.0 * STEP)
+    rate = (above - 2.0 * here + below) / STEP**2
+    both = 1.0 / (1.0 / rate + 1.0 / car.tyre.rate_N_per_m)
+    # central differences: relative error some STEP^2
+    expected = np.sqrt(both * 9.81 / load) / (2.0 * np.pi)
+    assert found.ride_frequency == pytest.approx(expected, rel=1e-5)
+
+
+def test_a_spring_that_carries_nothing_has_no_ride_frequency():
+    car = Suspension.load("reference_car").with_changes({"strut.spring_rate_N_per_m": 0.0})
+    found = checkup(Model(car))
+    assert found.equilibrium.ride_frequency is None
+    assert as_dict(found)["equilibrium"]["ride_frequency"] is None
