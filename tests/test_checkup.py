@@ -1,11 +1,17 @@
-"""The ride frequency of a checkup, from the potential of the spring."""
+"""The ride frequency of a checkup, from the potential of the spring; usual values on the page."""
+
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
 from kintrafo import Model, Suspension
-from kintrafo.checkup import as_dict, checkup
+from kintrafo.checkup import USUAL_HOP, USUAL_RIDE, as_dict, checkup
 from kintrafo.hardpoints import hardpoints
 from kintrafo.positions import state_at_height
+from kintrafo.report.tables import typical_ranges
+
+PAGE = Path(__file__).parents[1] / "docs/characteristics.md"
 
 STEP = 1e-3  # of the wheel's height [m]
 
@@ -39,3 +45,21 @@ def test_a_spring_that_carries_nothing_has_no_ride_frequency():
     found = checkup(Model(car))
     assert found.equilibrium.ride_frequency is None
     assert as_dict(found)["equilibrium"]["ride_frequency"] is None
+
+
+def test_the_page_has_the_ranges_that_are_used():
+    """Each line of the table: names or words, the range with its unit, the source."""
+    _, _, table = PAGE.read_text(encoding="utf-8").partition("## Where passenger cars lie")
+    table, _, _ = table.partition("\n## ")
+    written = {}
+    for names, low, high, unit in re.findall(
+        r"^\| (.+?) \| (-?[\d.]+) to (-?[\d.]+) ?(\S*) \|", table, flags=re.MULTILINE
+    ):
+        for name in re.findall(r"`(\w+)`", names) or [names]:
+            written[name] = float(low), float(high), unit
+    used = {
+        name: (usual["low"], usual["high"], usual["unit"])
+        for name, usual in typical_ranges("macpherson").items()
+    }
+    used |= {"ride frequency": (*USUAL_RIDE, "Hz"), "wheel hop": (*USUAL_HOP, "Hz")}
+    assert written == used
