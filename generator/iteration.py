@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from .program import Function
 
 ITERATIONS = 30
-"""Most iterations of a block. From anywhere near a solution it takes four or five."""
+"""Most iterations of a block. Within the travel of a suspension it takes four to six."""
 
 CONVERGED = "1.0e-13"
 """Length of a correction that ends a block: that of its rounding."""

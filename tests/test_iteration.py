@@ -31,6 +31,7 @@ from kintrafo.generator.transformer import NoClosedFormError, Plan
 from kintrafo.own.build import build
 from kintrafo.own.compiler import FLAGS, Compiler
 from kintrafo.own.loader import load
+from own_mechanisms import declare, hinge
 from own_models import STRICT, Built, needs_gcc
 from scipy.integrate import solve_ivp
 from scipy.optimize import root
@@ -483,6 +484,35 @@ def test_a_hinge_in_place_of_a_ball_joint_has_no_block() -> None:
     with pytest.raises(NoClosedFormError, match="no closed") as told:
         Plan.of(model)
     assert "allow_iteration" not in str(told.value)
+
+
+def test_a_chain_of_six_hinges_is_refused() -> None:
+    """Bricard's line-symmetric chain moves although Grübler's count says that it cannot."""
+    places = [(0.3, 0.0, 0.1), (0.1, 0.3, -0.1), (-0.2, 0.2, 0.15)]
+    along = [(0.1, 1.0, 0.4), (1.0, -0.2, 0.3), (0.2, 0.5, -1.0)]
+    # the other half is the first one after half a turn about z
+    places += [(-x, -y, z) for x, y, z in places]
+    along += [(-x, -y, z) for x, y, z in along]
+    names = ["ground", "one", "two", "three", "four", "five"]
+    joints = tuple(
+        hinge(f"joint_{i}", names[i - 1], names[i], f"ground_{i}", f"axis_{i}") for i in range(6)
+    )
+    model = declare(
+        "bricard",
+        {name: (0.1 * i, 0.05, 0.0) for i, name in enumerate(names[1:])},
+        joints,
+        {f"ground_{i}": place for i, place in enumerate(places)},
+        {f"axis_{i}": vector for i, vector in enumerate(along)},
+        ("joint_1",),
+        spring=("ground_0", "ground_3"),
+    )
+    with pytest.raises(NoClosedFormError) as told:
+        Plan.of(replace(model, allow_iteration=True))
+    text = str(told.value)
+    assert "the loop ground - one - two - three - four - five" in text
+    assert "5 of its coordinates are unknown" in text
+    assert "Pairs tried: none, since no two of its joints keep a point in common" in text
+    assert "allow_iteration" not in text
 
 
 def test_rods_on_the_ground_only_cannot_move() -> None:

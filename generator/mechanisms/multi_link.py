@@ -26,9 +26,9 @@ SPRING_TOP, SPRING_SEAT = Point("spring_top"), Point("spring_seat")
 RACK, SPIN = Direction("rack_axis"), Direction("spin_axis")
 
 PLACES: dict[str, tuple[Place, Place]] = {
-    "upper_link": ((0.03, -0.42, 0.47), (0.05, -0.66, 0.49)),
-    "camber_link": ((-0.16, -0.44, 0.45), (-0.07, -0.67, 0.47)),
-    "toe_link": ((-0.17, -0.36, 0.25), (-0.15, -0.69, 0.26)),
+    "upper_link": ((0.03, -0.38, 0.47), (0.05, -0.66, 0.49)),
+    "camber_link": ((-0.16, -0.38, 0.45), (-0.07, -0.67, 0.47)),
+    "toe_link": ((-0.17, -0.36, 0.27), (-0.15, -0.69, 0.26)),
     "front_link": ((0.21, -0.41, 0.20), (0.02, -0.71, 0.17)),
     "lower_link": ((-0.12, -0.30, 0.18), (-0.04, -0.70, 0.16)),
     "push_rod": ((-0.04, -0.44, 0.56), (-0.03, -0.65, 0.22)),
@@ -116,9 +116,9 @@ def _parameters(
         *point("spring_top", spring_top, "seat of the spring on the chassis"),
         *point("spring_seat", spring_seat, "seat of the spring on what moves it"),
         *direction("rack_axis", (0.0, 1.0, 0.0), "direction of the rack"),
-        *direction("spin_axis", (0.0, 1.0, 0.02), "spin axis of the wheel, pointing left"),
+        *direction("spin_axis", (0.0, 1.0, -0.02), "spin axis of the wheel, pointing left"),
         *rigid_body("carrier", 11.0, (-0.01, -0.69, 0.31), (0.14, 0.12, 0.06)),
-        *rigid_body("rack", 0.0, (-0.17, -0.36, 0.25)),
+        *rigid_body("rack", 0.0, (-0.17, -0.36, 0.27)),
         *rotor("wheel", 21.0, 1.0, 0.55),
         Parameter("spring_rate", 55000.0, "N/m", "rate of the spring"),
         Parameter("spring_free_length", free_length, "m", "length of the spring without force"),
@@ -208,7 +208,7 @@ FIVE_LINK = Mechanism(
     ),
     forces=_forces("rocker"),
     parameters=(
-        *_parameters(_SIX, (-0.04, -0.12, 0.62), (-0.04, -0.34, 0.62), 0.25),
+        *_parameters(_SIX, (-0.04, -0.12, 0.62), (-0.04, -0.34, 0.62), 0.27),
         *point("rocker_pivot", (-0.04, -0.35, 0.52), "bearing of the rocker"),
         *direction("rocker_axis", (1.0, 0.1, 0.0), "axis of the rocker"),
         *rigid_body("rocker", 1.5, (-0.04, -0.38, 0.56), (0.006, 0.004, 0.005)),
