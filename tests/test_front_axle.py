@@ -17,6 +17,7 @@ import pytest
 from kintrafo import System, simulate
 from kintrafo.generated import front_axle, macpherson
 from kintrafo.generator.mechanisms import front_axle as declaration
+from kintrafo.generator.outputs import generate
 from oracle.maximal import Motion, Oracle
 from oracle.reference import perturbed_parameters
 from scipy.integrate import solve_ivp
@@ -349,6 +350,20 @@ def test_operations_on_the_page_are_the_present_ones(function: str) -> None:
     one, axle = (sum(stored[m][function].values()) for m in ("macpherson", "front_axle"))
     row = cells(PAGE.read_text(encoding="utf-8"), COUNTED[function])
     assert [row[0], row[1], row[3]] == [str(one), str(2 * one), str(axle)]
+
+
+def test_two_suspensions_in_one_cost_what_they_cost_alone_but_for_signs() -> None:
+    bare = generate(declaration.model(declaration.without_bar()))
+    stored = json.loads(BASELINE.read_text(encoding="utf-8"))["macpherson"]
+    page = PAGE.read_text(encoding="utf-8")
+    functions = bare.functions | {"prepare": bare.prepare}
+    for name, what in COUNTED.items():
+        assert cells(page, what)[2] == str(functions[name].operations().total())
+    held, one = functions["rhs_rack_held"].operations(), stored["rhs_rack_held"]
+    for kind in ("multiply", "divide", "root", "trigonometric"):
+        assert held[kind] == 2 * one[kind]
+    # constants: those of one suspension, and the rack's direction in axes of the other side
+    assert functions["prepare"].operations().total() < 1.03 * sum(stored["prepare"].values())
 
 
 def test_wheel_rates_on_the_page_are_the_present_ones() -> None:
