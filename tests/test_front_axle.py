@@ -14,18 +14,25 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+import sympy as sp
 from kintrafo import System, simulate
 from kintrafo.generated import front_axle, macpherson
+from kintrafo.generator.dynamics import Dynamics
 from kintrafo.generator.mechanisms import front_axle as declaration
 from kintrafo.generator.outputs import generate
+from kintrafo.generator.parts import Parts
+from kintrafo.generator.program import ConstantStage, Program
+from kintrafo.generator.transformer import Plan
 from oracle.maximal import Motion, Oracle
 from oracle.reference import perturbed_parameters
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
+from symbolic import python
 
 from benchmarks.front_axle import COUNTED, WITH, WITHOUT, rates, wheel_rate
 
 if TYPE_CHECKING:
+    from kintrafo.generator.mechanism import Model
     from oracle.constraints import Array
 
 SIDES = ("right", "left")
@@ -306,10 +313,51 @@ def test_energy_of_opposite_motion_stays() -> None:
     assert stored.max() > 0.33 * swing
 
 
-def motion_of(axle: System, state: Array) -> Motion:
+def test_halves_of_the_bar_may_have_mass() -> None:
+    """Declared so, the equations are those of the maximal coordinates with these masses."""
+    heavy = {
+        "bar_mass": 2.0,
+        "bar_inertia_xx": 0.02,
+        "bar_inertia_yy": 0.05,
+        "bar_inertia_xy": 4e-3,
+    }
+    given = parameters_of(1, **heavy)
+    model = declaration.model(
+        declaration.mechanism(), massive=("control_arm", "knuckle", "wheel", "bar")
+    )
+    at = Compared.of(1)
+    state, inputs = at.state[0], at.inputs[0]
+    named = dict(zip(at.axle.input_names, map(float, inputs), strict=True))
+    motion = motion_of(System(front_axle, given), state, inputs)
+    oracle = Oracle(model, given).reduced(motion, named, {"y": named["rack_acceleration"]})
+    values = dict(zip(at.axle.state_names, map(float, state), strict=True)) | named
+    found = accelerations(model, given, values)
+    scale = np.abs(oracle.accelerations).max()
+    # both in double precision, through some thousand operations
+    np.testing.assert_allclose(found, oracle.accelerations, rtol=0.0, atol=1e-11 * scale)
+    light = at.axle.evaluate("rhs", state, inputs)[4:]
+    assert np.abs(found - light).max() > 1e-3 * scale  # the mass does make a difference
+
+
+def accelerations(model: Model, given: dict[str, float], values: dict[str, float]) -> list[float]:
+    """Derive the accelerations of a model and evaluate them, without its other functions."""
+    mechanism = model.mechanism
+    constants = ConstantStage(
+        tuple(sp.Symbol(p.name) for p in mechanism.parameters),
+        derived={sp.Symbol(n): value for n, value in mechanism.derived.items()},
+    )
+    program = Program(constants)
+    dynamics = Dynamics(Parts(program, Plan.of(model)))
+    function = program.function("rhs", "", dict(dynamics.accelerations))
+    prepare = constants.function([function])
+    known = dict(zip(prepare.labels, python(prepare)(given), strict=True))
+    return [float(a) for a in python(function)(known | values)]
+
+
+def motion_of(axle: System, state: Array, inputs: Array | None = None) -> Motion:
     """Return poses and twists of all bodies as the model computes them, the ground first."""
     place, turn, velocity = (
-        axle.evaluate(name, state) for name in ("positions", "orientations", "velocities")
+        axle.evaluate(name, state, inputs) for name in ("positions", "orientations", "velocities")
     )
     return Motion(
         np.concatenate((np.zeros((1, 3)), place)),

@@ -109,8 +109,18 @@ def without_bar() -> Mechanism:
     return axle(macpherson.mechanism(), "front_axle", "Front axle: two MacPherson suspensions")
 
 
-def model(declared: Mechanism) -> Model:
-    """Return the equations of an axle with prescribed rack: arms, knuckles and wheels have mass."""
+def model(
+    declared: Mechanism, massive: tuple[str, ...] = ("control_arm", "knuckle", "wheel")
+) -> Model:
+    """Return the equations of an axle with prescribed rack.
+
+    Parameters
+    ----------
+    declared
+        With or without a bar.
+    massive
+        Bodies of a side that have mass; ``bar`` may be one of them.
+    """
     both = ("right_", "left_")
     return Model(
         name=declared.name,
@@ -118,7 +128,7 @@ def model(declared: Mechanism) -> Model:
         mechanism=declared,
         independent=tuple(f"{prefix}{joint}" for prefix in both for joint in ("OA", "HG")),
         prescribed={"y": "rack"},
-        massive=tuple(f"{p}{body}" for p in both for body in ("control_arm", "knuckle", "wheel")),
+        massive=tuple(f"{prefix}{body}" for prefix in both for body in massive),
         held={"rack_held": ("y",)},
     )
 
