@@ -112,9 +112,7 @@ class RelativeCoordinates:
             return self._shafts[joint.name]
         program, name = self.program, joint.name
         parent = self.kin.placed[joint.first]
-        n = program.vector(
-            f"shaft_{name}", self._in_first_body(parent, self.kin.on_line[joint.second].direction)
-        )
+        n = self.shaft_direction(joint)
         squared = program.guarded(
             f"shaft_level_squared_{name}",
             n.x**2 + n.y**2,
@@ -131,6 +129,12 @@ class RelativeCoordinates:
             up=self._from_first_body(parent, f"shaft_up_{name}", UNIT_Z),
         )
         return self._shafts[name]
+
+    def shaft_direction(self, joint: Universal) -> Vector:
+        """Return the unit vector of a shaft along the chassis axes that the first body carries."""
+        direction = self.kin.on_line[joint.second].direction
+        seen = self._in_first_body(self.kin.placed[joint.first], direction)
+        return self.program.vector(f"shaft_{joint.name}", seen)
 
     def _in_first_body(self, parent: Placed, work: Vector) -> Vector:
         """Return components along the chassis axes as the first body carries them with it."""
@@ -427,15 +431,20 @@ class _Closure:
         return self._from_driven(f"given_span_{joint.name}", line.relative.position)
 
     def _shaft_direction(self, joint: Universal) -> Vector:
-        """Return the unit vector of a shaft, from what holds its far end."""
+        """Return the unit vector of a shaft, from what holds its far end.
+
+        That is a chain with a telescope, in terms of given coordinates; where there is none, the
+        poses say where the far end is.
+        """
         turn = self._turn_of_rod(joint.second)
-        if turn is None:
-            telescope = next(
-                j for j in self.mechanism.joints_of(joint.second) if isinstance(j, Cylindrical)
-            )
+        shafts = (j for j in self.mechanism.joints_of(joint.second) if isinstance(j, Cylindrical))
+        telescope = next(shafts, None)
+        if turn is not None and any(t.end_link == turn.body for t in self._telescopes()):
+            span = self._rod_span(turn)
+        elif telescope is not None:
             span = self._telescope_span(telescope)
         else:
-            span = self._rod_span(turn)
+            return self.relative.shaft_direction(joint)
         length = self.program.define(f"given_length_{joint.name}", sp.sqrt(span.dot(span)))
         return self.program.vector(f"given_shaft_{joint.name}", span * (1 / length))
 

@@ -24,6 +24,7 @@ from kintrafo.generator.emit.report import markdown
 from kintrafo.generator.geometry import Direction, Line, Point
 from kintrafo.generator.iteration import ITERATIONS, adjugate, determinant
 from kintrafo.generator.joints import Revolute
+from kintrafo.generator.mechanism import RelativeCoordinate
 from kintrafo.generator.mechanisms.multi_link import CONTROL_ARM, FIVE_LINK, MODELS
 from kintrafo.generator.outputs import GeneratedModel, generate
 from kintrafo.generator.program import ConstantStage, Program
@@ -447,6 +448,41 @@ def test_report_names_the_equations_of_the_loops(
     for rod in RODS[ARM.name]:
         assert f"|{rod}_outer - {rod}_inner| = length of {rod}" in text
     assert text.count("no closed form: 3 equations for the pose of carrier") == 3
+
+
+def test_angles_of_the_links_can_be_reported() -> None:
+    mechanism = replace(
+        CONTROL_ARM,
+        coordinates=(
+            *CONTROL_ARM.coordinates,
+            *(
+                RelativeCoordinate(f"link_{kind}", "upper_link_cross", kind, "rad", kind)
+                for kind in ("azimuth", "elevation")
+            ),
+        ),
+    )
+    derived = generate(replace(ARM, mechanism=mechanism, massive=("carrier",), held={}))
+    values = constants_of(derived, {p.name: p.default for p in mechanism.parameters})
+    values |= {"arm_angle": 1.5, "rack_position": 0.02, "spin_angle": 0.1}
+    shown = derived.functions["relative_coordinates"]
+    beta = dict(zip(shown.labels, python(shown)(values), strict=True))
+    residuals = derived.functions["residuals"]
+    given = {f"given_{name}": value for name, value in beta.items()}
+    for left in python(residuals)(values | given):
+        assert abs(left) < 1e-14  # of sines
+    link = Links(ARM.name, {p.name: p.default for p in mechanism.parameters})
+    start, end = link.point("upper_link_inner"), link.point("upper_link_outer")
+    design = {**values, "rack_position": 0.0, "arm_angle": design_angle(derived)}
+    beta = dict(zip(shown.labels, python(shown)(design), strict=True))
+    x, y, z = (end - start) / np.linalg.norm(end - start)
+    assert float(beta["link_elevation"]) == pytest.approx(np.arcsin(z), abs=1e-14)
+    assert float(beta["link_azimuth"]) == pytest.approx(np.arctan2(-x, y), abs=1e-14)
+
+
+def design_angle(derived: GeneratedModel) -> float:
+    """Return the angle of the arm at the design position."""
+    parameters = {p.name: p.default for p in derived.model.mechanism.parameters}
+    return float(Built(derived.model, None, parameters).design[0])
 
 
 # -- what is refused ------------------------------------------------------------------------------

@@ -103,10 +103,9 @@ class _Held:
             raise NoClosedFormError(message)
         return cls(action, base, origin, size, rods)
 
-    @property
-    def equations(self) -> list[RodEquation]:
-        """Those of the rods."""
-        return [rod.equation for rod in self.rods]
+    def scaled(self, values: Sequence[sp.Expr]) -> list[sp.Expr]:
+        """Return values of the rods, times the factors s of their equations."""
+        return [v * rod.equation.scale for v, rod in zip(values, self.rods, strict=True)]
 
 
 @dataclass(frozen=True)
@@ -190,7 +189,7 @@ class _Solved:
 def _found(kin: Kinematics, held: _Held) -> dict[str, sp.Expr]:
     """Append the call of the iteration, and return its results."""
     body, pinned = held.action.body, held.base is not None
-    values = [x for equation in held.equations for x in equation.values]
+    values = [x for rod in held.rods for x in rod.equation.values]
     values += [] if pinned else [held.size]
     names = [rod.rod for rod in held.action.rods]
     return kin.program.iterated(f"{body}_found", block(body, names, pinned=pinned), values)
@@ -268,9 +267,8 @@ def _place(kin: Kinematics, held: _Held, solved: _Solved) -> None:
 
 
 def _add_motion(kin: Kinematics, held: _Held, solved: _Solved, placed: Placed) -> None:
-    """Velocities and bias: every rod keeps its length, or has that of a known slide."""
-    body, program, system = placed.body, kin.program, solved.system
-    to_body = projector(kin, placed)
+    """Add velocities and bias: every rod keeps its length, or has that of a known slide."""
+    body, system, to_body = placed.body, solved.system, projector(kin, placed)
     rates = [ZERO for _ in held.rods]  # of the ends of the rods, as seen from where they start
 
     def twist_of(x: Sequence[sp.Expr], base: Vector) -> Twist:
@@ -278,34 +276,40 @@ def _add_motion(kin: Kinematics, held: _Held, solved: _Solved, placed: Placed) -
         turn, way = split(x)
         return Twist(turn, base if held.base else way * held.size)
 
-    moving = [held.base] if held.base else []
-    motions = [m.motion for m in (*moving, *(rod.anchor for rod in held.rods))]
-    for k in dict.fromkeys(k for m in (*motions, *(r.rod.stretch for r in held.rods)) for k in m):
+    for k in _coordinates(held):
         base = to_body(f"velocity_{k}", held.base.motion.get(k, ZERO)) if held.base else ZERO
         starts = [
             to_body(f"{rod.entry.rod}_start_{k}", rod.anchor.motion.get(k, ZERO))
             for rod in held.rods
         ]
-        b = [
-            (rod.rod.stretch.get(k, sp.Integer(0)) - gap.dot(base - start)) * rod.equation.scale
-            for rod, gap, start in zip(held.rods, solved.gaps, starts, strict=True)
+        growths = [rod.rod.stretch.get(k, sp.Integer(0)) for rod in held.rods]
+        slips = [
+            growth - gap.dot(base - start)
+            for growth, gap, start in zip(growths, solved.gaps, starts, strict=True)
         ]
-        twist = twist_of(system.solve(kin, f"{body}_{k}", b), base)
-        placed.motion[k] = kin.define_twist(body, k, twist)
-        omega, linear = placed.motion[k].angular, placed.motion[k].linear
+        twist = twist_of(system.solve(kin, f"{body}_{k}", held.scaled(slips)), base)
+        placed.motion[k] = now = kin.define_twist(body, k, twist)
         for i, (rod, start) in enumerate(zip(held.rods, starts, strict=True)):
-            rates[i] += (linear - start + omega.cross(rod.equation.end)) * kin.rate(k)
+            rates[i] += (now.linear - start + now.angular.cross(rod.equation.end)) * kin.rate(k)
 
     def bias() -> Twist:
         omega = kin.total(placed).angular
         base = to_body("acceleration", held.base.bias) if held.base else ZERO
-        b = []
+        slips = []
         for rod, gap, rate in zip(held.rods, solved.gaps, rates, strict=True):
-            now = program.vector(f"{rod.entry.rod}_rate", rate, "123")
+            now = kin.program.vector(f"{rod.entry.rod}_rate", rate, "123")
             start = to_body(f"{rod.entry.rod}_start_bias", rod.anchor.bias)
             pull = base - start + omega.cross(omega.cross(rod.equation.end))
-            given = rod.rod.stretch_bias - gap.dot(pull) - now.dot(now)
-            b.append(given * rod.equation.scale)
-        return kin.define_bias(body, twist_of(system.solve(kin, f"{body}_bias", b), base))
+            slips.append(rod.rod.stretch_bias - gap.dot(pull) - now.dot(now))
+        x = system.solve(kin, f"{body}_bias", held.scaled(slips))
+        return kin.define_bias(body, twist_of(x, base))
 
     placed.bias = once(bias)
+
+
+def _coordinates(held: _Held) -> list[str]:
+    """Return the coordinates that move the body."""
+    motions = [held.base.motion] if held.base else []
+    motions += [rod.anchor.motion for rod in held.rods]
+    names = [*motions, *(rod.rod.stretch for rod in held.rods)]
+    return list(dict.fromkeys(name for moved in names for name in moved))
