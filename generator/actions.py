@@ -214,13 +214,27 @@ class PlaceByCross:
 
 @dataclass(frozen=True)
 class HeldByRod:
-    """A rod from a placed body to a point of a body that several rods hold together."""
+    """A rod from a placed body to a point of a body that several rods hold together.
+
+    Attributes
+    ----------
+    guide
+        Of a strut of known slide along the line of its ends, which is a rod of known variable
+        length: the joint from `rod`, its link at the anchor, to `far`, that at the body.
+    """
 
     body: str
     rod: str
     end: Point
     anchor: Point
     anchor_body: str
+    guide: Prismatic | None = None
+    far: str | None = None
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """The rod, or the two links of a strut."""
+        return (self.rod,) if self.far is None else (self.rod, self.far)
 
 
 @dataclass(frozen=True)

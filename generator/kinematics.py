@@ -455,8 +455,9 @@ class Kinematics:
         for k, twist in parent.motion.items():
             velocity = twist.linear + twist.angular.cross(offset)
             placed.motion[k] = self.define_twist(child, k, Twist(twist.angular, velocity))
-        if coordinate in self.moving:
-            placed.motion[coordinate] = Twist(ZERO, direction)
+        if coordinate in self.moving:  # that of a strut turns its first link as well
+            carried = placed.motion.get(coordinate, NO_TWIST)
+            placed.motion[coordinate] = carried + Twist(ZERO, direction)
 
         def bias() -> Twist:
             carried = parent.bias()

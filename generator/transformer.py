@@ -292,7 +292,8 @@ class Plan:
     def _held_together(self, waiting: list[_Offer]) -> tuple[SolveCarrier | None, list[_Offer]]:
         """Return the first body that rods hold together, with the loops that they close."""
         for action in filter(None, map(self._carrier, self._mechanism.bodies)):
-            inside = {action.body, *(held.rod for held in action.rods)} | self._placed
+            links = {link for held in action.rods for link in held.links}
+            inside = {action.body} | links | self._placed
             closed = [offer for offer in waiting if inside.issuperset(offer[0].bodies)]
             if len(closed) == action.loops:
                 return action, closed
@@ -334,7 +335,7 @@ class Plan:
                 pair
                 for held in action.rods
                 for pair in offered
-                if all(held.rod in joint.bodies for joint in pair.joints)
+                if all(set(held.links) & set(joint.bodies) for joint in pair.joints)
             ]
             pairs.append(next((p for p in at_rods if p not in pairs), at_rods[0]))
         return pairs
@@ -358,14 +359,33 @@ class Plan:
 
     def _rod(self, body: Body, joint: Joint) -> HeldByRod | None:
         """Return the rod that holds a body at a joint, if its other end is at a placed body."""
-        rod = joint.other(body.name)
-        joints = [j for j in self._mechanism.joints_of(rod) if j != joint]
-        if rod in self._placed | self._on_line or len(joints) != 1 or joint.center is None:
+        end, rod = joint.center, joint.other(body.name)
+        far, guide, other = None, None, self._beyond(joint, rod)
+        if isinstance(other, Prismatic) and self._unknowns_of(other) == 0:
+            guide, far, rod = other, rod, other.other(rod)
+            other = self._beyond(guide, rod)
+        anchor = other.center if other else None
+        if other is None or end is None or anchor is None:
             return None
-        (other,) = joints
-        if other.center is None or other.other(rod) not in self._placed:
+        settled = {rod, far} & (self._placed | self._on_line)
+        if settled or other.other(rod) not in self._placed:
             return None
-        return HeldByRod(body.name, rod, joint.center, other.center, other.other(rod))
+        if guide is not None and not self._is_strut(guide, rod, other, end):
+            return None
+        return HeldByRod(body.name, rod, end, anchor, other.other(rod), guide, far)
+
+    def _beyond(self, joint: Joint, link: str) -> Joint | None:
+        """Return the other joint of a link that has two."""
+        others = [j for j in self._mechanism.joints_of(link) if j != joint]
+        return others[0] if len(others) == 1 else None
+
+    @staticmethod
+    def _is_strut(guide: Prismatic, rod: str, anchor: Joint, end: Point) -> bool:
+        """Tell whether a guide is along the line of its ends, and a cross holds its first link."""
+        between = guide.direction.between
+        along = between is not None and set(between) == {anchor.center, end}
+        crossed = isinstance(anchor, Universal) and anchor.second == rod
+        return along and crossed and guide.first == rod
 
     def _unknowns_before(self, cycle: Cycle, solved: set[tuple[str, str]]) -> int:
         own = {(j.name, c) for j in cycle.joints for c in j.coordinates}
@@ -543,7 +563,8 @@ class Plan:
         self.actions.append(action)
         self._placed.add(action.body)
         self._on_line |= {held.rod for held in action.rods}
-        at_rods = [j for held in action.rods for j in self._mechanism.joints_of(held.rod)]
+        links = [link for held in action.rods for link in held.links]
+        at_rods = [j for link in links for j in self._mechanism.joints_of(link)]
         at_body = [j for j in self._mechanism.joints_of(action.body) if self._joins_solved(j)]
         new = {(j.name, c) for j in (*at_rods, *at_body) for c in j.coordinates} - self._known
         self._known |= new

@@ -95,9 +95,9 @@ def equation(transformer: Transformer) -> tuple[str, str]:
         )
     if isinstance(action, SolveCarrier):
         joints = transformer.pair.joints
-        held = next(h for h in action.rods if all(h.rod in j.bodies for j in joints))
+        held = next(h for h in action.rods if all({*h.links} & {*j.bodies} for j in joints))
         return (
-            f"|{held.end.name} - {held.anchor.name}| = length of {held.rod}",
+            f"|{held.end.name} - {held.anchor.name}| = length of {' and '.join(held.links)}",
             (
                 f"no closed form: {len(action.rods)} equations for the pose of {action.body}, by "
                 f"Newton's method, at most {ITERATIONS} iterations"

@@ -49,7 +49,7 @@ def solve_carrier(kin: Kinematics, action: SolveCarrier) -> None:
     held = _Held.of(kin, action)
     _place(kin, held, _corrected(kin, held, _found(kin, held)))
     for rod in held.rods:
-        place_rod(kin, rod.entry, rod.anchor, rod.rod.length)
+        place_rod(kin, rod.entry, rod.anchor, rod.rod.length, rigid=rod.entry.guide is None)
 
 
 @dataclass(frozen=True)

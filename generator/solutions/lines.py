@@ -66,8 +66,10 @@ def place_rod(
     action: SolveTurn | SolveHinge | SolveSlide | HeldByRod,
     rod_anchor: PointMotion,
     length: sp.Expr,
+    *,
+    rigid: bool = True,
 ) -> None:
-    """Record the line of a rod of fixed length, from its anchor to the body that it holds."""
+    """Record the line of a rod from its anchor to the body that it holds; a strut is not rigid."""
     end = kin.point_motion(action.body, action.end)
     span = kin.program.vector(f"span_{action.rod}", end.position - rod_anchor.position)
     kin.on_line[action.rod] = line_between(
@@ -78,7 +80,7 @@ def place_rod(
         (action.anchor_body, action.body),
         span,
         length,
-        rigid=True,
+        rigid=rigid,
     )
 
 

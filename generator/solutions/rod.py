@@ -18,11 +18,13 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from ..actions import HeldByRod
 from ..arithmetic import SignOf
 from ..vectors import ZERO, Vector
 
 if TYPE_CHECKING:
-    from ..actions import HeldByRod, PinnedTelescope, SolveHinge, SolveSlide, SolveTurn
+    from ..actions import PinnedTelescope, SolveHinge, SolveSlide, SolveTurn
+    from ..joints import Prismatic
     from ..kinematics import Kinematics
     from ..placement import Axes
 
@@ -59,13 +61,34 @@ class Rod:
         design = kin.design(action.end) - kin.design(action.anchor)
         design = kin.program.vector(f"{action.rod}_design", design)
         telescope = getattr(action, "telescope", None)
-        if telescope is None:
+        if isinstance(action, HeldByRod) and action.guide is not None:
+            rod = cls._strut(kin, action, action.guide, design)
+        elif telescope is None:
             length = kin.program.define(f"{action.rod}_length", sp.sqrt(design.dot(design)))
             rod = cls(f"rod {action.rod}", design, length, length**2)
         else:
             rod = cls._telescopic(kin, telescope, design)
         kin.rod_lengths[action.rod] = rod.length
         return rod
+
+    @classmethod
+    def _strut(cls, kin: Kinematics, held: HeldByRod, guide: Prismatic, design: Vector) -> Rod:
+        """Return a strut of known slide x along its line: l = l_0 + x, or l_0 - x."""
+        program, between = kin.program, guide.direction.between
+        sense = 1 if between == (held.anchor, held.end) else -1
+        start = program.define(f"{held.rod}_length_start", sp.sqrt(design.dot(design)))
+        coordinate = kin.coordinate_of(guide)
+        length = program.guarded(
+            f"{held.rod}_length",
+            start + sense * kin.coordinates[coordinate],
+            f"the strut of {held.rod} and {held.far} is drawn in until its ends meet",
+            "m",
+        )
+        stretch, bias = {}, sp.Integer(0)
+        if coordinate in kin.moving:
+            stretch[coordinate] = sense * length
+            bias = kin.rate(coordinate) ** 2 + sense * length * kin.acceleration(coordinate)
+        return cls(f"strut {held.rod}", design, length, length**2, stretch, bias)
 
     @classmethod
     def _telescopic(cls, kin: Kinematics, telescope: PinnedTelescope, design: Vector) -> Rod:
