@@ -46,13 +46,14 @@ if TYPE_CHECKING:
     from kintrafo.generator.mechanism import Mechanism
     from oracle.constraints import Array
 
-ARM, FIVE = MODELS
+ARM, FIVE, STRUT = MODELS
 RODS = {
     ARM.name: ("upper_link", "camber_link", "toe_link"),
     FIVE.name: ("upper_link", "camber_link", "toe_link", "front_link", "lower_link", "push_rod"),
 }
-TRAVEL = {ARM.name: 0.35, FIVE.name: 0.5}
-"""How far the independent hinge turns from the design position, rad: more than a car uses."""
+RODS[STRUT.name] = ("strut_tube", *RODS[FIVE.name][:-1])
+TRAVEL = {ARM.name: 0.35, FIVE.name: 0.5, STRUT.name: 0.08}
+"""How far the independent joint goes from the design position, rad or m: more than a car uses."""
 
 
 @pytest.fixture(scope="session")
@@ -88,6 +89,7 @@ def states(built: Built, count: int, seed: int = 0) -> tuple[Array, Array]:
 
 
 MODEL_NAMES = pytest.mark.parametrize("name", [ARM.name, FIVE.name])
+WITH_STRUT = pytest.mark.parametrize("name", [ARM.name, FIVE.name, STRUT.name])
 
 
 # -- linear algebra of the block ------------------------------------------------------------------
@@ -232,7 +234,7 @@ def test_the_wheel_is_where_a_root_finder_puts_it(name: str, built: Callable[[st
 # -- against maximal coordinates ------------------------------------------------------------------
 
 
-@MODEL_NAMES
+@WITH_STRUT
 def test_bodies_fulfil_all_joints(name: str, built: Callable[[str], Built]) -> None:
     model = built(name)
     for state, inputs in zip(*states(model, 30), strict=True):
@@ -241,7 +243,19 @@ def test_bodies_fulfil_all_joints(name: str, built: Callable[[str], Built]) -> N
         np.testing.assert_allclose(closure.rate, 0.0, atol=1e-15 * 10 * np.abs(state[2:]).max())
 
 
-@MODEL_NAMES
+def test_a_strut_is_as_long_as_its_slide_says(built: Callable[[str], Built]) -> None:
+    model = built(STRUT.name)
+    (state, *_), (inputs, *_) = states(model, 1)
+    slide = model.oracle.driven(model.motion(state, inputs), "strut_guide")
+    assert slide.value[0] == pytest.approx(state[0], abs=1e-15)
+    assert slide.rate[0] == pytest.approx(state[2], rel=1e-14)
+    span = -0.01, 0.16, 0.52  # as declared
+    drawn_in = np.array([1.01 * np.linalg.norm(span), 0.0, 0.0, 0.0])
+    with pytest.raises(ClosureError, match="the strut of strut_tube and strut_rod is drawn in"):
+        model("rhs", drawn_in)
+
+
+@WITH_STRUT
 def test_accelerations_are_those_of_the_maximal_coordinates(
     name: str, built: Callable[[str], Built]
 ) -> None:
@@ -285,7 +299,7 @@ def test_energy_stays_where_nothing_dissipates(built: Callable[[str], Built]) ->
 # -- derivatives ----------------------------------------------------------------------------------
 
 
-@MODEL_NAMES
+@WITH_STRUT
 @pytest.mark.parametrize("by", ["state", "inputs"])
 def test_jacobians_are_exact(
     name: str,

@@ -1,9 +1,10 @@
 """Multi-link suspensions: a wheel carrier on links, for which there is no closed form.
 
-Two of them, both rear right, ISO 8855 axes, ground at z = 0; the numbers are this project's own.
+Three of them, all rear right, ISO 8855 axes, ground at z = 0; the numbers are this project's own.
 In `CONTROL_ARM` the carrier hangs at the ball joint of a lower control arm, and an upper link, a
 camber link and a toe link hold it: three equations. In `FIVE_LINK` five links hold it and a push
-rod that leads to a rocker: six. A rack steers the rear wheel at the inner end of the toe link.
+rod that leads to a rocker, in `STRUT` five links and a strut, whose slide is the coordinate: six
+equations. A rack steers the rear wheel at the inner end of the toe link.
 
 Their models are declared with ``allow_iteration=True``. They are not among those that come with the
 project, whose code is all free of iteration.
@@ -228,6 +229,53 @@ FIVE_LINK = Mechanism(
 )
 
 
+# -- five links and a strut -----------------------------------------------------------------------
+
+_FIVE = _SIX[:-1]
+_STRUT_LINE = Direction("strut_line", between=(SPRING_SEAT, SPRING_TOP))
+
+STRUT = Mechanism(
+    name="five_link_strut",
+    title="Five-link suspension with a strut",
+    bodies=_bodies("strut_tube", "strut_rod", "carrier", *_FIVE, "rack"),
+    joints=(
+        Universal(
+            name="strut_cross",
+            first="chassis",
+            second="strut_tube",
+            at=SPRING_TOP,
+            shaft=Line(SPRING_TOP, SPRING_SEAT),
+            first_axis=RACK,
+        ),
+        Prismatic(
+            name="strut_guide", first="strut_tube", second="strut_rod", direction=_STRUT_LINE
+        ),
+        Spherical(name="strut_ball", first="strut_rod", second="carrier", at=SPRING_SEAT),
+        *_link("upper_link", "chassis"),
+        *_link("camber_link", "chassis"),
+        *_link("toe_link", "rack"),
+        *_link("front_link", "chassis"),
+        *_link("lower_link", "chassis"),
+        _RACK_GUIDE,
+        _BEARING,
+    ),
+    forces=_forces("carrier"),
+    parameters=(
+        *_parameters(_FIVE, (-0.04, -0.50, 0.72), (-0.03, -0.66, 0.20), 0.60),
+        *rigid_body("strut_tube", 2.0, (-0.04, -0.52, 0.60), (0.010, 0.010, 0.003)),
+        *rigid_body("strut_rod", 1.5, (-0.03, -0.62, 0.33), (0.008, 0.008, 0.002)),
+    ),
+    coordinates=(
+        RelativeCoordinate(
+            "compression", "strut_guide", "slide", "m", "by how much the strut is compressed"
+        ),
+        _SPIN_ANGLE,
+        _RACK_DISPLACEMENT,
+    ),
+    inputs=INPUTS,
+)
+
+
 def _model(mechanism: Mechanism, driving: str) -> Model:
     """Return the model with a prescribed rack; everything but the rack has mass."""
     return Model(
@@ -242,4 +290,8 @@ def _model(mechanism: Mechanism, driving: str) -> Model:
     )
 
 
-MODELS = (_model(CONTROL_ARM, "lower_hinge"), _model(FIVE_LINK, "rocker_hinge"))
+MODELS = (
+    _model(CONTROL_ARM, "lower_hinge"),
+    _model(FIVE_LINK, "rocker_hinge"),
+    _model(STRUT, "strut_guide"),
+)
