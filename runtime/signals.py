@@ -23,6 +23,8 @@ _RATES = {
     "_position": ("_velocity", "_acceleration"),
     "_height": ("_velocity",),
 }
+# An input that has stood still for this part of the time begins to move with a new integration.
+_STILL = 0.01
 _FIRST_GRID = 33
 _LARGEST_GRID = 2**17 + 1
 # A function becomes a spline that reproduces it between its samples to this part of its size; the
@@ -48,7 +50,7 @@ class Spline:
 
 @dataclass(frozen=True)
 class Segment:
-    """A time between two jumps of the inputs.
+    """A time over which no input jumps, or begins to move.
 
     Attributes
     ----------
@@ -71,7 +73,7 @@ class TimeInputs:
     constant : ndarray
         Values of those that do not vary.
     segments : tuple of Segment
-        In the order of time; at their borders an input may jump.
+        In the order of time; at their borders an input may jump, or begin to move.
     variant : str
         What ends the names of the functions that leave out what stands still; empty if nothing
         does.
@@ -106,7 +108,7 @@ class _Collected:
 
     constant: Array
     curves: dict[str, list[CubicSpline]] = field(default_factory=dict)
-    jumps: set[float] = field(default_factory=set)
+    borders: set[float] = field(default_factory=set)
 
 
 def time_inputs(
@@ -196,10 +198,24 @@ def _collect(
             )
             raise InputError([problem], "inputs")
         collected.curves[name] = pieces
-        collected.jumps.update(float(piece.x[0]) for piece in pieces[1:])
+        collected.borders.update(float(piece.x[0]) for piece in pieces[1:])
     else:
         value = _number(name, signal)
         collected.constant[names.index(name)] = value
+    for piece in collected.curves.get(name, ()):
+        collected.borders.update(_awakenings(piece, abs(t_span[1] - t_span[0])))
+
+
+def _awakenings(curve: CubicSpline, duration: float) -> list[float]:
+    """Return the times at which a curve begins to move after it has stood still for long.
+
+    The steps of an integration grow while nothing happens. One that does not begin anew could pass
+    over a short bump without a trace of it.
+    """
+    still = np.concatenate(([False], np.diff(curve.c[-1]) == 0.0, [False]))
+    begins, ends = np.flatnonzero(still[1:] & ~still[:-1]), np.flatnonzero(still[:-1] & ~still[1:])
+    long = curve.x[ends] - curve.x[begins] >= _STILL * duration
+    return [float(time) for time in curve.x[ends[long]]]
 
 
 def _number(name: str, value: Any) -> float:
@@ -219,10 +235,10 @@ def _number(name: str, value: Any) -> float:
 def _segments(
     collected: _Collected, names: tuple[str, ...], t_span: tuple[float, float]
 ) -> tuple[Segment, ...]:
-    """Cut the time at the jumps, and give each part the splines that hold in it."""
+    """Cut the time where the integration begins anew, and give each part its splines."""
     first, last = (float(t) for t in t_span)
     inside = sorted(
-        (t for t in collected.jumps if min(t_span) < t < max(t_span)), reverse=last < first
+        (t for t in collected.borders if min(t_span) < t < max(t_span)), reverse=last < first
     )
     borders = [first, *inside, last]
     segments = []

@@ -155,7 +155,7 @@ def simulate(
     inputs : mapping, optional
         Time-varying inputs by name: numbers, samples ``(times, values)``, or functions of time.
         They become cubic splines; at a time that is given twice, the input jumps and the
-        integration starts anew.
+        integration starts anew, as it does where an input begins to move after a long rest.
     method : str, optional
         'BDF' (Gear's formulas) or 'Adams'; Runge-Kutta 'Verner' (8 stages, order 6),
         'DormandPrince' or 'Tsitouras' (order 5); or SciPy's 'Radau', 'LSODA', 'RK45', 'DOP853'.

@@ -11,6 +11,7 @@ from kintrafo import (
     simulate,
     state_at_height,
 )
+from kintrafo.signals import time_inputs
 from kintrafo.solvers import native_available, native_methods
 from oracle import multipliers, newton
 from oracle.reference import DYNAMICS, SPIN_RATE, reference_parameters
@@ -353,3 +354,37 @@ def test_without_sundials_the_user_is_told_once(monkeypatch):
     assert first.solver == second.solver == "SciPy"
     with pytest.raises(InputError, match="needs SUNDIALS"):
         simulate(MODEL, (0, 0.1), START, method="Adams")
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize("method", ["BDF", "DormandPrince"])
+def test_a_short_bump_after_a_long_rest_is_not_passed_over(backend, method):
+    """At rest the steps grow to tenths of a second; the bump lasts for a twentieth."""
+    if backend == "scipy" and method == "DormandPrince":
+        method = "RK45"
+    times = np.linspace(0.0, 5.0, 1001)
+    inside = (times > 2.0) & (times < 2.05)
+    road = np.where(inside, 0.02 * np.sin(np.pi * (times - 2.0) / 0.05) ** 2, 0.0)
+    runs = [
+        simulate(
+            MODEL,
+            (0.0, 5.0),
+            equilibrium(MODEL),
+            inputs={"road_height": (times, road)},
+            method=method,
+            backend=backend,
+            max_step=max_step,
+        )
+        for max_step in (np.inf, 0.005)
+    ]
+    passed, small = (np.ptp(run.signals["wheel_center_z"]) for run in runs)
+    assert small > 0.028
+    assert passed == pytest.approx(small, rel=0.02)  # output is at the steps only
+    assert 2.0 in runs[0].t
+
+
+def test_an_input_that_starts_to_move_begins_a_segment():
+    road = ([0.0, 1.0, 2.0, 2.1, 2.105, 3.0], [0.0, 0.0, 0.0, 0.01, 0.01, 0.02])
+    given = time_inputs(MODEL, {"road_height": road}, (0.0, 3.0))
+    # the second rest is shorter than a hundredth of the time
+    assert [segment.start for segment in given.segments] == [0.0, 2.0]
