@@ -8,10 +8,11 @@ import subprocess
 import sys
 from importlib import import_module
 
+import kintrafo
 import numpy as np
 import pytest
 from kintrafo import Model, characteristics, simulate, state_at_height
-from kintrafo.generator.mechanisms import MODELS
+from kintrafo.generator.mechanisms import MODELS, multi_link
 from kintrafo.generator.outputs import generate
 from kintrafo.paper import DURATION, SPIN_RATE, START_HEIGHT
 
@@ -26,12 +27,12 @@ def car():
 
 def at_rest(name):
     module = import_module(f"kintrafo.generated.{name}")
-    state = np.zeros((BATCH, len(module.STATE)))
-    if name.startswith("macpherson"):
-        state[:, 0] = 1.64  # near design, where angles are not counted from it
-    elif name == "double_wishbone":
-        state[:, 0] = 1.61
-    return module, state, np.zeros(len(module.INPUTS))
+    return module, *states_at_design(module)
+
+
+def states_at_design(module):
+    values = {name: entry["default"] for name, entry in module.PARAMETERS.items()}
+    return np.tile(module.design_state(values), (BATCH, 1)), np.zeros(len(module.INPUTS))
 
 
 @pytest.mark.parametrize("function", ["rhs", "rhs_jacobian"])
@@ -48,6 +49,13 @@ def test_right_hand_side_with_the_rack_held(benchmark, name):
     module, state, inputs = at_rest(name)
     benchmark.extra_info["states"] = BATCH
     benchmark(module.rhs_rack_held, state, inputs)
+
+
+@pytest.mark.parametrize("model", multi_link.MODELS, ids=lambda model: model.name)
+def test_right_hand_side_with_an_iteration(benchmark, model):
+    module = kintrafo.compile(model)
+    benchmark.extra_info["states"] = BATCH
+    benchmark(module.rhs, *states_at_design(module))
 
 
 def test_constants(benchmark, car):

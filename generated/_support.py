@@ -32,6 +32,11 @@ class ParameterError(ModelError):
     """A parameter set from which no model can be made."""
 
 
+def _with_unit(value: float, unit: str) -> str:
+    """Return a number with its unit; a pure number has none."""
+    return f"{value:.3g}" if unit == "1" else f"{value:.3g} {unit}"
+
+
 class ClosureError(ModelError):
     """A loop of the mechanism cannot close, or a formula has left its range.
 
@@ -65,7 +70,7 @@ class ClosureError(ModelError):
         )
         shown = ", ".join(f"{name} = {value:.6g}" for name, value in self.coordinates.items())
         wrong = "; ".join(
-            f"{reason} ({name} = {value:.3g} {units.get(name, '')}, must be positive)"
+            f"{reason} ({name} = {_with_unit(value, units.get(name, '1'))}, must be positive)"
             for reason, (name, value) in zip(self.reasons, self.margins.items(), strict=True)
         )
         super().__init__(f"{function}: {wrong}, at {shown}{_place(index)}")
