@@ -49,3 +49,33 @@ def replacing(path: str | Path) -> Iterator[Path]:
         temporary.replace(target)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def new_file(path: str | Path, *, ending: str, force: bool) -> Path:
+    """Return the path of a file that may be written.
+
+    Parameters
+    ----------
+    path : str or pathlib.Path
+    ending : str
+        What its name has to end in.
+    force : bool
+        Whether a file that is there already is replaced.
+
+    Returns
+    -------
+    pathlib.Path
+
+    Raises
+    ------
+    InputError
+        If there is a file already, or the name ends otherwise.
+    """
+    path = Path(path)
+    if path.suffix != ending:
+        problem = f"an input file ends in {ending}. Write {path.with_suffix(ending)}."
+        raise InputError([problem], str(path))
+    if path.exists() and not force:
+        problem = "this file is there already. Choose another name, or force it to be replaced."
+        raise InputError([problem], str(path))
+    return path

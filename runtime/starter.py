@@ -5,7 +5,7 @@ from pathlib import Path
 
 from . import data
 from .errors import InputError
-from .files import replacing
+from .files import new_file, replacing
 from .input.suggestions import suggestion
 
 _ENDING = ".toml"
@@ -49,18 +49,12 @@ def write_starter(
     InputError
         If there is a file already, or the name cannot be used.
     """
-    path = Path(path)
     if template not in packaged():
         problem = (
             f"no data set {template!r} comes with kintrafo. {suggestion(template, packaged())}"
         )
         raise InputError([problem], "template")
-    if path.suffix != _ENDING:
-        problem = f"an input file ends in {_ENDING}. Write {path.with_suffix(_ENDING)}."
-        raise InputError([problem], str(path))
-    if path.exists() and not force:
-        problem = "this file is there already. Choose another name, or force it to be replaced."
-        raise InputError([problem], str(path))
+    path = new_file(path, ending=_ENDING, force=force)
     text = resources.files(data).joinpath(f"{template}{_ENDING}").read_text(encoding="utf-8")
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")

@@ -6,8 +6,7 @@ from typing import Any
 
 import tomlkit
 
-from ..errors import InputError
-from ..files import replacing
+from ..files import new_file, replacing
 from .suspension import Suspension
 
 _ENDING = ".toml"
@@ -68,13 +67,7 @@ def write_toml(
     InputError
         If there is a file already, or the name cannot be used.
     """
-    path = Path(path)
-    if path.suffix != _ENDING:
-        problem = f"an input file ends in {_ENDING}. Write {path.with_suffix(_ENDING)}."
-        raise InputError([problem], str(path))
-    if path.exists() and not force:
-        problem = "this file is there already. Choose another name, or force it to be replaced."
-        raise InputError([problem], str(path))
+    path = new_file(path, ending=_ENDING, force=force)
     with replacing(path) as temporary:
         temporary.write_text(toml_text(suspension, head), encoding="utf-8")
     return path
