@@ -203,15 +203,21 @@ def linearise(
         raise InputError([problem], "linearise")
     rows = [model.signal_names.index(name) for name in names]
     described = model.equations
+
+    def evaluated(function: str, *shape: int) -> Array:
+        """Return a result, empty where the mechanism has no inputs or no signals."""
+        return model.evaluate(function, state, inputs) if all(shape) else np.empty(shape)
+
+    signals, states, given = map(len, (model.signal_names, model.state_names, model.input_names))
     return Linearisation(
         state=state,
         inputs=inputs,
-        outputs=model.evaluate("signals", state, inputs)[rows],
+        outputs=evaluated("signals", signals)[rows],
         rate=model.evaluate("rhs", state, inputs),
         A=model.evaluate("rhs_jacobian", state, inputs),
-        B=model.evaluate("rhs_input_jacobian", state, inputs),
-        C=model.evaluate("signals_jacobian", state, inputs)[rows],
-        D=model.evaluate("signals_input_jacobian", state, inputs)[rows],
+        B=evaluated("rhs_input_jacobian", states, given),
+        C=evaluated("signals_jacobian", signals, states)[rows],
+        D=evaluated("signals_input_jacobian", signals, given)[rows],
         state_names=model.state_names,
         input_names=model.input_names,
         output_names=names,

@@ -335,6 +335,54 @@ from dataclasses import replace
 """
 
 
+PENDULUM = """
+from kintrafo.generator import *
+PIVOT, ELBOW, AXIS = Point("pivot"), Point("elbow"), Direction("axis")
+PENDULUM = Mechanism(
+    name="double_pendulum",
+    title="Double pendulum",
+    bodies=(
+        Body("ground", 0, center=PIVOT),
+        Body("upper", 1, center=Point("upper_com")),
+        Body("lower", 2, center=Point("lower_com")),
+    ),
+    joints=(
+        Revolute(name="shoulder", first="ground", second="upper", axis=Line(PIVOT, AXIS)),
+        Revolute(name="elbow_hinge", first="upper", second="lower", axis=Line(ELBOW, AXIS)),
+    ),
+    forces=(Weight(gravity="gravity"),),
+    parameters=(
+        *point("pivot", (0.0, 0.0, 0.0), "pivot"),
+        *point("elbow", (0.0, 0.0, -1.0), "elbow"),
+        *direction("axis", (1.0, 0.0, 0.0), "axis"),
+        *rigid_body("upper", 1.0, (0.0, 0.0, -1.0)),
+        *rigid_body("lower", 1.0, (0.0, 0.0, -2.0)),
+        Parameter("gravity", 9.81, "m/s^2", "gravity"),
+    ),
+    coordinates=(
+        RelativeCoordinate("first", "shoulder", "angle", "rad", "angle of the upper rod"),
+        RelativeCoordinate("second", "elbow_hinge", "angle", "rad", "angle between the rods"),
+    ),
+)
+"""
+
+
+def test_a_chain_without_loops_inputs_and_signals(tmp_path):
+    """Two point masses on rods of 1 m: the textbook's frequencies are those of 2 -+ sqrt(2)."""
+    system = kintrafo.System(kintrafo.compile(write(tmp_path, PENDULUM)))
+    assert system.equations.LOOPS == ()
+    linear = kintrafo.linearise(system, system.state())
+    assert linear.B.shape == (4, 0)
+    assert linear.C.shape == (0, 4)
+    assert linear.D.shape == (0, 0)
+    expected = sorted(np.sqrt(9.81 * (2.0 + np.array([-1.0, 1.0]) * np.sqrt(2.0))) / (2.0 * np.pi))
+    found = sorted(mode.natural_frequency for mode in linear.modes)
+    np.testing.assert_allclose(found, expected, rtol=1e-12)
+    result = kintrafo.simulate(system, (0.0, 1.0), system.state(first=1.0))
+    assert result.success
+    assert result.signals == {}
+
+
 class TestMistakes:
     @pytest.mark.parametrize(
         ("text", "words"),
