@@ -162,6 +162,40 @@ def test_without_the_bar_the_jacobian_is_that_of_two_suspensions() -> None:
 
 
 @pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(
+    ("jacobian", "function", "by"),
+    [
+        ("rhs_jacobian", "rhs", "state"),
+        ("rhs_jacobian_rack_held", "rhs_rack_held", "state"),
+        ("rhs_input_jacobian", "rhs", "inputs"),
+    ],
+)
+def test_the_bar_couples_the_jacobian_as_differences_say(
+    seed: int, jacobian: str, function: str, by: str
+) -> None:
+    at = Compared.of(seed, count=10)
+    given = {"state": at.state, "inputs": at.inputs}
+    found = at.axle.evaluate(jacobian, **given)
+    columns = []
+    for k in range(given[by].shape[1]):
+        # four points: the error of the step is of the fourth order, that of rounding 1e-16 / step
+        step = 2e-4 * np.maximum(1.0, np.abs(given[by][:, k]))
+        total: Any = 0.0
+        for weight, side in ((8.0, 1.0), (-8.0, -1.0), (-1.0, 2.0), (1.0, -2.0)):
+            moved = given[by].copy()
+            moved[:, k] += side * step
+            total = total + weight * at.axle.evaluate(function, **given | {by: moved})
+        columns.append(total / (12.0 * step[:, None]))
+    expected = np.stack(columns, axis=-1)
+    # columns differ by units; 1e-8 of each: steps of 2e-4 rad or m against lengths of 0.1 m
+    scale = np.abs(expected).max(axis=(0, 1), keepdims=True) + 1e-12
+    np.testing.assert_allclose(found / scale, expected / scale, rtol=0.0, atol=1e-8)
+    if by == "state":
+        left, right = at.rows("left"), at.rows("right")
+        assert np.abs(found[:, right][:, :, left]).max() > 10.0  # there is a bar
+
+
+@pytest.mark.parametrize("seed", SEEDS)
 def test_the_sides_have_no_inertia_in_common(seed: int) -> None:
     at = Compared.of(seed)
     matrix = at.axle.evaluate("mass_matrix", at.state, at.inputs)
