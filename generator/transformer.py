@@ -2,20 +2,19 @@
 
 A transformer is one loop of the minimal cycle basis, cut at its *characteristic pair of joints*
 (Hiller & Woernle, 1988): the pair whose own coordinates, taken together, are the most numerous, so
-that the fewest closure equations remain. Everything here is structure; the algebra is in
-`solutions`.
+that the fewest closure equations remain. The pairs and the closed forms that they lead to are found
+by `pairs`, what each makes known is said in `acceptance`. Everything here is structure; the algebra
+is in `solutions`.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from itertools import combinations
 from typing import TYPE_CHECKING
 
+from .acceptance import accept
 from .actions import (
     Action,
-    HeldByRod,
-    PinnedTelescope,
     PlaceByCross,
     PlaceByJoint,
     PlaceByPin,
@@ -24,21 +23,18 @@ from .actions import (
     SolveCarrier,
     SolveHinge,
     SolveSlide,
-    SolveStroke,
-    SolveTelescope,
     SolveTurn,
 )
-from .joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
+from .carriers import held_together
+from .joints import Joint, Prismatic, Revolute, Spherical, Universal
+from .pairs import PairCandidate, closed_form, pair_candidates
+from .settled import Settled
 from .topology import Cycle, MinimalBasis, Topology
 
 if TYPE_CHECKING:
-    from .geometry import Point
-    from .mechanism import Body, Mechanism, Model
+    from .mechanism import Mechanism, Model
+    from .settled import Coordinate
 
-
-# A rod is one equation; the pose of a body about a known point has three unknowns, else six.
-_RODS_ABOUT_A_POINT = 3
-_RODS_WITHOUT_A_POINT = 6
 
 _Offer = tuple[Cycle, list[Cycle]]
 """A cycle of the basis, with the others that could have been taken."""
@@ -46,66 +42,6 @@ _Offer = tuple[Cycle, list[Cycle]]
 
 class NoClosedFormError(ValueError):
     """A loop has no solution in the catalogue of closed forms."""
-
-
-@dataclass(frozen=True)
-class PairCandidate:
-    """A pair of joints at which a loop could be cut, and what that eliminates.
-
-    Attributes
-    ----------
-    eliminated
-        Number of unknown coordinates of the two joints.
-    equations
-        Number of closure equations that remain, of the six of a spatial loop or the three of a
-        planar one. The turn of a link about the line through two ball joints takes part in none.
-    """
-
-    joints: tuple[Joint, Joint]
-    eliminated: int
-    equations: int
-
-
-@dataclass(frozen=True)
-class _CutLoop:
-    """A loop cut at the centres of a pair of joints, seen as two arcs from anchor to end.
-
-    ``joints`` and ``bodies`` are those of one arc; ``other_joints`` and ``others`` of the other.
-    """
-
-    anchor: Point
-    end: Point
-    joints: tuple[Joint, ...]
-    bodies: tuple[str, ...]
-    other_joints: tuple[Joint, ...]
-    others: tuple[str, ...]
-
-
-def _common_point(joint: Joint, cycle: Cycle) -> Point | None:
-    """Return the point that a joint keeps common; in a plane, a hinge has one too."""
-    if cycle.planar and isinstance(joint, Revolute):
-        return joint.axis.through
-    return joint.center
-
-
-def _views(cycle: Cycle, pair: PairCandidate) -> list[_CutLoop]:
-    """Return the four ways to look at a cut loop: either arc first, either direction."""
-    i, j = sorted(cycle.joints.index(joint) for joint in pair.joints)
-    anchor, end = (_common_point(cycle.joints[k], cycle) for k in (i, j))
-    if anchor is None or end is None:
-        return []
-    inner = cycle.joints[i + 1 : j], cycle.bodies[i + 1 : j + 1]
-    outer = (
-        (cycle.joints[j + 1 :] + cycle.joints[:i])[::-1],
-        (cycle.bodies[j + 1 :] + cycle.bodies[: i + 1])[::-1],
-    )
-    views = []
-    for (joints, bodies), (other_joints, others) in ((inner, outer), (outer, inner)):
-        views.append(_CutLoop(anchor, end, joints, bodies, other_joints, others))
-        views.append(
-            _CutLoop(end, anchor, joints[::-1], bodies[::-1], other_joints[::-1], others[::-1])
-        )
-    return views
 
 
 @dataclass(frozen=True)
@@ -151,18 +87,19 @@ class Plan:
     topology: Topology
     transformers: list[Transformer] = field(default_factory=list)
     actions: list[Action] = field(default_factory=list)
-    _known: set[tuple[str, str]] = field(default_factory=set)
-    _placed: set[str] = field(default_factory=set)
-    _on_line: set[str] = field(default_factory=set)
+    _settled: Settled = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        self._settled = Settled(self._mechanism, self.topology)
 
     @classmethod
     def of(cls, model: Model) -> Plan:
         """Analyse a model: choose the basis, the pairs and the order."""
         plan = cls(model, Topology(model.mechanism))
-        plan._placed.add(plan._mechanism.ground)
+        plan._settled.placed.add(plan._mechanism.ground)
         for name in (*model.independent, *model.prescribed):
             joint = plan._mechanism.joint(name)
-            plan._known.update((name, c) for c in joint.coordinates)
+            plan._settled.known.update((name, c) for c in joint.coordinates)
         plan._place_neighbours()
         plan._solve_loops()
         plan._check_complete()
@@ -177,7 +114,7 @@ class Plan:
         basis = MinimalBasis(self.topology)
         waiting: list[_Offer] = []
         while (options := basis.options()) or waiting:
-            options.sort(key=self._unknowns)  # stable: ties keep the order of the figure's numbers
+            options.sort(key=self._settled.unknowns)  # stable: ties keep the figure's order
             offers = [(c, [o for o in options if o is not c]) for c in options]
             solved = next((offer for offer in (*waiting, *offers) if self._solve(*offer)), None)
             if solved is None and not offers:
@@ -194,22 +131,12 @@ class Plan:
     def _mechanism(self) -> Mechanism:
         return self.model.mechanism
 
-    def is_known(self, joint: Joint, coordinate: str) -> bool:
-        """Tell whether a relative coordinate is given or already solved."""
-        return (joint.name, coordinate) in self._known
-
     def lines(self) -> list[SolveTurn | SolveHinge | SolveSlide]:
         """Return the solutions that leave their rod on a line, free to turn about it."""
         pinned = {a.body for a in self.actions if isinstance(a, PlaceByPin)}
         pinned |= {a.near for a in self.actions if isinstance(a, PlaceTelescope)}
         held = [a for a in self.actions if isinstance(a, SolveTurn | SolveHinge | SolveSlide)]
         return [a for a in held if a.rod not in pinned]
-
-    def _unknowns(self, cycle: Cycle) -> int:
-        return sum(self._unknowns_of(joint) for joint in cycle.joints)
-
-    def _unknowns_of(self, joint: Joint) -> int:
-        return sum(not self.is_known(joint, c) for c in joint.coordinates)
 
     # -- placing bodies -------------------------------------------------------------------------
 
@@ -222,18 +149,22 @@ class Plan:
                 action = self._follow(joint)
                 if action is not None:
                     self.actions.append(action)
-                    self._placed.add(action.child)
-                    self._on_line.discard(action.child)
+                    self._settled.placed.add(action.child)
+                    self._settled.on_line.discard(action.child)
                     progress = True
 
     def _follow(self, joint: Joint) -> PlaceByJoint | PlaceByCross | None:
-        placed = [b in self._placed for b in joint.bodies]
+        placed = [b in self._settled.placed for b in joint.bodies]
         if placed[0] == placed[1]:
             return None
         parent, child = joint.bodies if placed[0] else reversed(joint.bodies)
-        if isinstance(joint, Universal) and child == joint.second and child in self._on_line:
+        if (
+            isinstance(joint, Universal)
+            and child == joint.second
+            and child in self._settled.on_line
+        ):
             return PlaceByCross(joint, parent, child)
-        if isinstance(joint, Revolute | Prismatic) and self._unknowns_of(joint) == 0:
+        if isinstance(joint, Revolute | Prismatic) and self._settled.unknowns_of(joint) == 0:
             if child != joint.second:
                 message = (
                     f"joint {joint.name!r}: declare {parent!r} first and {child!r} second, "
@@ -247,14 +178,14 @@ class Plan:
 
     def _solve(self, cycle: Cycle, rivals: list[Cycle]) -> bool:
         """Solve a loop if its equation is in the catalogue and all that it reads is known."""
-        candidates = self._pair_candidates(cycle)
+        candidates = pair_candidates(self._settled, cycle)
         for pair in candidates:
-            action = self._closed_form(cycle, pair)
+            action = closed_form(self._settled, cycle, pair)
             if action is None:
                 continue
-            unknowns = self._unknowns(cycle)
-            before = self._coordinates(cycle) & self._known
-            after = self._accept(action)
+            unknowns = self._settled.unknowns(cycle)
+            before = self._coordinates(cycle) & self._settled.known
+            after = accept(self._settled, self.actions, action)
             self.transformers.append(
                 Transformer(
                     number=len(self.transformers) + 1,
@@ -273,39 +204,30 @@ class Plan:
         return False
 
     @staticmethod
-    def _coordinates(cycle: Cycle) -> set[tuple[str, str]]:
+    def _coordinates(cycle: Cycle) -> set[Coordinate]:
         return {(j.name, c) for j in cycle.joints for c in j.coordinates}
 
     # -- loops without a closed form ------------------------------------------------------------
 
     def _iterate(self, waiting: list[_Offer]) -> list[_Offer]:
         """Solve a body that rods hold together, by iteration; return the loops that still wait."""
-        action, solved = self._held_together(waiting)
+        action, cycles = held_together(self._settled, [cycle for cycle, _ in waiting])
+        solved = [offer for offer in waiting if offer[0] in cycles]
         if action is None or not self.model.allow_iteration:
             cycle, _ = (solved or waiting)[0]
-            message = self._refusal(cycle, self._pair_candidates(cycle))
+            message = self._refusal(cycle, pair_candidates(self._settled, cycle))
             raise NoClosedFormError(message + self._remedy(action))
         self._solve_together(action, solved)
         self._place_neighbours()
         return [offer for offer in waiting if offer not in solved]
 
-    def _held_together(self, waiting: list[_Offer]) -> tuple[SolveCarrier | None, list[_Offer]]:
-        """Return the first body that rods hold together, with the loops that they close."""
-        for action in filter(None, map(self._carrier, self._mechanism.bodies)):
-            links = {link for held in action.rods for link in held.links}
-            inside = {action.body} | links | self._placed
-            closed = [offer for offer in waiting if inside.issuperset(offer[0].bodies)]
-            if len(closed) == action.loops:
-                return action, closed
-        return None, []
-
     def _solve_together(self, action: SolveCarrier, offers: list[_Offer]) -> None:
         """Record the loops that one iteration solves: a transformer for each of them."""
-        candidates = [self._pair_candidates(cycle) for cycle, _ in offers]
+        candidates = [pair_candidates(self._settled, cycle) for cycle, _ in offers]
         pairs = self._rod_pairs(action, candidates)
-        unknowns = [self._unknowns(cycle) for cycle, _ in offers]
-        given = [self._coordinates(cycle) & self._known for cycle, _ in offers]
-        found = self._accept(action)
+        unknowns = [self._settled.unknowns(cycle) for cycle, _ in offers]
+        given = [self._coordinates(cycle) & self._settled.known for cycle, _ in offers]
+        found = accept(self._settled, self.actions, action)
         left = set(found)
         for i, (cycle, rivals) in enumerate(offers):
             own = self._coordinates(cycle) & left
@@ -340,58 +262,11 @@ class Plan:
             pairs.append(next((p for p in at_rods if p not in pairs), at_rods[0]))
         return pairs
 
-    def _carrier(self, body: Body) -> SolveCarrier | None:
-        """Return the action for a body that three rods and a point hold, or six rods."""
-        if body.name in self._placed | self._on_line:
-            return None
-        rods = [held for j in self._mechanism.joints_of(body.name) if (held := self._rod(body, j))]
-        bases = [
-            j
-            for j in self._mechanism.joints_of(body.name)
-            if isinstance(j, Spherical) and j.other(body.name) in self._placed
-        ]
-        if len(bases) == 1 and len(rods) == _RODS_ABOUT_A_POINT:
-            (base,) = bases
-            return SolveCarrier(body.name, tuple(rods), (base.at, base.other(body.name)))
-        if not bases and len(rods) == _RODS_WITHOUT_A_POINT:
-            return SolveCarrier(body.name, tuple(rods))
-        return None
-
-    def _rod(self, body: Body, joint: Joint) -> HeldByRod | None:
-        """Return the rod that holds a body at a joint, if its other end is at a placed body."""
-        end, rod = joint.center, joint.other(body.name)
-        far, guide, other = None, None, self._beyond(joint, rod)
-        if isinstance(other, Prismatic) and self._unknowns_of(other) == 0:
-            guide, far, rod = other, rod, other.other(rod)
-            other = self._beyond(guide, rod)
-        anchor = other.center if other else None
-        if other is None or end is None or anchor is None:
-            return None
-        settled = {rod, far} & (self._placed | self._on_line)
-        if settled or other.other(rod) not in self._placed:
-            return None
-        if guide is not None and not self._is_strut(guide, rod, other, end):
-            return None
-        return HeldByRod(body.name, rod, end, anchor, other.other(rod), guide, far)
-
-    def _beyond(self, joint: Joint, link: str) -> Joint | None:
-        """Return the other joint of a link that has two."""
-        others = [j for j in self._mechanism.joints_of(link) if j != joint]
-        return others[0] if len(others) == 1 else None
-
-    @staticmethod
-    def _is_strut(guide: Prismatic, rod: str, anchor: Joint, end: Point) -> bool:
-        """Tell whether a guide is along the line of its ends, and a cross holds its first link."""
-        between = guide.direction.between
-        along = between is not None and set(between) == {anchor.center, end}
-        crossed = isinstance(anchor, Universal) and anchor.second == rod
-        return along and crossed and guide.first == rod
-
-    def _unknowns_before(self, cycle: Cycle, solved: set[tuple[str, str]]) -> int:
+    def _unknowns_before(self, cycle: Cycle, solved: set[Coordinate]) -> int:
         own = {(j.name, c) for j in cycle.joints for c in j.coordinates}
-        return self._unknowns(cycle) + len(own & solved)
+        return self._settled.unknowns(cycle) + len(own & solved)
 
-    def _labels(self, coordinates: set[tuple[str, str]]) -> tuple[str, ...]:
+    def _labels(self, coordinates: set[Coordinate]) -> tuple[str, ...]:
         """Return coordinates by name; those of a ball joint together, as its orientation."""
         labels = []
         for joint in self._mechanism.joints:
@@ -401,192 +276,6 @@ class Plan:
             else:
                 labels += [f"{joint.name}.{c}" for c in own]
         return tuple(labels)
-
-    def _pair_candidates(self, cycle: Cycle) -> list[PairCandidate]:
-        """Return the pairs of joints that both keep a point in common, most eliminated first."""
-        pairs = [
-            self._pair(cycle, a, b)
-            for a, b in combinations(cycle.joints, 2)
-            if _common_point(a, cycle) is not None and _common_point(b, cycle) is not None
-        ]
-        return sorted(pairs, key=lambda p: -p.eliminated)
-
-    def _pair(self, cycle: Cycle, a: Joint, b: Joint) -> PairCandidate:
-        eliminated = self._unknowns_of(a) + self._unknowns_of(b)
-        idle = isinstance(a, Spherical) and isinstance(b, Spherical)
-        dimension = 3 if cycle.planar else 6
-        return PairCandidate((a, b), eliminated, dimension - eliminated + idle)
-
-    def _closed_form(self, cycle: Cycle, pair: PairCandidate) -> Solution | None:
-        if pair.equations != 1:
-            return None
-        for view in _views(cycle, pair):
-            action = (
-                self._telescope(view)
-                or self._stroke(view)
-                or self._turn(view)
-                or self._driven_by_rod(view)
-            )
-            if action is not None:
-                return action
-        return None
-
-    def _stroke(self, view: _CutLoop) -> SolveStroke | None:
-        """Return the action for two links on a guide in a plane, both pins on placed bodies."""
-        telescope = self._pinned_telescope(view)
-        placed = {view.others[0], view.others[-1]} <= self._placed
-        if telescope is None or not placed or self._unknowns_of(telescope.joint) == 0:
-            return None
-        return SolveStroke(**vars(telescope))
-
-    def _pinned_telescope(self, view: _CutLoop) -> PinnedTelescope | None:
-        """Return the telescope in a plane that one arc of a loop is."""
-        if len(view.joints) != 1 or not isinstance(view.joints[0], Prismatic):
-            return None
-        near, far = view.bodies
-        near_hinge = self.topology.joint_between(view.others[0], near)
-        far_hinge = self.topology.joint_between(view.others[-1], far)
-        if not (isinstance(near_hinge, Revolute) and isinstance(far_hinge, Revolute)):
-            return None
-        if {near, far} & self._placed:
-            return None
-        at_anchor = near, near_hinge, view.anchor, view.others[0]
-        return PinnedTelescope(
-            view.joints[0], *at_anchor, far, far_hinge, view.end, view.others[-1]
-        )
-
-    def _driven_by_rod(self, view: _CutLoop) -> SolveHinge | SolveSlide | None:
-        """Return the action for a rod from a placed point to a body on a hinge or a guide."""
-        pinned = self._pinned_telescope(view)
-        if not (len(view.bodies) == 1 or pinned) or not view.other_joints:
-            return None
-        rod, joint, body = view.bodies[0], view.other_joints[-1], view.others[-1]
-        parent = joint.other(body)
-        settled = {rod, body} & self._placed or self._unknowns_of(joint) == 0
-        if settled or not {parent, view.others[0]} <= self._placed:
-            return None
-        if pinned and self._unknowns_of(pinned.joint) > 0:
-            return None
-        telescope = PlaceTelescope(**vars(pinned)) if pinned else None
-        held = parent, rod, view.end, view.anchor, view.others[0], telescope
-        if isinstance(joint, Revolute):
-            return SolveHinge(body, joint, *held)
-        return SolveSlide(body, joint, *held) if isinstance(joint, Prismatic) else None
-
-    def _telescope(self, view: _CutLoop) -> SolveTelescope | None:
-        """Return the action for two links on a common axis, both ends on placed bodies."""
-        if len(view.joints) != 1 or not isinstance(view.joints[0], Cylindrical):
-            return None
-        joint, (anchor_link, end_link) = view.joints[0], view.bodies
-        # the axis of the joint runs from the second body to the anchor, a point of the first
-        along_axis = joint.axis.towards == view.anchor
-        placed = {view.others[0], view.others[-1]} <= self._placed
-        if self.is_known(joint, "slide") or not (along_axis and placed):
-            return None
-        if anchor_link != joint.first:
-            return None
-        return SolveTelescope(
-            joint, view.anchor, view.others[0], anchor_link, view.end, view.others[-1], end_link
-        )
-
-    def _turn(self, view: _CutLoop) -> SolveTurn | None:
-        """Return the action for a rod from a placed point to a body that can still turn."""
-        if len(view.bodies) != 1:
-            return None
-        if view.others[0] not in self._placed or view.others[-1] not in self._on_line:
-            return None
-        return SolveTurn(view.others[-1], view.bodies[0], view.end, view.anchor, view.others[0])
-
-    def _accept(self, action: Solution) -> set[tuple[str, str]]:
-        """Record what a solution makes known; return the coordinates that are new."""
-        if isinstance(action, SolveHinge | SolveSlide):
-            return self._accept_driven(action)
-        if isinstance(action, SolveStroke):
-            self.actions.append(action)
-            return self._accept_telescope(action)
-        if isinstance(action, SolveCarrier):
-            return self._accept_carrier(action)
-        if isinstance(action, SolveTelescope):
-            new = {(action.joint.name, "slide")}
-            self._on_line.add(action.end_link)
-            joints = [] if action.misses_end else self._aim(action)
-        else:
-            new = set()
-            self._on_line.discard(action.body)
-            self._placed.add(action.body)
-            self._on_line.add(action.rod)
-            aimed = [
-                a
-                for a in self.actions
-                if isinstance(a, SolveTelescope) and a.misses_end and a.end_link == action.body
-            ]
-            joints = [
-                *(joint for a in aimed for joint in self._aim(a)),
-                *self._mechanism.joints_of(action.rod),
-                *(j for j in self._mechanism.joints_of(action.body) if self._joins_solved(j)),
-            ]
-        self.actions.append(action)
-        new |= {(j.name, c) for j in joints for c in j.coordinates}
-        new -= self._known
-        self._known |= new
-        return new
-
-    def _accept_driven(self, action: SolveHinge | SolveSlide) -> set[tuple[str, str]]:
-        """Record the body that a rod drives, and the rod: placed by its hinge, or on its line."""
-        self.actions.append(action)
-        self._placed.add(action.body)
-        if action.telescope is not None:
-            self.actions.append(action.telescope)
-            own = {(action.joint.name, c) for c in action.joint.coordinates}
-            self._known |= own
-            return own | self._accept_telescope(action.telescope)
-        carrier = self.topology.joint_between(action.anchor_body, action.rod)
-        if isinstance(carrier, Revolute):
-            self.actions.append(
-                PlaceByPin(action.rod, carrier, action.anchor_body, action.end, action.body)
-            )
-            self._placed.add(action.rod)
-        else:
-            self._on_line.add(action.rod)
-        solved = [action.joint, *self._mechanism.joints_of(action.rod)]
-        joints = [j for j in solved if self._joins_solved(j)]
-        new = {(j.name, c) for j in joints for c in j.coordinates} - self._known
-        if not isinstance(carrier, Revolute):  # its turn about the line is still open
-            new -= {
-                (j.name, c) for j in self._mechanism.joints_of(action.rod) for c in j.coordinates
-            }
-        self._known |= new
-        return new
-
-    def _accept_carrier(self, action: SolveCarrier) -> set[tuple[str, str]]:
-        """Record a body that rods hold together, and the rods: each on its line."""
-        self.actions.append(action)
-        self._placed.add(action.body)
-        self._on_line |= {held.rod for held in action.rods}
-        links = [link for held in action.rods for link in held.links]
-        at_rods = [j for link in links for j in self._mechanism.joints_of(link)]
-        at_body = [j for j in self._mechanism.joints_of(action.body) if self._joins_solved(j)]
-        new = {(j.name, c) for j in (*at_rods, *at_body) for c in j.coordinates} - self._known
-        self._known |= new
-        return new
-
-    def _accept_telescope(self, action: PinnedTelescope) -> set[tuple[str, str]]:
-        """Record the two links of a telescope in a plane, and the joints at them."""
-        self._placed |= {action.near, action.far}
-        links = (action.joint, action.near_hinge, action.far_hinge)
-        new = {(j.name, c) for j in links for c in j.coordinates} - self._known
-        self._known |= new
-        return new
-
-    def _aim(self, action: SolveTelescope) -> list[Joint]:
-        """Record that the direction of a telescope is known; return what that settles."""
-        self._on_line.add(action.anchor_link)
-        universal = self._mechanism.universal_at(action.anchor_link, action.anchor)
-        return [universal] if universal else []
-
-    def _joins_solved(self, joint: Joint) -> bool:
-        solved = self._placed | self._on_line
-        return all(body in solved for body in joint.bodies)
 
     # -- refusals -------------------------------------------------------------------------------
 
@@ -598,7 +287,8 @@ class Plan:
         )
         return (
             f"the loop {loop} (joints {', '.join(j.name for j in cycle.joints)}) has no closed "
-            f"form in the catalogue. {self._unknowns(cycle)} of its coordinates are unknown. "
+            f"form in the catalogue. {self._settled.unknowns(cycle)} of its coordinates are "
+            "unknown. "
             f"Pairs tried: {tried or 'none, since no two of its joints keep a point in common'}."
             f"{self._miscounted()}"
         )
@@ -629,7 +319,7 @@ class Plan:
         )
 
     def _check_complete(self) -> None:
-        missing = [b.name for b in self._mechanism.bodies if b.name not in self._placed]
+        missing = [b.name for b in self._mechanism.bodies if b.name not in self._settled.placed]
         if missing:
             message = (
                 f"model {self.model.name!r}: nothing determines the pose of {', '.join(missing)}; "
