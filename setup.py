@@ -4,6 +4,10 @@ Everything else is in pyproject.toml.
 """
 
 import os
+import re
+import shlex
+import shutil
+import subprocess
 import sys
 from pathlib import Path
 
@@ -18,12 +22,12 @@ NATIVE = Path("runtime/native")
 # into fused operations is left off, so that every machine computes the same bits.
 FLAGS = [] if sys.platform == "win32" else ["-O2", "-fno-math-errno", "-ffp-contract=off"]
 
-# Where SUNDIALS may be: named by the user, in the active environment, or of the system.
-PREFIXES = [
-    Path(p)
-    for p in (os.environ.get("SUNDIALS_ROOT"), os.environ.get("CONDA_PREFIX"), "/usr/local", "/usr")
-    if p
-] + [Path("/opt/homebrew")]
+# Where SUNDIALS may be: in the place that the user names, or in the active environment, or of the
+# system. `.ci/setup` looks in the same places.
+NAMED = os.environ.get("SUNDIALS_ROOT")
+PREFIXES = [NAMED] if NAMED else [os.environ.get("CONDA_PREFIX"), "/usr/local", "/usr"]
+PREFIXES += [] if NAMED else ["/opt/homebrew"]
+HEADER = "include/cvode/cvode.h"
 LIBRARIES = ["cvode", "arkode", "nvecserial", "sunmatrixdense", "sunlinsoldense"]
 
 
@@ -47,43 +51,63 @@ def solver_extension() -> Extension | None:
 
     Static libraries are preferred: the module then needs nothing but libm and libc.
     """
-    prefix = next((p for p in PREFIXES if (p / "include/cvode/cvode.h").exists()), None)
+    prefix = next((Path(p) for p in PREFIXES if p and (Path(p) / HEADER).exists()), None)
     if prefix is None:
+        if NAMED:
+            sys.exit(f"kintrafo: SUNDIALS_ROOT = {NAMED}: there is no {HEADER} in it")
         print("kintrafo: SUNDIALS not found; integration will use SciPy", file=sys.stderr)
         return None
-    static, shared = _libraries(prefix)
+    folders = [prefix / "lib", prefix / "lib64", *sorted((prefix / "lib").glob("*-linux-gnu"))]
+    static, shared, homes = _libraries(folders)
+    headers, linked = _mpi_flags(prefix / "include")
     return Extension(
         "kintrafo.native._sundials",
         [(NATIVE / "_sundials.pyx").as_posix(), (NATIVE / "integrate.c").as_posix()],
         include_dirs=[NATIVE.as_posix(), (prefix / "include").as_posix()],
-        library_dirs=[(prefix / "lib").as_posix()],
+        library_dirs=homes,
+        # found again when the module is imported, wherever they are
+        runtime_library_dirs=[] if sys.platform == "win32" else homes,
         libraries=[*shared, "m"],
         extra_objects=[path.as_posix() for path in static],
         depends=[(NATIVE / "integrate.h").as_posix()],
-        extra_compile_args=FLAGS,
-        optional=True,  # a build that fails leaves the fallback
+        extra_compile_args=[*FLAGS, *headers],
+        extra_link_args=linked,
     )
 
 
-def _libraries(prefix: Path) -> tuple[list[Path], list[str]]:
-    """Return static libraries, and the names of those that there are only as shared ones."""
-    folders = [prefix / "lib", prefix / "lib64", *sorted((prefix / "lib").glob("*-linux-gnu"))]
+def _libraries(folders: list[Path]) -> tuple[list[Path], list[str], list[str]]:
+    """Return static libraries, and names and folders of those that are shared ones only."""
+    static, shared, homes = [], [], []
     # 7.x has a library "core" where 6.x has "generic"
-    static, shared = [], []
     for name in [*LIBRARIES, "generic", "core"]:
-        archive = next(
-            (
-                f / f"libsundials_{name}.a"
-                for f in folders
-                if (f / f"libsundials_{name}.a").exists()
-            ),
-            None,
-        )
-        if archive is not None:
-            static.append(archive)
-        elif any(list(f.glob(f"libsundials_{name}.*")) for f in folders):
+        found = [f for folder in folders for f in folder.glob(f"libsundials_{name}.*")]
+        archives = [f for f in found if f.suffix == ".a"]
+        if archives:
+            static.append(archives[0])
+        elif found:
             shared.append(f"sundials_{name}")
-    return static, shared
+            homes.append(found[0].parent.as_posix())
+    return static, shared, sorted(set(homes))
+
+
+def _mpi_flags(include: Path) -> tuple[list[str], list[str]]:
+    """Return what compiler and linker need where SUNDIALS has MPI in its core.
+
+    This is so for the packages of 7.x in Debian and Homebrew. No function of MPI is ever called.
+    """
+    config = (include / "sundials/sundials_config.h").read_text(encoding="utf-8")
+    since_7 = int(re.search(r"SUNDIALS_VERSION_MAJOR (\d+)", config)[1]) >= 7
+    if not (since_7 and re.search(r"^#define SUNDIALS_MPI_ENABLED 1", config, re.MULTILINE)):
+        return [], []
+    compiler = shutil.which("mpicc")
+    if compiler is None:
+        print("kintrafo: this SUNDIALS was built with MPI, and there is no mpicc", file=sys.stderr)
+        return [], []
+    command = [compiler, "-show"]
+    shown = subprocess.run(command, capture_output=True, text=True, check=True)  # noqa: S603
+    words = shlex.split(shown.stdout)[1:]  # behind the name of the compiler
+    headers = [word for word in words if word.startswith("-I")]
+    return headers, [word for word in words if word not in headers]
 
 
 class Build(build_ext):
@@ -104,7 +128,8 @@ if not list(GENERATED.glob("*.pyx")):
     sys.exit("kintrafo: no generated models in generated/; run `make generate` first")
 EXTENSIONS = [model_extension(path) for path in sorted(GENERATED.glob("*.pyx"))]
 SOLVER = solver_extension()
-setup(
-    ext_modules=cythonize([*EXTENSIONS, *([SOLVER] if SOLVER else [])], build_dir="build/cython"),
-    cmdclass={"build_ext": Build},
-)
+MODULES = cythonize([*EXTENSIONS, *([SOLVER] if SOLVER else [])], build_dir="build/cython")
+for module in MODULES:
+    # a build of the solver that fails leaves SciPy; set here, since cythonize does not keep it
+    module.optional = SOLVER is not None and module.name == SOLVER.name
+setup(ext_modules=MODULES, cmdclass={"build_ext": Build})
