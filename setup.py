@@ -69,7 +69,7 @@ def solver_extension() -> Extension | None:
         runtime_library_dirs=[] if sys.platform == "win32" else homes,
         libraries=[*shared, "m"],
         extra_objects=[path.as_posix() for path in static],
-        depends=[(NATIVE / "integrate.h").as_posix()],
+        depends=[(NATIVE / name).as_posix() for name in ("integrate.h", "versions.h")],
         extra_compile_args=[*FLAGS, *headers],
         extra_link_args=linked,
     )

@@ -1,5 +1,6 @@
 """The generated functions and the native solver run clean under address and UB sanitizers."""
 
+import os
 import shutil
 import subprocess
 from pathlib import Path
@@ -8,12 +9,12 @@ import pytest
 from c_text import sources
 from cases import MODELS, car_parameters
 from kintrafo import Model, state_at_height
-from kintrafo.solvers import native_available
+from kintrafo.solvers import native_available, native_version
 
 ROOT = Path(__file__).parent.parent
 FLAGS = ["-std=gnu99", "-O1", "-g", "-fno-math-errno", "-fsanitize=address,undefined"]
 FLAGS += ["-fno-sanitize-recover=all", "-Wall", "-Wextra", "-Werror"]
-SUNDIALS = ["cvode", "arkode", "nvecserial", "sunmatrixdense", "sunlinsoldense", "generic"]
+SUNDIALS = ["cvode", "arkode", "nvecserial", "sunmatrixdense", "sunlinsoldense"]
 
 needs_gcc = pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc")
 
@@ -108,11 +109,22 @@ def assignments(model, parameters):
     return " ".join(f"parameters[{i}] = {value!r};" for i, value in values)
 
 
-def run_clean(folder, text, files, *libraries):
+def with_sundials():
+    """Return a compiler and flags for the SUNDIALS with which the project was built."""
+    since_7 = int(native_version().split(".")[0]) >= 7
+    libraries = [*SUNDIALS, "core" if since_7 else "generic"]
+    root = os.environ.get("SUNDIALS_ROOT")
+    where = [f"-I{root}/include", f"-L{root}/lib", f"-Wl,-rpath,{root}/lib"] if root else []
+    # Debian's and Homebrew's 7.x have MPI in their core
+    compiler = "mpicc" if since_7 and shutil.which("mpicc") else "gcc"
+    return compiler, [*where, *(f"-lsundials_{name}" for name in libraries)]
+
+
+def run_clean(folder, text, files, flags=(), compiler="gcc"):
     program = folder / "program.c"
     program.write_text(text, encoding="utf-8")
     include = [f"-I{ROOT / 'generated/c'}", f"-I{ROOT / 'runtime/native'}"]
-    command = ["gcc", *FLAGS, *include, program, *files, "-o", folder / "program", *libraries]
+    command = [compiler, *FLAGS, *include, program, *files, "-o", folder / "program", *flags]
     built = subprocess.run([*map(str, command), "-lm"], capture_output=True, text=True, check=False)
     if "cannot find" in built.stderr and "asan" in built.stderr:
         pytest.skip("the compiler's sanitizer library is not installed")
@@ -153,7 +165,8 @@ def test_native_solver(tmp_path):
         state=", ".join(repr(float(v)) for v in start),
     )
     files = [*sources("macpherson"), ROOT / "runtime/native/integrate.c"]
-    run_clean(tmp_path, text, files, *(f"-lsundials_{name}" for name in SUNDIALS))
+    compiler, flags = with_sundials()
+    run_clean(tmp_path, text, files, flags, compiler)
 
 
 @needs_gcc

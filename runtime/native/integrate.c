@@ -1,16 +1,11 @@
 #include "integrate.h"
+#include "versions.h"
 
 #include <math.h>
-#include <stdio.h> /* FILE, which SUNDIALS 6.4 uses undeclared */
 #include <stdlib.h>
 #include <string.h>
 
-#include <arkode/arkode_butcher_erk.h>
-#include <arkode/arkode_erkstep.h>
-#include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
-#include <sundials/sundials_config.h>
-#include <sundials/sundials_context.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
@@ -161,28 +156,7 @@ static int call_roots(sunrealtype time, N_Vector y, sunrealtype *out, void *data
     return 0;
 }
 
-/* Errors are reported by return codes alone. */
-#if SUNDIALS_VERSION_MAJOR < 7
-static void be_silent(int code, const char *module, const char *function, char *message, void *data)
-{
-    (void)code, (void)module, (void)function, (void)message, (void)data;
-}
-#endif
-
 /* -- setting up ------------------------------------------------------------------------------- */
-
-static int open_context(worker *w)
-{
-#if SUNDIALS_VERSION_MAJOR < 7
-    return SUNContext_Create(NULL, &w->context);
-#else
-    int code = SUNContext_Create(SUN_COMM_NULL, &w->context);
-    if (!code) {
-        SUNContext_ClearErrHandlers(w->context);
-    }
-    return code;
-#endif
-}
 
 static int set_up_cvode(worker *w, double start)
 {
@@ -191,9 +165,7 @@ static int set_up_cvode(worker *w, double start)
     if (!w->solver) {
         return KT_MEMORY;
     }
-#if SUNDIALS_VERSION_MAJOR < 7
-    CVodeSetErrHandlerFn(w->solver, be_silent, NULL);
-#endif
+    silence_cvode(w->solver);
     int n = w->problem->state_count, roots = w->problem->event_count + w->problem->root_count;
     w->matrix = SUNDenseMatrix(n, n, w->context);
     w->linear = w->matrix ? SUNLinSol_Dense(w->y, w->matrix, w->context) : NULL;
@@ -257,9 +229,7 @@ static int set_up_runge_kutta(worker *w, double start)
     if (!w->solver) {
         return KT_MEMORY;
     }
-#if SUNDIALS_VERSION_MAJOR < 7
-    ERKStepSetErrHandlerFn(w->solver, be_silent, NULL);
-#endif
+    silence_arkode(w->solver);
     ARKodeButcherTable table = table_of(o->table);
     int unknown = !table || ERKStepSetTable(w->solver, table); /* copies it */
     ARKodeButcherTable_Free(table);
@@ -269,15 +239,15 @@ static int set_up_runge_kutta(worker *w, double start)
     int roots = w->problem->event_count + w->problem->root_count;
     /* Nothing is interpolated then, and a cubic needs no evaluations of its own. */
     int exact = o->stop_at_outputs && !o->dense && !roots;
-    int bad = ERKStepSetUserData(w->solver, w)
-        || (exact && ERKStepSetInterpolantDegree(w->solver, 3))
-        || ERKStepSVtolerances(w->solver, o->rtol, w->tolerance)
-        || ERKStepSetMaxNumSteps(w->solver, -1)
-        || (o->first_step > 0.0 && ERKStepSetInitStep(w->solver, o->first_step))
-        || (o->max_step > 0.0 && ERKStepSetMaxStep(w->solver, o->max_step))
-        || (roots && ERKStepRootInit(w->solver, roots, call_roots))
-        || (roots && ERKStepSetRootDirection(w->solver, (int *)w->problem->directions))
-        || (roots && ERKStepSetNoInactiveRootWarn(w->solver));
+    int bad = ARKodeSetUserData(w->solver, w)
+        || (exact && ARKodeSetInterpolantDegree(w->solver, 3))
+        || ARKodeSVtolerances(w->solver, o->rtol, w->tolerance)
+        || ARKodeSetMaxNumSteps(w->solver, -1)
+        || (o->first_step > 0.0 && ARKodeSetInitStep(w->solver, o->first_step))
+        || (o->max_step > 0.0 && ARKodeSetMaxStep(w->solver, o->max_step))
+        || (roots && ARKodeRootInit(w->solver, roots, call_roots))
+        || (roots && ARKodeSetRootDirection(w->solver, (int *)w->problem->directions))
+        || (roots && ARKodeSetNoInactiveRootWarn(w->solver));
     return bad ? KT_FAILED : KT_DONE;
 }
 
@@ -298,7 +268,7 @@ static int set_up(worker *w, const double *state, double start)
     w->crossings = calloc(events + 1, sizeof *w->crossings);
     w->found = calloc(events + 1, sizeof *w->found);
     if (!r->state || !r->refused_state || !w->inputs || !w->jacobian || !w->signals || !w->piece
-        || !w->crossings || !w->found || open_context(w)) {
+        || !w->crossings || !w->found || open_silent_context(&w->context)) {
         return KT_MEMORY;
     }
     memcpy(w->inputs, p->inputs, (size_t)p->input_count * sizeof *w->inputs);
@@ -320,7 +290,7 @@ static void tear_down(worker *w)
 {
     if (w->solver) {
         if (w->runge_kutta) {
-            ERKStepFree(&w->solver);
+            ARKodeFree(&w->solver);
         } else {
             CVodeFree(&w->solver);
         }
@@ -358,18 +328,18 @@ static void tear_down(worker *w)
 
 static int one_step(worker *w, double end, double *time)
 {
-    return w->runge_kutta ? ERKStepEvolve(w->solver, end, w->y, time, ARK_ONE_STEP)
+    return w->runge_kutta ? ARKodeEvolve(w->solver, end, w->y, time, ARK_ONE_STEP)
                           : CVode(w->solver, end, w->y, time, CV_ONE_STEP);
 }
 
 static int set_stop(worker *w, double end)
 {
-    return w->runge_kutta ? ERKStepSetStopTime(w->solver, end) : CVodeSetStopTime(w->solver, end);
+    return w->runge_kutta ? ARKodeSetStopTime(w->solver, end) : CVodeSetStopTime(w->solver, end);
 }
 
 static int interpolate(worker *w, double time, int derivative, N_Vector out)
 {
-    return w->runge_kutta ? ERKStepGetDky(w->solver, time, derivative, out)
+    return w->runge_kutta ? ARKodeGetDky(w->solver, time, derivative, out)
                           : CVodeGetDky(w->solver, time, derivative, out);
 }
 
@@ -377,7 +347,7 @@ static double last_step(worker *w)
 {
     double step = 0.0;
     if (w->runge_kutta) {
-        ERKStepGetLastStep(w->solver, &step);
+        ARKodeGetLastStep(w->solver, &step);
     } else {
         CVodeGetLastStep(w->solver, &step);
     }
@@ -410,7 +380,7 @@ static int note_events(worker *w, double time)
     const kt_problem *p = w->problem;
     int count = p->event_count + p->root_count, stop = 0;
     if (w->runge_kutta) {
-        ERKStepGetRootInfo(w->solver, w->found);
+        ARKodeGetRootInfo(w->solver, w->found);
     } else {
         CVodeGetRootInfo(w->solver, w->found);
     }
@@ -530,9 +500,9 @@ static void read_statistics(worker *w)
         return;
     }
     if (w->runge_kutta) {
-        ERKStepGetNumSteps(w->solver, &s->steps);
+        ARKodeGetNumSteps(w->solver, &s->steps);
         ERKStepGetNumRhsEvals(w->solver, &s->evaluations);
-        ERKStepGetNumErrTestFails(w->solver, &s->error_test_failures);
+        ARKodeGetNumErrTestFails(w->solver, &s->error_test_failures);
     } else {
         CVodeGetNumSteps(w->solver, &s->steps);
         CVodeGetNumRhsEvals(w->solver, &s->evaluations);

@@ -1,0 +1,64 @@
+/*
+ * What is not the same in all versions of SUNDIALS, in the terms of the newest: 6.4 and 7.x are used.
+ */
+#ifndef KINTRAFO_VERSIONS_H
+#define KINTRAFO_VERSIONS_H
+
+#include <stdio.h> /* FILE, which SUNDIALS 6.4 uses undeclared */
+
+#include <arkode/arkode_butcher_erk.h>
+#include <arkode/arkode_erkstep.h>
+#include <cvode/cvode.h>
+#include <sundials/sundials_config.h>
+#include <sundials/sundials_context.h>
+
+/* The steppers of ARKODE have had common functions since 7.1. */
+#if SUNDIALS_VERSION_MAJOR < 7 || (SUNDIALS_VERSION_MAJOR == 7 && SUNDIALS_VERSION_MINOR < 1)
+#define ARKodeEvolve ERKStepEvolve
+#define ARKodeFree ERKStepFree
+#define ARKodeGetDky ERKStepGetDky
+#define ARKodeGetLastStep ERKStepGetLastStep
+#define ARKodeGetNumErrTestFails ERKStepGetNumErrTestFails
+#define ARKodeGetNumSteps ERKStepGetNumSteps
+#define ARKodeGetRootInfo ERKStepGetRootInfo
+#define ARKodeRootInit ERKStepRootInit
+#define ARKodeSetInitStep ERKStepSetInitStep
+#define ARKodeSetInterpolantDegree ERKStepSetInterpolantDegree
+#define ARKodeSetMaxNumSteps ERKStepSetMaxNumSteps
+#define ARKodeSetMaxStep ERKStepSetMaxStep
+#define ARKodeSetNoInactiveRootWarn ERKStepSetNoInactiveRootWarn
+#define ARKodeSetRootDirection ERKStepSetRootDirection
+#define ARKodeSetStopTime ERKStepSetStopTime
+#define ARKodeSetUserData ERKStepSetUserData
+#define ARKodeSVtolerances ERKStepSVtolerances
+#endif
+
+/* Errors are told by return codes alone: each solver was silenced before 7.0, and the context since. */
+#if SUNDIALS_VERSION_MAJOR < 7
+
+static void be_silent(int code, const char *module, const char *function, char *message, void *data)
+{
+    (void)code, (void)module, (void)function, (void)message, (void)data;
+}
+
+static int open_silent_context(SUNContext *context) { return SUNContext_Create(NULL, context); }
+
+static void silence_cvode(void *solver) { CVodeSetErrHandlerFn(solver, be_silent, NULL); }
+
+static void silence_arkode(void *solver) { ERKStepSetErrHandlerFn(solver, be_silent, NULL); }
+
+#else
+
+static int open_silent_context(SUNContext *context)
+{
+    int code = SUNContext_Create(SUN_COMM_NULL, context);
+    return code ? code : SUNContext_ClearErrHandlers(*context);
+}
+
+static void silence_cvode(void *solver) { (void)solver; }
+
+static void silence_arkode(void *solver) { (void)solver; }
+
+#endif
+
+#endif
