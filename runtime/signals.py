@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import cache
 from itertools import pairwise
 from typing import Any
 
@@ -94,7 +95,7 @@ class TimeInputs:
 
     def table(self, times: Array, segment: Segment) -> Array:
         """Return the inputs at many times of a segment, one row each."""
-        values = np.tile(self.constant, (times.size, 1))
+        values = np.repeat(self.constant[None], times.size, axis=0)
         for spline in segment.splines:
             for order, target in enumerate(spline.targets):
                 if target >= 0:
@@ -142,6 +143,7 @@ def time_inputs(
     )
 
 
+@cache
 def _rates(name: str, names: tuple[str, ...]) -> tuple[str, ...]:
     """Return the inputs of a model that are the derivatives of another one, in order."""
     for ending, rates in _RATES.items():

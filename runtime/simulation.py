@@ -228,13 +228,13 @@ def _check_arguments(
     model: System, t_span: tuple[float, float], y0: Array, times: Array | None, options: Options
 ) -> None:
     problems = []
-    if options.method not in {**SUNDIALS_METHODS, **SCIPY_METHODS}:
-        known = {**SUNDIALS_METHODS, **SCIPY_METHODS}
+    known = SUNDIALS_METHODS | SCIPY_METHODS
+    if options.method not in known:
         problems.append(
             f"method {options.method!r} is not known. {suggestion(options.method, known)} "
             f"There are {', '.join(known)}."
         )
-    if not np.all(np.isfinite(y0)):
+    if not np.isfinite(y0).all():
         bad = [n for n, v in zip(model.state_names, y0.ravel(), strict=False) if not np.isfinite(v)]
         problems.append(f"y0 is NaN or infinite in {', '.join(bad)}.")
     if y0.shape != model.design_state.shape:
@@ -252,11 +252,11 @@ def _check_arguments(
 
 
 def _in_order(times: Array, t_span: tuple[float, float]) -> bool:
-    if times.ndim != 1 or times.size == 0 or not np.all(np.isfinite(times)):
+    if times.ndim != 1 or times.size == 0 or not np.isfinite(times).all():
         return False
     sign = 1.0 if t_span[1] > t_span[0] else -1.0
     inside = sign * times[0] >= sign * t_span[0] and sign * times[-1] <= sign * t_span[1]
-    return bool(inside and np.all(sign * np.diff(times) > 0.0))
+    return bool(inside and (sign * np.diff(times) > 0.0).all())
 
 
 def _tolerance_problems(y0: Array, options: Options) -> list[str]:
@@ -266,7 +266,7 @@ def _tolerance_problems(y0: Array, options: Options) -> list[str]:
             f"rtol = {options.rtol:g}: from {_SMALLEST_RTOL:.3g} (what double precision can do) to "
             "below 1. Try 1e-6."
         )
-    if options.atol.shape != y0.shape or not np.all(options.atol > 0.0):
+    if options.atol.shape != y0.shape or not (options.atol > 0.0).all():
         problems.append(
             f"atol: one positive number, or one for each of the {y0.size} elements of the state."
         )
@@ -318,6 +318,14 @@ def _tell_once() -> None:
             RuntimeWarning,
             stacklevel=4,
         )
+
+
+def _among(some: Array, times: Array) -> NDArray[np.bool_]:
+    """Tell which of some times are among the times of the output, which are in order."""
+    known = times if times[-1] >= times[0] else times[::-1]
+    place = np.minimum(np.searchsorted(known, some), known.size - 1)
+    found: NDArray[np.bool_] = known[place] == some
+    return found
 
 
 # -- running ------------------------------------------------------------------------------------
@@ -385,7 +393,7 @@ class _Run:
             return np.array([segment.start, segment.end])
         low, high = min(segment.start, segment.end), max(segment.start, segment.end)
         inside = self._times[(self._times > low) & (self._times < high)]
-        return np.array([segment.start, *inside, segment.end])
+        return np.concatenate(([segment.start], inside, [segment.end]))
 
     def _fail(self, segment: Segment, piece: Piece) -> None:
         time, state = float(piece.t[-1]), piece.y[-1]
@@ -470,7 +478,7 @@ class _Run:
         """Return times, states and inputs that belong to the output."""
         keep = np.ones(piece.t.size, dtype=bool)
         if self._times is not None:
-            keep = np.isin(piece.t, self._times)
+            keep = _among(piece.t, self._times)
         if self._pieces[0][0] is not segment:
             keep[0] = False  # the border is the end of the segment before
         t, y = piece.t[keep], piece.y[keep]

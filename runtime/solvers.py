@@ -132,7 +132,7 @@ def solve_native(
     """Integrate a segment in C, from the first step to the last."""
     equations = model.equations
     names = (f"rhs{inputs.variant}", f"rhs_jacobian{inputs.variant}", "signals")
-    signal_index = {name: i for i, name in enumerate(model.signal_names)}
+    signals = model.signal_names
     raw = sundials.integrate(
         tuple(equations.ADDRESSES.get(name, 0) for name in names),  # signals may be none
         model.constants,
@@ -149,8 +149,8 @@ def solve_native(
         every_step=every_step,
         stop_at_outputs=options.stop_at_outputs,
         dense=options.dense_output,
-        signal_count=len(signal_index),
-        events=[(signal_index[e.signal], e.level) for e in events.signal],
+        signal_count=len(signals),
+        events=[(signals.index(e.signal), e.level) for e in events.signal],
         roots=events.functions,
         directions=np.array([*events.directions, 0], dtype=np.int32),
         terminal=np.array([*events.terminal, 0], dtype=np.int32),
