@@ -82,7 +82,8 @@ def _simulators(
             name = f"{entry.evaluation.name} ({entry.evaluation.parameters})"
             yield simulations.runge_kutta(name, entry.library, entry.built.state(begin))
     for package, tool in (
-        ("casadi", simulations.casadi_cvodes),
+        ("casadi", simulations.casadi_plain),
+        ("casadi", simulations.casadi_tuned),
         ("exudyn", simulations.exudyn),
     ):
         if simulations.installed(package):

@@ -86,7 +86,8 @@ def candidates() -> list[Candidate]:
 
 
 def _ours() -> Built:
-    return Built(ours.source(), ours.constants(), _same, _last_two, 0.0, 0.0)
+    derived, written = ours.build_seconds()
+    return Built(ours.source(), ours.constants(), _same, _last_two, derived, written)
 
 
 def _same(instant: Instant) -> Array:

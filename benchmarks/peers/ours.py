@@ -1,5 +1,7 @@
 """The right-hand side of this project in the same timing loops: the emitted C as it is."""
 
+import time
+
 from kintrafo.generated import macpherson
 
 from .case import REPOSITORY, Array, parameters
@@ -27,3 +29,17 @@ def constants() -> Array:
     """Return the prepared constants of the reference car, without what the paper's model lacks."""
     given = parameters()
     return macpherson.prepare({name: given[name] for name in macpherson.PARAMETERS})
+
+
+def build_seconds() -> tuple[float, float]:
+    """Return the time to derive the whole model, and to write all of its files, s."""
+    from kintrafo.generator.emit.files import project_files  # noqa: PLC0415
+    from kintrafo.generator.mechanisms.macpherson import MODELS  # noqa: PLC0415
+    from kintrafo.generator.outputs import generate  # noqa: PLC0415
+
+    model = next(model for model in MODELS if model.name == "macpherson")
+    begin = time.perf_counter()
+    derived = generate(model)
+    middle = time.perf_counter()
+    project_files(derived)
+    return middle - begin, time.perf_counter() - middle

@@ -70,20 +70,21 @@ def blocks(evaluations: list[Evaluation], seconds: list[Second], machine: str) -
     return {
         "machine": f"{machine}. One core; least time over the rounds.",
         "evaluations": _evaluation_ratios(evaluations),
+        "builds": _build_times(evaluations),
         "seconds": _second_ratios(seconds),
     }
 
 
 def _evaluation_ratios(evaluations: list[Evaluation]) -> str:
-    """Right-hand sides with parameters as inputs, and how much longer than ours each takes."""
+    """Right-hand sides, and how much longer than ours each takes."""
     header, rows = ["right-hand side"], []
     for flags in FLAGS:
         header += [f"{flags}: dependent [ns]", "/ ours", "independent [ns]", "/ ours"]
-    for name in dict.fromkeys(e.name for e in evaluations):
-        cells = [name]
+    for name, parameters in dict.fromkeys((e.name, e.parameters) for e in evaluations):
+        cells = [f"{name}, numbers" if parameters == "literal" else name]
         for flags in FLAGS:
-            times = _nanoseconds(evaluations, name, flags)
-            ours = _nanoseconds(evaluations, OURS, flags)
+            times = _nanoseconds(evaluations, name, parameters, flags)
+            ours = _nanoseconds(evaluations, OURS, "inputs", flags)
             pairs = zip(times, ours, strict=True) if times and ours else ()
             filled = [text for t, o in pairs for text in (f"{t:.0f}", f"{t / o:.2f}")]
             cells += filled or ["-"] * 4
@@ -91,11 +92,24 @@ def _evaluation_ratios(evaluations: list[Evaluation]) -> str:
     return markdown_table(header, rows)
 
 
-def _nanoseconds(evaluations: list[Evaluation], name: str, flags: str) -> list[float]:
+def _nanoseconds(
+    evaluations: list[Evaluation], name: str, parameters: str, flags: str
+) -> list[float]:
     for e in evaluations:
-        if (e.name, e.flags) == (name, flags) and e.parameters != "literal":
+        if (e.name, e.parameters, e.flags) == (name, parameters, flags):
             return [spread["least"] for spread in e.nanoseconds.values()]
     return []
+
+
+def _build_times(evaluations: list[Evaluation]) -> str:
+    """Time to set up, write and compile each right-hand side, parameters as inputs."""
+    seconds: dict[str, list[str]] = {}
+    for e in evaluations:
+        if e.parameters != "literal":
+            phases = (e.derive_seconds, e.generate_seconds, e.compile_seconds)
+            seconds.setdefault(e.name, [f"{phase:.2f}" for phase in phases])
+    header = ["right-hand side", "derive [s]", "write [s]", "compile [s]"]
+    return markdown_table(header, [[name, *cells] for name, cells in seconds.items()])
 
 
 def _second_ratios(seconds: list[Second]) -> str:
@@ -126,8 +140,6 @@ def _kind(name: str) -> str:
     """Return what is compared: a tool, and how it is run."""
     tool = name.split(",", maxsplit=1)[0].split(" (", maxsplit=1)[0]
     endings = [word for word in ("jit", "RK4 in C", "extrapolated") if name.endswith(word)]
-    if tool.startswith("CasADi CVODES"):
-        tool = "CasADi CVODES"
     if tool.startswith("Exudyn"):
         tool = "Exudyn"
     if "RK4 in C" in endings and tool.startswith("CasADi"):

@@ -67,11 +67,24 @@ def runge_kutta(name: str, library: Library, begin: Array) -> Simulator:
     return Simulator(f"{name}, RK4 in C", tuple(range(1, 41)), prepare)
 
 
-def casadi_cvodes() -> Iterator[Simulator]:
+_JIT = {"jit": True, "compiler": "shell", "jit_options": {"flags": list(FLAGS["native"])}}
+
+
+def casadi_plain() -> Iterator[Simulator]:
+    """Yield CasADi's CVODES as one takes it from the manual: Lagrange, every option by default."""
+    from . import casadi_tree  # noqa: PLC0415
+
+    model = casadi_tree.build("lagrange", literal=False)
+    for ending, options in (("", {}), (", jit", _JIT)):
+        name = f"CasADi CVODES by default, lagrange{ending}"
+        yield Simulator(name, tuple(TOLERANCES.tolist()), _cvodes(model, options))
+
+
+def casadi_tuned() -> Iterator[Simulator]:
     """Yield CasADi's CVODES: multistep method, iteration, interpreted or compiled functions."""
     from . import casadi_tree  # noqa: PLC0415
 
-    for formulation in ("routh", "implicit"):
+    for formulation in ("lagrange", "routh", "implicit"):
         model = casadi_tree.build(formulation, literal=False)
         for multistep, iteration in (
             ("bdf", "newton"),
@@ -84,14 +97,11 @@ def casadi_cvodes() -> Iterator[Simulator]:
                     "nonlinear_solver_iteration": iteration,
                     "max_num_steps": 100000,
                 }
-                if compiled:
-                    options |= {"jit": True, "compiler": "shell"}
-                    options["jit_options"] = {"flags": list(FLAGS["native"])}
                 yield Simulator(
-                    f"CasADi CVODES, {formulation}, {multistep}-{iteration}"
+                    f"CasADi CVODES tuned, {formulation}, {multistep}-{iteration}"
                     f"{', jit' if compiled else ''}",
                     tuple(TOLERANCES[4:].tolist()),
-                    _cvodes(model, options),
+                    _cvodes(model, options | (_JIT if compiled else {})),
                 )
 
 
