@@ -38,8 +38,15 @@ NAMED = {
     "wheel_leaves_ground": "the tyre force falls through zero",
     "wheel_touches_ground": "the tyre force rises through zero",
     "strut_fully_extended": "the strut reaches its greatest length",
+    "strut_reaches_bump_stop": "the strut becomes as short as its bump stop allows freely",
+    "strut_reaches_rebound_stop": "the strut becomes as long as its rebound stop allows freely",
 }
 _AT_THE_GROUND = {"wheel_leaves_ground": -1.0, "wheel_touches_ground": 1.0}
+# Which stop, and the sense of the strut's length when it touches.
+_AT_A_STOP = {
+    "strut_reaches_bump_stop": ("bump", -1.0),
+    "strut_reaches_rebound_stop": ("rebound", 1.0),
+}
 # Force at which a tyre that can lift off is taken to touch [N]: nanometres of its deflection.
 _TOUCH = 1e-3
 
@@ -118,11 +125,21 @@ def _named(model: System, name: str) -> SignalEvent:
     if name == "strut_fully_extended" and "strut_length_max" in model.parameters:
         length = model.parameters["strut_length_max"]
         return SignalEvent("strut_length", length, direction=+1.0, terminal=True)
+    if name in _AT_A_STOP and "strut_length" in model.signal_names:
+        return _touching(model, *_AT_A_STOP[name])
     if name in NAMED:
         problem = f"event {name!r} belongs to a strut, which {model.equations.NAME} has not."
         raise InputError([problem], "events")
     problem = f"event {name!r} is not known. {suggestion(name, NAMED)}"
     raise InputError([problem], "events")
+
+
+def _touching(model: System, side: str, direction: float) -> SignalEvent:
+    """Return the event of the strut touching one of its stops."""
+    if not model.parameters.get(f"{side}_stop_rate"):
+        problem = f"there is no {side} stop. Give the suspension's file a [{side}_stop]."
+        raise InputError([problem], "events")
+    return SignalEvent("strut_length", model.parameters[f"{side}_stop_length"], direction)
 
 
 def _checked(model: System, event: SignalEvent) -> SignalEvent:

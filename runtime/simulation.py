@@ -78,8 +78,10 @@ class Simulation(OptimizeResult):
     inputs : ndarray, shape (n, number of inputs)
     sol, t_events, y_events, nfev, njev, nlu, status, message, success
         As in ``scipy.integrate.solve_ivp``.
-    steps, error_test_failures, order : int
-        Steps taken, steps that failed the error test, last order; with SUNDIALS only.
+    steps : int
+        Steps taken.
+    error_test_failures, order : int
+        Steps that failed the error test, order of the last step; with SUNDIALS only.
     solver : str
         What integrated.
     """

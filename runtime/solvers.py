@@ -113,6 +113,11 @@ def native_methods() -> tuple[str, ...]:
 
 # What CVODE and ARKODE return, the arguments being checked, when an event's function stays at zero.
 _ILL_INPUT = -22
+# What both return when the step has become as small as it can be.
+_WHY = {
+    -3: "its steps became too small, since the error stays too large",
+    -4: "its steps became too small, since Newton's method does not converge",
+}
 
 
 # -- SUNDIALS -----------------------------------------------------------------------------------
@@ -166,7 +171,7 @@ def solve_native(
         interpolants=[_taylor(row, state.size) for row in raw["dense"]],
         refused_time=raw["refused_time"],
         refused_state=np.array(raw["refused_state"]),
-        detail=f"SUNDIALS {native_version()} returned {raw['code']}",
+        detail=_WHY.get(raw["code"], f"SUNDIALS {native_version()} returned {raw['code']}"),
     )
 
 
@@ -276,7 +281,7 @@ def solve_scipy(
             refused_time=function.time,
             refused_state=function.state,
         )
-    return _piece_of(result, events, options)
+    return _piece_of(result, len(steps) - 1, events, options)
 
 
 def _scipy_events(function: _RightHandSide, events: Events) -> list[Any]:
@@ -303,14 +308,14 @@ def _recorder(steps: list[tuple[float, Array]]) -> Callable[[float, Array], floa
     return note
 
 
-def _piece_of(result: Any, events: Events, options: Options) -> Piece:
+def _piece_of(result: Any, steps: int, events: Events, options: Options) -> Piece:
     outcomes = {0: "done", 1: "event", -1: "failed"}
     crossings = [
         (index, float(time), state)
         for index in range(len(events))
         for time, state in zip(result.t_events[index], result.y_events[index], strict=True)
     ]
-    counts = {name: int(result[name]) for name in ("nfev", "njev", "nlu")}
+    counts = {name: int(result[name]) for name in ("nfev", "njev", "nlu")} | {"steps": steps}
     interpolants = []
     if options.dense_output:
         interpolants = [

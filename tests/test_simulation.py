@@ -1,5 +1,8 @@
 """`simulate`: results, inputs, and errors that say when and where."""
 
+from concurrent.futures import ThreadPoolExecutor
+from threading import Barrier
+
 import numpy as np
 import pytest
 from kintrafo import (
@@ -180,6 +183,26 @@ def test_partial_result_stays_available(backend):
     assert partial.signals["wheel_center_z"][0] == pytest.approx(0.325, abs=1e-12)
 
 
+@pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize("method", ["BDF", "DormandPrince"])
+def test_first_and_greatest_step(backend, method):
+    options = {"method": method, "backend": backend, "first_step": 1e-8, "max_step": 2e-3}
+    steps = np.diff(simulate(MODEL, (0, 0.05), START, **options).t)
+    # differences of times are rounded as these are: to 1e-17
+    assert steps[0] == pytest.approx(1e-8, abs=1e-17)
+    assert 1.5e-3 < steps.max() <= 2e-3 + 1e-17
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_absolute_tolerances_one_by_one(backend):
+    def steps(*tolerances):
+        return simulate(MODEL, (0, 0.3), START, rtol=1e-13, atol=tolerances, backend=backend).steps
+
+    alike = steps(1e-6, 1e-6, 1e-6, 1e-6)
+    assert steps(1e-3, 1e-6, 1e-3, 1e-6) < 0.85 * alike  # the arm
+    assert steps(1e-6, 1e-6, 1e-6, 1e-9) > 1.4 * alike  # the spin
+
+
 @needs_sundials
 def test_too_many_steps_is_an_error_with_a_remedy():
     with pytest.raises(SimulationError, match=r"more than 30 steps\. Raise max_steps") as caught:
@@ -265,6 +288,29 @@ def test_physical_events_by_name(backend):
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
+@pytest.mark.parametrize(("side", "arm_rate"), [("bump", -12.0), ("rebound", 30.0)])
+def test_strut_reaches_a_stop(backend, side, arm_rate):
+    model = Model("offset_strut_car")
+    start = equilibrium(model)
+    start[2] = arm_rate  # a blow
+    event = f"strut_reaches_{side}_stop"
+    result = simulate(model, (0, 0.05), start, events=event, rtol=1e-9, atol=1e-12, backend=backend)
+    (state,) = result.y_events[0]  # on the way into the stop, and not out of it
+    # where the event is, is good to rounding
+    touched = model.parameters[f"{side}_stop_length"]
+    assert model.signal("strut_length", state) == pytest.approx(touched, abs=1e-12)
+    assert (model.signal("strut_velocity", state) > 0.0) == (side == "rebound")
+    force, before = result.signals[f"{side}_stop_force"], result.t < result.t_events[0][0]
+    assert np.all(force[before] == 0.0)
+    assert np.abs(force).max() > 100.0
+
+
+def test_a_stop_that_there_is_not():
+    with pytest.raises(InputError, match=r"no bump stop.*\[bump_stop\]"):
+        simulate(MODEL, (0, 1), START, events="strut_reaches_bump_stop")
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
 def test_terminal_signal_event_ends_at_its_crossing(backend):
     third = SignalEvent("wheel_center_z", 0.3, terminal=3)
     result = simulate(MODEL, (0, 1), START, events=third, backend=backend, rtol=1e-9, atol=1e-12)
@@ -326,13 +372,63 @@ def test_effort_of_the_standard_run(method, steps, evaluations, band):
 
 
 @needs_sundials
-def test_threads_give_the_same_bits():
-    from concurrent.futures import ThreadPoolExecutor
+@pytest.mark.parametrize("method", native_methods())
+def test_threads_give_the_same_bits(method):
+    inputs = {"rack_position": lambda t: 0.01 * np.sin(5.0 * t)}
+
+    def run(_):
+        return simulate(MODEL, (0, 1), START, method=method, inputs=inputs)
 
     with ThreadPoolExecutor(4) as pool:
-        runs = list(pool.map(lambda _: simulate(MODEL, (0, 1), START), range(8)))
-    for run in runs[1:]:
-        assert np.array_equal(run.y, runs[0].y)
+        first, *others = pool.map(run, range(8))
+    for other in others:
+        assert np.array_equal(other.y, first.y)
+        assert other.signals["toe"].tobytes() == first.signals["toe"].tobytes()
+
+
+@needs_sundials
+def test_threads_integrate_at_the_same_time():
+    """Each integration waits in an event's function until the other one has come there too."""
+    meeting = Barrier(2, timeout=60.0)
+
+    def run(_):
+        met = []
+
+        def event(_time, y):
+            if not met:
+                met.append(meeting.wait())
+            return y[0] - 10.0
+
+        return simulate(MODEL, (0, 0.1), START, events=event)
+
+    with ThreadPoolExecutor(2) as pool:
+        one, other = pool.map(run, range(2))
+    assert np.array_equal(one.y, other.y)
+
+
+@needs_sundials
+@pytest.mark.parametrize(
+    ("method", "order"), [("BDF", 5), ("Adams", 12), ("DormandPrince", 5), ("Verner", 6)]
+)
+def test_statistics_are_complete(method, order):
+    result = simulate(MODEL, (0, 0.3), START, method=method, dense_output=True)
+    implicit = method in ("BDF", "Adams")
+    assert result.steps == result.t.size - 1
+    assert result.nfev > result.steps
+    assert 0 < result.error_test_failures < result.steps
+    assert (result.njev > 0, result.nlu > 0) == (implicit, implicit)
+    # a multistep method changes its order, and does not stay at the first
+    assert 1 < result.order <= order if implicit else result.order == order
+
+
+def test_steps_are_counted_without_sundials_too():
+    result = simulate(MODEL, (0, 0.3), START, backend="scipy", events="wheel_touches_ground")
+    assert result.steps == result.t.size - 1
+
+
+def test_an_explanation_where_the_steps_become_too_small():
+    with pytest.raises(SimulationError, match=r"(too small|cannot|overflows).*(Loosen|Try)"):
+        simulate(MODEL, (0, 1), START, inputs={"strut_force": 1e300})
 
 
 @pytest.mark.parametrize("backend", BACKENDS)

@@ -19,7 +19,7 @@ typedef struct {
     SUNMatrix matrix;
     SUNLinearSolver linear;
     void *solver;
-    int runge_kutta;
+    int runge_kutta, order; /* of the Runge-Kutta method */
     double *inputs, *jacobian, *signals;
     int *piece;        /* of each spline: where it was evaluated last */
     int *crossings;    /* of each event */
@@ -261,6 +261,7 @@ static int set_up_runge_kutta(worker *w, double start)
     silence_arkode(w->solver);
     ARKodeButcherTable table = table_of(o->table);
     int unknown = !table || ERKStepSetTable(w->solver, table); /* copies it */
+    w->order = unknown ? 0 : table->q;
     ARKodeButcherTable_Free(table);
     if (unknown) {
         return KT_BAD_TABLE;
@@ -524,7 +525,7 @@ static int run(worker *w, const double *times, long count, int every_step)
 static void read_statistics(worker *w)
 {
     kt_statistics *s = &w->result->statistics;
-    int order = 0;
+    int order = w->order;
     if (!w->solver) {
         return;
     }

@@ -60,7 +60,8 @@ typedef struct {
 } kt_options;
 
 typedef struct {
-    long steps, evaluations, jacobians, factorisations, error_test_failures, order;
+    long steps, evaluations, jacobians, factorisations, error_test_failures;
+    long order; /* of the last step */
 } kt_statistics;
 
 /* A growing table of doubles. */
