@@ -34,7 +34,8 @@ if TYPE_CHECKING:
         state_at_height,
         travel_range,
     )
-    from .simulation import Simulation, SimulationError, simulate
+    from .result import Simulation, SimulationError
+    from .simulation import simulate
     from .system import System
 
 __version__ = version("kintrafo")
@@ -87,7 +88,8 @@ _MODULES = {
         "state_at_height",
         "travel_range",
     ),
-    ".simulation": ("Simulation", "SimulationError", "simulate"),
+    ".result": ("Simulation", "SimulationError"),
+    ".simulation": ("simulate",),
     ".system": ("System",),
 }
 _HOMES = {name: module for module, names in _MODULES.items() for name in names}

@@ -16,7 +16,8 @@ from .model import Model
 from .modes import Mode
 from .positions import arm_angles, equilibrium, state_at_height
 from .reach import at_rest
-from .simulation import Simulation, simulate
+from .result import Simulation
+from .simulation import simulate
 
 Array = NDArray[np.float64]
 

@@ -9,7 +9,7 @@ from scipy.integrate import trapezoid
 
 from .model import Model
 from .quantities import variable
-from .simulation import Simulation
+from .result import Simulation
 
 Array = NDArray[np.float64]
 

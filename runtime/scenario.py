@@ -11,8 +11,9 @@ from .errors import InputError
 from .model import Model
 from .positions import equilibrium, state_at_height
 from .recording import dataset_of
+from .result import Simulation
 from .signals import Signal, time_inputs
-from .simulation import Simulation, simulate
+from .simulation import simulate
 
 Array = NDArray[np.float64]
 

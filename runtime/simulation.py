@@ -6,12 +6,12 @@ from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import OptimizeResult
 
-from .errors import InputError, KintrafoError
+from .errors import InputError
 from .events import Event, Events, events_of
 from .generated._support import ModelError
 from .input.suggestions import suggestion
+from .result import DenseOutput, Signals, Simulation, SimulationError
 from .signals import Segment, Signal, TimeInputs, time_inputs
 from .solvers import (
     SCIPY_METHODS,
@@ -35,96 +35,6 @@ Backend = Literal["auto", "sundials", "scipy"]
 _SMALLEST_RTOL = 100.0 * np.finfo(float).eps
 _REMEDY = "On Debian, apt-get install libsundials-dev and build again"
 _told = False
-
-
-class SimulationError(KintrafoError, RuntimeError):
-    """A simulation that could not be finished.
-
-    Attributes
-    ----------
-    reason : str
-    time : float
-        Time at which it happened [s].
-    state : ndarray
-        State at which it happened.
-    partial : Simulation or None
-        The result up to there.
-    """
-
-    def __init__(
-        self, reason: str, time: float, state: Array, partial: "Simulation | None" = None
-    ) -> None:
-        self.reason = reason
-        self.time = time
-        self.state = state
-        self.partial = partial
-        super().__init__(reason, time, state, partial)
-
-    def __str__(self) -> str:
-        return f"at t = {self.time:.6g} s: {self.reason}"
-
-
-class Simulation(OptimizeResult):
-    """The result of `simulate`: the fields of SciPy's ``solve_ivp``, and the physical signals.
-
-    Attributes
-    ----------
-    t : ndarray, shape (n,)
-        Times [s].
-    y : ndarray, shape (number of state elements, n)
-        States; rows in the order of ``model.state_names``, SI units.
-    signals : dict
-        Physical signals by name, each of shape (n,), SI units; see ``model.equations.SIGNALS``.
-    inputs : ndarray, shape (n, number of inputs)
-    sol, t_events, y_events, nfev, njev, nlu, status, message, success
-        As in ``scipy.integrate.solve_ivp``.
-    steps : int
-        Steps taken.
-    error_test_failures, order : int
-        Steps that failed the error test, order of the last step; with SUNDIALS only.
-    solver : str
-        What integrated.
-    """
-
-    t: Array
-    y: Array
-    signals: dict[str, Array]
-    inputs: Array
-    sol: "DenseOutput | None"
-    t_events: list[Array] | None
-    y_events: list[Array] | None
-    nfev: int
-    njev: int
-    nlu: int
-    steps: int
-    error_test_failures: int
-    order: int
-    status: int
-    message: str
-    success: bool
-    solver: str
-
-
-class DenseOutput:
-    """The solution as a function of time, from the polynomials of the steps."""
-
-    def __init__(self, parts: list[tuple[float, float, Callable[[Array], Array]]]) -> None:
-        self._parts = parts
-        self._backward = parts[0][1] < parts[0][0]
-        self._ends = np.array([end for _, end, _ in parts])
-
-    def __call__(self, t: ArrayLike) -> Array:
-        """Return the state, shape (n,), or (n, number of times) for an array of times."""
-        times = np.atleast_1d(np.asarray(t, dtype=np.float64))
-        sign = -1.0 if self._backward else 1.0
-        which = np.searchsorted(sign * self._ends, sign * times, side="left")
-        which = np.clip(which, 0, len(self._parts) - 1)
-        values = np.empty((times.size, self._parts[0][2](times[:1]).shape[1]))
-        for index in np.unique(which):
-            chosen = which == index
-            values[chosen] = self._parts[index][2](times[chosen])
-        result: Array = values[0] if np.ndim(t) == 0 else values.T
-        return result
 
 
 def simulate(
@@ -448,33 +358,13 @@ class _Run:
             status=status,
             message=message,
             success=not failure,
-            signals=self._signals(y, inputs, failed=bool(failure)),
+            signals=Signals(self._model, y, inputs, failed=bool(failure)),
             sol=self._dense(),
             solver=f"SUNDIALS {native_version()}" if native else "SciPy",
             **self._crossings(),
             **self._counts(),
         )
         return simulation
-
-    def _signals(self, y: Array, inputs: Array, *, failed: bool) -> dict[str, Array]:
-        """Return the signals; NaN where a failed simulation ended on the edge of the model."""
-        if not failed:
-            return self._model.signals(y, inputs)
-        rows = [
-            self._model.signals(*row) if self._closes(*row) else None
-            for row in zip(y, inputs, strict=True)
-        ]
-        return {
-            name: np.array([np.nan if row is None else float(row[name]) for row in rows])
-            for name in self._model.signal_names
-        }
-
-    def _closes(self, state: Array, inputs: Array) -> bool:
-        try:
-            self._model.evaluate("signals", state, inputs)
-        except ModelError:
-            return False
-        return True
 
     def _rows(self, segment: Segment, piece: Piece) -> tuple[Array, Array, Array]:
         """Return times, states and inputs that belong to the output."""

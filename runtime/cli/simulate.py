@@ -33,8 +33,8 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
     from ..model import Model
+    from ..result import Simulation
     from ..scenario import Scenario
-    from ..simulation import Simulation
 
 EXAMPLES = (
     "kintrafo simulate reference_car --height 325",
@@ -157,8 +157,8 @@ def _played(
 ) -> "tuple[Simulation, Dataset]":
     """Simulate; where that cannot be finished, write the motion up to there."""
     from ..recording import dataset_of
+    from ..result import SimulationError
     from ..scenario import play
-    from ..simulation import SimulationError
 
     try:
         with problems.status("integrating"):
