@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
+from kintrafo.solvers import native_available, native_version
 from rich.console import Console
 from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
@@ -100,8 +101,10 @@ def _machine() -> str:
             if line.startswith("model name"):
                 name = line.partition(":")[2].strip()
                 break
+    solver = native_version() if native_available() else "not built in"
     return (
-        f"{name}, {platform.system()}, Python {platform.python_version()}, NumPy {np.__version__}"
+        f"{name}, {platform.system()}, SUNDIALS {solver}, Python {platform.python_version()}, "
+        f"NumPy {np.__version__}"
     )
 
 
