@@ -12,6 +12,7 @@ from .actions import (
     SolveSlide,
     SolveStroke,
     SolveTelescope,
+    SolveTogether,
     SolveTurn,
 )
 from .joints import Revolute
@@ -39,6 +40,8 @@ def accept(settled: Settled, actions: list[Action], solution: Solution) -> set[C
         return _pinned_telescope(settled, solution)
     if isinstance(solution, SolveCarrier):
         return _carrier(settled, solution)
+    if isinstance(solution, SolveTogether):
+        return _together(settled, actions, solution)
     if isinstance(solution, SolveTelescope):
         return _telescope(settled, solution)
     return _turned(settled, actions, solution)
@@ -112,3 +115,18 @@ def _carrier(settled: Settled, solution: SolveCarrier) -> set[Coordinate]:
     at_rods = [j for link in links for j in settled.mechanism.joints_of(link)]
     at_body = filter(settled.joins, settled.mechanism.joints_of(solution.body))
     return settled.add(coordinates_of([*at_rods, *at_body]))
+
+
+def _together(settled: Settled, actions: list[Action], solution: SolveTogether) -> set[Coordinate]:
+    """Record the bodies of a tree, and the rods: pinned in a plane, or each on its line."""
+    settled.placed.update(solution.bodies)
+    joints = [branch.joint for branch in solution.tree] + [cut.joint for cut in solution.cuts]
+    for held in solution.rods:
+        hinge = settled.topology.joint_between(held.anchor_body, held.rod)
+        if isinstance(hinge, Revolute):
+            actions.append(PlaceByPin(held.rod, hinge, held.anchor_body, held.end, held.body))
+            settled.placed.add(held.rod)
+        else:
+            settled.on_line.add(held.rod)
+        joints += settled.mechanism.joints_of(held.rod)
+    return settled.add(coordinates_of(joints))

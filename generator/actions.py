@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 from .geometry import Point
 
 if TYPE_CHECKING:
-    from .joints import Cylindrical, Prismatic, Revolute, Universal
+    from .geometry import Direction
+    from .joints import Cylindrical, Joint, Prismatic, Revolute, Universal
 
 
 @dataclass(frozen=True)
@@ -214,7 +215,7 @@ class PlaceByCross:
 
 @dataclass(frozen=True)
 class HeldByRod:
-    """A rod from a placed body to a point of a body that several rods hold together.
+    """A rod that is one equation of several: from an anchor to a point of a body.
 
     Attributes
     ----------
@@ -253,9 +254,19 @@ class SolveCarrier:
     pin: tuple[Point, str] | None = None
 
     @property
+    def closing(self) -> tuple[HeldByRod, ...]:
+        """What closes the loops."""
+        return self.rods
+
+    @property
     def rod_names(self) -> str:
         """The rods, for messages."""
         return ", ".join(held.rod for held in self.rods)
+
+    @property
+    def equations(self) -> int:
+        """Number of closure equations: one of each rod."""
+        return len(self.rods)
 
     @property
     def loops(self) -> int:
@@ -268,5 +279,110 @@ class SolveCarrier:
         return f"transformers with iteration: {self.body} held by {len(self.rods)} rods"
 
 
-Solution = SolveTelescope | SolveTurn | SolveHinge | SolveSlide | SolveStroke | SolveCarrier
+@dataclass(frozen=True)
+class JointOfTree:
+    """A hinge or guide of unknown coordinate, from a body that is nearer to what is placed."""
+
+    joint: Revolute | Prismatic
+    parent: str
+    child: str
+
+    @property
+    def sense(self) -> int:
+        """Return 1 if the coordinate is that of the child as seen from the parent, else -1."""
+        return 1 if self.joint.second == self.child else -1
+
+
+@dataclass(frozen=True)
+class CutJoint:
+    """A joint at which a loop is cut: what it leaves in common makes the closure equations.
+
+    Attributes
+    ----------
+    normal
+        Of a loop that moves in a plane: the direction of its hinges. It closes with three equations
+        less the freedoms, a loop in space with six.
+    """
+
+    joint: Joint
+    normal: Direction | None = None
+
+    @property
+    def planar(self) -> bool:
+        """Whether the loop moves in a plane."""
+        return self.normal is not None
+
+    @property
+    def equations(self) -> int:
+        """Number of closure equations."""
+        return (3 if self.planar else 6) - self.joint.freedoms
+
+
+@dataclass(frozen=True)
+class SolveTogether:
+    """Loops of hinges and guides that close together: their coordinates follow by iteration.
+
+    Attributes
+    ----------
+    body
+        The first body that is placed.
+    tree
+        What carries the bodies, in the order from placed ones outward; their coordinates are the
+        unknowns.
+    cuts, rods
+        Joints and rods that close a loop each. A rod is one equation.
+    """
+
+    body: str
+    tree: tuple[JointOfTree, ...]
+    cuts: tuple[CutJoint, ...]
+    rods: tuple[HeldByRod, ...]
+
+    @property
+    def bodies(self) -> list[str]:
+        """The bodies that are placed, rods apart."""
+        return [branch.child for branch in self.tree]
+
+    def base_of(self, body: str) -> str:
+        """Return the placed body at which the way from a body through the tree ends."""
+        parents = {branch.child: branch.parent for branch in self.tree}
+        while body in parents:
+            body = parents[body]
+        return body
+
+    @property
+    def equations(self) -> int:
+        """Number of closure equations."""
+        return sum(cut.equations for cut in self.cuts) + len(self.rods)
+
+    @property
+    def closing(self) -> tuple[CutJoint | HeldByRod, ...]:
+        """What closes the loops: one of each."""
+        return (*self.cuts, *self.rods)
+
+    @property
+    def joint_names(self) -> str:
+        """The joints of the unknown coordinates, for messages."""
+        return ", ".join(branch.joint.name for branch in self.tree)
+
+    @property
+    def closing_names(self) -> str:
+        """The joints and rods that close the loops, for messages."""
+        return ", ".join([*(c.joint.name for c in self.cuts), *(held.rod for held in self.rods)])
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"transformers with iteration: {self.joint_names}"
+
+
+Solution = (
+    SolveTelescope
+    | SolveTurn
+    | SolveHinge
+    | SolveSlide
+    | SolveStroke
+    | SolveCarrier
+    | SolveTogether
+)
 Action = PlaceByJoint | PlaceByPin | PlaceByCross | PlaceTelescope | Solution

@@ -6,8 +6,9 @@ same printers as everything else; around it are a loop with a fixed number of it
 comparison that ends it. The first estimate does not depend on any call before, so the function that
 calls a block stays a pure function.
 
-Safeguards: a correction is not longer than `LONGEST`; after `ITERATIONS`, or where J is singular,
-the block returns what it has, which is finite. Whether that is a solution is not for the block to
+Safeguards: a correction is not longer than `LONGEST`; a change of sign of the determinant of J is
+remembered (`CROSSED`); after `ITERATIONS`, or where J is singular, the block returns what it has,
+which is finite. Whether that is a solution is not for the block to
 say: the straight-line code behind it evaluates the residuals again, and its guard refuses what does
 not fulfil them (`solutions.carrier`).
 
@@ -95,7 +96,8 @@ class Block:
             Writes one iteration into a program, and returns its results, the next estimates, and
             the square of the length of the correction.
         """
-        program = Program(ConstantStage(()))
+        own = frozenset(map(str, (*arguments, *unknowns)))
+        program = Program(ConstantStage((), reserved=own))
         results, following, change = derive(program)
         outputs = dict(results)
         outputs |= {f"next {u}": new for u, new in zip(unknowns, following, strict=True)}
@@ -111,6 +113,22 @@ def limited(program: Program, correction: Sequence[sp.Expr]) -> tuple[list[sp.Ex
     length = program.define("length", sp.sqrt(most + Positive(squared - most)))
     factor = program.define("factor", LONGEST / length)
     return [c * factor for c in correction], squared
+
+
+SIDE = sp.Symbol("side")
+"""Argument of a block: the sign of the determinant at the design position, plus or minus one."""
+
+CROSSED = sp.Symbol("crossed")
+"""Unknown of a block: by how much the determinant has been on the other side on the way."""
+
+
+def crossed(determinant: sp.Expr) -> sp.Expr:
+    """Return the next value of `CROSSED`.
+
+    Where the determinant changes its sign, two branches of the solution meet; an iteration that has
+    been beyond may come back on another one, with the same sign.
+    """
+    return CROSSED + Positive(-SIDE * determinant - CROSSED)
 
 
 # -- linear equations -----------------------------------------------------------------------------
@@ -148,6 +166,14 @@ def adjugate(program: Program, matrix: Matrix) -> tuple[Matrix, sp.Expr]:
     return result, program.define(
         "determinant", sum((matrix[0][c] * result[c][0] for c in columns), sp.Integer(0))
     )
+
+
+def named(program: Program, name: str, matrix: Matrix) -> Matrix:
+    """Append the elements of a matrix."""
+    return [
+        [program.define(f"{name}_{i}{j}", entry) for j, entry in enumerate(row, 1)]
+        for i, row in enumerate(matrix, 1)
+    ]
 
 
 def _minors(program: Program, name: str, matrix: Matrix) -> list[dict[tuple[int, ...], sp.Expr]]:

@@ -51,10 +51,16 @@ class Cycle:
 
         Directions are compared by declaration. That slides lie in the plane is taken on trust.
         """
+        return self.normal is not None
+
+    @property
+    def normal(self) -> Direction | None:
+        """The direction of the hinges of a loop that moves in a plane; of others, none."""
         hinges = {j.axis.towards for j in self.joints if isinstance(j, Revolute)}
-        kinds = all(isinstance(j, Revolute | Prismatic) for j in self.joints)
-        parallel = len(hinges) == 1 and all(isinstance(h, Direction) for h in hinges)
-        return kinds and parallel
+        if len(hinges) != 1 or not all(isinstance(j, Revolute | Prismatic) for j in self.joints):
+            return None
+        (normal,) = hinges
+        return normal if isinstance(normal, Direction) else None
 
     @property
     def key(self) -> frozenset[str]:

@@ -10,34 +10,42 @@ is in `solutions`.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import permutations
 from typing import TYPE_CHECKING
 
 from .acceptance import accept
 from .actions import (
     Action,
+    CutJoint,
+    HeldByRod,
     PlaceByCross,
     PlaceByJoint,
     PlaceByPin,
     PlaceTelescope,
     Solution,
     SolveCarrier,
-    SolveHinge,
-    SolveSlide,
-    SolveTurn,
+    SolveTogether,
 )
 from .carriers import held_together
+from .coupling import coupled
 from .joints import Joint, Prismatic, Revolute, Spherical, Universal
 from .pairs import PairCandidate, closed_form, pair_candidates
 from .settled import Settled
 from .topology import Cycle, MinimalBasis, Topology
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from .coupling import Coupling
     from .mechanism import Mechanism, Model
     from .settled import Coordinate
 
 
 _Offer = tuple[Cycle, list[Cycle]]
 """A cycle of the basis, with the others that could have been taken."""
+
+Closing = CutJoint | HeldByRod
+"""What closes a loop that is solved by iteration."""
 
 
 class NoClosedFormError(ValueError):
@@ -56,19 +64,46 @@ class Transformer:
         All pairs with a common isotropic element (the distance of two points), best first.
     inputs, outputs
         Names of coordinates, ``joint.coordinate``.
+    pair
+        The characteristic pair; none where a single joint closes a loop that is solved by
+        iteration.
     rivals
         Other cycles of the same length that could have been taken, with their unknowns.
+    closing
+        The joint or the rod that closes the loop, if it is solved by iteration.
     """
 
     number: int
     cycle: Cycle
     unknowns: int
     candidates: tuple[PairCandidate, ...]
-    pair: PairCandidate
+    pair: PairCandidate | None
     action: Solution
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
     rivals: tuple[tuple[Cycle, int], ...]
+    closing: Closing | None = None
+
+
+def _one_for_each(closing: Sequence[Closing], cycles: Sequence[Cycle]) -> tuple[Closing, ...]:
+    """Return for each of some loops something else that closes it."""
+
+    def closes(end: Closing, cycle: Cycle) -> bool:
+        if isinstance(end, CutJoint):
+            return end.joint in cycle.joints
+        return set(end.links) <= set(cycle.bodies)
+
+    return next(
+        ends for ends in permutations(closing, len(cycles)) if all(map(closes, ends, cycles))
+    )
+
+
+def _pair_at(closing: Closing, candidates: Sequence[PairCandidate]) -> PairCandidate | None:
+    """Return the two joints at the ends of a rod that closes a loop."""
+    if isinstance(closing, CutJoint):
+        return None
+    links = set(closing.links)
+    return next(p for p in candidates if all(links & set(j.bodies) for j in p.joints))
 
 
 @dataclass
@@ -97,7 +132,7 @@ class Plan:
         """Analyse a model: choose the basis, the pairs and the order."""
         plan = cls(model, Topology(model.mechanism))
         plan._settled.placed.add(plan._mechanism.ground)
-        for name in (*model.independent, *model.prescribed):
+        for name in plan._driven:
             joint = plan._mechanism.joint(name)
             plan._settled.known.update((name, c) for c in joint.coordinates)
         plan._place_neighbours()
@@ -128,15 +163,17 @@ class Plan:
                 waiting += [] if solved else [taken]
 
     @property
+    def _driven(self) -> tuple[str, ...]:
+        return (*self.model.independent, *self.model.prescribed)
+
+    @property
     def _mechanism(self) -> Mechanism:
         return self.model.mechanism
 
-    def lines(self) -> list[SolveTurn | SolveHinge | SolveSlide]:
-        """Return the solutions that leave their rod on a line, free to turn about it."""
+    def is_pinned(self, body: str) -> bool:
+        """Tell whether a rod is placed by its pins; others are free to turn about their line."""
         pinned = {a.body for a in self.actions if isinstance(a, PlaceByPin)}
-        pinned |= {a.near for a in self.actions if isinstance(a, PlaceTelescope)}
-        held = [a for a in self.actions if isinstance(a, SolveTurn | SolveHinge | SolveSlide)]
-        return [a for a in held if a.rod not in pinned]
+        return body in pinned | {a.near for a in self.actions if isinstance(a, PlaceTelescope)}
 
     # -- placing bodies -------------------------------------------------------------------------
 
@@ -210,23 +247,33 @@ class Plan:
     # -- loops without a closed form ------------------------------------------------------------
 
     def _iterate(self, waiting: list[_Offer]) -> list[_Offer]:
-        """Solve a body that rods hold together, by iteration; return the loops that still wait."""
-        action, cycles = held_together(self._settled, [cycle for cycle, _ in waiting])
-        solved = [offer for offer in waiting if offer[0] in cycles]
+        """Solve what waits by iteration, as little as possible; return the loops that still wait.
+
+        A body that rods hold together, or else the fewest loops of hinges and guides.
+        """
+        cycles = [cycle for cycle, _ in waiting]
+        action: SolveCarrier | SolveTogether | None
+        action, closed = held_together(self._settled, cycles)
+        coupling = None if action else coupled(self._settled, self._driven, cycles)
+        if coupling is not None:
+            closed = list(coupling.cycles)
+            action = None if coupling.obstacle else coupling.action
         if action is None or not self.model.allow_iteration:
-            cycle, _ = (solved or waiting)[0]
+            cycle = (closed or cycles)[0]
             message = self._refusal(cycle, pair_candidates(self._settled, cycle))
-            raise NoClosedFormError(message + self._remedy(action))
+            raise NoClosedFormError(message + self._remedy(action, coupling))
+        solved = [offer for offer in waiting if offer[0] in closed]
         self._solve_together(action, solved)
         self._place_neighbours()
         return [offer for offer in waiting if offer not in solved]
 
-    def _solve_together(self, action: SolveCarrier, offers: list[_Offer]) -> None:
+    def _solve_together(self, action: SolveCarrier | SolveTogether, offers: list[_Offer]) -> None:
         """Record the loops that one iteration solves: a transformer for each of them."""
-        candidates = [pair_candidates(self._settled, cycle) for cycle, _ in offers]
-        pairs = self._rod_pairs(action, candidates)
-        unknowns = [self._settled.unknowns(cycle) for cycle, _ in offers]
-        given = [self._coordinates(cycle) & self._settled.known for cycle, _ in offers]
+        cycles = [cycle for cycle, _ in offers]
+        candidates = [pair_candidates(self._settled, cycle) for cycle in cycles]
+        closing = _one_for_each(action.closing, cycles)
+        unknowns = [self._settled.unknowns(cycle) for cycle in cycles]
+        given = [self._coordinates(cycle) & self._settled.known for cycle in cycles]
         found = accept(self._settled, self.actions, action)
         left = set(found)
         for i, (cycle, rivals) in enumerate(offers):
@@ -238,29 +285,14 @@ class Plan:
                     cycle=cycle,
                     unknowns=unknowns[i],
                     candidates=tuple(candidates[i]),
-                    pair=pairs[i],
+                    pair=_pair_at(closing[i], candidates[i]),
+                    closing=closing[i],
                     action=action,
                     inputs=self._labels(given[i]),
                     outputs=self._labels(own),
                     rivals=tuple((c, self._unknowns_before(c, found)) for c in rivals),
                 )
             )
-
-    @staticmethod
-    def _rod_pairs(
-        action: SolveCarrier, candidates: list[list[PairCandidate]]
-    ) -> list[PairCandidate]:
-        """Return for each loop the two joints of a rod whose length is its equation."""
-        pairs: list[PairCandidate] = []
-        for offered in candidates:
-            at_rods = [
-                pair
-                for held in action.rods
-                for pair in offered
-                if all(set(held.links) & set(joint.bodies) for joint in pair.joints)
-            ]
-            pairs.append(next((p for p in at_rods if p not in pairs), at_rods[0]))
-        return pairs
 
     def _unknowns_before(self, cycle: Cycle, solved: set[Coordinate]) -> int:
         own = {(j.name, c) for j in cycle.joints for c in j.coordinates}
@@ -295,9 +327,7 @@ class Plan:
 
     def _miscounted(self) -> str:
         """Say by how much the driven coordinates differ from the degrees of freedom."""
-        joints = [
-            self._mechanism.joint(n) for n in (*self.model.independent, *self.model.prescribed)
-        ]
+        joints = [self._mechanism.joint(name) for name in self._driven]
         driven, mobility = sum(j.freedoms for j in joints), self.topology.mobility
         if driven == mobility:
             return ""
@@ -308,14 +338,28 @@ class Plan:
         )
 
     @staticmethod
-    def _remedy(action: SolveCarrier | None) -> str:
+    def _remedy(action: SolveCarrier | SolveTogether | None, coupling: Coupling | None) -> str:
         """Say whether an iteration would solve what has no closed form."""
-        if action is None:
+        if isinstance(action, SolveCarrier):
+            problem = (
+                f" {action.body} is held by {action.rod_names} together: {len(action.rods)} "
+                "equations remain in as many unknowns."
+            )
+        elif coupling is not None:
+            together = coupling.action
+            problem = (
+                f" Closed at {together.closing_names}, {len(coupling.cycles)} loop(s) leave "
+                f"{together.equations} equations for the {len(together.tree)} unknown coordinates "
+                f"of {together.joint_names}"
+            )
+            problem += f", but {coupling.obstacle}." if coupling.obstacle else "."
+        else:
             return ""
+        if action is None:
+            return problem
         return (
-            f" {action.body} is held by {action.rod_names} together: {len(action.rods)} equations "
-            "remain in as many unknowns. Newton's method solves them, for these loops alone, if "
-            "the model is declared with allow_iteration=True."
+            f"{problem} Newton's method solves them, for these loops alone, if the model is "
+            "declared with allow_iteration=True."
         )
 
     def _check_complete(self) -> None:

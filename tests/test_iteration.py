@@ -32,7 +32,6 @@ from kintrafo.generator.transformer import NoClosedFormError, Plan
 from kintrafo.own.build import build
 from kintrafo.own.compiler import FLAGS, Compiler
 from kintrafo.own.loader import load
-from own_mechanisms import declare, hinge
 from own_models import STRICT, Built, needs_gcc
 from scipy.integrate import solve_ivp
 from scipy.optimize import root
@@ -43,7 +42,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from pathlib import Path
 
-    from kintrafo.generator.mechanism import Mechanism
+    from kintrafo.generator.mechanism import Mechanism, Model
     from oracle.constraints import Array
 
 ARM, FIVE, STRUT = MODELS
@@ -88,8 +87,14 @@ def states(built: Built, count: int, seed: int = 0) -> tuple[Array, Array]:
     return np.hstack((q, rng.normal(size=(count, 2)) * [2.0, 90.0])), inputs
 
 
-MODEL_NAMES = pytest.mark.parametrize("name", [ARM.name, FIVE.name])
-WITH_STRUT = pytest.mark.parametrize("name", [ARM.name, FIVE.name, STRUT.name])
+def _each(*models: Model) -> pytest.MarkDecorator:
+    """Return the marks of a test of some models: those of a model stay on one worker."""
+    params = [pytest.param(m.name, marks=pytest.mark.xdist_group(m.name)) for m in models]
+    return pytest.mark.parametrize("name", params)
+
+
+MODEL_NAMES = _each(ARM, FIVE)
+WITH_STRUT = _each(ARM, FIVE, STRUT)
 
 
 # -- linear algebra of the block ------------------------------------------------------------------
@@ -140,6 +145,7 @@ def disguised_wishbone() -> tuple[dict[str, float], dict[str, float]]:
     return links, wishbone
 
 
+@pytest.mark.xdist_group(ARM.name)
 @pytest.mark.parametrize(
     ("function", "tolerance"),
     # of the largest entry; the derivatives see products of two badly scaled factors more
@@ -243,6 +249,7 @@ def test_bodies_fulfil_all_joints(name: str, built: Callable[[str], Built]) -> N
         np.testing.assert_allclose(closure.rate, 0.0, atol=1e-15 * 10 * np.abs(state[2:]).max())
 
 
+@pytest.mark.xdist_group(STRUT.name)
 def test_a_strut_is_as_long_as_its_slide_says(built: Callable[[str], Built]) -> None:
     model = built(STRUT.name)
     (state, *_), (inputs, *_) = states(model, 1)
@@ -282,6 +289,7 @@ def test_a_rack_that_is_held_stands_still(name: str, built: Callable[[str], Buil
     )
 
 
+@pytest.mark.xdist_group(ARM.name)
 def test_energy_stays_where_nothing_dissipates(built: Callable[[str], Built]) -> None:
     lossless = {"damper_rate": 0.0, "tyre_rate": 0.0, "spring_free_length": 0.45}
     model = replace(built(ARM.name), parameters={**built(ARM.name).parameters, **lossless})
@@ -378,6 +386,7 @@ def test_wherever_it_is_asked_it_closes_or_says_that_it_does_not(
     assert min(closed, refused) > 10
 
 
+@pytest.mark.xdist_group(ARM.name)
 def test_up_to_the_end_of_the_reach(built: Callable[[str], Built]) -> None:
     """Bisection for the angle at which the rods lose their hold: closed before, refused behind."""
     model = built(ARM.name)
@@ -399,6 +408,7 @@ def test_up_to_the_end_of_the_reach(built: Callable[[str], Built]) -> None:
         assert np.abs(model.oracle.closure(motion).value).max() < 1e-13
 
 
+@pytest.mark.xdist_group(ARM.name)
 def test_what_is_not_finite_is_refused(built: Callable[[str], Built]) -> None:
     model = built(ARM.name)
     for value in (np.nan, np.inf):
@@ -410,6 +420,7 @@ def test_what_is_not_finite_is_refused(built: Callable[[str], Built]) -> None:
 
 
 @needs_gcc
+@pytest.mark.xdist_group(ARM.name)
 def test_c_computes_what_numpy_computes(
     built: Callable[[str], Built],
     derive: Callable[[str], GeneratedModel],
@@ -454,6 +465,7 @@ def test_documents_say_that_it_iterates(name: str, built: Callable[[str], Built]
     assert "not free of iteration" not in double_wishbone.__doc__
 
 
+@pytest.mark.xdist_group(ARM.name)
 def test_report_names_the_equations_of_the_loops(
     derive: Callable[[str], GeneratedModel],
 ) -> None:
@@ -534,35 +546,6 @@ def test_a_hinge_in_place_of_a_ball_joint_has_no_block() -> None:
     with pytest.raises(NoClosedFormError, match="no closed") as told:
         Plan.of(model)
     assert "allow_iteration" not in str(told.value)
-
-
-def test_a_chain_of_six_hinges_is_refused() -> None:
-    """Bricard's line-symmetric chain moves although Grübler's count says that it cannot."""
-    places = [(0.3, 0.0, 0.1), (0.1, 0.3, -0.1), (-0.2, 0.2, 0.15)]
-    along = [(0.1, 1.0, 0.4), (1.0, -0.2, 0.3), (0.2, 0.5, -1.0)]
-    # the other half is the first one after half a turn about z
-    places += [(-x, -y, z) for x, y, z in places]
-    along += [(-x, -y, z) for x, y, z in along]
-    names = ["ground", "one", "two", "three", "four", "five"]
-    joints = tuple(
-        hinge(f"joint_{i}", names[i - 1], names[i], f"ground_{i}", f"axis_{i}") for i in range(6)
-    )
-    model = declare(
-        "bricard",
-        {name: (0.1 * i, 0.05, 0.0) for i, name in enumerate(names[1:])},
-        joints,
-        {f"ground_{i}": place for i, place in enumerate(places)},
-        {f"axis_{i}": vector for i, vector in enumerate(along)},
-        ("joint_1",),
-        spring=("ground_0", "ground_3"),
-    )
-    with pytest.raises(NoClosedFormError) as told:
-        Plan.of(replace(model, allow_iteration=True))
-    text = str(told.value)
-    assert "the loop ground - one - two - three - four - five" in text
-    assert "5 of its coordinates are unknown" in text
-    assert "Pairs tried: none, since no two of its joints keep a point in common" in text
-    assert "allow_iteration" not in text
 
 
 def test_rods_on_the_ground_only_cannot_move() -> None:

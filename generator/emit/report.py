@@ -5,7 +5,16 @@ from __future__ import annotations
 from itertools import zip_longest
 from typing import TYPE_CHECKING
 
-from ..actions import SolveCarrier, SolveHinge, SolveSlide, SolveStroke, SolveTelescope
+from ..actions import (
+    CutJoint,
+    HeldByRod,
+    SolveCarrier,
+    SolveHinge,
+    SolveSlide,
+    SolveStroke,
+    SolveTelescope,
+    SolveTogether,
+)
 from ..arithmetic import OPERATIONS
 from ..iteration import ITERATIONS
 from .c import iteration_note, mechanism_hash
@@ -93,16 +102,8 @@ def equation(transformer: Transformer) -> tuple[str, str]:
             f"{ends} = length of {action.near} and {action.far} at {action.joint.name}.slide",
             "explicit: the way along the guide is the root of a difference of squares",
         )
-    if isinstance(action, SolveCarrier):
-        joints = transformer.pair.joints
-        held = next(h for h in action.rods if all({*h.links} & {*j.bodies} for j in joints))
-        return (
-            f"|{held.end.name} - {held.anchor.name}| = length of {' and '.join(held.links)}",
-            (
-                f"no closed form: {len(action.rods)} equations for the pose of {action.body}, by "
-                f"Newton's method, at most {ITERATIONS} iterations"
-            ),
-        )
+    if isinstance(action, SolveCarrier | SolveTogether):
+        return _iterated_equation(action, transformer.closing)
     rod = action.rod
     if isinstance(action, SolveHinge | SolveSlide) and action.telescope is not None:
         rod = f"{action.telescope.links} at {action.telescope.joint.name}.slide"
@@ -120,18 +121,50 @@ def equation(transformer: Transformer) -> tuple[str, str]:
     )
 
 
+def _iterated_equation(
+    action: SolveCarrier | SolveTogether, closing: CutJoint | HeldByRod | None
+) -> tuple[str, str]:
+    """Return what closes a loop that is solved by iteration, and how it is solved."""
+    if isinstance(closing, HeldByRod):
+        links = " and ".join(closing.links)
+        closure = f"|{closing.end.name} - {closing.anchor.name}| = length of {links}"
+    else:
+        assert closing is not None
+        joint = closing.joint
+        closure = (
+            f"{joint.first} and {joint.second} have {joint.common} in common at {joint.name}: "
+            f"{closing.equations} equations"
+        )
+    unknown = (
+        f"pose of {action.body}"
+        if isinstance(action, SolveCarrier)
+        else f"{len(action.tree)} coordinates of {action.joint_names}"
+    )
+    return closure, (
+        f"no closed form: {action.equations} equations for the {unknown}, by Newton's method, "
+        f"at most {ITERATIONS} iterations"
+    )
+
+
+def _cut(transformer: Transformer) -> str:
+    """Return where a loop is cut."""
+    if transformer.pair is None:
+        return "pair      none: solved together with others, in the unknowns of all"
+    a, b = transformer.pair.joints
+    return (
+        f"pair      {a.name} ({a.kind}) and {b.name} ({b.kind}): "
+        f"{transformer.pair.eliminated} of {transformer.unknowns} unknowns eliminated, "
+        f"{transformer.pair.equations} equation left"
+    )
+
+
 def block_diagram(topology: Topology, transformer: Transformer) -> str:
     """Draw a transformer as a block with its inputs and outputs."""
-    a, b = transformer.pair.joints
     closure, solution = equation(transformer)
     inside = [
         f"transformer {transformer.number}",
         f"loop      {bodies_of(topology, transformer.cycle)} (length {transformer.cycle.length})",
-        (
-            f"pair      {a.name} ({a.kind}) and {b.name} ({b.kind}): "
-            f"{transformer.pair.eliminated} of {transformer.unknowns} unknowns eliminated, "
-            f"{transformer.pair.equations} equation left"
-        ),
+        _cut(transformer),
         f"equation  {closure}",
         f"solution  {solution}",
     ]

@@ -19,6 +19,7 @@ from ..actions import (
     SolveSlide,
     SolveStroke,
     SolveTelescope,
+    SolveTogether,
     SolveTurn,
 )
 from .carrier import solve_carrier
@@ -27,6 +28,7 @@ from .hinge import place_by_pin, solve_hinge
 from .slide import solve_slide
 from .stroke import place_telescope, solve_stroke
 from .telescope import solve_telescope
+from .together import solve_together
 from .turn import solve_turn
 
 if TYPE_CHECKING:
@@ -41,6 +43,7 @@ CATALOGUE: dict[type, Callable[..., Any]] = {
     SolveSlide: solve_slide,
     SolveStroke: solve_stroke,
     SolveTelescope: solve_telescope,
+    SolveTogether: solve_together,
     SolveTurn: solve_turn,
 }
 """What carries out each action of a plan, on kinematics and action."""

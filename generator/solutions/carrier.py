@@ -6,15 +6,8 @@ The equations, and the iteration that solves them from the design position on, a
 *Position.* What the iteration has found is corrected once more. That changes nothing but the last
 digits, and carries all derivatives: by the implicit function theorem they are ``-J^-1 g_v``.
 
-*Velocities and accelerations* fulfil ``J x = b``, b being what the starts of the rods do. This is
-solved twice: ``x = x0 + J^-1 (b - J x0)``, where x0 = J^-1 b is frozen. Although J^-1 comes from
-the iteration, the derivative of this is the exact one, ``J^-1 (b' - J' x)``; no inverse is
-differentiated.
-
-Guard: with e the square of what the iteration has left of g, over that of `_TOLERANCE`, and d the
-determinant of J with the sign that it has at the design position, ``(d - e) / (1 + e)``. It is not
-positive where the rods cannot reach the body, where they lose their hold on it (J is singular), and
-on the branches behind. Elsewhere it is d to the last digit, and serves as the divisor in J^-1.
+*Velocities and accelerations* fulfil ``J x = b``, b being what the starts of the rods do; they are
+solved with what the iteration knows of J^-1 (`inverse`, where the guard is as well).
 """
 
 from __future__ import annotations
@@ -24,12 +17,13 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ..arithmetic import Frozen, IsPositive, SignOf
-from ..iteration import ITERATIONS, Matrix, determinant, times
+from ..arithmetic import SignOf
+from ..iteration import Matrix, determinant, named
 from ..placement import Placed, PointMotion, from_axes
 from ..transformer import NoClosedFormError
 from ..vectors import ZERO, Twist, Vector
-from .carrier_equations import Pose, RodEquation, block, named, rotation, split, turned
+from .carrier_equations import Pose, RodEquation, block, rotation, split, turned
+from .inverse import Inverse, guarded_factor
 from .lines import once, place_rod, projector
 from .rod import Rod
 
@@ -39,15 +33,11 @@ if TYPE_CHECKING:
     from ..actions import HeldByRod, SolveCarrier
     from ..kinematics import Kinematics
 
-# What the iteration may leave of g: the correction behind it makes about the square of that, 1e-12.
-# Of what converges, less than 1e-13 is left, so that it does not show in the determinant.
-_TOLERANCE = sp.Rational(1, 10**6)
-
 
 def solve_carrier(kin: Kinematics, action: SolveCarrier) -> None:
     """Find the pose of a body that rods hold together, and its motion."""
     held = _Held.of(kin, action)
-    _place(kin, held, _corrected(kin, held, _found(kin, held)))
+    _place(kin, held, _corrected(kin, held))
     for rod in held.rods:
         place_rod(kin, rod.entry, rod.anchor, rod.rod.length, rigid=rod.entry.guide is None)
 
@@ -143,61 +133,32 @@ class _RodAtBody:
 
 
 @dataclass(frozen=True)
-class _System:
-    """The linear equations ``J x = b`` of a pose that is found.
-
-    Attributes
-    ----------
-    adjugate, factor
-        J^-1 is their product. They come from the iteration, their derivatives are zero.
-    rows
-        J.
-    """
-
-    adjugate: Matrix
-    factor: sp.Expr
-    rows: Matrix
-
-    def solve(self, kin: Kinematics, name: str, b: Sequence[sp.Expr]) -> list[sp.Expr]:
-        """Append the solution, with its exact derivative."""
-        program = kin.program
-        b = [program.define(f"{name}_given_{i}", value) for i, value in enumerate(b, 1)]
-        first = [
-            program.define(f"{name}_first_{i}", Frozen(value * self.factor))
-            for i, value in enumerate(times(self.adjugate, b), 1)
-        ]
-        left = [
-            program.define(f"{name}_left_{i}", value - done)
-            for i, (value, done) in enumerate(zip(b, times(self.rows, first), strict=True), 1)
-        ]
-        more = times(self.adjugate, left)
-        return [x + self.factor * dx for x, dx in zip(first, more, strict=True)]
-
-
-@dataclass(frozen=True)
 class _Solved:
-    """The pose, the ways along the rods from their starts to their ends, and the linear system."""
+    """The pose, the ways along the rods from their starts to their ends, J and its inverse."""
 
     pose: Pose
     gaps: list[Vector]
-    system: _System
+    rows: Matrix
+    inverse: Inverse
 
 
 # -- position -------------------------------------------------------------------------------------
 
 
-def _found(kin: Kinematics, held: _Held) -> dict[str, sp.Expr]:
+def _found(kin: Kinematics, held: _Held, branch: sp.Expr) -> dict[str, sp.Expr]:
     """Append the call of the iteration, and return its results."""
     body, pinned = held.action.body, held.base is not None
     values = [x for rod in held.rods for x in rod.equation.values]
-    values += [] if pinned else [held.size]
+    values += [branch] if pinned else [held.size, branch]
     names = [rod.rod for rod in held.action.rods]
     return kin.program.iterated(f"{body}_found", block(body, names, pinned=pinned), values)
 
 
-def _corrected(kin: Kinematics, held: _Held, found: dict[str, sp.Expr]) -> _Solved:
-    """Correct what was found, and return the pose with its linear equations."""
+def _corrected(kin: Kinematics, held: _Held) -> _Solved:
+    """Correct what the iteration has found, and return the pose with its linear equations."""
     program, body, count = kin.program, held.action.body, len(held.rods)
+    branch = _branch(kin, held)
+    found = _found(kin, held, branch)
     u, sigma = split(list(found.values())[:count])
     axes = rotation(program, f"{body}_found", u)
     start = Pose(axes, program.vector(f"{body}_found_shift", sigma * held.size))
@@ -207,10 +168,21 @@ def _corrected(kin: Kinematics, held: _Held, found: dict[str, sp.Expr]) -> _Solv
     ]
     places = range(1, count + 1)
     adjugate = [[found[f"adjugate_{i}{j}"] for j in places] for i in places]
-    factor = _factor(kin, held, found["determinant"], left)
+    factor = guarded_factor(
+        kin,
+        body,
+        found["determinant"],
+        branch,
+        left,
+        found["crossed"],
+        f"the loops of {body} through {held.action.rod_names} cannot close, or an iteration has "
+        f"not found how in {{iterations}} steps: the rods cannot reach {body}, or they have no "
+        "hold on it",
+    )
+    inverse = Inverse(adjugate, factor)
     step = [
-        program.define(f"{body}_correction_{i}", -factor * value)
-        for i, value in enumerate(times(adjugate, left), 1)
+        program.define(f"{body}_correction_{i}", value)
+        for i, value in enumerate(inverse.step(left), 1)
     ]
     turn, way = split(step)
     names = (f"{body}_forward", f"{body}_side", f"{body}_top")
@@ -220,27 +192,15 @@ def _corrected(kin: Kinematics, held: _Held, found: dict[str, sp.Expr]) -> _Solv
         program.vector(f"{rod.entry.rod}_gap", rod.equation.gap(pose), "123") for rod in held.rods
     ]
     rows = [rod.equation.row(gap) for rod, gap in zip(held.rods, gaps, strict=True)]
-    return _Solved(pose, gaps, _System(adjugate, factor, named(program, f"{body}_row", rows)))
+    return _Solved(pose, gaps, named(program, f"{body}_row", rows), inverse)
 
 
-def _factor(kin: Kinematics, held: _Held, found: sp.Expr, left: Sequence[sp.Expr]) -> sp.Expr:
-    """Return the reciprocal of the determinant, which is guarded."""
+def _branch(kin: Kinematics, held: _Held) -> sp.Expr:
+    """Return the sign of the determinant of J at the design position."""
     program, body = kin.program, held.action.body
     design = [rod.equation.row(rod.rod.design) for rod in held.rods]
-    at_design = determinant(program, f"{body}_design", named(program, f"{body}_row_design", design))
-    branch = program.define(f"{body}_branch", SignOf(at_design))
-    squares = sum((g * g for g in left), sp.Integer(0))
-    excess = program.define(f"{body}_excess", squares / _TOLERANCE**2)
-    hold = program.guarded(
-        f"{body}_closure",
-        (branch * found - excess) / (1 + excess),
-        f"the loops of {body} through {held.action.rod_names} cannot close, or an iteration has "
-        f"not found how in {ITERATIONS} steps: the rods cannot reach {body}, or they have no hold "
-        "on it",
-        "1",
-    )
-    held_at_all = IsPositive(hold.args[0])  # else no correction: what was found last stays finite
-    return program.define(f"{body}_hold", Frozen(branch * held_at_all / hold))
+    rows = named(program, f"{body}_row_design", design)
+    return program.define(f"{body}_branch", SignOf(determinant(program, f"{body}_design", rows)))
 
 
 # -- motion ---------------------------------------------------------------------------------------
@@ -268,8 +228,11 @@ def _place(kin: Kinematics, held: _Held, solved: _Solved) -> None:
 
 def _add_motion(kin: Kinematics, held: _Held, solved: _Solved, placed: Placed) -> None:
     """Add velocities and bias: every rod keeps its length, or has that of a known slide."""
-    body, system, to_body = placed.body, solved.system, projector(kin, placed)
+    body, to_body = placed.body, projector(kin, placed)
     rates = [ZERO for _ in held.rods]  # of the ends of the rods, as seen from where they start
+
+    def solve(name: str, slips: Sequence[sp.Expr]) -> list[sp.Expr]:
+        return solved.inverse.solve(kin, name, solved.rows, held.scaled(slips))
 
     def twist_of(x: Sequence[sp.Expr], base: Vector) -> Twist:
         """Return a twist (or a bias) from the solution, and from the base where that is known."""
@@ -287,7 +250,7 @@ def _add_motion(kin: Kinematics, held: _Held, solved: _Solved, placed: Placed) -
             growth - gap.dot(base - start)
             for growth, gap, start in zip(growths, solved.gaps, starts, strict=True)
         ]
-        twist = twist_of(system.solve(kin, f"{body}_{k}", held.scaled(slips)), base)
+        twist = twist_of(solve(f"{body}_{k}", slips), base)
         placed.motion[k] = now = kin.define_twist(body, k, twist)
         for i, (rod, start) in enumerate(zip(held.rods, starts, strict=True)):
             rates[i] += (now.linear - start + now.angular.cross(rod.equation.end)) * kin.rate(k)
@@ -301,8 +264,7 @@ def _add_motion(kin: Kinematics, held: _Held, solved: _Solved, placed: Placed) -
             start = to_body(f"{rod.entry.rod}_start_bias", rod.anchor.bias)
             pull = base - start + omega.cross(omega.cross(rod.equation.end))
             slips.append(rod.rod.stretch_bias - gap.dot(pull) - now.dot(now))
-        x = system.solve(kin, f"{body}_bias", held.scaled(slips))
-        return kin.define_bias(body, twist_of(x, base))
+        return kin.define_bias(body, twist_of(solve(f"{body}_bias", slips), base))
 
     placed.bias = once(bias)
 

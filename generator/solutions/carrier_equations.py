@@ -27,7 +27,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ..iteration import Block, Matrix, adjugate, limited, times
+from ..iteration import CROSSED, SIDE, Block, adjugate, crossed, limited, named, times
 from ..placement import Axes, from_axes, to_axes
 from ..vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Vector
 
@@ -116,8 +116,8 @@ def split(values: Sequence[sp.Expr]) -> tuple[Vector, Vector]:
 def block(body: str, rods: Sequence[str], *, pinned: bool) -> Block:
     """Return the iteration that finds the pose of a body held by some rods.
 
-    Its results are the unknowns (u, and sigma where the body has no known point), the adjugate of
-    J, row by row, and its determinant.
+    Its results are the unknowns (u, and sigma where the body has no known point), `CROSSED`, the
+    adjugate of J, row by row, and its determinant.
     """
     equations = [_formal(f"{i}", pinned=pinned) for i in range(1, len(rods) + 1)]
     unknowns = [sp.Symbol(f"u_{a}") for a in "xyz"]
@@ -143,7 +143,9 @@ def block(body: str, rods: Sequence[str], *, pinned: bool) -> Block:
         turn, way = split([program.define(f"step_{i}", s) for i, s in enumerate(step, 1)])
         following = [*_composed(program, u, turn)]
         following += [] if pinned else [*(sigma + from_axes(axes, way))]
+        following.append(crossed(scale))
         results = {str(x): x for x in unknowns}
+        results |= {str(CROSSED): CROSSED}
         results |= {
             f"adjugate_{i}{j}": entry
             for i, row in enumerate(inverse, 1)
@@ -154,21 +156,13 @@ def block(body: str, rods: Sequence[str], *, pinned: bool) -> Block:
     return Block.of(
         f"pose_of_{body}",
         f"the pose of {body}, held by {', '.join(rods)}",
-        [x for e in equations for x in e.values] + ([] if pinned else [_SIZE]),
-        unknowns,
+        [*(x for e in equations for x in e.values), *([] if pinned else [_SIZE]), SIDE],
+        [*unknowns, CROSSED],
         derive,
     )
 
 
 _SIZE = sp.Symbol("size")
-
-
-def named(program: Program, name: str, matrix: Matrix) -> Matrix:
-    """Append the elements of a matrix."""
-    return [
-        [program.define(f"{name}_{i}{j}", entry) for j, entry in enumerate(row, 1)]
-        for i, row in enumerate(matrix, 1)
-    ]
 
 
 def _formal(label: str, *, pinned: bool) -> RodEquation:

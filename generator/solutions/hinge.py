@@ -79,7 +79,7 @@ def solve_hinge(kin: Kinematics, action: SolveHinge) -> None:
     fit = fit_rod(kin, action, hinge.arm, hinge.axis, reach)
     _place(kin, hinge, fit.axes, _Condition(anchor, fit.gap, fit.hold, fit.rod))
     _report_angle(kin, action.joint, hinge, fit.axes)
-    if any(a.rod == action.rod for a in kin.plan.lines()):
+    if not kin.plan.is_pinned(action.rod):
         place_rod(kin, action, anchor, fit.rod.length)
 
 

@@ -95,5 +95,5 @@ def solve_slide(kin: Kinematics, action: SolveSlide) -> None:
         return kin.define_bias(body, Twist(carried.angular, base + local * speed))
 
     placed.bias = once(bias)
-    if any(a.rod == action.rod for a in kin.plan.lines()):
+    if not kin.plan.is_pinned(action.rod):
         place_rod(kin, action, anchor, rod.length)

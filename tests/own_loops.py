@@ -1,0 +1,289 @@
+"""Loops without a closed form: chains of hinges, and loops that hold each other.
+
+None of them ships. Every kind of joint closes a loop in one of them, and every kind carries.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from own_mechanisms import (
+    NORMAL,
+    Place,
+    askew,
+    ball,
+    cross,
+    declare,
+    guide,
+    heading,
+    hinge,
+)
+
+if TYPE_CHECKING:
+    from kintrafo.generator.joints import Joint
+    from kintrafo.generator.mechanism import Model
+
+PLACES: list[Place] = [
+    (0.3, 0.0, 0.1),
+    (0.15, 0.3, -0.1),
+    (-0.2, 0.25, 0.15),
+    (-0.35, 0.0, 0.3),
+    (-0.2, -0.3, 0.2),
+    (0.05, -0.35, 0.0),
+    (0.25, -0.2, 0.05),
+]
+AXES: list[Place] = [
+    (0.1, 1.0, 0.4),
+    (1.0, -0.2, 0.3),
+    (0.2, 0.5, -1.0),
+    (0.7, 0.6, 0.2),
+    (-0.3, 0.4, 1.0),
+    (1.0, 0.3, 0.3),
+    (0.3, -0.8, 0.5),
+]
+BODIES = ["ground", "one", "two", "three", "four", "five", "six"]
+
+
+def in_a_ring(count: int) -> tuple[Joint, ...]:
+    """Return hinges ``hinge_i`` between one body and the next, the last one at the ground again."""
+    return tuple(
+        hinge(f"hinge_{i}", BODIES[i], BODIES[(i + 1) % count], f"place_{i}", f"axis_{i}")
+        for i in range(count)
+    )
+
+
+def ring(name: str, joints: tuple[Joint, ...], places: list[Place], axes: list[Place]) -> Model:
+    """Return a closed chain, driven by its first joint, with a spring to its second body."""
+    bodies = BODIES[1 : len(joints)]
+    middles = {
+        body: tuple((np.array(places[i]) + places[i + 1]) / 2) for i, body in enumerate(bodies)
+    }
+    model = declare(
+        name,
+        middles,
+        joints,
+        {
+            **{f"place_{i}": place for i, place in enumerate(places)},
+            "ground_top": (0.1, 0.1, 0.5),
+            "two_seat": (-0.05, 0.2, 0.1),
+        },
+        {f"axis_{i}": axis for i, axis in enumerate(axes)},
+        (joints[0].name,),
+        spring=("ground_top", "two_seat"),
+    )
+    return replace(model, allow_iteration=True)
+
+
+# -- one loop in space ----------------------------------------------------------------------------
+
+_HINGES = in_a_ring(7)
+
+SEVEN_HINGES = ring("seven_hinges", _HINGES, PLACES, AXES)
+"""The general closed chain of hinges: a polynomial of degree 16."""
+
+GUIDED_RING = ring(
+    "guided_ring",
+    (
+        *_HINGES[:2],
+        guide("guide_2", "two", "three", "axis_2"),
+        *_HINGES[3:6],
+        guide("guide_6", "six", "ground", "axis_6"),
+    ),
+    PLACES,
+    AXES,
+)
+"""A guide carries, another one closes the loop."""
+
+CROSSED_RING = ring(
+    "crossed_ring",
+    (
+        *_HINGES[:3],
+        cross("cross_3", "three", "four", "place_3", "place_4", "axis_3"),
+        hinge("hinge_4", "four", "five", "place_4", "axis_4"),
+        hinge("hinge_5", "ground", "five", "place_5", "axis_5"),
+    ),
+    PLACES[:6],
+    AXES[:6],
+)
+"""A cross closes the loop; a hinge is declared from the ground on."""
+
+BALL_RING = ring(
+    "ball_ring",
+    (
+        *_HINGES[:2],
+        ball("ball_2", "two", "three", "place_2"),
+        hinge("hinge_3", "three", "four", "place_3", "axis_3"),
+        hinge("hinge_4", "four", "ground", "place_4", "axis_4"),
+    ),
+    PLACES[:5],
+    AXES[:5],
+)
+"""A ball joint closes the loop."""
+
+
+# -- chains that move although they should not ----------------------------------------------------
+
+
+def half_turned(places: list[Place]) -> list[Place]:
+    """Return places, or directions, and the same after half a turn about z."""
+    return [*places, *((-x, -y, z) for x, y, z in places)]
+
+
+_HALF = half_turned([(0.3, 0.0, 0.1), (0.1, 0.3, -0.1), (-0.2, 0.2, 0.15)])
+_HALF_AXES = half_turned([(0.1, 1.0, 0.4), (1.0, -0.2, 0.3), (0.2, 0.5, -1.0)])
+
+BRICARD = ring("bricard", in_a_ring(6), _HALF, _HALF_AXES)
+"""Bricard's line-symmetric chain of six hinges: one freedom, where Grübler counts none."""
+
+
+def bennett(length: float, twist: float, other: float, angle: float) -> Model:
+    """Return Bennett's chain of four hinges: one freedom, where Grübler counts -2.
+
+    Parameters
+    ----------
+    length, twist
+        Of the first link and the third, between its axes, m and rad.
+    other
+        Twist of the second link and the fourth; their length is that of the sine theorem.
+    angle
+        Between the first link and the fourth at the design position.
+    """
+    lengths = [length, length * np.sin(other) / np.sin(twist)] * 2
+    twists = [twist, other] * 2
+    at, axes = np.zeros(3), np.eye(3)  # Denavit and Hartenberg: x along the link, z along the axis
+    places, along = [], []
+    second = 2 * np.arctan(bennett_ratio(twist, other) / np.tan(angle / 2))
+    turns = [angle, second, -angle, -second]
+    for turn, link, lean in zip(turns, lengths, twists, strict=True):
+        places.append(tuple(at.tolist()))
+        along.append(tuple(axes[:, 2].tolist()))
+        c, s = np.cos(turn), np.sin(turn)
+        axes = axes @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+        at = at + link * axes[:, 0]
+        c, s = np.cos(lean), np.sin(lean)
+        axes = axes @ np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+    np.testing.assert_allclose(at, 0.0, atol=1e-15)
+    np.testing.assert_allclose(axes, np.eye(3), atol=1e-15)
+    return ring("bennett", in_a_ring(4), places, along)
+
+
+def bennett_ratio(twist: float, other: float) -> float:
+    """Return the product of the tangents of half the angles at two neighbouring hinges."""
+    return float(np.sin((other + twist) / 2) / np.sin((other - twist) / 2))
+
+
+BENNETT_TWISTS = 0.6, 1.3
+BENNETT_ANGLE = 1.0
+BENNETT = bennett(0.3, *BENNETT_TWISTS, BENNETT_ANGLE)
+
+
+# -- loops that hold each other -------------------------------------------------------------------
+
+
+def plate(name: str, last: str) -> Model:
+    """Return a plate in an oblique plane that a rod, a bar with a wheel and a slotted block hold.
+
+    Parameters
+    ----------
+    last
+        Name of the joint that is declared last, and so closes a loop.
+    """
+    joints = {
+        joint.name: joint
+        for joint in (
+            hinge("crank_hinge", "ground", "crank", "crank_pivot", "normal"),
+            hinge("bearing", "bar", "wheel", "wheel_com", "normal"),
+            hinge("bar_pin", "crank", "bar", "bar_start", "normal"),
+            hinge("plate_pin", "bar", "plate", "bar_end", "normal"),
+            hinge("block_hinge", "ground", "block", "block_pivot", "normal"),
+            guide("slot", "block", "plate", "slot_direction"),
+            hinge("rod_hinge", "ground", "rod", "rod_start", "normal"),
+            hinge("rod_pin", "rod", "plate", "rod_end", "normal"),
+        )
+    }
+    joints[last] = joints.pop(last)
+    model = declare(
+        name,
+        {
+            "crank": askew(0.05, 0.02),
+            "bar": askew(0.15, 0.15, 0.03),
+            "block": askew(0.5, 0.02),
+            "plate": askew(0.3, 0.3, 0.02),
+            "rod": askew(0.35, 0.41),
+            "wheel": askew(0.12, 0.16, 0.05),
+        },
+        tuple(joints.values()),
+        {
+            "crank_pivot": askew(0.0, 0.0),
+            "bar_start": askew(0.1, 0.05),
+            "bar_end": askew(0.2, 0.25),
+            "block_pivot": askew(0.5, 0.0),
+            "rod_start": askew(0.45, 0.5),
+            "rod_end": askew(0.3, 0.38),
+            "ground_top": askew(0.2, 0.6),
+            "plate_seat": askew(0.25, 0.3),
+        },
+        {"normal": NORMAL, "slot_direction": heading(2.2)},
+        ("crank_hinge", "bearing"),
+        spring=("ground_top", "plate_seat"),
+        wheel=("wheel", NORMAL),
+    )
+    return replace(model, allow_iteration=True)
+
+
+PLATE_ON_A_SLOT = plate("plate_on_a_slot", "slot")
+PLATE_ON_A_PIN = plate("plate_on_a_pin", "plate_pin")
+
+
+def _rod(name: str, first: str, second: str, axis: str) -> tuple[Joint, Joint]:
+    """Return the joints of a rod: a cross and a ball joint."""
+    return (
+        cross(f"{name}_cross", first, name, f"{name}_start", f"{name}_end", axis),
+        ball(f"{name}_ball", second, name, f"{name}_end"),
+    )
+
+
+ROCKERS = replace(
+    declare(
+        "rockers",
+        {
+            "crank": (0.05, 0.05, 0.0),
+            "arm": (0.2, 0.1, 0.1),
+            "hand": (0.35, 0.2, 0.15),
+            "rocker": (0.5, -0.1, 0.0),
+            "stay": (0.3, 0.35, 0.05),
+            "link": (0.35, 0.0, 0.05),
+            "tie": (0.45, 0.05, 0.1),
+        },
+        (
+            hinge("crank_hinge", "ground", "crank", "crank_pivot", "axis_0"),
+            hinge("arm_hinge", "crank", "arm", "arm_pivot", "axis_1"),
+            hinge("hand_hinge", "arm", "hand", "hand_pivot", "axis_2"),
+            hinge("rocker_hinge", "ground", "rocker", "rocker_pivot", "axis_3"),
+            *_rod("stay", "ground", "hand", "axis_0"),
+            *_rod("link", "rocker", "arm", "axis_1"),
+            *_rod("tie", "rocker", "hand", "axis_2"),
+        ),
+        {
+            "crank_pivot": (0.0, 0.0, 0.0),
+            "arm_pivot": (0.1, 0.1, 0.0),
+            "hand_pivot": (0.3, 0.1, 0.2),
+            "rocker_pivot": (0.5, -0.2, -0.1),
+            "stay_start": (0.25, 0.45, 0.0),
+            "stay_end": (0.35, 0.25, 0.12),
+            "link_start": (0.48, -0.08, 0.02),
+            "link_end": (0.2, 0.08, 0.1),
+            "tie_start": (0.52, -0.05, 0.05),
+            "tie_end": (0.42, 0.2, 0.2),
+            "ground_top": (0.3, 0.1, 0.6),
+            "hand_seat": (0.38, 0.2, 0.2),
+        },
+        {"axis_0": AXES[0], "axis_1": AXES[4], "axis_2": AXES[5], "axis_3": AXES[3]},
+        ("crank_hinge",),
+        spring=("ground_top", "hand_seat"),
+    ),
+    allow_iteration=True,
+)
+"""Three rods close three loops of a chain of two bodies and a rocker; two join unknown bodies."""

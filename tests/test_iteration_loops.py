@@ -1,0 +1,388 @@
+"""Loops of hinges and guides that are solved together, by iteration.
+
+The oracles: maximal coordinates; published relations of the angles of Bennett's and Bricard's
+chains; SciPy's root finder on a chain of rotations, followed from the design position on; the
+program itself in 50 digits; and the mean of the tangents, where a motion has to be continuous.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from typing import TYPE_CHECKING
+
+import mpmath
+import numpy as np
+import own_loops
+import pytest
+from kintrafo.generated._support import ClosureError
+from kintrafo.generator.actions import JointOfTree, SolveTogether
+from kintrafo.generator.coupling import MOST_UNKNOWNS, obstacle
+from kintrafo.generator.emit.report import markdown
+from kintrafo.generator.mobility import Mobility
+from kintrafo.generator.outputs import GeneratedModel, generate
+from kintrafo.generator.topology import Topology
+from kintrafo.generator.transformer import NoClosedFormError, Plan
+from kintrafo.own.build import build
+from kintrafo.own.compiler import FLAGS, Compiler
+from kintrafo.own.loader import load
+from own_mechanisms import askew, heading
+from own_models import STRICT, Built, needs_gcc
+from scipy.optimize import root
+from scipy.spatial.transform import Rotation
+from symbolic import constants_of, python
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+    from kintrafo.generator.mechanism import Model
+    from oracle.constraints import Array
+
+MODELS = {
+    model.name: model
+    for model in (
+        own_loops.SEVEN_HINGES,
+        own_loops.GUIDED_RING,
+        own_loops.CROSSED_RING,
+        own_loops.BALL_RING,
+        own_loops.BENNETT,
+        own_loops.BRICARD,
+        own_loops.PLATE_ON_A_SLOT,
+        own_loops.PLATE_ON_A_PIN,
+        own_loops.ROCKERS,
+    )
+}
+SPANS = {
+    "seven_hinges": (-1.9, 0.7),
+    "guided_ring": (-1.9, 0.5),
+    "crossed_ring": (-1.6, 0.15),
+    "ball_ring": (-0.02, 2.2),
+    "bennett": (-2.0, 2.0),
+    "bricard": (-2.0, 1.2),
+    "plate_on_a_slot": (-0.1, 0.8),
+    "plate_on_a_pin": (-0.1, 0.8),
+    "rockers": (-0.02, 0.2),
+}
+"""How far the first coordinate goes from the design position, rad: nearly to the dead points."""
+
+
+@pytest.fixture(scope="session")
+def derive() -> Callable[[Model], GeneratedModel]:
+    derived = cache(lambda name: generate(MODELS[name]))
+    return lambda model: derived(model.name)
+
+
+@pytest.fixture(scope="session")
+def built(
+    derive: Callable[[Model], GeneratedModel], tmp_path_factory: pytest.TempPathFactory
+) -> Callable[[Model], Built]:
+    """Return a model over NumPy arrays, which takes no compiler's time."""
+
+    def find(model: Model) -> Built:
+        folder = tmp_path_factory.mktemp(model.name) / f"{model.name}-arrays"
+        folder.mkdir()
+        build(derive(model), folder, None)
+        return Built.of(model, load(folder))
+
+    found = cache(lambda name: find(MODELS[name]))
+    return lambda model: found(model.name)
+
+
+def states(built: Built, count: int) -> Array:
+    """Return states over the whole span, at random rates; a wheel turns anywhere."""
+    rng = np.random.default_rng(0)
+    q = built.design + rng.uniform(-np.pi, np.pi, (count, built.size))
+    q[:, 0] = built.design[0] + np.linspace(*SPANS[built.model.name], count)
+    return np.hstack((q, rng.uniform(-3.0, 3.0, (count, built.size))))
+
+
+def path(built: Built, step: float) -> Array:
+    """Return states at rest from one end of the span to the other."""
+    low, high = SPANS[built.model.name]
+    found = np.zeros((round((high - low) / step), 2 * built.size))
+    found[:, : built.size] = built.design
+    found[:, 0] += np.linspace(low, high, len(found))
+    return found
+
+
+def each(*models: Model) -> pytest.MarkDecorator:
+    """Return the marks of a test of some models: those of a model stay on one worker."""
+    params = [pytest.param(m, id=m.name, marks=pytest.mark.xdist_group(m.name)) for m in models]
+    return pytest.mark.parametrize("model", params)
+
+
+EVERY = each(*MODELS.values())
+
+
+# -- against maximal coordinates, and against itself ----------------------------------------------
+
+
+@EVERY
+def test_loops_close_and_accelerate(model: Model, built: Callable[[Model], Built]) -> None:
+    compiled = built(model)
+    for state in states(compiled, 25):
+        inputs = np.zeros(len(compiled.module.INPUTS))
+        motion = compiled.motion(state, inputs)
+        closure = compiled.oracle.closure(motion)
+        rates = np.abs(motion.twist).max()
+        # lengths and sines below 1; rates of bodies next to a dead point are those of the twists
+        np.testing.assert_allclose(closure.value, 0.0, atol=5e-15)
+        np.testing.assert_allclose(closure.rate, 0.0, atol=1e-14 * rates)
+        oracle = compiled.oracle.reduced(motion, compiled.named(inputs), {})
+        inverse = np.abs(np.linalg.inv(oracle.mass_matrix))
+        scale = (inverse @ (np.abs(oracle.applied) + np.abs(oracle.inertial))).max()
+        found = compiled("rhs", state, inputs)[compiled.size :]
+        np.testing.assert_allclose(found, oracle.accelerations, rtol=0.0, atol=1e-11 * scale)
+
+
+@EVERY
+def test_motion_is_continuous_over_the_whole_span(
+    model: Model, built: Callable[[Model], Built]
+) -> None:
+    """No state of the span is on another branch: every step goes along the tangents."""
+    compiled = built(model)
+    along = path(compiled, 0.004)
+    step = along[1, 0] - along[0, 0]
+    assert (compiled("margins", along)[:, 0] > 0.0).all()
+    beta = compiled("relative_coordinates", along)
+    slope = compiled("relative_jacobian", along)[:, :, 0]
+    went = np.diff(beta, axis=0)
+    turns = np.array(["angle" in name for name in compiled.module.RELATIVE_COORDINATES])
+    went[:, turns] = (went[:, turns] + np.pi) % (2.0 * np.pi) - np.pi
+    expected = step * (slope[1:] + slope[:-1]) / 2
+    # the curvature, which next to a dead point is that of a root; its change, 1e-5, where it is
+    # zero. Other branches are 1e-2 away and more
+    bend = np.abs(np.diff(slope, axis=0)) * step
+    assert (np.abs(went - expected) <= bend + 1e-5).all()
+
+
+@each(own_loops.SEVEN_HINGES, own_loops.BRICARD, own_loops.PLATE_ON_A_SLOT)
+def test_jacobians_are_exact(
+    model: Model,
+    built: Callable[[Model], Built],
+    derive: Callable[[Model], GeneratedModel],
+) -> None:
+    # central differences in 50 digits: every perturbed state is solved anew, to 50 digits as well
+    compiled, derived = built(model), derive(model)
+    state = states(compiled, 5)[3]
+    with mpmath.workdps(50):
+        rhs, step = python(derived.functions["rhs"]), mpmath.mpf("1e-15")
+        values = constants_of(derived, compiled.parameters)
+        values |= {name: mpmath.mpf(0) for name in compiled.module.INPUTS}
+        values |= dict(zip(compiled.module.STATE, map(mpmath.mpf, state), strict=True))
+        columns = []
+        for variable in compiled.module.STATE:
+            ahead, behind = (rhs(values | {variable: values[variable] + h}) for h in (step, -step))
+            columns.append(
+                [float((a - b) / (2 * step)) for a, b in zip(ahead, behind, strict=True)]
+            )
+    expected = np.transpose(columns)
+    scale = np.abs(expected).max(axis=1, keepdims=True)
+    found = compiled("rhs_jacobian", state)
+    np.testing.assert_allclose(found / scale, expected / scale, rtol=0.0, atol=1e-11)
+
+
+# -- published relations --------------------------------------------------------------------------
+
+
+@pytest.mark.xdist_group("bennett")
+def test_bennett(built: Callable[[Model], Built]) -> None:
+    """tan(a/2) tan(b/2) of neighbouring angles stays, opposite angles are opposite (Bennett)."""
+    model = own_loops.BENNETT
+    compiled = built(model)
+    names = list(compiled.module.RELATIVE_COORDINATES)
+    turned = compiled("relative_coordinates", path(compiled, 0.05))
+    one, two, three, four = (turned[:, names.index(f"hinge_{i}_angle")] for i in range(4))
+    ratio = own_loops.bennett_ratio(*own_loops.BENNETT_TWISTS)
+    start = own_loops.BENNETT_ANGLE
+    second = 2 * np.arctan(ratio / np.tan(start / 2))
+    product = np.tan((start + one) / 2) * np.tan((second + two) / 2)
+    np.testing.assert_allclose(product, ratio, rtol=1e-13)
+    np.testing.assert_allclose(one, -three, rtol=0.0, atol=1e-14)
+    np.testing.assert_allclose(two, -four, rtol=0.0, atol=1e-14)
+
+
+@pytest.mark.xdist_group("bricard")
+def test_bricard(built: Callable[[Model], Built]) -> None:
+    """Opposite angles of the line-symmetric chain are equal."""
+    compiled = built(own_loops.BRICARD)
+    names = list(compiled.module.RELATIVE_COORDINATES)
+    turned = compiled("relative_coordinates", path(compiled, 0.05))
+    for i in range(3):
+        one, other = (turned[:, names.index(f"hinge_{k}_angle")] for k in (i, i + 3))
+        assert np.ptp(one) > 0.1
+        np.testing.assert_allclose(one, other, rtol=0.0, atol=1e-13)
+
+
+# -- against a root finder ------------------------------------------------------------------------
+
+
+def seven_angles(driven: float, before: Array) -> Array:
+    """Return the angles of seven hinges that bring a body all around back to the ground."""
+    places = np.array(own_loops.PLACES)
+    axes = np.array(own_loops.AXES)
+    axes /= np.linalg.norm(axes, axis=1, keepdims=True)
+
+    def left(rest: Array) -> Array:
+        turned, at = Rotation.identity(), np.zeros(3)
+        for place, axis, angle in zip(places, axes, [driven, *rest], strict=True):
+            turn = Rotation.from_rotvec(angle * axis)
+            at = turned.apply(place - turn.apply(place)) + at
+            turned = turned * turn
+        return np.concatenate((turned.as_rotvec(), at))
+
+    found = root(left, before, tol=1e-14)
+    assert np.abs(left(found.x)).max() < 1e-13
+    return np.array(found.x)
+
+
+@pytest.mark.xdist_group("seven_hinges")
+def test_seven_hinges_are_where_a_root_finder_puts_them(built: Callable[[Model], Built]) -> None:
+    model = own_loops.SEVEN_HINGES
+    compiled = built(model)
+    for end in SPANS[model.name]:
+        angles = np.zeros(6)
+        for driven in np.linspace(0.0, end, 60):
+            angles = seven_angles(driven, angles)
+            found = compiled("relative_coordinates", np.array([driven, 0.0]))
+            difference = found - [driven, *angles]
+            difference = (difference + np.pi) % (2.0 * np.pi) - np.pi
+            # 1e-13: what the root finder leaves, over the least singular value of its equations
+            np.testing.assert_allclose(difference, 0.0, atol=2e-12)
+
+
+# -- where it fails -------------------------------------------------------------------------------
+
+
+@EVERY
+def test_anywhere_it_closes_or_says_so(model: Model, built: Callable[[Model], Built]) -> None:
+    compiled, rng = built(model), np.random.default_rng(1)
+    outcomes = set()
+    for _ in range(60):
+        state = np.concatenate((rng.uniform(-np.pi, np.pi, compiled.size), np.ones(compiled.size)))
+        try:
+            motion = compiled.motion(state, np.zeros(len(compiled.module.INPUTS)))
+        except ClosureError:
+            outcomes.add("refused")
+            continue
+        outcomes.add("closed")
+        assert np.abs(compiled.oracle.closure(motion).value).max() < 1e-12
+    assert outcomes == {"closed", "refused"}
+
+
+@pytest.mark.xdist_group("bricard")
+def test_a_chain_that_moves_by_its_dimensions_alone_is_refused_with_others(
+    built: Callable[[Model], Built],
+) -> None:
+    """Where Bricard's symmetry is broken, the design position is the only one that closes."""
+    compiled = built(own_loops.BRICARD)
+    parameters = dict(compiled.parameters)
+    parameters["place_3_x"] += 1e-3
+    broken = replace(compiled, parameters=parameters)
+    with pytest.raises(ClosureError, match="hinge_5 cannot meet with any coordinates of hinge_1"):
+        broken("rhs", np.array([0.3, 0.0]))
+
+
+@needs_gcc
+@pytest.mark.xdist_group("plate_on_a_pin")
+def test_c_computes_what_numpy_computes(
+    built: Callable[[Model], Built],
+    derive: Callable[[Model], GeneratedModel],
+    tmp_path: Path,
+) -> None:
+    model = own_loops.PLATE_ON_A_PIN
+    arrays = built(model)
+    folder = tmp_path / f"{model.name}-c"
+    folder.mkdir()
+    # compiled without optimisation, which takes a third of the time
+    build(derive(model), folder, Compiler(("gcc", *FLAGS, *STRICT, "-O0"), "of the tests"))
+    compiled = replace(arrays, module=load(folder))
+    state = states(arrays, 100)
+    for function in ("rhs", "rhs_jacobian", "positions", "margins"):
+        found, expected = compiled(function, state), arrays(function, state)
+        # the last digits of sines and cosines differ, and with them when an iteration ends
+        atol = 1e-11 * np.abs(expected).max(axis=0)
+        assert (np.abs(found - expected) <= atol).all(), function
+    text = (folder / f"{model.name}.c").read_text()
+    assert text.count("for (int i = 0; i < ITERATIONS; ++i)") == 1
+
+
+@pytest.mark.xdist_group("plate_on_a_pin")
+def test_report_names_joints_and_equations(derive: Callable[[Model], GeneratedModel]) -> None:
+    text = markdown(derive(own_loops.PLATE_ON_A_PIN))
+    assert "This model is not free of iteration." in text
+    assert "bar and plate have an axis in common at plate_pin: 2 equations" in text
+    assert "|rod_end - rod_start| = length of rod" in text
+    assert text.count("3 equations for the 3 coordinates of bar_pin, block_hinge, slot") == 2
+
+
+# -- what is refused ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("model", "words"),
+    [
+        (own_loops.SEVEN_HINGES, r"Closed at hinge_6, 1 loop\(s\) leave 5 equations for the 5 unk"),
+        (own_loops.BRICARD, r"Closed at hinge_5, 1 loop\(s\) leave 5 equations for the 4 unknown"),
+        (own_loops.PLATE_ON_A_PIN, r"at plate_pin, rod, 2 loop\(s\) leave 3 equations for the 3"),
+        (own_loops.BALL_RING, r"ball_2, 1 loop\(s\) leave 3 equations for the 3 unknown"),
+    ],
+)
+def test_without_permission_the_loop_is_refused(model: Model, words: str) -> None:
+    with pytest.raises(NoClosedFormError, match=words) as told:
+        Plan.of(replace(model, allow_iteration=False))
+    assert "declared with allow_iteration=True" in str(told.value)
+
+
+def with_default(model: Model, **changes: float) -> Model:
+    """Return a model with some defaults changed."""
+    parameters = tuple(
+        replace(p, default=changes.get(p.name, p.default)) for p in model.mechanism.parameters
+    )
+    return replace(model, mechanism=replace(model.mechanism, parameters=parameters))
+
+
+def test_six_hinges_in_general_cannot_move() -> None:
+    """Bricard's chain with another place of a hinge: recognised before anything is derived."""
+    model = with_default(own_loops.BRICARD, place_3_x=-0.25)
+    with pytest.raises(
+        NoClosedFormError, match="they cannot move from the design position"
+    ) as told:
+        Plan.of(model)
+    assert "leave 5 equations for the 4 unknown coordinates" in str(told.value)
+    assert "allow_iteration" not in str(told.value)
+
+
+def test_a_dead_point_at_design_is_refused() -> None:
+    """Bar, rod and block push on the plate along lines through one point: it turns about that."""
+    places = {  # the point is at 0.3, 0.3 of the plane
+        "rod_start": askew(0.3, 0.5),  # the rod ends at 0.3, 0.38
+        "bar_start": askew(0.1, 0.2),  # the bar ends at 0.2, 0.25
+        "slot_direction": heading(np.arctan2(0.2, 0.3)),  # the block hinges at 0.5, 0.0
+    }
+    changes = {f"{n}_{a}": c for n, p in places.items() for a, c in zip("xyz", p, strict=True)}
+    with pytest.raises(NoClosedFormError, match="a dead point, or something else must be driven"):
+        Plan.of(with_default(own_loops.PLATE_ON_A_SLOT, **changes))
+
+
+def test_too_many_unknowns_are_refused() -> None:
+    mechanism = own_loops.SEVEN_HINGES.mechanism
+    branch = JointOfTree(mechanism.joint("hinge_1"), "one", "two")
+    action = SolveTogether("two", (branch,) * (MOST_UNKNOWNS + 1), (), ())
+    told = obstacle(action, Mobility(Topology(mechanism), ("hinge_0",)))
+    assert told == f"{MOST_UNKNOWNS + 1} unknowns are more than the {MOST_UNKNOWNS} of an iteration"
+
+
+# -- mobility in numbers --------------------------------------------------------------------------
+
+
+def test_mobility_at_the_design_position() -> None:
+    for model in MODELS.values():
+        mobility = Mobility(Topology(model.mechanism), model.independent)
+        assert mobility.driven_move()
+        joints = [j for j in model.mechanism.joints if j.name not in model.independent]
+        assert mobility.determines((j.name, c) for j in joints for c in j.coordinates)
+        assert not Mobility(Topology(model.mechanism), ()).determines(
+            [(joints[0].name, joints[0].coordinates[0])]
+        )
