@@ -62,14 +62,14 @@ def _arguments() -> argparse.Namespace:
 def _seconds(
     entries: list[timing.Entry], skipped: dict[str, str], report: timing.Report
 ) -> list[timing.Second]:
-    seconds = []
+    contenders = []
     for simulator in _simulators(entries, skipped):
         report(f"the second: {simulator.name}")
         try:
-            seconds.append(timing.time_second(simulator))
+            contenders.append(timing.loosest(simulator))
         except DisagreementError as error:
             skipped[simulator.name] = str(error)
-    return seconds
+    return timing.time_seconds(contenders, report)
 
 
 def _simulators(

@@ -155,11 +155,11 @@ def installed(package: str) -> bool:
     return importlib.util.find_spec(package) is not None
 
 
-def seconds_of(run: Run, repeats: int) -> tuple[float, float]:
-    """Return least and median time of a run, s."""
-    times = []
-    for _ in range(repeats):
+def seconds_of(run: Run, budget: float) -> list[float]:
+    """Return the times of runs, s: as many as the budget has room for, and one at least."""
+    times: list[float] = []
+    while sum(times) < budget:
         begin = time.perf_counter()
         run()
         times.append(time.perf_counter() - begin)
-    return min(times), float(np.median(times))
+    return times

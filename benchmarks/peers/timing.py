@@ -11,13 +11,17 @@ from .agreement import DisagreementError, acceleration_error
 from .case import ACCURACY, Array, angle_error, random_instants
 from .compiled import FLAGS, Library, compile_source
 from .models import Built, Candidate
-from .simulations import Simulator, seconds_of
+from .simulations import Run, Simulator, seconds_of
 
 KINDS = ("dependent", "independent")
 ROUNDS = 200
 """Each loop is run this often, all peers in turn."""
 LOOP_SECONDS = 0.001
 """Aimed at for one run of a loop: short, so that the least time is that of a quiet moment."""
+
+TURNS = 10
+"""Each simulation is run for `TURN_SECONDS` so often, all in turn."""
+TURN_SECONDS = 0.1
 
 Report = Callable[[str], None]
 """Called with what is being done."""
@@ -177,8 +181,31 @@ def _count(entry: Entry) -> int:
     return max(trial, int(LOOP_SECONDS / seconds * trial))
 
 
-def time_second(simulator: Simulator) -> Second:
-    """Find the loosest setting that is accurate enough and time it.
+@dataclass(frozen=True)
+class Contender:
+    """A simulator at the loosest setting that is accurate enough.
+
+    Attributes
+    ----------
+    name, setting : str
+        See `Second`.
+    error : float
+        Of the arm angle, rad.
+    build_seconds : float
+        To prepare the run.
+    run : callable
+        Simulates the second.
+    """
+
+    name: str
+    setting: str
+    error: float
+    build_seconds: float
+    run: Run
+
+
+def loosest(simulator: Simulator) -> Contender:
+    """Find the loosest setting that is accurate enough.
 
     Parameters
     ----------
@@ -187,8 +214,8 @@ def time_second(simulator: Simulator) -> Second:
 
     Returns
     -------
-    Second
-        Its measurements.
+    Contender
+        Ready to be timed.
 
     Raises
     ------
@@ -206,13 +233,35 @@ def time_second(simulator: Simulator) -> Second:
             continue
         best = min(best, error)
         if error <= ACCURACY:
-            once, _ = seconds_of(run, 1)
-            least, median = seconds_of(run, 5 if once > 0.05 else max(50, int(1.0 / once)))
-            return Second(
-                simulator.name, str(setting), error, 1e3 * least, 1e3 * median, build_seconds
-            )
+            return Contender(simulator.name, str(setting), error, build_seconds, run)
     message = f"no setting is accurate enough, the best error is {best:.1e} rad{failure}"
     raise DisagreementError(message)
+
+
+def time_seconds(contenders: list[Contender], report: Report) -> list[Second]:
+    """Time all simulations in turn, so that a busy moment of the machine hits all alike.
+
+    Parameters
+    ----------
+    contenders : list of Contender
+        From `loosest`.
+    report : callable
+        Called before each turn.
+
+    Returns
+    -------
+    list of Second
+        Their measurements.
+    """
+    times: list[list[float]] = [[] for _ in contenders]
+    for turn in range(TURNS):
+        report(f"the second, turn {turn + 1} of {TURNS}")
+        for contender, seconds in zip(contenders, times, strict=True):
+            seconds.extend(seconds_of(contender.run, TURN_SECONDS))
+    return [
+        Second(c.name, c.setting, c.error, 1e3 * min(s), 1e3 * float(np.median(s)), c.build_seconds)
+        for c, s in zip(contenders, times, strict=True)
+    ]
 
 
 def _prepared(simulator: Simulator, setting: object) -> tuple[Callable[[], Array], float]:
