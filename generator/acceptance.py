@@ -11,9 +11,11 @@ from .actions import (
     SolveHinge,
     SolveSlide,
     SolveStroke,
+    SolveStrut,
     SolveTelescope,
     SolveTogether,
     SolveTurn,
+    Strut,
 )
 from .joints import Revolute
 
@@ -34,17 +36,22 @@ def accept(settled: Settled, actions: list[Action], solution: Solution) -> set[C
         The coordinates that were not known before.
     """
     actions.append(solution)
-    if isinstance(solution, SolveHinge | SolveSlide):
-        return _driven(settled, actions, solution)
-    if isinstance(solution, SolveStroke):
-        return _pinned_telescope(settled, solution)
-    if isinstance(solution, SolveCarrier):
-        return _carrier(settled, solution)
-    if isinstance(solution, SolveTogether):
-        return _together(settled, actions, solution)
-    if isinstance(solution, SolveTelescope):
-        return _telescope(settled, solution)
-    return _turned(settled, actions, solution)
+    match solution:
+        case SolveHinge() | SolveSlide():
+            new = _driven(settled, actions, solution)
+        case SolveStroke():
+            new = _pinned_telescope(settled, solution)
+        case SolveStrut():
+            new = _strut(settled, solution)
+        case SolveCarrier():
+            new = _carrier(settled, solution)
+        case SolveTogether():
+            new = _together(settled, actions, solution)
+        case SolveTelescope():
+            new = _telescope(settled, solution)
+        case SolveTurn():
+            new = _turned(settled, actions, solution)
+    return new
 
 
 def coordinates_of(joints: Iterable[Joint]) -> set[Coordinate]:
@@ -57,6 +64,9 @@ def _driven(
 ) -> set[Coordinate]:
     """Record the body that a rod drives, and the rod: placed by its hinge, or on its line."""
     settled.placed.add(solution.body)
+    if isinstance(solution.telescope, Strut):
+        new = settled.add(coordinates_of([solution.joint]))
+        return new | _strut(settled, solution.telescope)
     if solution.telescope is not None:
         actions.append(solution.telescope)
         new = settled.add(coordinates_of([solution.joint]))
@@ -105,6 +115,14 @@ def _pinned_telescope(settled: Settled, solution: PinnedTelescope) -> set[Coordi
     settled.placed |= {solution.near, solution.far}
     links = (solution.joint, solution.near_hinge, solution.far_hinge)
     return settled.add(coordinates_of(links))
+
+
+def _strut(settled: Settled, strut: Strut) -> set[Coordinate]:
+    """Record the line of a strut; its cross places the first link, and that the second one."""
+    settled.on_line.add(strut.near)
+    links = (strut.near, strut.far)
+    joints = [joint for link in links for joint in settled.mechanism.joints_of(link)]
+    return settled.add(coordinates_of(joints))
 
 
 def _carrier(settled: Settled, solution: SolveCarrier) -> set[Coordinate]:

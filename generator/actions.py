@@ -153,7 +153,7 @@ class SolveHinge:
     end: Point
     anchor: Point
     anchor_body: str
-    telescope: PlaceTelescope | None = None
+    telescope: PlaceTelescope | Strut | None = None
 
     @property
     def title(self) -> str:
@@ -175,7 +175,7 @@ class SolveSlide:
     end: Point
     anchor: Point
     anchor_body: str
-    telescope: PlaceTelescope | None = None
+    telescope: PlaceTelescope | Strut | None = None
 
     @property
     def title(self) -> str:
@@ -211,6 +211,84 @@ class PlaceByCross:
     def title(self) -> str:
         """What the derivation calls this step."""
         return f"{self.child}: cross of the universal joint"
+
+
+@dataclass(frozen=True)
+class PlaceIdle:
+    """A link of known line, without mass, that may turn about that line: it gets some turn."""
+
+    body: str
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"{self.body}: idle turn about its line"
+
+
+@dataclass(frozen=True)
+class Strut:
+    """Two links on a common guide along the line of their ends; a cross holds the first of them.
+
+    Attributes
+    ----------
+    joint
+        The guide between the two links.
+    near, anchor, anchor_body
+        The link that a cross holds; the centre of that, and the body at the other side of it.
+    far, end, end_body
+        The other link; its ball joint, and the body at the other side of that.
+    """
+
+    joint: Prismatic
+    near: str
+    anchor: Point
+    anchor_body: str
+    far: str
+    end: Point
+    end_body: str
+
+    @property
+    def sense(self) -> int:
+        """Return 1 if the strut grows with the slide, -1 if it shrinks."""
+        forward = self.joint.direction.between == (self.anchor, self.end)
+        return 1 if forward == (self.joint.second == self.far) else -1
+
+    @property
+    def links(self) -> str:
+        """Both links, for messages."""
+        return f"{self.near} and {self.far}"
+
+
+@dataclass(frozen=True)
+class SolveStrut(Strut):
+    """Two placed points are the ends of a strut: its slide and its line follow."""
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"transformer: strut of {self.links}"
+
+
+@dataclass(frozen=True)
+class PlaceByGuide:
+    """The second link of a strut: turned like the first, and at the end."""
+
+    strut: Strut
+
+    @property
+    def child(self) -> str:
+        """The link that is placed."""
+        return self.strut.far
+
+    @property
+    def body(self) -> str:
+        """The same, by the name that other actions have for it."""
+        return self.strut.far
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"{self.strut.far}: on the guide of {self.strut.near}"
 
 
 @dataclass(frozen=True)
@@ -382,7 +460,10 @@ Solution = (
     | SolveHinge
     | SolveSlide
     | SolveStroke
+    | SolveStrut
     | SolveCarrier
     | SolveTogether
 )
-Action = PlaceByJoint | PlaceByPin | PlaceByCross | PlaceTelescope | Solution
+Action = (
+    PlaceByJoint | PlaceByPin | PlaceByCross | PlaceByGuide | PlaceIdle | PlaceTelescope | Solution
+)

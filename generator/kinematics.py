@@ -213,6 +213,21 @@ class Kinematics:
         length = self.program.define(f"{name}_norm", sp.sqrt(v.dot(v)))
         return self.program.vector(name, v * (1 / length))
 
+    def across(self, name: str, n: Vector) -> tuple[Vector, Vector]:
+        """Append two unit vectors across a constant one, without a case for any direction.
+
+        Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017.
+        """
+        s = self.program.define(f"{name}_half_space", SignOf(n.z))
+        a = self.program.define(f"{name}_slope", -1 / (s + n.z))
+        b = self.program.define(f"{name}_skew", n.x * n.y * a)
+        side = Vector(1 + s * n.x * n.x * a, s * b, -s * n.x)
+        top = Vector(b, s + n.y * n.y * a, -n.y)
+        return (
+            self.program.vector(f"{name}_side_design", side),
+            self.program.vector(f"{name}_top_design", top),
+        )
+
     def design(self, point: Point) -> Vector:
         """Return the design position of a point in work axes."""
         offset = self.program.vector(f"offset_{point.name}", point.position - self.work_origin)

@@ -15,10 +15,12 @@ from .actions import (
     SolveHinge,
     SolveSlide,
     SolveStroke,
+    SolveStrut,
     SolveTelescope,
     SolveTurn,
+    Strut,
 )
-from .joints import Cylindrical, Joint, Prismatic, Revolute, Spherical
+from .joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
 
 if TYPE_CHECKING:
     from .actions import Solution
@@ -115,6 +117,7 @@ def closed_form(settled: Settled, cycle: Cycle, pair: PairCandidate) -> Solution
         action = (
             _telescope(settled, view)
             or _stroke(settled, view)
+            or _free_strut(settled, view)
             or _turn(settled, view)
             or _driven_by_rod(settled, view)
         )
@@ -147,19 +150,43 @@ def _pinned_telescope(settled: Settled, view: _CutLoop) -> PinnedTelescope | Non
     return PinnedTelescope(view.joints[0], *at_anchor, far, far_hinge, view.end, view.others[-1])
 
 
+def _free_strut(settled: Settled, view: _CutLoop) -> SolveStrut | None:
+    """Return the action for a strut in space, both ends on placed bodies."""
+    strut = _strut(settled, view)
+    placed = {view.others[0], view.others[-1]} <= settled.placed
+    if strut is None or not placed or settled.unknowns_of(strut.joint) == 0:
+        return None
+    return SolveStrut(**vars(strut))
+
+
+def _strut(settled: Settled, view: _CutLoop) -> Strut | None:
+    """Return the strut in space that one arc of a loop is."""
+    if len(view.joints) != 1 or not isinstance(view.joints[0], Prismatic):
+        return None
+    near, far = view.bodies
+    cross = settled.topology.joint_between(view.others[0], near)
+    ball = settled.topology.joint_between(view.others[-1], far)
+    crossed = isinstance(cross, Universal) and cross.second == near and isinstance(ball, Spherical)
+    between = view.joints[0].direction.between
+    along = between is not None and set(between) == {view.anchor, view.end}
+    if not (crossed and along) or {near, far} & settled.bodies:
+        return None
+    return Strut(view.joints[0], near, view.anchor, view.others[0], far, view.end, view.others[-1])
+
+
 def _driven_by_rod(settled: Settled, view: _CutLoop) -> SolveHinge | SolveSlide | None:
     """Return the action for a rod from a placed point to a body on a hinge or a guide."""
-    pinned = _pinned_telescope(settled, view)
-    if not (len(view.bodies) == 1 or pinned) or not view.other_joints:
+    pinned, strut = _pinned_telescope(settled, view), _strut(settled, view)
+    if not (len(view.bodies) == 1 or pinned or strut) or not view.other_joints:
         return None
     rod, joint, body = view.bodies[0], view.other_joints[-1], view.others[-1]
     parent = joint.other(body)
     done = {rod, body} & settled.placed or settled.unknowns_of(joint) == 0
     if done or not {parent, view.others[0]} <= settled.placed:
         return None
-    if pinned and settled.unknowns_of(pinned.joint) > 0:
+    telescope = PlaceTelescope(**vars(pinned)) if pinned else strut
+    if telescope and settled.unknowns_of(telescope.joint) > 0:
         return None
-    telescope = PlaceTelescope(**vars(pinned)) if pinned else None
     held = parent, rod, view.end, view.anchor, view.others[0], telescope
     if isinstance(joint, Revolute):
         return SolveHinge(body, joint, *held)

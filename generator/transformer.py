@@ -19,16 +19,22 @@ from .actions import (
     CutJoint,
     HeldByRod,
     PlaceByCross,
+    PlaceByGuide,
     PlaceByJoint,
     PlaceByPin,
+    PlaceIdle,
     PlaceTelescope,
     Solution,
     SolveCarrier,
+    SolveHinge,
+    SolveSlide,
+    SolveStrut,
     SolveTogether,
+    Strut,
 )
 from .carriers import held_together
 from .coupling import coupled
-from .joints import Joint, Prismatic, Revolute, Spherical, Universal
+from .joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
 from .pairs import PairCandidate, closed_form, pair_candidates
 from .settled import Settled
 from .topology import Cycle, MinimalBasis, Topology
@@ -41,6 +47,9 @@ if TYPE_CHECKING:
     from .settled import Coordinate
 
 
+_ENDS = 2  # of a rod
+
+
 _Offer = tuple[Cycle, list[Cycle]]
 """A cycle of the basis, with the others that could have been taken."""
 
@@ -49,7 +58,17 @@ Closing = CutJoint | HeldByRod
 
 
 class NoClosedFormError(ValueError):
-    """A loop has no solution in the catalogue of closed forms."""
+    """A loop has no solution in the catalogue of closed forms.
+
+    Attributes
+    ----------
+    solved
+        How many loops were solved before.
+    """
+
+    def __init__(self, message: str, solved: int = 0) -> None:
+        super().__init__(message)
+        self.solved = solved
 
 
 @dataclass(frozen=True)
@@ -137,6 +156,7 @@ class Plan:
             plan._settled.known.update((name, c) for c in joint.coordinates)
         plan._place_neighbours()
         plan._solve_loops()
+        plan._place_idle()
         plan._check_complete()
         return plan
 
@@ -190,7 +210,7 @@ class Plan:
                     self._settled.on_line.discard(action.child)
                     progress = True
 
-    def _follow(self, joint: Joint) -> PlaceByJoint | PlaceByCross | None:
+    def _follow(self, joint: Joint) -> PlaceByJoint | PlaceByCross | PlaceByGuide | None:
         placed = [b in self._settled.placed for b in joint.bodies]
         if placed[0] == placed[1]:
             return None
@@ -201,6 +221,9 @@ class Plan:
             and child in self._settled.on_line
         ):
             return PlaceByCross(joint, parent, child)
+        strut = self._strut_at(joint)
+        if strut is not None:
+            return PlaceByGuide(strut) if child == strut.far else None
         if isinstance(joint, Revolute | Prismatic) and self._settled.unknowns_of(joint) == 0:
             if child != joint.second:
                 message = (
@@ -210,6 +233,28 @@ class Plan:
                 raise NoClosedFormError(message)
             return PlaceByJoint(joint, parent, child)
         return None
+
+    def _strut_at(self, joint: Joint) -> Strut | None:
+        """Return the strut whose guide a joint is, if its line is known."""
+        struts = [a for a in self.actions if isinstance(a, SolveStrut)]
+        held = [a.telescope for a in self.actions if isinstance(a, SolveHinge | SolveSlide)]
+        known = [*struts, *(strut for strut in held if isinstance(strut, Strut))]
+        return next((strut for strut in known if strut.joint == joint), None)
+
+    def _place_idle(self) -> None:
+        """Place the links without mass that nothing keeps from turning about their line."""
+        for body in self._mechanism.bodies:
+            if self._is_idle(body.name) and body.name not in self.model.massive:
+                self.actions.append(PlaceIdle(body.name))
+                self._settled.on_line.discard(body.name)
+                self._settled.placed.add(body.name)
+        self._place_neighbours()
+
+    def _is_idle(self, body: str) -> bool:
+        """Tell whether a link may turn about its line as it likes: that moves no other body."""
+        joints = self._mechanism.joints_of(body)
+        on_line = all(isinstance(j, Spherical | Universal | Cylindrical) for j in joints)
+        return body in self._settled.on_line and on_line and len(joints) == _ENDS
 
     # -- solving a loop -------------------------------------------------------------------------
 
@@ -261,7 +306,8 @@ class Plan:
         if action is None or not self.model.allow_iteration:
             cycle = (closed or cycles)[0]
             message = self._refusal(cycle, pair_candidates(self._settled, cycle))
-            raise NoClosedFormError(message + self._remedy(action, coupling))
+            message += self._remedy(action, coupling)
+            raise NoClosedFormError(message, len(self.transformers))
         solved = [offer for offer in waiting if offer[0] in closed]
         self._solve_together(action, solved)
         self._place_neighbours()
@@ -314,7 +360,8 @@ class Plan:
     def _refusal(self, cycle: Cycle, candidates: list[PairCandidate]) -> str:
         loop = " - ".join(cycle.bodies)
         tried = "; ".join(
-            f"{p.joints[0].name}/{p.joints[1].name} leaves {p.equations} equation(s)"
+            f"{p.joints[0].name}/{p.joints[1].name} leaves {p.equations} equation(s) in "
+            f"{self._settled.unknowns(cycle) - p.eliminated} unknown(s)"
             for p in candidates
         )
         return (
@@ -363,10 +410,27 @@ class Plan:
         )
 
     def _check_complete(self) -> None:
-        missing = [b.name for b in self._mechanism.bodies if b.name not in self._settled.placed]
+        """See that every body has a pose; say what holds the first one that has none."""
+        placed = self._settled.placed
+        missing = [b.name for b in self._mechanism.bodies if b.name not in placed]
         if missing:
+            remedies = [r for j in self._mechanism.joints if (r := self._leading_to(j))]
             message = (
                 f"model {self.model.name!r}: nothing determines the pose of {', '.join(missing)}; "
-                "declare one more independent or prescribed joint"
+                + (remedies[0] if remedies else "declare one more independent or prescribed joint")
             )
-            raise NoClosedFormError(message)
+            raise NoClosedFormError(message, len(self.transformers))
+
+    def _leading_to(self, joint: Joint) -> str:
+        """Say what would determine the body at the far side of a joint; empty: not this joint."""
+        here, there = sorted(joint.bodies, key=self._settled.placed.__contains__, reverse=True)
+        if here not in self._settled.placed or there in self._settled.placed:
+            return ""
+        if isinstance(joint, Revolute | Prismatic):
+            return f"declare joint {joint.name!r} independent or prescribed"
+        if isinstance(joint, Universal) and there == joint.first and there in self._settled.on_line:
+            return (
+                f"declare {here!r} first and {there!r} second in the cross {joint.name!r}, with "
+                f"the shaft along the rod {there!r}"
+            )
+        return ""

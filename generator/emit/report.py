@@ -12,6 +12,7 @@ from ..actions import (
     SolveHinge,
     SolveSlide,
     SolveStroke,
+    SolveStrut,
     SolveTelescope,
     SolveTogether,
 )
@@ -94,6 +95,12 @@ def equation(transformer: Transformer) -> tuple[str, str]:
         joint = action.joint
         return (
             f"{ends} = {joint.length_at_zero_slide} - {joint.name}.slide",
+            "explicit: the length is the root of a sum of squares",
+        )
+    if isinstance(action, SolveStrut):
+        ends = f"|{action.end.name} - {action.anchor.name}|"
+        return (
+            f"{ends} = length of {action.links} at {action.joint.name}.slide",
             "explicit: the length is the root of a sum of squares",
         )
     if isinstance(action, SolveStroke):

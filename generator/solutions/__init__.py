@@ -12,21 +12,25 @@ from typing import TYPE_CHECKING, Any
 
 from ..actions import (
     PlaceByCross,
+    PlaceByGuide,
     PlaceByPin,
+    PlaceIdle,
     PlaceTelescope,
     SolveCarrier,
     SolveHinge,
     SolveSlide,
     SolveStroke,
+    SolveStrut,
     SolveTelescope,
     SolveTogether,
     SolveTurn,
 )
 from .carrier import solve_carrier
-from .cross import place_by_cross
+from .cross import place_by_cross, place_idle
 from .hinge import place_by_pin, solve_hinge
 from .slide import solve_slide
 from .stroke import place_telescope, solve_stroke
+from .strut import place_by_guide, solve_strut
 from .telescope import solve_telescope
 from .together import solve_together
 from .turn import solve_turn
@@ -36,12 +40,15 @@ if TYPE_CHECKING:
 
 CATALOGUE: dict[type, Callable[..., Any]] = {
     PlaceByCross: place_by_cross,
+    PlaceByGuide: place_by_guide,
     PlaceByPin: place_by_pin,
+    PlaceIdle: place_idle,
     PlaceTelescope: place_telescope,
     SolveCarrier: solve_carrier,
     SolveHinge: solve_hinge,
     SolveSlide: solve_slide,
     SolveStroke: solve_stroke,
+    SolveStrut: solve_strut,
     SolveTelescope: solve_telescope,
     SolveTogether: solve_together,
     SolveTurn: solve_turn,

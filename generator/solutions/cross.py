@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ..placement import Axes, OnLine, Placed, from_axes
+from ..placement import Axes, OnLine, Placed, from_axes, to_axes
 from ..vectors import ZERO, Twist, Vector
 from .lines import line_alpha, line_omega, once, projector
 
 if TYPE_CHECKING:
-    from ..actions import PlaceByCross
+    from ..actions import PlaceByCross, PlaceIdle
     from ..kinematics import Kinematics
 
 
@@ -22,18 +22,52 @@ def place_by_cross(kin: Kinematics, action: PlaceByCross) -> None:
     (n, b, n x b). Since b stays perpendicular to f, ``(omega - omega_parent) . (b x f) = 0``, and
     in body axes b x f = (f . (n x b), 0, -f . n). Singular set: the shaft along the first axis.
     """
-    joint, body, program = action.joint, action.child, kin.program
-    parent, record = kin.placed[action.parent], kin.on_line[body]
-    local_axis = kin.local_direction(parent, joint.first_axis)
+    joint, parent = action.joint, kin.placed[action.parent]
+    _place(
+        kin,
+        action.child,
+        parent,
+        kin.local_direction(parent, joint.first_axis),
+        kin.design_direction(joint.first_axis),
+        f"the shaft {action.child} lies along the first axis of universal joint {joint.name}",
+    )
+
+
+def place_idle(kin: Kinematics, action: PlaceIdle) -> None:
+    """Orientation of a link of known line whose turn about that line nothing holds.
+
+    It has no mass, so its turn is nobody's business. It gets that of a cross at its first end, with
+    an axis across the line at the design position.
+    """
+    body, record = action.body, kin.on_line[action.body]
+    parent = kin.placed[record.anchor_body]
+    n = kin.unit(f"{body}_line_design", kin.design(record.end) - kin.design(record.anchor))
+    axis, _ = kin.across(body, n)
+    local = kin.program.vector(f"{body}_idle", to_axes(parent.design_axes, axis), "123")
+    meaning = (
+        f"the turn of {body} about its own line, which nothing holds, is not defined: the line has "
+        f"turned by 90 degrees as seen from {record.anchor_body}"
+    )
+    _place(kin, body, parent, local, axis, meaning)
+
+
+def _place(
+    kin: Kinematics, body: str, parent: Placed, local_axis: Vector, at_design: Vector, meaning: str
+) -> None:
+    """Record pose, velocities and bias of a shaft, given the first axis of its cross.
+
+    Parameters
+    ----------
+    local_axis, at_design
+        The first axis: in the axes of its body, and at the design position.
+    meaning
+        What it means that the shaft lies along that axis.
+    """
+    program, record = kin.program, kin.on_line[body]
     axis = program.vector(f"{body}_first_axis", from_axes(parent.axes, local_axis))
     n = record.direction
     cross = program.vector(f"{body}_cross", axis.cross(n))
-    squared = program.guarded(
-        f"{body}_cross_squared",
-        cross.dot(cross),
-        f"the shaft {body} lies along the first axis of universal joint {joint.name}",
-        "1",
-    )
+    squared = program.guarded(f"{body}_cross_squared", cross.dot(cross), meaning, "1")
     lever = program.define(f"{body}_lever", sp.sqrt(squared))
     second = program.vector(f"{body}_second_axis", cross * (1 / lever))
     axes: Axes = (n, second, program.vector(f"{body}_third_axis", n.cross(second)))
@@ -42,7 +76,7 @@ def place_by_cross(kin: Kinematics, action: PlaceByCross) -> None:
         origin=record.anchor_motion.position,
         axes=axes,
         design_origin=kin.design(record.anchor),
-        design_axes=_cross_design_axes(kin, action, record),
+        design_axes=_cross_design_axes(kin, body, record, at_design),
         local={record.anchor: ZERO},
         carrier=(
             record.anchor_body,
@@ -53,10 +87,8 @@ def place_by_cross(kin: Kinematics, action: PlaceByCross) -> None:
     kin.placed[body] = placed
 
 
-def _cross_design_axes(kin: Kinematics, action: PlaceByCross, record: OnLine) -> Axes:
-    body = action.child
+def _cross_design_axes(kin: Kinematics, body: str, record: OnLine, axis: Vector) -> Axes:
     n = kin.unit(f"{body}_line_design", kin.design(record.end) - kin.design(record.anchor))
-    axis = kin.design_direction(action.joint.first_axis)
     second = kin.unit(f"{body}_second_design", axis.cross(n))
     return n, second, kin.program.vector(f"{body}_third_design", n.cross(second))
 

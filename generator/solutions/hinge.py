@@ -80,7 +80,7 @@ def solve_hinge(kin: Kinematics, action: SolveHinge) -> None:
     _place(kin, hinge, fit.axes, _Condition(anchor, fit.gap, fit.hold, fit.rod))
     _report_angle(kin, action.joint, hinge, fit.axes)
     if not kin.plan.is_pinned(action.rod):
-        place_rod(kin, action, anchor, fit.rod.length)
+        place_rod(kin, action, anchor, fit.rod.length, rigid=action.telescope is None)
 
 
 def place_by_pin(kin: Kinematics, action: PlaceByPin) -> None:

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ..actions import HeldByRod
+from ..actions import HeldByRod, Strut
 from ..arithmetic import SignOf
 from ..vectors import ZERO, Vector
 
@@ -62,7 +62,11 @@ class Rod:
         design = kin.program.vector(f"{action.rod}_design", design)
         telescope = getattr(action, "telescope", None)
         if isinstance(action, HeldByRod) and action.guide is not None:
-            rod = cls._strut(kin, action, action.guide, design)
+            sense = 1 if action.guide.direction.between == (action.anchor, action.end) else -1
+            rod = cls._strut(kin, (action.rod, action.far or ""), action.guide, sense, design)
+        elif isinstance(telescope, Strut):
+            links = telescope.near, telescope.far
+            rod = cls._strut(kin, links, telescope.joint, telescope.sense, design)
         elif telescope is None:
             length = kin.program.define(f"{action.rod}_length", sp.sqrt(design.dot(design)))
             rod = cls(f"rod {action.rod}", design, length, length**2)
@@ -72,23 +76,29 @@ class Rod:
         return rod
 
     @classmethod
-    def _strut(cls, kin: Kinematics, held: HeldByRod, guide: Prismatic, design: Vector) -> Rod:
+    def _strut(
+        cls,
+        kin: Kinematics,
+        links: tuple[str, str],
+        guide: Prismatic,
+        sense: int,
+        design: Vector,
+    ) -> Rod:
         """Return a strut of known slide x along its line: l = l_0 + x, or l_0 - x."""
-        program, between = kin.program, guide.direction.between
-        sense = 1 if between == (held.anchor, held.end) else -1
-        start = program.define(f"{held.rod}_length_start", sp.sqrt(design.dot(design)))
+        program, (near, far) = kin.program, links
+        start = program.define(f"{near}_length_start", sp.sqrt(design.dot(design)))
         coordinate = kin.coordinate_of(guide)
         length = program.guarded(
-            f"{held.rod}_length",
+            f"{near}_length",
             start + sense * kin.coordinates[coordinate],
-            f"the strut of {held.rod} and {held.far} is drawn in until its ends meet",
+            f"the strut of {near} and {far} is drawn in until its ends meet",
             "m",
         )
         stretch, bias = {}, sp.Integer(0)
         if coordinate in kin.moving:
             stretch[coordinate] = sense * length
             bias = kin.rate(coordinate) ** 2 + sense * length * kin.acceleration(coordinate)
-        return cls(f"strut {held.rod}", design, length, length**2, stretch, bias)
+        return cls(f"strut {near}", design, length, length**2, stretch, bias)
 
     @classmethod
     def _telescopic(cls, kin: Kinematics, telescope: PinnedTelescope, design: Vector) -> Rod:

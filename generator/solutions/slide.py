@@ -96,4 +96,4 @@ def solve_slide(kin: Kinematics, action: SolveSlide) -> None:
 
     placed.bias = once(bias)
     if not kin.plan.is_pinned(action.rod):
-        place_rod(kin, action, anchor, rod.length)
+        place_rod(kin, action, anchor, rod.length, rigid=action.telescope is None)

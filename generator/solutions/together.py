@@ -136,7 +136,7 @@ def _of_cut(kin: Kinematics, cut: CutJoint) -> Geometry:
         return at | {f"{name}_axis": first, f"{name}_side": second}
     assert isinstance(joint, Revolute | Prismatic)
     axis = _axis(kin, joint)
-    side, top = _across(kin, name, axis)
+    side, top = kin.across(name, axis)
     return at | {f"{name}_axis": axis, f"{name}_side": side, f"{name}_top": top}
 
 
@@ -148,24 +148,8 @@ def _of_plane(kin: Kinematics, joint: Joint, normal: Direction) -> Geometry:
         axis = _axis(kin, joint)
         side = kin.program.vector(f"{name}_side_design", n.cross(axis))
         return at | {f"{name}_axis": axis, f"{name}_side": side}
-    side, top = _across(kin, name, n)
+    side, top = kin.across(name, n)
     return at | {f"{name}_side": side, f"{name}_top": top}
-
-
-def _across(kin: Kinematics, name: str, n: Vector) -> tuple[Vector, Vector]:
-    """Return two unit vectors across a constant one, without a case for any direction.
-
-    Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6(1), 2017.
-    """
-    s = kin.program.define(f"{name}_half_space", SignOf(n.z))
-    a = kin.program.define(f"{name}_slope", -1 / (s + n.z))
-    b = kin.program.define(f"{name}_skew", n.x * n.y * a)
-    side = Vector(1 + s * n.x * n.x * a, s * b, -s * n.x)
-    top = Vector(b, s + n.y * n.y * a, -n.y)
-    return (
-        kin.program.vector(f"{name}_side_design", side),
-        kin.program.vector(f"{name}_top_design", top),
-    )
 
 
 # -- position -------------------------------------------------------------------------------------
