@@ -1,4 +1,4 @@
-"""Find mistakes in a declaration before anything is derived from it."""
+"""Find mistakes in the declaration of a mechanism before anything is derived from it."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import difflib
 from collections import Counter
 from typing import TYPE_CHECKING
 
+from .default_values import value_problems
 from .forces import AlongLine, AlongTelescope, ForceElement, JointForce, LinearTyre, Weight
 from .joints import Revolute
 from .laws import Actuator, LinearSpring
@@ -14,7 +15,7 @@ from .names import name_problems
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from .mechanism import Mechanism, Model
+    from .mechanism import Mechanism
 
 
 class DeclarationError(ValueError):
@@ -26,7 +27,7 @@ class DeclarationError(ValueError):
 
 
 def check_mechanism(mechanism: Mechanism) -> None:
-    """Raise `DeclarationError` if names of a mechanism are repeated or unknown."""
+    """Raise `DeclarationError` if a mechanism has names or numbers that cannot be."""
     problems = []
     for kind, names in (
         ("body", [b.name for b in mechanism.bodies]),
@@ -35,19 +36,23 @@ def check_mechanism(mechanism: Mechanism) -> None:
         ("coordinate", [c.name for c in mechanism.coordinates]),
         ("weight", ["Weight" for f in mechanism.forces if isinstance(f, Weight)]),
     ):
-        problems += [
-            f"{kind} {n!r} is declared {c} times" for n, c in Counter(names).items() if c > 1
-        ]
+        problems += repeated(kind, names)
+    problems += [
+        f"joint {j.name!r} connects {j.first!r} with itself; name two bodies"
+        for j in mechanism.joints
+        if j.first == j.second
+    ]
     joints = {j.name: j.coordinates for j in mechanism.joints}
     for coordinate in mechanism.coordinates:
-        problems += _unknown(f"coordinate {coordinate.name!r}: joint", [coordinate.joint], joints)
-        problems += _unknown(
+        problems += unknown(f"coordinate {coordinate.name!r}: joint", [coordinate.joint], joints)
+        problems += unknown(
             f"coordinate {coordinate.name!r}: kind",
             [coordinate.kind],
             joints.get(coordinate.joint, (coordinate.kind,)),
         )
     problems += _force_problems(mechanism)
     problems += name_problems(mechanism)
+    problems += value_problems(mechanism)
     if problems:
         raise DeclarationError(mechanism.name, problems)
 
@@ -59,12 +64,12 @@ def _force_problems(mechanism: Mechanism) -> list[str]:
     for force in mechanism.forces:
         what = type(force).__name__
         if isinstance(force, JointForce):
-            problems += _unknown(f"{what}: joint", [force.joint], joints)
-            problems += _unknown(f"{what}: input", [force.input], mechanism.inputs)
+            problems += unknown(f"{what}: joint", [force.joint], joints)
+            problems += unknown(f"{what}: input", [force.input], mechanism.inputs)
         elif isinstance(force, LinearTyre):
-            problems += _unknown(f"{what}: body", [force.carrier], bodies)
+            problems += unknown(f"{what}: body", [force.carrier], bodies)
             inputs = [i for i in (force.road, force.road_velocity) if i is not None]
-            problems += _unknown(f"{what}: input", inputs, mechanism.inputs)
+            problems += unknown(f"{what}: input", inputs, mechanism.inputs)
             if (force.damper is None) != (force.road_velocity is None):
                 problems.append(f"{what} {force.name!r}: give damper and road_velocity, or neither")
         elif isinstance(force, ForceElement):
@@ -76,16 +81,16 @@ def _element_problems(mechanism: Mechanism, element: ForceElement) -> list[str]:
     what, path = f"ForceElement {element.name!r}", element.path
     telescopic = isinstance(path, AlongTelescope)
     if isinstance(path, AlongTelescope):
-        problems = _unknown(f"{what}: joint", [path.joint], [j.name for j in mechanism.joints])
+        problems = unknown(f"{what}: joint", [path.joint], [j.name for j in mechanism.joints])
     elif isinstance(path, AlongLine):
         bodies = [body for body, _ in (path.first, path.second)]
-        problems = _unknown(f"{what}: body", bodies, [b.name for b in mechanism.bodies])
+        problems = unknown(f"{what}: body", bodies, [b.name for b in mechanism.bodies])
     else:
         hinges = [j.name for j in mechanism.joints if isinstance(j, Revolute)]
-        problems = _unknown(f"{what}: revolute joint", [path.first, path.second], hinges)
+        problems = unknown(f"{what}: revolute joint", [path.first, path.second], hinges)
     for law in element.laws:
         if isinstance(law, Actuator):
-            problems += _unknown(f"{what}: input", [law.input], mechanism.inputs)
+            problems += unknown(f"{what}: input", [law.input], mechanism.inputs)
         elif isinstance(law, LinearSpring):
             if (law.free_slide is None) == (law.free_length is None):
                 problems.append(f"{what}: give its spring a free_slide or a free_length")
@@ -94,38 +99,22 @@ def _element_problems(mechanism: Mechanism, element: ForceElement) -> list[str]:
     return problems
 
 
-def check_model(model: Model) -> None:
-    """Raise `DeclarationError` if a model names what its mechanism does not have."""
-    mechanism = model.mechanism
-    joints = [j.name for j in mechanism.joints]
-    problems = _unknown("independent joint", model.independent, joints)
-    problems += _unknown("prescribed joint", model.prescribed, joints)
-    problems += _unknown("massive body", model.massive, [b.name for b in mechanism.bodies])
-    for variant, held in model.held.items():
-        problems += _unknown(f"held joint of {variant!r}", held, model.prescribed)
-    reported = [c.joint for c in mechanism.coordinates]
-    problems += _unknown("independent joint without a coordinate:", model.independent, reported)
-    both = sorted(set(model.independent) & set(model.prescribed))
-    problems += [f"joint {name!r} is both independent and prescribed" for name in both]
-    inputs = [f"{n}_{k}" for n in model.prescribed.values() for k in _RATES]
-    problems += _unknown("prescribed motion: input", inputs, mechanism.inputs)
-    if problems:
-        raise DeclarationError(model.name, problems)
-
-
-_RATES = ("position", "velocity", "acceleration")
-
-
 def check_symbols(name: str, used: Iterable[str], declared: Iterable[str]) -> None:
     """Raise `DeclarationError` if the equations use a parameter that is not declared."""
-    problems = _unknown("parameter", sorted(used), list(declared))
+    problems = unknown("parameter", sorted(used), list(declared))
     if problems:
         raise DeclarationError(name, problems)
 
 
-def _unknown(
+def repeated(what: str, names: Iterable[str]) -> list[str]:
+    """Find what is named more than once."""
+    return [f"{what} {n!r} is declared {c} times" for n, c in Counter(names).items() if c > 1]
+
+
+def unknown(
     what: str, names: Iterable[str], known: Iterable[str] | Mapping[str, object]
 ) -> list[str]:
+    """Find names that are not among the known ones, each with the one that was probably meant."""
     known = list(known)
     problems = []
     for name in names:

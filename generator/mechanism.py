@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from .checks import check_mechanism, check_model
+from .checks import check_mechanism
 from .forces import ForceElement, LinearTyre
 from .joints import Joint, Universal
+from .model_checks import check_model
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -32,8 +32,10 @@ def name_problems(mechanism: Mechanism) -> list[str]:
         "parameter": [p.name for p in mechanism.parameters],
         "coordinate": coordinates,
         "input": list(mechanism.inputs),
+        "force element": [element.name for element in mechanism.elements],
     }
-    problems = [p for kind, names in kinds.items() for n in names for p in _misnamed(kind, n)]
+    problems = misnamed("mechanism", mechanism.name)
+    problems += [p for kind, names in kinds.items() for n in names for p in misnamed(kind, n)]
     for kind, names in kinds.items():
         if kind != "joint":  # of joints there is no enumeration
             problems += _differ_in_case_only(kind, names)
@@ -52,7 +54,8 @@ def name_problems(mechanism: Mechanism) -> list[str]:
     return problems
 
 
-def _misnamed(kind: str, name: str) -> list[str]:
+def misnamed(kind: str, name: str) -> list[str]:
+    """Find out whether code cannot have a name of some kind."""
     if not re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name):
         allowed = "use letters, digits and underscores, a letter first"
         return [f"{kind} {name!r} cannot be written in C; {allowed}"]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from .arithmetic import SignOf
-from .checks import check_symbols
+from .checks import DeclarationError, check_symbols
 from .dynamics import Dynamics
 from .forces import ForceElement, JointForce, LinearTyre
 from .laws import Actuator
@@ -94,12 +94,24 @@ class _Builder:
         )
         self.program = Program(self.constants)
         self.kin = Parts(self.program, self.plan)
+        self._check_masses()
         self.dynamics = Dynamics(self.kin)
         self.relative = {part: RelativeCoordinates(part) for part in self.kin.parts}
         self.functions: dict[str, Function] = {}
         self.signals: list[Entry] = []
         self.moving = tuple(b.name for b in self.mechanism.bodies[1:])
         self.massive = tuple(b for b in self.moving if b in model.massive)
+
+    def _check_masses(self) -> None:
+        """See that every independent coordinate moves some mass: else it has no acceleration."""
+        moved = {k for body in self.model.massive for k in self.kin.placed[body].motion}
+        idle = [
+            f"independent joint {joint!r} moves no body of massive; name one there that it moves"
+            for joint, k in zip(self.model.independent, self.kin.independent, strict=True)
+            if k not in moved
+        ]
+        if idle:
+            raise DeclarationError(self.model.name, idle)
 
     def build(self) -> GeneratedModel:
         self._add_dynamics(self.dynamics, "")
@@ -172,8 +184,7 @@ class _Builder:
 
     def _input_names(self) -> list[str]:
         names = []
-        for joint, name in self.model.prescribed.items():
-            del joint
+        for name in self.model.prescribed.values():
             names += [f"{name}_position", f"{name}_velocity", f"{name}_acceleration"]
         for force in self.mechanism.forces:
             if isinstance(force, LinearTyre):

@@ -1,27 +1,48 @@
-"""Models of a mechanism for which nobody has said which coordinates are independent.
+"""Which coordinates of a mechanism can be independent: proposals, and why there is none.
 
-The mobility says how many there are. Of all sets of so many reported coordinates the first is taken
-from which every loop closes in closed form, joints on the ground before others: their coordinates
-are what drives, and what a person sees.
+The mobility says how many there are. Sets of so many reported coordinates are tried by planning the
+solution of all loops, joints on the ground before others: their coordinates are what drives, and
+what a person sees. A trial takes milliseconds, but there may be very many.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from itertools import combinations, islice
+from math import comb
+from time import monotonic
 from typing import TYPE_CHECKING
 
+from .forces import JointForce
 from .joints import Prismatic, Revolute
 from .mechanism import Model
 from .topology import Topology
 from .transformer import NoClosedFormError, Plan
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from .mechanism import Mechanism
 
-# More are not tried: a mechanism with so many coordinates has one that its author would name.
-_MOST_TRIALS = 2000
+_SECONDS_TO_FIND = 20.0  # a mechanism with so many choices has one that its author would name
+_SECONDS_TO_ADVISE = 3.0
+_CHOICES_SHOWN = 3
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """Joints whose coordinates can be independent.
+
+    Attributes
+    ----------
+    independent
+        Names of the joints.
+    iterates
+        Whether a loop is left to an iteration, which `Model.allow_iteration` must permit.
+    """
+
+    independent: tuple[str, ...]
+    iterates: bool = False
 
 
 def model_of(mechanism: Mechanism) -> Model:
@@ -37,46 +58,174 @@ def model_of(mechanism: Mechanism) -> Model:
     NoClosedFormError
         If there is no such set of coordinates.
     """
-    independent = next(proposals(mechanism), None)
-    if independent is None:
-        count = Topology(mechanism).mobility
-        message = (
-            f"mechanism {mechanism.name!r} with mobility {count}: from no {count} of its reported "
-            f"angles and slides ({', '.join(_candidates(mechanism)) or 'none'}) does every loop "
-            "close in closed form. Report more coordinates, or declare a Model with the "
-            "independent and the prescribed joints that you mean"
+    search = Search(_bare(mechanism))
+    closed = next(search.closed(_SECONDS_TO_FIND), None)
+    if closed is None:
+        raise NoClosedFormError(search.refusal())
+    return search.model(closed.independent)
+
+
+def proposals(declared: Mechanism | Model) -> Iterator[Proposal]:
+    """Yield sets of joints whose coordinates can be independent, in the order of preference.
+
+    Those from which every loop closes in closed form come first. Of a model, what it prescribes
+    stays prescribed.
+    """
+    search = Search(declared if isinstance(declared, Model) else _bare(declared))
+    closed = set()
+    for proposal in search.closed():
+        closed.add(proposal.independent)
+        yield proposal
+    yield from (p for p in search.iterated() if p.independent not in closed)
+
+
+def advice(refused: Model) -> str:
+    """Name other choices of independent coordinates for a model whose loops do not close."""
+    search = Search(refused)
+    if search.impossible:
+        return ""
+    shown = list(islice(search.closed(_SECONDS_TO_ADVISE), _CHOICES_SHOWN))
+    if not shown and refused.allow_iteration:
+        shown = list(islice(search.iterated(_SECONDS_TO_ADVISE), _CHOICES_SHOWN))
+    if shown:
+        return f" Every loop closes with {_either(p.independent for p in shown)}."
+    return f" {search.summary()}"
+
+
+class Search:
+    """Trials of all sets of reported coordinates that could be independent.
+
+    Parameters
+    ----------
+    model
+        What it says of independent coordinates does not count.
+    """
+
+    def __init__(self, model: Model) -> None:
+        self._model = model
+        mechanism = model.mechanism
+        self.mobility = Topology(mechanism).mobility
+        self.count = self.mobility - len(model.prescribed)
+        self.candidates = [n for n in _candidates(mechanism) if n not in model.prescribed]
+        forces = [f.joint for f in mechanism.forces if isinstance(f, JointForce)]
+        self._pushed = {name for name in forces if name not in model.prescribed}
+        self._tried = 0
+        self._nearest: tuple[tuple[str, ...], NoClosedFormError] | None = None
+
+    @property
+    def impossible(self) -> str:
+        """Why there is nothing to try; empty: there is."""
+        mechanism, reported = self._model.mechanism, ", ".join(self.candidates) or "none"
+        what = f"mechanism {mechanism.name!r} with mobility {self.mobility}"
+        if self.count < 0 or self.mobility <= 0:
+            return (
+                f"{what}: counting the freedoms of its joints leaves nothing to move. If special "
+                "dimensions let it move all the same, declare a Model that says which joints are "
+                "independent"
+            )
+        if len(self.candidates) < self.count:
+            return (
+                f"{what}: {self.count} coordinate(s) must be independent, but its reported angles "
+                f"and slides are only {reported}. Report more of them (RelativeCoordinate), or "
+                "declare a Model with prescribed joints"
+            )
+        if not self._pushed <= set(self.candidates) or len(self._pushed) > self.count:
+            return (
+                f"{what}: JointForce acts along {', '.join(sorted(self._pushed))}, but "
+                f"{self.count} of {reported} must be independent. Report these joints, or let "
+                "Actuators in ForceElements push between points instead"
+            )
+        return ""
+
+    def closed(self, seconds: float | None = None) -> Iterator[Proposal]:
+        """Yield what closes in closed form; stop after some time, if it is given."""
+        yield from map(Proposal, self._closing(seconds, allow_iteration=False))
+
+    def iterated(self, seconds: float | None = None) -> Iterator[Proposal]:
+        """Yield what closes where iteration is allowed; stop after some time, if it is given."""
+        for independent in self._closing(seconds, allow_iteration=True):
+            yield Proposal(independent, iterates=True)
+
+    def model(self, independent: tuple[str, ...], *, allow_iteration: bool = False) -> Model:
+        """Return the model with some independent joints."""
+        return replace(self._model, independent=independent, allow_iteration=allow_iteration)
+
+    def refusal(self) -> str:
+        """Say why nothing was found, by the trial that came nearest, and what would help."""
+        if self.impossible:
+            return self.impossible
+        text = f"mechanism {self._model.mechanism.name!r} with mobility {self.mobility}: "
+        text += self.summary()
+        iterated = next(self.iterated(_SECONDS_TO_FIND), None)
+        if iterated is not None:
+            text += (
+                " With iteration it does: declare a Model with "
+                f"independent={iterated.independent} and allow_iteration=True."
+            )
+        if self._nearest is not None:
+            independent, refusal = self._nearest
+            text += f" Nearest came independent={independent}: {refusal}"
+        return (
+            f"{text} Otherwise report more coordinates, or declare a Model with the independent "
+            "and the prescribed joints that you mean"
         )
-        raise NoClosedFormError(message)
-    return _model(mechanism, independent)
+
+    def summary(self) -> str:
+        """Say that nothing was found, and among how many sets."""
+        every = comb(len(self.candidates) - len(self._pushed), self.count - len(self._pushed))
+        limit = "" if self._tried >= every else f"the first {self._tried} of "
+        return (
+            f"from no {self.count} of its reported angles and slides "
+            f"({', '.join(self.candidates)}; {limit}{every} set(s) tried) does every loop close in "
+            "closed form."
+        )
+
+    def _closing(
+        self, seconds: float | None, *, allow_iteration: bool
+    ) -> Iterator[tuple[str, ...]]:
+        end = None if seconds is None else monotonic() + seconds
+        sets = [] if self.impossible else combinations(self.candidates, self.count)
+        tried = 0
+        for independent in sets:
+            if not self._pushed <= set(independent):
+                continue
+            if end is not None and monotonic() > end:
+                return
+            tried += 1
+            self._tried = max(self._tried, tried)
+            try:
+                Plan.of(self.model(independent, allow_iteration=allow_iteration))
+            except NoClosedFormError as refusal:
+                self._note(independent, refusal)
+            else:
+                yield independent
+
+    def _note(self, independent: tuple[str, ...], refusal: NoClosedFormError) -> None:
+        """Keep the trial in which the most loops were solved before one was refused."""
+        if self._nearest is None or refusal.solved > self._nearest[1].solved:
+            self._nearest = independent, refusal
 
 
-def proposals(mechanism: Mechanism) -> Iterator[tuple[str, ...]]:
-    """Yield sets of joints whose coordinates can be independent, in the order of preference."""
-    candidates = _candidates(mechanism)
-    sets = combinations(candidates, Topology(mechanism).mobility)
-    for independent in islice(sets, _MOST_TRIALS):
-        try:
-            Plan.of(_model(mechanism, independent))
-        except NoClosedFormError:
-            continue
-        yield independent
+def _either(choices: Iterable[tuple[str, ...]]) -> str:
+    return " or ".join(f"independent={choice}" for choice in choices)
 
 
-def _candidates(mechanism: Mechanism) -> list[str]:
+def _bare(mechanism: Mechanism) -> Model:
+    """Return a model of a mechanism in which everything is independent that could be."""
+    return Model(
+        name=mechanism.name,
+        title=mechanism.title,
+        mechanism=mechanism,
+        independent=_candidates(mechanism),
+        massive=tuple(body.name for body in mechanism.bodies[1:]),
+    )
+
+
+def _candidates(mechanism: Mechanism) -> tuple[str, ...]:
     """Return the joints with one reported coordinate, those on the ground first."""
     reported = {c.joint for c in mechanism.coordinates}
     joints = [
         j for j in mechanism.joints if isinstance(j, Revolute | Prismatic) and j.name in reported
     ]
     joints.sort(key=lambda joint: mechanism.ground not in joint.bodies)  # stable
-    return [joint.name for joint in joints]
-
-
-def _model(mechanism: Mechanism, independent: tuple[str, ...]) -> Model:
-    return Model(
-        name=mechanism.name,
-        title=mechanism.title,
-        mechanism=mechanism,
-        independent=independent,
-        massive=tuple(body.name for body in mechanism.bodies[1:]),
-    )
+    return tuple(joint.name for joint in joints)

@@ -212,7 +212,8 @@ class RelativeCoordinates:
     def reaches(self, body: str) -> bool:
         """Tell whether joints with reported coordinates lead from the ground to a body."""
         graph = self._reported_joints()
-        return body in graph and nx.has_path(graph, self.mechanism.ground, body)
+        ends = self.mechanism.ground, body
+        return all(end in graph for end in ends) and nx.has_path(graph, *ends)
 
     def _reported_joints(self) -> nx.DiGraph:
         graph = nx.DiGraph()

@@ -1,0 +1,112 @@
+"""Find mistakes in what a model says of its mechanism: what drives it, and what has mass."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from .checks import DeclarationError, repeated, unknown
+from .forces import JointForce
+from .joints import Cylindrical, Prismatic, Revolute, Spherical, Universal
+from .names import misnamed
+
+if TYPE_CHECKING:
+    from .joints import Joint
+    from .mechanism import Model
+
+_ENDS = 2  # of a rod
+
+_RATES = ("position", "velocity", "acceleration")
+
+# What has the freedoms of a joint that cannot be driven, and can be.
+_DRIVABLE = {
+    Cylindrical: "a guide and a hinge along its axis, with a link between them",
+    Universal: "two hinges along the axes of the cross, with a link between them",
+    Spherical: "three hinges through its centre, with two links between them",
+}
+
+
+def check_model(model: Model) -> None:
+    """Raise `DeclarationError` if a model contradicts its mechanism or itself."""
+    problems = misnamed("model", model.name)
+    problems += [p for variant in model.held for p in misnamed("variant", variant)]
+    problems += _driven_problems(model)
+    problems += _mass_problems(model)
+    problems += _force_problems(model)
+    problems += _idle_rods(model)
+    if problems:
+        raise DeclarationError(model.name, problems)
+
+
+def _driven_problems(model: Model) -> list[str]:
+    mechanism = model.mechanism
+    joints = {j.name: j for j in mechanism.joints}
+    problems = repeated("independent joint", model.independent)
+    problems += unknown("independent joint", model.independent, joints)
+    problems += unknown("prescribed joint", model.prescribed, joints)
+    for variant, held in model.held.items():
+        problems += unknown(f"held joint of {variant!r}", held, model.prescribed)
+    both = sorted(set(model.independent) & set(model.prescribed))
+    problems += [f"joint {name!r} is both independent and prescribed" for name in both]
+    inputs = [f"{n}_{k}" for n in model.prescribed.values() for k in _RATES]
+    problems += unknown("prescribed motion: input", inputs, mechanism.inputs)
+    independent = {n: joints[n] for n in model.independent if n in joints}
+    prescribed = {n: joints[n] for n in model.prescribed if n in joints}
+    problems += [_undrivable("independent", j) for j in independent.values() if _has_many(j)]
+    problems += [_undrivable("prescribed", j) for j in prescribed.values() if _has_many(j)]
+    reported = {c.joint for c in mechanism.coordinates}
+    problems += [
+        f"independent joint {name!r} has no reported coordinate; add a RelativeCoordinate for its "
+        f"{joint.coordinates[0]} to the coordinates of the mechanism, which names the state"
+        for name, joint in independent.items()
+        if name not in reported and not _has_many(joint)
+    ]
+    return problems
+
+
+def _has_many(joint: Joint) -> bool:
+    return not isinstance(joint, Revolute | Prismatic)
+
+
+def _undrivable(how: str, joint: Joint) -> str:
+    return (
+        f"{how} joint {joint.name!r} is {joint.kind}, with {joint.freedoms} coordinates; only "
+        f"hinges and guides can be {how}. Declare {_DRIVABLE[type(joint)]}"
+    )
+
+
+def _mass_problems(model: Model) -> list[str]:
+    mechanism = model.mechanism
+    problems = unknown("massive body", model.massive, [b.name for b in mechanism.bodies])
+    problems += repeated("massive body", model.massive)
+    if mechanism.ground in model.massive:
+        problems.append(
+            f"massive body {mechanism.ground!r} is the ground, which does not move; leave it out"
+        )
+    return problems
+
+
+def _force_problems(model: Model) -> list[str]:
+    """See that every force along a joint does work: there is none for a joint that follows."""
+    driven = {*model.independent, *model.prescribed}
+    return [
+        f"JointForce: {force.joint!r} is neither independent nor prescribed, and a JointForce acts "
+        "along such joints only. Make it independent, or let an Actuator in a ForceElement push "
+        "between two points"
+        for force in model.mechanism.forces
+        if isinstance(force, JointForce) and force.joint not in driven
+    ]
+
+
+def _idle_rods(model: Model) -> list[str]:
+    """See that no rod with mass can spin about itself: nothing would determine its turn."""
+    problems = []
+    for body in model.massive:
+        joints = model.mechanism.joints_of(body)
+        if len(joints) == _ENDS and all(isinstance(j, Spherical) for j in joints):
+            first, second = (j.name for j in joints)
+            problems.append(
+                f"massive body {body!r} hangs between two ball joints, {first!r} and {second!r}, "
+                "and nothing determines its turn about the line through them. Replace one of them "
+                f"by a cross, Universal(..., second={body!r}, shaft=the line to the other one)"
+            )
+    return problems
