@@ -545,6 +545,66 @@ def chain() -> Model:
     )
 
 
+# -- a boom on a turret, held by a cylinder in space -----------------------------------------------
+
+
+def turret(name: str, driven: str, *, carriage: bool = False, reverse: bool = False) -> Model:
+    """Return turret, boom and cylinder: guide between a cross and a ball joint.
+
+    Parameters
+    ----------
+    driven
+        What drives beside the turret: ``lift``, the boom's joint, or ``stroke``, the guide.
+    carriage
+        Whether the boom is on a guide of the turret, instead of a hinge.
+    reverse
+        Whether the guide is declared from the ball joint to the cross, and the piston first.
+    """
+    foot, eye = Point("foot"), Point("eye")
+    links = ("piston", "barrel") if reverse else ("barrel", "piston")
+    stroke = Prismatic(
+        name="stroke",
+        first=links[0],
+        second=links[1],
+        direction=Direction("bore", between=(eye, foot) if reverse else (foot, eye)),
+    )
+    lift = guide("lift", "turret", "boom", "lift_line")
+    if not carriage:
+        lift = hinge("lift", "turret", "boom", "boom_bearing", "boom_line")
+    return declare(
+        name,
+        {
+            "turret": (0.05, -0.1, 0.2),
+            "boom": (0.6, 0.05, 0.4),
+            "barrel": (0.7, 0.25, 0.1),
+            "piston": (1.1, 0.15, 0.6),
+        },
+        (
+            hinge("slew", "ground", "turret", "turret_bearing", "slew_line"),
+            lift,
+            cross("cross", "turret", "barrel", "foot", "eye", "cross_axis"),
+            stroke,
+            ball("pin", "boom", "piston", "eye"),
+        ),
+        {
+            "turret_bearing": (0.0, 0.0, 0.0),
+            "boom_bearing": (0.1, 0.0, 0.3),
+            "foot": (0.5, 0.3, -0.2),
+            "eye": (1.3, 0.1, 0.9),
+            "ground_seat": (0.3, 0.4, 1.0),
+            "piston_seat": (1.0, 0.2, 0.5),
+        },
+        {
+            "slew_line": (0.1, -0.2, 1.0),
+            "boom_line": (0.3, 1.1, -0.5),
+            "lift_line": (0.4, 0.2, 1.0),
+            "cross_axis": (0.9, -0.2, 0.3),
+        },
+        ("slew", driven),
+        spring=("ground_seat", "piston_seat"),
+    )
+
+
 MODELS = (
     spatial_four_bar("spatial_four_bar"),
     spatial_four_bar("cross_at_rocker", cross_at_rocker=True),
@@ -557,6 +617,9 @@ MODELS = (
     given_telescope(),
     inverted_slider_crank(),
     pushed_slider(),
+    turret("lifted_turret", "lift"),
+    turret("pushed_turret", "stroke"),
+    turret("pulled_carriage", "stroke", carriage=True, reverse=True),
     chain(),
 )
 """All of them, each as one model."""

@@ -1,0 +1,123 @@
+"""Struts in space, and rods on two ball joints: what `test_mechanisms` does not show of them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+from kintrafo.generated._support import ClosureError
+from kintrafo.generator.checks import DeclarationError
+from kintrafo.generator.forces import AlongLine
+from kintrafo.generator.geometry import Point
+from kintrafo.generator.outputs import generate
+from kintrafo.own.build import build
+from kintrafo.own.loader import load
+from own_mechanisms import ball, spatial_four_bar, turret
+from own_models import Built
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from kintrafo.generator.mechanism import Model
+
+
+def over_arrays(model: Model, folder: Path) -> Built:
+    """Return a model over NumPy arrays."""
+    target = folder / f"{model.name}-arrays"
+    target.mkdir()
+    build(generate(model), target, None)
+    return Built.of(model, load(target))
+
+
+# -- struts ---------------------------------------------------------------------------------------
+
+
+def test_a_strut_is_as_long_as_the_way_between_its_ends(tmp_path: Path) -> None:
+    """All around, and down to a micrometre before the ends meet: nothing but that is singular."""
+    model = turret("whole_turn", "lift")
+    built = over_arrays(model, tmp_path)
+    bearing, eye = (
+        np.array([built.parameters[f"{p}_{a}"] for a in "xyz"]) for p in ("boom_bearing", "eye")
+    )
+    axis = np.array([built.parameters[f"boom_line_{a}"] for a in "xyz"])
+    axis /= np.linalg.norm(axis)
+    half_round = bearing + 2 * axis * axis.dot(eye - bearing) - (eye - bearing)
+    for beside in (1e-1, 1e-3, 1e-6):
+        foot = half_round + np.array([beside, 0.0, 0.0])
+        changed = dict(zip((f"foot_{a}" for a in "xyz"), foot, strict=True))
+        near = replace(built, parameters={**built.parameters, **changed})
+        start = np.linalg.norm(eye - foot)
+        column = list(near.module.RELATIVE_COORDINATES).index("stroke_slide")
+        for angle in (*np.linspace(-np.pi, np.pi, 25), np.pi - 1e-7):
+            state = np.array([0.4, angle, 0.3, 1.0])
+            motion = near.motion(state, np.zeros(len(near.module.INPUTS)))
+            closure = near.oracle.closure(motion)
+            # the line's direction is as exact as positions, 1e-16, over the length of the strut
+            np.testing.assert_allclose(closure.value, 0.0, atol=1e-15 + 2e-16 / beside)
+            across = eye - bearing - axis * axis.dot(eye - bearing)
+            turned = across * np.cos(angle) + np.cross(axis, across) * np.sin(angle)
+            length = np.linalg.norm(bearing + (eye - bearing - across) + turned - foot)
+            slide = near("relative_coordinates", state)[column]
+            assert slide == pytest.approx(length - start, abs=1e-15 + 1e-16 / beside)
+
+
+def test_ends_that_meet_are_named(tmp_path: Path) -> None:
+    built = over_arrays(turret("closed_strut", "stroke"), tmp_path)
+    start = np.linalg.norm([0.8, -0.2, 1.1])  # from foot to eye, as declared
+    with pytest.raises(ClosureError, match="strut of barrel and piston is drawn in until its ends"):
+        built("rhs", np.array([0.0, -1.01 * start, 0.0, 0.0]))
+    with pytest.raises(ClosureError, match="strut barrel cannot reach boom, beyond its dead point"):
+        built("rhs", np.array([0.0, 3.0, 0.0, 0.0]))
+
+
+# -- rods on two ball joints ----------------------------------------------------------------------
+
+
+def on_two_balls(massive: tuple[str, ...]) -> Model:
+    """Return a spatial four-bar whose rod has a ball joint in place of its cross."""
+    model = spatial_four_bar("two_balls")
+    joints = tuple(
+        ball("cross", "crank", "rod", "crank_end") if j.name == "cross" else j
+        for j in model.mechanism.joints
+    )
+    forces = tuple(
+        replace(f, path=AlongLine(f.path.first, ("rocker", Point("rocker_end"))))
+        if getattr(f, "name", "") == "spring"
+        else f
+        for f in model.mechanism.forces
+    )
+    mechanism = replace(model.mechanism, joints=joints, forces=forces)
+    return replace(model, mechanism=mechanism, massive=massive)
+
+
+def test_a_rod_without_mass_on_two_balls_is_like_one_with_a_cross(tmp_path: Path) -> None:
+    model = on_two_balls(("crank", "rocker"))
+    balls = over_arrays(model, tmp_path)
+    crossed = spatial_four_bar("with_cross")
+    mechanism = replace(crossed.mechanism, forces=model.mechanism.forces)
+    crossed = replace(crossed, mechanism=mechanism, massive=model.massive)
+    other = over_arrays(crossed, tmp_path)
+    rng = np.random.default_rng(0)
+    for angle in np.linspace(-0.5, 0.5, 9):
+        state = np.array([angle, rng.normal()])
+        assert (balls("rhs", state) == other("rhs", state)).all()
+        motion = balls.motion(state, np.zeros(len(balls.module.INPUTS)))
+        closure = balls.oracle.closure(motion)
+        np.testing.assert_allclose(closure.value, 0.0, atol=1e-15)
+        np.testing.assert_allclose(closure.rate, 0.0, atol=1e-14)
+        rotation = motion.rotation[2]
+        np.testing.assert_allclose(rotation @ rotation.T, np.eye(3), atol=2e-15)
+        step = np.array([1e-6, 0.0])
+        inputs = np.zeros(len(balls.module.INPUTS))
+        ahead, behind = (balls.motion(state + s * step, inputs).rotation[2] for s in (1, -1))
+        spin = (ahead - behind) / 2e-6 * state[1] @ rotation.T
+        # 1e-8: of the differences
+        found = [spin[2, 1], spin[0, 2], spin[1, 0]]
+        np.testing.assert_allclose(found, motion.twist[2, 3:], atol=1e-8)
+
+
+def test_a_rod_with_mass_on_two_balls_is_refused() -> None:
+    with pytest.raises(DeclarationError, match="'rod' hangs between two ball joints"):
+        on_two_balls(("crank", "rod", "rocker"))
