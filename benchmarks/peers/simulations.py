@@ -50,8 +50,9 @@ def kintrafo(method: str) -> Simulator:
         result = simulate(model, span, start(), method=method, t_eval=SAMPLES, **options)
         return np.asarray(result.y[0])
 
+    name = "kintrafo.simulate by default" if method == "BDF" else "kintrafo.simulate"
     return Simulator(
-        f"kintrafo.simulate, {method}",
+        f"{name}, {method}",
         tuple(TOLERANCES.tolist()),
         lambda tolerance: lambda: solve(tolerance),
     )
