@@ -23,10 +23,14 @@ from .actions import (
 from .joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from .actions import Solution
     from .geometry import Point
     from .settled import Settled
     from .topology import Cycle
+
+_OF_TWO_CROSSES = 2  # a telescope between them: its length, and its rotation
 
 
 @dataclass(frozen=True)
@@ -111,19 +115,15 @@ def closed_form(settled: Settled, cycle: Cycle, pair: PairCandidate) -> Solution
 
     All that the equation reads must be known.
     """
-    if pair.equations != 1:
+    rules: tuple[Callable[[Settled, _CutLoop], Solution | None], ...]
+    if pair.equations == 1:
+        rules = (_telescope, _stroke, _free_strut, _turn, _driven_by_rod)
+    elif pair.equations == _OF_TWO_CROSSES:
+        rules = (_telescope,)  # its length does not depend on its rotation
+    else:
         return None
-    for view in _views(cycle, pair):
-        action = (
-            _telescope(settled, view)
-            or _stroke(settled, view)
-            or _free_strut(settled, view)
-            or _turn(settled, view)
-            or _driven_by_rod(settled, view)
-        )
-        if action is not None:
-            return action
-    return None
+    tried = (rule(settled, view) for view in _views(cycle, pair) for rule in rules)
+    return next((action for action in tried if action), None)
 
 
 def _stroke(settled: Settled, view: _CutLoop) -> SolveStroke | None:

@@ -7,7 +7,7 @@ accelerations of the independent coordinates are zero.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from .vectors import NO_TWIST, UNIT_X, UNIT_Y, UNIT_Z, ZERO, Twist, Vector
@@ -117,6 +117,21 @@ class OnLine:
     length_motion: dict[str, sp.Expr]
     span: Vector
     inverse_squared: sp.Expr
+
+    def reversed(self) -> OnLine:
+        """Return the same line, from its end to its anchor."""
+        return replace(
+            self,
+            anchor=self.end,
+            end=self.anchor,
+            anchor_motion=self.end_motion,
+            end_motion=self.anchor_motion,
+            anchor_body=self.end_body,
+            end_body=self.anchor_body,
+            direction=-self.direction,
+            relative=self.anchor_motion.minus(self.end_motion),
+            span=-self.span,
+        )
 
 
 @dataclass(frozen=True)

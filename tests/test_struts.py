@@ -10,11 +10,13 @@ import pytest
 from kintrafo.generated._support import ClosureError
 from kintrafo.generator.checks import DeclarationError
 from kintrafo.generator.forces import AlongLine
-from kintrafo.generator.geometry import Point
+from kintrafo.generator.geometry import Line, Point
+from kintrafo.generator.joints import Cylindrical
+from kintrafo.generator.mechanism import Parameter
 from kintrafo.generator.outputs import generate
 from kintrafo.own.build import build
 from kintrafo.own.loader import load
-from own_mechanisms import ball, spatial_four_bar, turret
+from own_mechanisms import ball, cross, spatial_four_bar, turret
 from own_models import Built
 
 if TYPE_CHECKING:
@@ -70,6 +72,64 @@ def test_ends_that_meet_are_named(tmp_path: Path) -> None:
         built("rhs", np.array([0.0, -1.01 * start, 0.0, 0.0]))
     with pytest.raises(ClosureError, match="strut barrel cannot reach boom, beyond its dead point"):
         built("rhs", np.array([0.0, 3.0, 0.0, 0.0]))
+
+
+# -- telescopes that may also turn ----------------------------------------------------------------
+
+
+def telescope(name: str, *, ball_at_boom: bool) -> Model:
+    """Return the turret with a telescope that may turn about its axis, from a cross to the boom."""
+    model = turret(name, "lift")
+    foot, eye = Point("foot"), Point("eye")
+    tube = Cylindrical(
+        name="stroke",
+        first="barrel",
+        second="piston",
+        axis=Line(eye, foot),
+        length_at_zero_slide="bore_length",
+        angle_to=Point("piston_seat"),
+    )
+    pin = cross("pin", "boom", "piston", "eye", "foot", "slew_line")
+    others = {"stroke": tube} if ball_at_boom else {"stroke": tube, "pin": pin}
+    mechanism = replace(
+        model.mechanism,
+        joints=tuple(others.get(j.name, j) for j in model.mechanism.joints),
+        parameters=(
+            *model.mechanism.parameters,
+            Parameter("bore_length", 1.4, "m", "length of the telescope at zero slide"),
+        ),
+    )
+    return replace(model, mechanism=mechanism)
+
+
+def test_two_crosses_hold_a_telescope_that_turns(tmp_path: Path) -> None:
+    built = over_arrays(telescope("two_crosses", ball_at_boom=False), tmp_path)
+    rng = np.random.default_rng(0)
+    for state in rng.uniform(-0.4, 0.4, (20, 4)) * [1.0, 1.0, 5.0, 5.0]:
+        inputs = np.zeros(len(built.module.INPUTS))
+        motion = built.motion(state, inputs)
+        closure = built.oracle.closure(motion)
+        np.testing.assert_allclose(closure.value, 0.0, atol=2e-15)
+        np.testing.assert_allclose(closure.rate, 0.0, atol=2e-14)
+        expected = built.oracle.reduced(motion, built.named(inputs), {}).accelerations
+        found = built("rhs", state)[2:]
+        np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-12 * np.abs(expected).max())
+
+
+def test_a_piston_without_mass_may_turn_as_it_likes(tmp_path: Path) -> None:
+    model = telescope("free_piston", ball_at_boom=True)
+    model = replace(model, massive=("turret", "boom", "barrel"))
+    seat = replace(model.mechanism.elements[0], path=AlongLine(*_BOOM_SPRING))
+    forces = tuple(seat if f == model.mechanism.elements[0] else f for f in model.mechanism.forces)
+    model = replace(model, mechanism=replace(model.mechanism, forces=forces))
+    built = over_arrays(model, tmp_path)
+    for state in np.random.default_rng(0).uniform(-0.4, 0.4, (10, 4)):
+        closure = built.oracle.closure(built.motion(state, np.zeros(len(built.module.INPUTS))))
+        np.testing.assert_allclose(closure.value, 0.0, atol=2e-15)
+        np.testing.assert_allclose(closure.rate, 0.0, atol=5e-15)
+
+
+_BOOM_SPRING = ("ground", Point("ground_seat")), ("boom", Point("eye"))
 
 
 # -- rods on two ball joints ----------------------------------------------------------------------

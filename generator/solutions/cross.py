@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from ..actions import SolveTelescope
 from ..placement import Axes, OnLine, Placed, from_axes, to_axes
 from ..vectors import ZERO, Twist, Vector
 from .lines import line_alpha, line_omega, once, projector
@@ -39,7 +40,7 @@ def place_idle(kin: Kinematics, action: PlaceIdle) -> None:
     It has no mass, so its turn is nobody's business. It gets that of a cross at its first end, with
     an axis across the line at the design position.
     """
-    body, record = action.body, kin.on_line[action.body]
+    body, record = action.body, _line(kin, action.body)
     parent = kin.placed[record.anchor_body]
     n = kin.unit(f"{body}_line_design", kin.design(record.end) - kin.design(record.anchor))
     axis, _ = kin.across(body, n)
@@ -63,7 +64,7 @@ def _place(
     meaning
         What it means that the shaft lies along that axis.
     """
-    program, record = kin.program, kin.on_line[body]
+    program, record = kin.program, _line(kin, body)
     axis = program.vector(f"{body}_first_axis", from_axes(parent.axes, local_axis))
     n = record.direction
     cross = program.vector(f"{body}_cross", axis.cross(n))
@@ -85,6 +86,13 @@ def _place(
     )
     _cross_motion(kin, parent, record, placed, lever, program.define(f"{body}_tilt", axis.dot(n)))
     kin.placed[body] = placed
+
+
+def _line(kin: Kinematics, body: str) -> OnLine:
+    """Return the line of a link, from a point of the link on."""
+    record = kin.on_line[body]
+    far = [a.end_link for a in kin.plan.actions if isinstance(a, SolveTelescope)]
+    return record.reversed() if body in far else record
 
 
 def _cross_design_axes(kin: Kinematics, body: str, record: OnLine, axis: Vector) -> Axes:
