@@ -65,18 +65,18 @@ def model_of(mechanism: Mechanism) -> Model:
     return search.model(closed.independent)
 
 
-def proposals(declared: Mechanism | Model) -> Iterator[Proposal]:
+def proposals(declared: Mechanism | Model, seconds: float | None = None) -> Iterator[Proposal]:
     """Yield sets of joints whose coordinates can be independent, in the order of preference.
 
     Those from which every loop closes in closed form come first. Of a model, what it prescribes
-    stays prescribed.
+    stays prescribed. Each of the two searches ends after some time, if it is given.
     """
     search = Search(declared if isinstance(declared, Model) else _bare(declared))
     closed = set()
-    for proposal in search.closed():
+    for proposal in search.closed(seconds):
         closed.add(proposal.independent)
         yield proposal
-    yield from (p for p in search.iterated() if p.independent not in closed)
+    yield from (p for p in search.iterated(seconds) if p.independent not in closed)
 
 
 def advice(refused: Model) -> str:
@@ -84,12 +84,13 @@ def advice(refused: Model) -> str:
     search = Search(refused)
     if search.impossible:
         return ""
-    shown = list(islice(search.closed(_SECONDS_TO_ADVISE), _CHOICES_SHOWN))
-    if not shown and refused.allow_iteration:
-        shown = list(islice(search.iterated(_SECONDS_TO_ADVISE), _CHOICES_SHOWN))
-    if shown:
-        return f" Every loop closes with {_either(p.independent for p in shown)}."
-    return f" {search.summary()}"
+    closed = list(islice(search.closed(_SECONDS_TO_ADVISE), _CHOICES_SHOWN))
+    if closed:
+        return f" Every loop has a closed form with {_either(closed)}."
+    if not refused.allow_iteration:
+        return f" {search.summary()}"
+    iterated = list(islice(search.iterated(_SECONDS_TO_ADVISE), _CHOICES_SHOWN))
+    return f" Every loop closes with {_either(iterated)}." if iterated else f" {search.summary()}"
 
 
 class Search:
@@ -154,8 +155,8 @@ class Search:
         """Say why nothing was found, by the trial that came nearest, and what would help."""
         if self.impossible:
             return self.impossible
-        text = f"mechanism {self._model.mechanism.name!r} with mobility {self.mobility}: "
-        text += self.summary()
+        name = self._model.mechanism.name
+        text = f"mechanism {name!r} with mobility {self.mobility}. {self.summary()}"
         iterated = next(self.iterated(_SECONDS_TO_FIND), None)
         if iterated is not None:
             text += (
@@ -175,7 +176,7 @@ class Search:
         every = comb(len(self.candidates) - len(self._pushed), self.count - len(self._pushed))
         limit = "" if self._tried >= every else f"the first {self._tried} of "
         return (
-            f"from no {self.count} of its reported angles and slides "
+            f"From no {self.count} of the reported angles and slides "
             f"({', '.join(self.candidates)}; {limit}{every} set(s) tried) does every loop close in "
             "closed form."
         )
@@ -206,8 +207,8 @@ class Search:
             self._nearest = independent, refusal
 
 
-def _either(choices: Iterable[tuple[str, ...]]) -> str:
-    return " or ".join(f"independent={choice}" for choice in choices)
+def _either(choices: Iterable[Proposal]) -> str:
+    return " or ".join(f"independent={choice.independent}" for choice in choices)
 
 
 def _bare(mechanism: Mechanism) -> Model:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from .linearisation import Linearisation, linearise
     from .model import Model
     from .modes import Mode
-    from .own import CompilerError, MechanismError
+    from .own import CompilerError, MechanismError, proposals
     from .own import compile_mechanism as compile  # noqa: A004 (what the user calls it)
     from .positions import (
         PositionError,
@@ -62,6 +62,7 @@ __all__ = [
     "compile",
     "equilibrium",
     "linearise",
+    "proposals",
     "road_under_load",
     "simulate",
     "state_at_height",
@@ -78,7 +79,7 @@ _MODULES = {
     ".linearisation": ("Linearisation", "linearise"),
     ".model": ("Model",),
     ".modes": ("Mode",),
-    ".own": ("CompilerError", "MechanismError", "compile_mechanism"),
+    ".own": ("CompilerError", "MechanismError", "compile_mechanism", "proposals"),
     ".positions": (
         "PositionError",
         "Range",

@@ -1,8 +1,9 @@
 """``kintrafo topology``: bodies, joints, mobility, loops and how they were solved."""
 
 import re
+from itertools import islice
 from types import ModuleType
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 from rich.table import Table
@@ -15,6 +16,9 @@ EXAMPLES = (
     "kintrafo topology my_car.toml --json",
     "kintrafo topology my_mechanism.py",
 )
+
+_SECONDS = 3.0  # of search for joints that can be independent
+_MOST_CHOICES = 6
 
 _FREE_RACK = "macpherson_free_rack"
 
@@ -36,16 +40,19 @@ def command(
 ) -> None:
     """Show bodies, joints, mobility, loops and characteristic pairs of the mechanism.
 
-    They were found when the equations were derived, and come with the compiled model.
+    They were found when the equations were derived, and come with the compiled model. Of a
+    mechanism of your own, the joints are listed too that can be independent.
     """
     from ..topology import topology
 
     found = topology(
         _FREE_RACK if free_rack else "macpherson" if file is None else _equations(file)
     )
+    choices = _choices(file) if file is not None and file.endswith(".py") else None
     if json:
         kept = ("title", "bodies", "joints", "mobility", "loops", "pairs")
-        print_json({key: getattr(found, key) for key in kept})
+        facts = {key: getattr(found, key) for key in kept}
+        print_json(facts if choices is None else facts | {"choices": choices})
         return
     joints = Table(title=f"{found.title}: joints")
     for column in found.joints[0]:
@@ -54,6 +61,9 @@ def command(
         joints.add_row(*joint.values())
     console.print(joints)
     say(f"Mobility {found.mobility}; {len(found.loops)} independent loops, solved in this order.")
+    for choice in choices or ():
+        needs = ", if loops may be solved by iteration" if choice["iterates"] else ""
+        say(f"Can be independent: {', '.join(choice['independent'])}{needs}")
     for text in (found.sections["Cycles"], found.sections["Kinematic transformers"]):
         # the tables and boxes are drawn in text, and only the fences around them are Markdown
         say("\n" + re.sub(r"^```.*\n?", "", text, flags=re.MULTILINE).replace("### ", ""))
@@ -66,3 +76,11 @@ def _equations(file: str) -> ModuleType:
     from ..own.build import compile_mechanism
 
     return compile_mechanism(file)
+
+
+def _choices(file: str) -> list[dict[str, Any]]:
+    """Return the first sets of joints that can be independent."""
+    from ..own.choices import proposals
+
+    first = islice(proposals(file, seconds=_SECONDS), _MOST_CHOICES)
+    return [{"independent": p.independent, "iterates": p.iterates} for p in first]

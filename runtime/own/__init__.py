@@ -2,13 +2,15 @@
 
 `build`        from a declaration to a module, by way of the cache
 `declaration`  what a person wrote: a file, a mechanism or a model
+`choices`      which coordinates can be independent
 `cache`        where compiled mechanisms are kept, and under which name
 `compiler`     the C compiler of this machine
 `loader`       a folder of the cache as a Python module
 """
 
 from .build import compile_mechanism
+from .choices import proposals
 from .compiler import CompilerError
 from .declaration import MechanismError
 
-__all__ = ["CompilerError", "MechanismError", "compile_mechanism"]
+__all__ = ["CompilerError", "MechanismError", "compile_mechanism", "proposals"]

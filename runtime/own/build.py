@@ -93,7 +93,7 @@ def compile_mechanism(
         report = progress or (lambda _: None)
         with appearing(target) as temporary:
             report("deriving the equations")
-            with telling():
+            with telling(model):
                 derived = generate(model)
             report("compiling" if compiler else "writing the functions")
             build(derived, temporary, compiler)

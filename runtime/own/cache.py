@@ -6,6 +6,7 @@ import platform
 import shutil
 import sys
 import tempfile
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache
@@ -19,6 +20,8 @@ from ..errors import InputError
 
 VARIABLE = "KINTRAFO_CACHE"
 """Environment variable that names another folder."""
+
+_LONG_AGO_S = 24 * 3600.0  # nothing takes that long to be derived and compiled
 
 
 def cache_folder() -> Path:
@@ -90,6 +93,7 @@ def appearing(target: Path) -> Iterator[Path]:
     """
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
+        _remove_leftovers(target.parent)
         temporary = Path(tempfile.mkdtemp(prefix=f".{target.name}-", dir=target.parent))
     except OSError as error:
         problem = f"cannot be written ({error.strerror}). Name another folder in {VARIABLE}."
@@ -104,3 +108,10 @@ def appearing(target: Path) -> Iterator[Path]:
                 raise
     finally:
         shutil.rmtree(temporary, ignore_errors=True)
+
+
+def _remove_leftovers(folder: Path) -> None:
+    """Remove the temporary folders of processes that were killed long ago."""
+    for entry in folder.glob(".*-????????????????-*"):
+        if time.time() - entry.stat().st_mtime > _LONG_AGO_S:
+            shutil.rmtree(entry, ignore_errors=True)

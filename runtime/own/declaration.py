@@ -1,5 +1,6 @@
 """What a person wrote: a file with a declaration, a mechanism, or a model of one."""
 
+import sys
 import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -19,15 +20,25 @@ class MechanismError(KintrafoError, ValueError):
 
 
 @contextmanager
-def telling() -> Iterator[None]:
-    """Turn the generator's refusals into errors of this package."""
+def telling(model: "Model | None" = None) -> Iterator[None]:
+    """Turn the generator's refusals into errors of this package.
+
+    Parameters
+    ----------
+    model : Model, optional
+        What is being derived: where a loop does not close, the error names other choices of
+        independent coordinates.
+    """
     from ..generator.checks import DeclarationError
+    from ..generator.proposal import advice
     from ..generator.topology import TopologyError
     from ..generator.transformer import NoClosedFormError
 
     try:
         yield
-    except (DeclarationError, TopologyError, NoClosedFormError) as error:
+    except NoClosedFormError as error:
+        raise MechanismError(f"{error}{advice(model) if model else ''}") from error
+    except (DeclarationError, TopologyError) as error:
         raise MechanismError(str(error)) from error
 
 
@@ -53,16 +64,33 @@ def model_of(declared: "Model | Mechanism | str | Path", name: str | None = None
     MechanismError
         If the declaration contradicts itself.
     """
-    from ..generator.mechanism import Mechanism, Model
+    from ..generator.mechanism import Mechanism
     from ..generator.proposal import model_of as proposed
 
-    with telling():
-        given: Any = declared
-        if isinstance(declared, str | Path):
+    given = given_by(declared, name)
+    if isinstance(given, Mechanism):
+        with telling():
+            return proposed(given)
+    return given
+
+
+def given_by(declared: "Model | Mechanism | str | Path", name: str | None) -> "Model | Mechanism":
+    """Return what was declared, the file having been run if it is one.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be run, or does not say what is meant.
+    MechanismError
+        If the declaration contradicts itself.
+    """
+    from ..generator.mechanism import Mechanism, Model
+
+    given: Any = declared
+    if isinstance(declared, str | Path):
+        with telling():
             given = _chosen(_run(Path(declared)), str(declared), name)
-        if isinstance(given, Mechanism):
-            given = proposed(given)
-    if isinstance(given, Model):
+    if isinstance(given, Model | Mechanism):
         return given
     problem = (
         "a Model, a Mechanism (kintrafo.generator.mechanism) or the path of a Python file with one "
@@ -81,16 +109,41 @@ def _run(path: Path) -> ModuleType:
     module = ModuleType(path.stem)
     module.__file__ = str(path)
     try:
-        exec(compile(source, str(path), "exec"), vars(module))
+        with _neighbours(path.parent.resolve()):
+            exec(compile(source, str(path), "exec"), vars(module))
     except SyntaxError as error:
         problem = f"Line {error.lineno}: {error.msg}: {(error.text or '').strip()}"
+        raise InputError([problem], str(path)) from error
+    except SystemExit as error:
+        problem = (
+            f"{_where(error, path)}: the file ends the program before its declaration is read. "
+            'Put what only a script should do below if __name__ == "__main__":'
+        )
         raise InputError([problem], str(path)) from error
     except Exception as error:
         raise InputError([_where(error, path)], str(path)) from error
     return module
 
 
-def _where(error: Exception, path: Path) -> str:
+@contextmanager
+def _neighbours(folder: Path) -> Iterator[None]:
+    """Let a file import those beside it, as it can when it is run by itself.
+
+    They are forgotten afterwards: who has changed one of them means what it says now.
+    """
+    known = set(sys.modules)
+    sys.path.insert(0, str(folder))
+    try:
+        yield
+    finally:
+        sys.path.remove(str(folder))
+        for name in sys.modules.keys() - known:
+            file = getattr(sys.modules[name], "__file__", None)
+            if file and folder in Path(file).resolve().parents:
+                del sys.modules[name]
+
+
+def _where(error: BaseException, path: Path) -> str:
     """Say at which line of a file an error occurred, which may be deep in what the line calls."""
     lines = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == str(path)]
     place = f"Line {lines[-1]}: " if lines else ""

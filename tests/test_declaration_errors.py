@@ -1,0 +1,468 @@
+"""What a declaration can get wrong: every mistake has a message with its name and a remedy."""
+
+import os
+import time
+from dataclasses import replace
+
+import kintrafo
+import numpy as np
+import pytest
+from kintrafo.cli import app
+from kintrafo.generator import (
+    Body,
+    Cylindrical,
+    Direction,
+    JointForce,
+    Line,
+    Mechanism,
+    Model,
+    Point,
+    Prismatic,
+    RelativeCoordinate,
+    Revolute,
+    Spherical,
+    Universal,
+    direction,
+    point,
+    rigid_body,
+    rotor,
+)
+from kintrafo.generator.checks import DeclarationError
+from kintrafo.generator.default_values import value_problems
+from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
+from kintrafo.generator.mechanisms.four_bar import MODELS as FOUR_BARS
+from kintrafo.generator.mechanisms.multi_link import MODELS as MULTI_LINKS
+from kintrafo.generator.mechanisms.slider_crank import SLIDER_CRANK
+from typer.testing import CliRunner
+
+PLACES = {
+    "crank_pin": (0.0, 0.0, 0.0),
+    "rod_start": (0.03, 0.14, 0.05),
+    "rocker_pin": (0.45, 0.02, 0.1),
+    "rod_end": (0.4, 0.2, 0.3),
+}
+CENTRES = {"crank": (0.02, 0.08, 0.03), "rod": (0.2, 0.16, 0.16), "rocker": (0.42, 0.1, 0.2)}
+LINES = {
+    "crank_line": (0.9, -0.2, 0.3),
+    "rocker_line": (0.3, 1.1, -0.5),
+    "cross_axis": (0.2, -0.4, 1.0),
+}
+CRANK = Revolute(
+    name="A", first="ground", second="crank", axis=Line(Point("crank_pin"), Direction("crank_line"))
+)
+ROCKER = Revolute(
+    name="D",
+    first="ground",
+    second="rocker",
+    axis=Line(Point("rocker_pin"), Direction("rocker_line")),
+)
+CROSS = Universal(
+    name="B",
+    first="crank",
+    second="rod",
+    at=Point("rod_start"),
+    shaft=Line(Point("rod_start"), Point("rod_end")),
+    first_axis=Direction("cross_axis"),
+)
+BALL = Spherical(name="C", first="rod", second="rocker", at=Point("rod_end"))
+
+
+def spatial(*joints, coordinates=("A", "D"), bodies=tuple(CENTRES), **changes):
+    """Return a mechanism of crank, rod and rocker with some joints."""
+    fields = {
+        "name": "spatial",
+        "title": "Crank, rod and rocker",
+        "bodies": (
+            Body("ground", 0, center=Point("crank_pin")),
+            *(Body(name, i, center=Point(f"{name}_com")) for i, name in enumerate(bodies, 1)),
+        ),
+        "joints": joints,
+        "forces": (),
+        "parameters": (
+            *(entry for name, place in PLACES.items() for entry in point(name, place, name)),
+            *(entry for name, along in LINES.items() for entry in direction(name, along, name)),
+            *(
+                entry
+                for name in bodies
+                for entry in rigid_body(name, 1.0, CENTRES[name], (0.01, 0.01, 0.01))
+            ),
+        ),
+        "coordinates": tuple(
+            RelativeCoordinate(f"angle_{name}", name, "angle", "rad", "angle")
+            for name in coordinates
+        ),
+    }
+    return Mechanism(**fields | changes)
+
+
+def model(mechanism, *independent, **changes):
+    """Return a model of a mechanism, all bodies massive."""
+    massive = tuple(body.name for body in mechanism.bodies[1:])
+    fields = {"independent": independent, "massive": massive} | changes
+    return Model(name=mechanism.name, title=mechanism.title, mechanism=mechanism, **fields)
+
+
+RUSR = spatial(CRANK, CROSS, BALL, ROCKER)
+
+
+class TestDrivenJoints:
+    @pytest.mark.parametrize(
+        ("joint", "remedy"),
+        [
+            (BALL, "'C' is spherical, with 3 .* three hinges through its centre"),
+            (CROSS, "'B' is universal, with 2 .* two hinges along the axes"),
+            (
+                Cylindrical(
+                    name="S",
+                    first="rod",
+                    second="rocker",
+                    axis=Line(Point("rod_end"), Point("rod_start")),
+                    length_at_zero_slide="length",
+                    angle_to=Point("rocker_com"),
+                ),
+                "'S' is cylindrical, with 2 .* a guide and a hinge",
+            ),
+        ],
+        ids=lambda value: getattr(value, "kind", ""),
+    )
+    def test_of_several_coordinates(self, joint, remedy):
+        others = [j for j in (CRANK, CROSS, BALL, ROCKER) if j != joint]
+        with pytest.raises(DeclarationError, match=f"independent joint {remedy}"):
+            model(spatial(*others, joint), joint.name)
+
+    def test_declared_but_not_reported(self):
+        with pytest.raises(DeclarationError, match="'D' has no reported coordinate; add a Relat"):
+            model(spatial(CRANK, CROSS, BALL, ROCKER, coordinates=("A",)), "D")
+
+    def test_twice(self):
+        with pytest.raises(DeclarationError, match="independent joint 'A' is declared 2 times"):
+            model(RUSR, "A", "A")
+
+    def test_moves_no_mass(self):
+        chain = spatial(CRANK, replace(ROCKER, first="crank"), bodies=("crank", "rocker"))
+        with pytest.raises(kintrafo.MechanismError, match="'D' moves no body of massive"):
+            kintrafo.compile(model(chain, "A", "D", massive=("crank",)))
+        with pytest.raises(kintrafo.MechanismError, match=r"'A' moves no .*\n.*'D' moves no"):
+            kintrafo.compile(model(chain, "A", "D", massive=()))
+
+    def test_ground_has_no_equation_of_motion(self):
+        with pytest.raises(DeclarationError, match="'ground' is the ground, which does not move"):
+            model(RUSR, "A", massive=("ground", "crank"))
+
+
+class TestForces:
+    PUSHED = replace(
+        RUSR,
+        forces=(JointForce(joint="D", input="torque"),),
+        inputs={"torque": ("N m", "torque on the rocker")},
+    )
+
+    def test_along_a_joint_that_follows(self):
+        """It would not appear in any equation."""
+        with pytest.raises(DeclarationError, match=r"'D' is neither independent .* an Actuator"):
+            model(self.PUSHED, "A")
+
+    def test_such_joints_are_proposed_as_independent(self):
+        assert [p.independent for p in kintrafo.proposals(self.PUSHED)] == [("D",)]
+        assert [p.independent for p in kintrafo.proposals(RUSR)] == [("A",), ("D",)]
+
+
+class TestRods:
+    def test_between_two_ball_joints(self):
+        ball = Spherical(name="B", first="crank", second="rod", at=Point("rod_start"))
+        with pytest.raises(DeclarationError, match=r"'rod' hangs between .*second='rod', shaft="):
+            model(spatial(CRANK, ball, BALL, ROCKER), "A")
+
+
+class TestNames:
+    @pytest.mark.parametrize("name", ["gate 2", "2nd", "café", ""])
+    def test_of_models_and_mechanisms(self, name):
+        with pytest.raises(DeclarationError, match=r"mechanism .* cannot be written in C"):
+            replace(RUSR, name=name)
+        with pytest.raises(DeclarationError, match=r"model .* cannot be written in C; use"):
+            replace(model(RUSR, "A"), name=name)
+
+    def test_of_force_elements(self):
+        (spring,) = FOUR_BAR.elements
+        with pytest.raises(DeclarationError, match="force element 'my spring' cannot be written"):
+            replace(FOUR_BAR, forces=(replace(spring, name="my spring"),))
+
+
+class TestNumbers:
+    @pytest.mark.parametrize("value", [float("nan"), float("inf")])
+    def test_that_are_none(self, value):
+        parameters = (replace(RUSR.parameters[0], default=value), *RUSR.parameters[1:])
+        with pytest.raises(DeclarationError, match=r"'crank_pin_x' has the default (nan|inf) m"):
+            replace(RUSR, parameters=parameters)
+
+    @pytest.mark.parametrize(
+        ("parameters", "words"),
+        [
+            (rigid_body("crank", -1.0, (0.0, 0.0, 0.0)), "'crank_mass' = -1.0 kg is negative"),
+            (
+                rigid_body("crank", 1.0, (0.0, 0.0, 0.0), (1.0, -1.0, 1.0)),
+                "'crank_inertia_yy' = -1.0 kg m^2 is negative",
+            ),
+            (
+                rigid_body("crank", 1.0, (0.0, 0.0, 0.0), (1.0, 1.0, 9.0)),
+                "the principal moments 1, 1 and 9 kg m^2 are those of no body",
+            ),
+            (rotor("crank", 1.0, 0.5, 0.2), "'crank_inertia_spin' = 0.5 kg m^2 is more than twice"),
+        ],
+    )
+    def test_that_no_body_has(self, parameters, words):
+        others = [p for p in RUSR.parameters if not p.name.startswith("crank_")]
+        kept = [p for p in RUSR.parameters if p.name.startswith(("crank_pin", "crank_line"))]
+        with pytest.raises(DeclarationError) as caught:
+            replace(RUSR, parameters=(*others, *kept, *parameters))
+        (problem,) = caught.value.problems
+        assert words in problem
+
+    @pytest.mark.parametrize("seed", range(20))
+    def test_bodies_of_point_masses_are_accepted(self, seed):
+        """Also flat ones and rods, in any axes: they are at the edge of what is possible."""
+        random = np.random.default_rng(seed)
+        spread = np.array([1.0, seed % 2, seed % 3 > 0])
+        places = random.standard_normal((5, 3)) * spread
+        turn, _ = np.linalg.qr(random.standard_normal((3, 3)))
+        places = (places - places.mean(axis=0)) @ turn.T
+        tensor = sum(place @ place * np.eye(3) - np.outer(place, place) for place in places)
+        elements = dict(zip(("xx", "yy", "zz"), np.diag(tensor).tolist(), strict=True))
+        elements |= {"xy": tensor[0, 1], "xz": tensor[0, 2], "yz": tensor[1, 2]}
+        parameters = tuple(
+            replace(p, default=float(elements[p.name[-2:]])) if "crank_inertia" in p.name else p
+            for p in RUSR.parameters
+        )
+        assert value_problems(replace(RUSR, parameters=parameters)) == []
+
+
+class TestJoints:
+    def test_of_a_body_with_itself(self):
+        loop = replace(CRANK, second="ground")
+        with pytest.raises(DeclarationError, match="'A' connects 'ground' with itself"):
+            spatial(loop, CROSS, BALL, ROCKER)
+
+    def test_none_reported_at_the_ground(self, tmp_path):
+        """A boom moved by its cylinder, of which the stroke alone is reported."""
+        module = kintrafo.compile(boom(), backend="numpy", folder=tmp_path)
+        system = kintrafo.System(module)
+        assert not hasattr(module, "absolute_jacobian")
+        pin = place_of(system, "boom", np.array([0.2, 0.0, 1.2]), [0.01, 0.0])
+        # the cylinder is along its pins: its length is that of the design position and the stroke
+        length = np.linalg.norm(pin - [1.0, 0.0, 0.0])
+        assert length == pytest.approx(np.hypot(0.8, 1.2) + 0.01, rel=1e-15)
+
+
+def boom():
+    def hinge(name, first, second, at):
+        return Revolute(
+            name=name, first=first, second=second, axis=Line(Point(at), Direction("normal"))
+        )
+
+    way = Direction("way", between=(Point("barrel_pin"), Point("piston_pin")))
+    centres = {"barrel": (0.8, 0.0, 0.3), "piston": (0.3, 0.0, 0.9), "boom": (0.1, 0.0, 0.9)}
+    bodies = [Body(n, i, center=Point(f"{n}_com")) for i, n in enumerate(centres, 1)]
+    mechanism = Mechanism(
+        name="boom",
+        title="Boom",
+        bodies=(Body("ground", 0, center=Point("foot")), *bodies),
+        joints=(
+            hinge("pivot", "ground", "boom", "foot"),
+            hinge("low", "ground", "barrel", "barrel_pin"),
+            Prismatic(name="bore", first="barrel", second="piston", direction=way),
+            hinge("high", "piston", "boom", "piston_pin"),
+        ),
+        forces=(),
+        parameters=(
+            *point("foot", (0.0, 0.0, 0.0), "foot"),
+            *point("barrel_pin", (1.0, 0.0, 0.0), "pin"),
+            *point("piston_pin", (0.2, 0.0, 1.2), "pin"),
+            *direction("normal", (0.0, 1.0, 0.0), "normal"),
+            *(e for n, c in centres.items() for e in rigid_body(n, 2.0, c, (0.1, 0.1, 0.1))),
+        ),
+        coordinates=(RelativeCoordinate("stroke", "bore", "slide", "m", "stroke"),),
+    )
+    return model(mechanism, "bore")
+
+
+def place_of(system, body, point_at_design, state):
+    """Return where a point of a body is, from the pose of the body."""
+    number = system.equations.BODIES.index(body)
+    centre = [system.parameters[f"{body}_com_{axis}"] for axis in "xyz"]
+    turned = system.evaluate("orientations", state)[number] @ (point_at_design - centre)
+    return system.evaluate("positions", state)[number] + turned
+
+
+class TestPoses:
+    def test_the_rod_is_the_second_body_of_a_cross(self):
+        wrong = replace(CROSS, first="rod", second="crank")
+        mechanism = spatial(CRANK, wrong, BALL, ROCKER)
+        with pytest.raises(kintrafo.MechanismError, match="'crank' first and 'rod' second in the"):
+            kintrafo.compile(model(mechanism, "A"))
+
+    def test_the_joint_that_would_determine_one_is_named(self):
+        pin = Line(Point("rod_end"), Point("rocker_pin"))
+        lever = Revolute(name="E", first="rocker", second="lever", axis=pin)
+        bodies = (*RUSR.bodies, Body("lever", 4, center=Point("rod_end")))
+        mechanism = replace(RUSR, bodies=bodies, joints=(*RUSR.joints, lever))
+        with pytest.raises(kintrafo.MechanismError, match="pose of lever; declare joint 'E' indep"):
+            kintrafo.compile(model(mechanism, "A"))
+
+
+# -- proposals -------------------------------------------------------------------------------------
+
+STEPHENSON = {
+    "a": (0.0, 0.0),
+    "b": (0.1, 0.2),
+    "c": (0.5, 0.35),
+    "d": (0.5, 0.0),
+    "e": (0.3, 0.5),
+    "f": (0.8, 0.45),
+    "g": (0.9, 0.1),
+}
+
+
+def stephenson(*reported):
+    """Return a four-bar whose coupler drives a rocker by a link: two closed forms from the crank.
+
+    From the rocker, two loops have no closed form one by one.
+    """
+
+    def hinge(name, first, second):
+        at = Line(Point(name.lower()), Direction("normal"))
+        return Revolute(name=name, first=first, second=second, axis=at)
+
+    bodies = ("crank", "coupler", "rocker", "link", "lever")
+    return Mechanism(
+        name="stephenson",
+        title="Stephenson's chain",
+        bodies=tuple(Body(n, i, center=Point("a")) for i, n in enumerate(("ground", *bodies))),
+        joints=(
+            hinge("A", "ground", "crank"),
+            hinge("B", "crank", "coupler"),
+            hinge("C", "coupler", "rocker"),
+            hinge("D", "rocker", "ground"),
+            hinge("E", "coupler", "link"),
+            hinge("F", "link", "lever"),
+            hinge("G", "ground", "lever"),
+        ),
+        forces=(),
+        parameters=(
+            *(e for name, place in STEPHENSON.items() for e in point(name, (*place, 0.0), name)),
+            *direction("normal", (0.0, 0.0, 1.0), "normal"),
+        ),
+        coordinates=tuple(
+            RelativeCoordinate(f"angle_{n}", n, "angle", "rad", "angle") for n in reported
+        ),
+    )
+
+
+class TestProposals:
+    def test_closed_forms_come_before_iterations(self):
+        found = [(p.independent, p.iterates) for p in kintrafo.proposals(stephenson("G", "A"))]
+        assert found == [(("A",), False), (("G",), True)]
+
+    def test_what_is_prescribed_stays(self):
+        multi_link, *_ = MULTI_LINKS
+        (found,) = kintrafo.proposals(multi_link)
+        assert found.independent == multi_link.independent
+        assert found.iterates
+
+    def test_a_search_ends_in_time(self):
+        assert list(kintrafo.proposals(stephenson("G", "A"), seconds=-1.0)) == []
+
+    def test_of_a_file_and_a_name_in_it(self, tmp_path):
+        path = tmp_path / "mine.py"
+        path.write_text(
+            "from kintrafo.generator.mechanisms.four_bar import FOUR_BAR\n"
+            "from kintrafo.generator.mechanisms.slider_crank import SLIDER_CRANK\n"
+        )
+        (found,) = kintrafo.proposals(path, name="slider_crank")
+        assert found.independent == ("A",)
+
+    def test_the_command_lists_them(self, tmp_path, monkeypatch):
+        monkeypatch.setenv("KINTRAFO_CACHE", str(tmp_path))
+        path = tmp_path / "mine.py"
+        path.write_text("from kintrafo.generator.mechanisms.slider_crank import SLIDER_CRANK as S")
+        result = CliRunner().invoke(app, ["topology", str(path)])
+        assert "Can be independent: A\n" in result.output
+
+
+class TestRefusals:
+    def test_of_a_choice_name_those_that_close(self):
+        with pytest.raises(kintrafo.MechanismError) as caught:
+            kintrafo.compile(model(stephenson("A", "G"), "G"))
+        message = str(caught.value)
+        assert "A/B leaves 1 equation(s) in 2 unknown(s)" in message
+        assert "declared with allow_iteration=True" in message
+        assert message.endswith("Every loop has a closed form with independent=('A',).")
+
+    def test_of_a_choice_that_has_no_better_one(self):
+        with pytest.raises(kintrafo.MechanismError, match=r"no 1 of the reported .* \(G; 1 set"):
+            kintrafo.compile(model(stephenson("G"), "G"))
+
+    def test_of_a_mechanism_have_loop_pairs_equations_and_remedy(self):
+        with pytest.raises(kintrafo.MechanismError) as caught:
+            kintrafo.compile(MULTI_LINKS[0].mechanism)
+        message = str(caught.value)
+        names = "('lower_hinge', 'rack_guide', 'bearing')"
+        assert f"declare a Model with independent={names} and allow_iteration=True" in message
+        assert "the loop chassis - lower_arm - carrier - upper_link (joints lower_hinge" in message
+        assert "lower_ball/upper_link_ball leaves 1 equation(s) in 2 unknown(s)" in message
+        assert "carrier is held by upper_link, camber_link, toe_link together" in message
+
+    def test_too_few_coordinates_are_reported(self):
+        with pytest.raises(kintrafo.MechanismError, match=r"mobility 1: 1 .* are only none\. Re"):
+            kintrafo.compile(stephenson())
+
+    def test_nothing_moves(self):
+        stiff = Revolute(
+            name="S", first="link", second="ground", axis=Line(Point("f"), Direction("normal"))
+        )
+        mechanism = stephenson("A")
+        mechanism = replace(mechanism, joints=(*mechanism.joints, stiff))
+        with pytest.raises(kintrafo.MechanismError, match="mobility -1: counting the freedoms"):
+            kintrafo.compile(mechanism)
+
+
+# -- files ----------------------------------------------------------------------------------------
+
+
+class TestFiles:
+    IMPORTING = "from beside_it import FOUR_BAR\n"
+    BESIDE = "from kintrafo.generator.mechanisms.four_bar import FOUR_BAR\n"
+
+    def test_import_those_beside_them_as_they_are_now(self, tmp_path, monkeypatch):
+        monkeypatch.chdir(tmp_path.parent)
+        path = tmp_path / "mine.py"
+        path.write_text(self.IMPORTING)
+        (tmp_path / "beside_it.py").write_text(self.BESIDE)
+        assert [p.independent for p in kintrafo.proposals(path)] == [("A",)]
+        changed = "from dataclasses import replace\nFOUR_BAR = replace(FOUR_BAR, forces=())\n"
+        (tmp_path / "beside_it.py").write_text(self.BESIDE + changed)
+        assert [p.independent for p in kintrafo.proposals(path)] == [("A",), ("D",)]
+
+    @pytest.mark.parametrize("end", ["sys.exit()", "sys.exit('done')", "raise SystemExit(0)"])
+    def test_that_end_the_program(self, tmp_path, end):
+        path = tmp_path / "mine.py"
+        path.write_text(f"import sys\n{end}\n")
+        with pytest.raises(kintrafo.InputError, match=r"Line 2: SystemExit.*__main__"):
+            kintrafo.compile(path)
+
+
+def test_what_killed_processes_left_is_removed_the_next_day(tmp_path):
+    kintrafo.compile(FOUR_BARS[0], backend="numpy", folder=tmp_path)
+    (made,) = tmp_path.iterdir()
+    old, recent = (tmp_path / f".{made.name}-{suffix}" for suffix in ("k1ll3d", "bu5y"))
+    other = tmp_path / ".settings-of-something-else"
+    for folder in (old, recent, other):
+        folder.mkdir()
+    yesterday = time.time() - 25 * 3600.0
+    for folder in (old, other):
+        os.utime(folder, (yesterday, yesterday))
+    (old / "half_written.c").write_text("")
+    kintrafo.compile(SLIDER_CRANK, backend="numpy", folder=tmp_path)
+    assert not old.exists()
+    assert recent.exists()
+    assert other.exists()
+    assert made.exists()
