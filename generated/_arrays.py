@@ -91,10 +91,14 @@ def _fill(code: Code, arrays: list[Array], out: Array) -> int:
 
 
 def call_prepare(code: Code, parameters: Array, constants: Array) -> int:
-    """Fill the constants; return 0, or one plus the index of the first that is not finite."""
-    _fill(code, [parameters], constants)
+    """Fill the constants; return 0, or what is wrong with them, as the C code does."""
+    with np.errstate(all="ignore"):  # what is wrong is returned
+        constants[:], holds = code(parameters)
     bad = np.flatnonzero(~np.isfinite(constants))
-    return int(bad[0]) + 1 if bad.size else 0
+    if bad.size:
+        return int(bad[0]) + 1
+    broken = [place for place, zero in holds.items() if not zero]
+    return constants.size + broken[0] + 1 if broken else 0
 
 
 def call_margins(

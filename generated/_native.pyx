@@ -106,7 +106,7 @@ cdef class Function:
 
 
 def call_prepare(address, const double[::1] parameters, double[::1] constants):
-    """Fill the constants; return 0, or one plus the index of the first that is not finite."""
+    """Fill the constants; return 0, or what is wrong with them (see the header of the model)."""
     return (<prepare_pointer><uintptr_t> address)(&parameters[0], &constants[0])
 
 

@@ -37,6 +37,13 @@ def _with_unit(value: float, unit: str) -> str:
     return f"{value:.3g}" if unit == "1" else f"{value:.3g} {unit}"
 
 
+def _amount_off(value: float, unit: str) -> str:
+    """Return a distance, or an angle given by its sine, as a person reads it."""
+    if unit == "m":
+        return f"{1e3 * value:.3g} mm"
+    return f"{np.degrees(np.arcsin(min(value, 1.0))):.3g} degrees"
+
+
 class ClosureError(ModelError):
     """A loop of the mechanism cannot close, or a formula has left its range.
 
@@ -100,8 +107,10 @@ class CompiledModel:
         relative: Described,
         code: Mapping[str, int | Callable[..., Any]],
         guard_units: Mapping[str, str],
+        assumptions: Sequence[tuple[str, str, str, str]],
     ) -> None:
         self.guard_units = guard_units
+        self.assumptions = tuple(assumptions)
         self.name = name
         self.parameter_names = tuple(parameters)
         self.state_names = tuple(state)
@@ -165,14 +174,21 @@ class CompiledModel:
         constants = np.empty(len(self.constant_names))
         failed = self._calls.call_prepare(self._code["prepare"], given, constants)
         if failed:
-            message = (
-                f"{self.name}: the constant {self.constant_names[failed - 1]!r} is not finite: "
-                "the geometry at the design position is degenerate (coincident points, or a point "
-                "on a line that it must lie beside)"
-            )
-            raise ParameterError(message)
+            raise ParameterError(f"{self.name}: {self._unusable(failed, constants)}")
         constants.flags.writeable = False
         return constants
+
+    def _unusable(self, failed: int, constants: Array) -> str:
+        """Say what `prepare` has found wrong with the constants."""
+        if failed <= len(self.constant_names):
+            return (
+                f"the constant {self.constant_names[failed - 1]!r} is not finite: the geometry at "
+                "the design position is degenerate (coincident points, or a point on a line that "
+                "it must lie beside)"
+            )
+        name, unit, meaning, remedy = self.assumptions[failed - len(self.constant_names) - 1]
+        value = float(abs(constants[self.constant_names.index(name)]))
+        return f"{meaning}: it is off by {_amount_off(value, unit)}; {remedy}"
 
     def call_residuals(
         self, constants: Array, state: Array, inputs: Array, given: Array, out: Array

@@ -87,6 +87,7 @@ __all__ = [
     "MASSIVE_BODIES",
     "CONSTANTS",
     "GUARDS",
+    "ASSUMPTIONS",
     "GUARD_UNITS",
     "HELD_VARIANTS",
     "MOBILITY",
@@ -334,6 +335,8 @@ GUARDS: Final[tuple[tuple[str, str], ...]] = (('k3_reach_squared',
  ('spring_length_squared', 'the ends of spring coincide'),
  ('pivot_beta', 'the mass matrix is not positive definite at beta'))
 
+ASSUMPTIONS: Final[tuple[tuple[str, str, str, str], ...]] = ()
+
 GUARD_UNITS: Final[dict[str, str]] = {'k3_reach_squared': 'm^2',
  'k3_closure': 'm^2',
  'k5_reach_squared': 'm^2',
@@ -350,7 +353,7 @@ LOOPS: Final[tuple[tuple[str, ...], ...]] = (('ground', 'k1', 'k2', 'k3'), ('gro
 
 _model = CompiledModel(
     NAME, PARAMETERS, STATE, INPUTS, CONSTANTS, GUARDS, RELATIVE_COORDINATES, _andrews.ADDRESSES,
-    GUARD_UNITS,
+    GUARD_UNITS, ASSUMPTIONS,
 )
 prepare = _model.prepare
 ADDRESSES: Final[dict[str, int]] = _model.addresses

@@ -88,6 +88,7 @@ __all__ = [
     "MASSIVE_BODIES",
     "CONSTANTS",
     "GUARDS",
+    "ASSUMPTIONS",
     "GUARD_UNITS",
     "HELD_VARIANTS",
     "MOBILITY",
@@ -726,6 +727,8 @@ GUARDS: Final[tuple[tuple[str, str], ...]] = (('upper_arm_reach_squared',
  ('cos_camber_squared', 'the wheel lies flat on the road'),
  ('pivot_arm_angle', 'the mass matrix is not positive definite at arm_angle'))
 
+ASSUMPTIONS: Final[tuple[tuple[str, str, str, str], ...]] = ()
+
 GUARD_UNITS: Final[dict[str, str]] = {'upper_arm_reach_squared': 'm^2',
  'upper_arm_closure': 'm^2',
  'knuckle_reach_squared': 'm^2',
@@ -744,7 +747,7 @@ LOOPS: Final[tuple[tuple[str, ...], ...]] = (('chassis', 'lower_arm', 'knuckle',
 
 _model = CompiledModel(
     NAME, PARAMETERS, STATE, INPUTS, CONSTANTS, GUARDS, RELATIVE_COORDINATES, _double_wishbone.ADDRESSES,
-    GUARD_UNITS,
+    GUARD_UNITS, ASSUMPTIONS,
 )
 prepare = _model.prepare
 ADDRESSES: Final[dict[str, int]] = _model.addresses

@@ -82,6 +82,7 @@ __all__ = [
     "MASSIVE_BODIES",
     "CONSTANTS",
     "GUARDS",
+    "ASSUMPTIONS",
     "GUARD_UNITS",
     "HELD_VARIANTS",
     "MOBILITY",
@@ -545,6 +546,8 @@ GUARDS: Final[tuple[tuple[str, str], ...]] = (('boom_barrel_extension',
  ('pivot_arm_stroke', 'the mass matrix is not positive definite at arm_stroke'),
  ('pivot_bucket_stroke', 'the mass matrix is not positive definite at bucket_stroke'))
 
+ASSUMPTIONS: Final[tuple[tuple[str, str, str, str], ...]] = ()
+
 GUARD_UNITS: Final[dict[str, str]] = {'boom_barrel_extension': 'm',
  'boom_closure': 'm^2',
  'arm_barrel_extension': 'm',
@@ -570,7 +573,7 @@ LOOPS: Final[tuple[tuple[str, ...], ...]] = (('chassis', 'boom_barrel', 'boom_ro
 
 _model = CompiledModel(
     NAME, PARAMETERS, STATE, INPUTS, CONSTANTS, GUARDS, RELATIVE_COORDINATES, _excavator.ADDRESSES,
-    GUARD_UNITS,
+    GUARD_UNITS, ASSUMPTIONS,
 )
 prepare = _model.prepare
 ADDRESSES: Final[dict[str, int]] = _model.addresses

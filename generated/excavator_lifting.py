@@ -88,6 +88,7 @@ __all__ = [
     "MASSIVE_BODIES",
     "CONSTANTS",
     "GUARDS",
+    "ASSUMPTIONS",
     "GUARD_UNITS",
     "HELD_VARIANTS",
     "MOBILITY",
@@ -550,6 +551,8 @@ GUARDS: Final[tuple[tuple[str, str], ...]] = (('boom_barrel_extension',
   'the loop arm - rocker - link - bucket cannot close: the rod link cannot reach bucket, beyond '
   'its dead point'))
 
+ASSUMPTIONS: Final[tuple[tuple[str, str, str, str], ...]] = ()
+
 GUARD_UNITS: Final[dict[str, str]] = {'boom_barrel_extension': 'm',
  'boom_closure': 'm^2',
  'arm_barrel_extension': 'm',
@@ -577,7 +580,7 @@ LOOPS: Final[tuple[tuple[str, ...], ...]] = (('chassis', 'boom_barrel', 'boom_ro
 
 _model = CompiledModel(
     NAME, PARAMETERS, STATE, INPUTS, CONSTANTS, GUARDS, RELATIVE_COORDINATES, _excavator_lifting.ADDRESSES,
-    GUARD_UNITS,
+    GUARD_UNITS, ASSUMPTIONS,
 )
 prepare = _model.prepare
 ADDRESSES: Final[dict[str, int]] = _model.addresses

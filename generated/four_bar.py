@@ -87,6 +87,7 @@ __all__ = [
     "MASSIVE_BODIES",
     "CONSTANTS",
     "GUARDS",
+    "ASSUMPTIONS",
     "GUARD_UNITS",
     "HELD_VARIANTS",
     "MOBILITY",
@@ -252,6 +253,8 @@ GUARDS: Final[tuple[tuple[str, str], ...]] = (('rocker_reach_squared',
  ('spring_length_squared', 'the ends of spring coincide'),
  ('pivot_crank_angle', 'the mass matrix is not positive definite at crank_angle'))
 
+ASSUMPTIONS: Final[tuple[tuple[str, str, str, str], ...]] = ()
+
 GUARD_UNITS: Final[dict[str, str]] = {'rocker_reach_squared': 'm^2',
  'rocker_closure': 'm^2',
  'spring_length_squared': 'm^2',
@@ -265,7 +268,7 @@ LOOPS: Final[tuple[tuple[str, ...], ...]] = (('ground', 'crank', 'coupler', 'roc
 
 _model = CompiledModel(
     NAME, PARAMETERS, STATE, INPUTS, CONSTANTS, GUARDS, RELATIVE_COORDINATES, _four_bar.ADDRESSES,
-    GUARD_UNITS,
+    GUARD_UNITS, ASSUMPTIONS,
 )
 prepare = _model.prepare
 ADDRESSES: Final[dict[str, int]] = _model.addresses

@@ -93,6 +93,7 @@ __all__ = [
     "MASSIVE_BODIES",
     "CONSTANTS",
     "GUARDS",
+    "ASSUMPTIONS",
     "GUARD_UNITS",
     "HELD_VARIANTS",
     "MOBILITY",
@@ -953,6 +954,8 @@ GUARDS: Final[tuple[tuple[str, str], ...]] = (('right_bar_reach_squared',
  ('shaft_level_squared_left_C',
   'the shaft at universal joint left_C is vertical: its azimuth is undefined'))
 
+ASSUMPTIONS: Final[tuple[tuple[str, str, str, str], ...]] = ()
+
 GUARD_UNITS: Final[dict[str, str]] = {'right_bar_reach_squared': 'm^2',
  'right_bar_closure': 'm^2',
  'right_drop_link_cross_squared': '1',
@@ -989,7 +992,7 @@ LOOPS: Final[tuple[tuple[str, ...], ...]] = (('chassis', 'right_bar', 'right_dro
 
 _model = CompiledModel(
     NAME, PARAMETERS, STATE, INPUTS, CONSTANTS, GUARDS, RELATIVE_COORDINATES, _front_axle.ADDRESSES,
-    GUARD_UNITS,
+    GUARD_UNITS, ASSUMPTIONS,
 )
 prepare = _model.prepare
 ADDRESSES: Final[dict[str, int]] = _model.addresses

@@ -87,6 +87,7 @@ __all__ = [
     "MASSIVE_BODIES",
     "CONSTANTS",
     "GUARDS",
+    "ASSUMPTIONS",
     "GUARD_UNITS",
     "HELD_VARIANTS",
     "MOBILITY",
@@ -674,6 +675,8 @@ GUARDS: Final[tuple[tuple[str, str], ...]] = (('length_squared_BC',
  ('shaft_level_squared_E',
   'the shaft at universal joint E is vertical: its azimuth is undefined'))
 
+ASSUMPTIONS: Final[tuple[tuple[str, str, str, str], ...]] = ()
+
 GUARD_UNITS: Final[dict[str, str]] = {'length_squared_BC': 'm^2',
  'upper_strut_cross_squared': '1',
  'knuckle_reach_squared': 'm^2',
@@ -694,7 +697,7 @@ LOOPS: Final[tuple[tuple[str, ...], ...]] = (('chassis', 'control_arm', 'knuckle
 
 _model = CompiledModel(
     NAME, PARAMETERS, STATE, INPUTS, CONSTANTS, GUARDS, RELATIVE_COORDINATES, _macpherson_free_rack.ADDRESSES,
-    GUARD_UNITS,
+    GUARD_UNITS, ASSUMPTIONS,
 )
 prepare = _model.prepare
 ADDRESSES: Final[dict[str, int]] = _model.addresses

@@ -91,6 +91,7 @@ __all__ = [
     "MASSIVE_BODIES",
     "CONSTANTS",
     "GUARDS",
+    "ASSUMPTIONS",
     "GUARD_UNITS",
     "HELD_VARIANTS",
     "MOBILITY",
@@ -982,6 +983,8 @@ GUARDS: Final[tuple[tuple[str, str], ...]] = (('length_squared_BC',
  ('shaft_level_squared_C',
   'the shaft at universal joint C is vertical: its azimuth is undefined'))
 
+ASSUMPTIONS: Final[tuple[tuple[str, str, str, str], ...]] = ()
+
 GUARD_UNITS: Final[dict[str, str]] = {'length_squared_BC': 'm^2',
  'knuckle_reach_squared': 'm^4',
  'knuckle_closure': 'm^2',
@@ -1002,7 +1005,7 @@ LOOPS: Final[tuple[tuple[str, ...], ...]] = (('chassis', 'control_arm', 'knuckle
 
 _model = CompiledModel(
     NAME, PARAMETERS, STATE, INPUTS, CONSTANTS, GUARDS, RELATIVE_COORDINATES, _macpherson_general.ADDRESSES,
-    GUARD_UNITS,
+    GUARD_UNITS, ASSUMPTIONS,
 )
 prepare = _model.prepare
 ADDRESSES: Final[dict[str, int]] = _model.addresses

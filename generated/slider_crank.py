@@ -81,6 +81,7 @@ __all__ = [
     "MASSIVE_BODIES",
     "CONSTANTS",
     "GUARDS",
+    "ASSUMPTIONS",
     "GUARD_UNITS",
     "HELD_VARIANTS",
     "MOBILITY",
@@ -204,6 +205,8 @@ GUARDS: Final[tuple[tuple[str, str], ...]] = (('piston_closure',
   'guide of piston'),
  ('pivot_crank_angle', 'the mass matrix is not positive definite at crank_angle'))
 
+ASSUMPTIONS: Final[tuple[tuple[str, str, str, str], ...]] = ()
+
 GUARD_UNITS: Final[dict[str, str]] = {'piston_closure': 'm^2', 'pivot_crank_angle': 'kg m^2 or kg'}
 
 HELD_VARIANTS: Final[dict[str, tuple[str, ...]]] = {}
@@ -214,7 +217,7 @@ LOOPS: Final[tuple[tuple[str, ...], ...]] = (('ground', 'crank', 'rod', 'piston'
 
 _model = CompiledModel(
     NAME, PARAMETERS, STATE, INPUTS, CONSTANTS, GUARDS, RELATIVE_COORDINATES, _slider_crank.ADDRESSES,
-    GUARD_UNITS,
+    GUARD_UNITS, ASSUMPTIONS,
 )
 prepare = _model.prepare
 ADDRESSES: Final[dict[str, int]] = _model.addresses

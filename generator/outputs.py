@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from .arithmetic import SignOf
+from .assumptions import Assumption, assume
 from .checks import DeclarationError, check_symbols
 from .dynamics import Dynamics
 from .forces import ForceElement, JointForce, LinearTyre
@@ -54,6 +55,8 @@ class GeneratedModel:
         The emitted functions by name; `prepare` computes the constants that the others read.
     guards
         All guards of the model; the bit of a guard in a status word is its position here.
+    assumptions
+        What the constants of a parameter set must fulfil.
     moving_bodies, massive_bodies
         Names in the order of the arrays of poses and of Jacobians.
     signals
@@ -69,6 +72,7 @@ class GeneratedModel:
     functions: dict[str, Function]
     prepare: Function
     guards: tuple[Guard, ...]
+    assumptions: tuple[Assumption, ...]
     moving_bodies: tuple[str, ...]
     massive_bodies: tuple[str, ...]
     signals: tuple[Entry, ...]
@@ -129,7 +133,8 @@ class _Builder:
             {g.name: g.quantity for g in guards},
         )
         self.functions["margins"] = replace(margins, guards=())  # it reports, and does not refuse
-        prepare = self.constants.function(self.functions.values())
+        assumptions = assume(self.program, self.plan)
+        prepare = self.constants.function(self.functions.values(), assumptions)
         self._check_symbols(prepare)
         return GeneratedModel(
             model=self.model,
@@ -141,6 +146,7 @@ class _Builder:
             functions=self.functions,
             prepare=prepare,
             guards=guards,
+            assumptions=assumptions,
             moving_bodies=self.moving,
             massive_bodies=self.massive,
             signals=tuple(self.signals),

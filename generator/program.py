@@ -24,6 +24,7 @@ from .vectors import Vector
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
+    from .assumptions import Assumption
     from .iteration import Block
 
 
@@ -203,9 +204,16 @@ class ConstantStage:
             f"constant_{self._collected}", expression, "constants collected from the equations"
         )
 
-    def function(self, functions: Iterable[Function]) -> Function:
-        """Return the parameter stage: all constants that some functions read."""
+    def function(
+        self, functions: Iterable[Function], assumptions: Iterable[Assumption] = ()
+    ) -> Function:
+        """Return the parameter stage: all constants that some functions read or that must be zero.
+
+        What must be zero is computed like any constant, so that an error can say by how much it is
+        not.
+        """
         used = set().union(*(f.free_symbols for f in functions))
+        used = used.union(*(a.quantity.free_symbols | a.scale.free_symbols for a in assumptions))
         results = [s for s in (*self.parameters, *self.steps) if s in used]
         needed = ancestors(self.steps, results)
         return Function(

@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..arithmetic import NUMPY, write
+from ..assumptions import ROUNDING
 from ..iteration import CONVERGED, ITERATIONS
 from .c import GUARD_FLOOR, CPrinter, blocks_of
 from .python import template
@@ -35,6 +36,7 @@ class ArraysPrinter:
         return template("arrays.py").substitute(
             name=self.model.model.name,
             floor=GUARD_FLOOR,
+            rounding=ROUNDING,
             functions="\n\n\n".join(
                 [
                     *map(_block, blocks_of(self.model.functions.values())),
@@ -47,7 +49,11 @@ class ArraysPrinter:
 
     def _prepare(self) -> str:
         loads = _loads("parameters", [e.name for e in self.model.parameters], self.model.prepare)
-        return _definition(self.model.prepare, "parameters", loads, [])
+        holds = [
+            f"{place}: abs({a.quantity}) <= ROUNDING{'' if a.scale == 1 else f' * {a.scale}'}"
+            for place, a in enumerate(self.model.assumptions)
+        ]
+        return _definition(self.model.prepare, "parameters", loads, holds)
 
     def _body(self, function: Function) -> str:
         loads = [

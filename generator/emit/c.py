@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..arithmetic import OPERATIONS, Iterated
+from ..assumptions import ROUNDING
 from ..iteration import CONVERGED, ITERATIONS
 
 if TYPE_CHECKING:
@@ -203,11 +204,30 @@ class CPrinter:
     def _prototypes(self) -> list[str]:
         prepare = (
             "/*\n * Compute the constants of one parameter set.\n"
-            " * Returns 0, or one plus the index of the first constant that is not finite.\n */\n"
+            f"{self._prepare_returns()} */\n"
             f"int {self.prefix}_prepare(const double *restrict parameters, "
             "double *restrict constants);"
         )
         return [prepare, *(self._prototype(f) for f in self.model.functions.values())]
+
+    def _prepare_returns(self) -> str:
+        first = " * Returns 0, or one plus the index of the first constant that is not finite"
+        if not self.model.assumptions:
+            return f"{first}.\n"
+        count = f"{self.upper}_CONSTANT_COUNT"
+        names = [f" *   {a.quantity}: {a.meaning}" for a in self.model.assumptions]
+        return "\n".join(
+            [
+                f"{first},",
+                f" * or {count} plus the number of the first that should be zero and is not:",
+                *(
+                    line
+                    for name in names
+                    for line in textwrap.wrap(name, WIDTH, subsequent_indent=" *       ")
+                ),
+                "",
+            ]
+        )
 
     def _prototype(self, function: Function) -> str:
         shape = " x ".join(str(n) for n in function.shape)
@@ -253,10 +273,18 @@ class CPrinter:
             AT_LEAST,
             NOT_FINITE,
             *self._blocks(blocks_of(functions)),
-            *([] if part else [self._prepare_body()]),
+            *([] if part else [*self._rounding(), self._prepare_body()]),
             *(self._body(f) for f in functions),
         ]
         return "\n\n".join(blocks) + "\n"
+
+    def _rounding(self) -> list[str]:
+        if not self.model.assumptions:
+            return []
+        comment = (
+            "/* What is still zero: of an angle in rad, of a distance as a part of a length. */"
+        )
+        return [f"{comment}\n#define ROUNDING {ROUNDING}"]
 
     def _blocks(self, blocks: Sequence[Block]) -> list[str]:
         if not blocks:
@@ -328,10 +356,23 @@ class CPrinter:
             "            return i + 1;",
             "        }",
             "    }",
+            *self._assumptions(),
             "    return 0;",
             "}",
         ]
         return "\n".join(lines)
+
+    def _assumptions(self) -> list[str]:
+        """Return the checks of what must be zero."""
+        lines = []
+        for number, assumption in enumerate(self.model.assumptions, 1):
+            size = "" if assumption.scale == 1 else f" * {assumption.scale}"
+            lines += [
+                f"    if (fabs({assumption.quantity}) > ROUNDING{size}) {{",
+                f"        return {self.upper}_CONSTANT_COUNT + {number};",
+                "    }",
+            ]
+        return lines
 
     def _body(self, function: Function) -> str:
         read = {s.name for s in function.free_symbols}

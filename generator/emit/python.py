@@ -167,6 +167,10 @@ class PythonPrinter:
                 "tuple[tuple[str, str], ...]",
                 tuple((g.name, g.meaning) for g in model.guards),
             ),
+            "ASSUMPTIONS": (
+                "tuple[tuple[str, str, str, str], ...]",
+                tuple((str(a.quantity), a.unit, a.meaning, a.remedy) for a in model.assumptions),
+            ),
             "GUARD_UNITS": ("dict[str, str]", {g.name: g.unit for g in model.guards}),
             "HELD_VARIANTS": ("dict[str, tuple[str, ...]]", model.held_inputs),
             "MOBILITY": ("int", topology.mobility),

@@ -17,6 +17,7 @@ from ..actions import (
     SolveTogether,
 )
 from ..arithmetic import OPERATIONS
+from ..assumptions import ROUNDING
 from ..iteration import ITERATIONS
 from .c import iteration_note, mechanism_hash
 
@@ -264,6 +265,7 @@ def markdown(model: GeneratedModel) -> str:
             ("quantity, positive where valid", "unit", "meaning when it is not"),
             [(f"`{g.name}`", g.unit, g.meaning) for g in model.guards],
         ),
+        *_assumptions(model),
     ]
     return "\n\n".join(sections) + "\n"
 
@@ -290,6 +292,21 @@ def _transformer_sections(model: GeneratedModel) -> list[str]:
             ),
         ]
     return sections
+
+
+def _assumptions(model: GeneratedModel) -> list[str]:
+    if not model.assumptions:
+        return []
+    return [
+        (
+            "Parameters are refused for which one of these is not zero (an angle by its sine; to "
+            f"{ROUNDING}, of a distance relative to a length):"
+        ),
+        table(
+            ("quantity", "unit", "meaning when it is not zero"),
+            [(f"`{a.quantity}`", a.unit, a.meaning) for a in model.assumptions],
+        ),
+    ]
 
 
 def _counts(model: GeneratedModel) -> str:
