@@ -20,7 +20,7 @@ from .evaluation import AtDefaults
 from .joints import Prismatic, Revolute, Universal
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from .actions import Action
     from .geometry import Line, Point
@@ -63,8 +63,8 @@ class Assumption:
     remedy: str
 
 
-def assume(program: Program, plan: Plan) -> tuple[Assumption, ...]:
-    """Append the quantities that must be zero as constants, and return them as such.
+def find_assumptions(plan: Plan) -> list[Assumption]:
+    """Return what must be zero and is not zero by declaration.
 
     Raises
     ------
@@ -73,9 +73,14 @@ def assume(program: Program, plan: Plan) -> tuple[Assumption, ...]:
     """
     found = [a for a in _assumptions(plan) if a.quantity != 0]
     _check_defaults(plan.model, found)
+    return found
+
+
+def define_assumptions(program: Program, assumed: Iterable[Assumption]) -> tuple[Assumption, ...]:
+    """Append what must be zero as constants, and return it in their names."""
     program.section("what must be zero")
     named: dict[sp.Expr, Assumption] = {}
-    for assumption in found:
+    for assumption in assumed:
         quantity = program.define(assumption.name, assumption.quantity)
         if quantity.could_extract_minus_sign():  # defined before, with the other sign
             quantity = -quantity

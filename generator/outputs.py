@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from .arithmetic import SignOf
-from .assumptions import Assumption, assume
+from .assumptions import Assumption, define_assumptions, find_assumptions
 from .checks import DeclarationError, check_symbols
 from .dynamics import Dynamics
 from .forces import ForceElement, JointForce, LinearTyre
@@ -91,6 +91,7 @@ class _Builder:
         self.model = model
         self.mechanism: Mechanism = model.mechanism
         self.plan = Plan.of(model)
+        self.assumed = find_assumptions(self.plan)
         self.constants = ConstantStage(
             tuple(sp.Symbol(p.name) for p in self.mechanism.parameters),
             self._varying_names(),
@@ -133,8 +134,8 @@ class _Builder:
             {g.name: g.quantity for g in guards},
         )
         self.functions["margins"] = replace(margins, guards=())  # it reports, and does not refuse
-        assumptions = assume(self.program, self.plan)
-        prepare = self.constants.function(self.functions.values(), assumptions)
+        assumed = define_assumptions(self.program, self.assumed)
+        prepare = self.constants.function(self.functions.values(), assumed)
         self._check_symbols(prepare)
         return GeneratedModel(
             model=self.model,
@@ -146,7 +147,7 @@ class _Builder:
             functions=self.functions,
             prepare=prepare,
             guards=guards,
-            assumptions=assumptions,
+            assumptions=assumed,
             moving_bodies=self.moving,
             massive_bodies=self.massive,
             signals=tuple(self.signals),

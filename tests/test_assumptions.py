@@ -1,0 +1,375 @@
+"""What the equations take for granted of the geometry: refused where it does not hold.
+
+Each case changes one number by which a plane is left, a shaft misses its rod or a rotor its
+bearing. The amounts that the messages name are computed here from the numbers of the case.
+"""
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from kintrafo.generated._support import ParameterError
+from kintrafo.generator.checks import DeclarationError
+from kintrafo.generator.geometry import Direction, Line, Point
+from kintrafo.generator.joints import Joint, Prismatic, Revolute, Universal
+from kintrafo.generator.mechanism import Body, Mechanism, Model, RelativeCoordinate
+from kintrafo.generator.outputs import generate
+from kintrafo.generator.parameters import direction, point, rigid_body, rotor
+from kintrafo.own.build import build
+from kintrafo.own.compiler import find_compiler
+from kintrafo.own.loader import load
+from own_mechanisms import NORMAL, askew, ball, cross, guide, heading, hinge
+from own_models import Built
+
+Place = tuple[float, float, float]
+Make = Callable[[Model], list[Any]]
+
+
+@pytest.fixture
+def make(tmp_path: Path) -> Make:
+    """Return what builds a model over NumPy arrays, and as C where there is a compiler."""
+
+    def built(model: Model) -> list[Any]:
+        derived, found = generate(model), find_compiler()
+        modules = []
+        compilers = {"numpy": None} | ({"c": found} if found else {})
+        for name, compiler in compilers.items():
+            folder = tmp_path / f"{model.name}-{name}{tmp_path.name}"
+            folder.mkdir()
+            build(derived, folder, compiler)
+            modules.append(load(folder))
+        return modules
+
+    return built
+
+
+def numbers(model: Model) -> dict[str, float]:
+    """Return the default parameters."""
+    return {p.name: p.default for p in model.mechanism.parameters}
+
+
+def moved(values: Mapping[str, float], name: str, by: Any) -> dict[str, float]:
+    """Return parameters with a vector added to a point or a direction."""
+    return dict(values) | {
+        f"{name}_{axis}": values[f"{name}_{axis}"] + float(step)
+        for axis, step in zip("xyz", by, strict=True)
+    }
+
+
+def vector(values: Mapping[str, float], name: str) -> Any:
+    return np.array([values[f"{name}_{axis}"] for axis in "xyz"])
+
+
+def unit(v: Any) -> Any:
+    return np.asarray(v) / np.linalg.norm(v)
+
+
+def accepted(modules: list[Any], values: Mapping[str, float]) -> None:
+    """See that parameters are taken by all builds of a model."""
+    for module in modules:
+        module.prepare(values)
+
+
+def refusal(modules: list[Any], values: Mapping[str, float]) -> str:
+    """Return what `prepare` says about parameters that it refuses, the same in all builds."""
+    said = set()
+    for module in modules:
+        with pytest.raises(ParameterError) as caught:
+            module.prepare(values)
+        said.add(str(caught.value))
+    (text,) = said
+    return text
+
+
+def amount(text: str, unit: str) -> float:
+    """Return the number in front of a unit in a message."""
+    found = re.search(rf"off by (\S+) {unit}", text)
+    assert found is not None, text
+    return float(found[1])
+
+
+def with_joint(model: Model, joint: Joint) -> Model:
+    """Return a model with another joint of the same name."""
+    mechanism = model.mechanism
+    joints = tuple(joint if j.name == joint.name else j for j in mechanism.joints)
+    return replace(model, mechanism=replace(mechanism, joints=joints))
+
+
+def with_points(model: Model, **places: Place) -> Model:
+    """Return a model with more points among its parameters."""
+    mechanism = model.mechanism
+    added = tuple(entry for n, place in places.items() for entry in point(n, place, n))
+    return replace(model, mechanism=replace(mechanism, parameters=(*mechanism.parameters, *added)))
+
+
+def with_defaults(model: Model, values: Mapping[str, float]) -> Model:
+    """Return a model with other default parameters."""
+    mechanism = model.mechanism
+    parameters = tuple(replace(p, default=values[p.name]) for p in mechanism.parameters)
+    return replace(model, mechanism=replace(mechanism, parameters=parameters))
+
+
+def declared(
+    name: str,
+    joints: tuple[Joint, ...],
+    points: Mapping[str, Place],
+    directions: Mapping[str, Place],
+    independent: tuple[str, ...],
+) -> Model:
+    """Return a model of the bodies that some joints connect, each with its centre of mass."""
+    names = dict.fromkeys(body for joint in joints for body in joint.bodies if body != "ground")
+    coordinates = (
+        RelativeCoordinate(f"{j.name}_{j.coordinates[0]}", j.name, j.coordinates[0], "1", j.name)
+        for j in joints
+        if isinstance(j, Revolute | Prismatic)
+    )
+    mechanism = Mechanism(
+        name=name,
+        title=name,
+        bodies=(
+            Body("ground", 0, center=Point(next(iter(points)))),
+            *(Body(body, i, center=Point(f"{body}_com")) for i, body in enumerate(names, 1)),
+        ),
+        joints=joints,
+        forces=(),
+        parameters=(
+            *(entry for n, place in points.items() for entry in point(n, place, n)),
+            *(entry for n, along in directions.items() for entry in direction(n, along, n)),
+            *(entry for n in names for entry in rigid_body(n, 1.0, (0.1, 0.2, 0.1), (1.0,) * 3)),
+        ),
+        coordinates=tuple(coordinates),
+    )
+    return Model(name, name, mechanism, independent=independent, massive=tuple(names))
+
+
+# -- guides and the plane of their loop -----------------------------------------------------------
+
+SLIDER_CRANK = declared(
+    "oblique",
+    (
+        hinge("drive", "ground", "crank", "crank_bearing", "normal"),
+        hinge("knee", "crank", "rod", "crank_pin", "normal"),
+        hinge("wrist", "piston", "rod", "piston_pin", "normal"),
+        guide("way", "ground", "piston", "way_axis"),
+    ),
+    {
+        "crank_bearing": askew(0.0, 0.0, 0.05),
+        "crank_pin": askew(0.0, 0.1, -0.02),
+        "piston_pin": askew(0.3, 0.02, 0.03),
+    },
+    {"normal": NORMAL, "way_axis": heading(0.2)},
+    ("drive",),
+)
+
+
+def test_a_guide_that_leaves_the_plane_of_its_loop_is_refused(make: Make) -> None:
+    modules, values = make(SLIDER_CRANK), numbers(SLIDER_CRANK)
+    length = np.linalg.norm(vector(values, "way_axis"))
+    for degrees in (-40.0, 1e-3, 1e-6, 0.0573):
+        lean = length * np.tan(np.radians(degrees)) * unit(NORMAL)
+        text = refusal(modules, moved(values, "way_axis", lean))
+        assert "ground - crank - rod - piston" in text
+        assert "guide way is not across the hinge drive" in text
+        assert "turn the direction way_axis" in text
+        assert amount(text, "degrees") == pytest.approx(abs(degrees), rel=5e-3)  # three digits
+
+
+def test_rounding_of_a_direction_is_no_error(make: Make) -> None:
+    modules, values = make(SLIDER_CRANK), numbers(SLIDER_CRANK)
+    for factor in (1e-9, 1.0 / 3.0, 1e9):  # a direction may have any length
+        scaled = {k: factor * v if k.startswith("way_axis") else v for k, v in values.items()}
+        accepted(modules, scaled)
+    accepted(modules, moved(values, "way_axis", 1e-11 * np.array(NORMAL)))
+    # nor are points far from the origin, where their coordinates have fewer digits
+    far = dict(values)
+    for name in ("crank_bearing", "crank_pin", "piston_pin", "crank_com", "rod_com", "piston_com"):
+        far = moved(far, name, (1e4, -2e4, 3e3))
+    accepted(modules, far)
+
+
+def test_equations_do_not_read_what_must_be_zero() -> None:
+    model = generate(SLIDER_CRANK)
+    (assumption,) = model.assumptions
+    assert str(assumption.quantity) in model.prepare.labels
+    for function in model.functions.values():
+        assert assumption.quantity not in function.free_symbols
+
+
+def crane(*, reverse: bool = False) -> Model:
+    """Return a boom and a cylinder in an oblique plane; the guide is declared from pin to pin."""
+    pins = Point("piston_pin"), Point("barrel_pin")
+    between = Direction("bore_line", between=pins[::-1] if reverse else pins)
+    return declared(
+        "crane",
+        (
+            hinge("foot", "ground", "barrel", "barrel_pin", "normal"),
+            Prismatic(name="bore", first="piston", second="barrel", direction=between),
+            hinge("head", "piston", "boom", "piston_pin", "normal"),
+            hinge("pivot", "ground", "boom", "boom_bearing", "normal"),
+        ),
+        {
+            "boom_bearing": askew(0.0, 0.0, 0.05),
+            "barrel_pin": askew(0.3, -0.05, 0.02),
+            "piston_pin": askew(0.12, 0.25, 0.02),
+        },
+        {"normal": NORMAL},
+        ("pivot",),
+    )
+
+
+def test_pins_of_a_cylinder_at_different_places_along_their_hinges_are_refused(
+    make: Make,
+) -> None:
+    model = crane()
+    modules, values = make(model), numbers(model)
+    span = vector(values, "piston_pin") - vector(values, "barrel_pin")
+    beside = moved(values, "piston_pin", 0.05 * unit(NORMAL))
+    text = refusal(modules, beside)
+    assert "guide bore is not across the hinge" in text
+    assert "move piston_pin or barrel_pin along the hinge" in text
+    angle = np.degrees(np.arctan2(0.05, np.linalg.norm(span)))
+    assert amount(text, "degrees") == pytest.approx(angle, rel=5e-3)
+    # what the message says to do: the other pin along its hinge as well
+    both = moved(beside, "barrel_pin", 0.05 * unit(NORMAL))
+    for module in modules:
+        built = Built.of(model, module, both)
+        motion = built.motion(np.array([0.1, 0.7]), np.zeros(0))
+        # rounding of lengths below 1 m
+        np.testing.assert_allclose(built.oracle.closure(motion).value, 0.0, atol=1e-14)
+
+
+@pytest.mark.parametrize("reverse", [False, True])
+def test_defaults_that_leave_the_plane_are_refused_before_anything_is_compiled(
+    *, reverse: bool
+) -> None:
+    model = crane(reverse=reverse)
+    beside = moved(numbers(model), "barrel_pin", 0.05 * unit(NORMAL))
+    with pytest.raises(DeclarationError, match="guide bore is not across the hinge"):
+        generate(with_defaults(model, beside))
+
+
+# -- shafts of crosses ----------------------------------------------------------------------------
+
+
+def spatial_four_bar(*, cross_at_rocker: bool) -> Model:
+    """Return hinge - rod - hinge on skew axes; the rod's cross at either of its ends."""
+    if cross_at_rocker:
+        rod = (
+            ball("pin", "crank", "rod", "crank_end"),
+            cross("cross", "rocker", "rod", "rocker_end", "crank_end", "cross_axis"),
+        )
+    else:
+        rod = (
+            cross("cross", "crank", "rod", "crank_end", "rocker_end", "cross_axis"),
+            ball("pin", "rod", "rocker", "rocker_end"),
+        )
+    return declared(
+        "bent",
+        (
+            hinge("drive", "ground", "crank", "crank_bearing", "crank_line"),
+            *rod,
+            hinge("pivot", "ground", "rocker", "rocker_bearing", "rocker_line"),
+        ),
+        {
+            "crank_bearing": (0.0, 0.0, 0.0),
+            "crank_end": (0.03, 0.14, 0.05),
+            "rocker_bearing": (0.45, 0.02, 0.1),
+            "rocker_end": (0.4, 0.2, 0.3),
+        },
+        {
+            "crank_line": (0.9, -0.2, 0.3),
+            "rocker_line": (0.3, 1.1, -0.5),
+            "cross_axis": (0.2, -0.4, 1.0),
+        },
+        ("drive",),
+    )
+
+
+@pytest.mark.parametrize("at_rocker", [False, True])
+def test_a_shaft_that_is_not_the_line_of_its_rod_is_refused(make: Make, *, at_rocker: bool) -> None:
+    model = spatial_four_bar(cross_at_rocker=at_rocker)
+    declared_cross = model.mechanism.joint("cross")
+    assert isinstance(declared_cross, Universal)
+    values = numbers(model)
+    near, far = ("rocker_end", "crank_end") if at_rocker else ("crank_end", "rocker_end")
+    along = vector(values, far) - vector(values, near)
+    beyond = tuple((vector(values, near) + 1.3 * along).tolist())
+    bent = replace(declared_cross, shaft=Line(Point(near), Point("knee")))
+    model = with_joint(with_points(model, knee=beyond), bent)
+    modules, values = make(model), numbers(model)  # on the line, if not at the pin: accepted
+    across = 0.02 * unit(np.cross(along, (0.3, 0.5, -0.2)))
+    text = refusal(modules, moved(values, "knee", across))
+    assert f"shaft of universal joint cross must be the line of rod, but misses its end {far}" in (
+        text
+    )
+    assert f"declare the shaft from {near} to {far}" in text
+    # of a triangle: the distance of the end from the line to the knee
+    knee = 1.3 * along + across
+    beside = np.linalg.norm(along - unit(knee) * (along @ unit(knee)))
+    assert amount(text, "mm") == pytest.approx(1e3 * beside, rel=5e-3)
+
+
+# -- rotors ---------------------------------------------------------------------------------------
+
+
+def fan(*, axis: Place = (0.3, 0.9, -0.2), center: Place = (0.1, 0.2, 0.3)) -> Model:
+    """Return a rotor in a bearing on an arm; the axis and the centre of the rotor are free."""
+    line = (0.3, 0.9, -0.2)
+    return Model(
+        "fan",
+        "Fan",
+        Mechanism(
+            name="fan",
+            title="Fan",
+            bodies=(
+                Body("ground", 0, center=Point("foot")),
+                Body("arm", 1, center=Point("arm_com")),
+                Body("blades", 2, center=Point("blades_com"), rotor_axis=Direction("blades_axis")),
+            ),
+            joints=(
+                hinge("swing", "ground", "arm", "foot", "swing_line"),
+                hinge("spin", "arm", "blades", "bearing", "spin_line"),
+            ),
+            forces=(),
+            parameters=(
+                *point("foot", (0.0, 0.0, 0.0), "foot"),
+                *point("bearing", (0.1, 0.2, 0.3), "bearing"),
+                *direction("swing_line", (1.0, 0.2, 0.1), "swing"),
+                *direction("spin_line", line, "spin"),
+                *direction("blades_axis", axis, "axis"),
+                *rigid_body("arm", 1.0, (0.05, 0.1, 0.1), (0.01, 0.01, 0.01)),
+                *point("blades_com", center, "centre"),
+                *rotor("blades", 1.5, 0.03, 0.02),
+            ),
+            coordinates=tuple(
+                RelativeCoordinate(f"{name}_angle", name, "angle", "rad", name)
+                for name in ("swing", "spin")
+            ),
+        ),
+        independent=("swing", "spin"),
+        massive=("arm", "blades"),
+    )
+
+
+def test_a_rotor_beside_its_bearing_is_refused(make: Make) -> None:
+    modules, values = make(fan()), numbers(fan())
+    accepted(modules, moved(values, "blades_com", 0.4 * np.array([0.3, 0.9, -0.2])))  # along it
+    across = 0.004 * unit(np.cross((0.3, 0.9, -0.2), (0.0, 0.0, 1.0)))
+    text = refusal(modules, moved(values, "blades_com", across))
+    assert "centre of mass of rotor blades is beside its bearing spin" in text
+    assert amount(text, "mm") == pytest.approx(4.0, rel=1e-6)
+    lean = np.linalg.norm((0.3, 0.9, -0.2)) * np.tan(np.radians(2.0)) * unit(across)
+    text = refusal(modules, moved(values, "blades_axis", lean))
+    assert "axis of rotor blades is not along its bearing spin" in text
+    assert amount(text, "degrees") == pytest.approx(2.0, rel=1e-6)
+
+
+def test_all_that_is_wrong_with_the_defaults_is_told_at_once() -> None:
+    wrong = fan(axis=(0.3, 0.9, 0.0), center=(0.1, 0.2, 0.31))
+    with pytest.raises(DeclarationError) as caught:
+        generate(wrong)
+    assert len(caught.value.problems) == 2
