@@ -12,7 +12,7 @@ import kintrafo
 import numpy as np
 import pytest
 from kintrafo import Model, characteristics, simulate, state_at_height
-from kintrafo.generator.mechanisms import MODELS, multi_link
+from kintrafo.generator.mechanisms import MODELS, chains, multi_link
 from kintrafo.generator.outputs import generate
 from kintrafo.paper import DURATION, SPIN_RATE, START_HEIGHT
 
@@ -51,7 +51,9 @@ def test_right_hand_side_with_the_rack_held(benchmark, name):
     benchmark(module.rhs_rack_held, state, inputs)
 
 
-@pytest.mark.parametrize("model", multi_link.MODELS, ids=lambda model: model.name)
+@pytest.mark.parametrize(
+    "model", [*multi_link.MODELS, *chains.MODELS], ids=lambda model: model.name
+)
 def test_right_hand_side_with_an_iteration(benchmark, model):
     module = kintrafo.compile(model)
     benchmark.extra_info["states"] = BATCH

@@ -19,6 +19,7 @@ from kintrafo.generated._support import ClosureError
 from kintrafo.generator.actions import JointOfTree, SolveTogether
 from kintrafo.generator.coupling import MOST_UNKNOWNS, obstacle
 from kintrafo.generator.emit.report import markdown
+from kintrafo.generator.mechanisms.chains import AXES, BRICARD, PLACES, SEVEN_HINGES
 from kintrafo.generator.mobility import Mobility
 from kintrafo.generator.outputs import GeneratedModel, generate
 from kintrafo.generator.topology import Topology
@@ -42,12 +43,12 @@ if TYPE_CHECKING:
 MODELS = {
     model.name: model
     for model in (
-        own_loops.SEVEN_HINGES,
+        SEVEN_HINGES,
         own_loops.GUIDED_RING,
         own_loops.CROSSED_RING,
         own_loops.BALL_RING,
         own_loops.BENNETT,
-        own_loops.BRICARD,
+        BRICARD,
         own_loops.PLATE_ON_A_SLOT,
         own_loops.PLATE_ON_A_PIN,
         own_loops.ROCKERS,
@@ -157,7 +158,7 @@ def test_motion_is_continuous_over_the_whole_span(
     assert (np.abs(went - expected) <= bend + 1e-5).all()
 
 
-@each(own_loops.SEVEN_HINGES, own_loops.BRICARD, own_loops.PLATE_ON_A_SLOT)
+@each(SEVEN_HINGES, BRICARD, own_loops.PLATE_ON_A_SLOT)
 def test_jacobians_are_exact(
     model: Model,
     built: Callable[[Model], Built],
@@ -206,7 +207,7 @@ def test_bennett(built: Callable[[Model], Built]) -> None:
 @pytest.mark.xdist_group("bricard")
 def test_bricard(built: Callable[[Model], Built]) -> None:
     """Opposite angles of the line-symmetric chain are equal."""
-    compiled = built(own_loops.BRICARD)
+    compiled = built(BRICARD)
     names = list(compiled.module.RELATIVE_COORDINATES)
     turned = compiled("relative_coordinates", path(compiled, 0.05))
     for i in range(3):
@@ -220,8 +221,8 @@ def test_bricard(built: Callable[[Model], Built]) -> None:
 
 def seven_angles(driven: float, before: Array) -> Array:
     """Return the angles of seven hinges that bring a body all around back to the ground."""
-    places = np.array(own_loops.PLACES)
-    axes = np.array(own_loops.AXES)
+    places = np.array(PLACES)
+    axes = np.array(AXES)
     axes /= np.linalg.norm(axes, axis=1, keepdims=True)
 
     def left(rest: Array) -> Array:
@@ -239,7 +240,7 @@ def seven_angles(driven: float, before: Array) -> Array:
 
 @pytest.mark.xdist_group("seven_hinges")
 def test_seven_hinges_are_where_a_root_finder_puts_them(built: Callable[[Model], Built]) -> None:
-    model = own_loops.SEVEN_HINGES
+    model = SEVEN_HINGES
     compiled = built(model)
     for end in SPANS[model.name]:
         angles = np.zeros(6)
@@ -276,7 +277,7 @@ def test_a_chain_that_moves_by_its_dimensions_alone_is_refused_with_others(
     built: Callable[[Model], Built],
 ) -> None:
     """Where Bricard's symmetry is broken, the design position is the only one that closes."""
-    compiled = built(own_loops.BRICARD)
+    compiled = built(BRICARD)
     parameters = dict(compiled.parameters)
     parameters["place_3_x"] += 1e-3
     broken = replace(compiled, parameters=parameters)
@@ -323,8 +324,8 @@ def test_report_names_joints_and_equations(derive: Callable[[Model], GeneratedMo
 @pytest.mark.parametrize(
     ("model", "words"),
     [
-        (own_loops.SEVEN_HINGES, r"Closed at hinge_6, 1 loop\(s\) leave 5 equations for the 5 unk"),
-        (own_loops.BRICARD, r"Closed at hinge_5, 1 loop\(s\) leave 5 equations for the 4 unknown"),
+        (SEVEN_HINGES, r"Closed at hinge_6, 1 loop\(s\) leave 5 equations for the 5 unk"),
+        (BRICARD, r"Closed at hinge_5, 1 loop\(s\) leave 5 equations for the 4 unknown"),
         (own_loops.PLATE_ON_A_PIN, r"at plate_pin, rod, 2 loop\(s\) leave 3 equations for the 3"),
         (own_loops.BALL_RING, r"ball_2, 1 loop\(s\) leave 3 equations for the 3 unknown"),
     ],
@@ -345,7 +346,7 @@ def with_default(model: Model, **changes: float) -> Model:
 
 def test_six_hinges_in_general_cannot_move() -> None:
     """Bricard's chain with another place of a hinge: recognised before anything is derived."""
-    model = with_default(own_loops.BRICARD, place_3_x=-0.25)
+    model = with_default(BRICARD, place_3_x=-0.25)
     with pytest.raises(
         NoClosedFormError, match="they cannot move from the design position"
     ) as told:
@@ -367,7 +368,7 @@ def test_a_dead_point_at_design_is_refused() -> None:
 
 
 def test_too_many_unknowns_are_refused() -> None:
-    mechanism = own_loops.SEVEN_HINGES.mechanism
+    mechanism = SEVEN_HINGES.mechanism
     branch = JointOfTree(mechanism.joint("hinge_1"), "one", "two")
     action = SolveTogether("two", (branch,) * (MOST_UNKNOWNS + 1), (), ())
     told = obstacle(action, Mobility(Topology(mechanism), ("hinge_0",)))
