@@ -5,7 +5,7 @@ Nothing of the project's printers is used: what counts is what the file says.
 
 import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -55,7 +55,11 @@ def sources(model: str) -> list[Path]:
 @cache
 def functions(model: str) -> dict[str, list[str]]:
     """Return the tokens of every function's body, by name without the model's prefix."""
-    texts = (path.read_text(encoding="utf-8") for path in sources(model))
+    return functions_of(model, (path.read_text(encoding="utf-8") for path in sources(model)))
+
+
+def functions_of(model: str, texts: Iterable[str]) -> dict[str, list[str]]:
+    """Return the same of C text that lies in no file."""
     return {name: body for text in texts for name, body in _bodies(model, text).items()}
 
 
