@@ -457,10 +457,10 @@ def test_what_killed_processes_left_is_removed_the_next_day(tmp_path):
     other = tmp_path / ".settings-of-something-else"
     for folder in (old, recent, other):
         folder.mkdir()
+        (folder / "half_written.c").write_text("")
     yesterday = time.time() - 25 * 3600.0
     for folder in (old, other):
         os.utime(folder, (yesterday, yesterday))
-    (old / "half_written.c").write_text("")
     kintrafo.compile(SLIDER_CRANK, backend="numpy", folder=tmp_path)
     assert not old.exists()
     assert recent.exists()
