@@ -148,17 +148,17 @@ def _of_plane(cycle: Cycle) -> Iterator[Assumption]:
             "1",
             f"the equations take the loop {loop} to move in a plane, but the guide {guide.name} is "
             f"not across the hinge {hinge.name}",
-            _into_plane(guide, hinge),
+            _into_plane(guide),
         )
 
 
-def _into_plane(guide: Prismatic, hinge: Revolute) -> str:
+def _into_plane(guide: Prismatic) -> str:
     if guide.direction.between is None:
         return f"turn the direction {guide.direction.name} until it is across that hinge"
     first, second = (point.name for point in guide.direction.between)
     return (
-        f"move {first} or {second} along the hinge {hinge.name} until both are in one plane across "
-        "it, or give the guide a direction of its own"
+        f"move {first} or {second} along the direction of that hinge until both are in one plane "
+        "across it, or give the guide a direction of its own"
     )
 
 

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .evaluation import AtDefaults
+from .joints import Revolute
 from .vectors import ELEMENTS
 
 if TYPE_CHECKING:
@@ -29,7 +31,30 @@ def value_problems(mechanism: Mechanism) -> list[str]:
     if problems:
         return problems
     values = {p.name: p.default for p in mechanism.parameters}
-    return [p for body in mechanism.bodies for p in _body_problems(body, values)]
+    problems = [p for body in mechanism.bodies for p in _body_problems(body, values)]
+    return problems + _angle_problems(mechanism)
+
+
+def _angle_problems(mechanism: Mechanism) -> list[str]:
+    """Find hinges whose angle counts from, or to, what lies along the hinge."""
+    value, problems = AtDefaults(mechanism), []
+    for joint in mechanism.joints:
+        if not isinstance(joint, Revolute) or joint.angle_to is None:
+            continue
+        axis = np.array([value(c) for c in joint.axis.vector])
+        to = joint.angle_to.position - joint.axis.through.position
+        for what, name, along in (
+            ("angle_from", joint.angle_from.name, joint.angle_from.components),
+            ("angle_to", joint.angle_to.name, to),
+        ):
+            other = np.array([value(c) for c in along])
+            if np.linalg.norm(np.cross(axis, other)) <= _ROUNDING * np.linalg.norm(axis):
+                problems.append(
+                    f"joint {joint.name!r}: {what}, which is {name}, lies along the hinge, so that "
+                    "its angle has no beginning or no end; take one beside the hinge, or leave "
+                    "angle_to out, and the angle counts from the design position"
+                )
+    return problems
 
 
 def _body_problems(body: Body, values: dict[str, float]) -> list[str]:

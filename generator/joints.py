@@ -64,7 +64,8 @@ class Revolute(Joint):
         The angle is measured from the projection of a direction fixed in the first body to that of
         a point of the second body, and it lies between 0 and pi at the design position: where the
         axis as declared would make it negative, the axis is taken the other way round. Without
-        ``angle_to`` the angle is zero at the design position and the axis is as declared.
+        ``angle_to`` the angle is zero at the design position, the axis is as declared, and
+        ``angle_from`` means nothing.
     """
 
     axis: Line

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import networkx as nx
@@ -10,7 +11,8 @@ import sympy as sp
 from . import solutions
 from .actions import PlaceByJoint, Solution, SolveTelescope
 from .arithmetic import SignOf
-from .geometry import UP, Direction, Point
+from .evaluation import AtDefaults
+from .geometry import FORWARD, UP, Direction, Point
 from .hinge_angles import HingeDesign
 from .joints import Joint, Prismatic, Revolute
 from .placement import IDENTITY, Axes, OffLine, OnLine, Placed, PointMotion, from_axes, to_axes
@@ -62,6 +64,7 @@ class Kinematics:
         self.plan = plan
         self.model = plan.model
         self.mechanism = plan.model.mechanism
+        self._at_defaults = AtDefaults(self.mechanism)
         self.held = frozenset(held)
         self.bodies = frozenset(plan.topology.graph if bodies is None else bodies)
         self.coordinates = {
@@ -180,7 +183,7 @@ class Kinematics:
         if self._hinge is not None:
             x, z = self._hinge_axes(self._hinge)
             y = self.program.vector("work_y", z.cross(x))
-            if self._hinge.angle_from is UP:  # z leans from up towards x: y stays level
+            if self._hinge.angle_from == UP:  # z leans from up towards x: y stays level
                 y = Vector(y.x, y.y, sp.Integer(0))
             self.work_axes = (x, y, z)
         ground = self.mechanism.ground
@@ -243,7 +246,7 @@ class Kinematics:
 
     def design_direction(self, direction: Direction) -> Vector:
         """Return a unit direction in work axes at the design position."""
-        if direction is UP and self._hinge is not None and self._hinge.angle_from is UP:
+        if direction == UP and self._hinge is not None and self._hinge.angle_from == UP:
             x, _, z = self.work_axes  # y is perpendicular to up by construction
             return Vector(x.z, sp.Integer(0), z.z)
         if direction.fixed is not None:
@@ -429,8 +432,7 @@ class Kinematics:
             local = {joint.angle_to: Vector(ZERO.x, ZERO.y, design.radius)}
         else:
             axis = self.unit(f"{child}_axis_design", self.to_work(joint.axis.vector))
-            reference = self.design_direction(joint.angle_from)
-            z_parent = self.unit(f"{child}_top_design", reference - axis * reference.dot(axis))
+            z_parent = self._beside(joint, child, axis)
             origin, z_child = through, z_parent
             local = {joint.axis.through: ZERO}
         design_axes = (
@@ -450,6 +452,24 @@ class Kinematics:
             "123",
         )
         return _HingeFrame(parent_axes, on_parent, origin, design_axes, local)
+
+    def _beside(self, joint: Revolute, child: str, axis: Vector) -> Vector:
+        """Return any unit vector across a hinge whose angle counts from the design position.
+
+        A chassis axis where that makes the shortest equations; it is far enough from the hinge
+        with the default parameters, and no more is asked of it. Otherwise one without a singular
+        direction of the hinge.
+        """
+        n = [self._at_defaults(component) for component in joint.axis.vector]
+        size = math.hypot(*n)
+        if all(component.is_number for component in joint.axis.vector):
+            reference = FORWARD if abs(n[0]) <= abs(n[2]) else UP
+        elif abs(n[2]) < size / 2:
+            reference = UP
+        else:
+            return self.across(child, axis)[1]
+        v = self.design_direction(reference)
+        return self.unit(f"{child}_top_design", v - axis * v.dot(axis))
 
     def _place_prismatic(self, joint: Prismatic, parent_name: str, child: str) -> None:
         parent = self.placed[parent_name]

@@ -14,11 +14,12 @@ import numpy as np
 import pytest
 from kintrafo.generated._support import ParameterError
 from kintrafo.generator.checks import DeclarationError
-from kintrafo.generator.geometry import Direction, Line, Point
+from kintrafo.generator.geometry import FORWARD, UP, Direction, Line, Point
 from kintrafo.generator.joints import Joint, Prismatic, Revolute, Universal
 from kintrafo.generator.mechanism import Body, Mechanism, Model, RelativeCoordinate
 from kintrafo.generator.outputs import generate
 from kintrafo.generator.parameters import direction, point, rigid_body, rotor
+from kintrafo.generator.vectors import Vector
 from kintrafo.own.build import build
 from kintrafo.own.compiler import find_compiler
 from kintrafo.own.loader import load
@@ -230,7 +231,7 @@ def test_pins_of_a_cylinder_at_different_places_along_their_hinges_are_refused(
     beside = moved(values, "piston_pin", 0.05 * unit(NORMAL))
     text = refusal(modules, beside)
     assert "guide bore is not across the hinge" in text
-    assert "move piston_pin or barrel_pin along the hinge" in text
+    assert "move piston_pin or barrel_pin along the direction of that hinge" in text
     angle = np.degrees(np.arctan2(0.05, np.linalg.norm(span)))
     assert amount(text, "degrees") == pytest.approx(angle, rel=5e-3)
     # what the message says to do: the other pin along its hinge as well
@@ -373,3 +374,81 @@ def test_all_that_is_wrong_with_the_defaults_is_told_at_once() -> None:
     with pytest.raises(DeclarationError) as caught:
         generate(wrong)
     assert len(caught.value.problems) == 2
+
+
+# -- hinges of any direction ----------------------------------------------------------------------
+
+
+def gate(line: Place, *, flap: Revolute | None = None) -> Model:
+    """Return a leaf on a post with a flap at its end; no angle counts from or to anything."""
+    return declared(
+        "gate",
+        (
+            hinge("post", "ground", "leaf", "pintle", "post_line"),
+            flap or hinge("edge", "leaf", "flap", "edge_at", "edge_line"),
+        ),
+        {"pintle": (0.0, 0.1, 0.2), "edge_at": (0.9, 0.4, 0.1), "flap_tip": (1.2, 0.3, 0.5)},
+        {"post_line": line, "edge_line": (0.2, 0.5, 1.0)},
+        ("post", "edge"),
+    )
+
+
+def by_the_oracle(model: Model, module: Any, values: Mapping[str, float]) -> None:
+    """Compare poses and accelerations with those in maximal coordinates."""
+    built = Built.of(model, module, values)
+    state = np.array([0.4, -0.7, 1.1, 0.8])
+    motion = built.motion(state, np.zeros(0))
+    # 1e-14, 1e-13: some roundings of lengths of 1 m, and of accelerations of about 1 m/s^2
+    np.testing.assert_allclose(built.oracle.closure(motion).value, 0.0, atol=1e-14)
+    angles = [built.oracle.driven(motion, joint).value[0] for joint in model.independent]
+    np.testing.assert_allclose(angles, state[:2], atol=1e-14)
+    expected = built.oracle.reduced(motion, {}, {}).accelerations
+    np.testing.assert_allclose(built("rhs", state)[2:], expected, atol=1e-13)
+
+
+def test_a_hinge_may_have_any_direction_then_and_later(make: Make) -> None:
+    """Upright with the defaults, and turned all around afterwards."""
+    upright = gate((0.0, 0.0, 1.0))
+    for module in make(upright):
+        for line in (
+            (0.0, 0.0, 1.0),
+            (0.0, 0.0, -2.0),
+            (1e-12, 0.0, 1.0),
+            (0.0, -1e-9, -1.0),
+            (1.0, 0.0, 0.0),
+            (0.0, -1.0, 0.0),
+            (0.3, 0.5, -0.2),
+        ):
+            turned = dict(zip(("post_line_x", "post_line_y", "post_line_z"), line, strict=True))
+            by_the_oracle(upright, module, numbers(upright) | turned)
+
+
+@pytest.mark.parametrize("axis", [(1, 0, 0), (0, 1, 0), (0, 0, 1), (-1, 0, 0), (0, 0, -1)])
+def test_a_hinge_along_a_chassis_axis_needs_no_other_direction(make: Make, axis: Place) -> None:
+    """Not even as a parameter: the direction that the angle would count from is not read."""
+    fixed = Line(Point("edge_at"), Direction("fixed", Vector.of(*axis)))
+    models = [
+        gate(
+            (0.1, 0.2, 1.0),
+            flap=Revolute(name="edge", first="leaf", second="flap", axis=fixed, angle_from=start),
+        )
+        for start in (UP, FORWARD)
+    ]
+    texts = [str(generate(model).functions["rhs"]) for model in models]
+    assert texts[0] == texts[1]
+    for module in make(models[0]):
+        by_the_oracle(models[0], module, numbers(models[0]))
+
+
+def test_an_angle_that_counts_from_along_its_hinge_is_refused_by_name() -> None:
+    with pytest.raises(DeclarationError, match="'edge': angle_from, which is up, lies along"):
+        gate(
+            (0.0, 0.0, 1.0),
+            flap=Revolute(
+                name="edge",
+                first="leaf",
+                second="flap",
+                axis=Line(Point("edge_at"), UP),
+                angle_to=Point("flap_tip"),
+            ),
+        )

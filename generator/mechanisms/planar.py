@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..geometry import FORWARD, UP, Direction, Line, Point
+from ..geometry import UP, Direction, Line, Point
 from ..joints import Revolute
 from ..mechanism import Parameter
 from ..vectors import UNIT_Y
@@ -26,7 +26,7 @@ def flat(name: str, normal: str = "z") -> Point:
 def hinge(name: str, first: str, second: str, at: str, normal: str = "z") -> Revolute:
     """Return a hinge across the plane; its angle is zero at the design position."""
     axis = Line(flat(at, normal), _NORMALS[normal])
-    return Revolute(name=name, first=first, second=second, axis=axis, angle_from=FORWARD)
+    return Revolute(name=name, first=first, second=second, axis=axis)
 
 
 def places(
