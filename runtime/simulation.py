@@ -33,7 +33,7 @@ Method = Literal[
 Backend = Literal["auto", "sundials", "scipy"]
 
 _SMALLEST_RTOL = 100.0 * np.finfo(float).eps
-_REMEDY = "On Debian, apt-get install libsundials-dev and build again"
+_REMEDY = "Install it (Debian: libsundials-dev; conda, Homebrew: sundials) and build again"
 _told = False
 
 
@@ -84,7 +84,8 @@ def simulate(
     dense_output : bool, optional
         Whether to keep the solution as a function of time, ``sol``.
     events : str, SignalEvent, callable, or sequence of these, optional
-        'wheel_leaves_ground', 'wheel_touches_ground', 'strut_fully_extended'; a signal and a level;
+        'wheel_leaves_ground', 'wheel_touches_ground', 'strut_fully_extended',
+        'strut_reaches_bump_stop', 'strut_reaches_rebound_stop'; a signal and a level;
         or a function of time and state with SciPy's attributes ``terminal`` and ``direction``.
     stop_at_outputs : bool, optional
         Whether to step onto every output time instead of interpolating. SUNDIALS only.
