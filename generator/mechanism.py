@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from .checks import check_mechanism
 from .forces import ForceElement, LinearTyre
-from .joints import Joint, Universal
+from .joints import Cylindrical, Joint, Spherical, Universal
 from .model_checks import check_model
 
 if TYPE_CHECKING:
@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
     from .forces import Force
     from .geometry import Direction, Point
+
+
+_ENDS = 2  # of a rod
 
 
 @dataclass(frozen=True)
@@ -126,6 +129,20 @@ class Mechanism:
     def joints_of(self, body: str) -> list[Joint]:
         """Return the joints at a body."""
         return [j for j in self.joints if body in j.bodies]
+
+    @property
+    def idle_links(self) -> tuple[str, ...]:
+        """Links that may turn about their line as they like, since only two joints hold them.
+
+        Both are ball joints, or one of them is that of a telescope. The turn moves nothing else,
+        and is none of the degrees of freedom that anybody drives.
+        """
+        return tuple(
+            body.name
+            for body in self.bodies[1:]
+            if len(joints := self.joints_of(body.name)) == _ENDS
+            and all(isinstance(joint, Spherical | Cylindrical) for joint in joints)
+        )
 
     def universal_at(self, body: str, center: Point) -> Universal | None:
         """Return the universal joint that holds a shaft at a point, if there is one."""

@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from .joints import Joint
     from .mechanism import Model
 
-_ENDS = 2  # of a rod
-
 _RATES = ("position", "velocity", "acceleration")
 
 # What has the freedoms of a joint that cannot be driven, and can be.
@@ -32,7 +30,7 @@ def check_model(model: Model) -> None:
     problems += _driven_problems(model)
     problems += _mass_problems(model)
     problems += _force_problems(model)
-    problems += _idle_rods(model)
+    problems += _idle_problems(model)
     if problems:
         raise DeclarationError(model.name, problems)
 
@@ -97,16 +95,16 @@ def _force_problems(model: Model) -> list[str]:
     ]
 
 
-def _idle_rods(model: Model) -> list[str]:
-    """See that no rod with mass can spin about itself: nothing would determine its turn."""
+def _idle_problems(model: Model) -> list[str]:
+    """See that nothing with mass can spin about itself: nothing would determine its turn."""
     problems = []
-    for body in model.massive:
-        joints = model.mechanism.joints_of(body)
-        if len(joints) == _ENDS and all(isinstance(j, Spherical) for j in joints):
-            first, second = (j.name for j in joints)
+    for body in model.mechanism.idle_links:
+        if body in model.massive:
+            first, second = (j.name for j in model.mechanism.joints_of(body))
             problems.append(
-                f"massive body {body!r} hangs between two ball joints, {first!r} and {second!r}, "
-                "and nothing determines its turn about the line through them. Replace one of them "
-                f"by a cross, Universal(..., second={body!r}, shaft=the line to the other one)"
+                f"massive body {body!r} may turn about the line through its joints {first!r} and "
+                f"{second!r}, and nothing determines how. Make a cross of a ball joint, "
+                f"Universal(..., second={body!r}, shaft=the line to the other end), or leave "
+                f"{body!r} out of massive: its turn moves nothing else"
             )
     return problems

@@ -1,8 +1,9 @@
 """Which coordinates of a mechanism can be independent: proposals, and why there is none.
 
-The mobility says how many there are. Sets of so many reported coordinates are tried by planning the
-solution of all loops, joints on the ground before others: their coordinates are what drives, and
-what a person sees. A trial takes milliseconds, but there may be very many.
+The mobility says how many there are, but for the turns of links about their own line. Sets of so
+many reported coordinates are tried by planning the solution of all loops, joints on the ground
+before others: their coordinates are what drives, and what a person sees. A trial takes
+milliseconds, but there may be very many.
 """
 
 from __future__ import annotations
@@ -105,7 +106,7 @@ class Search:
     def __init__(self, model: Model) -> None:
         self._model = model
         mechanism = model.mechanism
-        self.mobility = Topology(mechanism).mobility
+        self.mobility = Topology(mechanism).mobility - len(mechanism.idle_links)
         self.count = self.mobility - len(model.prescribed)
         self.candidates = [n for n in _candidates(mechanism) if n not in model.prescribed]
         forces = [f.joint for f in mechanism.forces if isinstance(f, JointForce)]

@@ -375,9 +375,15 @@ class Plan:
     def _miscounted(self) -> str:
         """Say by how much the driven coordinates differ from the degrees of freedom."""
         joints = [self._mechanism.joint(name) for name in self._driven]
-        driven, mobility = sum(j.freedoms for j in joints), self.topology.mobility
+        driven = sum(j.freedoms for j in joints)
+        mobility = self.topology.mobility - len(self._mechanism.idle_links)
         if driven == mobility:
             return ""
+        if mobility < 0:
+            return (
+                f" Counting the freedoms of the joints, the mechanism has {mobility} of its own: "
+                "it moves only if special dimensions let it, such as parallel axes."
+            )
         return (
             f" The model has {driven} independent or prescribed coordinate(s), its mechanism "
             f"{mobility} degree(s) of freedom: declare {abs(mobility - driven)} "

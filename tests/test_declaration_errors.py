@@ -168,10 +168,21 @@ class TestForces:
 
 
 class TestRods:
-    def test_between_two_ball_joints(self):
-        ball = Spherical(name="B", first="crank", second="rod", at=Point("rod_start"))
-        with pytest.raises(DeclarationError, match=r"'rod' hangs between .*second='rod', shaft="):
-            model(spatial(CRANK, ball, BALL, ROCKER), "A")
+    BALL_AT_CRANK = Spherical(name="B", first="crank", second="rod", at=Point("rod_start"))
+    RSSR = spatial(CRANK, BALL_AT_CRANK, BALL, ROCKER)
+
+    def test_with_mass_between_two_ball_joints(self):
+        with pytest.raises(DeclarationError, match=r"'rod' may turn about .*'B' and 'C'.*second="):
+            model(self.RSSR, "A")
+
+    def test_without_mass_the_turn_is_no_degree_of_freedom(self):
+        light = model(self.RSSR, "A", massive=("crank", "rocker"))
+        assert [p.independent for p in kintrafo.proposals(light)] == [("A",), ("D",)]
+
+    def test_the_turn_is_not_counted_in_a_refusal(self):
+        light = model(self.RSSR, "A", "D", massive=("crank", "rocker"))
+        with pytest.raises(kintrafo.MechanismError, match=r"1 degree\(s\) .* declare 1 fewer.*'A'"):
+            kintrafo.compile(light)
 
 
 class TestNames:
@@ -429,6 +440,18 @@ class TestRefusals:
 
 
 class TestFiles:
+    def test_problems_have_the_line_of_their_declaration(self, tmp_path):
+        path = tmp_path / "mine.py"
+        path.write_text(
+            "from dataclasses import replace\n"
+            "from kintrafo.generator.mechanisms.four_bar import FOUR_BAR\n\n"
+            "MINE = replace(\n    FOUR_BAR,\n    name='four bar',\n)\n"
+        )
+        with pytest.raises(kintrafo.InputError) as caught:
+            kintrafo.compile(path)
+        (problem,) = caught.value.problems
+        assert problem.startswith("Line 4: mechanism 'four bar' cannot be written in C")
+
     IMPORTING = "from beside_it import FOUR_BAR\n"
     BESIDE = "from kintrafo.generator.mechanisms.four_bar import FOUR_BAR\n"
 

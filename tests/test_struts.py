@@ -99,7 +99,8 @@ def telescope(name: str, *, ball_at_boom: bool) -> Model:
             Parameter("bore_length", 1.4, "m", "length of the telescope at zero slide"),
         ),
     )
-    return replace(model, mechanism=mechanism)
+    massive = tuple(b for b in model.massive if b not in mechanism.idle_links)
+    return replace(model, mechanism=mechanism, massive=massive)
 
 
 def test_two_crosses_hold_a_telescope_that_turns(tmp_path: Path) -> None:
@@ -118,7 +119,7 @@ def test_two_crosses_hold_a_telescope_that_turns(tmp_path: Path) -> None:
 
 def test_a_piston_without_mass_may_turn_as_it_likes(tmp_path: Path) -> None:
     model = telescope("free_piston", ball_at_boom=True)
-    model = replace(model, massive=("turret", "boom", "barrel"))
+    assert model.massive == ("turret", "boom", "barrel")
     seat = replace(model.mechanism.elements[0], path=AlongLine(*_BOOM_SPRING))
     forces = tuple(seat if f == model.mechanism.elements[0] else f for f in model.mechanism.forces)
     model = replace(model, mechanism=replace(model.mechanism, forces=forces))
@@ -179,5 +180,5 @@ def test_a_rod_without_mass_on_two_balls_is_like_one_with_a_cross(tmp_path: Path
 
 
 def test_a_rod_with_mass_on_two_balls_is_refused() -> None:
-    with pytest.raises(DeclarationError, match="'rod' hangs between two ball joints"):
+    with pytest.raises(DeclarationError, match=r"'rod' may turn about the line"):
         on_two_balls(("crank", "rod", "rocker"))

@@ -101,6 +101,8 @@ def given_by(declared: "Model | Mechanism | str | Path", name: str | None) -> "M
 
 def _run(path: Path) -> ModuleType:
     """Run a file and return what it defines."""
+    from ..generator.checks import DeclarationError
+
     try:
         source = path.read_text(encoding="utf-8")
     except UnicodeDecodeError as error:
@@ -120,6 +122,9 @@ def _run(path: Path) -> ModuleType:
             'Put what only a script should do below if __name__ == "__main__":'
         )
         raise InputError([problem], str(path)) from error
+    except DeclarationError as error:
+        problems = [f"{_line(error, path)}{problem}" for problem in error.problems]
+        raise InputError(problems, str(path)) from error
     except Exception as error:
         raise InputError([_where(error, path)], str(path)) from error
     return module
@@ -144,10 +149,14 @@ def _neighbours(folder: Path) -> Iterator[None]:
 
 
 def _where(error: BaseException, path: Path) -> str:
-    """Say at which line of a file an error occurred, which may be deep in what the line calls."""
+    """Say where in a file an error occurred, and what it says."""
+    return f"{_line(error, path)}{type(error).__name__}: {error}"
+
+
+def _line(error: BaseException, path: Path) -> str:
+    """Return the line of a file at which an error occurred, maybe deep in what the line calls."""
     lines = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == str(path)]
-    place = f"Line {lines[-1]}: " if lines else ""
-    return f"{place}{type(error).__name__}: {error}"
+    return f"Line {lines[-1]}: " if lines else ""
 
 
 def _chosen(module: ModuleType, path: str, name: str | None) -> "Model | Mechanism":
