@@ -1,5 +1,6 @@
 """`simulate`: results, inputs, and errors that say when and where."""
 
+import pickle
 from concurrent.futures import ThreadPoolExecutor
 from threading import Barrier
 
@@ -64,6 +65,19 @@ def test_signals_belong_to_the_states():
         assert np.array_equal(values, again[name]), name
     assert set(result.signals) == set(MODEL.signal_names)
     assert result.signals["wheel_center_z"][0] == pytest.approx(0.325, abs=1e-12)
+
+
+def test_signals_are_computed_when_asked_for(monkeypatch):
+    result = simulate(MODEL, (0, 0.1), START)
+    calls = []
+    original = Model.signals
+    monkeypatch.setattr(Model, "signals", lambda *given: calls.append(given) or original(*given))
+    assert tuple(result.signals) == MODEL.signal_names
+    assert "camber" in repr(result)
+    assert not calls
+    assert result.signals["camber"].shape == result.signals["toe"].shape == result.t.shape
+    assert len(calls) == 1
+    assert np.array_equal(pickle.loads(pickle.dumps(result)).signals["toe"], result.signals["toe"])
 
 
 def test_wheel_velocity_and_acceleration_are_derivatives_of_the_height():
