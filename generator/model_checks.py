@@ -6,21 +6,20 @@ from typing import TYPE_CHECKING
 
 from .checks import DeclarationError, repeated, unknown
 from .forces import JointForce
-from .joints import Cylindrical, Prismatic, Revolute, Spherical, Universal
+from .joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
 from .names import misnamed
 
 if TYPE_CHECKING:
-    from .joints import Joint
     from .mechanism import Model
 
 _RATES = ("position", "velocity", "acceleration")
 
-# What has the freedoms of a joint that cannot be driven, and can be.
-_DRIVABLE = {
+DRIVABLE: dict[type[Joint], str] = {
     Cylindrical: "a guide and a hinge along its axis, with a link between them",
     Universal: "two hinges along the axes of the cross, with a link between them",
     Spherical: "three hinges through its centre, with two links between them",
 }
+"""What has the freedoms of a joint that cannot be driven, and can be."""
 
 
 def check_model(model: Model) -> None:
@@ -68,7 +67,7 @@ def _has_many(joint: Joint) -> bool:
 def _undrivable(how: str, joint: Joint) -> str:
     return (
         f"{how} joint {joint.name!r} is {joint.kind}, with {joint.freedoms} coordinates; only "
-        f"hinges and guides can be {how}. Declare {_DRIVABLE[type(joint)]}"
+        f"hinges and guides can be {how}. Declare {DRIVABLE[type(joint)]}"
     )
 
 

@@ -35,6 +35,7 @@ from .actions import (
 from .carriers import held_together
 from .coupling import coupled
 from .joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
+from .model_checks import DRIVABLE
 from .pairs import PairCandidate, closed_form, pair_candidates
 from .settled import Settled
 from .topology import Cycle, MinimalBasis, Topology
@@ -420,10 +421,10 @@ class Plan:
         placed = self._settled.placed
         missing = [b.name for b in self._mechanism.bodies if b.name not in placed]
         if missing:
-            remedies = [r for j in self._mechanism.joints if (r := self._leading_to(j))]
+            remedy = next(r for j in self._mechanism.joints if (r := self._leading_to(j)))
             message = (
                 f"model {self.model.name!r}: nothing determines the pose of {', '.join(missing)}; "
-                + (remedies[0] if remedies else "declare one more independent or prescribed joint")
+                f"{remedy}"
             )
             raise NoClosedFormError(message, len(self.transformers))
 
@@ -439,4 +440,7 @@ class Plan:
                 f"declare {here!r} first and {there!r} second in the cross {joint.name!r}, with "
                 f"the shaft along the rod {there!r}"
             )
-        return ""
+        return (
+            f"joint {joint.name!r} is {joint.kind}, and no coordinate of it can be driven. Declare "
+            f"{DRIVABLE[type(joint)]}, and drive these"
+        )

@@ -319,6 +319,12 @@ class TestPoses:
         with pytest.raises(kintrafo.MechanismError, match="pose of lever; declare joint 'E' indep"):
             kintrafo.compile(model(mechanism, "A"))
 
+    def test_a_body_that_hangs_at_a_ball_joint(self):
+        ball = Spherical(name="B", first="crank", second="rod", at=Point("rod_start"))
+        mechanism = spatial(CRANK, ball, bodies=("crank", "rod"), coordinates=("A",))
+        with pytest.raises(kintrafo.MechanismError, match=r"rod; joint 'B' is spherical, .* three"):
+            kintrafo.compile(model(mechanism, "A"))
+
 
 # -- proposals -------------------------------------------------------------------------------------
 
@@ -423,7 +429,7 @@ class TestRefusals:
         assert "carrier is held by upper_link, camber_link, toe_link together" in message
 
     def test_too_few_coordinates_are_reported(self):
-        with pytest.raises(kintrafo.MechanismError, match=r"mobility 1: 1 .* are only none\. Re"):
+        with pytest.raises(kintrafo.MechanismError, match=r"mobility 1: 1 .* reports none\. Re"):
             kintrafo.compile(stephenson())
 
     def test_nothing_moves(self):
