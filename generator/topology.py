@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING
 
 import networkx as nx
 
-from .geometry import Direction
-from .joints import Prismatic, Revolute
+from .planes import Planes
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from .geometry import Direction
     from .joints import Joint
     from .mechanism import Mechanism
 
@@ -39,28 +39,19 @@ class Cycle:
         ``bodies[i]`` lies between ``joints[i - 1]`` and ``joints[i]``.
     length
         Sum of the freedoms of the joints.
+    normal
+        The direction of the hinges of a loop that moves in a plane; of others, none.
     """
 
     joints: tuple[Joint, ...]
     bodies: tuple[str, ...]
     length: int
+    normal: Direction | None
 
     @property
     def planar(self) -> bool:
-        """Whether the loop moves in a plane: hinges along one direction, slides across it.
-
-        Directions are compared by declaration. That slides lie in the plane is taken on trust.
-        """
+        """Whether the loop moves in a plane: hinges along each other, guides across them."""
         return self.normal is not None
-
-    @property
-    def normal(self) -> Direction | None:
-        """The direction of the hinges of a loop that moves in a plane; of others, none."""
-        hinges = {j.axis.towards for j in self.joints if isinstance(j, Revolute)}
-        if len(hinges) != 1 or not all(isinstance(j, Revolute | Prismatic) for j in self.joints):
-            return None
-        (normal,) = hinges
-        return normal if isinstance(normal, Direction) else None
 
     @property
     def key(self) -> frozenset[str]:
@@ -198,7 +189,12 @@ class Topology:
         start = numbers.index(min(numbers))
         turned = [*bodies[start:], *bodies[:start]]
         joints = tuple(self.joint_between(a, b) for a, b in pairwise([*turned, turned[0]]))
-        return Cycle(joints, tuple(turned), sum(j.freedoms for j in joints))
+        length = sum(j.freedoms for j in joints)
+        return Cycle(joints, tuple(turned), length, self._planes.normal(joints))
+
+    @cached_property
+    def _planes(self) -> Planes:
+        return Planes(self.mechanism)
 
     def _cycle_numbers(self, cycle: Cycle) -> tuple[int, ...]:
         return tuple(sorted(self._numbers[b] for b in cycle.bodies))

@@ -140,7 +140,11 @@ def declared(
         parameters=(
             *(entry for n, place in points.items() for entry in point(n, place, n)),
             *(entry for n, along in directions.items() for entry in direction(n, along, n)),
-            *(entry for n in names for entry in rigid_body(n, 1.0, (0.1, 0.2, 0.1), (1.0,) * 3)),
+            *(
+                entry
+                for n in names
+                for entry in rigid_body(n, 1.0, (0.1, 0.2, 0.1), (0.02, 0.03, 0.04))
+            ),
         ),
         coordinates=tuple(coordinates),
     )
@@ -452,3 +456,102 @@ def test_an_angle_that_counts_from_along_its_hinge_is_refused_by_name() -> None:
                 angle_to=Point("flap_tip"),
             ),
         )
+
+
+# -- hinges that are parallel by their numbers ----------------------------------------------------
+
+
+def four_bar() -> Model:
+    """Return a four-bar in an oblique plane, its points at different heights."""
+    return declared(
+        "four_bar",
+        (
+            hinge("a", "ground", "crank", "at_a", "normal"),
+            hinge("b", "coupler", "crank", "at_b", "normal"),
+            hinge("c", "coupler", "rocker", "at_c", "normal"),
+            hinge("d", "ground", "rocker", "at_d", "normal"),
+        ),
+        {
+            "at_a": askew(0.0, 0.0, 0.02),
+            "at_b": askew(0.0, 0.1, -0.03),
+            "at_c": askew(0.24, 0.26, 0.04),
+            "at_d": askew(0.3, 0.0, 0.0),
+        },
+        {"normal": NORMAL},
+        ("a",),
+    )
+
+
+def driven_crane() -> Model:
+    """Return the crane with the stroke of its cylinder given."""
+    return replace(crane(), independent=("bore",))
+
+
+def by_directions(model: Model) -> Model:
+    """Give every hinge a direction of its own, every other one the other way round."""
+    return _lines(model, lambda joint: Direction(f"{joint.name}_line"))
+
+
+def by_points(model: Model) -> Model:
+    """Make every hinge a line through two points, every other one the other way round."""
+    return _lines(model, lambda joint: Point(f"{joint.name}_line"))
+
+
+def _lines(model: Model, towards: Callable[[Joint], Point | Direction]) -> Model:
+    values, normal = numbers(model), np.array(NORMAL)
+    hinges = [j for j in model.mechanism.joints if isinstance(j, Revolute)]
+    for i, joint in enumerate(hinges):
+        place = (-1.0) ** i * (0.3 + 0.2 * i) * normal
+        end = towards(joint)
+        if isinstance(end, Point):
+            place += vector(values, joint.axis.through.name)
+        line = replace(joint, axis=Line(joint.axis.through, end))
+        model = with_joint(with_points(model, **{end.name: tuple(place.tolist())}), line)
+    return model
+
+
+@pytest.mark.parametrize("lines", [by_directions, by_points])
+@pytest.mark.parametrize("declare", [four_bar, lambda: SLIDER_CRANK, crane, driven_crane])
+def test_hinges_parallel_or_opposite_by_their_numbers_make_a_plane(
+    declare: Callable[[], Model], lines: Callable[[Model], Model], tmp_path: Path
+) -> None:
+    """Angles are right-handed about the axis of their own hinge, wherever that points."""
+    model = lines(declare())
+    folder = tmp_path / f"{model.name}-{tmp_path.name}"
+    folder.mkdir()
+    build(generate(model), folder, None)
+    module = load(folder)
+    built = Built.of(model, module)
+    for start, rate in ((0.0, 1.3), (0.12, -2.1), (-0.07, 0.9)):
+        state = np.array([start, rate])
+        motion = built.motion(state, np.zeros(0))
+        closure = built.oracle.closure(motion)
+        # rounding of lengths below 1 m, and of the speeds and accelerations that follow from them
+        np.testing.assert_allclose(closure.value, 0.0, atol=1e-14)
+        np.testing.assert_allclose(closure.rate, 0.0, atol=1e-13)
+        reported = model.mechanism.coordinates
+        jets = [
+            built.oracle.coordinate(motion, model.mechanism.joint(c.joint), c.kind)
+            for c in reported
+        ]
+        np.testing.assert_allclose(
+            built("relative_coordinates", state), [jet.value[0] for jet in jets], atol=1e-13
+        )
+        expected = built.oracle.reduced(motion, {}, {}).accelerations
+        np.testing.assert_allclose(built("rhs", state)[1:], expected, rtol=1e-12)
+
+
+@pytest.mark.parametrize("lines", [by_directions, by_points])
+def test_a_hinge_that_leaves_the_others_is_refused(
+    lines: Callable[[Model], Model], make: Make
+) -> None:
+    model = lines(four_bar())
+    modules, values = make(model), numbers(model)
+    along = vector(values, "c_line")
+    if lines is by_points:
+        along = along - vector(values, "at_c")
+    lean = np.linalg.norm(along) * np.tan(np.radians(0.2)) * unit(heading(0.7))
+    text = refusal(modules, moved(values, "c_line", lean))
+    assert "its hinges d and c are not parallel" in text
+    assert amount(text, "degrees") == pytest.approx(0.2, rel=1e-2)
+    accepted(modules, moved(values, "c_line", -2.0 * along))  # the other way round
