@@ -61,15 +61,17 @@ class TestPage:
     def test_the_use_of_it_prints_what_it_says(self, tmp_path, monkeypatch, capsys):
         shutil.copy(EXAMPLE, tmp_path)
         monkeypatch.chdir(tmp_path)
-        (block,) = [block for block in blocks("python") if "import kintrafo" in block]
-        exec(compile(block, "own-mechanism.md", "exec"), {})
-        assert capsys.readouterr().out == blocks("text")[0]
+        used = [block for block in blocks("python") if "import kintrafo" in block]
+        assert len(used) == 2
+        for block, printed in zip(used, blocks("text"), strict=False):
+            exec(compile(block, "own-mechanism.md", "exec"), {})
+            assert capsys.readouterr().out == printed
 
     def test_the_error_is_the_one_printed(self, pushrod):
         system = kintrafo.System(pushrod)
         with pytest.raises(kintrafo.ClosureError) as caught:
             system.signals(system.state(arm_angle=-0.6))
-        assert str(caught.value) == " ".join(blocks("text")[1].split())
+        assert str(caught.value) == " ".join(blocks("text")[2].split())
 
     def test_the_commands_run(self, tmp_path, monkeypatch):
         shutil.copy(EXAMPLE, tmp_path)
