@@ -359,11 +359,18 @@ class SolveCarrier:
 
 @dataclass(frozen=True)
 class JointOfTree:
-    """A hinge or guide of unknown coordinate, from a body that is nearer to what is placed."""
+    """A hinge or guide, from a body that is nearer to what is placed.
+
+    Attributes
+    ----------
+    driven
+        Whether its coordinate is given; of others it is an unknown.
+    """
 
     joint: Revolute | Prismatic
     parent: str
     child: str
+    driven: bool = False
 
     @property
     def sense(self) -> int:
@@ -406,7 +413,7 @@ class SolveTogether:
         The first body that is placed.
     tree
         What carries the bodies, in the order from placed ones outward; their coordinates are the
-        unknowns.
+        unknowns, but for those that are driven.
     cuts, rods
         Joints and rods that close a loop each. A rod is one equation.
     """
@@ -420,6 +427,11 @@ class SolveTogether:
     def bodies(self) -> list[str]:
         """The bodies that are placed, rods apart."""
         return [branch.child for branch in self.tree]
+
+    @property
+    def unknowns(self) -> list[JointOfTree]:
+        """The joints of the tree whose coordinates are unknown."""
+        return [branch for branch in self.tree if not branch.driven]
 
     def base_of(self, body: str) -> str:
         """Return the placed body at which the way from a body through the tree ends."""
@@ -441,7 +453,7 @@ class SolveTogether:
     @property
     def joint_names(self) -> str:
         """The joints of the unknown coordinates, for messages."""
-        return ", ".join(branch.joint.name for branch in self.tree)
+        return ", ".join(branch.joint.name for branch in self.unknowns)
 
     @property
     def closing_names(self) -> str:

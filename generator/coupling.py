@@ -1,7 +1,8 @@
 """Loops of hinges and guides that no closed form solves: which of them to solve together, and how.
 
 Of some loops that wait, the joints make a graph, in which all that is placed is one vertex. Hinges
-and guides of a spanning tree carry the bodies; their coordinates are the unknowns. Every joint that
+and guides of a spanning tree carry the bodies; their coordinates are the unknowns, unless they are
+driven. Every joint that
 is left out closes a loop. It is the one with the most freedoms, since that leaves the fewest
 unknowns and equations: what the characteristic pair is to a closed form. A link that has two joints
 with a point in common each is a rod, and one equation.
@@ -75,7 +76,7 @@ def coupled(settled: Settled, driven: Collection[str], waiting: Sequence[Cycle])
     for count in range(1, min(len(waiting), MOST_LOOPS) + 1):
         for cycles in combinations(waiting, count):
             action = _Loops(settled, cycles).together()
-            if action is None or len(action.tree) > action.equations:
+            if action is None or len(action.unknowns) > action.equations:
                 continue
             found.append(Coupling(action, cycles, obstacle(action, mobility)))
             if not found[-1].obstacle:
@@ -85,7 +86,7 @@ def coupled(settled: Settled, driven: Collection[str], waiting: Sequence[Cycle])
 
 def obstacle(action: SolveTogether, mobility: Mobility) -> str:
     """Say why an iteration would not help."""
-    unknowns, joints = len(action.tree), [branch.joint for branch in action.tree]
+    unknowns, joints = len(action.unknowns), [branch.joint for branch in action.unknowns]
     if unknowns > MOST_UNKNOWNS:
         return f"{unknowns} unknowns are more than the {MOST_UNKNOWNS} of an iteration"
     if not mobility.is_known:
@@ -129,13 +130,19 @@ class _Loops:
         carrying = {branch.joint for branch in branches}
         at_rods = {joint for ends in self._rods.values() for joint in ends}
         closing = [j for j in self._joints if j not in carrying | at_rods]
+        if any(map(self._is_driven, closing)):
+            return None
         cuts = tuple(CutJoint(joint, self._normal(joint, carrying)) for joint in closing)
         return SolveTogether(branches[0].child, branches, cuts, tuple(self._held()))
 
     def _is_provided_for(self, joint: Joint) -> bool:
-        unknown = self._settled.unknowns_of(joint) == joint.freedoms
         idle = not self._settled.on_line.intersection(joint.bodies)
-        return unknown and idle and not isinstance(joint, Cylindrical)
+        known = self._is_driven(joint) or self._settled.unknowns_of(joint) == joint.freedoms
+        return known and idle and not isinstance(joint, Cylindrical)
+
+    def _is_driven(self, joint: Joint) -> bool:
+        """Tell whether the coordinate of a joint is given."""
+        return isinstance(joint, Revolute | Prismatic) and self._settled.unknowns_of(joint) == 0
 
     def _spanning_tree(self) -> nx.MultiGraph:
         """Return the tree of the fewest freedoms; rods are in it where nothing else carries."""
@@ -145,7 +152,7 @@ class _Loops:
         for place, joint in enumerate(self._joints):
             if joint not in at_rods:
                 ends = (self._vertex(body) for body in joint.bodies)
-                weight = joint.freedoms * len(self._joints) + place
+                weight = self._settled.unknowns_of(joint) * len(self._joints) + place
                 graph.add_edge(*ends, joint=joint, weight=weight)
         for rod, joints in self._rods.items():
             ends = (self._vertex(joint.other(rod)) for joint in joints)
@@ -166,7 +173,8 @@ class _Loops:
             joint = edge["joint"]
             if not isinstance(joint, Revolute | Prismatic):
                 return None
-            branches.append(JointOfTree(joint, joint.other(child), child))
+            driven = self._is_driven(joint)
+            branches.append(JointOfTree(joint, joint.other(child), child, driven))
         return tuple(branches)
 
     # -- rods -----------------------------------------------------------------------------------
@@ -179,6 +187,8 @@ class _Loops:
         in_space = all(isinstance(joint, Spherical | Universal) for joint in joints)
         pinned = all(isinstance(joint, Revolute) for joint in joints)
         planar = all(cycle.planar for cycle in self._cycles if body in cycle.bodies)
+        if any(map(self._is_driven, joints)):
+            return None
         return (joints[0], joints[1]) if in_space or (pinned and planar) else None
 
     def _held(self) -> Iterator[HeldByRod]:

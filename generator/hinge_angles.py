@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from .actions import PlaceByPin, SolveHinge
+from .actions import PlaceByJoint, PlaceByPin, SolveHinge
 from .arithmetic import SignOf
 from .placement import Placed, from_axes, to_axes
 from .vectors import UNIT_X, ZERO, Vector
@@ -95,7 +95,8 @@ def is_first_axis(kin: Kinematics, joint: Revolute) -> bool:
     """Tell whether a hinge placed its second body, so that it is the first of the body's axes."""
     kinds = PlaceByPin | SolveHinge
     turned = [a.body for a in kin.plan.actions if isinstance(a, kinds) and a.joint == joint]
-    return kin.is_driven(joint) or (turned == [joint.second] and joint.angle_to is None)
+    followed = any(isinstance(a, PlaceByJoint) and a.joint == joint for a in kin.plan.actions)
+    return followed or (turned == [joint.second] and joint.angle_to is None)
 
 
 def _axis_on(kin: Kinematics, joint: Revolute, placed: Placed) -> Vector:

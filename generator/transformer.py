@@ -403,8 +403,8 @@ class Plan:
             together = coupling.action
             problem = (
                 f" Closed at {together.closing_names}, {len(coupling.cycles)} loop(s) leave "
-                f"{together.equations} equations for the {len(together.tree)} unknown coordinates "
-                f"of {together.joint_names}"
+                f"{together.equations} equations for the {len(together.unknowns)} unknown "
+                f"coordinates of {together.joint_names}"
             )
             problem += f", but {coupling.obstacle}." if coupling.obstacle else "."
         else:

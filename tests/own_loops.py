@@ -37,8 +37,14 @@ def in_a_ring(count: int) -> tuple[Joint, ...]:
     )
 
 
-def ring(name: str, joints: tuple[Joint, ...], places: list[Place], axes: list[Place]) -> Model:
-    """Return a closed chain, driven by its first joint, with a spring to its second body."""
+def ring(
+    name: str,
+    joints: tuple[Joint, ...],
+    places: list[Place],
+    axes: list[Place],
+    driven: str | None = None,
+) -> Model:
+    """Return a closed chain with a spring to its second body; the first joint drives, or another."""
     bodies = BODIES[1 : len(joints)]
     middles = {
         body: tuple((np.array(places[i]) + places[i + 1]) / 2) for i, body in enumerate(bodies)
@@ -53,7 +59,7 @@ def ring(name: str, joints: tuple[Joint, ...], places: list[Place], axes: list[P
             "two_seat": (-0.05, 0.2, 0.1),
         },
         {f"axis_{i}": axis for i, axis in enumerate(axes)},
-        (joints[0].name,),
+        (driven or joints[0].name,),
         spring=("ground_top", "two_seat"),
     )
     # one of them has a mass, and its accelerations depend on those of all: a third of the time
@@ -256,3 +262,44 @@ ROCKERS = replace(
     allow_iteration=True,
 )
 """Three rods close three loops of a chain of two bodies and a rocker; two join unknown bodies."""
+
+
+# -- driven between two bodies that no other joint has placed -------------------------------------
+
+FIVE_BAR = replace(
+    declare(
+        "five_bar",
+        {
+            "left": askew(0.01, 0.05, 0.02),
+            "upper": askew(0.1, 0.2, -0.02),
+            "lower": askew(0.25, 0.22, 0.01),
+            "right": askew(0.36, 0.1),
+        },
+        (
+            hinge("left_hinge", "ground", "left", "left_bearing", "normal"),
+            hinge("elbow", "left", "upper", "left_pin", "normal", to="upper_pin"),
+            # its second body is nearer to the ground of the tree: it counts the other way round
+            hinge("knee", "lower", "upper", "upper_pin", "normal"),
+            hinge("right_pin", "lower", "right", "lower_pin", "normal"),
+            hinge("right_hinge", "right", "ground", "right_bearing", "normal"),
+        ),
+        {
+            "left_bearing": askew(0.0, 0.0),
+            "left_pin": askew(0.0, 0.12),
+            "upper_pin": askew(0.18, 0.3),
+            "lower_pin": askew(0.34, 0.18),
+            "right_bearing": askew(0.4, 0.0),
+            "ground_top": askew(0.2, 0.6, 0.1),
+            "lower_seat": askew(0.25, 0.22),
+        },
+        {"normal": NORMAL},
+        ("knee",),
+        spring=("ground_top", "lower_seat"),
+        prescribed={"elbow": "elbow"},
+    ),
+    allow_iteration=True,
+)
+"""A planar chain that is driven at two of its floating hinges."""
+
+DRIVEN_GUIDE = ring("driven_guide", GUIDED_RING.mechanism.joints, PLACES, AXES, driven="guide_2")
+"""The guide within a ring in space drives it; a force acts on it."""

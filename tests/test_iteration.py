@@ -487,7 +487,7 @@ def test_angles_of_the_links_can_be_reported() -> None:
             ),
         ),
     )
-    derived = generate(replace(ARM, mechanism=mechanism, massive=("carrier",), held={}))
+    derived = generate(replace(ARM, mechanism=mechanism, massive=("carrier", "wheel"), held={}))
     values = constants_of(derived, {p.name: p.default for p in mechanism.parameters})
     values |= {"arm_angle": 1.5, "rack_position": 0.02, "spin_angle": 0.1}
     shown = derived.functions["relative_coordinates"]

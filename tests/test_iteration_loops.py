@@ -52,6 +52,8 @@ MODELS = {
         own_loops.PLATE_ON_A_SLOT,
         own_loops.PLATE_ON_A_PIN,
         own_loops.ROCKERS,
+        own_loops.FIVE_BAR,
+        own_loops.DRIVEN_GUIDE,
     )
 }
 SPANS = {
@@ -64,8 +66,10 @@ SPANS = {
     "plate_on_a_slot": (-0.1, 0.8),
     "plate_on_a_pin": (-0.1, 0.8),
     "rockers": (-0.02, 0.2),
+    "five_bar": (-0.6, 0.6),
+    "driven_guide": (-0.01, 0.01),
 }
-"""How far the first coordinate goes from the design position, rad: nearly to the dead points."""
+"""How far the first coordinate goes from design, rad or m: nearly to the dead points."""
 
 
 @pytest.fixture(scope="session")
@@ -98,6 +102,22 @@ def states(built: Built, count: int) -> Array:
     return np.hstack((q, rng.uniform(-3.0, 3.0, (count, built.size))))
 
 
+def given(built: Built) -> Array:
+    """Return inputs: no forces, and a prescribed joint that is on its way."""
+    inputs = np.zeros(len(built.module.INPUTS))
+    start = {
+        motion: built.oracle.driven(built.at_design, joint).value[0]
+        for joint, motion in built.model.prescribed.items()
+    }
+    for i, name in enumerate(built.module.INPUTS):
+        motion, _, what = name.rpartition("_")
+        if motion in start:
+            inputs[i] = {"position": start[motion] + 0.1, "velocity": 0.7, "acceleration": 2.0}[
+                what
+            ]
+    return inputs
+
+
 def path(built: Built, step: float) -> Array:
     """Return states at rest from one end of the span to the other."""
     low, high = SPANS[built.model.name]
@@ -122,15 +142,22 @@ EVERY = each(*MODELS.values())
 @EVERY
 def test_loops_close_and_accelerate(model: Model, built: Callable[[Model], Built]) -> None:
     compiled = built(model)
+    inputs = given(compiled)
+    named = compiled.named(inputs)
+    accelerations = {j: named[f"{m}_acceleration"] for j, m in model.prescribed.items()}
     for state in states(compiled, 25):
-        inputs = np.zeros(len(compiled.module.INPUTS))
         motion = compiled.motion(state, inputs)
+        for i, joint in enumerate(model.independent):
+            driven = compiled.oracle.driven(motion, joint)
+            turns = (driven.value[0] - state[i]) / (2.0 * np.pi)
+            assert turns == pytest.approx(round(turns), abs=1e-14)
+            assert driven.rate[0] == pytest.approx(state[compiled.size + i], rel=1e-11)
         closure = compiled.oracle.closure(motion)
         rates = np.abs(motion.twist).max()
         # lengths and sines below 1; rates of bodies next to a dead point are those of the twists
         np.testing.assert_allclose(closure.value, 0.0, atol=5e-15)
         np.testing.assert_allclose(closure.rate, 0.0, atol=1e-14 * rates)
-        oracle = compiled.oracle.reduced(motion, compiled.named(inputs), {})
+        oracle = compiled.oracle.reduced(motion, named, accelerations)
         inverse = np.abs(np.linalg.inv(oracle.mass_matrix))
         scale = (inverse @ (np.abs(oracle.applied) + np.abs(oracle.inertial))).max()
         found = compiled("rhs", state, inputs)[compiled.size :]
@@ -143,11 +170,13 @@ def test_motion_is_continuous_over_the_whole_span(
 ) -> None:
     """No state of the span is on another branch: every step goes along the tangents."""
     compiled = built(model)
-    along = path(compiled, 0.004)
+    low, high = SPANS[model.name]
+    along = path(compiled, min(0.004, (high - low) / 50))
     step = along[1, 0] - along[0, 0]
-    assert (compiled("margins", along)[:, 0] > 0.0).all()
-    beta = compiled("relative_coordinates", along)
-    slope = compiled("relative_jacobian", along)[:, :, 0]
+    inputs = np.tile(given(compiled), (len(along), 1))
+    assert (compiled("margins", along, inputs)[:, 0] > 0.0).all()
+    beta = compiled("relative_coordinates", along, inputs)
+    slope = compiled("relative_jacobian", along, inputs)[:, :, 0]
     went = np.diff(beta, axis=0)
     turns = np.array(["angle" in name for name in compiled.module.RELATIVE_COORDINATES])
     went[:, turns] = (went[:, turns] + np.pi) % (2.0 * np.pi) - np.pi
@@ -263,7 +292,7 @@ def test_anywhere_it_closes_or_says_so(model: Model, built: Callable[[Model], Bu
     for _ in range(60):
         state = np.concatenate((rng.uniform(-np.pi, np.pi, compiled.size), np.ones(compiled.size)))
         try:
-            motion = compiled.motion(state, np.zeros(len(compiled.module.INPUTS)))
+            motion = compiled.motion(state, given(compiled))
         except ClosureError:
             outcomes.add("refused")
             continue
@@ -380,9 +409,10 @@ def test_too_many_unknowns_are_refused() -> None:
 
 def test_mobility_at_the_design_position() -> None:
     for model in MODELS.values():
-        mobility = Mobility(Topology(model.mechanism), model.independent)
+        driven = (*model.independent, *model.prescribed)
+        mobility = Mobility(Topology(model.mechanism), driven)
         assert mobility.driven_move()
-        joints = [j for j in model.mechanism.joints if j.name not in model.independent]
+        joints = [j for j in model.mechanism.joints if j.name not in driven]
         assert mobility.determines((j.name, c) for j in joints for c in j.coordinates)
         assert not Mobility(Topology(model.mechanism), ()).determines(
             [(joints[0].name, joints[0].coordinates[0])]

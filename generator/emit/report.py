@@ -146,7 +146,7 @@ def _iterated_equation(
     unknown = (
         f"pose of {action.body}"
         if isinstance(action, SolveCarrier)
-        else f"{len(action.tree)} coordinates of {action.joint_names}"
+        else f"{len(action.unknowns)} coordinates of {action.joint_names}"
     )
     return closure, (
         f"no closed form: {action.equations} equations for the {unknown}, by Newton's method, "

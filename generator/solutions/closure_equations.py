@@ -240,7 +240,7 @@ class Position:
     frames
         Of every body of the tree, and of the placed ones that it touches.
     screws
-        Of every unknown, in the order of the tree.
+        Of every joint of the tree, in its order.
     equations
         In the order of the cuts and rods.
     """
@@ -253,7 +253,11 @@ class Position:
     def jacobian(self) -> Matrix:
         """Return how the misfits change with the unknowns."""
         return [
-            [self._element(equation, place) for place in range(len(self.screws))]
+            [
+                self._element(equation, place)
+                for place, branch in enumerate(self.action.tree)
+                if not branch.driven
+            ]
             for equation in self.equations
         ]
 
@@ -289,10 +293,11 @@ def position(
     label
         Begins the names of the steps.
     """
-    size = geometry["size"].x
+    size, rest = geometry["size"].x, iter(unknowns)
     frames = {body: _base(geometry, body) for body in bases(action)}
     screws = []
-    for branch, x in zip(action.tree, unknowns, strict=True):
+    for branch in action.tree:
+        x = geometry[f"{branch.joint.name}_given"].x if branch.driven else next(rest)
         name, parent = f"{label}{branch.child}", frames[branch.parent]
         local = geometry[f"{branch.joint.name}_axis"]
         axis = program.vector(f"{name}_axis", parent.along(local))
@@ -402,7 +407,7 @@ def block(action: SolveTogether, geometry: Geometry) -> tuple[Block, list[sp.Exp
     J^T J: the matrix is the adjugate times J^T.
     """
     formal, given = _formal(geometry)
-    unknowns = [sp.Symbol(f"{branch.joint.name}_estimate") for branch in action.tree]
+    unknowns = [sp.Symbol(f"{branch.joint.name}_estimate") for branch in action.unknowns]
 
     def derive(
         program: Program,

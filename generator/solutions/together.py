@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..arithmetic import SignOf
+from ..hinge_angles import HingeDesign, positive_axis_at_design
 from ..iteration import Matrix, determinant, named
 from ..joints import Joint, Prismatic, Revolute, Spherical, Universal
 from ..placement import Placed, from_axes, to_axes
@@ -57,7 +58,8 @@ def _geometry(kin: Kinematics, action: SolveTogether) -> Geometry:
         geometry |= _of_base(kin, body)
     for branch in action.tree:
         joint = branch.joint
-        geometry[f"{joint.name}_axis"] = _axis(kin, joint) * branch.sense
+        axis = _driven_axis(kin, joint) if branch.driven else _axis(kin, joint)
+        geometry[f"{joint.name}_axis"] = axis * branch.sense
         if isinstance(joint, Revolute):
             geometry[f"{joint.name}_at"] = kin.design(joint.axis.through)
     for cut in action.cuts:
@@ -67,6 +69,10 @@ def _geometry(kin: Kinematics, action: SolveTogether) -> Geometry:
         geometry[f"{held.rod}_end"] = kin.design(held.end)
     size = _size(kin, action.body, [v for n, v in geometry.items() if n.endswith(_PLACES)])
     geometry |= {"size": _scalar(size), "scale": _scalar(kin.program.define("scale", 1 / size))}
+    for branch in action.tree:
+        if branch.driven:
+            given = _given(kin, branch.joint, size)
+            geometry[f"{branch.joint.name}_given"] = _scalar(given)
     for held in action.rods:
         rod = Rod.of(kin, held)
         scale = kin.program.define(f"{held.rod}_scale", 1 / (rod.length * size))
@@ -113,6 +119,26 @@ def _axis(kin: Kinematics, joint: Revolute | Prismatic) -> Vector:
     """Return the unit vector along which a coordinate counts, at design, in work axes."""
     vector = joint.axis.vector if isinstance(joint, Revolute) else joint.direction.components
     return kin.unit(f"{joint.name}_axis_design", kin.to_work(vector))
+
+
+def _driven_axis(kin: Kinematics, joint: Revolute | Prismatic) -> Vector:
+    """Return the same of a driven joint, in the sense in which its coordinate is positive."""
+    if isinstance(joint, Revolute):
+        return positive_axis_at_design(kin, joint)
+    return _axis(kin, joint)
+
+
+def _given(kin: Kinematics, joint: Revolute | Prismatic, size: sp.Expr) -> sp.Expr:
+    """Return how far a driven coordinate is from its design position; a slide in units of c."""
+    coordinate = kin.coordinates[kin.coordinate_of(joint)]
+    if isinstance(joint, Prismatic):
+        return kin.program.define(f"{joint.name}_given", coordinate / size)
+    if joint.angle_to is None:
+        return coordinate
+    design = HingeDesign.of(kin, joint)
+    sine, cosine = design.axis.dot(design.zero.cross(design.mark)), design.zero.dot(design.mark)
+    start = kin.program.define(f"{joint.name}_angle_design", sp.atan2(sine, cosine))
+    return kin.program.define(f"{joint.name}_given", coordinate - start)
 
 
 def _place_of(kin: Kinematics, joint: Joint) -> Vector:
@@ -170,6 +196,12 @@ class _Solved:
         """The joints of the tree with their screws."""
         return list(zip(self.position.action.tree, self.position.screws, strict=True))
 
+    def filled(self, driven: Sequence[sp.Expr], unknown: Sequence[sp.Expr]) -> list[sp.Expr]:
+        """Return what is given of driven joints and what is found of the others, in one list."""
+        rest = iter(unknown)
+        tree = self.position.action.tree
+        return [x if b.driven else next(rest) for b, x in zip(tree, driven, strict=True)]
+
     def solve(self, kin: Kinematics, name: str, slips: Sequence[sp.Expr]) -> list[sp.Expr]:
         """Append the rates, or accelerations, of the unknowns that make up for some slips."""
         return self.inverse.solve(kin, name, self.rows, [-slip for slip in slips])
@@ -181,7 +213,7 @@ def _corrected(kin: Kinematics, action: SolveTogether, geometry: Geometry) -> _S
     iteration, given = block(action, geometry)
     branch = _branch(kin, action, geometry)
     results = program.iterated(f"{name}_loops", iteration, [*given, branch])
-    count = len(action.tree)
+    count = len(action.unknowns)
     found = list(results.values())[:count]
     start = position(program, f"{name}_found_", action, geometry, found)
     left = [
@@ -205,7 +237,7 @@ def _corrected(kin: Kinematics, action: SolveTogether, geometry: Geometry) -> _S
     inverse = Inverse(matrix, factor)
     unknowns = [
         program.define(f"{branch.joint.name}_coordinate", x + dx)
-        for branch, x, dx in zip(action.tree, found, inverse.step(left), strict=True)
+        for branch, x, dx in zip(action.unknowns, found, inverse.step(left), strict=True)
     ]
     now = position(program, "", action, geometry, unknowns)
     rows = named(program, f"{name}_row", now.jacobian())
@@ -214,14 +246,15 @@ def _corrected(kin: Kinematics, action: SolveTogether, geometry: Geometry) -> _S
 
 def _branch(kin: Kinematics, action: SolveTogether, geometry: Geometry) -> sp.Expr:
     """Return the sign of the determinant of J at design; that of J^T J has none."""
-    if action.equations > len(action.tree):
+    if action.equations > len(action.unknowns):
         return sp.Integer(1)
     program, name = kin.program, action.body
     at_rest = {
         f"{b}_{axis}": e for b in bases(action) for axis, e in zip("xyz", _UNITS, strict=True)
     }
     at_rest |= {f"{b}_{place}": ZERO for b in bases(action) for place in ("origin", "start")}
-    zeros = [sp.Integer(0)] * len(action.tree)
+    at_rest |= {f"{b.joint.name}_given": ZERO for b in action.tree if b.driven}
+    zeros = [sp.Integer(0)] * len(action.unknowns)
     design = position(program, f"{name}_design_", action, geometry | at_rest, zeros)
     rows = named(program, f"{name}_row_design", design.jacobian())
     return program.define(f"{name}_branch", SignOf(determinant(program, f"{name}_design", rows)))
@@ -232,11 +265,12 @@ def _branch(kin: Kinematics, action: SolveTogether, geometry: Geometry) -> sp.Ex
 
 def _place(kin: Kinematics, action: SolveTogether, solved: _Solved) -> None:
     """Record poses and slides."""
-    for branch, x in zip(action.tree, solved.unknowns, strict=True):
+    for branch in action.tree:
         frame = solved.position.frames[branch.child]
         kin.placed[branch.child] = Placed(
             branch.child, origin=frame.origin, axes=frame.axes, design_origin=frame.start
         )
+    for branch, x in zip(action.unknowns, solved.unknowns, strict=True):
         if isinstance(branch.joint, Prismatic):
             kin.slides[branch.joint.name] = branch.sense * x * solved.size
     for cut in action.cuts:
@@ -255,13 +289,14 @@ def _add_motion(kin: Kinematics, action: SolveTogether, solved: _Solved) -> None
     program, name = kin.program, action.body
     placed = [kin.placed[body] for body in bases(action)]
     rates: list[sp.Expr] = [sp.Integer(0)] * len(action.tree)
-    at_rest = list(rates)
-    for k in dict.fromkeys(k for base in placed for k in base.motion):
+    for k in _coordinates(kin, action, placed):
         given = {p.body: _in_motion(p, p.motion.get(k, NO_TWIST)) for p in placed}
-        carried = _velocities(kin, solved, f"{k}_carried", given, at_rest)
+        driven = [_driven_rate(kin, solved, branch, k) for branch in action.tree]
+        carried = _velocities(kin, solved, f"{k}_carried", given, driven)
         slips = [e.rate(carried[e.first], carried[e.second]) for e in solved.position.equations]
         x = solved.solve(kin, f"{name}_{k}", slips)
         x = [program.define(f"{name}_{k}_{i}", value) for i, value in enumerate(x, 1)]
+        x = solved.filled(driven, x)
         for body, moving in _velocities(kin, solved, k, given, x).items():
             if body in action.bodies:
                 child = kin.placed[body]
@@ -296,10 +331,11 @@ def _biases(
             acceleration=from_axes(base.axes, bias.linear),
         )
     now = _velocities(kin, solved, "now", given, rates)
-    coasting = _accelerations(kin, solved, "coasting", now, rates, [sp.Integer(0)] * len(rates))
+    driven = [_driven_acceleration(kin, solved, branch) for branch in action.tree]
+    coasting = _accelerations(kin, solved, "coasting", now, rates, driven)
     equations = solved.position.equations
     slips = [e.acceleration(coasting[e.first], coasting[e.second]) for e in equations]
-    x = solved.solve(kin, f"{name}_bias", slips)
+    x = solved.filled(driven, solved.solve(kin, f"{name}_bias", slips))
     moving = _accelerations(kin, solved, "bias", now, rates, x)
     found = {}
     for body in action.bodies:
@@ -307,6 +343,28 @@ def _biases(
         accelerations = Twist(to_axes(axes, end.alpha), to_axes(axes, end.acceleration))
         found[body] = kin.define_bias(body, accelerations)
     return found
+
+
+def _coordinates(kin: Kinematics, action: SolveTogether, placed: Sequence[Placed]) -> list[str]:
+    """Return the coordinates that move the tree."""
+    own = [kin.coordinate_of(branch.joint) for branch in action.tree if branch.driven]
+    carrying = (k for base in placed for k in base.motion)
+    return list(dict.fromkeys([*carrying, *(k for k in own if k in kin.moving)]))
+
+
+def _driven_rate(kin: Kinematics, solved: _Solved, branch: JointOfTree, k: str) -> sp.Expr:
+    """Return the rate of a joint per unit rate of a coordinate, with the unknowns at rest."""
+    if not branch.driven or kin.coordinate_of(branch.joint) != k:
+        return sp.Integer(0)
+    return 1 / solved.size if isinstance(branch.joint, Prismatic) else sp.Integer(1)
+
+
+def _driven_acceleration(kin: Kinematics, solved: _Solved, branch: JointOfTree) -> sp.Expr:
+    """Return the acceleration of a joint that an input gives."""
+    if not branch.driven:
+        return sp.Integer(0)
+    given = kin.acceleration(kin.coordinate_of(branch.joint))
+    return given / solved.size if isinstance(branch.joint, Prismatic) else given
 
 
 def _in_motion(placed: Placed, twist: Twist) -> Moving:
