@@ -44,7 +44,7 @@ def ring(
     axes: list[Place],
     driven: str | None = None,
 ) -> Model:
-    """Return a closed chain with a spring to its second body; the first joint drives, or another."""
+    """Return a closed chain with a spring to its second body; some joint drives: the first."""
     bodies = BODIES[1 : len(joints)]
     middles = {
         body: tuple((np.array(places[i]) + places[i + 1]) / 2) for i, body in enumerate(bodies)
