@@ -11,14 +11,15 @@ The generator asks this only where it is about to iterate; a closed form needs n
 
 from __future__ import annotations
 
+import math
 from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import networkx as nx
 import numpy as np
-import sympy as sp
 
+from .evaluation import AtDefaults
 from .joints import Cylindrical, Prismatic, Revolute, Spherical, Universal
 
 if TYPE_CHECKING:
@@ -59,9 +60,9 @@ class Mobility:
     @property
     def is_known(self) -> bool:
         """Whether all parameters of the joints are declared, so that there are numbers."""
-        values = _defaults(self._topology.mechanism)
+        value = AtDefaults(self._topology.mechanism)
         vectors = (v for joint in self._topology.mechanism.joints for v in _vectors(joint))
-        return all(component.free_symbols <= values.keys() for v in vectors for component in v)
+        return all(math.isfinite(value(component)) for v in vectors for component in v)
 
     def driven_move(self) -> bool:
         """Tell whether every driven coordinate can move, whatever the others do."""
@@ -99,7 +100,7 @@ class _Screws:
     """
 
     def __init__(self, mechanism: Mechanism) -> None:
-        self._values = _defaults(mechanism)
+        self._value = AtDefaults(mechanism)
         points = [_reference(joint) for joint in mechanism.joints]
         places = np.array([self._number(p) for p in points if p is not None])
         self._middle = places.mean(axis=0) if len(places) else np.zeros(3)
@@ -144,7 +145,7 @@ class _Screws:
         return number / np.linalg.norm(number)
 
     def _number(self, vector: Vector) -> Array:
-        return np.array([float(component.xreplace(self._values)) for component in vector])
+        return np.array([self._value(component) for component in vector])
 
 
 def _reference(joint: Joint) -> Vector | None:
@@ -164,14 +165,6 @@ def _vectors(joint: Joint) -> list[Vector]:
         return [joint.at.position, joint.shaft.vector, joint.first_axis.components]
     assert isinstance(joint, Spherical)
     return [joint.at.position]
-
-
-def _defaults(mechanism: Mechanism) -> dict[sp.Symbol, sp.Expr]:
-    """Return the default value of every parameter, and of what is derived from them."""
-    values = {sp.Symbol(p.name): sp.Float(p.default) for p in mechanism.parameters}
-    return values | {
-        sp.Symbol(name): derived.xreplace(values) for name, derived in mechanism.derived.items()
-    }
 
 
 def _rank(matrix: Array) -> int:
