@@ -25,8 +25,8 @@ from .forces import (
     TwistOfHinges,
     Weight,
 )
-from .geometry import UP
-from .hinge_angles import angle_of, turning_rates
+from .geometry import UP, Direction
+from .hinge_angles import angle_of, positive_axis_at_design, turning_rates
 from .joints import Revolute
 from .laws import Stretch
 from .placement import Placed, to_axes
@@ -168,12 +168,23 @@ class Dynamics:
         joint = self.kin.mechanism.joints_of(body.name)[0]
         carrier = self.kin.placed[joint.other(body.name)]
         spin, across = self._rotor_moments(body)
-        assert body.rotor_axis is not None
-        axis = self.kin.local_direction(carrier, body.rotor_axis)
+        assert isinstance(joint, Revolute)
+        axis = self._bearing_axis(joint, carrier)
         own = self.inertia[carrier.body]
         own.add_point(sp.Symbol(f"{body.name}_mass"), self.kin.local(carrier, body.center))
         own.tensor += SymmetricTensor.transverse(across, axis)
         self.rotors.append(Rotor(coordinate, body, carrier, axis, spin))
+
+    def _bearing_axis(self, joint: Revolute, carrier: Placed) -> Vector:
+        """Return the axis about which the angle of a rotor's hinge is positive, on its carrier.
+
+        The axis of the rotor is the same line, but may point the other way.
+        """
+        if isinstance(joint.axis.towards, Direction) and joint.angle_to is None:
+            return self.kin.local_direction(carrier, joint.axis.towards)
+        positive = positive_axis_at_design(self.kin.of(carrier.body), joint)
+        n = to_axes(carrier.design_axes, positive)
+        return self.program.vector(f"{joint.name}_axis_on_{carrier.body}", n, "123")
 
     def _name_inertia(self, name: str, inertia: Inertia) -> None:
         inertia.mass = self.program.define(f"{name}_carried_mass", inertia.mass)

@@ -48,6 +48,14 @@ def make(tmp_path: Path) -> Make:
     return built
 
 
+def over_arrays(model: Model, folder: Path) -> Any:
+    """Return a model over NumPy arrays."""
+    target = folder / f"{model.name}-{folder.name}"
+    target.mkdir()
+    build(generate(model), target, None)
+    return load(target)
+
+
 def numbers(model: Model) -> dict[str, float]:
     """Return the default parameters."""
     return {p.name: p.default for p in model.mechanism.parameters}
@@ -149,6 +157,42 @@ def declared(
         coordinates=tuple(coordinates),
     )
     return Model(name, name, mechanism, independent=independent, massive=tuple(names))
+
+
+def by_directions(model: Model) -> Model:
+    """Give every hinge a direction of its own, every other one the other way round."""
+    return _lines(model, lambda joint: Direction(f"{joint.name}_line"))
+
+
+def by_points(model: Model) -> Model:
+    """Make every hinge a line through two points, every other one the other way round."""
+    return _lines(model, lambda joint: Point(f"{joint.name}_line"))
+
+
+def _lines(model: Model, towards: Callable[[Joint], Point | Direction]) -> Model:
+    values, normal = numbers(model), np.array(NORMAL)
+    hinges = [j for j in model.mechanism.joints if isinstance(j, Revolute)]
+    for i, joint in enumerate(hinges):
+        place = (-1.0) ** i * (0.3 + 0.2 * i) * normal
+        end = towards(joint)
+        if isinstance(end, Point):
+            place += vector(values, joint.axis.through.name)
+        line = replace(joint, axis=Line(joint.axis.through, end))
+        model = with_joint(with_points(model, **{end.name: tuple(place.tolist())}), line)
+    return model
+
+
+def by_the_oracle(model: Model, module: Any, values: Mapping[str, float]) -> None:
+    """Compare poses and accelerations with those in maximal coordinates."""
+    built = Built.of(model, module, values)
+    state = np.array([0.4, -0.7, 1.1, 0.8])
+    motion = built.motion(state, np.zeros(0))
+    # 1e-14, 1e-13: some roundings of lengths of 1 m, and of accelerations of about 1 m/s^2
+    np.testing.assert_allclose(built.oracle.closure(motion).value, 0.0, atol=1e-14)
+    angles = [built.oracle.driven(motion, joint).value[0] for joint in model.independent]
+    np.testing.assert_allclose(angles, state[:2], atol=1e-14)
+    expected = built.oracle.reduced(motion, {}, {}).accelerations
+    np.testing.assert_allclose(built("rhs", state)[2:], expected, atol=1e-13)
 
 
 # -- guides and the plane of their loop -----------------------------------------------------------
@@ -373,6 +417,21 @@ def test_a_rotor_beside_its_bearing_is_refused(make: Make) -> None:
     assert amount(text, "degrees") == pytest.approx(2.0, rel=1e-6)
 
 
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+@pytest.mark.parametrize("tip", [None, (0.4, 0.1, 0.2), (-0.4, 0.3, 0.2)])
+def test_the_axis_of_a_rotor_may_point_against_its_hinge(
+    sense: float, tip: Place | None, tmp_path: Path
+) -> None:
+    """The sense of the angle is that of the hinge: its line, or as an ``angle_to`` makes it."""
+    x, y, z = (sense * component for component in (0.3, 0.9, -0.2))
+    model = fan(axis=(x, y, z))
+    if tip is not None:
+        spin = model.mechanism.joint("spin")
+        assert isinstance(spin, Revolute)
+        model = with_joint(with_points(model, tip=tip), replace(spin, angle_to=Point("tip")))
+    by_the_oracle(model, over_arrays(model, tmp_path), numbers(model))
+
+
 def test_all_that_is_wrong_with_the_defaults_is_told_at_once() -> None:
     wrong = fan(axis=(0.3, 0.9, 0.0), center=(0.1, 0.2, 0.31))
     with pytest.raises(DeclarationError) as caught:
@@ -395,19 +454,6 @@ def gate(line: Place, *, flap: Revolute | None = None) -> Model:
         {"post_line": line, "edge_line": (0.2, 0.5, 1.0)},
         ("post", "edge"),
     )
-
-
-def by_the_oracle(model: Model, module: Any, values: Mapping[str, float]) -> None:
-    """Compare poses and accelerations with those in maximal coordinates."""
-    built = Built.of(model, module, values)
-    state = np.array([0.4, -0.7, 1.1, 0.8])
-    motion = built.motion(state, np.zeros(0))
-    # 1e-14, 1e-13: some roundings of lengths of 1 m, and of accelerations of about 1 m/s^2
-    np.testing.assert_allclose(built.oracle.closure(motion).value, 0.0, atol=1e-14)
-    angles = [built.oracle.driven(motion, joint).value[0] for joint in model.independent]
-    np.testing.assert_allclose(angles, state[:2], atol=1e-14)
-    expected = built.oracle.reduced(motion, {}, {}).accelerations
-    np.testing.assert_allclose(built("rhs", state)[2:], expected, atol=1e-13)
 
 
 def test_a_hinge_may_have_any_direction_then_and_later(make: Make) -> None:
@@ -487,29 +533,6 @@ def driven_crane() -> Model:
     return replace(crane(), independent=("bore",))
 
 
-def by_directions(model: Model) -> Model:
-    """Give every hinge a direction of its own, every other one the other way round."""
-    return _lines(model, lambda joint: Direction(f"{joint.name}_line"))
-
-
-def by_points(model: Model) -> Model:
-    """Make every hinge a line through two points, every other one the other way round."""
-    return _lines(model, lambda joint: Point(f"{joint.name}_line"))
-
-
-def _lines(model: Model, towards: Callable[[Joint], Point | Direction]) -> Model:
-    values, normal = numbers(model), np.array(NORMAL)
-    hinges = [j for j in model.mechanism.joints if isinstance(j, Revolute)]
-    for i, joint in enumerate(hinges):
-        place = (-1.0) ** i * (0.3 + 0.2 * i) * normal
-        end = towards(joint)
-        if isinstance(end, Point):
-            place += vector(values, joint.axis.through.name)
-        line = replace(joint, axis=Line(joint.axis.through, end))
-        model = with_joint(with_points(model, **{end.name: tuple(place.tolist())}), line)
-    return model
-
-
 @pytest.mark.parametrize("lines", [by_directions, by_points])
 @pytest.mark.parametrize("declare", [four_bar, lambda: SLIDER_CRANK, crane, driven_crane])
 def test_hinges_parallel_or_opposite_by_their_numbers_make_a_plane(
@@ -517,11 +540,7 @@ def test_hinges_parallel_or_opposite_by_their_numbers_make_a_plane(
 ) -> None:
     """Angles are right-handed about the axis of their own hinge, wherever that points."""
     model = lines(declare())
-    folder = tmp_path / f"{model.name}-{tmp_path.name}"
-    folder.mkdir()
-    build(generate(model), folder, None)
-    module = load(folder)
-    built = Built.of(model, module)
+    built = Built.of(model, over_arrays(model, tmp_path))
     for start, rate in ((0.0, 1.3), (0.12, -2.1), (-0.07, 0.9)):
         state = np.array([start, rate])
         motion = built.motion(state, np.zeros(0))
