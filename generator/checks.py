@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 from .default_values import value_problems
 from .forces import AlongLine, AlongTelescope, ForceElement, JointForce, LinearTyre, Weight
-from .joints import Revolute
+from .joints import Revolute, Spherical
 from .laws import Actuator, LinearSpring
-from .names import name_problems
+from .names import name_problems, text_problems
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -28,7 +28,7 @@ class DeclarationError(ValueError):
 
 def check_mechanism(mechanism: Mechanism) -> None:
     """Raise `DeclarationError` if a mechanism has names or numbers that cannot be."""
-    problems = []
+    problems = [] if mechanism.bodies else ["there are no bodies; the first one is the ground"]
     for kind, names in (
         ("body", [b.name for b in mechanism.bodies]),
         ("joint", [j.name for j in mechanism.joints]),
@@ -50,8 +50,16 @@ def check_mechanism(mechanism: Mechanism) -> None:
             [coordinate.kind],
             joints.get(coordinate.joint, (coordinate.kind,)),
         )
+    balls = {j.name for j in mechanism.joints if isinstance(j, Spherical)}
+    problems += [
+        f"coordinate {c.name!r}: the angles of the ball joint {c.joint!r} have no names to report; "
+        "leave it out"
+        for c in mechanism.coordinates
+        if c.joint in balls
+    ]
     problems += _force_problems(mechanism)
     problems += name_problems(mechanism)
+    problems += text_problems(mechanism)
     problems += value_problems(mechanism)
     if problems:
         raise DeclarationError(mechanism.name, problems)

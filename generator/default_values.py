@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import math
-from typing import TYPE_CHECKING
+from math import isfinite
+from typing import TYPE_CHECKING, SupportsFloat
 
 import numpy as np
 
@@ -24,9 +24,9 @@ def value_problems(mechanism: Mechanism) -> list[str]:
     Of a body whose mass or inertia is derived from other parameters, nothing is said.
     """
     problems = [
-        f"parameter {p.name!r} has the default {p.default} {p.unit}; give a finite number"
+        f"parameter {p.name!r} has the default {p.default!r} {p.unit}; give a finite number"
         for p in mechanism.parameters
-        if not math.isfinite(p.default)
+        if not _is_finite(p.default)
     ]
     if problems:
         return problems
@@ -55,6 +55,10 @@ def _angle_problems(mechanism: Mechanism) -> list[str]:
                     "angle_to out, and the angle counts from the design position"
                 )
     return problems
+
+
+def _is_finite(value: object) -> bool:
+    return isinstance(value, SupportsFloat) and isfinite(value)
 
 
 def _body_problems(body: Body, values: dict[str, float]) -> list[str]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from .checks import DeclarationError, repeated, unknown
 from .forces import JointForce
 from .joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
-from .names import misnamed
+from .names import misnamed, unwritable
 
 if TYPE_CHECKING:
     from .mechanism import Model
@@ -24,7 +24,14 @@ DRIVABLE: dict[type[Joint], str] = {
 
 def check_model(model: Model) -> None:
     """Raise `DeclarationError` if a model contradicts its mechanism or itself."""
-    problems = misnamed("model", model.name)
+    texts = [
+        f"{what} is the text {given!r}; write a tuple of names, ({given!r},)"
+        for what, given in (("independent", model.independent), ("massive", model.massive))
+        if isinstance(given, str)
+    ]
+    if texts:
+        raise DeclarationError(model.name, texts)
+    problems = misnamed("model", model.name) + unwritable("title of the model", model.title)
     problems += [p for variant in model.held for p in misnamed("variant", variant)]
     problems += _driven_problems(model)
     problems += _mass_problems(model)

@@ -1,4 +1,4 @@
-"""Names of a declaration that the emitted C and Python could not have."""
+"""Names and texts of a declaration that the emitted C and Python could not have."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ sqrt sin cos asin atan2 copysign isfinite fabs at_least not_finite
 parameters constants state inputs given out status i np design_state prepare
 """
 _WORDS = frozenset([*_C_WORDS.split(), *_OWN_WORDS.split(), *keyword.kwlist])
+_ENDS_OF_COMMENTS = ("*/", '"""', "\\", "\n", "\r")
 _COUNTED = ("count",)  # an enumeration ends with the number of its elements
 
 
@@ -62,6 +63,25 @@ def misnamed(kind: str, name: str) -> list[str]:
     reserved = name in _WORDS or name.lower() in _COUNTED or name.startswith("given_")
     if reserved and kind in ("parameter", "coordinate", "input"):
         return [f"{kind} {name!r} has a name that the generated code needs; choose another one"]
+    return []
+
+
+def text_problems(mechanism: Mechanism) -> list[str]:
+    """Find units and meanings that comments and docstrings cannot have."""
+    entries = [
+        *((f"parameter {p.name!r}", (p.unit, p.meaning)) for p in mechanism.parameters),
+        *((f"coordinate {c.name!r}", (c.unit, c.meaning)) for c in mechanism.coordinates),
+        *((f"input {name!r}", texts) for name, texts in mechanism.inputs.items()),
+    ]
+    problems = unwritable("title of the mechanism", mechanism.title)
+    return problems + [p for what, texts in entries for t in texts for p in unwritable(what, t)]
+
+
+def unwritable(what: str, text: str) -> list[str]:
+    """Find out whether a text would end the comment or the docstring that it stands in."""
+    if any(end in text for end in _ENDS_OF_COMMENTS):
+        allowed = 'write one line without */, """ and backslashes'
+        return [f"{what}: the text {text!r} cannot stand in a comment of the code; {allowed}"]
     return []
 
 

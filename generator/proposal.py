@@ -81,17 +81,23 @@ def proposals(declared: Mechanism | Model, seconds: float | None = None) -> Iter
 
 
 def advice(refused: Model) -> str:
-    """Name other choices of independent coordinates for a model whose loops do not close."""
+    """Name other choices of independent coordinates for a model whose loops do not close.
+
+    Returns
+    -------
+    str
+        A sentence, or nothing.
+    """
     search = Search(refused)
     if search.impossible:
         return ""
     closed = list(islice(search.closed(_SECONDS_TO_ADVISE), _CHOICES_SHOWN))
     if closed:
-        return f" Every loop has a closed form with {_either(closed)}."
+        return f"Every loop has a closed form with {_either(closed)}."
     if not refused.allow_iteration:
-        return f" {search.summary()}"
+        return search.summary()
     iterated = list(islice(search.iterated(_SECONDS_TO_ADVISE), _CHOICES_SHOWN))
-    return f" Every loop closes with {_either(iterated)}." if iterated else f" {search.summary()}"
+    return f"Every loop closes with {_either(iterated)}." if iterated else search.summary()
 
 
 class Search:
@@ -168,8 +174,8 @@ class Search:
             independent, refusal = self._nearest
             text += f" Nearest came independent={independent}: {refusal}"
         return (
-            f"{text} Otherwise report more coordinates, or declare a Model with the independent "
-            "and the prescribed joints that you mean"
+            f"{text.removesuffix('.')}. Otherwise report more coordinates, or declare a Model "
+            "with the independent and the prescribed joints that you mean"
         )
 
     def summary(self) -> str:

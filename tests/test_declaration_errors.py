@@ -199,11 +199,32 @@ class TestNames:
             replace(FOUR_BAR, forces=(replace(spring, name="my spring"),))
 
 
+class TestTexts:
+    @pytest.mark.parametrize("text", ["two\nlines", "N*/m", '"""', "\\N"])
+    def test_that_would_end_a_comment(self, text):
+        (entry,) = (c for c in RUSR.coordinates if c.name == "angle_A")
+        changes = (
+            {"title": text},
+            {"parameters": (replace(RUSR.parameters[0], meaning=text), *RUSR.parameters[1:])},
+            {"coordinates": (replace(entry, unit=text),)},
+            {"inputs": {"torque": ("N m", text)}},
+        )
+        for change in changes:
+            with pytest.raises(DeclarationError, match="cannot stand in a comment"):
+                replace(RUSR, **change)
+        with pytest.raises(DeclarationError, match="title of the model: the text"):
+            replace(model(RUSR, "A"), title=text)
+
+    def test_in_place_of_names(self):
+        with pytest.raises(DeclarationError, match=r"independent is the text .* \('crank',\)"):
+            Model(name="m", title="m", mechanism=RUSR, independent="crank", massive=())
+
+
 class TestNumbers:
-    @pytest.mark.parametrize("value", [float("nan"), float("inf")])
+    @pytest.mark.parametrize("value", [float("nan"), float("inf"), "1.0", None, 1j])
     def test_that_are_none(self, value):
         parameters = (replace(RUSR.parameters[0], default=value), *RUSR.parameters[1:])
-        with pytest.raises(DeclarationError, match=r"'crank_pin_x' has the default (nan|inf) m"):
+        with pytest.raises(DeclarationError, match=r"'crank_pin_x' has the default .* m; give a f"):
             replace(RUSR, parameters=parameters)
 
     @pytest.mark.parametrize(
@@ -252,6 +273,15 @@ class TestJoints:
         loop = replace(CRANK, second="ground")
         with pytest.raises(DeclarationError, match="'A' connects 'ground' with itself"):
             spatial(loop, CROSS, BALL, ROCKER)
+
+    def test_of_the_angles_of_a_ball_joint_none_can_be_reported(self):
+        turn = RelativeCoordinate("turn", "C", "x", "rad", "turn")
+        with pytest.raises(DeclarationError, match="'turn': the angles of the ball joint 'C'"):
+            replace(RUSR, coordinates=(*RUSR.coordinates, turn))
+
+    def test_without_bodies(self):
+        with pytest.raises(DeclarationError, match="no bodies; the first one is the ground"):
+            replace(RUSR, bodies=())
 
     def test_none_reported_at_the_ground(self, tmp_path):
         """A boom moved by its cylinder, of which the stroke alone is reported."""
@@ -469,7 +499,7 @@ class TestFiles:
         assert [p.independent for p in kintrafo.proposals(path)] == [("A",)]
         changed = "from dataclasses import replace\nFOUR_BAR = replace(FOUR_BAR, forces=())\n"
         (tmp_path / "beside_it.py").write_text(self.BESIDE + changed)
-        assert [p.independent for p in kintrafo.proposals(path)] == [("A",), ("D",)]
+        assert [p.independent for p in kintrafo.proposals(path)] == [("A",), ("D",), ("B",)]
 
     @pytest.mark.parametrize("end", ["sys.exit()", "sys.exit('done')", "raise SystemExit(0)"])
     def test_that_end_the_program(self, tmp_path, end):

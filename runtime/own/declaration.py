@@ -37,7 +37,9 @@ def telling(model: "Model | None" = None) -> Iterator[None]:
     try:
         yield
     except NoClosedFormError as error:
-        raise MechanismError(f"{error}{advice(model) if model else ''}") from error
+        more = advice(model) if model else ""
+        message = f"{str(error).removesuffix('.')}. {more}" if more else str(error)
+        raise MechanismError(message) from error
     except (DeclarationError, TopologyError) as error:
         raise MechanismError(str(error)) from error
 
