@@ -14,9 +14,10 @@ import numpy as np
 import pytest
 from kintrafo.generated._support import ParameterError
 from kintrafo.generator.checks import DeclarationError
+from kintrafo.generator.forces import Weight
 from kintrafo.generator.geometry import FORWARD, UP, Direction, Line, Point
 from kintrafo.generator.joints import Joint, Prismatic, Revolute, Universal
-from kintrafo.generator.mechanism import Body, Mechanism, Model, RelativeCoordinate
+from kintrafo.generator.mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
 from kintrafo.generator.outputs import generate
 from kintrafo.generator.parameters import direction, point, rigid_body, rotor
 from kintrafo.generator.vectors import Vector
@@ -187,11 +188,12 @@ def by_the_oracle(model: Model, module: Any, values: Mapping[str, float]) -> Non
     built = Built.of(model, module, values)
     state = np.array([0.4, -0.7, 1.1, 0.8])
     motion = built.motion(state, np.zeros(0))
-    # 1e-14, 1e-13: some roundings of lengths of 1 m, and of accelerations of about 1 m/s^2
+    # 1e-14, 1e-13: some roundings of lengths of 1 m, and of accelerations of about 10 m/s^2
     np.testing.assert_allclose(built.oracle.closure(motion).value, 0.0, atol=1e-14)
     angles = [built.oracle.driven(motion, joint).value[0] for joint in model.independent]
     np.testing.assert_allclose(angles, state[:2], atol=1e-14)
     expected = built.oracle.reduced(motion, {}, {}).accelerations
+    assert np.abs(expected).min() > 1e-2  # both are moved by something
     np.testing.assert_allclose(built("rhs", state)[2:], expected, atol=1e-13)
 
 
@@ -383,7 +385,7 @@ def fan(*, axis: Place = (0.3, 0.9, -0.2), center: Place = (0.1, 0.2, 0.3)) -> M
                 hinge("swing", "ground", "arm", "foot", "swing_line"),
                 hinge("spin", "arm", "blades", "bearing", "spin_line"),
             ),
-            forces=(),
+            forces=(Weight(gravity="gravity"),),
             parameters=(
                 *point("foot", (0.0, 0.0, 0.0), "foot"),
                 *point("bearing", (0.1, 0.2, 0.3), "bearing"),
@@ -393,6 +395,7 @@ def fan(*, axis: Place = (0.3, 0.9, -0.2), center: Place = (0.1, 0.2, 0.3)) -> M
                 *rigid_body("arm", 1.0, (0.05, 0.1, 0.1), (0.01, 0.01, 0.01)),
                 *point("blades_com", center, "centre"),
                 *rotor("blades", 1.5, 0.03, 0.02),
+                Parameter("gravity", 9.81, "m/s^2", "acceleration of gravity"),
             ),
             coordinates=tuple(
                 RelativeCoordinate(f"{name}_angle", name, "angle", "rad", name)
