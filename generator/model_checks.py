@@ -24,11 +24,8 @@ DRIVABLE: dict[type[Joint], str] = {
 
 def check_model(model: Model) -> None:
     """Raise `DeclarationError` if a model contradicts its mechanism or itself."""
-    texts = [
-        f"{what} is the text {given!r}; write a tuple of names, ({given!r},)"
-        for what, given in (("independent", model.independent), ("massive", model.massive))
-        if isinstance(given, str)
-    ]
+    texts = _text_for_tuple("independent", model.independent)
+    texts += _text_for_tuple("massive", model.massive)
     if texts:
         raise DeclarationError(model.name, texts)
     problems = misnamed("model", model.name) + unwritable("title of the model", model.title)
@@ -39,6 +36,12 @@ def check_model(model: Model) -> None:
     problems += _idle_problems(model)
     if problems:
         raise DeclarationError(model.name, problems)
+
+
+def _text_for_tuple(what: str, given: object) -> list[str]:
+    if not isinstance(given, str):
+        return []
+    return [f"{what} is the text {given!r}; write a tuple of names, ({given!r},)"]
 
 
 def _driven_problems(model: Model) -> list[str]:
