@@ -12,6 +12,8 @@ which is ``a cos + b sin = c`` without a reference for the angle. Its solutions:
 
 Branch: s is the sign of (D - E) . (n x t) at the design position. Valid while ``|w_p|^2 > k^2``;
 the edge is the dead point where rod, D and the line are in one plane. Singular: E on the line.
+With D on the line, rho = 0, the arm has no direction and the rod holds nothing; rho is a constant,
+and `prepare` refuses parameters for which it vanishes (t is not finite then).
 
 The body axes are (n, t, n x t). In them D - E = (-w_n, rho - k, s sqrt(|w_p|^2 - k^2)), so the
 turning rate follows from ``(D - E) . (v_D - v_E) = l l'`` with one division. The right side is zero

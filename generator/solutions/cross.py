@@ -19,9 +19,15 @@ if TYPE_CHECKING:
 def place_by_cross(kin: Kinematics, action: PlaceByCross) -> None:
     """Orientation of a shaft of known direction n from the cross of its universal joint.
 
-    The second axis of the cross is b = unit(f x n), f being the first axis; the body axes are
-    (n, b, n x b). Since b stays perpendicular to f, ``(omega - omega_parent) . (b x f) = 0``, and
-    in body axes b x f = (f . (n x b), 0, -f . n). Singular set: the shaft along the first axis.
+    The second axis b of the cross is fixed in the shaft and perpendicular to n and to the first
+    axis f. Both ``f x n`` and its opposite are that: two poses of the shaft, half a turn about its
+    line apart. Branch: b = unit(f x n) at the design position, and so everywhere, since the two
+    could change places only where f x n vanishes. Singular set: the shaft along the first axis.
+
+    The body axes are (n, b, n x b). Since b stays perpendicular to f,
+    ``(omega - omega_parent) . (b x f) = 0``, and in body axes b x f = (f . (n x b), 0, -f . n).
+
+    That the shaft is declared along the line of the rod, n, is one of the `assumptions`.
     """
     joint, parent = action.joint, kin.placed[action.parent]
     _place(

@@ -1,14 +1,16 @@
 """What holds a body: a link of constant length, or a telescope of known slide.
 
 A telescope in a plane whose slide x is known is a rod of known variable length. With d the
-direction of the guide, n that of the hinges, and (h, c, e) the way from pin to pin at the design
-position, along n, along d and along n x d,
+direction of the guide, n that of the hinges, d across n, and (h, c, e) the way from pin to pin at
+the design position, along n, along d and along n x d,
 
     l^2 = (c + x)^2 + e^2 + h^2,    l l' = (c + x) x',    (l l')' = x'^2 + (c + x) x''.
 
 These three are all that the closed forms of `arm` and `slide` read of it, at position, velocity and
 acceleration level. Where the guide lies along the line of the pins, e = h = 0 and c is the length.
-Valid while c + x has the sign that it has at the design position.
+Valid while c + x has the sign that it has at the design position. That d is across n is one of the
+`assumptions`; pins at different places along the hinges (h not zero) need a guide of their own
+direction.
 """
 
 from __future__ import annotations
