@@ -319,8 +319,10 @@ ANSWERS: dict[str, list[type]] = {
 
 
 def sliding(driven: str) -> Model:
-    """Return the slider-crank, its crank or its piston driven."""
-    return replace(SLIDER_CRANKS[0], independent=(driven,))
+    """Return the slider-crank without forces, its crank or its piston driven."""
+    model = SLIDER_CRANKS[0]
+    still = replace(model.mechanism, forces=())
+    return replace(model, mechanism=still, independent=(driven,))
 
 
 def reversed_joint(joint: Joint) -> Joint:
