@@ -29,7 +29,7 @@ run: build ## The paper's suspension: topology, Figures 4 to 6, summary, all in 
 	@$(PYTHON) -m kintrafo paper out
 
 test: build ## Run all tests
-	@$(PYTHON) -m pytest -q -n 2 --dist loadgroup
+	@$(PYTHON) -m pytest -q -n 2 --dist worksteal
 
 lint: .venv/.ready ## Check style
 	@.venv/bin/ruff check .

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from pathlib import Path
 
-    from kintrafo.generator.mechanism import Mechanism, Model
+    from kintrafo.generator.mechanism import Mechanism
     from oracle.constraints import Array
 
 ARM, FIVE, STRUT = MODELS
@@ -87,14 +87,8 @@ def states(built: Built, count: int, seed: int = 0) -> tuple[Array, Array]:
     return np.hstack((q, rng.normal(size=(count, 2)) * [2.0, 90.0])), inputs
 
 
-def _each(*models: Model) -> pytest.MarkDecorator:
-    """Return the marks of a test of some models: those of a model stay on one worker."""
-    params = [pytest.param(m.name, marks=pytest.mark.xdist_group(m.name)) for m in models]
-    return pytest.mark.parametrize("name", params)
-
-
-MODEL_NAMES = _each(ARM, FIVE)
-WITH_STRUT = _each(ARM, FIVE, STRUT)
+MODEL_NAMES = pytest.mark.parametrize("name", [ARM.name, FIVE.name])
+WITH_STRUT = pytest.mark.parametrize("name", [ARM.name, FIVE.name, STRUT.name])
 
 
 # -- linear algebra of the block ------------------------------------------------------------------
@@ -145,7 +139,6 @@ def disguised_wishbone() -> tuple[dict[str, float], dict[str, float]]:
     return links, wishbone
 
 
-@pytest.mark.xdist_group(ARM.name)
 @pytest.mark.parametrize(
     ("function", "tolerance"),
     # of the largest entry; the derivatives see products of two badly scaled factors more
@@ -249,7 +242,6 @@ def test_bodies_fulfil_all_joints(name: str, built: Callable[[str], Built]) -> N
         np.testing.assert_allclose(closure.rate, 0.0, atol=1e-15 * 10 * np.abs(state[2:]).max())
 
 
-@pytest.mark.xdist_group(STRUT.name)
 def test_a_strut_is_as_long_as_its_slide_says(built: Callable[[str], Built]) -> None:
     model = built(STRUT.name)
     (state, *_), (inputs, *_) = states(model, 1)
@@ -289,7 +281,6 @@ def test_a_rack_that_is_held_stands_still(name: str, built: Callable[[str], Buil
     )
 
 
-@pytest.mark.xdist_group(ARM.name)
 def test_energy_stays_where_nothing_dissipates(built: Callable[[str], Built]) -> None:
     lossless = {"damper_rate": 0.0, "tyre_rate": 0.0, "spring_free_length": 0.45}
     model = replace(built(ARM.name), parameters={**built(ARM.name).parameters, **lossless})
@@ -386,7 +377,6 @@ def test_wherever_it_is_asked_it_closes_or_says_that_it_does_not(
     assert min(closed, refused) > 10
 
 
-@pytest.mark.xdist_group(ARM.name)
 def test_up_to_the_end_of_the_reach(built: Callable[[str], Built]) -> None:
     """Bisection for the angle at which the rods lose their hold: closed before, refused behind."""
     model = built(ARM.name)
@@ -408,7 +398,6 @@ def test_up_to_the_end_of_the_reach(built: Callable[[str], Built]) -> None:
         assert np.abs(model.oracle.closure(motion).value).max() < 1e-13
 
 
-@pytest.mark.xdist_group(ARM.name)
 def test_what_is_not_finite_is_refused(built: Callable[[str], Built]) -> None:
     model = built(ARM.name)
     for value in (np.nan, np.inf):
@@ -420,7 +409,6 @@ def test_what_is_not_finite_is_refused(built: Callable[[str], Built]) -> None:
 
 
 @needs_gcc
-@pytest.mark.xdist_group(ARM.name)
 def test_c_computes_what_numpy_computes(
     built: Callable[[str], Built],
     derive: Callable[[str], GeneratedModel],
@@ -465,7 +453,6 @@ def test_documents_say_that_it_iterates(name: str, built: Callable[[str], Built]
     assert "not free of iteration" not in double_wishbone.__doc__
 
 
-@pytest.mark.xdist_group(ARM.name)
 def test_report_names_the_equations_of_the_loops(
     derive: Callable[[str], GeneratedModel],
 ) -> None:

@@ -128,9 +128,8 @@ def path(built: Built, step: float) -> Array:
 
 
 def each(*models: Model) -> pytest.MarkDecorator:
-    """Return the marks of a test of some models: those of a model stay on one worker."""
-    params = [pytest.param(m, id=m.name, marks=pytest.mark.xdist_group(m.name)) for m in models]
-    return pytest.mark.parametrize("model", params)
+    """Return the mark of a test of some models."""
+    return pytest.mark.parametrize("model", models, ids=[m.name for m in models])
 
 
 EVERY = each(*MODELS.values())
@@ -216,7 +215,6 @@ def test_jacobians_are_exact(
 # -- published relations --------------------------------------------------------------------------
 
 
-@pytest.mark.xdist_group("bennett")
 def test_bennett(built: Callable[[Model], Built]) -> None:
     """tan(a/2) tan(b/2) of neighbouring angles stays, opposite angles are opposite (Bennett)."""
     model = own_loops.BENNETT
@@ -233,7 +231,6 @@ def test_bennett(built: Callable[[Model], Built]) -> None:
     np.testing.assert_allclose(two, -four, rtol=0.0, atol=1e-14)
 
 
-@pytest.mark.xdist_group("bricard")
 def test_bricard(built: Callable[[Model], Built]) -> None:
     """Opposite angles of the line-symmetric chain are equal."""
     compiled = built(BRICARD)
@@ -267,7 +264,6 @@ def seven_angles(driven: float, before: Array) -> Array:
     return np.array(found.x)
 
 
-@pytest.mark.xdist_group("seven_hinges")
 def test_seven_hinges_are_where_a_root_finder_puts_them(built: Callable[[Model], Built]) -> None:
     model = SEVEN_HINGES
     compiled = built(model)
@@ -301,7 +297,6 @@ def test_anywhere_it_closes_or_says_so(model: Model, built: Callable[[Model], Bu
     assert outcomes == {"closed", "refused"}
 
 
-@pytest.mark.xdist_group("bricard")
 def test_a_chain_that_moves_by_its_dimensions_alone_is_refused_with_others(
     built: Callable[[Model], Built],
 ) -> None:
@@ -315,7 +310,6 @@ def test_a_chain_that_moves_by_its_dimensions_alone_is_refused_with_others(
 
 
 @needs_gcc
-@pytest.mark.xdist_group("plate_on_a_pin")
 def test_c_computes_what_numpy_computes(
     built: Callable[[Model], Built],
     derive: Callable[[Model], GeneratedModel],
@@ -338,7 +332,6 @@ def test_c_computes_what_numpy_computes(
     assert text.count("for (int i = 0; i < ITERATIONS; ++i)") == 1
 
 
-@pytest.mark.xdist_group("plate_on_a_pin")
 def test_report_names_joints_and_equations(derive: Callable[[Model], GeneratedModel]) -> None:
     text = markdown(derive(own_loops.PLATE_ON_A_PIN))
     assert "This model is not free of iteration." in text
