@@ -192,7 +192,8 @@ def _tolerance_problems(y0: Array, options: Options) -> list[str]:
 
 def _choose_backend(model: System, backend: Backend, options: Options) -> Callable[..., Piece]:
     """Return the solver for a method, and say once if it is not the one that was meant."""
-    method, compiled = options.method, bool(model.equations.ADDRESSES)
+    # SUNDIALS has no vectors without elements: those of a model that is prescribed as a whole
+    method, compiled = options.method, bool(model.equations.ADDRESSES and model.state_names)
     if backend not in ("auto", "sundials", "scipy"):
         known = "'auto', 'sundials' and 'scipy'"
         raise InputError([f"backend {backend!r} is not known; there are {known}."], "simulate")
