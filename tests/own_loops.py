@@ -70,19 +70,6 @@ def ring(
 
 _HINGES = in_a_ring(7)
 
-GUIDED_RING = ring(
-    "guided_ring",
-    (
-        *_HINGES[:2],
-        guide("guide_2", "two", "three", "axis_2"),
-        *_HINGES[3:6],
-        guide("guide_6", "six", "ground", "axis_6"),
-    ),
-    PLACES,
-    AXES,
-)
-"""A guide carries, another one closes the loop."""
-
 CROSSED_RING = ring(
     "crossed_ring",
     (
@@ -301,5 +288,16 @@ FIVE_BAR = replace(
 )
 """A planar chain that is driven at two of its floating hinges."""
 
-DRIVEN_GUIDE = ring("driven_guide", GUIDED_RING.mechanism.joints, PLACES, AXES, driven="guide_2")
-"""The guide within a ring in space drives it; a force acts on it."""
+DRIVEN_GUIDE = ring(
+    "driven_guide",
+    (
+        *_HINGES[:2],
+        guide("guide_2", "two", "three", "axis_2"),
+        *_HINGES[3:6],
+        guide("guide_6", "six", "ground", "axis_6"),
+    ),
+    PLACES,
+    AXES,
+    driven="guide_2",
+)
+"""A guide within a ring in space drives it, with a force on it; another one closes the loop."""

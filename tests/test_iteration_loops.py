@@ -44,7 +44,6 @@ MODELS = {
     model.name: model
     for model in (
         SEVEN_HINGES,
-        own_loops.GUIDED_RING,
         own_loops.CROSSED_RING,
         own_loops.BALL_RING,
         own_loops.BENNETT,
@@ -58,7 +57,6 @@ MODELS = {
 }
 SPANS = {
     "seven_hinges": (-1.9, 0.7),
-    "guided_ring": (-1.9, 0.5),
     "crossed_ring": (-1.6, 0.15),
     "ball_ring": (-0.02, 2.2),
     "bennett": (-2.0, 2.0),
