@@ -120,7 +120,7 @@ def ours(method: str) -> Solver:
                 (0.0, END),
                 system.state(),
                 inputs={"drive_torque": TORQUE},
-                method=method,  # type: ignore[arg-type]
+                method=method,  # type: ignore[arg-type]  # a name from a list
                 rtol=tolerance,
                 atol=tolerance,
                 t_eval=[END],

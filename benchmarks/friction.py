@@ -106,7 +106,7 @@ def _simulate(model: Model, start: Array, method: str, rtol: float) -> Simulatio
         model,
         (0.0, DURATION),
         start,
-        method=method,  # type: ignore[arg-type]
+        method=method,  # type: ignore[arg-type]  # a name from a list
         rtol=rtol,
         atol=rtol * ATOL_PER_RTOL,
         t_eval=np.linspace(0.0, DURATION, ERROR_POINTS),

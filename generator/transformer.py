@@ -34,7 +34,7 @@ from .actions import (
 )
 from .carriers import held_together
 from .coupling import coupled
-from .joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
+from .joints import Joint, Prismatic, Revolute, Spherical, Universal
 from .model_checks import DRIVABLE
 from .pairs import PairCandidate, closed_form, pair_candidates
 from .settled import Settled
@@ -46,9 +46,6 @@ if TYPE_CHECKING:
     from .coupling import Coupling
     from .mechanism import Mechanism, Model
     from .settled import Coordinate
-
-
-_ENDS = 2  # of a rod
 
 
 _Offer = tuple[Cycle, list[Cycle]]
@@ -244,18 +241,11 @@ class Plan:
 
     def _place_idle(self) -> None:
         """Place the links without mass that nothing keeps from turning about their line."""
-        for body in self._mechanism.bodies:
-            if self._is_idle(body.name) and body.name not in self.model.massive:
-                self.actions.append(PlaceIdle(body.name))
-                self._settled.on_line.discard(body.name)
-                self._settled.placed.add(body.name)
-        self._place_neighbours()
-
-    def _is_idle(self, body: str) -> bool:
-        """Tell whether a link may turn about its line as it likes: that moves no other body."""
-        joints = self._mechanism.joints_of(body)
-        on_line = all(isinstance(j, Spherical | Universal | Cylindrical) for j in joints)
-        return body in self._settled.on_line and on_line and len(joints) == _ENDS
+        for body in self._mechanism.idle_links:
+            if body in self._settled.on_line and body not in self.model.massive:
+                self.actions.append(PlaceIdle(body))
+                self._settled.on_line.discard(body)
+                self._settled.placed.add(body)
 
     # -- solving a loop -------------------------------------------------------------------------
 
@@ -307,6 +297,8 @@ class Plan:
         if action is None or not self.model.allow_iteration:
             cycle = (closed or cycles)[0]
             message = self._refusal(cycle, pair_candidates(self._settled, cycle))
+            if action is None:
+                message += self._miscounted()
             message += self._remedy(action, coupling)
             raise NoClosedFormError(message, len(self.transformers))
         solved = [offer for offer in waiting if offer[0] in closed]
@@ -370,7 +362,6 @@ class Plan:
             f"form in the catalogue. {self._settled.unknowns(cycle)} of its coordinates are "
             "unknown. "
             f"Pairs tried: {tried or 'none, since no two of its joints keep a point in common'}."
-            f"{self._miscounted()}"
         )
 
     def _miscounted(self) -> str:

@@ -3,6 +3,9 @@
 import time
 
 from kintrafo.generated import macpherson
+from kintrafo.generator.emit.files import project_files
+from kintrafo.generator.mechanisms.macpherson import MODELS
+from kintrafo.generator.outputs import generate
 
 from .case import REPOSITORY, Array, parameters
 from .compiled import Source
@@ -33,10 +36,6 @@ def constants() -> Array:
 
 def build_seconds() -> tuple[float, float]:
     """Return the time to derive the whole model, and to write all of its files, s."""
-    from kintrafo.generator.emit.files import project_files  # noqa: PLC0415
-    from kintrafo.generator.mechanisms.macpherson import MODELS  # noqa: PLC0415
-    from kintrafo.generator.outputs import generate  # noqa: PLC0415
-
     model = next(model for model in MODELS if model.name == "macpherson")
     begin = time.perf_counter()
     derived = generate(model)

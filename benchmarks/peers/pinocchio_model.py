@@ -208,7 +208,7 @@ def _folder(package: str) -> Path:
 
 
 def _prefix() -> Path:
-    import pinocchio  # noqa: PLC0415
+    import pinocchio  # noqa: PLC0415  # may not be installed
 
     for folder in Path(pinocchio.__file__).parents:
         if folder.name == "cmeel.prefix":

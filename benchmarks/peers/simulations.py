@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from kintrafo import Model, simulate
 
 from .case import SAMPLES, Array, instant, start
 from .compiled import FLAGS, Library
@@ -39,8 +40,6 @@ class Simulator:
 
 def kintrafo(method: str) -> Simulator:
     """Return this project's ``simulate`` as its users call it."""
-    from kintrafo import Model, simulate  # noqa: PLC0415
-
     model = Model("reference_car")
 
     span = (float(SAMPLES[0]), float(SAMPLES[-1]))
@@ -73,7 +72,7 @@ _JIT = {"jit": True, "compiler": "shell", "jit_options": {"flags": list(FLAGS["n
 
 def casadi_plain() -> Iterator[Simulator]:
     """Yield CasADi's CVODES as one takes it from the manual: Lagrange, every option by default."""
-    from . import casadi_tree  # noqa: PLC0415
+    from . import casadi_tree  # noqa: PLC0415  # may not be installed
 
     model = casadi_tree.build("lagrange", literal=False)
     for ending, options in (("", {}), (", jit", _JIT)):
@@ -83,7 +82,7 @@ def casadi_plain() -> Iterator[Simulator]:
 
 def casadi_tuned() -> Iterator[Simulator]:
     """Yield CasADi's CVODES: multistep method, iteration, interpreted or compiled functions."""
-    from . import casadi_tree  # noqa: PLC0415
+    from . import casadi_tree  # noqa: PLC0415  # may not be installed
 
     for formulation in ("lagrange", "routh", "implicit"):
         model = casadi_tree.build(formulation, literal=False)
@@ -107,7 +106,7 @@ def casadi_tuned() -> Iterator[Simulator]:
 
 
 def _cvodes(model: Any, options: dict[str, Any]) -> Callable[[float], Run]:
-    import casadi as ca  # noqa: PLC0415
+    import casadi as ca  # noqa: PLC0415  # may not be installed
 
     state, given = ca.SX.sym("x", 4), ca.SX.sym("p", model.constants.size)
     equations = {"x": state, "p": given, "ode": model.function(state, given)}
@@ -130,7 +129,7 @@ def _cvodes(model: Any, options: dict[str, Any]) -> Callable[[float], Run]:
 
 def exudyn() -> Iterator[Simulator]:
     """Yield Exudyn's generalised-alpha method, directly and with Richardson's extrapolation."""
-    from . import exudyn_model as peer  # noqa: PLC0415
+    from . import exudyn_model as peer  # noqa: PLC0415  # may not be installed
 
     def direct(setting: peer.Setting) -> Run:
         system = peer.Exudyn(instant(start()))

@@ -158,17 +158,11 @@ class _Meeting(_Equation):
         return self.along.dot(pull) * self.scale
 
 
-@dataclass(frozen=True)
-class _Guided(_Equation):
-    """A point stays on the guide of another body, along a direction of that body across it."""
+class _Guided(_Meeting):
+    """A point stays on the guide of another body, along a direction of that body across it.
 
-    p1: Vector
-    p2: Vector
-    along: Vector
-    scale: sp.Expr
-
-    def misfit(self) -> sp.Expr:
-        return self.along.dot(self.p2 - self.p1) * self.scale
+    The direction turns with the first body, and the second one slides as that sees it.
+    """
 
     def rate(self, one: Moving, two: Moving) -> sp.Expr:
         return self.along.dot(self._slip(one, two)) * self.scale

@@ -12,7 +12,14 @@ from ..vectors import ZERO, Twist, Vector
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ..actions import HeldByRod, SolveHinge, SolveSlide, SolveTurn
+    from ..actions import (
+        HeldByRod,
+        SolveHinge,
+        SolveSlide,
+        SolveStrut,
+        SolveTelescope,
+        SolveTurn,
+    )
     from ..geometry import Point
     from ..kinematics import Kinematics
 
@@ -58,6 +65,37 @@ def line_between(
         motion,
         span,
         inverse_squared,
+    )
+
+
+def line_of_ends(kin: Kinematics, action: SolveTelescope | SolveStrut, what: str) -> OnLine:
+    """Append the line between the two placed ends of what can change its length.
+
+    Parameters
+    ----------
+    what
+        What has these ends, for the message that they coincide.
+    """
+    name = action.joint.name
+    anchor = kin.point_motion(action.anchor_body, action.anchor)
+    end = kin.point_motion(action.end_body, action.end)
+    span = kin.program.vector(f"span_{name}", end.minus(anchor).position)
+    squared = kin.program.guarded(
+        f"length_squared_{name}",
+        span.dot(span),
+        f"{kin.loop_of(action)}: the ends {action.anchor.name} and {action.end.name} of {what} "
+        "coincide",
+        "m^2",
+    )
+    return line_between(
+        kin,
+        name,
+        (action.anchor, action.end),
+        (anchor, end),
+        (action.anchor_body, action.end_body),
+        span,
+        kin.program.define(f"length_{name}", sp.sqrt(squared)),
+        squared,
     )
 
 

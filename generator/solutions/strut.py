@@ -8,7 +8,7 @@ import sympy as sp
 
 from ..placement import Placed, to_axes
 from ..vectors import NO_TWIST, ZERO, Twist
-from .lines import line_between, once, projector
+from .lines import line_of_ends, once, projector
 
 if TYPE_CHECKING:
     from ..actions import PlaceByGuide, SolveStrut
@@ -24,32 +24,13 @@ def solve_strut(kin: Kinematics, action: SolveStrut) -> None:
     its cross (`cross`), the second one from the first.
     """
     program, name = kin.program, action.joint.name
-    anchor = kin.point_motion(action.anchor_body, action.anchor)
-    end = kin.point_motion(action.end_body, action.end)
-    span = program.vector(f"span_{name}", end.minus(anchor).position)
-    squared = program.guarded(
-        f"length_squared_{name}",
-        span.dot(span),
-        f"{kin.loop_of(action)}: the ends {action.anchor.name} and {action.end.name} of the strut "
-        f"of {action.links} coincide",
-        "m^2",
-    )
-    length = program.define(f"length_{name}", sp.sqrt(squared))
-    kin.on_line[action.near] = line_between(
-        kin,
-        name,
-        (action.anchor, action.end),
-        (anchor, end),
-        (action.anchor_body, action.end_body),
-        span,
-        length,
-        squared,
-    )
+    record = line_of_ends(kin, action, f"the strut of {action.links}")
+    kin.on_line[action.near] = record
     design = program.vector(
         f"span_{name}_design", kin.design(action.end) - kin.design(action.anchor)
     )
     start = program.define(f"length_{name}_design", sp.sqrt(design.dot(design)))
-    kin.slides[name] = program.define(f"slide_{name}", action.sense * (length - start))
+    kin.slides[name] = program.define(f"slide_{name}", action.sense * (record.length - start))
 
 
 def place_by_guide(kin: Kinematics, action: PlaceByGuide) -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..placement import OffLine
-from .lines import line_between
+from .lines import line_of_ends
 
 if TYPE_CHECKING:
     from ..actions import SolveTelescope
@@ -24,34 +24,13 @@ def solve_telescope(kin: Kinematics, action: SolveTelescope) -> None:
     if action.misses_end:
         _solve_offset(kin, action)
         return
-    anchor = kin.point_motion(action.anchor_body, action.anchor)
-    end = kin.point_motion(action.end_body, action.end)
     name = action.joint.name
-    relative = end.minus(anchor)
-    span = kin.program.vector(f"span_{name}", relative.position)
-    squared = kin.program.guarded(
-        f"length_squared_{name}",
-        span.dot(span),
-        f"{kin.loop_of(action)}: the ends {action.anchor.name} and {action.end.name} of telescope "
-        f"{name} coincide",
-        "m^2",
-    )
-    length = kin.program.define(f"length_{name}", sp.sqrt(squared))
-    record = line_between(
-        kin,
-        name,
-        (action.anchor, action.end),
-        (anchor, end),
-        (action.anchor_body, action.end_body),
-        span,
-        length,
-        squared,
-    )
+    record = line_of_ends(kin, action, f"telescope {name}")
     kin.on_line[action.anchor_link] = record
     kin.on_line[action.end_link] = record
     kin.telescopes[name] = record
     kin.slides[name] = kin.program.define(
-        f"slide_{name}", sp.Symbol(action.joint.length_at_zero_slide) - length
+        f"slide_{name}", sp.Symbol(action.joint.length_at_zero_slide) - record.length
     )
 
 

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..arithmetic import SignOf
-from ..hinge_angles import HingeDesign, positive_axis_at_design
+from ..hinge_angles import HingeDesign, axis_at_design, positive_axis_at_design
 from ..iteration import Matrix, determinant, named
 from ..joints import Joint, Prismatic, Revolute, Spherical, Universal
 from ..placement import Placed, from_axes, to_axes
@@ -117,8 +117,9 @@ _UNITS = (UNIT_X, UNIT_Y, UNIT_Z)
 
 def _axis(kin: Kinematics, joint: Revolute | Prismatic) -> Vector:
     """Return the unit vector along which a coordinate counts, at design, in work axes."""
-    vector = joint.axis.vector if isinstance(joint, Revolute) else joint.direction.components
-    return kin.unit(f"{joint.name}_axis_design", kin.to_work(vector))
+    if isinstance(joint, Revolute):
+        return axis_at_design(kin, joint)
+    return kin.unit(f"{joint.name}_axis_design", kin.to_work(joint.direction.components))
 
 
 def _driven_axis(kin: Kinematics, joint: Revolute | Prismatic) -> Vector:
