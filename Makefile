@@ -1,6 +1,6 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
-.PHONY: drawings help setup generate build run test package lint types format baseline clean \
+.PHONY: drawings help setup generate build run test fuzz package lint types format baseline clean \
 	benchmark benchmark-andrews benchmark-growth benchmark-page benchmark-peers benchmark-speed format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
@@ -30,6 +30,9 @@ run: build ## The paper's suspension: topology, Figures 4 to 6, summary, all in 
 
 test: build ## Run all tests
 	@$(PYTHON) -m pytest -q -n 2 --dist worksteal
+
+fuzz: build ## Try every door for long; a table of what came of it (ARGS="--attempts 10000")
+	@cd tests && ../$(PYTHON) -m fuzz $(ARGS)
 
 lint: .venv/.ready ## Check style
 	@.venv/bin/ruff check .

@@ -1,0 +1,93 @@
+"""What one attempt at a door may come to, and how it is told.
+
+A door is a module of `fuzz.doors` with a docstring whose first line says what is tried,
+and with a function ``attempt(random)`` that tries it once with what it draws from a
+`numpy.random.Generator`. What it may do:
+
+- return: something went in and every check of the result held (clean);
+- raise a `KintrafoError`, or another error that the door names in ``CLEAR``: a refusal, in words
+  that name what is wrong (clear). A door that can judge the words does so, and raises `RawError`;
+- raise `WrongError`: a result that contradicts what shares no code with it;
+- raise anything else, or end the interpreter: raw;
+- not return within ``SECONDS`` (20 if the door does not say): hung.
+
+A door may set ``SHORT``, the number of attempts in a test run (40 if it does not).
+"""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from kintrafo.errors import KintrafoError
+
+from . import doors
+
+if TYPE_CHECKING:
+    from types import ModuleType
+
+OUTCOMES = ("clean", "clear", "wrong", "raw", "hung")
+"""What may come of an attempt; the last three are defects."""
+
+DEFECTS = OUTCOMES[2:]
+
+
+class WrongError(AssertionError):
+    """A result that contradicts its oracle."""
+
+
+class RawError(AssertionError):
+    """A refusal in words that help nobody."""
+
+
+@dataclass(frozen=True)
+class Tried:
+    """One attempt.
+
+    Attributes
+    ----------
+    seed : int
+        Of the random numbers: the same seed tries the same.
+    outcome : str
+        One of `OUTCOMES`.
+    text : str
+        Of the error, if there is one.
+    """
+
+    seed: int
+    outcome: str
+    text: str = ""
+
+
+def names() -> list[str]:
+    """Return the names of all doors; one that begins with an underscore is none."""
+    found = (module.name for module in pkgutil.iter_modules(doors.__path__))
+    return sorted(name for name in found if not name.startswith("_"))
+
+
+def door(name: str) -> ModuleType:
+    """Return a door by its name."""
+    return importlib.import_module(f"{doors.__name__}.{name}")
+
+
+def setting(module: ModuleType, name: str) -> Any:
+    """Return a setting of a door, or its default."""
+    defaults = {"SECONDS": 20.0, "SHORT": 40, "CLEAR": ()}
+    return getattr(module, name, defaults[name])
+
+
+def tried(module: ModuleType, seed: int) -> Tried:
+    """Try a door once; an attempt that does not come back is for the caller to end."""
+    clear = (KintrafoError, *setting(module, "CLEAR"))
+    try:
+        module.attempt(np.random.default_rng(seed))
+    except WrongError as error:
+        return Tried(seed, "wrong", str(error))
+    except clear as error:
+        return Tried(seed, "clear", str(error))
+    except Exception as error:  # noqa: BLE001 (every other error is what is looked for)
+        return Tried(seed, "raw", f"{type(error).__name__}: {error}")
+    return Tried(seed, "clean")
