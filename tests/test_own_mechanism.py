@@ -270,6 +270,14 @@ class TestWithoutCompiler:
         with pytest.raises(kintrafo.CompilerError, match="CC = no-such-compiler"):
             kintrafo.compile(FOUR_BAR)
 
+    @pytest.mark.parametrize(
+        ("variable", "text"), [("CC", "gcc '-O2"), ("CFLAGS", '-DNAME="x'), ("CFLAGS", "-O1 \\")]
+    )
+    def test_a_quotation_that_nothing_closes(self, monkeypatch, variable, text):
+        monkeypatch.setenv(variable, text)
+        with pytest.raises(kintrafo.CompilerError, match=f"{variable} = .*: no (closing|escaped)"):
+            kintrafo.compile(FOUR_BAR)
+
     def test_native_methods_need_c(self):
         system = kintrafo.System(kintrafo.compile(FOUR_BAR, backend="numpy"))
         with pytest.raises(kintrafo.InputError, match="needs compiled equations"):
