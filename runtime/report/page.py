@@ -9,19 +9,22 @@ from pathlib import Path
 import numpy as np
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
+from numpy.typing import NDArray
 
 from ..files import replacing
 from ..groups import ORDER
 from ..model import Model
 from ..paper import SPIN_RATE
 from .accuracy import Accuracy, measure
-from .curves import Curve, curves, only_over_rack
+from .curves import Curve, curves, gaps_on, only_over_rack
 from .grid import Grid
 from .motion import DROP, Motion, NoMotion, simulated_second
 from .payload import Look, page_data
 from .plotted import decimals, meaningful, shown_range
 from .poses import Poses, poses, reachable_grid
 from .tables import input_tables, summary
+
+Array = NDArray[np.float64]
 
 # What is drawn in these colours, by the kind of suspension.
 _PARTS = {
@@ -39,6 +42,7 @@ class _Samples:
     grid: Grid
     poses: Poses
     curves: list[Curve]
+    gaps: list[Array]
     accuracy: Accuracy
     looks: dict[str, Look]
     motion: Motion | NoMotion
@@ -116,13 +120,15 @@ def _sample(model: Model, tell: Callable[[str], None]) -> _Samples:
     tell("positions over wheel travel and rack displacement")
     sampled = poses(model, travel, rack)
     drawn = curves(model, travel, rack, tell=tell)
+    gaps = gaps_on(model, grid)
     ranges = {curve.key: shown_range(curve.values) for curve in drawn}
-    accuracy = measure(model, grid, sampled, drawn, ranges, tell=tell)
+    accuracy = measure(model, grid, sampled, drawn, gaps, ranges, tell=tell)
     tell("one second of motion")
     return _Samples(
         grid=grid,
         poses=sampled,
         curves=drawn,
+        gaps=gaps,
         accuracy=accuracy,
         looks={c.key: _look(c, grid, ranges[c.key], accuracy) for c in drawn},
         motion=simulated_second(model, grid),
@@ -165,6 +171,7 @@ def _data(model: Model, samples: _Samples) -> str:
         samples.grid,
         samples.poses,
         samples.curves,
+        samples.gaps,
         samples.looks,
         samples.motion,
     )
