@@ -212,7 +212,7 @@ class Grid:
 
 def _one_sided(samples: Array, same: NDArray[np.bool_], line: float, column: float) -> float:
     """Interpolate at a place, in steps of the grid, from the marked points alone."""
-    columns = _run(same.any(axis=0), column)
+    columns = _run(np.logical_or.reduce(same, axis=0), column)
     values = []
     for index in columns:
         lines = _run(same[:, index], line)
