@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
+from ..files import reason
 
 
 def read_toml(file: Path | Traversable) -> dict[str, Any]:
@@ -32,6 +33,12 @@ def read_toml(file: Path | Traversable) -> dict[str, Any]:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise InputError([_syntax_problem(str(error), text)], str(file)) from None
+    except RecursionError:
+        problem = "Tables or lists stand in each other too deeply. No key of a suspension does."
+        raise InputError([problem], str(file)) from None
+    except ValueError:  # Python's limit of 4300 digits, which tomllib lets pass
+        problem = "A number has thousands of digits. Write it with an exponent, as 1.5e6."
+        raise InputError([problem], str(file)) from None
 
 
 def _text_of(file: Path | Traversable) -> str:
@@ -39,7 +46,7 @@ def _text_of(file: Path | Traversable) -> str:
     try:
         content = file.read_bytes()
     except OSError as error:
-        problem = f"The file cannot be read: {error.strerror}. Check its name and folder."
+        problem = f"The file cannot be read: {reason(error)}"
         raise InputError([problem], str(file)) from None
     try:
         return content.decode("utf-8-sig")
