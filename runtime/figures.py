@@ -1,5 +1,6 @@
 """Figures 4, 5 and 6 of the paper, for print: PNG and SVG."""
 
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -63,8 +64,10 @@ def save(figure: Figure, path: str | Path, *, force: bool = False, inputs: Paths
         If the file must not or cannot be written.
     """
     ending = Path(path).suffix.lower().removeprefix(".")
+    drawn = BytesIO()  # what cannot be written later leaves no open file behind
+    figure.savefig(drawn, dpi=160, format=ending, metadata=METADATA.get(ending))
     with replacing(path, force=force, inputs=inputs) as temporary:
-        figure.savefig(temporary, dpi=160, format=ending, metadata=METADATA.get(ending))
+        temporary.write_bytes(drawn.getvalue())
     return Path(path)
 
 

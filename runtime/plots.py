@@ -6,6 +6,7 @@ the variables' attributes, see `kintrafo.quantities`.
 """
 
 from collections.abc import Callable, Hashable, Sequence
+from io import BytesIO
 from pathlib import Path
 from textwrap import fill
 from typing import Any
@@ -146,13 +147,13 @@ def write_overview(
             chosen = tuple(name for page in pages.values() for name in page)
             one = figure(dataset, chosen, title=title, alone=False)
             return save(one, path, force=force, inputs=inputs)
-        with (
-            replacing(path, force=force, inputs=inputs) as temporary,
-            PdfPages(temporary, metadata=METADATA["pdf"]) as document,
-        ):
+        drawn = BytesIO()
+        with PdfPages(drawn, metadata=METADATA["pdf"]) as document:
             for group, variables in pages.items():
                 heading = ": ".join(text for text in (title, group) if text)
                 document.savefig(figure(dataset, variables, title=heading, alone=False))
+    with replacing(path, force=force, inputs=inputs) as temporary:
+        temporary.write_bytes(drawn.getvalue())
     return Path(path)
 
 

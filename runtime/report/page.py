@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
+from numpy.typing import NDArray
 
 from ..files import Paths, refuse, replacing
 from ..groups import ORDER
@@ -16,13 +17,15 @@ from ..legible import legible
 from ..model import Model
 from ..paper import SPIN_RATE
 from .accuracy import Accuracy, measure
-from .curves import Curve, curves, only_over_rack
+from .curves import Curve, curves, gaps_on, only_over_rack
 from .grid import Grid
 from .motion import DROP, Motion, NoMotion, simulated_second
 from .payload import Look, page_data
 from .plotted import decimals, meaningful, shown_range
 from .poses import Poses, poses, reachable_grid
 from .tables import input_tables, summary
+
+Array = NDArray[np.float64]
 
 ENDINGS = (".html", ".htm")
 """What the name of a report ends in."""
@@ -43,6 +46,7 @@ class _Samples:
     grid: Grid
     poses: Poses
     curves: list[Curve]
+    gaps: list[Array]
     accuracy: Accuracy
     looks: dict[str, Look]
     motion: Motion | NoMotion
@@ -130,13 +134,15 @@ def _sample(model: Model, tell: Callable[[str], None]) -> _Samples:
     tell("positions over wheel travel and rack displacement")
     sampled = poses(model, travel, rack)
     drawn = curves(model, travel, rack, tell=tell)
+    gaps = gaps_on(model, grid)
     ranges = {curve.key: shown_range(curve.values) for curve in drawn}
-    accuracy = measure(model, grid, sampled, drawn, ranges, tell=tell)
+    accuracy = measure(model, grid, sampled, drawn, gaps, ranges, tell=tell)
     tell("one second of motion")
     return _Samples(
         grid=grid,
         poses=sampled,
         curves=drawn,
+        gaps=gaps,
         accuracy=accuracy,
         looks={c.key: _look(c, grid, ranges[c.key], accuracy) for c in drawn},
         motion=simulated_second(model, grid),
@@ -179,6 +185,7 @@ def _data(model: Model, samples: _Samples) -> str:
         samples.grid,
         samples.poses,
         samples.curves,
+        samples.gaps,
         samples.looks,
         samples.motion,
     )
