@@ -267,7 +267,7 @@ def test_a_full_disk_is_told_and_nothing_is_left(full, name):
     assert list(full.iterdir()) == []
 
 
-def test_the_register_on_a_full_disk(tmp_path, cache, monkeypatch):
+def test_the_register_on_a_full_disk(tmp_path, monkeypatch):
     def no_space(*_):
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 

@@ -25,8 +25,8 @@ def standing_streams() -> Iterator[None]:
     """See that what is printed goes somewhere, or that it is told where it does not.
 
     A stream that was closed leads nowhere, and its number not to the next file that is opened.
-    What an encoding cannot say is written as Python writes it. A full disk or a reader that has
-    gone ends the program with exit code 2, and not with a traceback.
+    What an encoding cannot say is written as Python writes it. A full disk ends the program with a
+    message and exit code 2, a reader that has gone with exit code 1.
     """
     _replace_closed()
     for stream in (sys.stdout, sys.stderr):
@@ -58,8 +58,9 @@ def _lost_output(error: OSError) -> int:
     with suppress(OSError):
         # what is still to be printed must not fail again when the interpreter ends
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    if not isinstance(error, BrokenPipeError):  # a reader that has seen enough is no mistake
-        _print(f"error: standard output cannot be written: {error.strerror}.", "red")
+    if isinstance(error, BrokenPipeError):
+        return Exit.REFUSED  # and no word: a reader that has seen enough is no mistake
+    _print(f"error: standard output cannot be written: {error.strerror}.", "red")
     return Exit.MISTAKE
 
 
@@ -70,6 +71,8 @@ def guarded() -> Iterator[None]:
         with warnings.catch_warnings():
             warnings.showwarning = _show_warning
             yield
+    except BrokenPipeError as error:
+        raise SystemExit(_lost_output(error)) from None
     except Exception as error:
         found = _explained(error)
         if found is None:

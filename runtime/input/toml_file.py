@@ -9,6 +9,10 @@ from typing import Any
 from ..errors import InputError
 from ..files import reason
 
+_DEEP = "Tables or lists stand in each other too deeply. No key of a suspension does."
+# A key of a hundred parts, in time linear in the length; tomllib's grows with the square of them.
+_TOO_DEEP = re.compile(r"""(?<![\w"'.-])(?:[\w"'-]++\s*+\.\s*+){100}""")
+
 
 def read_toml(file: Path | Traversable) -> dict[str, Any]:
     """Read a TOML file.
@@ -29,13 +33,14 @@ def read_toml(file: Path | Traversable) -> dict[str, Any]:
         If the file cannot be read, is not UTF-8 or is not valid TOML.
     """
     text = _text_of(file)
+    if _TOO_DEEP.search(text):
+        raise InputError([_DEEP], str(file))
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise InputError([_syntax_problem(str(error), text)], str(file)) from None
     except RecursionError:
-        problem = "Tables or lists stand in each other too deeply. No key of a suspension does."
-        raise InputError([problem], str(file)) from None
+        raise InputError([_DEEP], str(file)) from None
     except ValueError:  # Python's limit of 4300 digits, which tomllib lets pass
         problem = "A number has thousands of digits. Write it with an exponent, as 1.5e6."
         raise InputError([problem], str(file)) from None
