@@ -11,8 +11,9 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 from numpy.typing import NDArray
 
-from ..files import replacing
+from ..files import Paths, refuse, replacing
 from ..groups import ORDER
+from ..legible import legible
 from ..model import Model
 from ..paper import SPIN_RATE
 from .accuracy import Accuracy, measure
@@ -25,6 +26,9 @@ from .poses import Poses, poses, reachable_grid
 from .tables import input_tables, summary
 
 Array = NDArray[np.float64]
+
+ENDINGS = (".html", ".htm")
+"""What the name of a report ends in."""
 
 # What is drawn in these colours, by the kind of suspension.
 _PARTS = {
@@ -50,10 +54,12 @@ class _Samples:
 
 def write(
     model: Model,
-    path: Path,
+    path: str | Path,
     *,
     title: str | None = None,
     progress: Callable[[str], None] | None = None,
+    force: bool = False,
+    inputs: Paths = (),
 ) -> Path:
     """Write an HTML report of a suspension.
 
@@ -63,12 +69,17 @@ def write(
     Parameters
     ----------
     model : Model
-    path : Path
-        The file to write; it appears when it is complete. Folders are made.
+    path : str or pathlib.Path
+        The file to write, whose name ends in ``.html``; it appears when it is complete. Folders
+        are made.
     title : str, optional
         Heading of the page; by default it says what the suspension is.
     progress : callable, optional
         Called with a few words on what is being done.
+    force : bool, optional
+        Whether a file that somebody else wrote is replaced, see `kintrafo.files`.
+    inputs : iterable of str or pathlib.Path, optional
+        Files that are never replaced.
 
     Returns
     -------
@@ -77,15 +88,18 @@ def write(
 
     Raises
     ------
+    InputError
+        If the file must not or cannot be written.
     PositionError
         If the suspension cannot move.
     """
     tell = progress or (lambda _: None)
+    refuse([path], force=force, inputs=inputs, endings=ENDINGS)
     text = render(model, title=title, tell=tell)
     tell("writing the page")
-    with replacing(path) as temporary:
+    with replacing(path, force=force, inputs=inputs) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")
-    return path
+    return Path(path)
 
 
 def render(
@@ -96,7 +110,7 @@ def render(
     side = model.suspension.vehicle.side
     template = _environment().get_template("page.html.jinja")
     return template.render(
-        title=title or f"{model.suspension.heading()}, front {side}",
+        title=legible(title or f"{model.suspension.heading()}, front {side}"),
         side=side,
         version=version("kintrafo"),
         samples=samples,
