@@ -15,6 +15,7 @@ from scipy.integrate import solve_ivp
 
 from .events import Events
 from .generated._support import ModelError
+from .milestones import stopping_at
 from .signals import Segment, TimeInputs
 from .system import System
 
@@ -143,6 +144,7 @@ def solve_native(
         model.constants,
         inputs.constant,
         [_contiguous(spline.curve, spline.targets) for spline in segment.splines],
+        segment.milestones,
         np.ascontiguousarray(state),
         np.ascontiguousarray(times),
         method=SUNDIALS_METHODS[options.method],
@@ -254,8 +256,8 @@ def solve_scipy(
     # an explicit method evaluates at most twelve times a step, an implicit one fewer
     function = _RightHandSide(model, inputs, segment, 12.0 * options.max_steps)
     steps: list[tuple[float, Array]] = []
-    method: Any = SCIPY_METHODS[options.method]
-    extra: dict[str, Any] = {"jac": function.jacobian} if method in _IMPLICIT else {}
+    method: Any = stopping_at(SCIPY_METHODS[options.method], segment.milestones)
+    extra: dict[str, Any] = {"jac": function.jacobian} if options.method in _IMPLICIT else {}
     try:
         result = solve_ivp(
             function,

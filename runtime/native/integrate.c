@@ -475,18 +475,29 @@ static int put_out(worker *w, const double *times, long count, double reached, d
     return KT_DONE;
 }
 
+/* Return the stop, or the next milestone if that comes before it. */
+static double sooner(const kt_problem *p, long *next, double time, double stop, double sign)
+{
+    while (*next < p->milestone_count && sign * (p->milestones[*next] - time) <= 0.0) {
+        ++*next;
+    }
+    return *next < p->milestone_count && sign * (p->milestones[*next] - stop) < 0.0
+        ? p->milestones[*next] : stop;
+}
+
 static int run(worker *w, const double *times, long count, int every_step)
 {
     kt_result *r = w->result;
     const kt_options *o = w->options;
     int n = w->problem->state_count, outcome;
     double end = times[count - 1], sign = end > times[0] ? 1.0 : -1.0, time = times[0];
-    long next = 1;
+    long next = 1, milestone = 0;
     if (append_state(&r->output, times[0], r->state, n)) {
         return KT_MEMORY;
     }
     while (sign * (end - time) > 0.0) {
         double stop = o->stop_at_outputs ? times[next] : end, before = time;
+        stop = sooner(w->problem, &milestone, time, stop, sign);
         if (set_stop(w, stop)) {
             return KT_FAILED;
         }
