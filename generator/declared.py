@@ -165,8 +165,8 @@ def _checked(function: Callable[..., Any], name: str, annotated: Any) -> Callabl
 
 
 def _with_tuples(value: Any) -> Any:
-    """Return a value with tuples in the place of lists."""
-    if isinstance(value, list | tuple) and not hasattr(value, "_fields"):
+    """Return a value with tuples in the place of lists and of what makes one item after another."""
+    if isinstance(value, list | tuple | Iterator) and not hasattr(value, "_fields"):
         return tuple(_with_tuples(item) for item in value)
     if isinstance(value, Mapping):
         return {key: _with_tuples(item) for key, item in value.items()}

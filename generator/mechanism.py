@@ -49,7 +49,7 @@ class Body:
     Attributes
     ----------
     name, number
-        The number is that of the paper's or the user's figure.
+        The number is that of the paper's or the user's figure; every body has its own.
     center
         Centre of mass; its position at design is a parameter.
     rotor_axis
