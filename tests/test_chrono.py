@@ -174,7 +174,6 @@ class TestMistakes:
         path.write_text("/* before\n */" + text + "// after", encoding="utf-8")
         assert chrono.read(path).suspension.vehicle.side == "left"
 
-
     @pytest.mark.parametrize(
         ("text", "words"),
         [
