@@ -62,14 +62,14 @@ def solver_extension() -> Extension | None:
     headers, linked = _mpi_flags(prefix / "include")
     return Extension(
         "kintrafo.native._sundials",
-        [(NATIVE / "_sundials.pyx").as_posix(), (NATIVE / "integrate.c").as_posix()],
+        [(NATIVE / name).as_posix() for name in ("_sundials.pyx", "integrate.c", "margins.c")],
         include_dirs=[NATIVE.as_posix(), (prefix / "include").as_posix()],
         library_dirs=homes,
         # found again when the module is imported, wherever they are
         runtime_library_dirs=[] if sys.platform == "win32" else homes,
         libraries=[*shared, "m"],
         extra_objects=[path.as_posix() for path in static],
-        depends=[(NATIVE / name).as_posix() for name in ("integrate.h", "versions.h")],
+        depends=[(NATIVE / name).as_posix() for name in ("integrate.h", "margins.h", "versions.h")],
         extra_compile_args=[*FLAGS, *headers],
         extra_link_args=linked,
     )

@@ -89,6 +89,7 @@ __all__ = [
     "GUARDS",
     "ASSUMPTIONS",
     "GUARD_UNITS",
+    "ACTING_GUARDS",
     "HELD_VARIANTS",
     "MOBILITY",
     "LOOPS",
@@ -344,6 +345,11 @@ GUARD_UNITS: Final[dict[str, str]] = {'k3_reach_squared': 'm^2',
  'k7_closure': 'm^2',
  'spring_length_squared': 'm^2',
  'pivot_beta': 'kg m^2 or kg'}
+
+ACTING_GUARDS: Final[dict[str, tuple[int, ...]]] = {'rhs': (0, 1, 2, 3, 4, 5, 6),
+ 'signals': (0, 1, 5),
+ 'positions': (0, 1, 2, 3, 4),
+ 'orientations': (0, 1, 2, 3, 4)}
 
 HELD_VARIANTS: Final[dict[str, tuple[str, ...]]] = {}
 

@@ -90,6 +90,7 @@ __all__ = [
     "GUARDS",
     "ASSUMPTIONS",
     "GUARD_UNITS",
+    "ACTING_GUARDS",
     "HELD_VARIANTS",
     "MOBILITY",
     "LOOPS",
@@ -737,6 +738,11 @@ GUARD_UNITS: Final[dict[str, str]] = {'upper_arm_reach_squared': 'm^2',
  'spring_length_squared': 'm^2',
  'cos_camber_squared': '1',
  'pivot_arm_angle': 'kg m^2 or kg'}
+
+ACTING_GUARDS: Final[dict[str, tuple[int, ...]]] = {'rhs': (0, 1, 2, 3, 5, 6, 7),
+ 'signals': (0, 1, 2, 3, 5, 6, 7),
+ 'positions': (0, 1, 2, 3, 4),
+ 'orientations': (0, 1, 2, 3, 4)}
 
 HELD_VARIANTS: Final[dict[str, tuple[str, ...]]] = {'rack_held': ('rack_velocity', 'rack_acceleration')}
 

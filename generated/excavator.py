@@ -84,6 +84,7 @@ __all__ = [
     "GUARDS",
     "ASSUMPTIONS",
     "GUARD_UNITS",
+    "ACTING_GUARDS",
     "HELD_VARIANTS",
     "MOBILITY",
     "LOOPS",
@@ -561,6 +562,10 @@ GUARD_UNITS: Final[dict[str, str]] = {'boom_barrel_extension': 'm',
  'pivot_boom_stroke': 'kg m^2 or kg',
  'pivot_arm_stroke': 'kg m^2 or kg',
  'pivot_bucket_stroke': 'kg m^2 or kg'}
+
+ACTING_GUARDS: Final[dict[str, tuple[int, ...]]] = {'rhs': (0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12),
+ 'positions': (0, 1, 2, 3, 4, 5, 6, 7, 8, 9),
+ 'orientations': (0, 1, 2, 3, 4, 5, 6, 7, 8, 9)}
 
 HELD_VARIANTS: Final[dict[str, tuple[str, ...]]] = {}
 

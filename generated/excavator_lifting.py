@@ -90,6 +90,7 @@ __all__ = [
     "GUARDS",
     "ASSUMPTIONS",
     "GUARD_UNITS",
+    "ACTING_GUARDS",
     "HELD_VARIANTS",
     "MOBILITY",
     "LOOPS",
@@ -563,6 +564,10 @@ GUARD_UNITS: Final[dict[str, str]] = {'boom_barrel_extension': 'm',
  'rocker_closure': 'm^2',
  'bucket_reach_squared': 'm^2',
  'bucket_closure': 'm^2'}
+
+ACTING_GUARDS: Final[dict[str, tuple[int, ...]]] = {'rhs': (0, 1, 2, 3, 4, 5, 6, 7, 8, 9),
+ 'positions': (0, 1, 2, 3, 4, 5, 6, 7, 8, 9),
+ 'orientations': (0, 1, 2, 3, 4, 5, 6, 7, 8, 9)}
 
 HELD_VARIANTS: Final[dict[str, tuple[str, ...]]] = {'cylinders_held': ('boom_stroke_velocity',
                     'boom_stroke_acceleration',

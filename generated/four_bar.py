@@ -89,6 +89,7 @@ __all__ = [
     "GUARDS",
     "ASSUMPTIONS",
     "GUARD_UNITS",
+    "ACTING_GUARDS",
     "HELD_VARIANTS",
     "MOBILITY",
     "LOOPS",
@@ -259,6 +260,8 @@ GUARD_UNITS: Final[dict[str, str]] = {'rocker_reach_squared': 'm^2',
  'rocker_closure': 'm^2',
  'spring_length_squared': 'm^2',
  'pivot_crank_angle': 'kg m^2 or kg'}
+
+ACTING_GUARDS: Final[dict[str, tuple[int, ...]]] = {'rhs': (0, 1, 2, 3), 'signals': (0, 1, 2), 'positions': (0, 1), 'orientations': (0, 1)}
 
 HELD_VARIANTS: Final[dict[str, tuple[str, ...]]] = {}
 

@@ -95,6 +95,7 @@ __all__ = [
     "GUARDS",
     "ASSUMPTIONS",
     "GUARD_UNITS",
+    "ACTING_GUARDS",
     "HELD_VARIANTS",
     "MOBILITY",
     "LOOPS",
@@ -978,6 +979,11 @@ GUARD_UNITS: Final[dict[str, str]] = {'right_bar_reach_squared': 'm^2',
  'pivot_left_beta1': 'kg m^2 or kg',
  'shaft_level_squared_right_C': '1',
  'shaft_level_squared_left_C': '1'}
+
+ACTING_GUARDS: Final[dict[str, tuple[int, ...]]] = {'rhs': (0, 1, 3, 5, 6, 8, 9, 11, 13, 14, 16, 17, 18, 19),
+ 'signals': (0, 1, 3, 5, 6, 8, 9, 11, 13, 14, 16, 17, 18, 19),
+ 'positions': (0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15),
+ 'orientations': (0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)}
 
 HELD_VARIANTS: Final[dict[str, tuple[str, ...]]] = {'rack_held': ('rack_velocity', 'rack_acceleration')}
 

@@ -89,6 +89,7 @@ __all__ = [
     "GUARDS",
     "ASSUMPTIONS",
     "GUARD_UNITS",
+    "ACTING_GUARDS",
     "HELD_VARIANTS",
     "MOBILITY",
     "LOOPS",
@@ -687,6 +688,11 @@ GUARD_UNITS: Final[dict[str, str]] = {'length_squared_BC': 'm^2',
  'pivot_beta9': 'kg m^2 or kg',
  'shaft_level_squared_C': '1',
  'shaft_level_squared_E': '1'}
+
+ACTING_GUARDS: Final[dict[str, tuple[int, ...]]] = {'rhs': (0, 1, 2, 3, 4, 5, 6, 7),
+ 'signals': (0, 1, 2, 3, 4, 5, 6, 7),
+ 'positions': (0, 1, 2, 3, 4),
+ 'orientations': (0, 1, 2, 3, 4)}
 
 HELD_VARIANTS: Final[dict[str, tuple[str, ...]]] = {}
 

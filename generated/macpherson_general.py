@@ -93,6 +93,7 @@ __all__ = [
     "GUARDS",
     "ASSUMPTIONS",
     "GUARD_UNITS",
+    "ACTING_GUARDS",
     "HELD_VARIANTS",
     "MOBILITY",
     "LOOPS",
@@ -995,6 +996,11 @@ GUARD_UNITS: Final[dict[str, str]] = {'length_squared_BC': 'm^2',
  'cos_camber_squared': '1',
  'pivot_beta1': 'kg m^2 or kg',
  'shaft_level_squared_C': '1'}
+
+ACTING_GUARDS: Final[dict[str, tuple[int, ...]]] = {'rhs': (0, 1, 2, 3, 6, 7, 8),
+ 'signals': (0, 1, 2, 3, 6, 7, 8),
+ 'positions': (0, 1, 2, 3, 4, 5),
+ 'orientations': (0, 1, 2, 3, 4, 5)}
 
 HELD_VARIANTS: Final[dict[str, tuple[str, ...]]] = {'rack_held': ('rack_velocity', 'rack_acceleration')}
 

@@ -83,6 +83,7 @@ __all__ = [
     "GUARDS",
     "ASSUMPTIONS",
     "GUARD_UNITS",
+    "ACTING_GUARDS",
     "HELD_VARIANTS",
     "MOBILITY",
     "LOOPS",
@@ -208,6 +209,8 @@ GUARDS: Final[tuple[tuple[str, str], ...]] = (('piston_closure',
 ASSUMPTIONS: Final[tuple[tuple[str, str, str, str], ...]] = ()
 
 GUARD_UNITS: Final[dict[str, str]] = {'piston_closure': 'm^2', 'pivot_crank_angle': 'kg m^2 or kg'}
+
+ACTING_GUARDS: Final[dict[str, tuple[int, ...]]] = {'rhs': (0, 1), 'positions': (0,), 'orientations': (0,)}
 
 HELD_VARIANTS: Final[dict[str, tuple[str, ...]]] = {}
 

@@ -7,12 +7,14 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .courses import Signal
+from .dead_points import refuse
 from .errors import InputError
 from .events import Event, Events, events_of
 from .generated._support import ModelError
 from .input.suggestions import suggestion
 from .result import DenseOutput, Signals, Simulation, SimulationError
-from .signals import Segment, Signal, TimeInputs, time_inputs
+from .signals import Segment, TimeInputs, time_inputs
 from .solvers import (
     SCIPY_METHODS,
     SUNDIALS_METHODS,
@@ -23,6 +25,7 @@ from .solvers import (
     native_version,
     solve_native,
     solve_scipy,
+    why_not_native,
 )
 from .system import System
 
@@ -33,7 +36,6 @@ Method = Literal[
 Backend = Literal["auto", "sundials", "scipy"]
 
 _SMALLEST_RTOL = 100.0 * np.finfo(float).eps
-_REMEDY = "Install it (Debian: libsundials-dev; conda, Homebrew: sundials) and build again"
 _told = False
 
 
@@ -128,7 +130,7 @@ def simulate(
         method, rtol, absolute, max_step, first_step, max_steps, dense_output, stop_at_outputs
     )
     _check_arguments(model, t_span, y0, times, options)
-    given = time_inputs(model, inputs, t_span)
+    given = time_inputs(model, inputs, t_span, max_step=max_step)
     watched = events_of(model, events)
     solve = _choose_backend(model, backend, options)
     return _Run(model, given, options, watched, times, solve).over(y0)
@@ -215,7 +217,7 @@ def _missing(method: str, *, compiled: bool) -> str:
             "NumPy arrays. Use a method of SciPy, which 'BDF' is too, without stop_at_outputs."
         )
     if not native_available():
-        return f"method {method!r} needs SUNDIALS. {_REMEDY}, or use 'BDF'."
+        return f"method {method!r} needs SUNDIALS. {why_not_native()}, or use 'BDF'."
     return (
         f"method {method!r} is not in the installed SUNDIALS {native_version()}, which has "
         f"{', '.join(native_methods())}."
@@ -227,8 +229,7 @@ def _tell_once() -> None:
     if not _told:
         _told = True
         warnings.warn(
-            "kintrafo was built without SUNDIALS; SciPy integrates instead, with the same results "
-            f"but slower. {_REMEDY}.",
+            f"{why_not_native()}. Until then SciPy integrates, with the same results but slower.",
             RuntimeWarning,
             stacklevel=4,
         )
@@ -320,7 +321,7 @@ class _Run:
         options = self._options
         if piece.outcome == "state":
             try:
-                self._model.evaluate("rhs", state, self._inputs.at(time, segment))
+                self._refuse(piece.refused_guard, state, self._inputs.at(time, segment))
             except ModelError as error:
                 return (
                     f"{error}. Try another initial state, smaller forces, or a simulation that "
@@ -338,6 +339,12 @@ class _Run:
         }
         failed = f"the solver gave up ({piece.detail}). Loosen rtol, or try another method."
         return texts.get(piece.outcome, failed)
+
+    def _refuse(self, guard: int | None, state: Array, inputs: Array) -> None:
+        """Raise the error of the state at which the motion ends."""
+        if guard is not None:
+            refuse(self._model, guard, state, inputs)
+        self._model.evaluate("rhs", state, inputs)
 
     # -- assembling -------------------------------------------------------------------------------
 
