@@ -25,8 +25,8 @@ generate: .venv/.ready ## Derive the equations again and write generated/
 	@$(PYTHON) -m kintrafo.generator generate generated
 
 run: build ## The paper's suspension: topology, Figures 4 to 6, summary, all in out/
-	@$(PYTHON) -m kintrafo.generator topology --picture out/topology.png
-	@$(PYTHON) -m kintrafo paper out
+	@$(PYTHON) -m kintrafo.generator topology --picture out/topology.png --force
+	@$(PYTHON) -m kintrafo paper out --force
 
 test: build ## Run all tests
 	@$(PYTHON) -m pytest -q -n 2 --dist worksteal

@@ -10,11 +10,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from kintrafo import InputError, Model, export, plots, report, written
+from kintrafo import InputError, Model, Suspension, export, plots, report, written
 from kintrafo.chrono import read
 from kintrafo.files import refuse, replacing
 from kintrafo.input.toml_writer import write_toml
 from kintrafo.legible import legible
+from kintrafo.measurement import measured
+from kintrafo.own.build import compile_mechanism
 from kintrafo.starter import write_starter
 from matplotlib.image import imread
 
@@ -224,6 +226,15 @@ def test_places_where_nothing_can_be_written(tmp_path, path, words):
     (tmp_path / "circle.csv").symlink_to("circle.csv")
     with pytest.raises(InputError, match=words):
         export.write(LINE, tmp_path / path)
+
+
+@pytest.mark.parametrize("name", ["x" * 300, "file/a", "circle", "missing"])
+def test_places_where_nothing_can_be_read(tmp_path, name):
+    (tmp_path / "file").write_text("x")
+    (tmp_path / "circle").symlink_to("circle")
+    for door in (Suspension.load, measured, read, compile_mechanism):
+        with pytest.raises(InputError, match=r"cannot be read|no such file"):
+            door(tmp_path / name)
 
 
 @pytest.fixture

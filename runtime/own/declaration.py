@@ -9,6 +9,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError, KintrafoError
+from ..files import told
 from ..input.suggestions import suggestion
 
 if TYPE_CHECKING:
@@ -106,7 +107,8 @@ def _run(path: Path) -> ModuleType:
     from ..generator.checks import DeclarationError
 
     try:
-        source = path.read_text(encoding="utf-8")
+        with told(path, "cannot be read"):
+            source = path.read_text(encoding="utf-8")
     except UnicodeDecodeError as error:
         problem = f"is no text in UTF-8 (byte {error.start}). Give a Python file."
         raise InputError([problem], str(path)) from error
