@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .errors import InputError
 from .modes import Mode, eigenvalues_of, mode_of_states, modes_of
+from .state import inputs_of
 
 if TYPE_CHECKING:
     from scipy.signal import StateSpace
@@ -171,8 +172,8 @@ def linearise(
     ----------
     model : System or Model
     state, inputs : array_like
-        One state, and inputs, zero by default. A state of rest is found by
-        `kintrafo.equilibrium`; any other is allowed, see `Linearisation.steady`.
+        One state, and inputs: by default those that belong to the state, or zeros. A state of
+        rest is found by `kintrafo.equilibrium`; any other is allowed, see `Linearisation.steady`.
     outputs : sequence of str, optional
         Signals to take as outputs, all by default.
 
@@ -194,8 +195,9 @@ def linearise(
     >>> linear.steady, linear.wheel_hop.text
     (True, '12.35 Hz, damping ratio 0.233')
     """
-    state = _one(state, "state")
+    inputs = inputs_of(state) if inputs is None else inputs
     inputs = _one(model.inputs() if inputs is None else inputs, "inputs")
+    state = _one(state, "state")
     names = model.signal_names if outputs is None else tuple(outputs)
     unknown = [name for name in names if name not in model.signal_names]
     if unknown:

@@ -18,6 +18,7 @@ from .reach import (
     height_and_slope,
     travel_range,
 )
+from .state import State
 
 __all__ = [
     "PositionError",
@@ -92,7 +93,7 @@ def arm_angles(model: Model, height: ArrayLike, rack_position: ArrayLike = 0.0) 
 
 def state_at_height(
     model: Model, height: float, *, rack_position: float = 0.0, spin_rate: float = 0.0
-) -> Array:
+) -> State:
     """Return the state of rest with the wheel centre at a given height.
 
     Parameters
@@ -107,8 +108,9 @@ def state_at_height(
 
     Returns
     -------
-    ndarray
-        State with zero rates but that of the wheel's spin.
+    State
+        With zero rates but that of the wheel's spin. It carries the position of its rack, for
+        whatever takes a state and inputs.
 
     Raises
     ------
@@ -122,7 +124,9 @@ def state_at_height(
     >>> round(float(model.design_state[0] - state[0]), 10)
     0.068123601
     """
-    return _state(model, float(arm_angles(model, height, rack_position)), rack_position, spin_rate)
+    angle = float(arm_angles(model, height, rack_position))
+    state, inputs = at_rest(model, angle, rack_position)
+    return _spinning(model, State.of(state, inputs), spin_rate)
 
 
 def equilibrium(
@@ -133,7 +137,7 @@ def equilibrium(
     wheel_load: float | None = None,
     strut_force: float = 0.0,
     spin_rate: float = 0.0,
-) -> Array:
+) -> State:
     """Return the stable state of rest under spring, tyre and weight.
 
     Parameters
@@ -155,8 +159,10 @@ def equilibrium(
 
     Returns
     -------
-    ndarray
-        State with zero rates but that of the wheel's spin.
+    State
+        With zero rates but that of the wheel's spin. It carries the inputs that keep it at rest
+        (road, rack, actuator force): ``model.signals(rest)`` are those of rest, and
+        ``simulate(model, t_span, rest)`` stays there.
 
     Raises
     ------
@@ -175,7 +181,7 @@ def equilibrium(
         problem = "road_height and wheel_load are both given. Give the one that is known."
         raise InputError([problem], "equilibrium")
 
-    def moment(arm_angle: ArrayLike) -> Array:
+    def at(arm_angle: ArrayLike) -> tuple[Array, Array]:
         states, inputs = at_rest(model, arm_angle, rack_position)
         road = inputs[..., model.input_names.index("road_height")]
         if wheel_load is None:
@@ -183,10 +189,13 @@ def equilibrium(
         else:
             road[...] = road_under_load(model, wheel_load, states, inputs)
         inputs[..., model.input_names.index(model.names.actuator)] = strut_force
-        return model.evaluate("forces", states, inputs)[..., 0]
+        return states, inputs
+
+    def moment(arm_angle: ArrayLike) -> Array:
+        return model.evaluate("forces", *at(arm_angle))[..., 0]
 
     angle = _stable_root(moment, travel_range(model, rack_position), model.design_state[0])
-    return _state(model, angle, rack_position, spin_rate)
+    return _spinning(model, State.of(*at(angle)), spin_rate)
 
 
 def road_under_load(
@@ -226,8 +235,7 @@ def road_under_load(
     return height + deflection - tyre["tyre_free_height"]
 
 
-def _state(model: Model, angle: float, rack_position: float, spin_rate: float) -> Array:
-    state, _ = at_rest(model, angle, rack_position)
+def _spinning(model: Model, state: State, spin_rate: float) -> State:
     state[model.state_names.index(f"{model.names.spin}_rate")] = spin_rate
     return state
 

@@ -126,6 +126,7 @@ def time_inputs(
     signals: Mapping[str, Signal] | None,
     t_span: tuple[float, float],
     *,
+    held: Array | None = None,
     max_step: float = np.inf,
 ) -> TimeInputs:
     """Check the inputs of a simulation and bring them into one form.
@@ -140,6 +141,8 @@ def time_inputs(
         the curve.
     t_span : tuple of float
         First and last time of the simulation, which samples must cover [s].
+    held : ndarray, optional
+        Values of the inputs that are not given, zero by default.
     max_step : float, optional
         Greatest step of the integration, and between two calls of a function [s].
 
@@ -149,7 +152,7 @@ def time_inputs(
     """
     names = model.input_names
     derived = _derived(names)
-    collected = _Collected(np.zeros(len(names)))
+    collected = _Collected(np.zeros(len(names)) if held is None else held.copy())
     for name, signal in (signals or {}).items():
         if name not in names or name in derived:
             raise InputError([_refusal(name, names, derived)], "inputs")

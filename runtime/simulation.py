@@ -25,6 +25,7 @@ from .solvers import (
     solve_native,
     solve_scipy,
 )
+from .state import inputs_of
 from .system import System
 
 Array = NDArray[np.float64]
@@ -66,9 +67,9 @@ def simulate(
     y0 : array_like
         Initial state, see `model.state`, `state_at_height` and `equilibrium`.
     inputs : mapping, optional
-        Time-varying inputs by name: numbers, samples ``(times, values)``, or functions of time.
-        They become cubic splines; at a time that is given twice, the input jumps and the
-        integration starts anew, as it does where an input begins to move after a long rest.
+        Inputs by name, SI units: numbers, samples ``(times, values)`` or `Samples`, piecewise
+        cubics of SciPy, or functions of time; see Notes. Others stay as they are in the state, if
+        it comes from `equilibrium` or `state_at_height`, or else zero.
     method : str, optional
         'BDF' (Gear's formulas) or 'Adams'; Runge-Kutta 'Verner' (8 stages, order 6),
         'DormandPrince' or 'Tsitouras' (order 5); or SciPy's 'Radau', 'LSODA', 'RK45', 'DOP853'.
@@ -107,6 +108,15 @@ def simulate(
 
     Notes
     -----
+    Between samples an input only rises or only falls, so it never leaves their range; other ways
+    are asked for by name, see `Samples`. At a time that is given twice it jumps, and the
+    integration begins anew. A function of time is called at least every millisecond and every
+    `max_step`, and followed to 1e-10 of its range; what is shorter than twice that may be missed,
+    and a function that jumps is refused. Velocity and acceleration of a prescribed position are
+    the derivatives of the curve through the samples, or of the spline that follows the function.
+    No step passes over a time at which an input, or a derivative of it that the model takes,
+    turns from rising to falling.
+
     Without stops in its data, the strut may become longer than its greatest length, or very short.
     The event 'strut_fully_extended' watches the former, a `SignalEvent` of ``strut_length`` the
     latter.
@@ -120,6 +130,7 @@ def simulate(
     >>> result.success, bool(abs(result.signals["wheel_center_z"][-1] - 0.3) < 1e-6)
     (True, True)
     """
+    held = inputs_of(y0)
     y0 = np.asarray(y0, dtype=np.float64)
     times = None if t_eval is None else np.asarray(t_eval, dtype=np.float64)
     absolute = np.asarray(atol, dtype=np.float64)
@@ -129,7 +140,7 @@ def simulate(
         method, rtol, absolute, max_step, first_step, max_steps, dense_output, stop_at_outputs
     )
     _check_arguments(model, t_span, y0, times, options)
-    given = time_inputs(model, inputs, t_span, max_step=max_step)
+    given = time_inputs(model, inputs, t_span, held=held, max_step=max_step)
     watched = events_of(model, events)
     solve = _choose_backend(model, backend, options)
     return _Run(model, given, options, watched, times, solve).over(y0)

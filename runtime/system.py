@@ -11,6 +11,7 @@ from .errors import InputError
 from .input.suggestions import suggestion
 from .modes import eigenvalues_of
 from .own.loader import find
+from .state import inputs_of
 
 Array = NDArray[np.float64]
 
@@ -121,14 +122,16 @@ class System:
         function : str
             Name of a function of `equations`.
         state, inputs : array_like
-            One or many, as in the compiled module.
+            One or many, as in the compiled module. Without inputs those that belong to the state
+            (see `State`), or zeros.
 
         Returns
         -------
         ndarray
             Shape of the result behind the leading dimensions.
         """
-        result: Array = getattr(self.equations, function)(state, inputs, self.constants)
+        given = inputs_of(state) if inputs is None else inputs
+        result: Array = getattr(self.equations, function)(state, given, self.constants)
         return result
 
     def signals(self, state: ArrayLike, inputs: ArrayLike | None = None) -> dict[str, Array]:
@@ -137,7 +140,7 @@ class System:
         Parameters
         ----------
         state, inputs : array_like
-            One or many, as in the compiled module.
+            One or many, as for `evaluate`.
 
         Returns
         -------
