@@ -365,7 +365,9 @@ class TestStatesOfRestKnowTheirInputs:
         signals = MODEL.signals(rest)
         # the tyre's force lies in the plane of the wheel, the load is what it has upright; both
         # are as close as the arm's angle is to rest, some 1e-15 of it
-        upright = signals["tyre_force"] * np.cos(signals["camber"])
+        slopes = np.tan([signals["camber"], signals["toe"]])
+        lean = slopes[0] / np.sqrt(1.0 + slopes @ slopes)
+        upright = signals["tyre_force"] * np.sqrt(1.0 - lean**2)
         assert upright == pytest.approx(3000.0, rel=1e-9)
         assert abs(signals["wheel_acceleration"]) < 1e-6
         assert linearise(MODEL, rest).steady
