@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
+from .arguments import Arguments
 from .errors import InputError
 from .model import Model
 from .reach import (
@@ -48,6 +49,8 @@ _STEP = np.deg2rad(0.5)  # of the search for an equilibrium [rad]
 
 def design_height(model: Model) -> float:
     """Return the height of the wheel centre at the design position [m]."""
+    with Arguments("design_height") as given:
+        given.suspension(model)
     return float(model.signal("wheel_center_z", model.design_state))
 
 
@@ -81,9 +84,17 @@ def arm_angles(model: Model, height: ArrayLike, rack_position: ArrayLike = 0.0) 
     >>> (model.design_state[0] - arm_angles(model, [0.3, 0.325])).round(9).tolist()
     [0.0, 0.068123601]
     """
-    heights, racks = np.broadcast_arrays(
-        _finite(height, "wheel height"), _finite(rack_position, "rack position")
-    )
+    with Arguments("positions") as given:
+        given.suspension(model)
+        heights = given.array("height", height, "m", empty=True)
+        racks = given.array("rack_position", rack_position, "m", empty=True)
+        try:
+            heights, racks = np.broadcast_arrays(heights, racks)
+        except ValueError:
+            given.refuse(
+                f"height and rack_position have the shapes {heights.shape} and {racks.shape}, "
+                "which do not go together. Give one of them as a single number."
+            )
     if heights.size == 0:
         return np.empty(heights.shape)
     distinct, index = np.unique(racks.ravel(), return_inverse=True)
@@ -128,6 +139,11 @@ def state_at_height(
     >>> round(float(model.design_state[0] - state[0]), 10)
     0.068123601
     """
+    with Arguments("state_at_height") as given:
+        given.suspension(model)
+        height = given.number("height", height, "m")
+        rack_position = given.number("rack_position", rack_position, "m")
+        spin_rate = given.number("spin_rate", spin_rate, "rad/s")
     angle = float(arm_angles(model, height, rack_position))
     state, inputs = at_rest(model, angle, rack_position)
     return _spinning(model, State.of(state, inputs), spin_rate)
@@ -181,9 +197,18 @@ def equilibrium(
     >>> round(float(model.signal("wheel_center_z", equilibrium(model, wheel_load=3000.0))), 4)
     0.2665
     """
-    if wheel_load is not None and road_height != 0.0:
-        problem = "road_height and wheel_load are both given. Give the one that is known."
-        raise InputError([problem], "equilibrium")
+    with Arguments("equilibrium") as given:
+        given.suspension(model)
+        rack_position = given.number("rack_position", rack_position, "m")
+        road_height = given.number("road_height", road_height, "m")
+        strut_force = given.number("strut_force", strut_force, "N")
+        spin_rate = given.number("spin_rate", spin_rate, "rad/s")
+        if wheel_load is not None:
+            wheel_load = _load(given, wheel_load)
+            if road_height != 0.0:
+                given.refuse(
+                    "road_height and wheel_load are both given. Give the one that is known."
+                )
 
     def at(arm_angle: ArrayLike) -> tuple[Array, Array]:
         states, inputs = at_rest(model, arm_angle, rack_position)
@@ -225,9 +250,9 @@ def road_under_load(
     InputError
         If the load is not a finite number of 0 N or more, or the tyre has no stiffness.
     """
-    if not (np.isfinite(wheel_load) and wheel_load >= 0.0):
-        problem = f"wheel_load = {wheel_load:g} N; 0 N or more is needed: a road only pushes."
-        raise InputError([problem], "wheel load")
+    with Arguments("wheel load") as given:
+        given.suspension(model)
+        wheel_load = _load(given, wheel_load)
     tyre = model.suspension.tyre.parameters()
     if tyre["tyre_rate"] == 0.0:
         problem = (
@@ -239,18 +264,13 @@ def road_under_load(
     return height + deflection - tyre["tyre_free_height"]
 
 
+def _load(given: Arguments, wheel_load: float) -> float:
+    return given.number("wheel_load", wheel_load, "N", least=0.0, advice="A road only pushes.")
+
+
 def _spinning(model: Model, state: State, spin_rate: float) -> State:
     state[model.state_names.index(f"{model.names.spin}_rate")] = spin_rate
     return state
-
-
-def _finite(values: ArrayLike, name: str) -> Array:
-    array = np.asarray(values, dtype=np.float64)
-    bad = array[~np.isfinite(array)]
-    if bad.size:
-        problem = f"{name} = {bad[0]:g}: a finite number is needed, in metres."
-        raise InputError([problem], "positions")
-    return array
 
 
 def _beyond(heights: Array, table: Branch, index: NDArray[np.int64]) -> NDArray[np.bool_]:

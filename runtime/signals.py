@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline, CubicSpline, PPoly
 
+from .arguments import Arguments
 from .courses import Signal, course
 from .errors import InputError
 from .input.suggestions import suggestion
@@ -152,6 +153,8 @@ def time_inputs(
     """
     names = model.input_names
     derived = _derived(names)
+    with Arguments("inputs") as given:
+        given.mapping("inputs", {} if signals is None else signals, "input names, what they do")
     collected = _Collected(np.zeros(len(names)) if held is None else held.copy())
     for name, signal in (signals or {}).items():
         if name not in names or name in derived:
