@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from .events import SignalEvent
     from .generated._support import ClosureError, ModelError, ParameterError
     from .input.suspension import Suspension
+    from .interpolation import Samples
     from .linearisation import Linearisation, linearise
     from .model import Model
     from .modes import Mode
@@ -53,6 +54,7 @@ __all__ = [
     "ParameterError",
     "PositionError",
     "Range",
+    "Samples",
     "SignalEvent",
     "Simulation",
     "SimulationError",
@@ -76,6 +78,7 @@ _MODULES = {
     ".events": ("SignalEvent",),
     ".generated._support": ("ClosureError", "ModelError", "ParameterError"),
     ".input.suspension": ("Suspension",),
+    ".interpolation": ("Samples",),
     ".linearisation": ("Linearisation", "linearise"),
     ".model": ("Model",),
     ".modes": ("Mode",),

@@ -4,10 +4,10 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from .courses import Signal
 from .errors import InputError
 from .measurement import Measurement
 from .roads import sine, step
-from .signals import Signal
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import InputError
+from .files import reason
 from .input.suggestions import nearest, suggestion
 
 Array = NDArray[np.float64]
@@ -114,7 +115,7 @@ def _lines_of(path: Path) -> list[tuple[int, str]]:
     try:
         text = path.read_text(encoding="utf-8-sig")
     except OSError as error:
-        problem = f"the file cannot be read: {error.strerror}. Check its name and folder."
+        problem = f"the file cannot be read: {reason(error)}"
         raise InputError([problem], str(path)) from None
     except UnicodeDecodeError:
         problem = "the file is not text in UTF-8. Save it as CSV with UTF-8 encoding."
@@ -196,6 +197,8 @@ def _row(names: list[str], cells: list[str], delimiter: str) -> tuple[str, list[
 
 def _number(cell: str, delimiter: str) -> float:
     """Return the number in a cell; NaN where there is none."""
+    if "_" in cell:  # Python's own way to group digits, and a slip of the pen in a file
+        return math.nan
     try:
         return float(cell if delimiter == "," else cell.replace(",", "."))
     except ValueError:

@@ -36,8 +36,11 @@ Array = NDArray[np.float64]
 # step halves the bracket, which is two degrees at first.
 _NEWTON_STEPS = 10
 _MOST_STEPS = 120
-# A height that is beyond the reach by less than this is at its end [m].
+# A height that is beyond the reach by less than this is at its end, and one that is missed by less
+# is met [m].
 _ROUNDING = 1e-12
+# Where a rounding of the arm's angle moves the wheel by more than that, by so many of them.
+_ROUNDINGS = 8.0
 _EPSILON = float(np.finfo(np.float64).eps)
 _STEP = np.deg2rad(0.5)  # of the search for an equilibrium [rad]
 
@@ -66,7 +69,8 @@ def arm_angles(model: Model, height: ArrayLike, rack_position: ArrayLike = 0.0) 
     Raises
     ------
     PositionError
-        If a height is out of reach; the message states the range.
+        If a height is out of reach; the message states the range. Or if it cannot be met, because
+        rounding moves the wheel by more beside a dead point.
     InputError
         If a value is not finite.
 
@@ -279,7 +283,7 @@ def _solve(
     """Newton's method with the exact slope, which falls back on halving the bracket.
 
     Beside a dead point the height is no smooth function of the angle, and Newton's step may leave
-    the bracket there.
+    the bracket there. What is found is measured against what was asked.
     """
     points = table.height.shape[1]
     right = np.clip((table.height[index] < heights[:, None]).sum(axis=1), 1, points - 1)
@@ -306,7 +310,23 @@ def _solve(
         rows = rows[(excess != 0.0) & (np.abs(angle[rows] - at) > 4.0 * _EPSILON * at)]
         if rows.size == 0:
             break
+    _refuse_missed(model, heights, racks, found, error)
     return found
+
+
+def _refuse_missed(model: Model, heights: Array, racks: Array, found: Array, error: Array) -> None:
+    """Refuse heights that are not met to rounding."""
+    _, slope = height_and_slope(model, found, racks)
+    missed = ~(error <= _ROUNDING + _ROUNDINGS * np.spacing(np.abs(found)) * np.abs(slope))
+    if not missed.any():
+        return
+    first = int(missed.argmax())
+    message = (
+        f"wheel height {heights[first] * 1e3:.6g} mm with the rack at {racks[first] * 1e3:g} mm is "
+        f"missed by {error[first] * 1e3:.2g} mm: rounding moves the wheel by that much so near to "
+        "a dead point. Choose another height, or correct the hardpoints."
+    )
+    raise PositionError(message)
 
 
 def _stable_root(moment: Callable[[ArrayLike], Array], reach: Range, design: float) -> float:

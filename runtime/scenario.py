@@ -7,12 +7,13 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from .courses import Signal
 from .errors import InputError
 from .model import Model
 from .positions import equilibrium, state_at_height
 from .recording import dataset_of
 from .result import Simulation
-from .signals import Signal, time_inputs
+from .signals import time_inputs
 from .simulation import simulate
 
 Array = NDArray[np.float64]

@@ -7,13 +7,14 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .courses import Signal
 from .dead_points import refuse
 from .errors import InputError
 from .events import Event, Events, events_of
 from .generated._support import ModelError
 from .input.suggestions import suggestion
 from .result import DenseOutput, Signals, Simulation, SimulationError
-from .signals import Segment, Signal, TimeInputs, time_inputs
+from .signals import Segment, TimeInputs, time_inputs
 from .solvers import (
     SCIPY_METHODS,
     SUNDIALS_METHODS,
@@ -129,7 +130,7 @@ def simulate(
         method, rtol, absolute, max_step, first_step, max_steps, dense_output, stop_at_outputs
     )
     _check_arguments(model, t_span, y0, times, options)
-    given = time_inputs(model, inputs, t_span)
+    given = time_inputs(model, inputs, t_span, max_step=max_step)
     watched = events_of(model, events)
     solve = _choose_backend(model, backend, options)
     return _Run(model, given, options, watched, times, solve).over(y0)

@@ -169,6 +169,7 @@ def solve_native(
         model.constants,
         inputs.constant,
         [_contiguous(spline.curve, spline.targets) for spline in segment.splines],
+        segment.milestones,
         np.ascontiguousarray(state),
         np.ascontiguousarray(times),
         method=SUNDIALS_METHODS[options.method],
@@ -296,7 +297,7 @@ def solve_scipy(
         lambda time: inputs.at(time, segment),
         1.0 if segment.end > segment.start else -1.0,
     )
-    method = watched(name, approach, lambda: function.time)
+    method = watched(name, approach, lambda: function.time, segment.milestones)
     try:
         result = solve_ivp(
             function,

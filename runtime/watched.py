@@ -1,4 +1,4 @@
-"""SciPy's methods with steps that end before a dead point."""
+"""SciPy's methods with steps that end before a dead point, and at milestones."""
 
 from collections.abc import Callable
 from typing import Any
@@ -20,7 +20,9 @@ _SHORTER = 0.25
 _COUNTS = ("nfev", "njev", "nlu")
 
 
-def watched(name: str, approach: Approach, last_tried: Callable[[], float]) -> type[OdeSolver]:
+def watched(
+    name: str, approach: Approach, last_tried: Callable[[], float], milestones: Array
+) -> type[OdeSolver]:
     """Return a method of SciPy whose steps are limited, and taken back, as those of SUNDIALS are.
 
     Parameters
@@ -30,6 +32,8 @@ def watched(name: str, approach: Approach, last_tried: Callable[[], float]) -> t
     approach : Approach
     last_tried : callable
         Returns the time at which the right-hand side was evaluated last.
+    milestones : ndarray
+        Times that no step passes over, in the order of the integration [s].
 
     Returns
     -------
@@ -43,6 +47,7 @@ def watched(name: str, approach: Approach, last_tried: Callable[[], float]) -> t
         def __init__(self, fun: Any, t0: float, y0: Array, t_bound: float, **options: Any) -> None:
             self._given, self._end, self._options = fun, t_bound, options
             self._before = dict.fromkeys(_COUNTS, 0)
+            self._goals = [*milestones.tolist(), t_bound]
             super().__init__(fun, t0, y0, t_bound, **options)
             self._whole, self._longest = abs(t_bound - t0), 0.0
             self._look(_SMALLEST_OF_STEP * self._whole)
@@ -71,9 +76,11 @@ def watched(name: str, approach: Approach, last_tried: Callable[[], float]) -> t
 
         def _limited(self) -> str | None:
             """Take a step that is no longer than what is trusted."""
+            while len(self._goals) > 1 and self.direction * (self._goals[0] - self.t) <= 0.0:
+                del self._goals[0]
             stop = self.t + self.direction * self._trusted
-            inside = self.direction * (self._end - stop) > 0.0
-            self._bound(stop if inside else self._end)
+            inside = self.direction * (self._goals[0] - stop) > 0.0
+            self._bound(stop if inside else self._goals[0])
             message: str | None = super().step()
             self._bound(self._end)
             if self.status == "finished" and self.direction * (self._end - self.t) > 0.0:

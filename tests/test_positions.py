@@ -262,8 +262,8 @@ def test_table_of_the_reach_rises_and_ends_at_its_ends():
     for row, rack in enumerate(racks):
         reach = travel_range(MODEL, rack)
         assert full.angle[row, [0, -1]].tolist() == list(reach.arm_angle)
-        # the coarse table ends by less than its step of two degrees before
-        assert np.abs(coarse.angle[row, [0, -1]] - reach.arm_angle).max() < np.deg2rad(2.0)
+        # the coarse table ends where the height gets steep, here less than three steps before
+        assert np.abs(coarse.angle[row, [0, -1]] - reach.arm_angle).max() < np.deg2rad(6.0)
 
 
 def test_many_racks_are_looked_at_in_parts():

@@ -317,6 +317,9 @@ TRAVEL = (
 )
 """What the motion over wheel travel decides."""
 
+AT_STOPS = frozenset({"wheel_rate", "ride_rate"})
+"""Names of those that jump where a stop begins to act."""
+
 STEERING = (
     Quantity(
         "steer_gradient",

@@ -7,6 +7,11 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
+from ..files import reason
+
+_DEEP = "Tables or lists stand in each other too deeply. No key of a suspension does."
+# A key of a hundred parts, in time linear in the length; tomllib's grows with the square of them.
+_TOO_DEEP = re.compile(r"""(?<![\w"'.-])(?:[\w"'-]++\s*+\.\s*+){100}""")
 
 
 def read_toml(file: Path | Traversable) -> dict[str, Any]:
@@ -28,10 +33,17 @@ def read_toml(file: Path | Traversable) -> dict[str, Any]:
         If the file cannot be read, is not UTF-8 or is not valid TOML.
     """
     text = _text_of(file)
+    if _TOO_DEEP.search(text):
+        raise InputError([_DEEP], str(file))
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise InputError([_syntax_problem(str(error), text)], str(file)) from None
+    except RecursionError:
+        raise InputError([_DEEP], str(file)) from None
+    except ValueError:  # Python's limit of 4300 digits, which tomllib lets pass
+        problem = "A number has thousands of digits. Write it with an exponent, as 1.5e6."
+        raise InputError([problem], str(file)) from None
 
 
 def _text_of(file: Path | Traversable) -> str:
@@ -39,7 +51,7 @@ def _text_of(file: Path | Traversable) -> str:
     try:
         content = file.read_bytes()
     except OSError as error:
-        problem = f"The file cannot be read: {error.strerror}. Check its name and folder."
+        problem = f"The file cannot be read: {reason(error)}"
         raise InputError([problem], str(file)) from None
     try:
         return content.decode("utf-8-sig")

@@ -12,6 +12,7 @@ def integrate(
     constants: Array,
     inputs: Array,
     splines: Sequence[tuple[Array, Array, tuple[int, int, int]]],
+    milestones: Array,
     state: Array,
     times: Array,
     *,

@@ -32,6 +32,8 @@ cdef extern from "integrate.h" nogil:
         const double *inputs
         int spline_count
         const kt_spline *splines
+        long milestone_count
+        const double *milestones
         int event_count
         const kt_event *events
         int root_count
@@ -145,7 +147,7 @@ cdef _copy(const kt_table *table):
 
 def integrate(
     addresses, const double[::1] constants, const double[::1] inputs, splines,
-    const double[::1] state, const double[::1] times, *, method, double rtol,
+    const double[::1] milestones, const double[::1] state, const double[::1] times, *, method, double rtol,
     const double[::1] atol, double first_step, double max_step, long max_steps,
     bint every_step, bint stop_at_outputs, bint dense, int signal_count, events, roots,
     const int[::1] directions, const int[::1] terminal, const int[::1] guards,
@@ -187,6 +189,8 @@ def integrate(
         problem.inputs = &inputs[0]
         problem.spline_count = len(splines)
         problem.splines = spline_array
+        problem.milestone_count = milestones.shape[0]
+        problem.milestones = &milestones[0] if milestones.shape[0] else NULL
         problem.event_count = len(events)
         problem.events = event_array
         problem.root_count = len(caller.functions)

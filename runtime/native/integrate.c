@@ -592,6 +592,7 @@ typedef struct {
     int every_step;
     double sign;    /* of the time's direction */
     double trusted; /* no longer step may be taken */
+    long milestone; /* the first that is still to come */
 } course;
 
 /* Put out all times up to the one reached; return a guard that does not let one be evaluated. */
@@ -672,6 +673,18 @@ static int accept(worker *w, course *c, double reached)
     return limit(w, c, LAPSE * step);
 }
 
+/* Return the goal, or the next milestone if that comes before it. */
+static double sooner(const worker *w, course *c, double goal)
+{
+    const kt_problem *p = w->problem;
+    long *next = &c->milestone;
+    while (*next < p->milestone_count && c->sign * (p->milestones[*next] - w->result->time) <= 0.0) {
+        ++*next;
+    }
+    return *next < p->milestone_count && c->sign * (p->milestones[*next] - goal) < 0.0
+        ? p->milestones[*next] : goal;
+}
+
 /* Return up to where the solver may step: it must not be told a time that it has passed inside. */
 static double stop_of(worker *w, const course *c, double goal)
 {
@@ -702,6 +715,7 @@ static int advance(worker *w, course *c, int *root)
 {
     kt_result *r = w->result;
     double goal = c->times[w->options->stop_at_outputs ? c->next : c->count - 1], reached = r->time;
+    goal = sooner(w, c, goal);
     if (set_stop(w, stop_of(w, c, goal))) {
         return KT_FAILED;
     }
@@ -726,7 +740,7 @@ static int advance(worker *w, course *c, int *root)
 static int run(worker *w, const double *times, long count, int every_step)
 {
     kt_result *r = w->result;
-    course c = {times, count, 1, every_step, w->end > w->start ? 1.0 : -1.0, INFINITY};
+    course c = {times, count, 1, every_step, w->end > w->start ? 1.0 : -1.0, INFINITY, 0};
     double lapse = SMALLEST_OF_STEP * fabs(w->end - w->start);
     if (append_state(&r->output, times[0], r->state, w->problem->state_count)) {
         return KT_MEMORY;

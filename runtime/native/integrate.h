@@ -40,6 +40,8 @@ typedef struct {
     const double *inputs; /* values of those that do not vary */
     int spline_count;
     const kt_spline *splines;
+    long milestone_count;
+    const double *milestones; /* times that no step passes over, in the order of the integration */
     int event_count; /* of the model's signals; they come before the caller's */
     const kt_event *events;
     int root_count; /* of the caller */

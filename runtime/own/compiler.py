@@ -64,9 +64,18 @@ class Compiler:
 
     def _run(self, arguments: Iterable[str | Path]) -> None:
         command = [*self.command, *map(str, arguments)]
-        done = subprocess.run(
-            command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False
-        )
+        try:
+            done = subprocess.run(
+                command,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                text=True,
+                errors="backslashreplace",
+                check=False,
+            )
+        except OSError as error:
+            message = f"{command[0]} cannot be run: {error.strerror}. Name a C compiler in CC."
+            raise CompilerError(message) from error
         if done.returncode != 0:
             said = "\n".join(done.stdout.splitlines()[:_SHOWN_LINES])
             message = (
