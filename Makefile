@@ -39,7 +39,7 @@ test-elsewhere: build ## Run the tests of numbers as another processor would com
 	@$(OLDER) $(PYTHON) -m pytest -q -n 2 --dist worksteal -m "not browser"
 
 fuzz: build ## Try every door for long; a table of what came of it (ARGS="--attempts 10000")
-	@cd tests && ../$(PYTHON) -m fuzz $(ARGS)
+	@PYTHONPATH=tests $(PYTHON) -m fuzz $(ARGS)
 
 lint: .venv/.ready ## Check style
 	@.venv/bin/ruff check .

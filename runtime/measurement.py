@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .arguments import Arguments
 from .errors import InputError
 from .files import reason
 from .input.suggestions import nearest, suggestion
@@ -92,6 +93,10 @@ def measured(path: str | Path, *, speed: float | None = None) -> Measurement:
     InputError
         If the file cannot be used; with the lines that are wrong.
     """
+    with Arguments("measured") as given:
+        given.kind("path", path, (str, Path), "the path of a CSV file is needed")
+        if speed is not None:
+            given.number("speed", speed, "m/s", above=0.0)
     source = str(path)
     lines = _lines_of(Path(path))
     if not lines:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from ..arithmetic import NUMPY, OPERATIONS, write
 from ..design import design_coordinates
+from ..ranges import described as parameters_of
 from .c import CPrinter, count_line, iteration_note, mechanism_hash
 
 if TYPE_CHECKING:
@@ -146,16 +147,11 @@ class PythonPrinter:
 
     def _tables(self) -> dict[str, tuple[str, object]]:
         model = self.model
-        defaults = {p.name: p.default for p in model.model.mechanism.parameters}
-        parameters = {
-            e.name: {"default": defaults[e.name], "unit": e.unit, "meaning": e.meaning}
-            for e in model.parameters
-        }
         described = "dict[str, dict[str, str]]"
         names = "tuple[str, ...]"
         topology = model.plan.topology
         return {
-            "PARAMETERS": ("dict[str, dict[str, Any]]", parameters),
+            "PARAMETERS": ("dict[str, dict[str, Any]]", parameters_of(model.model.mechanism)),
             "STATE": (described, _described(model.state)),
             "INPUTS": (described, _described(model.inputs)),
             "RELATIVE_COORDINATES": (described, _described(model.relative)),
