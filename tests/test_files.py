@@ -317,7 +317,7 @@ def test_strange_names_in_every_format(tmp_path, ending):
         {"camber": (("data_set", "wheel_travel"), values)},
         {"data_set": STRANGE, "wheel_travel": [0.0, 0.01]},
     )
-    path = tmp_path / f"a.{ending}"
+    path = tmp_path / os.fsdecode(f"caf\xe9.{ending}".encode("latin-1"))
     if ending in plots.FORMATS:
         plots.write_overview(family, path, title=" and ".join(STRANGE))
     else:
