@@ -20,6 +20,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from .errors import InputError
 from .files import reason
 from .input.suspension import Suspension
+from .legible import short
 
 Array = NDArray[np.float64]
 Finite = Annotated[float, Field(allow_inf_nan=False)]
@@ -239,14 +240,12 @@ def _without_comment(found: re.Match[str]) -> str:
 
 def _problem(detail: Any) -> str:
     place = " > ".join(str(part) for part in detail["loc"])
+    given = short(json.dumps(detail["input"], default=str))
     if detail["type"] == "missing":
         return f'"{place}" is missing. Add it, in SI units.'
     if detail["type"] == "literal_error":
-        return (
-            f'"{place}" is {json.dumps(detail["input"])}; only {detail["ctx"]["expected"]} can be '
-            "read."
-        )
-    return f'"{place}" = {json.dumps(detail["input"], default=str)}: {detail["msg"].lower()}.'
+        return f'"{place}" is {given}; only {detail["ctx"]["expected"]} can be read.'
+    return f'"{place}" = {given}: {detail["msg"].lower()}.'
 
 
 # -- converting -----------------------------------------------------------------------------------

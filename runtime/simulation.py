@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .arguments import Arguments, shown
 from .courses import Signal
+from .dead_points import refuse
 from .errors import InputError
 from .events import Event, Events, events_of
 from .generated._support import ModelError
@@ -25,6 +26,7 @@ from .solvers import (
     native_version,
     solve_native,
     solve_scipy,
+    why_not_native,
 )
 from .state import inputs_of
 from .system import System
@@ -37,7 +39,6 @@ Backend = Literal["auto", "sundials", "scipy"]
 
 _MOST_STEPS = 2**62
 _SMALLEST_RTOL = 100.0 * np.finfo(float).eps
-_REMEDY = "Install it (Debian: libsundials-dev; conda, Homebrew: sundials) and build again"
 _told = False
 
 
@@ -238,7 +239,7 @@ def _missing(method: str, *, compiled: bool) -> str:
             "NumPy arrays. Use a method of SciPy, which 'BDF' is too, without stop_at_outputs."
         )
     if not native_available():
-        return f"method {method!r} needs SUNDIALS. {_REMEDY}, or use 'BDF'."
+        return f"method {method!r} needs SUNDIALS. {why_not_native()}, or use 'BDF'."
     return (
         f"method {method!r} is not in the installed SUNDIALS {native_version()}, which has "
         f"{', '.join(native_methods())}."
@@ -250,8 +251,7 @@ def _tell_once() -> None:
     if not _told:
         _told = True
         warnings.warn(
-            "kintrafo was built without SUNDIALS; SciPy integrates instead, with the same results "
-            f"but slower. {_REMEDY}.",
+            f"{why_not_native()}. Until then SciPy integrates, with the same results but slower.",
             RuntimeWarning,
             stacklevel=4,
         )
@@ -343,7 +343,7 @@ class _Run:
         options = self._options
         if piece.outcome == "state":
             try:
-                self._model.evaluate("rhs", state, self._inputs.at(time, segment))
+                self._refuse(piece.refused_guard, state, self._inputs.at(time, segment))
             except ModelError as error:
                 return (
                     f"{error}. Try another initial state, smaller forces, or a simulation that "
@@ -361,6 +361,12 @@ class _Run:
         }
         failed = f"the solver gave up ({piece.detail}). Loosen rtol, or try another method."
         return texts.get(piece.outcome, failed)
+
+    def _refuse(self, guard: int | None, state: Array, inputs: Array) -> None:
+        """Raise the error of the state at which the motion ends."""
+        if guard is not None:
+            refuse(self._model, guard, state, inputs)
+        self._model.evaluate("rhs", state, inputs)
 
     # -- assembling -------------------------------------------------------------------------------
 

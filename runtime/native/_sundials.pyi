@@ -8,7 +8,7 @@ Array: TypeAlias = NDArray[np.float64]
 
 def version() -> str: ...
 def integrate(
-    addresses: tuple[int, int, int],
+    addresses: tuple[int, int, int, int],
     constants: Array,
     inputs: Array,
     splines: Sequence[tuple[Array, Array, tuple[int, int, int]]],
@@ -30,4 +30,6 @@ def integrate(
     roots: Sequence[Callable[[float, Array], float]],
     directions: NDArray[np.int32],
     terminal: NDArray[np.int32],
+    guards: NDArray[np.int32],
+    usual_margins: Array,
 ) -> dict[str, Any]: ...
