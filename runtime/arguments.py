@@ -9,6 +9,7 @@ What is wrong is collected, so that one error tells all of it::
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from pathlib import PurePath
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
@@ -203,6 +204,25 @@ class Arguments:
             given = "a class, not one of its instances" if isinstance(value, type) else shown(value)
             self.refuse(f"{name} = {given}: {needed}.")
         return value
+
+    def path(self, name: str, value: Any) -> None:
+        """Refuse what is no path of a file or folder."""
+        self.kind(name, value, (str, PurePath), "the path of a file or folder is needed")
+
+    def dataset(self, value: Any, *, over: str = "") -> None:
+        """Refuse what is no dataset, or one that is not over what it must be."""
+        from xarray import Dataset  # noqa: PLC0415 (slow to import)
+
+        self.kind("dataset", value, Dataset, "an xarray.Dataset is needed")
+        if over and isinstance(value, Dataset) and over not in value.coords:
+            self.refuse(
+                f"dataset: it has no coordinate {over!r}, over which its variables must be."
+            )
+
+    def function(self, name: str, value: Any) -> None:
+        """Refuse what is neither a function nor None."""
+        if not (value is None or callable(value)):
+            self.refuse(f"{name} = {shown(value)}: a function, or None, is needed.")
 
     def system(self, model: Any) -> None:
         """Refuse what is no `System`, of which `Model` is one."""

@@ -50,6 +50,9 @@ def compare(
         for model in given.mapping("models", models, "names and models").values():
             given.suspension(model)
         given.among("over", over, ("travel", "rack"))
+        given.function("progress", progress)
+        if positions is not None:
+            positions = given.array("positions", positions, "m", dimensions=[1])
     if len(models) < 2:
         problem = f"{len(models)} data set; two or more are needed for a comparison."
         raise InputError([problem], "compare")

@@ -42,6 +42,7 @@ NAMED = {
     "strut_reaches_bump_stop": "the strut becomes as short as its bump stop allows freely",
     "strut_reaches_rebound_stop": "the strut becomes as long as its rebound stop allows freely",
 }
+_MOST_CROSSINGS = 2**31 - 1
 _AT_THE_GROUND = {"wheel_leaves_ground": -1.0, "wheel_touches_ground": 1.0}
 # Which stop, and the sense of the strut's length when it touches.
 _AT_A_STOP = {
@@ -149,5 +150,7 @@ def _checked(model: System, event: SignalEvent) -> SignalEvent:
         given.number(f"level of {event.signal!r}", event.level)
         given.number(f"direction of {event.signal!r}", event.direction)
         if not isinstance(event.terminal, bool):
-            given.whole(f"terminal of {event.signal!r}", event.terminal, least=0)
+            given.whole(
+                f"terminal of {event.signal!r}", event.terminal, least=0, most=_MOST_CROSSINGS
+            )
     return event

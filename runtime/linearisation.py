@@ -32,6 +32,8 @@ Complex = NDArray[np.complex128]
 
 # A rate, relative to the forces' own accelerations, below which a state counts as steady.
 _STEADY = 1e-6
+# Its square must not overflow [Hz].
+_GREATEST_FREQUENCY = 1e100
 # Of a suspension: coordinates that no equation depends on, as a balanced wheel looks the same at
 # every angle, and those of the arm that swings in wheel hop.
 _CYCLIC = ("beta5", "spin_angle")
@@ -133,6 +135,10 @@ class Linearisation:
         with Arguments("frequency response") as given:
             frequencies = given.array("frequency", frequency, "Hz", empty=True)
             given.among("source", source, self.input_names)
+            if np.abs(frequencies).max(initial=0.0) > _GREATEST_FREQUENCY:
+                given.refuse(
+                    f"frequency: {_GREATEST_FREQUENCY:g} Hz at most, in size, are possible."
+                )
         s = (2j * np.pi * frequencies[..., None]).astype(np.complex128)
         column = self._harmonic(source, s)
         moved = s[..., None] * np.eye(len(self.A)) - self.A

@@ -286,12 +286,12 @@ def _refuse_out_of_reach(
     beyond = _beyond(heights, table, index)
     if not beyond.any():
         return
-    height, rack = heights[beyond][0], float(racks[beyond][0])
+    height, rack = float(heights[beyond][0]), float(racks[beyond][0])
     reach = travel_range(model, rack)
     ends = _rounded_inward(reach.height)
     travels = _rounded_inward([end - design_height(model) for end in reach.height])
     message = (
-        f"wheel height {height * 1e3:.6g} mm is out of reach: from {ends[0]:.2f} mm "
+        f"wheel height {1e3 * height:.6g} mm is out of reach: from {ends[0]:.2f} mm "
         f"({reach.lower_limit}) to {ends[1]:.2f} mm ({reach.upper_limit}) with the rack at "
         f"{rack * 1e3:g} mm; that is {travels[0]:+.2f} mm to {travels[1]:+.2f} mm of wheel travel "
         "from design. Choose a height within this range."

@@ -96,6 +96,8 @@ def statistics(dataset: xr.Dataset) -> dict[str, Statistics]:
     >>> found.mean, round(found.rms**2, 12)
     (1.0, 0.5)
     """
+    with Arguments("statistics") as given:
+        given.dataset(dataset, over=TIME)
     times = np.asarray(dataset[TIME].values, dtype=np.float64)
     return {str(name): _of(times, np.asarray(data.values)) for name, data in dataset.items()}
 

@@ -159,7 +159,7 @@ def test_model_takes_a_path_and_refuses_what_is_none():
 
     path = Path(__file__).parent.parent / "runtime/data/reference_car.toml"
     assert np.array_equal(Model(path).constants, MODEL.constants)
-    with pytest.raises(kintrafo.InputError, match="not {}"):
+    with pytest.raises(kintrafo.InputError, match=r"not \{\}"):
         Model({})
 
 

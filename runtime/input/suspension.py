@@ -18,6 +18,7 @@ from typing import Any, ClassVar, Self
 from pydantic import Field, ValidationError
 
 from .. import data as packaged_data
+from ..arguments import Arguments
 from ..errors import InputError
 from ..files import told
 from .bodies import Bodies
@@ -120,6 +121,8 @@ class Suspension(Section):
             If the file cannot be read or no suspension can be like this; it lists everything that
             is wrong.
         """
+        with Arguments(cls.__name__) as given:
+            given.path("path_or_name", path_or_name)
         file = _find(path_or_name)
         # Printing the path inside the package would not help whoever asked for a name.
         return cls.from_dict(read_toml(file), source=str(path_or_name))
@@ -145,6 +148,7 @@ class Suspension(Section):
         InputError
             If no suspension can be like this; it lists everything that is wrong.
         """
+        _check_keys("data", data, source)
         # here, because a kind is made from this class
         from .kinds import kind_of  # noqa: PLC0415
 
@@ -192,6 +196,7 @@ class Suspension(Section):
         >>> stiffer.hardpoints.ball_joint
         (5.0, -710.0, 185.0)
         """
+        _check_keys("changes", changes, "suspension")
         data = self.to_dict()
         source = f"suspension with changed {', '.join(changes)}"
         problems = [problem for place in changes if (problem := _put(data, place, changes[place]))]
@@ -299,6 +304,13 @@ class Suspension(Section):
         """
         del sections  # nothing that every kind has
         return []
+
+
+def _check_keys(name: str, given: Any, source: str) -> None:
+    """Refuse what is no dict with texts as keys."""
+    with Arguments(source) as checked:
+        for key in checked.mapping(name, given, "keys and values of the input file"):
+            checked.kind(f"key of {name}", key, str, "a text is needed")
 
 
 def _find(path_or_name: str | Path) -> Path | Traversable:

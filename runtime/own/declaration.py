@@ -8,6 +8,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
+from ..arguments import Arguments, shown
 from ..errors import InputError, KintrafoError
 from ..files import told
 from ..input.suggestions import suggestion
@@ -89,6 +90,9 @@ def given_by(declared: "Model | Mechanism | str | Path", name: str | None) -> "M
     """
     from ..generator.mechanism import Mechanism, Model
 
+    with Arguments("compile") as checked:
+        if name is not None:
+            checked.kind("name", name, str, "the name of a model or a mechanism is needed")
     given: Any = declared
     if isinstance(declared, str | Path):
         with telling():
@@ -97,7 +101,7 @@ def given_by(declared: "Model | Mechanism | str | Path", name: str | None) -> "M
         return given
     problem = (
         "a Model, a Mechanism (kintrafo.generator.mechanism) or the path of a Python file with one "
-        f"is needed, not {type(declared).__name__}."
+        f"is needed, not {shown(declared)}."
     )
     raise InputError([problem], "compile")
 
