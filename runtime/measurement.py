@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .arguments import Arguments
 from .errors import InputError
 from .files import reason
 from .input.suggestions import nearest, suggestion
@@ -92,6 +93,10 @@ def measured(path: str | Path, *, speed: float | None = None) -> Measurement:
     InputError
         If the file cannot be used; with the lines that are wrong.
     """
+    with Arguments("measured") as given:
+        given.kind("path", path, (str, Path), "the path of a CSV file is needed")
+        if speed is not None:
+            given.number("speed", speed, "m/s", above=0.0)
     source = str(path)
     lines = _lines_of(Path(path))
     if not lines:
@@ -214,19 +219,24 @@ def _times(
             given = "none is given" if speed is None else f"{speed * 3.6:g} km/h is given"
             problem = f"a road over distance_m needs a speed of more than 0 km/h; {given}."
             raise InputError([problem], source)
-        times = columns["distance"] / speed
+        with np.errstate(over="ignore"):
+            times = columns["distance"] / speed
     elif speed is not None:
         problem = "a speed is for a road over distance_m; this one is over time. Leave it out."
         raise InputError([problem], source)
     else:
         times = columns["time"]
-    fall = np.flatnonzero(np.diff(times) < 0.0)
+    fall = np.flatnonzero(times[1:] < times[:-1])
     if fall.size:
         line = lines[int(fall[0]) + 1]
         name = "distance" if "distance" in columns else "time"
         problem = f"line {line}: the {name} falls. Sort the rows, each {name} once."
         raise InputError([problem], source)
-    shifted: Array = times - times[0]
+    with np.errstate(over="ignore", invalid="ignore"):
+        shifted: Array = times - times[0]
+    if not np.all(np.isfinite(shifted)):
+        problem = f"times from {times[0]:g} to {times[-1]:g} s are too far apart. Check the column."
+        raise InputError([problem], source)
     if shifted[-1] == 0.0:
         raise InputError(["all rows have the same time. Check the column."], source)
     return shifted

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .arguments import Arguments
 from .errors import KintrafoError
 from .model import Model
 from .swing import GOAL, UNRESOLVED, Seen, march, margins_stay, resolved
@@ -86,6 +87,9 @@ def travel_range(model: Model, rack_position: float = 0.0) -> Range:
     >>> [round(1e3 * height, 1) for height in reach.height]
     [-65.6, 615.9]
     """
+    with Arguments("travel_range") as given:
+        given.suspension(model)
+        rack_position = given.number("rack_position", rack_position, "m")
     racks = np.array([rack_position], dtype=np.float64)
     low, low_limits = _ends(model, racks, +1.0)
     high, high_limits = _ends(model, racks, -1.0)

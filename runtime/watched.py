@@ -15,6 +15,7 @@ Array = NDArray[np.float64]
 _METHODS = {"RK45": RK45, "DOP853": DOP853, "Radau": Radau, "BDF": BDF, "LSODA": LSODA}
 # As in ``native/integrate.c``: parts of the whole time and of the longest step.
 _SMALLEST_OF_TIME, _SMALLEST_OF_STEP = 1e-9, 1e-6
+_NEAR = 1e-3
 _SHORTER = 0.25
 _COUNTS = ("nfev", "njev", "nlu")
 
@@ -110,7 +111,9 @@ def watched(
 
         def _limit(self, now: Array, gained: Array, lapse: float) -> None:
             self._trusted, guard, over = approach.longest_step(now, gained, lapse)
-            if guard is not None and (over or self._trusted < SMALLEST_PART * abs(self.t)):
+            stuck = lapse < LAPSE * self._smallest() and self._trusted < _NEAR * self._longest
+            over = over or stuck or self._trusted < SMALLEST_PART * abs(self.t)
+            if guard is not None and over:
                 raise DeadPoint(guard, self.t, self.y)
 
     return Watched

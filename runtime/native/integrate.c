@@ -547,6 +547,9 @@ static void look(worker *w, double time, const double *state, double lapse)
 #define SMALLEST_OF_TIME 1.0e-9
 #define SMALLEST_OF_STEP 1.0e-6
 
+/* Part of the longest step: where less is left, a dead point is near. */
+#define NEAR 1.0e-3
+
 /* Part of the time since zero that a clock of double precision tells apart, some times. */
 #define SMALLEST_PART 1.0e-14
 
@@ -634,12 +637,16 @@ static int doubt(worker *w, course *c, double reached, double step)
     return put_out(w, c, reached);
 }
 
-/* Limit the next step by the margins that were looked at; tell whether this is a dead point. */
+/*
+ * Limit the next step by the margins that were looked at; tell whether this is a dead point. It is one
+ * also where rounding, not the margin, has made the solver's own steps so short that they lead nowhere.
+ */
 static int limit(worker *w, course *c, double lapse)
 {
     int nearest = KT_NONE, over = 0;
     c->trusted = kt_longest_step(&w->margins, lapse, &nearest, &over);
-    over = over || c->trusted < SMALLEST_PART * fabs(w->result->time);
+    int stuck = lapse < LAPSE * smallest_step(w) && c->trusted < NEAR * w->longest_step;
+    over = over || stuck || c->trusted < SMALLEST_PART * fabs(w->result->time);
     return over ? end_at(w, nearest) : KT_DONE;
 }
 

@@ -8,7 +8,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
+from ..arguments import Arguments, shown
 from ..errors import InputError, KintrafoError
+from ..files import told
 from ..input.suggestions import suggestion
 
 if TYPE_CHECKING:
@@ -88,6 +90,9 @@ def given_by(declared: "Model | Mechanism | str | Path", name: str | None) -> "M
     """
     from ..generator.mechanism import Mechanism, Model
 
+    with Arguments("compile") as checked:
+        if name is not None:
+            checked.kind("name", name, str, "the name of a model or a mechanism is needed")
     given: Any = declared
     if isinstance(declared, str | Path):
         with telling():
@@ -96,7 +101,7 @@ def given_by(declared: "Model | Mechanism | str | Path", name: str | None) -> "M
         return given
     problem = (
         "a Model, a Mechanism (kintrafo.generator.mechanism) or the path of a Python file with one "
-        f"is needed, not {type(declared).__name__}."
+        f"is needed, not {shown(declared)}."
     )
     raise InputError([problem], "compile")
 
@@ -106,7 +111,8 @@ def _run(path: Path) -> ModuleType:
     from ..generator.declared import DeclarationError
 
     try:
-        source = path.read_text(encoding="utf-8")
+        with told(path, "cannot be read"):
+            source = path.read_text(encoding="utf-8")
     except UnicodeDecodeError as error:
         problem = f"is no text in UTF-8 (byte {error.start}). Give a Python file."
         raise InputError([problem], str(path)) from error
