@@ -213,7 +213,7 @@ class _Copy:
 
     def _note(self, name: str, *turned: str) -> None:
         """Note the components that the mirror turns round."""
-        if self.turned.setdefault(name, turned) != turned:
+        if self.mirrored and self.turned.setdefault(name, turned) != turned:
             problem = (
                 f"{name!r} is an axis of rotation and a direction of motion; a mirror image needs "
                 "two directions, since it turns the one round and not the other"

@@ -17,8 +17,9 @@ import pytest
 import sympy as sp
 from kintrafo.generator.actions import PlaceIdle
 from kintrafo.generator.composition import combined, copy
-from kintrafo.generator.design import design_coordinates
+from kintrafo.generator.design import _angle, design_coordinates
 from kintrafo.generator.dynamics import Dynamics
+from kintrafo.generator.joints import Revolute
 from kintrafo.generator.mechanism import Model
 from kintrafo.generator.mechanisms import MODELS, chains, multi_link
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
@@ -112,6 +113,17 @@ class Moving:
         values = [sp.Symbol(k) if k in steps else sp.Integer(0) for k in self.coordinates]
         return list(map(mpmath.mpf, python(_function(every, values))(self._given())))
 
+    def given_angles(self) -> dict[str, mpmath.mpf]:
+        """Return the positions at design of prescribed hinges that measure their angle."""
+        found = {}
+        for name, given in self.model.prescribed.items():
+            joint = self.model.mechanism.joint(name)
+            if isinstance(joint, Revolute) and joint.angle_to is not None:
+                steps = [Step(*step, "") for step in _angle(given, joint)]
+                (angle,) = python(_function(steps, [sp.Symbol(given)]))(self._given())
+                found[f"{given}_position"] = mpmath.mpf(angle)
+        return found
+
     def __call__(self, values: Mapping[str, float]) -> list[mpmath.mpf]:
         """Return the accelerations at some state and inputs, with the default parameters."""
         found: list[mpmath.mpf] = python(self.accelerations)(self._given() | dict(values))
@@ -171,6 +183,7 @@ def check_in_company(model: Model, random: np.random.Generator) -> None:
         state |= {f"{k}_rate": r for k, r in zip(one.coordinates, rates, strict=True)}
         inputs = model.mechanism.inputs
         state |= dict(zip(inputs, 1e-3 * random.standard_normal(len(inputs)), strict=True))
+        state |= one.given_angles()
         alone = one(state)
         together = two({f"{prefix}{k}": v for prefix in COPIES for k, v in state.items()})
     # computed with 40 digits: no rounding is near this bound
