@@ -1,7 +1,5 @@
 """What a declaration can get wrong: every mistake has a message with its name and a remedy."""
 
-import os
-import time
 from dataclasses import replace
 
 import kintrafo
@@ -30,9 +28,7 @@ from kintrafo.generator import (
 from kintrafo.generator.checks import DeclarationError
 from kintrafo.generator.default_values import value_problems
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
-from kintrafo.generator.mechanisms.four_bar import MODELS as FOUR_BARS
 from kintrafo.generator.mechanisms.multi_link import MODELS as MULTI_LINKS
-from kintrafo.generator.mechanisms.slider_crank import SLIDER_CRANK
 from typer.testing import CliRunner
 
 PLACES = {
@@ -414,7 +410,7 @@ class TestProposals:
         assert found.iterates
 
     def test_a_search_ends_in_time(self):
-        assert list(kintrafo.proposals(stephenson("G", "A"), seconds=-1.0)) == []
+        assert list(kintrafo.proposals(stephenson("G", "A"), seconds=1e-9)) == []
 
     def test_of_a_file_and_a_name_in_it(self, tmp_path):
         path = tmp_path / "mine.py"
@@ -506,21 +502,3 @@ class TestFiles:
         path.write_text(f"import sys\n{end}\n")
         with pytest.raises(kintrafo.InputError, match=r"Line 2: SystemExit.*__main__"):
             kintrafo.compile(path)
-
-
-def test_what_killed_processes_left_is_removed_the_next_day(tmp_path):
-    kintrafo.compile(FOUR_BARS[0], backend="numpy", folder=tmp_path)
-    (made,) = tmp_path.iterdir()
-    old, recent = (tmp_path / f".{made.name}-{suffix}" for suffix in ("k1ll3d", "bu5y"))
-    other = tmp_path / ".settings-of-something-else"
-    for folder in (old, recent, other):
-        folder.mkdir()
-        (folder / "half_written.c").write_text("")
-    yesterday = time.time() - 25 * 3600.0
-    for folder in (old, other):
-        os.utime(folder, (yesterday, yesterday))
-    kintrafo.compile(SLIDER_CRANK, backend="numpy", folder=tmp_path)
-    assert not old.exists()
-    assert recent.exists()
-    assert other.exists()
-    assert made.exists()
