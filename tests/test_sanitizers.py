@@ -9,6 +9,7 @@ import pytest
 from c_text import sources
 from cases import MODELS, car_parameters
 from kintrafo import Model, state_at_height
+from kintrafo.dead_points import meanings
 from kintrafo.solvers import native_available, native_version
 
 ROOT = Path(__file__).parent.parent
@@ -49,6 +50,7 @@ CALL = (
 INTEGRATION = """
 #include "integrate.h"
 #include "macpherson.h"
+#define MACPHERSON_GUARDS {guard_count}
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -72,7 +74,11 @@ int main(void)
                           MACPHERSON_INPUT_RACK_ACCELERATION}}}};
     kt_event event = {{MACPHERSON_SIGNAL_TYRE_FORCE, 0.0}};
     int directions[2] = {{0, 0}}, terminal[2] = {{0, 0}};
+    int guards[MACPHERSON_GUARDS] = {{{guards}}};
+    double usual_margins[MACPHERSON_GUARDS] = {{0}};
     kt_problem problem = {{
+        .margins = macpherson_margins, .guard_count = MACPHERSON_GUARDS, .guards = guards,
+        .usual_margins = usual_margins,
         .rhs = macpherson_rhs, .jacobian = macpherson_rhs_jacobian, .signals = macpherson_signals,
         .state_count = 4, .input_count = MACPHERSON_INPUT_COUNT,
         .signal_count = MACPHERSON_SIGNAL_COUNT, .constants = constants, .inputs = inputs,
@@ -163,8 +169,11 @@ def test_native_solver(tmp_path):
     text = INTEGRATION.format(
         parameters=assignments(MODELS["macpherson"], car_parameters(0)),
         state=", ".join(repr(float(v)) for v in start),
+        guards=", ".join(map(str, meanings(MODELS["macpherson"]).tolist())),
+        guard_count=len(MODELS["macpherson"].GUARDS),
     )
-    files = [*sources("macpherson"), ROOT / "runtime/native/integrate.c"]
+    native = ROOT / "runtime/native"
+    files = [*sources("macpherson"), native / "integrate.c", native / "margins.c"]
     compiler, flags = with_sundials()
     run_clean(tmp_path, text, files, flags, compiler)
 
