@@ -292,7 +292,8 @@ def test_anywhere_it_closes_or_says_so(model: Model, built: Callable[[Model], Bu
             continue
         outcomes.add("closed")
         assert np.abs(compiled.oracle.closure(motion).value).max() < 1e-12
-    assert outcomes == {"closed", "refused"}
+    rounds = {"bennett"}  # its crank goes all the way round
+    assert outcomes == {"closed"} | ({"refused"} if model.name not in rounds else set())
 
 
 def test_a_chain_that_moves_by_its_dimensions_alone_is_refused_with_others(

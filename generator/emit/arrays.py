@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 
 from ..arithmetic import NUMPY, write
 from ..assumptions import ROUNDING
-from ..iteration import CONVERGED, ITERATIONS
+from ..iteration import LIMITS
 from .c import GUARD_FLOOR, CPrinter, blocks_of
-from .python import template
+from .text import template
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     import sympy as sp
 
@@ -39,7 +39,7 @@ class ArraysPrinter:
             rounding=ROUNDING,
             functions="\n\n\n".join(
                 [
-                    *map(_block, blocks_of(self.model.functions.values())),
+                    *_blocks(blocks_of(self.model.functions.values())),
                     self._prepare(),
                     *map(self._body, self.model.functions.values()),
                 ]
@@ -88,31 +88,47 @@ def _definition(function: Function, arguments: str, loads: list[str], holds: lis
     return "\n".join(lines)
 
 
+def _blocks(blocks: Sequence[Block]) -> list[str]:
+    """Return what follows loops, and the equations of each."""
+    if not blocks:
+        return []
+    return [template("follow.py").substitute(LIMITS).strip(), *map(_block, blocks)]
+
+
 def _block(block: Block) -> str:
-    """Return an iteration: where one state has converged, its unknowns wait for the others."""
+    """Return one iteration, and the call that repeats it."""
     steps, results = _written(block.once)
-    count = len(block.results)
-    found, following, change = results[:count], results[count:-1], results[-1]
+    read = {s.name for s in block.once.free_symbols}
+    kinds = {
+        "given": block.constants,
+        "now": [d.now for d in block.driven],
+        "base": block.estimate.base,
+        "step": block.estimate.step,
+        "held": [s for line in block.estimate.held for s in line],
+    }
+    loads = [
+        f"{s} = {array}[{i}]"
+        for array, symbols in kinds.items()
+        for i, s in enumerate(symbols)
+        if s.name in read
+    ]
+    along = [f"({d.now}_start, {d.now}_end, {d.now}_unit)" for d in block.driven]
+    names = [name for d in along for name in d.strip("()").split(", ")]
     lines = [
-        f"def {block.name}({', '.join(map(str, block.arguments))}):",
+        f"def {block.name}_once({', '.join(kinds)}):",
+        *(f"    {line}" for line in (*loads, *steps)),
+        "    return (",
+        *(f"        {value}," for value in results),
+        "    )",
+        "",
+        "",
+        f"def {block.name}({', '.join([*map(str, block.constants), *names])}):",
         f'    """Find {block.doc}."""',
-        *(f"    {u} = 0.0" for u in block.unknowns),
-        f"    for _ in range({ITERATIONS}):",
-        *(f"        {step}" for step in steps),
-        "        found = (",
-        *(f"            {value}," for value in found),
-        "        )",
-        f"        moving = ({change} > {CONVERGED} * {CONVERGED}) & np.isfinite({change})",
-        "        if not np.any(moving):",
-        "            break",
-        "        following = (",
-        *(f"            {value}," for value in following),
-        "        )",
-        *(
-            f"        {u} = np.where(moving, following[{i}], {u})"
-            for i, u in enumerate(block.unknowns)
-        ),
-        "    return found",
+        f"    turns = {[d.turns for d in block.driven]}",
+        f"    given = [{', '.join(map(str, block.constants))}]",
+        f"    along = [{', '.join(along)}]",
+        f"    once, elements = {block.name}_once, {len(block.elements)}",
+        f"    return follow_turns(once, {len(block.unknowns)}, elements, turns, given, along)",
     ]
     return "\n".join(lines)
 
