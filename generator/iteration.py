@@ -46,7 +46,7 @@ from .program import Program, ancestors
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
-    from .program import ConstantStage, Function
+    from .program import Function
 
 ITERATIONS = 400
 """Most iterations of a block. Within the travel of a suspension it takes five to seven."""
@@ -212,7 +212,9 @@ class Derivation:
         self._around = around
         self.program = Program(around.constants)
         self._driven = {
-            end: Driven(self._own(f"{end}_now"), start, end, sp.Integer(1) if turns else unit, turns)
+            end: Driven(
+                self._own(f"{end}_now"), start, end, sp.Integer(1) if turns else unit, turns
+            )
             for end, start, turns in driven
         }
         self._copies: dict[sp.Symbol, sp.Expr] = {end: d.now for end, d in self._driven.items()}
@@ -295,7 +297,9 @@ class Derivation:
             for j, column in enumerate(columns):
                 kept = _dot(line, column) - (1 if i == j else 0)
                 squares.append(self.program.define(f"kept_{i + 1}{j + 1}", kept) ** 2)
-        guards = {c.args[0] for s in self.program.steps.values() for c in s.expression.atoms(Guarded)}
+        guards = {
+            c.args[0] for s in self.program.steps.values() for c in s.expression.atoms(Guarded)
+        }
         failing = [1 - IsPositive(g) for g in sorted(guards, key=str)]
         return sp.Add(*squares, *failing)
 

@@ -175,7 +175,9 @@ def _solved(block: Block) -> Any:
         count = len(block.constants)
         values = dict(zip(map(str, block.constants), given[:count], strict=True)) | zeros
         along = [given[i : i + 3] for i in range(count, len(given), 3)]
-        stages = 1 + max((int(5 * abs(end - start) / unit) for start, end, unit in along), default=0)
+        stages = 1 + max(
+            (int(5 * abs(end - start) / unit) for start, end, unit in along), default=0
+        )
         estimate, side = [mpmath.mpf(0)] * (2 * n), 0
         for stage in range(stages + 1):
             for driven, (start, end, _) in zip(block.driven, along, strict=True):

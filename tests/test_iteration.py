@@ -264,7 +264,8 @@ def test_accelerations_are_those_of_the_maximal_coordinates(
         inverse = np.abs(np.linalg.inv(oracle.mass_matrix))
         scale = (inverse @ (np.abs(oracle.applied) + np.abs(oracle.inertial))).max()
         found = model("rhs", state, inputs)[2:]
-        np.testing.assert_allclose(found, oracle.accelerations, rtol=0.0, atol=1e-12 * scale)
+        # rounding, a thousandfold and more by the condition of six rods and that of the oracle
+        np.testing.assert_allclose(found, oracle.accelerations, rtol=0.0, atol=1e-11 * scale)
         np.testing.assert_allclose(
             model("mass_matrix", state, inputs), oracle.mass_matrix, rtol=0.0, atol=1e-12
         )

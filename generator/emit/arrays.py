@@ -39,7 +39,7 @@ class ArraysPrinter:
             rounding=ROUNDING,
             functions="\n\n\n".join(
                 [
-                    *_blocks(blocks_of(self.model.functions.values())),
+                    *printed_blocks(blocks_of(self.model.functions.values())),
                     self._prepare(),
                     *map(self._body, self.model.functions.values()),
                 ]
@@ -48,33 +48,35 @@ class ArraysPrinter:
         )
 
     def _prepare(self) -> str:
-        loads = _loads("parameters", [e.name for e in self.model.parameters], self.model.prepare)
+        loads = loaded("parameters", [e.name for e in self.model.parameters], self.model.prepare)
         holds = [
             f"{place}: abs({a.quantity}) <= ROUNDING{'' if a.scale == 1 else f' * {a.scale}'}"
             for place, a in enumerate(self.model.assumptions)
         ]
-        return _definition(self.model.prepare, "parameters", loads, holds)
+        return definition(self.model.prepare, "parameters", loads, holds)
 
     def _body(self, function: Function) -> str:
         loads = [
-            *_loads("constants", self.model.prepare.labels, function),
-            *_loads("state", [e.name for e in self.model.state], function),
-            *_loads("inputs", [e.name for e in self.model.inputs], function),
+            *loaded("constants", self.model.prepare.labels, function),
+            *loaded("state", [e.name for e in self.model.state], function),
+            *loaded("inputs", [e.name for e in self.model.inputs], function),
         ]
         arguments = "constants, state, inputs"
         if CPrinter.reads_given(function):
             arguments += ", given"
             names = [f"given_{e.name}" for e in self.model.relative]
-            loads += _loads("given", names, function)
+            loads += loaded("given", names, function)
         holds = [
             f"{place}: {guard.quantity} > GUARD_FLOOR"
             for place, guard in enumerate(self.model.guards)
             if guard in function.guards
         ]
-        return _definition(function, arguments, loads, holds)
+        return definition(function, arguments, loads, holds)
 
 
-def _definition(function: Function, arguments: str, loads: list[str], holds: list[str]) -> str:
+def definition(
+    function: Function, arguments: str, loads: Sequence[str], holds: Sequence[str] = ()
+) -> str:
     """Return a function: what it reads, its steps, its results and what its guards say."""
     steps, results = _written(function)
     lines = [
@@ -88,7 +90,7 @@ def _definition(function: Function, arguments: str, loads: list[str], holds: lis
     return "\n".join(lines)
 
 
-def _blocks(blocks: Sequence[Block]) -> list[str]:
+def printed_blocks(blocks: Sequence[Block]) -> list[str]:
     """Return what follows loops, and the equations of each."""
     if not blocks:
         return []
@@ -133,7 +135,8 @@ def _block(block: Block) -> str:
     return "\n".join(lines)
 
 
-def _loads(array: str, names: Iterable[str], function: Function) -> list[str]:
+def loaded(array: str, names: Iterable[str], function: Function) -> list[str]:
+    """Return the lines that give the elements of an array, as far as they are read, their names."""
     read = {s.name for s in function.free_symbols}
     return [f"{n} = {array}[..., {i}]" for i, n in enumerate(names) if n in read]
 

@@ -418,15 +418,15 @@ def _once(printer: CPrinter, block: Block) -> str:
     }
     start = f"static void {block.name}_once("
     arguments = textwrap.wrap(
-        ", ".join([*(f"const{_KEPT}double{_KEPT}*{name}" for name in arrays), f"double{_KEPT}*out)"]),
+        ", ".join(
+            [*(f"const{_KEPT}double{_KEPT}*{name}" for name in arrays), f"double{_KEPT}*out)"]
+        ),
         WIDTH - len(start),
     )
     lines = [(start + f"\n{' ' * len(start)}".join(arguments)).replace(_KEPT, " "), "{"]
     for array, symbols in arrays.items():
         loads = [
-            f"    const double {s} = {array}[{i}];"
-            for i, s in enumerate(symbols)
-            if s.name in read
+            f"    const double {s} = {array}[{i}];" for i, s in enumerate(symbols) if s.name in read
         ]
         lines += loads or [f"    (void){array};"]
     lines += [*printer.steps(block.once), ""]
