@@ -54,9 +54,10 @@ ITERATIONS = 400
 LIMITS = {
     "ITERATIONS": str(ITERATIONS),
     "CONVERGED": "1.0e-13",
+    "STALLED": "1.0e-6",
     "LONGEST": "0.5",
     "TURNED": "0.5",
-    "CLOSE": "0.25",
+    "CLOSE": "0.1",
     "SHORTEST": "1.0e-9",
     "CLOSED": "1.0e-6",
 }
@@ -184,7 +185,8 @@ class Block:
         """Names of what it returns, in order.
 
         The unknowns; a matrix, row by row, that over the determinant is the inverse of J; that
-        determinant, with the sign that makes it positive at the design position; whether it is lost.
+        determinant, with the sign that makes it positive at the design position; whether it is
+        lost.
         """
         return (*self.unknowns, *self.elements, "determinant", LOST)
 

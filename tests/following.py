@@ -262,6 +262,22 @@ def _plane(names: list[str], size: float) -> Callable[[Random], dict[str, float]
     return lambda random: named({f"{n}_at": askew(*random.uniform(0.0, size, 2)) for n in names})
 
 
+def _near(model: Model, spread: float) -> Callable[[Random], dict[str, float]]:
+    """Draw pins of a planar mechanism not far from the declared ones, in the plane."""
+    defaults = {p.name: p.default for p in model.mechanism.parameters}
+    x, y = (np.array(askew(*e)) - askew(0.0, 0.0) for e in ((1.0, 0.0), (0.0, 1.0)))
+
+    def vary(random: Random) -> dict[str, float]:
+        declared = {n: [defaults[f"{n}_at_{a}"] for a in "xyz"] for n in _pins(model)}
+        moved = {
+            f"{n}_at": at + np.array([x, y]).T @ random.uniform(-spread, spread, 2)
+            for n, at in declared.items()
+        }
+        return named(moved)
+
+    return vary
+
+
 def _pins(model: Model) -> list[str]:
     return [joint.name for joint in model.mechanism.joints]
 
@@ -320,6 +336,12 @@ FAMILIES = (
         own_loops.STEPHENSON,
         _plane(_pins(own_loops.STEPHENSON), 0.5),
         (np.pi,),
+    ),
+    Family(
+        "two of them in a row",
+        own_loops.IN_A_ROW,
+        _near(own_loops.IN_A_ROW, 0.05),
+        (0.8,),
     ),
     Family(
         "planar 3-RRR", own_loops.THREE_RRR, _plane(_pins(own_loops.THREE_RRR), 0.5), (1.2,) * 3

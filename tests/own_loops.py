@@ -387,21 +387,33 @@ FOUR_BAR_AT_ITS_KNEE = planar(
 )
 """A four-bar linkage that is driven at the pin between crank and coupler."""
 
-STEPHENSON = planar(
-    "stephenson",
+_SIX_BAR = [
+    ("crank_hinge", "ground", "crank", (0.0, 0.0)),
+    ("crank_pin", "crank", "coupler", (0.02, 0.15)),
+    ("rocker_pin", "coupler", "rocker", (0.3, 0.25)),
+    ("rocker_hinge", "ground", "rocker", (0.32, 0.0)),
+    ("link_pin", "coupler", "link", (0.12, 0.35)),
+    ("arm_pin", "link", "arm", (0.4, 0.45)),
+    ("arm_hinge", "ground", "arm", (0.55, 0.2)),
+]
+STEPHENSON = planar("stephenson", _SIX_BAR, ("arm_hinge",), ("coupler", (0.15, 0.25)))
+"""A six-bar linkage that is driven from its far side: the coupler is held by three."""
+
+IN_A_ROW = planar(
+    "in_a_row",
     [
-        ("crank_hinge", "ground", "crank", (0.0, 0.0)),
-        ("crank_pin", "crank", "coupler", (0.02, 0.15)),
-        ("rocker_pin", "coupler", "rocker", (0.3, 0.25)),
-        ("rocker_hinge", "ground", "rocker", (0.32, 0.0)),
-        ("link_pin", "coupler", "link", (0.12, 0.35)),
-        ("arm_pin", "link", "arm", (0.4, 0.45)),
-        ("arm_hinge", "ground", "arm", (0.55, 0.2)),
+        *_SIX_BAR,
+        ("next_crank_hinge", "ground", "next_crank", (-0.5, 0.0)),
+        ("next_crank_pin", "next_crank", "next_coupler", (-0.48, 0.15)),
+        ("next_rocker_pin", "next_coupler", "next_rocker", (-0.2, 0.25)),
+        ("next_rocker_hinge", "ground", "next_rocker", (-0.18, 0.0)),
+        ("next_link_pin", "next_coupler", "next_link", (-0.38, 0.35)),
+        ("last_pin", "next_link", "crank", (-0.08, 0.12)),
     ],
     ("arm_hinge",),
     ("coupler", (0.15, 0.25)),
 )
-"""A six-bar linkage that is driven from its far side: the coupler is held by three."""
+"""Two of them: what the first one finds drives the second one."""
 
 _LEGS = (((0.0, 0.0), (0.02, 0.14), (0.15, 0.2)), ((0.5, 0.0), (0.4, 0.1), (0.27, 0.19)))
 _LEGS = (*_LEGS, ((0.25, 0.5), (0.3, 0.38), (0.2, 0.29)))
