@@ -1,6 +1,6 @@
 """Loops without a closed form against paths followed in maximal coordinates.
 
-``PYTHONPATH=tests python -m benchmarks.loops`` draws mechanisms of random dimensions, follows each
+``make benchmark-loops`` draws mechanisms of random dimensions, follows each
 along a straight path of its driven coordinates (`tests/following.py`, which shares nothing with the
 generator but the declaration), and asks the emitted code for positions on the path: how many of
 those that a regular path reaches are answered, and how many answers are on another branch.

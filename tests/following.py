@@ -342,16 +342,21 @@ FAMILIES = (
         own_loops.IN_A_ROW,
         _near(own_loops.IN_A_ROW, 0.05),
         (0.8,),
+        quick=False,
     ),
     Family(
-        "planar 3-RRR", own_loops.THREE_RRR, _plane(_pins(own_loops.THREE_RRR), 0.5), (1.2,) * 3
+        "planar 3-RRR",
+        own_loops.THREE_RRR,
+        _plane(_pins(own_loops.THREE_RRR), 0.5),
+        (1.2,) * 3,
+        quick=False,
     ),
     Family("Hooke joint of hinges", own_loops.HOOKE, _bent, (4.0 * np.pi,)),
     Family("spherical four-bar", own_loops.SPHERICAL, _meeting, (2.0 * np.pi,)),
     Family("Bennett", own_loops.BENNETT, _bennett, (2.0 * np.pi,)),
     Family("ball joint in a ring of hinges", own_loops.BALL_RING, _ring(5, 0.5), (np.pi,)),
     Family("ring of seven hinges", SEVEN_HINGES, _ring(7, 0.5), (np.pi,), quick=False),
-    Family("carrier on three rods", MODELS[0], _links, (1.2, 0.0, 0.15)),
+    Family("carrier on three rods", MODELS[0], _links, (1.2, 0.0, 0.15), quick=False),
 )
 
 

@@ -1,4 +1,4 @@
-"""Loops without a closed form, of random dimensions: positions on paths from the design position.
+"""Dimensions of loops without a closed form, and positions on their paths.
 
 What is answered is compared with a path followed in maximal coordinates (`following`).
 """
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import numpy as np
 
 SECONDS = 120.0  # deriving is a part of the first attempt at each family
-SHORT = 8
+SHORT = 4
 
 _QUICK = [family for family in FAMILIES if family.quick]
 
