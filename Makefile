@@ -1,7 +1,7 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
-.PHONY: drawings help setup generate build run test fuzz package lint types format baseline clean \
-	benchmark benchmark-andrews benchmark-growth benchmark-loops benchmark-page benchmark-peers benchmark-speed format-page front-axle-page report-assets
+.PHONY: drawings help setup generate build run test test-elsewhere fuzz package lint types format baseline clean \
+	benchmark benchmark-andrews benchmark-bits benchmark-growth benchmark-loops benchmark-page benchmark-peers benchmark-speed format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
 EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/native/*.pyx runtime/native/*.[ch])
@@ -31,8 +31,15 @@ run: build ## The paper's suspension: topology, Figures 4 to 6, summary, all in 
 test: build ## Run all tests
 	@$(PYTHON) -m pytest -q -n 2 --dist worksteal
 
+# what makes the C library, NumPy and OpenBLAS compute as a processor of 2008 would
+OLDER := GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX,-AVX2,-FMA,-FMA4 OPENBLAS_CORETYPE=Nehalem \
+	NPY_DISABLE_CPU_FEATURES="AVX2 FMA3"
+
+test-elsewhere: build ## Run the tests of numbers as another processor would compute
+	@$(OLDER) $(PYTHON) -m pytest -q -n 2 --dist worksteal -m "not browser"
+
 fuzz: build ## Try every door for long; a table of what came of it (ARGS="--attempts 10000")
-	@cd tests && ../$(PYTHON) -m fuzz $(ARGS)
+	@PYTHONPATH=tests $(PYTHON) -m fuzz $(ARGS)
 
 lint: .venv/.ready ## Check style
 	@.venv/bin/ruff check .
@@ -80,6 +87,9 @@ front-axle-page: build ## The page of the front axle: operations, wheel rates, a
 
 format-page: build ## The input file's JSON Schema, and its page in docs/
 	@$(PYTHON) -m kintrafo.input.schema runtime/data/suspension.schema.json docs/file-format.md
+
+benchmark-bits: build ## Which results are the same bits on another processor
+	@$(PYTHON) -m benchmarks.same_bits --page docs/conventions.md
 
 benchmark-speed: build ## Times of everything, with pytest-benchmark (ARGS=--benchmark-compare)
 	@$(PYTHON) -m pytest -q benchmarks/test_speed.py -p no:xdist --benchmark-only \

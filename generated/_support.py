@@ -9,6 +9,8 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..errors import KintrafoError
+from ..physical import inertia_of_no_body, out_of_range
 from . import _arrays, _native
 from ._native import Function
 
@@ -18,10 +20,6 @@ Described = Mapping[str, Mapping[str, Any]]
 # As in the C code: guards from here on share a bit, and a guarded quantity must be over the floor.
 _LAST_GUARD_BIT = 29
 _GUARD_FLOOR = 1e-24
-
-
-class KintrafoError(Exception):
-    """Base of every exception that kintrafo raises on purpose."""
 
 
 class ModelError(KintrafoError, ValueError):
@@ -112,6 +110,7 @@ class CompiledModel:
         self.guard_units = guard_units
         self.assumptions = tuple(assumptions)
         self.name = name
+        self.parameters = parameters
         self.parameter_names = tuple(parameters)
         self.state_names = tuple(state)
         self.input_names = tuple(inputs)
@@ -157,7 +156,8 @@ class CompiledModel:
         Raises
         ------
         ParameterError
-            If a name is unknown or missing, a value is not finite, or the geometry is degenerate.
+            If a name is unknown or missing, a value is not finite or out of its range, an inertia
+            is that of no body, or the geometry is degenerate.
         """
         values = self._ordered(parameters) if isinstance(parameters, Mapping) else parameters
         given = np.ascontiguousarray(values, dtype=np.float64)
@@ -171,6 +171,10 @@ class CompiledModel:
         if bad:
             message = f"{self.name}: parameters that are NaN or infinite: {', '.join(bad)}"
             raise ParameterError(message)
+        named = dict(zip(self.parameter_names, given.tolist(), strict=True))
+        problems = out_of_range(named, self.parameters) or inertia_of_no_body(named)
+        if problems:
+            raise ParameterError(f"{self.name}: {'; '.join(problems)}")
         constants = np.empty(len(self.constant_names))
         failed = self._calls.call_prepare(self._code["prepare"], given, constants)
         if failed:

@@ -89,6 +89,7 @@ __all__ = [
     "GUARDS",
     "ASSUMPTIONS",
     "GUARD_UNITS",
+    "ACTING_GUARDS",
     "HELD_VARIANTS",
     "MOBILITY",
     "LOOPS",
@@ -168,23 +169,30 @@ PARAMETERS: Final[dict[str, dict[str, Any]]] = {'crank_bearing_x': {'default': 0
  'spring_ground_y': {'default': 0.2,
                      'unit': 'm',
                      'meaning': 'end of the spring on the ground at the start, y'},
- 'crank_mass': {'default': 0.5, 'unit': 'kg', 'meaning': 'mass of crank'},
+ 'crank_mass': {'default': 0.5, 'unit': 'kg', 'meaning': 'mass of crank', 'least': 0.0},
  'crank_inertia_zz': {'default': 0.0005,
                       'unit': 'kg m^2',
-                      'meaning': 'inertia of crank across the plane'},
- 'coupler_mass': {'default': 1.0, 'unit': 'kg', 'meaning': 'mass of coupler'},
+                      'meaning': 'inertia of crank across the plane',
+                      'least': 0.0},
+ 'coupler_mass': {'default': 1.0, 'unit': 'kg', 'meaning': 'mass of coupler', 'least': 0.0},
  'coupler_inertia_zz': {'default': 0.008,
                         'unit': 'kg m^2',
-                        'meaning': 'inertia of coupler across the plane'},
- 'rocker_mass': {'default': 1.2, 'unit': 'kg', 'meaning': 'mass of rocker'},
+                        'meaning': 'inertia of coupler across the plane',
+                        'least': 0.0},
+ 'rocker_mass': {'default': 1.2, 'unit': 'kg', 'meaning': 'mass of rocker', 'least': 0.0},
  'rocker_inertia_zz': {'default': 0.008,
                        'unit': 'kg m^2',
-                       'meaning': 'inertia of rocker across the plane'},
- 'spring_rate': {'default': 400.0, 'unit': 'N/m', 'meaning': 'rate of the spring'},
- 'spring_free_length': {'default': 0.3, 'unit': 'm', 'meaning': 'free length of the spring'},
+                       'meaning': 'inertia of rocker across the plane',
+                       'least': 0.0},
+ 'spring_rate': {'default': 400.0, 'unit': 'N/m', 'meaning': 'rate of the spring', 'least': 0.0},
+ 'spring_free_length': {'default': 0.3,
+                        'unit': 'm',
+                        'meaning': 'free length of the spring',
+                        'least': 0.0},
  'damper_rate': {'default': 0.0,
                  'unit': 'N s/m',
-                 'meaning': 'rate of the damper beside the spring'}}
+                 'meaning': 'rate of the damper beside the spring',
+                 'least': 0.0}}
 
 STATE: Final[dict[str, dict[str, str]]] = {'crank_angle': {'unit': 'rad', 'meaning': 'angle of the crank from the start'},
  'crank_angle_rate': {'unit': 'rad/s', 'meaning': 'rate of crank_angle'}}
@@ -259,6 +267,8 @@ GUARD_UNITS: Final[dict[str, str]] = {'rocker_reach_squared': 'm^2',
  'rocker_closure': 'm^2',
  'spring_length_squared': 'm^2',
  'pivot_crank_angle': 'kg m^2 or kg'}
+
+ACTING_GUARDS: Final[dict[str, tuple[int, ...]]] = {'rhs': (0, 1, 2, 3), 'signals': (0, 1, 2), 'positions': (0, 1), 'orientations': (0, 1)}
 
 HELD_VARIANTS: Final[dict[str, tuple[str, ...]]] = {}
 

@@ -83,6 +83,7 @@ __all__ = [
     "GUARDS",
     "ASSUMPTIONS",
     "GUARD_UNITS",
+    "ACTING_GUARDS",
     "HELD_VARIANTS",
     "MOBILITY",
     "LOOPS",
@@ -147,15 +148,17 @@ PARAMETERS: Final[dict[str, dict[str, Any]]] = {'crank_bearing_x': {'default': 0
  'piston_com_y': {'default': 0.0,
                   'unit': 'm',
                   'meaning': 'centre of mass of the piston at the start, y'},
- 'crank_mass': {'default': 2.0, 'unit': 'kg', 'meaning': 'mass of crank'},
+ 'crank_mass': {'default': 2.0, 'unit': 'kg', 'meaning': 'mass of crank', 'least': 0.0},
  'crank_inertia_zz': {'default': 0.003,
                       'unit': 'kg m^2',
-                      'meaning': 'inertia of crank across the plane'},
- 'rod_mass': {'default': 0.6, 'unit': 'kg', 'meaning': 'mass of rod'},
+                      'meaning': 'inertia of crank across the plane',
+                      'least': 0.0},
+ 'rod_mass': {'default': 0.6, 'unit': 'kg', 'meaning': 'mass of rod', 'least': 0.0},
  'rod_inertia_zz': {'default': 0.002,
                     'unit': 'kg m^2',
-                    'meaning': 'inertia of rod across the plane'},
- 'piston_mass': {'default': 0.4, 'unit': 'kg', 'meaning': 'mass of piston'}}
+                    'meaning': 'inertia of rod across the plane',
+                    'least': 0.0},
+ 'piston_mass': {'default': 0.4, 'unit': 'kg', 'meaning': 'mass of piston', 'least': 0.0}}
 
 STATE: Final[dict[str, dict[str, str]]] = {'crank_angle': {'unit': 'rad', 'meaning': 'angle of the crank from the start'},
  'crank_angle_rate': {'unit': 'rad/s', 'meaning': 'rate of crank_angle'}}
@@ -208,6 +211,8 @@ GUARDS: Final[tuple[tuple[str, str], ...]] = (('piston_closure',
 ASSUMPTIONS: Final[tuple[tuple[str, str, str, str], ...]] = ()
 
 GUARD_UNITS: Final[dict[str, str]] = {'piston_closure': 'm^2', 'pivot_crank_angle': 'kg m^2 or kg'}
+
+ACTING_GUARDS: Final[dict[str, tuple[int, ...]]] = {'rhs': (0, 1), 'positions': (0,), 'orientations': (0,)}
 
 HELD_VARIANTS: Final[dict[str, tuple[str, ...]]] = {}
 

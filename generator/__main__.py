@@ -9,6 +9,7 @@ from rich.console import Console
 from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
+from ..cli.exits import guarded, standing_streams
 from .emit.files import project_files
 from .emit.python import shared_files
 from .emit.report import block_diagram, bodies_of, joint_rows, mobility_line, path_rows
@@ -23,10 +24,18 @@ app = typer.Typer(help=__doc__, no_args_is_help=True, add_completion=False)
 console = Console(width=None if sys.stdout.isatty() else 110)
 
 
+# In the head of every file that is emitted; one without it is somebody's own.
+_MARK = "do not edit"
+
+
 def _write(target: Path, text: str) -> bool:
     """Write a file unless it is the same already, so that nothing is compiled in vain."""
-    if target.exists() and target.read_text(encoding="utf-8") == text:
-        return False
+    if target.exists():
+        found = target.read_text(encoding="utf-8", errors="replace")
+        if found == text:
+            return False
+        if found and _MARK not in found[:1000]:
+            raise typer.BadParameter(f"{target} was not written by kintrafo; choose another folder")
     target.write_text(text, encoding="utf-8", newline="\n")
     return True
 
@@ -56,6 +65,10 @@ def topology(
     picture: Annotated[
         Path | None, typer.Option(help="Write the joint graph here (PNG, SVG).")
     ] = None,
+    *,
+    force: Annotated[
+        bool, typer.Option("--force", help="Replace a file that kintrafo did not write.")
+    ] = False,
 ) -> None:
     """Show mobility, shortest paths, cycles and transformers of the MacPherson suspension."""
     plan = Plan.of(MODELS[0])
@@ -63,7 +76,7 @@ def topology(
     if picture is not None:
         from .emit.graph import draw  # noqa: PLC0415 (matplotlib is slow to import)
 
-        draw(plan, picture)
+        draw(plan, picture, force=force)
         console.print(f"joint graph written to {picture}")
 
 
@@ -98,4 +111,5 @@ def show_topology(plan: Plan) -> None:
 
 
 if __name__ == "__main__":
-    app()
+    with standing_streams(), guarded():
+        app()

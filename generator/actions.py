@@ -1,6 +1,7 @@
 """What a plan is made of: the steps that the kinematics carries out, in order.
 
-Each says which bodies, joints and points take part; the algebra is in `solutions`.
+Each says which bodies, joints and points take part; the algebra is in `solutions`. `body` is what
+a step is about: a body that it places, or whose line it finds.
 """
 
 from __future__ import annotations
@@ -24,6 +25,11 @@ class PlaceByJoint:
     child: str
 
     @property
+    def body(self) -> str:
+        """What the step is about."""
+        return self.child
+
+    @property
     def title(self) -> str:
         """What the derivation calls this step."""
         return f"{self.child}: {self.joint.kind} joint"
@@ -44,6 +50,11 @@ class SolveTelescope:
     end: Point
     end_body: str
     end_link: str
+
+    @property
+    def body(self) -> str:
+        """What the step is about."""
+        return self.end_link
 
     @property
     def axis_point(self) -> Point:
@@ -101,6 +112,11 @@ class PinnedTelescope:
     far_hinge: Revolute
     end: Point
     end_body: str
+
+    @property
+    def body(self) -> str:
+        """What the step is about."""
+        return self.near
 
     @property
     def sense(self) -> int:
@@ -208,6 +224,11 @@ class PlaceByCross:
     child: str
 
     @property
+    def body(self) -> str:
+        """What the step is about."""
+        return self.child
+
+    @property
     def title(self) -> str:
         """What the derivation calls this step."""
         return f"{self.child}: cross of the universal joint"
@@ -248,6 +269,11 @@ class Strut:
     end_body: str
 
     @property
+    def body(self) -> str:
+        """What the step is about."""
+        return self.near
+
+    @property
     def sense(self) -> int:
         """Return 1 if the strut grows with the slide, -1 if it shrinks."""
         forward = self.joint.direction.between == (self.anchor, self.end)
@@ -282,7 +308,7 @@ class PlaceByGuide:
 
     @property
     def body(self) -> str:
-        """The same, by the name that other actions have for it."""
+        """What the step is about."""
         return self.strut.far
 
     @property

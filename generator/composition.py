@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
-from .checks import DeclarationError
+from .declared import DeclarationError
 from .forces import (
     AlongLine,
     AlongTelescope,
@@ -150,6 +150,7 @@ class _Copy:
         joints = tuple(map(self._joint, source.joints))
         forces = tuple(map(self._force, source.forces))
         coordinates = tuple(map(self._coordinate, source.coordinates))
+        self._note_loose_points()
         return replace(
             source,
             name=f"{self.prefix}{source.name}",
@@ -218,6 +219,13 @@ class _Copy:
                 "two directions, since it turns the one round and not the other"
             )
             raise DeclarationError(self.mechanism.name, [problem])
+
+    def _note_loose_points(self) -> None:
+        """Note the points of which there are parameters only, for what acts between the copies."""
+        metres = {p.name for p in self.mechanism.parameters if p.unit == "m"}
+        for name in (n.removesuffix("_y") for n in metres if n.endswith("_y")):
+            if name not in self.turned and {f"{name}_x", f"{name}_z"} & metres:
+                self._note(name, "y")
 
     # -- geometry ---------------------------------------------------------------------------------
 

@@ -341,13 +341,11 @@ class Kinematics:
 
     @property
     def _actions(self) -> list[Action]:
-        """The actions of the plan that have no bodies but those of this part."""
-        everybody = self.plan.topology.graph
-        return [
-            action
-            for action in self.plan.actions
-            if all(b in self.bodies for b in vars(action).values() if b in everybody)
-        ]
+        """The actions of the plan that are about bodies of this part.
+
+        What else takes part in them is of this part too, since nothing closes between two parts.
+        """
+        return [action for action in self.plan.actions if action.body in self.bodies]
 
     @property
     def reported(self) -> list[RelativeCoordinate]:

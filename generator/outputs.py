@@ -9,7 +9,8 @@ import sympy as sp
 
 from .arithmetic import SignOf
 from .assumptions import Assumption, define_assumptions, find_assumptions
-from .checks import DeclarationError, check_symbols
+from .checks import check_symbols
+from .declared import DeclarationError
 from .dynamics import Dynamics
 from .forces import ForceElement, JointForce, LinearTyre
 from .laws import Actuator
@@ -201,7 +202,7 @@ class _Builder:
                 names += [law.input for law in force.laws if isinstance(law, Actuator)]
             elif isinstance(force, JointForce) and force.joint in self.model.independent:
                 names.append(force.input)
-        return names
+        return list(dict.fromkeys(names))  # two tyres may be on one road
 
     def _rate_inputs(self, joints: Iterable[str]) -> tuple[str, ...]:
         names = [self.model.prescribed[j] for j in joints]

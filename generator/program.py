@@ -163,9 +163,13 @@ class ConstantStage:
         return expression.xreplace(self.derived)
 
     def has(self, name: str) -> bool:
-        """Tell whether a name is that of a constant, a parameter, a state or an input."""
+        """Tell whether a name is that of a constant, a parameter, a state or an input.
+
+        Parameters of a copy count, since they are replaced wherever their names are read.
+        """
         symbol = sp.Symbol(name)
-        return symbol in self.steps or symbol in self._given or name in self.reserved
+        known = (self.steps, self._given, self.derived)
+        return any(symbol in names for names in known) or name in self.reserved
 
     def note(self, name: str) -> None:
         """Keep the name of a program's step from being used for a constant."""

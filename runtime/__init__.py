@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from .events import SignalEvent
     from .generated._support import ClosureError, ModelError, ParameterError
     from .input.suspension import Suspension
+    from .interpolation import Samples
     from .linearisation import Linearisation, linearise
     from .model import Model
     from .modes import Mode
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
     )
     from .result import Simulation, SimulationError
     from .simulation import simulate
+    from .state import State
     from .system import System
 
 __version__ = version("kintrafo")
@@ -53,9 +55,11 @@ __all__ = [
     "ParameterError",
     "PositionError",
     "Range",
+    "Samples",
     "SignalEvent",
     "Simulation",
     "SimulationError",
+    "State",
     "Suspension",
     "System",
     "arm_angles",
@@ -76,6 +80,7 @@ _MODULES = {
     ".events": ("SignalEvent",),
     ".generated._support": ("ClosureError", "ModelError", "ParameterError"),
     ".input.suspension": ("Suspension",),
+    ".interpolation": ("Samples",),
     ".linearisation": ("Linearisation", "linearise"),
     ".model": ("Model",),
     ".modes": ("Mode",),
@@ -91,6 +96,7 @@ _MODULES = {
     ),
     ".result": ("Simulation", "SimulationError"),
     ".simulation": ("simulate",),
+    ".state": ("State",),
     ".system": ("System",),
 }
 _HOMES = {name: module for module, names in _MODULES.items() for name in names}

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import paper
+from .arguments import Arguments
 from .characteristics import wheel
 from .characteristics.from_model import corner
 from .input.suspension import Suspension
@@ -115,6 +116,8 @@ def checkup(model: Model) -> Checkup:
     >>> found.problems, round(found.equilibrium.frequency, 2)
     ((), 12.35)
     """
+    with Arguments("checkup") as given:
+        given.suspension(model)
     reach = travel_range(model)
     design = design_height(model)
     travel = reach.height[0] - design, reach.height[1] - design

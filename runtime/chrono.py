@@ -18,7 +18,9 @@ from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from .errors import InputError
+from .files import reason
 from .input.suspension import Suspension
+from .legible import short
 
 Array = NDArray[np.float64]
 Finite = Annotated[float, Field(allow_inf_nan=False)]
@@ -32,7 +34,9 @@ _STROKE = 0.1
 
 # A point nearer than this to a line lies on it [m].
 _ON_THE_LINE = 1e-4
-_COMMENT = re.compile(r'("(?:\\.|[^"\\])*")|//[^\n]*|/\*.*?\*/', re.DOTALL)
+# A text, a comment to the end of the line, a comment between marks. Each of them matches up to the
+# end of the file where it is not closed, and never goes back: the time is linear in the length.
+_COMMENT = re.compile(r'("(?:[^"\\]|\\.)*+"?)|//[^\n]*+|/\*.*?(\*/|\Z)', re.DOTALL)
 
 
 class Imported(NamedTuple):
@@ -208,28 +212,40 @@ def _checked(model: type[BaseModel], path: str | Path) -> dict[str, Any]:
 def _json(path: str | Path) -> dict[str, Any]:
     """Read JSON that may have comments, as Chrono allows."""
     try:
-        text = Path(path).read_text(encoding="utf-8")
-        data = json.loads(_COMMENT.sub(lambda match: match[1] or " ", text))
+        text = Path(path).read_text(encoding="utf-8-sig")
+        data = json.loads(_COMMENT.sub(_without_comment, text))
+    except OSError as error:
+        raise InputError([f"cannot be read: {reason(error)}"], str(path)) from error
     except UnicodeDecodeError as error:
         raise InputError(["is no text. Give a JSON file."], str(path)) from error
     except json.JSONDecodeError as error:
         problem = f"Line {error.lineno} is not valid JSON: {error.msg}."
+        raise InputError([problem], str(path)) from error
+    except RecursionError as error:
+        problem = "has lists or keys in each other too deeply. Give a file of Project Chrono."
+        raise InputError([problem], str(path)) from error
+    except ValueError as error:  # Python's limit of 4300 digits
+        problem = "has a number of thousands of digits. Write it with an exponent, as 1.5e6."
         raise InputError([problem], str(path)) from error
     if not isinstance(data, dict):
         raise InputError(["has no keys. Give a file of Project Chrono's templates."], str(path))
     return data
 
 
+def _without_comment(found: re.Match[str]) -> str:
+    """Return what stands for a text or a comment; the lines keep their numbers."""
+    is_text, is_open = found[1] is not None, found[2] == ""
+    return found[0] if is_text or is_open else "\n" * found[0].count("\n") or " "
+
+
 def _problem(detail: Any) -> str:
     place = " > ".join(str(part) for part in detail["loc"])
+    given = short(json.dumps(detail["input"], default=str))
     if detail["type"] == "missing":
         return f'"{place}" is missing. Add it, in SI units.'
     if detail["type"] == "literal_error":
-        return (
-            f'"{place}" is {json.dumps(detail["input"])}; only {detail["ctx"]["expected"]} can be '
-            "read."
-        )
-    return f'"{place}" = {json.dumps(detail["input"], default=str)}: {detail["msg"].lower()}.'
+        return f'"{place}" is {given}; only {detail["ctx"]["expected"]} can be read.'
+    return f'"{place}" = {given}: {detail["msg"].lower()}.'
 
 
 # -- converting -----------------------------------------------------------------------------------

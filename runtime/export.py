@@ -12,17 +12,22 @@ import numpy as np
 import xarray as xr
 
 from .errors import InputError
-from .files import replacing
+from .files import Paths, replacing
+from .legible import legible
 from .optional import require
 from .quantities import bracketed, display_of
 
 # Enough for a micrometre in a kilometre, and still short enough to read.
 _CSV_DIGITS = "%.9g"
+# What a spreadsheet may run begins with one of these (OWASP, "CSV injection").
+_FORMULAS = ("=", "+", "-", "@", "\t", "\r")
 # What is smaller than this part of its column is a rounding error, and a zero for people.
 _ROUNDING = 1e-12
 
 
-def write(dataset: xr.Dataset, path: str | Path) -> Path:
+def write(
+    dataset: xr.Dataset, path: str | Path, *, force: bool = False, inputs: Paths = ()
+) -> Path:
     """Write a dataset; the ending of the file's name is its format.
 
     Parameters
@@ -31,6 +36,10 @@ def write(dataset: xr.Dataset, path: str | Path) -> Path:
         Variables over one dimension or more.
     path : str or pathlib.Path
         ``.csv``, ``.nc`` (netCDF) or ``.parquet``.
+    force : bool, optional
+        Whether a file that somebody else wrote is replaced, see `kintrafo.files`.
+    inputs : iterable of str or pathlib.Path, optional
+        Files that are never replaced.
 
     Returns
     -------
@@ -40,13 +49,13 @@ def write(dataset: xr.Dataset, path: str | Path) -> Path:
     Raises
     ------
     InputError
-        If the ending is not known.
+        If the ending is not known, or the file must not or cannot be written.
     MissingPackageError
         If the format needs a package that is not installed.
     """
     writer = _WRITERS[check_format(path)]
-    with replacing(path) as temporary:
-        writer(dataset, temporary)
+    with replacing(path, force=force, inputs=inputs) as temporary:
+        writer(_legible(dataset), temporary)
     return Path(path)
 
 
@@ -98,8 +107,31 @@ def _write_csv(dataset: xr.Dataset, path: Path) -> None:
     for name in frame.select_dtypes("number").columns:
         values = frame[name] * display_of(dataset[name].attrs).factor
         frame[name] = values.where(values.abs() > _ROUNDING * values.abs().max(), 0.0)
-    frame.columns = [bracketed(name, dataset[name].attrs) for name in frame.columns]
+    for name in frame.select_dtypes(exclude="number").columns:
+        frame[name] = [_harmless(str(text)) for text in frame[name]]
+    frame.columns = [_harmless(bracketed(name, dataset[name].attrs)) for name in frame.columns]
     frame.to_csv(path, index=False, float_format=_CSV_DIGITS, lineterminator="\n")
+
+
+def _harmless(text: str) -> str:
+    """Return a text that no spreadsheet takes for a formula: such a one gets an apostrophe."""
+    if not text.startswith(_FORMULAS):
+        return text
+    try:
+        float(text)
+    except ValueError:
+        return f"'{text}"
+    return text  # a number with its sign
+
+
+def _legible(dataset: xr.Dataset) -> xr.Dataset:
+    """Return a dataset whose texts every format can hold: names of files may be any bytes."""
+    texts = {
+        name: data.copy(data=[legible(str(text)) for text in data.values])
+        for name, data in dataset.coords.items()
+        if data.dtype.kind in "OU" and data.ndim == 1
+    }
+    return dataset.assign_coords(texts) if texts else dataset
 
 
 def _write_netcdf(dataset: xr.Dataset, path: Path) -> None:

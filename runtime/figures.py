@@ -1,5 +1,6 @@
 """Figures 4, 5 and 6 of the paper, for print: PNG and SVG."""
 
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -9,6 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from .files import Paths, refuse, replacing
+from .legible import legible
 from .paper import Dynamics, Kinematics
 
 if TYPE_CHECKING:
@@ -29,10 +32,52 @@ STYLE: "dict[RcKeyType, Any]" = {
     "lines.linewidth": 1.8,
     "svg.hashsalt": "kintrafo",  # the same identifiers in every file
 }
+# Neither date nor version in the files: the same curves make the same bytes.
+METADATA: dict[str, dict[str, Any]] = {
+    "png": {"Software": None},
+    "svg": {"Date": None},
+    "pdf": {"CreationDate": None},
+}
+_NAMES = ("figure_4_wheel_path", "figure_5_wheel_angles", "figure_6_wheel_motion")
+_ENDINGS = ("png", "svg")
+
+
+def save(figure: Figure, path: str | Path, *, force: bool = False, inputs: Paths = ()) -> Path:
+    """Write a figure; the ending of the file's name is its format.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+    path : str or pathlib.Path
+    force : bool, optional
+        Whether a file that somebody else wrote is replaced, see `kintrafo.files`.
+    inputs : iterable of str or pathlib.Path, optional
+        Files that are never replaced.
+
+    Returns
+    -------
+    pathlib.Path
+
+    Raises
+    ------
+    InputError
+        If the file must not or cannot be written.
+    """
+    ending = Path(path).suffix.lower().removeprefix(".")
+    drawn = BytesIO()  # what cannot be written later leaves no open file behind
+    figure.savefig(drawn, dpi=160, format=ending, metadata=METADATA.get(ending))
+    with replacing(path, force=force, inputs=inputs) as temporary:
+        temporary.write_bytes(drawn.getvalue())
+    return Path(path)
+
+
+def figure_files(folder: Path) -> list[Path]:
+    """Return the files that `write_figures` writes."""
+    return [folder / f"{name}.{ending}" for name in _NAMES for ending in _ENDINGS]
 
 
 def write_figures(
-    kinematics: Kinematics, dynamics: Dynamics, folder: Path, data: str
+    kinematics: Kinematics, dynamics: Dynamics, folder: Path, data: str, *, force: bool = False
 ) -> list[Path]:
     """Write the three figures.
 
@@ -44,29 +89,23 @@ def write_figures(
         Created if it does not exist.
     data
         Name of the data set, for the line below each figure.
+    force
+        Whether files that somebody else wrote are replaced, see `kintrafo.files`.
 
     Returns
     -------
     list of Path
         The files written, PNG and SVG of each figure.
     """
-    folder.mkdir(parents=True, exist_ok=True)
+    files = figure_files(folder)
+    refuse(files, force=force)
     with rc_context(STYLE):
-        figures = {
-            "figure_4_wheel_path": wheel_path(kinematics),
-            "figure_5_wheel_angles": wheel_angles(kinematics),
-            "figure_6_wheel_motion": wheel_motion(dynamics),
-        }
-        files = []
-        for name, figure in figures.items():
-            figure.supxlabel(
-                f"Data: {data}. The paper gives no hardpoints: compare in kind.",
-                fontsize=8,
-                color="#666666",
-            )
-            for ending in ("png", "svg"):
-                files.append(folder / f"{name}.{ending}")
-                figure.savefig(files[-1], dpi=160)
+        drawn = wheel_path(kinematics), wheel_angles(kinematics), wheel_motion(dynamics)
+        for figure in drawn:
+            below = f"Data: {legible(data)}. The paper gives no hardpoints: compare in kind."
+            figure.supxlabel(below, fontsize=8, color="#666666", parse_math=False)
+        for path, figure in zip(files, [f for f in drawn for _ in _ENDINGS], strict=True):
+            save(figure, path, force=force)
     return files
 
 

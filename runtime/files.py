@@ -1,32 +1,60 @@
-"""Writing files whole or not at all."""
+"""Writing files whole or not at all, and never over what somebody else wrote.
 
+One rule for all of this package: a file that is there is replaced only if this program wrote it
+and nobody has changed it since, or if it is empty, or if ``force`` says so. A file that is read is
+never written, and neither is anything that is no ordinary file.
+"""
+
+import errno
 import os
-from collections.abc import Iterator
+import shutil
+import tempfile
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
+from . import written
 from .errors import InputError
+
+Paths = Iterable[str | Path]
+
+_REMEDIES = {
+    errno.ENOSPC: "Make room, or choose another place.",
+    errno.EDQUOT: "Make room, or choose another place.",
+    errno.EACCES: "Choose a folder that you may write to.",
+    errno.EPERM: "Choose a folder that you may write to.",
+    errno.EROFS: "Choose a folder that you may write to.",
+    errno.ENAMETOOLONG: "Choose a shorter name.",
+}
 
 
 @contextmanager
-def replacing(path: str | Path) -> Iterator[Path]:
+def replacing(path: str | Path, *, force: bool = False, inputs: Paths = ()) -> Iterator[Path]:
     """Let a caller write a file that appears only when it is complete.
+
+    Where two write the same file at a time, each has a temporary one of its own, and the file is
+    at any time what one of them wrote.
 
     Parameters
     ----------
     path : str or pathlib.Path
-        The file to write; its folder is made if there is none. A file that is there already is
-        replaced at the end, and stays as it was if anything goes wrong before.
+        The file to write; its folder is made if there is none. A file that is there already stays
+        as it was if anything goes wrong. Through a link, what it points to is written.
+    force : bool, optional
+        Whether a file that somebody else wrote is replaced.
+    inputs : iterable of str or pathlib.Path, optional
+        Files that are read, and never replaced.
 
     Yields
     ------
     pathlib.Path
-        A temporary file in the same folder, with the same ending, to be written.
+        A temporary file of the same name, to be written: in a folder beside the target that nobody
+        else may enter.
 
     Raises
     ------
     InputError
-        If something that is no ordinary file is in the way.
+        If the file must not be written (see `refuse`), or the system does not let it be written.
 
     Examples
     --------
@@ -37,45 +65,117 @@ def replacing(path: str | Path) -> Iterator[Path]:
     ...     [file.name for file in Path(folder).iterdir()]
     ['curves.csv']
     """
-    # through a link, what it points to is replaced, and not the link
-    target = Path(path).resolve()
-    if target.exists() and not target.is_file():
-        problem = "there is something here that is not a file. Give the name of a file to write."
-        raise InputError([problem], str(path))
-    target.parent.mkdir(parents=True, exist_ok=True)
-    temporary = target.with_name(f".{target.stem}-{os.getpid()}{target.suffix}")
-    try:
-        yield temporary
-        temporary.replace(target)
-    finally:
-        temporary.unlink(missing_ok=True)
+    refuse([path], force=force, inputs=inputs)
+    with told(path):
+        target = _resolved(Path(path))
+        target.parent.mkdir(parents=True, exist_ok=True)
+        # a name that nobody can foresee, made by us and open to us alone
+        folder = Path(tempfile.mkdtemp(prefix=".kintrafo-", dir=target.parent))
+        try:
+            temporary = folder / target.name
+            yield temporary
+            # what has appeared in the meantime is not replaced either
+            refuse([path], force=force, inputs=inputs)
+            if target.exists():
+                shutil.copymode(target, temporary)
+            written.note(target, temporary)
+            temporary.replace(target)
+        finally:
+            shutil.rmtree(folder, ignore_errors=True)
 
 
-def new_file(path: str | Path, *, ending: str, force: bool) -> Path:
-    """Return the path of a file that may be written.
+def refuse(
+    paths: Paths, *, force: bool = False, inputs: Paths = (), endings: Sequence[str] = ()
+) -> None:
+    """Refuse to write files that are not this program's to write; all problems at once.
 
     Parameters
     ----------
-    path : str or pathlib.Path
-    ending : str
-        What its name has to end in.
-    force : bool
-        Whether a file that is there already is replaced.
-
-    Returns
-    -------
-    pathlib.Path
+    paths : iterable of str or pathlib.Path
+        Files to be written.
+    force : bool, optional
+        Whether files that somebody else wrote are replaced.
+    inputs : iterable of str or pathlib.Path, optional
+        Files that are read, and never replaced.
+    endings : sequence of str, optional
+        What a name may end in; anything by default.
 
     Raises
     ------
     InputError
-        If there is a file already, or the name ends otherwise.
+        If a file is there that is not empty and not as this program wrote it, and `force` does not
+        say that it is replaced; if it is read; if it is no ordinary file; if its name ends wrongly.
     """
-    path = Path(path)
-    if path.suffix != ending:
-        problem = f"an input file ends in {ending}. Write {path.with_suffix(ending)}."
-        raise InputError([problem], str(path))
-    if path.exists() and not force:
-        problem = "this file is there already. Choose another name, or force it to be replaced."
-        raise InputError([problem], str(path))
-    return path
+    read = list(inputs)
+    found = {}
+    for path in map(Path, paths):
+        with told(path):
+            problem = _wrong_ending(path, endings) or _in_the_way(_resolved(path), force, read)
+        if problem:
+            found[str(path)] = problem
+    if len(found) > 1:
+        raise InputError([f"{given}: {problem}" for given, problem in found.items()], "output")
+    for given, problem in found.items():
+        raise InputError([problem], given)
+
+
+def _resolved(path: Path) -> Path:
+    """Return where a file is, through all links."""
+    if "\0" in str(path):
+        raise OSError(errno.EINVAL, "no name has a zero byte in it")
+    try:
+        return path.resolve()
+    except RuntimeError as error:  # pathlib's, before Python 3.13, of links that lead in a circle
+        raise OSError(errno.ELOOP, os.strerror(errno.ELOOP)) from error
+
+
+def _wrong_ending(path: Path, endings: Sequence[str]) -> str:
+    if not endings or path.suffix.lower() in endings:
+        return ""
+    named = path.with_suffix(endings[0]) if path.name else f"a name that ends in {endings[0]}"
+    return f"the name of this file must end in {' or '.join(endings)}. Write {named}."
+
+
+def _in_the_way(target: Path, force: bool, inputs: Paths) -> str:
+    """Say why a file must not be replaced; empty if it may."""
+    if not target.exists():
+        return ""
+    if not target.is_file():
+        return "there is something here that is not a file. Give the name of a file to write."
+    if any(Path(read).exists() and target.samefile(read) for read in inputs):
+        return "this file is read here, and would be lost. Choose another name."
+    if force or target.stat().st_size == 0 or written.known(target):
+        return ""
+    return (
+        "this file is there already, and it is not as kintrafo wrote it here. Choose another name, "
+        "or have it replaced: --force (in Python: force=True)."
+    )
+
+
+@contextmanager
+def told(path: str | Path, what: str = "cannot be written") -> Iterator[None]:
+    """Say in words what the system does not let be done with a file.
+
+    Parameters
+    ----------
+    path : str or pathlib.Path
+        The file.
+    what : str, optional
+        What cannot be done.
+
+    Raises
+    ------
+    InputError
+        Instead of any `OSError`.
+    """
+    try:
+        yield
+    except OSError as error:
+        raise InputError([f"{what}: {reason(error)}"], str(path)) from error
+
+
+def reason(error: OSError) -> str:
+    """Return what the system says, and what to do about it, as sentences."""
+    said = error.strerror or str(error) or type(error).__name__
+    remedy = _REMEDIES.get(error.errno or 0, "Check its name and folder.")
+    return f"{said.rstrip('.')}. {remedy}"

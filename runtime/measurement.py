@@ -9,7 +9,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .arguments import Arguments
 from .errors import InputError
+from .files import reason
 from .input.suggestions import nearest, suggestion
 
 Array = NDArray[np.float64]
@@ -91,6 +93,10 @@ def measured(path: str | Path, *, speed: float | None = None) -> Measurement:
     InputError
         If the file cannot be used; with the lines that are wrong.
     """
+    with Arguments("measured") as given:
+        given.kind("path", path, (str, Path), "the path of a CSV file is needed")
+        if speed is not None:
+            given.number("speed", speed, "m/s", above=0.0)
     source = str(path)
     lines = _lines_of(Path(path))
     if not lines:
@@ -114,7 +120,7 @@ def _lines_of(path: Path) -> list[tuple[int, str]]:
     try:
         text = path.read_text(encoding="utf-8-sig")
     except OSError as error:
-        problem = f"the file cannot be read: {error.strerror}. Check its name and folder."
+        problem = f"the file cannot be read: {reason(error)}"
         raise InputError([problem], str(path)) from None
     except UnicodeDecodeError:
         problem = "the file is not text in UTF-8. Save it as CSV with UTF-8 encoding."
@@ -196,6 +202,8 @@ def _row(names: list[str], cells: list[str], delimiter: str) -> tuple[str, list[
 
 def _number(cell: str, delimiter: str) -> float:
     """Return the number in a cell; NaN where there is none."""
+    if "_" in cell:  # Python's own way to group digits, and a slip of the pen in a file
+        return math.nan
     try:
         return float(cell if delimiter == "," else cell.replace(",", "."))
     except ValueError:

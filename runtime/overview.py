@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
 from numpy.typing import NDArray
 
-from .figures import BLUE, GREEN, ORANGE, STYLE
+from .figures import BLUE, GREEN, ORANGE, STYLE, save
 from .hardpoints import hardpoints
 from .model import Model
 from .positions import state_at_height
@@ -46,7 +46,7 @@ _KNUCKLES = {
 }
 
 
-def write_overview(model: Model, path: Path, travel: float = 0.08) -> None:
+def write_overview(model: Model, path: Path, travel: float = 0.08, *, force: bool = False) -> None:
     """Draw the suspension from the front in three positions, and camber and toe over travel.
 
     Parameters
@@ -56,6 +56,8 @@ def write_overview(model: Model, path: Path, travel: float = 0.08) -> None:
         Where to write; the ending gives the format.
     travel : float, optional
         Wheel travel in bump and rebound [m].
+    force : bool, optional
+        Whether a file that somebody else wrote is replaced, see `kintrafo.files`.
     """
     with rc_context(STYLE):
         figure = Figure(figsize=(10.0, 5.2), layout="constrained")
@@ -70,8 +72,7 @@ def write_overview(model: Model, path: Path, travel: float = 0.08) -> None:
             f"{model.suspension.heading()}, front {model.suspension.vehicle.side}: closed-form "
             "kinematics"
         )
-        path.parent.mkdir(parents=True, exist_ok=True)
-        figure.savefig(path, dpi=160)
+        save(figure, path, force=force)
 
 
 def _draw_front(axes: Axes, model: Model, state: Array, colour: str) -> None:

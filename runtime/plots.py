@@ -5,7 +5,8 @@ lines: several suspensions, or several positions of the rack. Names, units and s
 the variables' attributes, see `kintrafo.quantities`.
 """
 
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Sequence
+from io import BytesIO
 from pathlib import Path
 from textwrap import fill
 from typing import Any
@@ -16,13 +17,15 @@ from matplotlib import colormaps, rc_context
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 from matplotlib.ticker import MaxNLocator, ScalarFormatter
 from numpy.typing import NDArray
 
 from .errors import InputError
-from .figures import BLUE, GREEN, ORANGE, STYLE
-from .files import replacing
+from .figures import BLUE, GREEN, METADATA, ORANGE, STYLE, save
+from .files import Paths, refuse, replacing
 from .groups import ORDER, group_of
+from .legible import legible
 from .quantities import bracketed, display_of, displayed, long_name
 
 Array = NDArray[np.float64]
@@ -44,12 +47,6 @@ _TICK_STEPS = [1, 2, 2.5, 5, 10]
 _CONSTANT = 1e-6
 # A curve whose extremes are so many times farther apart than nine tenths of it passes a pole.
 _POLE = 10.0
-# Neither date nor version in the files: the same curves make the same bytes.
-_METADATA: dict[str, dict[str, Any]] = {
-    "png": {"Software": None},
-    "svg": {"Date": None},
-    "pdf": {"CreationDate": None},
-}
 
 
 def write(
@@ -60,6 +57,8 @@ def write(
     title: str = "",
     suffix: str = "",
     progress: Callable[[float], None] | None = None,
+    force: bool = False,
+    inputs: Paths = (),
 ) -> list[Path]:
     """Write one figure for each curve, and an overview of each group.
 
@@ -77,27 +76,45 @@ def write(
         Ends the name of each file, before its ending.
     progress : callable, optional
         Called with the part that is done, up to 1.
+    force : bool, optional
+        Whether files that somebody else wrote are replaced, see `kintrafo.files`.
+    inputs : iterable of str or pathlib.Path, optional
+        Files that are never replaced.
 
     Returns
     -------
     list of pathlib.Path
         ``overview_<group><suffix>.<format>`` and ``<variable><suffix>.<format>``.
+
+    Raises
+    ------
+    InputError
+        If one of them must not be written, before any is; or if one cannot be.
     """
     check_formats(formats=formats)
     pages = {f"overview_{_slug(group)}": names for group, names in grouped(dataset).items()}
     single = {str(name): (name,) for name in _curves(dataset)}
-    files = []
-    for index, (name, variables) in enumerate({**pages, **single}.items()):
-        for ending in formats:
-            path = Path(folder) / f"{name}{suffix}.{ending}"
-            files.append(_saved(dataset, variables, path, title, alone=name in single))
+    drawn = {**pages, **single}
+    files = {n: [Path(folder) / f"{n}{suffix}.{ending}" for ending in formats] for n in drawn}
+    refuse([path for paths in files.values() for path in paths], force=force, inputs=inputs)
+    for index, (name, variables) in enumerate(drawn.items()):
+        with rc_context(STYLE):
+            one = figure(dataset, variables, title=title, alone=name in single)
+            for path in files[name]:
+                save(one, path, force=force, inputs=inputs)
         if progress is not None:
-            progress((index + 1) / (len(pages) + len(single)))
-    return files
+            progress((index + 1) / len(drawn))
+    return [path for paths in files.values() for path in paths]
 
 
 def write_overview(
-    dataset: xr.Dataset, path: str | Path, names: Sequence[Hashable] = (), title: str = ""
+    dataset: xr.Dataset,
+    path: str | Path,
+    names: Sequence[Hashable] = (),
+    title: str = "",
+    *,
+    force: bool = False,
+    inputs: Paths = (),
 ) -> Path:
     """Write the curves of some variables on one page; a PDF has a page for each group.
 
@@ -109,32 +126,35 @@ def write_overview(
     names : sequence of str, optional
         By default all that vary.
     title : str, optional
+    force : bool, optional
+        Whether a file that somebody else wrote is replaced, see `kintrafo.files`.
+    inputs : iterable of str or pathlib.Path, optional
+        Files that are never replaced.
 
     Returns
     -------
     pathlib.Path
+
+    Raises
+    ------
+    InputError
+        If the file must not or cannot be written.
     """
     check_formats([path])
     pages = {"": tuple(names)} if names else grouped(dataset)
-    if Path(path).suffix.lower() == ".pdf":
-        return _document(dataset, pages, Path(path), title)
-    chosen = tuple(name for page in pages.values() for name in page)
-    return _saved(dataset, chosen, Path(path), title, alone=False)
-
-
-def _document(
-    dataset: xr.Dataset, pages: Mapping[str, Sequence[Hashable]], path: Path, title: str
-) -> Path:
-    """Write a PDF with one page for each group."""
-    with (
-        rc_context(STYLE),
-        replacing(path) as temporary,
-        PdfPages(temporary, metadata=_METADATA["pdf"]) as document,
-    ):
-        for group, names in pages.items():
-            heading = ": ".join(text for text in (title, group) if text)
-            document.savefig(figure(dataset, names, title=heading, alone=False))
-    return path
+    with rc_context(STYLE):
+        if Path(path).suffix.lower() != ".pdf":
+            chosen = tuple(name for page in pages.values() for name in page)
+            one = figure(dataset, chosen, title=title, alone=False)
+            return save(one, path, force=force, inputs=inputs)
+        drawn = BytesIO()
+        with PdfPages(drawn, metadata=METADATA["pdf"]) as document:
+            for group, variables in pages.items():
+                heading = ": ".join(text for text in (title, group) if text)
+                document.savefig(figure(dataset, variables, title=heading, alone=False))
+    with replacing(path, force=force, inputs=inputs) as temporary:
+        temporary.write_bytes(drawn.getvalue())
+    return Path(path)
 
 
 def check_formats(paths: Sequence[str | Path] = (), formats: Sequence[str] = ()) -> None:
@@ -211,22 +231,16 @@ def figure(
         axes.remove()
     _legend(result, panels[0], dataset[names[0]], alone=alone)
     result.suptitle("\n".join(line for line in (title, _held(dataset)) if line), fontsize=11)
+    for text in result.findobj(Text):
+        # what a person wrote stands there as it was written, dollars and all
+        text.set_parse_math(False)
+        text.set_text("\n".join(map(legible, text.get_text().split("\n"))))
     return result
 
 
 def _curves(dataset: xr.Dataset) -> tuple[Hashable, ...]:
     """Return the names of the variables that can be drawn."""
     return tuple(n for n, data in dataset.items() if data.ndim in (1, 2) and data.dtype.kind == "f")
-
-
-def _saved(
-    dataset: xr.Dataset, names: Sequence[Hashable], path: Path, title: str, *, alone: bool
-) -> Path:
-    ending = path.suffix.lower().removeprefix(".")
-    with rc_context(STYLE), replacing(path) as temporary:
-        drawn = figure(dataset, names, title=title, alone=alone)
-        drawn.savefig(temporary, dpi=160, format=ending, metadata=_METADATA[ending])
-    return path
 
 
 def _draw(axes: Axes, data: xr.DataArray) -> str:

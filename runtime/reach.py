@@ -2,33 +2,40 @@
 
 From the design position the arm is swung either way until a loop cannot close or the wheel centre
 turns back. In between, the height of the wheel centre is a monotonic function of the arm angle, so
-that every height within reach has exactly one position.
+that every height within reach has exactly one position. `swing` sees to it that no fold between two
+angles that are looked at is missed.
 """
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .arguments import Arguments
 from .errors import KintrafoError
 from .model import Model
+from .swing import GOAL, UNRESOLVED, Seen, march, margins_stay, resolved
 
 Array = NDArray[np.float64]
 
 # Arm angles are looked at in steps of this size [rad], up to a right angle from design.
 _STEP = np.deg2rad(2.0)
 _STEPS = 45
-# Halvings of one step that locate the end of the travel, to 3e-13 rad.
-_HALVINGS = 37
 # By how much the reach ends before that [rad]. What has to be positive is then some 1e-13 m^2,
 # clear of its rounding, and the wheel is less than a nanometre from its last position.
 _CLEARANCE = 1e-12
 _CHUNK = 500  # racks that are looked at together, to bound the memory
 _PROBES = 9  # racks that show how much of the reach is of interest
 
-_TURNS_BACK = "the wheel centre turns back there"
-_RIGHT_ANGLE = "the arm has swung by a right angle"
+_RACK_STEP = 0.002  # in which the rack goes from its middle to where it is wanted [m]
+_MOST_RACK_STEPS = 1000
+
+_TURNS_BACK = -1
+_REASONS = {
+    _TURNS_BACK: "the wheel centre turns back there",
+    GOAL: "the arm has swung by a right angle",
+    UNRESOLVED: "positions beyond it cannot be told apart in double precision",
+}
 
 
 class PositionError(KintrafoError, ValueError):
@@ -80,6 +87,9 @@ def travel_range(model: Model, rack_position: float = 0.0) -> Range:
     >>> [round(1e3 * height, 1) for height in reach.height]
     [-65.6, 615.9]
     """
+    with Arguments("travel_range") as given:
+        given.suspension(model)
+        rack_position = given.number("rack_position", rack_position, "m")
     racks = np.array([rack_position], dtype=np.float64)
     low, low_limits = _ends(model, racks, +1.0)
     high, high_limits = _ends(model, racks, -1.0)
@@ -127,8 +137,8 @@ def branch(
         out as far as a few of them show where it begins. What the table covers must be seen from
         its heights.
     to_the_end : bool, optional
-        Whether to locate the ends of the reach, as `travel_range` does. Otherwise the table ends up
-        to two degrees before them, and is made much faster.
+        Whether to locate the ends of the reach, as `travel_range` does. Otherwise the table ends a
+        few degrees before them, where the height gets steep, and is made much faster.
 
     Returns
     -------
@@ -166,23 +176,24 @@ def _tabulate(model: Model, racks: Array, steps: tuple[int, int], *, to_the_end:
     """Look at so many steps down and up from design."""
     design = steps[0]
     grid = model.design_state[0] - _STEP * np.arange(-steps[0], steps[1] + 1)
-    look = _look(model, grid, racks[:, None])
-    _refuse_design_that_cannot_close(model, racks, look, design)
-    down = np.logical_and.accumulate(look.usable[:, design::-1], axis=1).sum(axis=1)
-    up = np.logical_and.accumulate(look.usable[:, design:], axis=1).sum(axis=1)
-    first, last = design + 1 - np.maximum(down, 1), design - 1 + np.maximum(up, 1)
+    seen = _look(model, grid, racks[:, None])
+    _refuse_racks(model, racks, seen, design)
     columns = np.arange(grid.size)
-    inner = np.clip(columns, first[:, None], last[:, None])
-    angles, heights = grid[inner], np.take_along_axis(look.height, inner, axis=1)
     if to_the_end:
-        for beyond, direction in (
-            (columns < first[:, None], +1.0),
-            (columns > last[:, None], -1.0),
-        ):
-            ends, _ = _ends(model, racks, direction)
-            angles = np.where(beyond, ends[:, None], angles)
-            heights = np.where(beyond, height_and_slope(model, ends, racks)[0][:, None], heights)
-    return Branch(angles, heights)
+        low, high = (_ends(model, racks, direction)[0] for direction in (+1.0, -1.0))
+        angles = np.clip(grid, high[:, None], low[:, None])
+        inside = (grid < low[:, None]) & (grid > high[:, None])
+        heights = np.where(
+            grid >= low[:, None],
+            height_and_slope(model, low, racks)[0][:, None],
+            height_and_slope(model, high, racks)[0][:, None],
+        )
+        return Branch(angles, np.where(inside, seen.height, heights))
+    fine = resolved(np.array(-_STEP), seen)
+    down = np.logical_and.accumulate(fine[:, :design][:, ::-1], axis=1).sum(axis=1)
+    up = np.logical_and.accumulate(fine[:, design:], axis=1).sum(axis=1)
+    inner = np.clip(columns, design - down[:, None], design + up[:, None])
+    return Branch(grid[inner], np.take_along_axis(seen.height, inner, axis=1))
 
 
 def at_rest(
@@ -246,72 +257,83 @@ def _ends(model: Model, racks: Array, direction: float) -> tuple[Array, list[int
     angle : ndarray, shape (racks,)
         The last angle within reach [rad].
     limits : list of int
-        What ends the reach, as in `_Look`; minus two for a right angle.
+        What ends the reach, as in `_look`.
     """
     angles = model.design_state[0] + direction * _STEP * np.arange(_STEPS + 1)
-    look = _look(model, angles, racks[:, None])
-    _refuse_design_that_cannot_close(model, racks, look, 0)
-    good = np.logical_and.accumulate(look.usable, axis=1)
-    last = np.maximum(good.sum(axis=1) - 1, 0)
-    first_bad = np.minimum(last + good[:, 0], _STEPS)
-    inside, outside = angles[last], angles[first_bad]
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (inside + outside)
-        fine = _look(model, middle, racks).usable
-        inside, outside = np.where(fine, middle, inside), np.where(fine, outside, middle)
+    seen = _look(model, angles, racks[:, None])
+    _refuse_racks(model, racks, seen, 0)
+    fine = np.logical_and.accumulate(resolved(np.array(direction * _STEP), seen), axis=1)
+    last = fine.sum(axis=1)
+    ends, limits = angles[last], np.where(seen.usable[:, 0], GOAL, seen.limit[:, 0])
+    rows = np.flatnonzero((last < _STEPS) & seen.usable[:, 0])
+    goals = np.full(rows.size, angles[-1])
+    ends[rows], limits[rows] = march(
+        lambda places, which: _look(model, places, racks[rows[which], None]),
+        ends[rows],
+        goals,
+        _STEP,
+    )
     # not past the design position, where a wheel that turns back at once has its end
-    inside = np.where(last > 0, inside - direction * _CLEARANCE, inside)
-    complete = good.all(axis=1)
-    limits = np.where(complete, -2, _look(model, outside, racks).limit)
-    return np.where(complete, angles[-1], inside), limits.tolist()
+    clear = direction * (ends - angles[0]) > _CLEARANCE
+    return np.where(clear & (limits != GOAL), ends - direction * _CLEARANCE, ends), limits.tolist()
 
 
-class _Look(NamedTuple):
-    """What there is at some positions.
+def _look(model: Model, angles: Array, racks: Array) -> Seen:
+    """Return whether the loops close and the wheel rises as the arm does.
 
-    Attributes
-    ----------
-    usable : ndarray of bool
-        Whether the loops close and the wheel rises as the arm does.
-    limit : ndarray of int
-        What is wrong otherwise: index of a guard, or minus one for a wheel that turns back.
-    height : ndarray
-        Of the wheel centre [m]; means nothing where a loop does not close.
+    The limit of what is not usable is the index of a margin, or `_TURNS_BACK`.
     """
-
-    usable: NDArray[np.bool_]
-    limit: NDArray[np.int64]
-    height: Array
-
-
-def _look(model: Model, angles: Array, racks: Array) -> _Look:
     states, inputs = at_rest(model, angles, racks, arm_rate=1.0)
-    # the azimuth of a vertical shaft is undefined, and nothing here depends on it
-    watched = [not name.startswith("shaft_level") for name, _ in model.equations.GUARDS]
+    margins = _margins(model, states, inputs)
     # a NaN behind a failed guard must not pass
-    failed = ~(model.evaluate("margins", states, inputs) > 0.0) & watched
+    failed = ~(margins > 0.0)
     closes = ~failed.any(axis=-1)
     heights, slopes = np.zeros(closes.shape), np.zeros(closes.shape)
     signals = model.signals(states[closes], inputs[closes])
     heights[closes], slopes[closes] = signals["wheel_center_z"], signals["wheel_velocity"]
     # the arm's angle falls as the wheel rises (Eq. 6)
-    return _Look(slopes < 0.0, np.where(closes, -1, failed.argmax(axis=-1)), heights)
+    limits = np.where(closes, _TURNS_BACK, failed.argmax(axis=-1))
+    return Seen(slopes < 0.0, limits, heights, slopes, margins)
+
+
+def _margins(model: Model, states: Array, inputs: Array) -> Array:
+    """Return what must be positive at a position."""
+    margins = model.evaluate("margins", states, inputs)
+    # the azimuth of a vertical shaft is undefined, and nothing here depends on it
+    unwatched = [name.startswith("shaft_level") for name, _ in model.equations.GUARDS]
+    margins[..., unwatched] = 1.0
+    return margins
 
 
 def _in_words(model: Model, limit: int) -> str:
-    reasons = {-1: _TURNS_BACK, -2: _RIGHT_ANGLE}
-    return reasons[limit] if limit < 0 else model.equations.GUARDS[limit][1]
+    return _REASONS[limit] if limit < 0 else model.equations.GUARDS[limit][1]
 
 
-def _refuse_design_that_cannot_close(model: Model, racks: Array, look: _Look, column: int) -> None:
-    """Refuse racks with which a loop does not close at the arm's design position."""
-    refused = np.flatnonzero(~look.usable[:, column] & (look.limit[:, column] >= 0))
-    if refused.size == 0:
+def _refuse_racks(model: Model, racks: Array, seen: Seen, column: int) -> None:
+    """Refuse racks that cannot get where they are with the arm in its design position."""
+    closes = (seen.margins[:, column] > 0.0).all(axis=-1)
+    first, limit = -1, -1
+    if not closes.all():
+        first = int(np.flatnonzero(~closes)[0])
+        limit = int(seen.limit[first, column])
+    else:
+        for side in (racks.argmin(), racks.argmax()):
+            way = _way(float(racks[side]))
+            margins = _margins(model, *at_rest(model, model.design_state[0], way))
+            blocked = ~margins_stay(margins)
+            if blocked.any():
+                place = int(blocked.argmax())
+                first, limit = int(side), int(margins[place : place + 2].min(axis=0).argmin())
+    if first < 0:
         return
-    first = refused[0]
-    reason = _in_words(model, int(look.limit[first, column]))
     message = (
         f"the rack cannot be at {racks[first] * 1e3:g} mm with the control arm in its design "
-        f"position: {reason}. Choose a smaller displacement."
+        f"position: {_in_words(model, limit)}. Choose a smaller displacement."
     )
     raise PositionError(message)
+
+
+def _way(rack: float) -> Array:
+    """Return places from the middle of the rack to where it is wanted."""
+    count = min(2 + int(abs(rack) / _RACK_STEP), _MOST_RACK_STEPS)
+    return np.linspace(0.0, rack, 1 + count)

@@ -7,6 +7,7 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy.integrate import trapezoid
 
+from .arguments import Arguments
 from .model import Model
 from .quantities import variable
 from .result import Simulation
@@ -38,6 +39,9 @@ def dataset_of(model: Model, result: Simulation) -> xr.Dataset:
     >>> dataset_of(model, result)["camber"].attrs["units"]
     'rad'
     """
+    with Arguments("dataset_of") as given:
+        given.system(model)
+        given.kind("result", result, Simulation, "what kintrafo.simulate returns is needed")
     equations = model.equations
     tables = (
         (equations.SIGNALS, [result.signals[name] for name in model.signal_names]),

@@ -1,22 +1,31 @@
-"""Inputs that vary with time, as cubic splines: constants, samples, functions."""
+"""Inputs that vary with time: constants, samples, functions, brought into one form.
 
-from collections.abc import Callable, Mapping
+Every varying input becomes a piecewise cubic, which the integrators evaluate where they are, with
+the derivatives that the model takes beside it (the velocity of a road, velocity and acceleration of
+a rack). Two things keep an integrator from missing what happens:
+
+- a segment ends, and the integration begins anew, where something that the model takes jumps;
+- no step passes over a time at which something that the model takes turns, or has a kink.
+"""
+
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import CubicHermiteSpline, CubicSpline, PPoly
 
+from .arguments import Arguments
+from .courses import Signal, course
 from .errors import InputError
 from .input.suggestions import suggestion
+from .interpolation import Eased
 from .system import System
+from .turning import turning_points
 
 Array = NDArray[np.float64]
-Samples = tuple[Any, Any] | list[Any]
-Signal = float | Samples | Callable[[float], Any]
 
 # What follows by differentiation in time from an input that ends so, where a model takes it. A jump
 # of the road passes the tyre's damper without a blow.
@@ -24,13 +33,10 @@ _RATES = {
     "_position": ("_velocity", "_acceleration"),
     "_height": ("_velocity",),
 }
-# An input that has stood still for this part of the time begins to move with a new integration.
-_STILL = 0.01
-_FIRST_GRID = 33
-_LARGEST_GRID = 2**17 + 1
-# A function becomes a spline that reproduces it between its samples to this part of its size; the
-# second derivative, which the rack's acceleration needs, is then good to about the square root.
-_SPLINE_TOLERANCE = 1e-10
+# Times that differ by less than this part of them are one to an integrator.
+_RESOLVED = 1e-13
+# A derivative jumps where the two sides differ by more than this part of its greatest value.
+_JUMP = 1e-6
 
 
 @dataclass(frozen=True)
@@ -39,30 +45,33 @@ class Spline:
 
     Attributes
     ----------
-    curve : CubicSpline
-        With continuous second derivative, of time [s].
+    curve : PPoly
+        Piecewise cubic, of time [s].
     targets : tuple of int
         Positions in the array of inputs of the value and its two derivatives; -1 for none.
     """
 
-    curve: CubicSpline
+    curve: PPoly
     targets: tuple[int, int, int]
 
 
 @dataclass(frozen=True)
 class Segment:
-    """A time over which no input jumps, or begins to move.
+    """A time over which nothing jumps that the model takes of its inputs.
 
     Attributes
     ----------
     start, end : float
         [s]
     splines : tuple of Spline
+    milestones : ndarray
+        Times within that no step passes over, in the order in which they come [s].
     """
 
     start: float
     end: float
-    splines: tuple[Spline, ...] = ()
+    splines: tuple[Spline, ...]
+    milestones: Array
 
 
 @dataclass(frozen=True)
@@ -74,7 +83,7 @@ class TimeInputs:
     constant : ndarray
         Values of those that do not vary.
     segments : tuple of Segment
-        In the order of time; at their borders an input may jump, or begin to move.
+        In the order of time; at their borders an input may jump.
     variant : str
         What ends the names of the functions that leave out what stands still; empty if nothing
         does.
@@ -108,12 +117,18 @@ class _Collected:
     """What `time_inputs` gathers."""
 
     constant: Array
-    curves: dict[str, list[CubicSpline]] = field(default_factory=dict)
+    curves: dict[str, list[PPoly]] = field(default_factory=dict)
     borders: set[float] = field(default_factory=set)
+    milestones: list[Array] = field(default_factory=list)
 
 
 def time_inputs(
-    model: System, signals: Mapping[str, Signal] | None, t_span: tuple[float, float]
+    model: System,
+    signals: Mapping[str, Signal] | None,
+    t_span: tuple[float, float],
+    *,
+    held: Array | None = None,
+    max_step: float = np.inf,
 ) -> TimeInputs:
     """Check the inputs of a simulation and bring them into one form.
 
@@ -121,11 +136,16 @@ def time_inputs(
     ----------
     model : System or Model
     signals : mapping, optional
-        Input name to a number, to samples ``(times, values)``, or to a function of time; SI units.
-        A cubic spline with continuous second derivative goes through the samples; a time that is
-        given twice is a jump. Velocity and acceleration follow from a prescribed position.
+        Input name to a number, to samples (`Samples`, or a pair of times and values), to a
+        piecewise cubic of SciPy, or to a function of time (see `kintrafo.fitting`); SI units.
+        Velocity and acceleration follow from a prescribed position by differentiation of
+        the curve.
     t_span : tuple of float
         First and last time of the simulation, which samples must cover [s].
+    held : ndarray, optional
+        Values of the inputs that are not given, zero by default.
+    max_step : float, optional
+        Greatest step of the integration, and between two calls of a function [s].
 
     Returns
     -------
@@ -133,11 +153,18 @@ def time_inputs(
     """
     names = model.input_names
     derived = _derived(names)
-    collected = _Collected(np.zeros(len(names)))
+    with Arguments("inputs") as given:
+        given.mapping("inputs", {} if signals is None else signals, "input names, what they do")
+    collected = _Collected(np.zeros(len(names)) if held is None else held.copy())
     for name, signal in (signals or {}).items():
         if name not in names or name in derived:
             raise InputError([_refusal(name, names, derived)], "inputs")
-        _collect(collected, names, name, signal, t_span)
+        rates = len(_rates(name, names))
+        found = course(name, signal, t_span, max_step=max_step, rates=rates)
+        if isinstance(found, float):
+            collected.constant[names.index(name)] = found
+        else:
+            _collect(collected, name, found, rates)
     return TimeInputs(
         collected.constant, _segments(collected, names, t_span), _variant(model, collected)
     )
@@ -179,70 +206,15 @@ def _refusal(name: str, names: tuple[str, ...], derived: dict[str, str]) -> str:
     return f"{name!r} is not an input. {suggestion(name, [n for n in names if n not in derived])}"
 
 
-def _collect(
-    collected: _Collected,
-    names: tuple[str, ...],
-    name: str,
-    signal: Signal,
-    t_span: tuple[float, float],
-) -> None:
-    if isinstance(signal, CubicSpline):
-        _check_samples(name, signal.x, signal(signal.x), t_span)
-        collected.curves[name] = [signal]
-    elif callable(signal):
-        collected.curves[name] = [_fitted(name, signal, t_span)]
-    elif isinstance(signal, tuple | list):
-        pieces = _sampled(name, signal, t_span)
-        if len(pieces) > 1 and name.endswith("_position"):
-            problem = (
-                f"{name!r} jumps at t = {pieces[1].x[0]:g} s: the {name.removesuffix('_position')} "
-                "would need an infinite velocity. Give one value for each time."
-            )
-            raise InputError([problem], "inputs")
-        collected.curves[name] = pieces
-        collected.borders.update(float(piece.x[0]) for piece in pieces[1:])
-    else:
-        value = _number(name, signal)
-        collected.constant[names.index(name)] = value
-    for piece in collected.curves.get(name, ()):
-        collected.borders.update(_awakenings(piece, abs(t_span[1] - t_span[0])))
-
-
-def _awakenings(curve: CubicSpline, duration: float) -> list[float]:
-    """Return the times at which a curve begins to move after it has stood still for long.
-
-    The steps of an integration grow while nothing happens. One that does not begin anew could pass
-    over a short bump without a trace of it.
-    """
-    still = np.concatenate(([False], np.diff(curve.c[-1]) == 0.0, [False]))
-    begins, ends = np.flatnonzero(still[1:] & ~still[:-1]), np.flatnonzero(still[:-1] & ~still[1:])
-    long = curve.x[ends] - curve.x[begins] >= _STILL * duration
-    return [float(time) for time in curve.x[ends[long]]]
-
-
-def _number(name: str, value: Any) -> float:
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        number = np.nan
-    if not np.isfinite(number):
-        problem = (
-            f"{name!r} = {value!r}: a finite number, samples (times, values) or a function of time "
-            "is needed."
-        )
-        raise InputError([problem], "inputs")
-    return number
-
-
 def _segments(
     collected: _Collected, names: tuple[str, ...], t_span: tuple[float, float]
 ) -> tuple[Segment, ...]:
     """Cut the time where the integration begins anew, and give each part its splines."""
     first, last = (float(t) for t in t_span)
-    inside = sorted(
-        (t for t in collected.borders if min(t_span) < t < max(t_span)), reverse=last < first
-    )
-    borders = [first, *inside, last]
+    backward = last < first
+    inside = (t for t in collected.borders if min(t_span) < t < max(t_span))
+    borders = [first, *sorted(inside, reverse=backward), last]
+    milestones = np.unique(np.concatenate([*collected.milestones, np.empty(0)]))
     segments = []
     for start, end in pairwise(borders):
         middle = (start + end) / 2
@@ -250,11 +222,18 @@ def _segments(
             Spline(_covering(curves, middle), _targets(name, names))
             for name, curves in collected.curves.items()
         ]
-        segments.append(Segment(start, end, tuple(splines)))
+        near = _RESOLVED * max(abs(start), abs(end))
+        within = milestones[
+            (milestones > min(start, end) + near) & (milestones < max(start, end) - near)
+        ]
+        within = within[np.diff(within, prepend=-np.inf) > near]
+        segments.append(
+            Segment(start, end, tuple(splines), within[::-1].copy() if backward else within)
+        )
     return tuple(segments)
 
 
-def _covering(curves: list[CubicSpline], time: float) -> CubicSpline:
+def _covering(curves: list[PPoly], time: float) -> PPoly:
     return next(c for c in curves if c.x[0] <= time <= c.x[-1])
 
 
@@ -264,95 +243,65 @@ def _targets(name: str, names: tuple[str, ...]) -> tuple[int, int, int]:
     return names.index(name), first, second
 
 
-# -- samples ------------------------------------------------------------------------------------
+# -- where they jump, and where they turn ---------------------------------------------------------
 
 
-def _sampled(name: str, samples: Samples, t_span: tuple[float, float]) -> list[CubicSpline]:
-    if len(samples) != 2:
-        raise InputError([f"{name!r}: samples are a pair (times, values)."], "inputs")
-    times, values = (np.asarray(s, dtype=np.float64) for s in samples)
-    _check_samples(name, times, values, t_span)
-    cuts = np.flatnonzero(np.diff(times) == 0.0) + 1
-    parts = zip(np.split(times, cuts), np.split(values, cuts), strict=True)
-    return [_through(t, v) for t, v in parts]
+def _collect(collected: _Collected, name: str, found: Sequence[PPoly], rates: int) -> None:
+    """Note the curves of an input: cut where something jumps, with the times at which it turns."""
+    for before, after in pairwise(found):
+        stays = before(before.x[-1]) == after(after.x[0])
+        _check_jump(name, float(after.x[0]), int(stays), rates)
+    parts: list[PPoly] = []
+    for curve in found:
+        smooth = _continuity(curve)
+        cuts = [_breaks(curve, order) for order in range(smooth + 1, rates + 1)]
+        for order, times in enumerate(cuts, smooth + 1):
+            if times.size:
+                _check_jump(name, float(times[0]), order, rates)
+        if not rates and smooth < 1:
+            collected.milestones.append(_breaks(curve, 1))
+        parts += _split(curve, np.unique(np.concatenate([*cuts, np.empty(0)])))
+    collected.curves[name] = parts
+    collected.borders.update(float(part.x[0]) for part in parts[1:])
+    collected.milestones += [turning_points(part, range(rates + 1)) for part in parts]
 
 
-def _through(times: Array, values: Array) -> CubicSpline:
-    """Return a spline, also through the two or three samples that may lie between jumps."""
-    if times.size < 4:
-        dense = np.linspace(times[0], times[-1], 4)
-        times, values = dense, np.interp(dense, times, values)
-    return CubicSpline(times, values)
-
-
-def _check_samples(name: str, times: Array, values: Array, t_span: tuple[float, float]) -> None:
-    if times.ndim != 1 or times.shape != values.shape or times.size < 2:
-        problem = (
-            f"{name!r}: times and values must be two rows of the same length, two or more; their "
-            f"shapes are {times.shape} and {values.shape}."
-        )
-    elif not (np.all(np.isfinite(times)) and np.all(np.isfinite(values))):
-        problem = f"{name!r}: times and values must be finite."
-    elif _first_disorder(times) is not None:
-        index = _first_disorder(times) or 0
-        problem = (
-            f"{name!r}: times must increase, and a jump is one time given twice; this fails at "
-            f"element {index} (t = {times[index]:g} s)."
-        )
-    elif times[0] > min(t_span) or times[-1] < max(t_span):
-        problem = (
-            f"{name!r}: the samples cover {times[0]:g} s to {times[-1]:g} s, the simulation runs "
-            f"from {min(t_span):g} s to {max(t_span):g} s. Give samples for the whole time."
-        )
-    else:
+def _check_jump(name: str, time: float, order: int, rates: int) -> None:
+    """Refuse the jump of a position, or of its velocity, where the model takes what is infinite."""
+    if not (name.endswith("_position") and order < rates):
         return
+    what, needs = (("", "velocity"), ("the velocity of ", "acceleration"))[order]
+    problem = (
+        f"{what}{name!r} jumps at t = {time:g} s: the {name.removesuffix('_position')} "
+        f"would need an infinite {needs} there. Give one value for each time, and a smooth way "
+        "between them."
+    )
     raise InputError([problem], "inputs")
 
 
-def _first_disorder(times: Array) -> int | None:
-    """Return where times fall, or where one stands alone between jumps or is given three times."""
-    steps = np.diff(times)
-    still = np.concatenate(([False], steps == 0.0, [False]))
-    bad = np.flatnonzero((steps < 0.0) | (still[:-2] & (steps == 0.0)))
-    lonely = [0] if still[1] else [times.size - 1] if still[-2] else []
-    found = [int(i) for i in bad] + lonely
-    return found[0] if found else None
+def _continuity(curve: PPoly) -> int:
+    """Return up to which derivative a curve is continuous by its construction; -1 for none."""
+    if isinstance(curve, CubicSpline | Eased):
+        return 2
+    return 1 if isinstance(curve, CubicHermiteSpline) else -1
 
 
-# -- functions ----------------------------------------------------------------------------------
+def _breaks(curve: PPoly, order: int) -> Array:
+    """Return the times at which a derivative jumps."""
+    derivative = curve.derivative(order)
+    width = np.diff(curve.x)[:-1]
+    ends = np.zeros(width.size)
+    for row in derivative.c[:, :-1]:
+        ends = ends * width + row
+    begins = derivative.c[-1]
+    largest = max(np.abs(begins).max(), np.abs(ends).max(initial=0.0))
+    times: Array = curve.x[1:-1][np.abs(begins[1:] - ends) > _JUMP * largest]
+    return times
 
 
-def _fitted(
-    name: str, function: Callable[[float], Any], t_span: tuple[float, float]
-) -> CubicSpline:
-    """Return a spline through so many values of a function that it follows it in between."""
-    size = _FIRST_GRID
-    times = np.linspace(min(t_span), max(t_span), size)
-    values = _values(name, function, times)
-    while True:
-        spline = CubicSpline(times, values)
-        between = (times[:-1] + times[1:]) / 2
-        middle = _values(name, function, between)
-        error = np.abs(spline(between) - middle)
-        scale = max(np.ptp(values), np.ptp(middle))
-        if error.max() <= _SPLINE_TOLERANCE * scale:
-            return spline
-        if times.size >= _LARGEST_GRID:
-            worst = between[int(np.argmax(error))]
-            problem = (
-                f"{name!r}: a smooth curve does not follow this function near t = {worst:.6g} s "
-                f"(error {error.max():.3g} with {times.size} values). If it jumps or has a kink "
-                "there, give samples (times, values) with the time of the jump twice."
-            )
-            raise InputError([problem], "inputs")
-        times, values = _merged(times, between), _merged(values, middle)
-
-
-def _merged(first: Array, between: Array) -> Array:
-    merged = np.empty(first.size + between.size)
-    merged[::2], merged[1::2] = first, between
-    return merged
-
-
-def _values(name: str, function: Callable[[float], Any], times: Array) -> Array:
-    return np.array([_number(f"{name} at t = {t:.6g} s", function(float(t))) for t in times])
+def _split(curve: PPoly, times: Array) -> list[PPoly]:
+    """Return the parts of a curve between times that are among its breaks."""
+    ends = [0, *np.searchsorted(curve.x, times), curve.x.size - 1]
+    if len(ends) == 2:
+        return [curve]
+    return [PPoly(curve.c[:, a:b], curve.x[a : b + 1]) for a, b in pairwise(ends)]

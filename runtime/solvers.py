@@ -6,6 +6,7 @@ Both integrate one segment of time, in which the inputs are smooth, and return t
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
+from importlib import import_module
 from math import factorial
 from typing import Any
 
@@ -13,15 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
+from .dead_points import Approach, DeadPoint, meanings, usual_margins
 from .events import Events
 from .generated._support import ModelError
 from .signals import Segment, TimeInputs
 from .system import System
-
-try:
-    from .native import _sundials as sundials
-except ImportError:  # SUNDIALS was not there when the project was built
-    sundials = None  # type: ignore[assignment]  # a module where it is
+from .watched import watched
 
 Array = NDArray[np.float64]
 
@@ -52,7 +50,7 @@ class Options:
 
     method: str
     rtol: float
-    atol: Array
+    atol: Any
     max_step: float
     first_step: float | None
     max_steps: int
@@ -78,6 +76,9 @@ class Piece:
         (first time, last time, function of time) of every step, if wanted.
     refused_time, refused_state
         Where the model refused a state.
+    refused_guard
+        The guard at whose dead point the motion ends; none if a state was refused for another
+        reason.
     """
 
     t: Array
@@ -88,7 +89,32 @@ class Piece:
     interpolants: list[tuple[float, float, Callable[[Array], Array]]] = field(default_factory=list)
     refused_time: float = 0.0
     refused_state: Array | None = None
+    refused_guard: int | None = None
     detail: str = ""
+
+
+_NOT_BUILT = (
+    "kintrafo was built without SUNDIALS. Install it (Debian: libsundials-dev; conda, Homebrew: "
+    "sundials) and build again"
+)
+
+
+def _load_native() -> tuple[Any, str]:
+    """Return the module that links SUNDIALS, or None and why there is none."""
+    try:
+        return import_module(f"{__package__}.native._sundials"), ""
+    except ModuleNotFoundError:  # SUNDIALS was not there when the project was built
+        return None, _NOT_BUILT
+    except ImportError as error:
+        return None, f"the module that links SUNDIALS cannot be loaded: {error}. Build it again"
+
+
+sundials, _why_not = _load_native()
+
+
+def why_not_native() -> str:
+    """Say why SUNDIALS is not linked, and what to do."""
+    return _why_not or _NOT_BUILT
 
 
 def native_available() -> bool:
@@ -136,13 +162,14 @@ def solve_native(
 ) -> Piece:
     """Integrate a segment in C, from the first step to the last."""
     equations = model.equations
-    names = (f"rhs{inputs.variant}", f"rhs_jacobian{inputs.variant}", "signals")
+    names = (f"rhs{inputs.variant}", f"rhs_jacobian{inputs.variant}", "signals", "margins")
     signals = model.signal_names
     raw = sundials.integrate(
         tuple(equations.ADDRESSES.get(name, 0) for name in names),  # signals may be none
         model.constants,
         inputs.constant,
         [_contiguous(spline.curve, spline.targets) for spline in segment.splines],
+        segment.milestones,
         np.ascontiguousarray(state),
         np.ascontiguousarray(times),
         method=SUNDIALS_METHODS[options.method],
@@ -159,6 +186,8 @@ def solve_native(
         roots=events.functions,
         directions=np.array([*events.directions, 0], dtype=np.int32),
         terminal=np.array([*events.terminal, 0], dtype=np.int32),
+        guards=np.append(meanings(model), np.int32(0)),
+        usual_margins=usual_margins(model),
     )
     counts = ("nfev", "njev", "nlu", "steps", "error_test_failures", "order")
     output = raw["output"] if len(raw["output"]) else np.array([[segment.start, *state]])
@@ -171,6 +200,7 @@ def solve_native(
         interpolants=[_taylor(row, state.size) for row in raw["dense"]],
         refused_time=raw["refused_time"],
         refused_state=np.array(raw["refused_state"]),
+        refused_guard=raw["refused_guard"] if raw["refused_guard"] >= 0 else None,
         detail=_WHY.get(raw["code"], f"SUNDIALS {native_version()} returned {raw['code']}"),
     )
 
@@ -179,18 +209,24 @@ def _contiguous(curve: Any, targets: tuple[int, int, int]) -> tuple[Array, Array
     return np.ascontiguousarray(curve.x), np.ascontiguousarray(curve.c), targets
 
 
-def _taylor(row: Array, size: int) -> tuple[float, float, Callable[[Array], Array]]:
-    """Return the polynomial of a step from its derivatives at the end of the step."""
-    start, end, order = float(row[0]), float(row[1]), int(row[2])
-    terms = row[3:].reshape(-1, size)[: order + 1]
-    terms = terms / np.array([factorial(k) for k in range(order + 1)])[:, None]
+@dataclass(frozen=True)
+class _Taylor:
+    """The polynomial of a step from its derivatives at the end of the step, shape (order + 1, n)."""
 
-    def polynomial(times: Array) -> Array:
-        powers = (times[:, None] - end) ** np.arange(order + 1)
-        values: Array = powers @ terms
+    end: float
+    terms: Array
+
+    def __call__(self, times: Array) -> Array:
+        powers = (times[:, None] - self.end) ** np.arange(len(self.terms))
+        values: Array = powers @ self.terms
         return values
 
-    return start, end, polynomial
+
+def _taylor(row: Array, size: int) -> tuple[float, float, Callable[[Array], Array]]:
+    """Return the first and last time of a step, and its polynomial."""
+    start, end, order = float(row[0]), float(row[1]), int(row[2])
+    terms = row[3:].reshape(-1, size)[: order + 1]
+    return start, end, _Taylor(end, terms / np.array([[factorial(k)] for k in range(order + 1)]))
 
 
 # -- SciPy --------------------------------------------------------------------------------------
@@ -254,8 +290,14 @@ def solve_scipy(
     # an explicit method evaluates at most twelve times a step, an implicit one fewer
     function = _RightHandSide(model, inputs, segment, 12.0 * options.max_steps)
     steps: list[tuple[float, Array]] = []
-    method: Any = SCIPY_METHODS[options.method]
-    extra: dict[str, Any] = {"jac": function.jacobian} if method in _IMPLICIT else {}
+    name = SCIPY_METHODS[options.method]
+    extra: dict[str, Any] = {"jac": function.jacobian} if name in _IMPLICIT else {}
+    approach = Approach(
+        model,
+        lambda time: inputs.at(time, segment),
+        1.0 if segment.end > segment.start else -1.0,
+    )
+    method = watched(name, approach, lambda: function.time, segment.milestones)
     try:
         result = solve_ivp(
             function,
@@ -271,17 +313,32 @@ def solve_scipy(
             events=[*_scipy_events(function, events), _recorder(steps)],
             **extra,
         )
-    except (ModelError, _TooManySteps) as error:
-        outcome = "state" if isinstance(error, ModelError) else "too_many_steps"
+    except (DeadPoint, ModelError, _TooManySteps) as error:
+        outcome = "too_many_steps" if isinstance(error, _TooManySteps) else "state"
+        dead = error if isinstance(error, DeadPoint) else None
         return Piece(
             t=np.array([time for time, _ in steps] or [segment.start]),
             y=np.array([y for _, y in steps] or [state]),
             outcome=outcome,
             counts={"nfev": function.evaluations},
-            refused_time=function.time,
-            refused_state=function.state,
+            refused_time=dead.time if dead else function.time,
+            refused_state=dead.state if dead else function.state,
+            refused_guard=dead.guard if dead else None,
         )
-    return _piece_of(result, len(steps) - 1, events, options)
+    piece = _piece_of(result, len(steps) - 1, events, options)
+    return _checked_outputs(piece, approach)
+
+
+def _checked_outputs(piece: Piece, approach: Approach) -> Piece:
+    """End a piece before the first output at which the model could not be evaluated."""
+    for place, (time, state) in enumerate(zip(piece.t, piece.y, strict=True)):
+        guard = approach.crossed(approach.margins(time, state))
+        if guard is not None:
+            piece.refused_time, piece.refused_state, piece.refused_guard = time, state, guard
+            piece.t, piece.y = piece.t[:place], piece.y[:place]
+            piece.outcome = "state"
+            break
+    return piece
 
 
 def _scipy_events(function: _RightHandSide, events: Events) -> list[Any]:
@@ -319,7 +376,7 @@ def _piece_of(result: Any, steps: int, events: Events, options: Options) -> Piec
     interpolants = []
     if options.dense_output:
         interpolants = [
-            (float(a), float(b), _scipy_polynomial(part))
+            (float(a), float(b), _Transposed(part))
             for a, b, part in zip(
                 result.sol.ts[:-1], result.sol.ts[1:], result.sol.interpolants, strict=True
             )
@@ -335,5 +392,11 @@ def _piece_of(result: Any, steps: int, events: Events, options: Options) -> Piec
     )
 
 
-def _scipy_polynomial(part: Callable[[Array], Array]) -> Callable[[Array], Array]:
-    return lambda times: part(times).T
+@dataclass(frozen=True)
+class _Transposed:
+    """A polynomial of SciPy with one row for each time."""
+
+    part: Callable[[Array], Array]
+
+    def __call__(self, times: Array) -> Array:
+        return self.part(times).T

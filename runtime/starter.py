@@ -5,7 +5,7 @@ from pathlib import Path
 
 from . import data
 from .errors import InputError
-from .files import new_file, replacing
+from .files import refuse, replacing
 from .input.suggestions import suggestion
 
 _ENDING = ".toml"
@@ -38,7 +38,7 @@ def write_starter(
     template : str, optional
         Name of the packaged data set that is copied.
     force : bool, optional
-        Whether a file that is there already is replaced.
+        Whether a file that somebody else wrote or changed is replaced, see `kintrafo.files`.
 
     Returns
     -------
@@ -54,8 +54,8 @@ def write_starter(
             f"no data set {template!r} comes with kintrafo. {suggestion(template, packaged())}"
         )
         raise InputError([problem], "template")
-    path = new_file(path, ending=_ENDING, force=force)
+    refuse([path], force=force, endings=[_ENDING])
     text = resources.files(data).joinpath(f"{template}{_ENDING}").read_text(encoding="utf-8")
-    with replacing(path) as temporary:
+    with replacing(path, force=force) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")
-    return path
+    return Path(path)

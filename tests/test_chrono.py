@@ -174,6 +174,29 @@ class TestMistakes:
         path.write_text("/* before\n */" + text + "// after", encoding="utf-8")
         assert chrono.read(path).suspension.vehicle.side == "left"
 
+    @pytest.mark.parametrize(
+        ("text", "words"),
+        [
+            # of the length of the text, and not of its square or worse: minutes before
+            ('{"a":"' + '\\"' * 200_000, "Line 1 is not valid JSON"),
+            ("/*/" * 200_000, "is not valid JSON"),
+            ('{"a": 1} /* never closed', "Line 1 is not valid JSON"),
+            ('{\n/* two\nlines */ "a": ?}', "Line 3 is not valid JSON"),
+            ('{"a":' * 100_000, "too deeply"),
+            ('{"a": ' + "9" * 5000 + "}", "thousands of digits"),
+        ],
+        ids=["text", "comments", "open comment", "lines", "deep", "digits"],
+    )
+    def test_what_no_person_writes(self, tmp_path, text, words):
+        path = tmp_path / "strut.json"
+        path.write_text(text, encoding="utf-8")
+        with pytest.raises(InputError, match=words):
+            chrono.read(path)
+
+    def test_no_such_file(self, tmp_path):
+        with pytest.raises(InputError, match="cannot be read: No such file"):
+            chrono.read(tmp_path / "strut.json")
+
 
 class TestCommand:
     @pytest.mark.parametrize("side", ["left", "right"])

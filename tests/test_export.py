@@ -101,7 +101,7 @@ def test_same_data_same_bytes(tmp_path, name):
 
 
 def fail_half_way(path):
-    with replacing(path) as temporary:
+    with replacing(path, force=True) as temporary:
         temporary.write_text("half", encoding="utf-8")
         raise RuntimeError
 

@@ -349,3 +349,21 @@ def test_without_webgl_the_rest_works(driver, watch):
         shown = number(figure.locator("output").inner_text())
         assert shown == pytest.approx(np.degrees(float(camber)), abs=0.0051)
         assert watched.state()["wheelCenter"] is None
+
+
+def test_wheel_rate_jumps_where_the_stops_begin_to_act(browser, tmp_path_factory):
+    """The page shows the model's values on both sides of a stop, and draws the jump as one."""
+    car = Model("offset_strut_car")
+    watched = Watched(
+        browser, kintrafo.report.write(car, tmp_path_factory.mktemp("stops") / "stops.html")
+    )
+    travels = np.linspace(-0.09, 0.09, 61)  # 3 mm, between the lines of the grid and on them
+    exact = kintrafo.characteristics.travel(car, travels, rack_position=0.011)["wheel_rate"]
+    shown = []
+    for travel in travels:
+        watched.page.evaluate(f"kintrafo.set({{travel: {travel}, rack: 0.011}})")
+        shown.append(watched.state()["curves"]["wheel_rate"])
+    assert np.ptp(np.diff(exact.values)) > 2e4  # N/m: both stops are on the way
+    assert np.abs(np.array(shown) - 1e-3 * exact.values).max() < 0.05  # N/mm
+    assert not watched.complaints
+    watched.context.close()

@@ -10,6 +10,8 @@ mpl.use("Agg")
 import networkx as nx
 from matplotlib.figure import Figure
 
+from ...files import replacing
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
@@ -23,7 +25,7 @@ BODY_STYLE = {"boxstyle": "round,pad=0.45", "facecolor": "#d9d9d9", "edgecolor":
 JOINT_STYLE = {"boxstyle": "circle,pad=0.25", "facecolor": "white", "edgecolor": "#333333"}
 
 
-def draw(plan: Plan, path: Path) -> None:
+def draw(plan: Plan, path: Path, *, force: bool = False) -> None:
     """Write a picture of bodies (grey), joints (white) and the loops of the basis (coloured).
 
     Parameters
@@ -32,6 +34,8 @@ def draw(plan: Plan, path: Path) -> None:
         The analysed mechanism.
     path
         Where to write; the ending gives the format.
+    force
+        Whether a file that somebody else wrote is replaced, see `kintrafo.files`.
     """
     mechanism, topology = plan.model.mechanism, plan.topology
     positions = nx.kamada_kawai_layout(topology.graph, weight=None)
@@ -70,8 +74,8 @@ def draw(plan: Plan, path: Path) -> None:
     )
     axes.margins(0.12)
     axes.legend(loc="lower left", frameon=False, fontsize=9)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=160)
+    with replacing(path, force=force) as temporary:
+        figure.savefig(temporary, dpi=160)
 
 
 def _draw_loop(

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from ..arithmetic import NUMPY, OPERATIONS, write
 from ..design import design_coordinates
+from ..ranges import described as parameters_of
 from .c import CPrinter, count_line, iteration_note, mechanism_hash
 from .text import template
 
@@ -138,16 +139,11 @@ class PythonPrinter:
 
     def _tables(self) -> dict[str, tuple[str, object]]:
         model = self.model
-        defaults = {p.name: p.default for p in model.model.mechanism.parameters}
-        parameters = {
-            e.name: {"default": defaults[e.name], "unit": e.unit, "meaning": e.meaning}
-            for e in model.parameters
-        }
         described = "dict[str, dict[str, str]]"
         names = "tuple[str, ...]"
         topology = model.plan.topology
         return {
-            "PARAMETERS": ("dict[str, dict[str, Any]]", parameters),
+            "PARAMETERS": ("dict[str, dict[str, Any]]", parameters_of(model.model.mechanism)),
             "STATE": (described, _described(model.state)),
             "INPUTS": (described, _described(model.inputs)),
             "RELATIVE_COORDINATES": (described, _described(model.relative)),
@@ -164,6 +160,7 @@ class PythonPrinter:
                 tuple((str(a.quantity), a.unit, a.meaning, a.remedy) for a in model.assumptions),
             ),
             "GUARD_UNITS": ("dict[str, str]", {g.name: g.unit for g in model.guards}),
+            "ACTING_GUARDS": ("dict[str, tuple[int, ...]]", _acting(model)),
             "HELD_VARIANTS": ("dict[str, tuple[str, ...]]", model.held_inputs),
             "MOBILITY": ("int", topology.mobility),
             "LOOPS": (
@@ -191,6 +188,20 @@ def _shape(function: Function) -> str:
 def _fill(text: str, indent: int) -> str:
     pad = " " * indent
     return textwrap.fill(text, 96, initial_indent=pad, subsequent_indent=pad)
+
+
+# Whose guards an integration has to know: what it evaluates, what it puts out, what places bodies.
+_OF_A_SIMULATION = ("rhs", "signals", "positions", "orientations")
+
+
+def _acting(model: GeneratedModel) -> dict[str, tuple[int, ...]]:
+    """Return the places of the guards that act in some of the functions."""
+    places = {guard.name: place for place, guard in enumerate(model.guards)}
+    return {
+        name: tuple(sorted(places[guard.name] for guard in model.functions[name].guards))
+        for name in _OF_A_SIMULATION
+        if name in model.functions
+    }
 
 
 def _described(entries: tuple[Entry, ...]) -> dict[str, dict[str, str]]:

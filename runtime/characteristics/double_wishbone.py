@@ -29,10 +29,16 @@ def _stops(strokes: Strokes) -> tuple[Spring, ...]:
     return ()
 
 
+def _gaps(strokes: Strokes) -> tuple[Array, ...]:
+    """Return no gaps: there are no stops."""
+    del strokes
+    return ()
+
+
 def _damper(strokes: Strokes) -> Stroke:
     """Return the stroke of the damper, which is on the spring's axis."""
     return strokes.stroke("spring")
 
 
-DOUBLE_WISHBONE = Guidance(_links, _spring, _stops, _damper)
+DOUBLE_WISHBONE = Guidance(_links, _spring, _stops, _gaps, _damper)
 """Two arms, of which the lower one carries spring and damper."""

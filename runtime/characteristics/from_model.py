@@ -55,8 +55,28 @@ def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -
         spring=guidance.spring(strokes),
         stops=guidance.stops(strokes),
         damper=guidance.damper(strokes),
-        arm_angle=model.design_state[0] - np.broadcast_to(arm_angle, states.shape[:-1]),
+        arm_rotation=model.design_state[0] - np.broadcast_to(arm_angle, states.shape[:-1]),
     )
+
+
+def gaps(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -> tuple[Array, ...]:
+    """Return what is open of each stop at arm angles and rack positions.
+
+    Parameters
+    ----------
+    model : Model
+    arm_angle, rack_position : array_like
+        Angle of the lower arm as in the state [rad], and displacement of the rack [m]; they are
+        broadcast.
+
+    Returns
+    -------
+    tuple of ndarray
+        For each stop that the model has: positive where it is free, negative where it is compressed
+        [m]. What `catalogue.AT_STOPS` names jumps where a gap closes.
+    """
+    guidance = _GUIDANCE[model.suspension.suspension]
+    return guidance.gaps(Strokes(model, *at_rest(model, arm_angle, rack_position)))
 
 
 def vehicle(suspension: Suspension) -> Vehicle:

@@ -19,6 +19,8 @@ class Guidance:
         Takes the strokes of a model; returns its spring.
     stops : callable
         The same for its stops.
+    gaps : callable
+        The same for what is open of each stop [m]: where it closes, the stop begins to act.
     damper : callable
         The same for the stroke of its damper.
     """
@@ -26,4 +28,5 @@ class Guidance:
     links: Callable[[dict[str, Array]], tuple[Plane, Plane]]
     spring: Callable[[Strokes], Spring]
     stops: Callable[[Strokes], tuple[Spring, ...]]
+    gaps: Callable[[Strokes], tuple[Array, ...]]
     damper: Callable[[Strokes], Stroke]

@@ -21,8 +21,23 @@ def _spring(strokes: Strokes) -> Spring:
 
 def _stops(strokes: Strokes) -> tuple[Spring, ...]:
     """Return the stops that the model has."""
-    known = ("bump_stop_force", "rebound_stop_force")
-    return tuple(strokes.spring(force, "strut") for force in known if force in strokes)
+    return tuple(strokes.spring(f"{side}_stop_force", "strut") for side in _sides(strokes))
+
+
+def _gaps(strokes: Strokes) -> tuple[Array, ...]:
+    """Return how far the strut is from touching each of its stops."""
+    sense = {"bump": 1.0, "rebound": -1.0}
+    length = strokes.stroke("strut").length
+    return tuple(
+        sense[side] * (length - strokes.parameters[f"{side}_stop_length"])
+        for side in _sides(strokes)
+        if strokes.parameters[f"{side}_stop_rate"]
+    )
+
+
+def _sides(strokes: Strokes) -> tuple[str, ...]:
+    """Return the sides on which the model can have a stop."""
+    return tuple(side for side in ("bump", "rebound") if f"{side}_stop_force" in strokes)
 
 
 def _damper(strokes: Strokes) -> Stroke:
@@ -30,5 +45,5 @@ def _damper(strokes: Strokes) -> Stroke:
     return strokes.stroke("strut")
 
 
-MACPHERSON = Guidance(_links, _spring, _stops, _damper)
+MACPHERSON = Guidance(_links, _spring, _stops, _gaps, _damper)
 """A control arm and a strut."""

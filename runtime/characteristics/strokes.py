@@ -14,12 +14,18 @@ class Strokes:
     model : Model
     states, inputs : ndarray
         Positions at rest, as in the compiled module.
+
+    Attributes
+    ----------
+    parameters : mapping
+        Those of the model, by name [SI units].
     """
 
     def __init__(self, model: Model, states: Array, inputs: Array) -> None:
         # at unit rate velocities are first derivatives, and their derivatives second ones
         states = states.copy()
         states[..., model.state_names.index(f"{model.names.arm}_rate")] = 1.0
+        self.parameters = model.parameters
         self._signals = model.signals(states, inputs)
         by_arm = model.evaluate("signals_jacobian", states, inputs)[..., 0]
         self._by_arm = dict(zip(model.signal_names, np.moveaxis(by_arm, -1, 0), strict=True))

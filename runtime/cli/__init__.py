@@ -18,7 +18,7 @@ from . import (
     simulate,
     topology,
 )
-from .exits import guarded
+from .exits import guarded, standing_streams
 
 __all__ = ["app", "run"]
 
@@ -78,5 +78,5 @@ def main(
 
 def run() -> None:
     """Run the command line; a user's mistake ends with a message, not with a traceback."""
-    with guarded():
+    with standing_streams(), guarded():
         app()

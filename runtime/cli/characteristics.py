@@ -7,8 +7,8 @@ from rich.markup import escape
 from rich.table import Table
 
 from .console import console, print_json, significant
-from .options import Bump, File, Json, RackExtent, Rebound, Step, load, metres
-from .outputs import Figures, Formats, Out, Outputs, Plot
+from .options import Bump, File, Force, Json, RackExtent, Rebound, Step, load, metres
+from .outputs import Figures, Formats, Out, Outputs, Plot, name_files
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -37,6 +37,7 @@ def command(
     plot: Plot = None,
     figures: Figures = None,
     formats: Formats = None,
+    force: Force = False,
     json: Json = False,
 ) -> None:
     """All characteristics over wheel travel, and over the rack; a table of them at design.
@@ -45,7 +46,15 @@ def command(
     """
     from .. import characteristics, export, sweep
 
-    outputs = Outputs.of(out, plot, figures, formats)
+    outputs = Outputs.of(
+        out,
+        plot,
+        figures,
+        formats,
+        force=force,
+        inputs=[file],
+        suffixes=("_travel", "_rack"),
+    )
     model = load(file)
     ends: dict[str, Any] = {"rebound": metres(rebound), "bump": metres(bump)}
     at_travel, at_rack, spacing = travel / 1e3, rack / 1e3, step / 1e3
@@ -55,13 +64,17 @@ def command(
         "travel": characteristics.travel(model, travels, rack_position=at_rack),
         "rack": characteristics.steering(model, racks, travel=at_travel),
     }
+    written = [
+        path
+        for over, dataset in curves.items()
+        for path in outputs.write(dataset, title=file, suffix=f"_{over}")
+    ]
     if json:
         print_json({f"over_{over}": export.as_dict(curves[over]) for over in curves})
-    else:
-        for over, dataset in curves.items():
-            console.print(_at_design(dataset, f"{file}: characteristics over {over}, at design"))
+        return
     for over, dataset in curves.items():
-        outputs.write(dataset, title=file, suffix=f"_{over}", silent=json)
+        console.print(_at_design(dataset, f"{file}: characteristics over {over}, at design"))
+    name_files(written)
 
 
 def _at_design(dataset: "Dataset", title: str) -> Table:

@@ -7,8 +7,8 @@ from rich.markup import escape
 from rich.table import Table
 
 from .console import console, print_json, progress_bar, significant
-from .options import Files, Json, load
-from .outputs import Figures, Formats, Out, Outputs, Plot
+from .options import Files, Force, Json, load
+from .outputs import Figures, Formats, Out, Outputs, Plot, name_files
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -29,6 +29,7 @@ def command(
     plot: Plot = None,
     figures: Figures = None,
     formats: Formats = None,
+    force: Force = False,
     json: Json = False,
 ) -> None:
     """Compare the characteristics of two or more suspensions.
@@ -38,20 +39,21 @@ def command(
     from .. import compare
     from ..quantities import distinct
 
-    outputs = Outputs.of(out, plot, figures, formats)
+    outputs = Outputs.of(out, plot, figures, formats, force=force, inputs=files)
     models = dict(zip(distinct(files), map(load, files), strict=True))
     with progress_bar("characteristics") as progress:
         dataset = compare.compare(models, over=over, progress=progress)
     found = compare.differences(dataset)
+    written = outputs.write(dataset, title=" and ".join(models))
     if json:
         print_json(
             [vars(difference) | {"units": _units(dataset, difference)} for difference in found]
         )
-    else:
-        for name in list(models)[1:]:
-            chosen = [difference for difference in found if difference.data_set == name]
-            console.print(_table(dataset, chosen, next(iter(models)), name))
-    outputs.write(dataset, title=" and ".join(models), silent=json)
+        return
+    for name in list(models)[1:]:
+        chosen = [difference for difference in found if difference.data_set == name]
+        console.print(_table(dataset, chosen, next(iter(models)), name))
+    name_files(written)
 
 
 def _units(dataset: "Dataset", difference: "Difference") -> str:

@@ -22,7 +22,7 @@ _ROUNDING = 1e-9
 # Every so many positions are in a table, so that round distances stay round.
 _STRIDES = [factor * 10**power for power in range(9) for factor in (1, 2, 5)]
 
-console = Console(width=None if sys.stdout.isatty() else _WIDTH_OF_FILES)
+console = Console(width=None if sys.stdout and sys.stdout.isatty() else _WIDTH_OF_FILES)
 problems = Console(stderr=True, soft_wrap=True)
 
 

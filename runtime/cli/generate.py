@@ -9,7 +9,7 @@ import typer
 from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
 from .console import console, print_json, problems, say
-from .options import Json
+from .options import Force, Json
 
 EXAMPLES = (
     "kintrafo generate my_mechanism.py",
@@ -39,6 +39,7 @@ def command(
     numpy: Annotated[
         bool, typer.Option("--numpy", help="Functions over NumPy arrays instead of compiled C.")
     ] = False,
+    force: Force = False,
     json: Json = False,
 ) -> None:
     """Derive and compile the equations of motion of your own mechanism.
@@ -61,7 +62,7 @@ def command(
         )
     seconds = time.perf_counter() - started
     if to is not None:
-        _copy(module, to)
+        _copy(module, to, force=force, declaration=file)
     if json:
         print_json(_facts(module))
     else:
@@ -108,12 +109,13 @@ def _show(module: ModuleType, file: Path, seconds: float) -> None:
         say(f"  {line}")
 
 
-def _copy(module: ModuleType, folder: Path) -> None:
+def _copy(module: ModuleType, folder: Path, *, force: bool, declaration: Path) -> None:
     """Copy the sources of a compiled mechanism to where a person reads them."""
-    from ..files import replacing
+    from ..files import refuse, replacing
 
     source = Path(str(module.__file__)).parent
-    for path in sorted(source.iterdir()):
-        if path.suffix in (".c", ".h", ".py", ".md"):
-            with replacing(folder / path.name) as temporary:
-                temporary.write_bytes(path.read_bytes())
+    copied = [p for p in sorted(source.iterdir()) if p.suffix in (".c", ".h", ".py", ".md")]
+    refuse([folder / path.name for path in copied], force=force, inputs=[declaration])
+    for path in copied:
+        with replacing(folder / path.name, force=force, inputs=[declaration]) as temporary:
+            temporary.write_bytes(path.read_bytes())

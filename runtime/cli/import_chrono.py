@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from .console import say
+from .options import Force
 
 EXAMPLES = (
     "kintrafo import-chrono MacPhersonStrut.json my_car.toml",
@@ -28,7 +29,7 @@ def command(
     side: Annotated[
         str, typer.Option(metavar="SIDE", help="left, as in the file, or right.")
     ] = "left",
-    force: Annotated[bool, typer.Option("--force", help="Replace a file that is there.")] = False,
+    force: Force = False,
 ) -> None:
     """Write the hardpoint file of a suspension that Project Chrono describes.
 
@@ -45,7 +46,11 @@ def command(
     head = [f"From {sources} of Project Chrono (https://projectchrono.org).", "Assumed:"]
     head += [f"  {told}" for told in assumptions]
     write_toml(
-        suspension if side == "left" else suspension.mirrored(), path, head=head, force=force
+        suspension if side == "left" else suspension.mirrored(),
+        path,
+        head=head,
+        force=force,
+        inputs=[file, *([tire] if tire else [])],
     )
     say(f"  {path}")
     for told in assumptions:

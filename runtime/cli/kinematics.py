@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from .console import console, curve_table, print_json, say
-from .options import Bump, File, Json, RackExtent, Rebound, Step, load, metres
-from .outputs import Figures, Formats, Out, Outputs, Plot
+from .options import Bump, File, Force, Json, RackExtent, Rebound, Step, load, metres
+from .outputs import Figures, Formats, Out, Outputs, Plot, name_files
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -41,6 +41,7 @@ def command(
     plot: Plot = None,
     figures: Figures = None,
     formats: Formats = None,
+    force: Force = False,
     json: Json = False,
 ) -> None:
     """Positions of wheel and joints over wheel travel and rack displacement."""
@@ -48,7 +49,7 @@ def command(
 
     if (travel and over != "rack") or (rack and over != "travel"):
         raise typer.BadParameter(f"--travel and --rack are for what is held; --over is {over}")
-    outputs = Outputs.of(out, plot, figures, formats)
+    outputs = Outputs.of(out, plot, figures, formats, force=force, inputs=[file])
     model = load(file)
     travels: ArrayLike = travel / 1e3
     racks: ArrayLike = rack / 1e3
@@ -60,11 +61,13 @@ def command(
             model, extent=metres(rack_extent), step=step / 1e3, travel=travel / 1e3
         )
     dataset = sweep.positions(model, travels, racks)
+    written = outputs.write(dataset, title=file)
     if json:
         print_json(export.as_dict(dataset))
-    elif over == "both":
+        return
+    if over == "both":
         counts = " x ".join(f"{size} {name}" for name, size in dataset.sizes.items())
         say(f"{counts}, {len(dataset)} variables; write them with --out")
     else:
         console.print(curve_table(dataset, _SHOWN, f"{file}: positions over {over}"))
-    outputs.write(dataset, title=file, silent=json)
+    name_files(written)

@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 import typer
 
 from .console import say
+from .options import Force
 
 EXAMPLES = (
     "kintrafo new my_car.toml",
@@ -24,7 +25,7 @@ def command(
         str | None,
         typer.Option(metavar="NAME", help="Packaged data set to copy. Default: by --suspension."),
     ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace a file that is there.")] = False,
+    force: Force = False,
 ) -> None:
     """Write an annotated hardpoint file to begin with: every key, its unit and its sign."""
     from ..starter import STARTERS, write_starter

@@ -44,6 +44,14 @@ Json = Annotated[
         rich_help_panel="Output",
     ),
 ]
+Force = Annotated[
+    bool,
+    typer.Option(
+        "--force",
+        help="Replace files that are there, too, where kintrafo did not write them.",
+        rich_help_panel="Output",
+    ),
+]
 Rebound = Annotated[
     float | None, typer.Option(metavar="MM", help="Wheel travel downward. Default: 80, if reached.")
 ]

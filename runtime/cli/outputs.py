@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, TypedDict
 
 import typer
 
@@ -50,6 +50,13 @@ Formats = Annotated[
 ]
 
 
+class _Rule(TypedDict):
+    """What may be replaced, see `kintrafo.files`."""
+
+    force: bool
+    inputs: Sequence[str | Path]
+
+
 @dataclass(frozen=True)
 class Outputs:
     """The files that a command was asked for."""
@@ -58,6 +65,8 @@ class Outputs:
     pages: Sequence[Path] = ()
     figures: Path | None = None
     formats: Sequence[str] = ("png",)
+    force: bool = False
+    inputs: Sequence[str | Path] = ()
 
     @classmethod
     def of(
@@ -66,9 +75,26 @@ class Outputs:
         pages: list[Path] | None,
         figures: Path | None = None,
         formats: list[str] | None = None,
+        *,
+        force: bool,
+        inputs: Sequence[str | Path],
+        suffixes: Sequence[str] = ("",),
     ) -> "Outputs":
-        """Return the files, having refused what cannot be written before anything is computed."""
+        """Return the files, having refused what cannot be written before anything is computed.
+
+        Parameters
+        ----------
+        data, pages, figures, formats
+            What was asked for.
+        force : bool
+            Whether files that somebody else wrote are replaced.
+        inputs : sequence of str or pathlib.Path
+            Files that the command reads: they are never replaced.
+        suffixes : sequence of str, optional
+            What goes behind the names, where a command has several datasets.
+        """
         from .. import export
+        from ..files import refuse
 
         for path in data or ():
             export.check_format(path)
@@ -76,7 +102,9 @@ class Outputs:
             from .. import plots
 
             plots.check_formats(pages or (), formats or ())
-        return cls(data or (), pages or (), figures, formats or ("png",))
+        paths = [_named(p, suffix) for p in (*(data or ()), *(pages or ())) for suffix in suffixes]
+        refuse(paths, force=force, inputs=inputs)
+        return cls(data or (), pages or (), figures, formats or ("png",), force, inputs)
 
     def write(
         self,
@@ -85,9 +113,8 @@ class Outputs:
         title: str,
         names: Sequence[str] = (),
         suffix: str = "",
-        silent: bool = False,
-    ) -> None:
-        """Write the files, and name them on stdout unless a script reads that.
+    ) -> list[Path]:
+        """Write the files and return them; nothing has been printed that could go wrong before.
 
         Parameters
         ----------
@@ -98,23 +125,23 @@ class Outputs:
             The curves of the page; all of them by default.
         suffix : str, optional
             Goes behind the name of each file, where a command has several datasets.
-        silent : bool, optional
         """
         from .. import export
 
-        written = [export.write(dataset, _named(path, suffix)) for path in self.data]
+        rule: _Rule = {"force": self.force, "inputs": self.inputs}
+        written = [export.write(dataset, _named(path, suffix), **rule) for path in self.data]
         if self.pages or self.figures:
-            written += self._drawn(dataset, title, names, suffix)
-        for path in written if not silent else ():
-            say(f"  {path}")
+            written += self._drawn(dataset, title, names, suffix, rule)
+        return written
 
     def _drawn(
-        self, dataset: "Dataset", title: str, names: Sequence[str], suffix: str
+        self, dataset: "Dataset", title: str, names: Sequence[str], suffix: str, rule: "_Rule"
     ) -> list[Path]:
         from .. import plots
 
         written = [
-            plots.write_overview(dataset, _named(path, suffix), names, title) for path in self.pages
+            plots.write_overview(dataset, _named(path, suffix), names, title, **rule)
+            for path in self.pages
         ]
         if self.figures is not None:
             with progress_bar("figures") as progress:
@@ -125,8 +152,15 @@ class Outputs:
                     title=title,
                     suffix=suffix,
                     progress=progress,
+                    **rule,
                 )
         return written
+
+
+def name_files(files: Sequence[Path]) -> None:
+    """Name the files that were written, below the results."""
+    for path in files:
+        say(f"  {path}")
 
 
 def _named(path: Path, suffix: str) -> Path:

@@ -7,6 +7,7 @@ import typer
 from rich.table import Table
 
 from .console import console, problems, say
+from .options import Force
 
 if TYPE_CHECKING:
     from .. import paper
@@ -18,29 +19,33 @@ EXAMPLES = ("kintrafo paper out", "kintrafo paper out --data my_car.toml")
 def command(
     folder: Annotated[Path, typer.Argument(help="Where the figures go.")] = Path("out"),
     data: Annotated[str, typer.Option(help="Data set, by name, or a TOML file.")] = "reference_car",
+    *,
+    force: Force = False,
 ) -> None:
     """Show the paper's results: Figures 4, 5 and 6 and a summary."""
     from .. import paper
-    from ..figures import write_figures
+    from ..figures import figure_files, write_figures
+    from ..files import refuse
     from ..model import Model
     from ..overview import write_overview
 
+    overview = folder / "overview.png"
+    refuse([*figure_files(folder), overview], force=force)
     model = Model(data)
-    folder.mkdir(parents=True, exist_ok=True)
     with problems.status("kinematics over the travel"):
         kinematics = paper.kinematics(model)
     with problems.status("one second of motion"):
         dynamics = paper.dynamics(model)
     with problems.status("figures"):
-        files = write_figures(kinematics, dynamics, folder, data)
-        write_overview(model, folder / "overview.png")
+        files = write_figures(kinematics, dynamics, folder, data, force=force)
+        write_overview(model, overview, force=force)
     console.print(summary(model, paper.rest(model), dynamics))
     console.print(
         "The paper gives no hardpoints, masses or rates. These are results of "
         f"{data}, which is not the paper's car: compare them in kind.",
         markup=False,
     )
-    for file in [*files, folder / "overview.png"]:
+    for file in [*files, overview]:
         say(f"  {file}")
 
 

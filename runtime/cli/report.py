@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from .console import problems, say
-from .options import File, load
+from .options import File, Force, load
 
 EXAMPLES = (
     "kintrafo report reference_car",
@@ -17,16 +17,24 @@ EXAMPLES = (
 def command(
     file: File,
     path: Annotated[
-        Path | None, typer.Argument(metavar="PATH", help="Default: the file's name with .html.")
+        Path | None,
+        typer.Argument(metavar="PATH", help="Ends in .html. Default: the file's name with .html."),
     ] = None,
     *,
     title: Annotated[str | None, typer.Option(help="Heading of the report.")] = None,
+    force: Force = False,
 ) -> None:
     """Write a report that opens in any browser: the mechanism to move by hand, curves, data."""
-    model = load(file)
+    from ..files import refuse
+    from ..report import ENDINGS
+
     target = path or Path(f"{Path(file).stem}.html")
+    refuse([target], force=force, inputs=[file], endings=ENDINGS)
+    model = load(file)
     with problems.status("report") as status:
         from ..report import write
 
-        written = write(model, target, title=title, progress=status.update)
+        written = write(
+            model, target, title=title, progress=status.update, force=force, inputs=[file]
+        )
     say(f"  {written}")

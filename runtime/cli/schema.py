@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from .console import say
+from .options import Force
 
 EXAMPLES = ("kintrafo schema", "kintrafo schema kintrafo.schema.json")
 
@@ -13,20 +14,23 @@ EXAMPLES = ("kintrafo schema", "kintrafo schema kintrafo.schema.json")
 def command(
     path: Annotated[
         Path | None,
-        typer.Argument(metavar="PATH", help="File to write, replaced if it is there."),
+        typer.Argument(metavar="PATH", help="File to write; ends in .json."),
     ] = None,
+    *,
+    force: Force = False,
 ) -> None:
     """Print or write the JSON Schema of hardpoint files: every key, its meaning, unit and range.
 
     Editors complete and check hardpoint files with it. Write it beside them, and let their first
     line be [bold]#:schema ./kintrafo.schema.json[/bold], which TOML language servers understand.
     """
-    from ..files import replacing
+    from ..files import refuse, replacing
     from ..input.schema import schema_text
 
     if path is None:
         typer.echo(schema_text(), nl=False)
         return
-    with replacing(path) as temporary:
+    refuse([path], force=force, endings=[".json"])
+    with replacing(path, force=force) as temporary:
         temporary.write_text(schema_text(), encoding="utf-8", newline="\n")
     say(f"  {path}")

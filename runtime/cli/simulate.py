@@ -1,6 +1,7 @@
 """``kintrafo simulate``: the motion over a road."""
 
 import math
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
@@ -8,8 +9,8 @@ from rich.markup import escape
 from rich.table import Table
 
 from .console import console, number, print_json, problems, say
-from .options import File, Json, load, metres
-from .outputs import Figures, Formats, Out, Outputs, Plot
+from .options import File, Force, Json, load, metres
+from .outputs import Figures, Formats, Out, Outputs, Plot, name_files
 from .simulation_options import (
     Atol,
     Duration,
@@ -82,6 +83,7 @@ def command(
     plot: Plot = None,
     figures: Figures = None,
     formats: Formats = None,
+    force: Force = False,
     json: Json = False,
 ) -> None:
     """Simulate the suspension over a step, a sine or a measured road, with its rack moving.
@@ -92,7 +94,8 @@ def command(
     from ..measurement import measured as read
     from ..scenario import Scenario
 
-    outputs = Outputs.of(out, plot, figures, formats)
+    read_here = [Path(file), *([] if measured is None else [measured])]
+    outputs = Outputs.of(out, plot, figures, formats, force=force, inputs=read_here)
     model = load(file)
     if speed is not None and measured is None:
         raise typer.BadParameter("only a road from --measured is driven on at a --speed")
@@ -122,14 +125,15 @@ def command(
         inputs=inputs,
     )
     options = {"method": method, "rtol": rtol, "atol": atol}
-    result, motion = _played(model, scenario, options, outputs, file)
+    result, motion = _played(model, scenario, options, outputs, file, silent=json)
+    written = outputs.write(motion, title=file, names=_drawn(motion))
     if json:
         print_json(_summary(result, motion))
-    else:
-        console.print(_table(motion, file))
-        for line in _told(result):
-            say(line)
-    outputs.write(motion, title=file, names=_drawn(motion), silent=json)
+        return
+    console.print(_table(motion, file))
+    for line in _told(result):
+        say(line)
+    name_files(written)
 
 
 def _tell_of_the_free_rack(file: str, inputs: dict[str, Any]) -> None:
@@ -154,6 +158,8 @@ def _played(
     options: dict[str, Any],
     outputs: Outputs,
     title: str,
+    *,
+    silent: bool,
 ) -> "tuple[Simulation, Dataset]":
     """Simulate; where that cannot be finished, write the motion up to there."""
     from ..recording import dataset_of
@@ -166,7 +172,8 @@ def _played(
     except SimulationError as error:
         if error.partial is not None and error.partial.t.size > 1:
             motion = dataset_of(model, error.partial)
-            outputs.write(motion, title=f"{title}, unfinished", names=_drawn(motion))
+            written = outputs.write(motion, title=f"{title}, unfinished", names=_drawn(motion))
+            name_files(() if silent else written)
         raise
 
 

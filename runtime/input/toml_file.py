@@ -7,6 +7,12 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
+from ..files import reason
+from ..legible import short
+
+_DEEP = "Tables or lists stand in each other too deeply. No key of a suspension does."
+# A key of a hundred parts, in time linear in the length; tomllib's grows with the square of them.
+_TOO_DEEP = re.compile(r"""(?<![\w"'.-])(?:[\w"'-]++\s*+\.\s*+){100}""")
 
 
 def read_toml(file: Path | Traversable) -> dict[str, Any]:
@@ -28,10 +34,17 @@ def read_toml(file: Path | Traversable) -> dict[str, Any]:
         If the file cannot be read, is not UTF-8 or is not valid TOML.
     """
     text = _text_of(file)
+    if _TOO_DEEP.search(text):
+        raise InputError([_DEEP], str(file))
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise InputError([_syntax_problem(str(error), text)], str(file)) from None
+    except RecursionError:
+        raise InputError([_DEEP], str(file)) from None
+    except ValueError:  # Python's limit of 4300 digits, which tomllib lets pass
+        problem = "A number has thousands of digits. Write it with an exponent, as 1.5e6."
+        raise InputError([problem], str(file)) from None
 
 
 def _text_of(file: Path | Traversable) -> str:
@@ -39,7 +52,7 @@ def _text_of(file: Path | Traversable) -> str:
     try:
         content = file.read_bytes()
     except OSError as error:
-        problem = f"The file cannot be read: {error.strerror}. Check its name and folder."
+        problem = f"The file cannot be read: {reason(error)}"
         raise InputError([problem], str(file)) from None
     try:
         return content.decode("utf-8-sig")
@@ -59,7 +72,7 @@ def _syntax_problem(message: str, text: str) -> str:
     )
     reason = found[1] if found else message
     number = int(found[2]) if found and found[2] else last
-    line = text.split("\n")[number - 1].strip()
+    line = short(text.split("\n")[number - 1].strip())
     return (
         f"Line {number} `{line}` is not valid TOML: {reason}. "
         "Write `key = value`, text in quotes, points as [x, y, z], decimals with a point."

@@ -6,7 +6,8 @@ from typing import Any
 
 import tomlkit
 
-from ..files import new_file, replacing
+from ..files import Paths, refuse, replacing
+from ..legible import legible
 from .suspension import Suspension
 
 _ENDING = ".toml"
@@ -34,7 +35,7 @@ def toml_text(suspension: Suspension, head: Sequence[str] = ()) -> str:
     """
     document = tomlkit.document()
     for line in head:
-        document.add(tomlkit.comment(line) if line else tomlkit.nl())
+        document.add(tomlkit.comment(legible(line)) if line else tomlkit.nl())
     sections = suspension.model_dump(mode="json", exclude_none=True, exclude_defaults=True)
     bodies = sections.pop("bodies")  # long, and least looked at: at the end
     for name, value in (*sections.items(), ("bodies", bodies)):
@@ -44,7 +45,12 @@ def toml_text(suspension: Suspension, head: Sequence[str] = ()) -> str:
 
 
 def write_toml(
-    suspension: Suspension, path: str | Path, *, head: Sequence[str] = (), force: bool = False
+    suspension: Suspension,
+    path: str | Path,
+    *,
+    head: Sequence[str] = (),
+    force: bool = False,
+    inputs: Paths = (),
 ) -> Path:
     """Write an input file.
 
@@ -56,7 +62,9 @@ def write_toml(
     head : sequence of str, optional
         Lines of the comment that the file begins with.
     force : bool, optional
-        Whether a file that is there already is replaced.
+        Whether a file that somebody else wrote or changed is replaced, see `kintrafo.files`.
+    inputs : iterable of str or Path, optional
+        Files that are never replaced.
 
     Returns
     -------
@@ -67,10 +75,10 @@ def write_toml(
     InputError
         If there is a file already, or the name cannot be used.
     """
-    path = new_file(path, ending=_ENDING, force=force)
-    with replacing(path) as temporary:
+    refuse([path], force=force, inputs=inputs, endings=[_ENDING])
+    with replacing(path, force=force, inputs=inputs) as temporary:
         temporary.write_text(toml_text(suspension, head), encoding="utf-8")
-    return path
+    return Path(path)
 
 
 def _table(section: Mapping[str, Any]) -> Any:

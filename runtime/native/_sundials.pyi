@@ -8,10 +8,11 @@ Array: TypeAlias = NDArray[np.float64]
 
 def version() -> str: ...
 def integrate(
-    addresses: tuple[int, int, int],
+    addresses: tuple[int, int, int, int],
     constants: Array,
     inputs: Array,
     splines: Sequence[tuple[Array, Array, tuple[int, int, int]]],
+    milestones: Array,
     state: Array,
     times: Array,
     *,
@@ -29,4 +30,6 @@ def integrate(
     roots: Sequence[Callable[[float, Array], float]],
     directions: NDArray[np.int32],
     terminal: NDArray[np.int32],
+    guards: NDArray[np.int32],
+    usual_margins: Array,
 ) -> dict[str, Any]: ...

@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from cpython.exc cimport PyErr_Occurred
+from cpython.exc cimport PyErr_CheckSignals
 from libc.stdint cimport uintptr_t
 from libc.stdlib cimport calloc, free
 from libc.string cimport memcpy
@@ -11,6 +11,7 @@ from libc.string cimport memcpy
 cdef extern from "integrate.h" nogil:
     ctypedef int (*kt_function)(const double *, const double *, const double *, double *)
     ctypedef int (*kt_root)(double, const double *, double *, void *)
+    ctypedef int (*kt_interrupted)(void *)
     ctypedef struct kt_spline:
         int pieces
         const double *breaks
@@ -23,6 +24,7 @@ cdef extern from "integrate.h" nogil:
         kt_function rhs
         kt_function jacobian
         kt_function signals
+        kt_function margins
         int state_count
         int input_count
         int signal_count
@@ -30,6 +32,8 @@ cdef extern from "integrate.h" nogil:
         const double *inputs
         int spline_count
         const kt_spline *splines
+        long milestone_count
+        const double *milestones
         int event_count
         const kt_event *events
         int root_count
@@ -37,6 +41,11 @@ cdef extern from "integrate.h" nogil:
         void *root_data
         const int *directions
         const int *terminal
+        int guard_count
+        const int *guards
+        const double *usual_margins
+        kt_interrupted interrupted
+        void *interrupted_data
     ctypedef struct kt_options:
         int method
         const char *table
@@ -67,6 +76,7 @@ cdef extern from "integrate.h" nogil:
         double time
         double *state
         int refused_status
+        int refused_guard
         double refused_time
         double *refused_state
         int code
@@ -115,6 +125,17 @@ cdef int _call_roots(double time, const double *state, double *out, void *data) 
     return 0
 
 
+cdef int _interrupted(void *data) noexcept with gil:
+    """Raise what a signal has to raise, KeyboardInterrupt above all: only Python sees signals."""
+    cdef _Roots roots = <_Roots> data
+    try:
+        PyErr_CheckSignals()
+    except BaseException as error:
+        roots.error = error
+        return 1
+    return 0
+
+
 cdef _copy(const kt_table *table):
     """Return a table as an array."""
     array = np.empty((table.rows, table.width))
@@ -126,10 +147,11 @@ cdef _copy(const kt_table *table):
 
 def integrate(
     addresses, const double[::1] constants, const double[::1] inputs, splines,
-    const double[::1] state, const double[::1] times, *, method, double rtol,
+    const double[::1] milestones, const double[::1] state, const double[::1] times, *, method, double rtol,
     const double[::1] atol, double first_step, double max_step, long max_steps,
     bint every_step, bint stop_at_outputs, bint dense, int signal_count, events, roots,
-    const int[::1] directions, const int[::1] terminal,
+    const int[::1] directions, const int[::1] terminal, const int[::1] guards,
+    const double[::1] usual_margins,
 ):
     """Integrate; ``integrate.h`` explains the arguments, `kintrafo.solvers` uses the result."""
     cdef kt_problem problem
@@ -159,6 +181,7 @@ def integrate(
         problem.rhs = <kt_function><uintptr_t> addresses[0]
         problem.jacobian = <kt_function><uintptr_t> addresses[1]
         problem.signals = <kt_function><uintptr_t> addresses[2]
+        problem.margins = <kt_function><uintptr_t> addresses[3]
         problem.state_count = n
         problem.input_count = inputs.shape[0]
         problem.signal_count = signal_count
@@ -166,6 +189,8 @@ def integrate(
         problem.inputs = &inputs[0]
         problem.spline_count = len(splines)
         problem.splines = spline_array
+        problem.milestone_count = milestones.shape[0]
+        problem.milestones = &milestones[0] if milestones.shape[0] else NULL
         problem.event_count = len(events)
         problem.events = event_array
         problem.root_count = len(caller.functions)
@@ -173,6 +198,11 @@ def integrate(
         problem.root_data = <void *> caller
         problem.directions = &directions[0]
         problem.terminal = &terminal[0]
+        problem.guard_count = usual_margins.shape[0]
+        problem.guards = &guards[0]
+        problem.usual_margins = &usual_margins[0]
+        problem.interrupted = _interrupted
+        problem.interrupted_data = <void *> caller
         options.method = METHODS.get(method, RUNGE_KUTTA)
         options.table = table
         options.rtol = rtol
@@ -201,6 +231,7 @@ def integrate(
                 "order": result.statistics.order,
                 "time": result.time,
                 "refused_status": result.refused_status,
+                "refused_guard": result.refused_guard,
                 "refused_time": result.refused_time,
                 "refused_state": [result.refused_state[i] for i in range(n)]
                 if result.refused_state != NULL else [],

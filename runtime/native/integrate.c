@@ -1,9 +1,11 @@
 #include "integrate.h"
+#include "margins.h"
 #include "versions.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include <nvector/nvector_serial.h>
 #include <sunlinsol/sunlinsol_dense.h>
@@ -25,6 +27,11 @@ typedef struct {
     int *crossings;    /* of each event */
     int *found;        /* root information of the solver */
     int caller_failed;
+    kt_margins margins;
+    double *moved;       /* a state a short time later */
+    double start, end;   /* of the whole time */
+    double longest_step; /* so far */
+    clock_t asked;       /* when the caller was asked last whether to go on */
 } worker;
 
 const char *kt_version(void) { return SUNDIALS_VERSION; }
@@ -201,13 +208,14 @@ static int set_up_cvode(worker *w, double start)
     if (!w->linear) {
         return KT_MEMORY;
     }
+    double sign = w->end > w->start ? 1.0 : -1.0;
     int bad = CVodeInit(w->solver, call_rhs, start, w->y)
         || CVodeSetUserData(w->solver, w)
         || CVodeSVtolerances(w->solver, o->rtol, w->tolerance)
         || CVodeSetLinearSolver(w->solver, w->linear, w->matrix)
         || CVodeSetJacFn(w->solver, call_jacobian)
         || CVodeSetMaxNumSteps(w->solver, -1)
-        || (o->first_step > 0.0 && CVodeSetInitStep(w->solver, o->first_step))
+        || (o->first_step > 0.0 && CVodeSetInitStep(w->solver, sign * o->first_step))
         || (o->max_step > 0.0 && CVodeSetMaxStep(w->solver, o->max_step))
         || (roots && CVodeRootInit(w->solver, roots, call_roots))
         || (roots && CVodeSetRootDirection(w->solver, (int *)w->problem->directions))
@@ -269,11 +277,12 @@ static int set_up_runge_kutta(worker *w, double start)
     int roots = w->problem->event_count + w->problem->root_count;
     /* Nothing is interpolated then, and a cubic needs no evaluations of its own. */
     int exact = o->stop_at_outputs && !o->dense && !roots;
+    double sign = w->end > w->start ? 1.0 : -1.0;
     int bad = ARKodeSetUserData(w->solver, w)
         || (exact && ARKodeSetInterpolantDegree(w->solver, 3))
         || ARKodeSVtolerances(w->solver, o->rtol, w->tolerance)
         || ARKodeSetMaxNumSteps(w->solver, -1)
-        || (o->first_step > 0.0 && ARKodeSetInitStep(w->solver, o->first_step))
+        || (o->first_step > 0.0 && ARKodeSetInitStep(w->solver, sign * o->first_step))
         || (o->max_step > 0.0 && ARKodeSetMaxStep(w->solver, o->max_step))
         || (roots && ARKodeRootInit(w->solver, roots, call_roots))
         || (roots && ARKodeSetRootDirection(w->solver, (int *)w->problem->directions))
@@ -297,7 +306,9 @@ static int set_up(worker *w, const double *state, double start)
     w->piece = calloc((size_t)p->spline_count + 1, sizeof *w->piece);
     w->crossings = calloc(events + 1, sizeof *w->crossings);
     w->found = calloc(events + 1, sizeof *w->found);
-    if (!r->state || !r->refused_state || !w->inputs || !w->jacobian || !w->signals || !w->piece
+    w->moved = calloc(n, sizeof *w->moved);
+    if (!kt_open_margins(&w->margins, p->guard_count, p->guards, p->usual_margins) || !w->moved
+        || !r->state || !r->refused_state || !w->inputs || !w->jacobian || !w->signals || !w->piece
         || !w->crossings || !w->found || open_silent_context(&w->context)) {
         return KT_MEMORY;
     }
@@ -349,10 +360,9 @@ static void tear_down(worker *w)
     free(w->piece);
     free(w->crossings);
     free(w->found);
+    free(w->moved);
+    kt_close_margins(&w->margins);
 }
-
-/* Part of the whole time: a step below it, next to a refused state, is the end. */
-#define SMALLEST_STEP 1.0e-9
 
 /* -- stepping --------------------------------------------------------------------------------- */
 
@@ -373,15 +383,70 @@ static int interpolate(worker *w, double time, int derivative, N_Vector out)
                           : CVodeGetDky(w->solver, time, derivative, out);
 }
 
-static double last_step(worker *w)
+/* Length of the step that the solver tries next, or has tried last without success. */
+static double current_step(worker *w)
 {
     double step = 0.0;
     if (w->runge_kutta) {
-        ARKodeGetLastStep(w->solver, &step);
+        ARKodeGetCurrentStep(w->solver, &step);
     } else {
-        CVodeGetLastStep(w->solver, &step);
+        CVodeGetCurrentStep(w->solver, &step);
     }
     return fabs(step);
+}
+
+/* Time that the solver has reached inside; it is past a root that it has returned. */
+static double current_time(worker *w)
+{
+    double time = 0.0;
+    if (w->runge_kutta) {
+        ARKodeGetCurrentTime(w->solver, &time);
+    } else {
+        CVodeGetCurrentTime(w->solver, &time);
+    }
+    return time;
+}
+
+/* Add what the solver has counted since it began, or began anew. */
+static void add_statistics(worker *w)
+{
+    kt_statistics *s = &w->result->statistics;
+    long steps = 0, evaluations = 0, jacobians = 0, factorisations = 0, failures = 0;
+    int order = w->order;
+    if (!w->solver) {
+        return;
+    }
+    if (w->runge_kutta) {
+        ARKodeGetNumSteps(w->solver, &steps);
+        ERKStepGetNumRhsEvals(w->solver, &evaluations);
+        ARKodeGetNumErrTestFails(w->solver, &failures);
+    } else {
+        CVodeGetNumSteps(w->solver, &steps);
+        CVodeGetNumRhsEvals(w->solver, &evaluations);
+        CVodeGetNumJacEvals(w->solver, &jacobians);
+        CVodeGetNumLinSolvSetups(w->solver, &factorisations);
+        CVodeGetNumErrTestFails(w->solver, &failures);
+        CVodeGetLastOrder(w->solver, &order);
+    }
+    s->steps += steps;
+    s->evaluations += evaluations;
+    s->jacobians += jacobians;
+    s->factorisations += factorisations;
+    s->error_test_failures += failures;
+    s->order = order;
+}
+
+/* Begin anew with a step of this length. */
+static int begin_anew(worker *w, double time, double step)
+{
+    double signed_step = w->end > w->start ? step : -step;
+    add_statistics(w);
+    memcpy(N_VGetArrayPointer(w->y), w->result->state,
+           (size_t)w->problem->state_count * sizeof(double));
+    return w->runge_kutta ? ERKStepReInit(w->solver, call_rhs, time, w->y)
+                                || ARKodeSetInitStep(w->solver, signed_step)
+                          : CVodeReInit(w->solver, time, w->y)
+                                || CVodeSetInitStep(w->solver, signed_step);
 }
 
 static int is_root(const worker *w, int code)
@@ -454,106 +519,264 @@ static int keep_polynomial(worker *w, double from, double to)
     return KT_DONE;
 }
 
-/* Put out all times up to the one reached; `next` is the first that is still to come. */
-static int put_out(worker *w, const double *times, long count, double reached, double sign,
-                   long *next)
+/* -- margins ---------------------------------------------------------------------------------- */
+
+static void evaluate_margins(worker *w, double time, const double *state, double *out)
+{
+    evaluate_inputs(w, time);
+    w->problem->margins(w->problem->constants, state, w->inputs, out);
+}
+
+/* Evaluate the margins of a state, and those of a short time later on its way. */
+static void look(worker *w, double time, const double *state, double lapse)
+{
+    int n = w->problem->state_count, half = n / 2;
+    double signed_lapse = w->end > w->start ? lapse : -lapse;
+    for (int i = 0; i < half; ++i) {
+        w->moved[i] = state[i] + signed_lapse * state[half + i];
+        w->moved[half + i] = state[half + i];
+    }
+    evaluate_margins(w, time, state, w->margins.now);
+    evaluate_margins(w, time + signed_lapse, w->moved, w->margins.ahead);
+}
+
+/* Part of a step over which the rates of the margins are measured. */
+#define LAPSE (1.0 / 16.0)
+
+/* Parts of the whole time, and of the longest step: one below both, next to what is refused, is the end. */
+#define SMALLEST_OF_TIME 1.0e-9
+#define SMALLEST_OF_STEP 1.0e-6
+
+/* Part of the longest step: where less is left, a dead point is near. */
+#define NEAR 1.0e-3
+
+/* Part of the time since zero that a clock of double precision tells apart, some times. */
+#define SMALLEST_PART 1.0e-14
+
+static double smallest_step(const worker *w)
+{
+    double of_time = SMALLEST_OF_TIME * fabs(w->end - w->start);
+    double of_step = SMALLEST_OF_STEP * w->longest_step;
+    return of_step > 0.0 && of_step < of_time ? of_step : of_time;
+}
+
+/* End at the dead point of a guard, at the state that was reached. */
+static int end_at(worker *w, int guard)
+{
+    kt_result *r = w->result;
+    r->refused_guard = guard;
+    r->refused_time = r->time;
+    memcpy(r->refused_state, r->state, (size_t)w->problem->state_count * sizeof *r->state);
+    return KT_STATE;
+}
+
+/* Go back to the state that was reached and try a shorter step; KT_STATE when it is too short. */
+static int shorten(worker *w, double step)
+{
+    step *= 0.25;
+    if (step < smallest_step(w)) {
+        return KT_STATE;
+    }
+    w->result->refused_status = 0;
+    return begin_anew(w, w->result->time, step) ? KT_FAILED : KT_DONE;
+}
+
+/* -- running ---------------------------------------------------------------------------------- */
+
+/* In place of a guard, or of an outcome. */
+enum { KT_NONE = -1, KT_NO_MEMORY = -2, KT_AGAIN = -3 };
+
+typedef struct {
+    const double *times;
+    long count, next; /* `next` is the first time that is still to come */
+    int every_step;
+    double sign;    /* of the time's direction */
+    double trusted; /* no longer step may be taken */
+    long milestone; /* the first that is still to come */
+} course;
+
+/* Put out all times up to the one reached; return a guard that does not let one be evaluated. */
+static int put_out(worker *w, course *c, double reached)
 {
     int n = w->problem->state_count;
-    while (*next < count && sign * (times[*next] - reached) <= 0.0) {
+    for (; c->next < c->count && c->sign * (c->times[c->next] - reached) <= 0.0; ++c->next) {
+        double time = c->times[c->next];
         const double *row = N_VGetArrayPointer(w->y);
-        if (times[*next] != reached) {
-            if (interpolate(w, times[*next], 0, w->scratch)) {
-                return KT_FAILED;
-            }
+        if (time != reached) {
+            interpolate(w, time, 0, w->scratch); /* cannot fail within the step */
             row = N_VGetArrayPointer(w->scratch);
+            evaluate_margins(w, time, row, w->margins.between);
+            int guard = kt_crossed(&w->margins, w->margins.between);
+            if (guard != KT_NONE) {
+                return guard;
+            }
         }
-        if (append_state(&w->result->output, times[*next], row, n)) {
-            return KT_MEMORY;
+        if (append_state(&w->result->output, time, row, n)) {
+            return KT_NO_MEMORY;
         }
+    }
+    return KT_NONE;
+}
+
+/* Return a guard that says that a step is not to be believed; else what it covers is put out. */
+static int doubt(worker *w, course *c, double reached, double step)
+{
+    const double *state = N_VGetArrayPointer(w->y);
+    look(w, reached, state, LAPSE * step);
+    int guard = kt_crossed(&w->margins, w->margins.now);
+    if (guard == KT_NONE) {
+        guard = kt_reflected(&w->margins, LAPSE * step, step);
+    }
+    if (guard != KT_NONE) {
+        return guard;
+    }
+    if (c->every_step) {
+        return append_state(&w->result->output, reached, state, w->problem->state_count)
+            ? KT_NO_MEMORY : KT_NONE;
+    }
+    return put_out(w, c, reached);
+}
+
+/*
+ * Limit the next step by the margins that were looked at; tell whether this is a dead point. It is one
+ * also where rounding, not the margin, has made the solver's own steps so short that they lead nowhere.
+ */
+static int limit(worker *w, course *c, double lapse)
+{
+    int nearest = KT_NONE, over = 0;
+    c->trusted = kt_longest_step(&w->margins, lapse, &nearest, &over);
+    int stuck = lapse < LAPSE * smallest_step(w) && c->trusted < NEAR * w->longest_step;
+    over = over || stuck || c->trusted < SMALLEST_PART * fabs(w->result->time);
+    return over ? end_at(w, nearest) : KT_DONE;
+}
+
+/* Make the end of a step the state that is reached, or take it back. */
+static int accept(worker *w, course *c, double reached)
+{
+    kt_result *r = w->result;
+    long rows = r->output.rows, next = c->next;
+    double step = fabs(reached - r->time);
+    int guard = doubt(w, c, reached, step);
+    if (guard == KT_NO_MEMORY
+        || (guard == KT_NONE && w->options->dense && keep_polynomial(w, r->time, reached))) {
+        return KT_MEMORY;
+    }
+    if (guard != KT_NONE) {
+        r->output.rows = rows;
+        c->next = next;
+        int outcome = shorten(w, step);
+        return outcome == KT_STATE ? end_at(w, guard) : outcome ? outcome : KT_AGAIN;
+    }
+    r->time = reached;
+    memcpy(r->state, N_VGetArrayPointer(w->y), (size_t)w->problem->state_count * sizeof(double));
+    w->longest_step = fmax(w->longest_step, step);
+    return limit(w, c, LAPSE * step);
+}
+
+/* Return the goal, or the next milestone if that comes before it. */
+static double sooner(const worker *w, course *c, double goal)
+{
+    const kt_problem *p = w->problem;
+    long *next = &c->milestone;
+    while (*next < p->milestone_count && c->sign * (p->milestones[*next] - w->result->time) <= 0.0) {
         ++*next;
     }
-    return KT_DONE;
+    return *next < p->milestone_count && c->sign * (p->milestones[*next] - goal) < 0.0
+        ? p->milestones[*next] : goal;
+}
+
+/* Return up to where the solver may step: it must not be told a time that it has passed inside. */
+static double stop_of(worker *w, const course *c, double goal)
+{
+    double time = w->result->time, stop = time + c->sign * c->trusted;
+    int limits = c->sign * (goal - stop) > 0.0 && c->sign * (stop - current_time(w)) > 0.0;
+    return limits ? stop : goal;
+}
+
+/* Ask the caller every so many steps, and seconds, whether to go on. */
+#define STEPS_BETWEEN 16
+#define SECONDS_BETWEEN 0.05
+
+static int interrupted(worker *w, long tried)
+{
+    if (!w->problem->interrupted || tried % STEPS_BETWEEN) {
+        return 0;
+    }
+    clock_t now = clock();
+    if ((double)(now - w->asked) < SECONDS_BETWEEN * CLOCKS_PER_SEC) {
+        return 0;
+    }
+    w->asked = now;
+    return w->problem->interrupted(w->problem->interrupted_data);
+}
+
+/* Take a step; KT_AGAIN where it came to nothing and a shorter one is to be tried. */
+static int advance(worker *w, course *c, int *root)
+{
+    kt_result *r = w->result;
+    double goal = c->times[w->options->stop_at_outputs ? c->next : c->count - 1], reached = r->time;
+    goal = sooner(w, c, goal);
+    if (set_stop(w, stop_of(w, c, goal))) {
+        return KT_FAILED;
+    }
+    int code = one_step(w, goal, &reached);
+    *root = is_root(w, code);
+    if (code < 0) {
+        int outcome = explain(w, code);
+        if (outcome == KT_STATE) {
+            outcome = shorten(w, current_step(w));
+            return outcome ? outcome : KT_AGAIN;
+        }
+        return outcome;
+    }
+    /* Steps that shrink towards a refused state would go on for ever. */
+    if (r->refused_status && fabs(reached - r->time) < smallest_step(w)) {
+        return KT_STATE;
+    }
+    r->refused_status = 0; /* a smaller step has got past it */
+    return accept(w, c, reached);
 }
 
 static int run(worker *w, const double *times, long count, int every_step)
 {
     kt_result *r = w->result;
-    const kt_options *o = w->options;
-    int n = w->problem->state_count, outcome;
-    double end = times[count - 1], sign = end > times[0] ? 1.0 : -1.0, time = times[0];
-    long next = 1;
-    if (append_state(&r->output, times[0], r->state, n)) {
+    course c = {times, count, 1, every_step, w->end > w->start ? 1.0 : -1.0, INFINITY, 0};
+    double lapse = SMALLEST_OF_STEP * fabs(w->end - w->start);
+    if (append_state(&r->output, times[0], r->state, w->problem->state_count)) {
         return KT_MEMORY;
     }
-    while (sign * (end - time) > 0.0) {
-        double stop = o->stop_at_outputs ? times[next] : end, before = time;
-        if (set_stop(w, stop)) {
-            return KT_FAILED;
-        }
-        if (r->statistics.steps++ >= o->max_steps) {
+    look(w, r->time, r->state, lapse);
+    int outcome = limit(w, &c, lapse), root = 0;
+    for (long tried = 0; outcome == KT_DONE && c.sign * (w->end - r->time) > 0.0; ++tried) {
+        if (tried >= w->options->max_steps) {
             return KT_TOO_MANY_STEPS;
         }
-        int code = one_step(w, stop, &time);
-        if (code < 0) {
-            return explain(w, code);
+        if (interrupted(w, tried)) {
+            return KT_CALLER;
         }
-        /* Steps that shrink towards a refused state would go on for ever. */
-        if (r->refused_status && last_step(w) < SMALLEST_STEP * fabs(end - times[0])) {
-            return KT_STATE;
-        }
-        r->refused_status = 0; /* a smaller step has got past it */
-        r->time = time;
-        memcpy(r->state, N_VGetArrayPointer(w->y), (size_t)n * sizeof *r->state);
-        if (o->dense && (outcome = keep_polynomial(w, before, time))) {
-            return outcome;
-        }
-        outcome = every_step ? append_state(&r->output, time, r->state, n)
-                             : put_out(w, times, count, time, sign, &next);
-        if (outcome) {
-            return outcome;
-        }
-        if (is_root(w, code)) {
-            int terminal = note_events(w, time);
-            if (terminal) {
-                return terminal < 0 ? KT_MEMORY : KT_EVENT;
-            }
+        outcome = advance(w, &c, &root);
+        if (outcome == KT_DONE && root) {
+            int terminal = note_events(w, r->time);
+            outcome = terminal < 0 ? KT_MEMORY : terminal ? KT_EVENT : KT_DONE;
+        } else if (outcome == KT_AGAIN) {
+            outcome = KT_DONE;
         }
     }
-    return KT_DONE;
-}
-
-static void read_statistics(worker *w)
-{
-    kt_statistics *s = &w->result->statistics;
-    int order = w->order;
-    if (!w->solver) {
-        return;
-    }
-    if (w->runge_kutta) {
-        ARKodeGetNumSteps(w->solver, &s->steps);
-        ERKStepGetNumRhsEvals(w->solver, &s->evaluations);
-        ARKodeGetNumErrTestFails(w->solver, &s->error_test_failures);
-    } else {
-        CVodeGetNumSteps(w->solver, &s->steps);
-        CVodeGetNumRhsEvals(w->solver, &s->evaluations);
-        CVodeGetNumJacEvals(w->solver, &s->jacobians);
-        CVodeGetNumLinSolvSetups(w->solver, &s->factorisations);
-        CVodeGetNumErrTestFails(w->solver, &s->error_test_failures);
-        CVodeGetLastOrder(w->solver, &order);
-    }
-    s->order = order;
+    return outcome;
 }
 
 int kt_integrate(const kt_problem *problem, const kt_options *options, const double *state,
                  const double *times, long count, int every_step, kt_result *result)
 {
-    worker w = {.problem = problem, .options = options, .result = result};
+    worker w = {.problem = problem, .options = options, .result = result,
+                .start = times[0], .end = times[count - 1], .asked = clock()};
     memset(result, 0, sizeof *result);
+    result->refused_guard = KT_NONE;
     int outcome = set_up(&w, state, times[0]);
     if (outcome == KT_DONE) {
         outcome = run(&w, times, count, every_step);
     }
-    read_statistics(&w);
+    add_statistics(&w);
     tear_down(&w);
     return outcome;
 }

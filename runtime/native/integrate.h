@@ -13,6 +13,9 @@ typedef int (*kt_function)(const double *constants, const double *state, const d
 /* A root function given by the caller; returns 0, or non-zero to give up. */
 typedef int (*kt_root)(double time, const double *state, double *out, void *data);
 
+/* Asked now and then, it tells whether the caller wants the integration to end. */
+typedef int (*kt_interrupted)(void *data);
+
 /* A time-varying input: a cubic spline, and which inputs get its value and derivatives. */
 typedef struct {
     int pieces;
@@ -31,11 +34,14 @@ typedef struct {
     kt_function rhs;
     kt_function jacobian; /* row-major */
     kt_function signals;
+    kt_function margins; /* coordinates come first in the state, and then their rates */
     int state_count, input_count, signal_count;
     const double *constants;
     const double *inputs; /* values of those that do not vary */
     int spline_count;
     const kt_spline *splines;
+    long milestone_count;
+    const double *milestones; /* times that no step passes over, in the order of the integration */
     int event_count; /* of the model's signals; they come before the caller's */
     const kt_event *events;
     int root_count; /* of the caller */
@@ -43,6 +49,11 @@ typedef struct {
     void *root_data;
     const int *directions; /* of all events: -1 falling, +1 rising, 0 both */
     const int *terminal;   /* of all events: 0 never, n stops at the n-th crossing */
+    int guard_count;
+    const int *guards;           /* what each guard means, see margins.h */
+    const double *usual_margins; /* their size */
+    kt_interrupted interrupted;
+    void *interrupted_data;
 } kt_problem;
 
 enum kt_method { KT_BDF, KT_ADAMS, KT_RUNGE_KUTTA };
@@ -77,7 +88,7 @@ enum kt_outcome {
     KT_STATE,           /* the model refused a state: see refused_* */
     KT_TOO_MANY_STEPS,
     KT_TOO_ACCURATE,    /* the tolerances are below what the arithmetic can do */
-    KT_CALLER,          /* a root function gave up */
+    KT_CALLER,          /* a root function gave up, or the caller wants an end */
     KT_BAD_TABLE,       /* the installed SUNDIALS has no such Runge-Kutta table */
     KT_MEMORY,
     KT_FAILED           /* anything else: see code */
@@ -91,6 +102,7 @@ typedef struct {
     double time;       /* reached */
     double *state;     /* there */
     int refused_status;
+    int refused_guard; /* the guard at whose dead point the motion ends; -1: none */
     double refused_time;
     double *refused_state;
     int code;          /* return code of SUNDIALS */

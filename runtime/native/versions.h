@@ -16,6 +16,8 @@
 #if SUNDIALS_VERSION_MAJOR < 7 || (SUNDIALS_VERSION_MAJOR == 7 && SUNDIALS_VERSION_MINOR < 1)
 #define ARKodeEvolve ERKStepEvolve
 #define ARKodeFree ERKStepFree
+#define ARKodeGetCurrentStep ERKStepGetCurrentStep
+#define ARKodeGetCurrentTime ERKStepGetCurrentTime
 #define ARKodeGetDky ERKStepGetDky
 #define ARKodeGetLastStep ERKStepGetLastStep
 #define ARKodeGetNumErrTestFails ERKStepGetNumErrTestFails

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Literal
 from ..errors import InputError
 from ..input.suggestions import suggestion
 from ..optional import require
-from .cache import appearing, cache_folder, fingerprint
+from .cache import appearing, cache_folder, damage, fingerprint, seal
 from .compiler import Compiler, CompilerError, find_compiler
 from .declaration import model_of, telling
-from .loader import load
+from .loader import load, refuse_damaged
 
 if TYPE_CHECKING:
     from ..generator.mechanism import Mechanism, Model
@@ -36,7 +36,8 @@ def compile_mechanism(
     """Derive the equations of a mechanism and return them as a compiled module.
 
     What was compiled before is taken from a cache, as long as declaration, generator and compiler
-    are the same.
+    are the same. What was damaged there is found before it is loaded, told as a warning, and made
+    again.
 
     Parameters
     ----------
@@ -64,7 +65,8 @@ def compile_mechanism(
     Raises
     ------
     InputError
-        If the file cannot be run or an argument is not known.
+        If the file cannot be run or an argument is not known; if the folder cannot be written, or
+        what is in it cannot be loaded.
     MechanismError
         If the declaration contradicts itself, or a loop does not close in closed form.
     CompilerError
@@ -89,14 +91,18 @@ def compile_mechanism(
     # the declaration is made of nested records, whose text says everything
     key = fingerprint(repr(model), built_by=built_by)
     target = (cache_folder() if folder is None else Path(folder)) / f"{model.name}-{key}"
-    if not target.is_dir():
+    problem = damage(target)
+    if problem and target.exists():
+        _tell_of_damage(target, problem)
+    if problem:
         report = progress or (lambda _: None)
         with appearing(target) as temporary:
             report("deriving the equations")
             with telling(model):
                 derived = generate(model)
             report("compiling" if compiler else "writing the functions")
-            build(derived, temporary, compiler)
+            build(derived, temporary, compiler, name=target.name)
+        refuse_damaged(target)
     return load(target)
 
 
@@ -128,6 +134,11 @@ def _compiler(backend: Backend) -> Compiler | None:
     return compiler
 
 
+def _tell_of_damage(target: Path, problem: str) -> None:
+    message = f"{target}: {problem}. What was compiled before is damaged, and is made again."
+    warnings.warn(message, RuntimeWarning, stacklevel=3)
+
+
 def _tell_once() -> None:
     global _told  # noqa: PLW0603 (told once in a process)
     if not _told:
@@ -140,7 +151,9 @@ def _tell_once() -> None:
         )
 
 
-def build(derived: "GeneratedModel", folder: Path, compiler: Compiler | None) -> None:
+def build(
+    derived: "GeneratedModel", folder: Path, compiler: Compiler | None, *, name: str | None = None
+) -> None:
     """Write the package of a derived model into a folder, and compile it.
 
     Parameters
@@ -151,13 +164,16 @@ def build(derived: "GeneratedModel", folder: Path, compiler: Compiler | None) ->
         An empty folder; `kintrafo.own.loader.load` makes a module of it.
     compiler : Compiler or None
         None: functions over NumPy arrays instead of C.
+    name : str, optional
+        What the folder will be called; by default what it is called now.
     """
     from ..generator.emit.files import own_files
 
     library = f"lib{derived.model.name}.so" if compiler else None
     texts = own_files(derived, library)
-    for name, text in texts.items():
-        (folder / name).write_text(text, encoding="utf-8", newline="\n")
+    for file, text in texts.items():
+        (folder / file).write_text(text, encoding="utf-8", newline="\n")
     if compiler and library:
-        sources = [folder / name for name in texts if name.endswith(".c")]
+        sources = [folder / file for file in texts if file.endswith(".c")]
         compiler.build(sources, folder / library)
+    seal(folder, name or folder.name)

@@ -29,7 +29,7 @@ def telling(model: "Model | None" = None) -> Iterator[None]:
         What is being derived: where a loop does not close, the error names other choices of
         independent coordinates.
     """
-    from ..generator.checks import DeclarationError
+    from ..generator.declared import DeclarationError
     from ..generator.proposal import advice
     from ..generator.topology import TopologyError
     from ..generator.transformer import NoClosedFormError
@@ -103,7 +103,7 @@ def given_by(declared: "Model | Mechanism | str | Path", name: str | None) -> "M
 
 def _run(path: Path) -> ModuleType:
     """Run a file and return what it defines."""
-    from ..generator.checks import DeclarationError
+    from ..generator.declared import DeclarationError
 
     try:
         source = path.read_text(encoding="utf-8")
@@ -125,7 +125,7 @@ def _run(path: Path) -> ModuleType:
         )
         raise InputError([problem], str(path)) from error
     except DeclarationError as error:
-        problems = [f"{_line(error, path)}{problem}" for problem in error.problems]
+        problems = [f"{_line(error, path)}{error.name}: {problem}" for problem in error.problems]
         raise InputError(problems, str(path)) from error
     except Exception as error:
         raise InputError([_where(error, path)], str(path)) from error

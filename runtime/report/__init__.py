@@ -1,5 +1,5 @@
 """The HTML report: `write` makes one file to send to a colleague."""
 
-from .page import write
+from .page import ENDINGS, write
 
-__all__ = ["write"]
+__all__ = ["ENDINGS", "write"]

@@ -42,6 +42,7 @@ def measure(
     grid: Grid,
     sampled: Poses,
     drawn: list[Curve],
+    gaps: list[Array],
     ranges: dict[str, tuple[float, float]],
     *,
     tell: Callable[[str], None] = lambda _: None,
@@ -56,6 +57,8 @@ def measure(
         The samples on the grid.
     drawn : list of Curve
         The same of the characteristics.
+    gaps : list of ndarray
+        What is open of the stops, on the grid.
     ranges : dict
         Key of a curve to the values between which it is plotted, in SI units; what lies beyond,
         near a pole for example, is not shown and not compared.
@@ -75,7 +78,7 @@ def measure(
             _distance(grid, sampled.points[name], points) for name, points in exact.points.items()
         ),
         spin_axis=_angle(grid, sampled.spin_axis, exact.spin_axis),
-        curves=_of_curves(grid, drawn, curves(model, travel, rack, tell=tell), ranges),
+        curves=_of_curves(grid, drawn, gaps, curves(model, travel, rack, tell=tell), ranges),
         places=travel.size * rack.size,
     )
 
@@ -98,13 +101,21 @@ def _angle(grid: Grid, samples: Array, exact: Array) -> float:
 
 
 def _of_curves(
-    grid: Grid, drawn: list[Curve], exact: list[Curve], ranges: dict[str, tuple[float, float]]
+    grid: Grid,
+    drawn: list[Curve],
+    gaps: list[Array],
+    exact: list[Curve],
+    ranges: dict[str, tuple[float, float]],
 ) -> dict[str, float]:
     between = {curve.key: curve.values for curve in exact}
+    seen = [as_encoded(grid, gap) for gap in gaps]
     errors = {}
     for curve in drawn:
-        near = grid.interpolate(
-            as_encoded(grid, curve.smooth), grid.travel.between, grid.rack.between
+        near = grid.interpolate_apart(
+            as_encoded(grid, curve.smooth),
+            seen if curve.jumps else (),
+            grid.travel.between,
+            grid.rack.between,
         )
         if curve.reciprocal:
             with np.errstate(divide="ignore"):  # an infinite value is outside of what is shown

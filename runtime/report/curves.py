@@ -8,8 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import characteristics
+from ..characteristics.catalogue import AT_STOPS
+from ..characteristics.from_model import gaps
 from ..groups import group_of
 from ..model import Model
+from ..positions import arm_angles, design_height
 from .grid import Grid
 from .plotted import has_pole
 
@@ -55,6 +58,11 @@ class Curve:
     def key(self) -> str:
         """A name that no other curve of the page has."""
         return self.name if self.over == "travel" else f"{self.name}_over_rack"
+
+    @property
+    def jumps(self) -> bool:
+        """Whether it jumps where a stop begins to act."""
+        return self.name in AT_STOPS
 
     @property
     def reciprocal(self) -> bool:
@@ -112,6 +120,24 @@ def curves(
         *_stacked(crosswise, "rack_position", "rack"),
     ]
     return [curve for curve in found if np.isfinite(curve.values).any()]
+
+
+def gaps_on(model: Model, grid: Grid) -> list[Array]:
+    """Return what is open of each stop that begins to act somewhere on the grid.
+
+    Parameters
+    ----------
+    model : Model
+    grid : Grid
+
+    Returns
+    -------
+    list of ndarray, shape (travels, racks)
+        Negative where the stop is compressed [m].
+    """
+    rack = grid.rack.values
+    angles = arm_angles(model, design_height(model) + grid.travel.values[:, None], rack)
+    return [gap for gap in gaps(model, angles, rack) if gap.min() <= 0.0 < gap.max()]
 
 
 def only_over_rack(drawn: list[Curve]) -> set[str]:

@@ -1,9 +1,11 @@
 """The grid on which a model is sampled, and the interpolation between its points.
 
-The page interpolates in the browser; `Grid.interpolate` does the same arithmetic here, so that its
-error can be measured against the compiled model before the page is written.
+The page interpolates in the browser; `Grid.interpolate` and `Grid.interpolate_apart` do the same
+arithmetic here, so that its error can be measured against the compiled model before the page is
+written.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -79,6 +81,10 @@ class Axis:
         """Index of the value zero."""
         return round(-self.first / self.step)
 
+    def places(self, where: ArrayLike) -> Array:
+        """Return coordinates in steps from the first value."""
+        return (np.asarray(where, dtype=np.float64) - self.first) / self.step
+
     def weights(self, where: ArrayLike) -> tuple[NDArray[np.int64], Array]:
         """Return which values interpolate, and with which weights.
 
@@ -94,7 +100,7 @@ class Axis:
         weights : ndarray, shape (n, 4)
             Lagrange's cubic polynomials at these coordinates.
         """
-        place = (np.asarray(where, dtype=np.float64) - self.first) / self.step
+        place = self.places(where)
         first = np.clip(np.floor(place).astype(np.int64) - 1, 0, self.count - ORDER)
         s = place - first
         weights = np.stack(
@@ -164,3 +170,70 @@ class Grid:
         along = self.travel.interpolate(samples, travel)
         across = self.rack.interpolate(np.moveaxis(along, 1, 0), rack)
         return np.moveaxis(across, 0, 1)
+
+    def interpolate_apart(
+        self, samples: Array, gaps: Sequence[Array], travel: ArrayLike, rack: ArrayLike
+    ) -> Array:
+        """Interpolate samples that jump where a gap closes, from their own side of the jump alone.
+
+        The gaps themselves are smooth. Their signs tell on which side a place is; of the grid's
+        points only those on the same side take part, and the cubic reaches out from them up to the
+        jump.
+
+        Parameters
+        ----------
+        samples : ndarray, shape (travels, racks)
+            Values on the grid.
+        gaps : sequence of ndarray, shape (travels, racks)
+            Positive on one side of a jump, zero or negative on the other.
+        travel : array_like, shape (n,)
+        rack : array_like, shape (m,)
+            Coordinates within the grid [m].
+
+        Returns
+        -------
+        ndarray, shape (n, m)
+            A part of the grid without a point of its own is interpolated across its border.
+        """
+        result = self.interpolate(samples, travel, rack)
+        if not gaps:
+            return result
+        closed = np.stack([gap <= 0.0 for gap in gaps], axis=-1)
+        here = np.stack([self.interpolate(gap, travel, rack) <= 0.0 for gap in gaps], axis=-1)
+        lines, columns = self.travel.weights(travel)[0], self.rack.weights(rack)[0]
+        places = self.travel.places(travel), self.rack.places(rack)
+        for i, j in np.ndindex(result.shape):
+            near = closed[lines[i] : lines[i] + ORDER, columns[j] : columns[j] + ORDER]
+            same = (closed == here[i, j]).all(axis=-1)
+            if (near != here[i, j]).any() and same.any():
+                result[i, j] = _one_sided(samples, same, float(places[0][i]), float(places[1][j]))
+        return result
+
+
+def _one_sided(samples: Array, same: NDArray[np.bool_], line: float, column: float) -> float:
+    """Interpolate at a place, in steps of the grid, from the marked points alone."""
+    columns = _run(np.logical_or.reduce(same, axis=0), column)
+    values = []
+    for index in columns:
+        lines = _run(same[:, index], line)
+        weights = _lagrange(line - lines.start, len(lines))
+        values.append(weights @ samples[lines.start : lines.stop, index])
+    return float(_lagrange(column - columns.start, len(columns)) @ np.array(values))
+
+
+def _run(marked: NDArray[np.bool_], place: float) -> range:
+    """Return up to four neighbours, all of them marked, as near to a place as there are."""
+    known = np.flatnonzero(marked)
+    low = high = int(known[np.argmin(np.abs(known - place))])
+    while low > 0 and marked[low - 1]:
+        low -= 1
+    while high + 1 < marked.size and marked[high + 1]:
+        high += 1
+    first = min(max(int(np.floor(place)) - 1, low), max(high + 1 - ORDER, low))
+    return range(first, min(first + ORDER, high + 1))
+
+
+def _lagrange(s: float, count: int) -> Array:
+    """Return Lagrange's weights at a place, counted in steps from the first of some neighbours."""
+    others = [[other for other in range(count) if other != k] for k in range(count)]
+    return np.array([np.prod([(s - o) / (k - o) for o in row]) for k, row in enumerate(others)])

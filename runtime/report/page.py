@@ -9,19 +9,26 @@ from pathlib import Path
 import numpy as np
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
+from numpy.typing import NDArray
 
-from ..files import replacing
+from ..files import Paths, refuse, replacing
 from ..groups import ORDER
+from ..legible import legible
 from ..model import Model
 from ..paper import SPIN_RATE
 from .accuracy import Accuracy, measure
-from .curves import Curve, curves, only_over_rack
+from .curves import Curve, curves, gaps_on, only_over_rack
 from .grid import Grid
 from .motion import DROP, Motion, NoMotion, simulated_second
 from .payload import Look, page_data
 from .plotted import decimals, meaningful, shown_range
 from .poses import Poses, poses, reachable_grid
 from .tables import input_tables, summary
+
+Array = NDArray[np.float64]
+
+ENDINGS = (".html", ".htm")
+"""What the name of a report ends in."""
 
 # What is drawn in these colours, by the kind of suspension.
 _PARTS = {
@@ -39,6 +46,7 @@ class _Samples:
     grid: Grid
     poses: Poses
     curves: list[Curve]
+    gaps: list[Array]
     accuracy: Accuracy
     looks: dict[str, Look]
     motion: Motion | NoMotion
@@ -46,10 +54,12 @@ class _Samples:
 
 def write(
     model: Model,
-    path: Path,
+    path: str | Path,
     *,
     title: str | None = None,
     progress: Callable[[str], None] | None = None,
+    force: bool = False,
+    inputs: Paths = (),
 ) -> Path:
     """Write an HTML report of a suspension.
 
@@ -59,12 +69,17 @@ def write(
     Parameters
     ----------
     model : Model
-    path : Path
-        The file to write; it appears when it is complete. Folders are made.
+    path : str or pathlib.Path
+        The file to write, whose name ends in ``.html``; it appears when it is complete. Folders
+        are made.
     title : str, optional
         Heading of the page; by default it says what the suspension is.
     progress : callable, optional
         Called with a few words on what is being done.
+    force : bool, optional
+        Whether a file that somebody else wrote is replaced, see `kintrafo.files`.
+    inputs : iterable of str or pathlib.Path, optional
+        Files that are never replaced.
 
     Returns
     -------
@@ -73,15 +88,18 @@ def write(
 
     Raises
     ------
+    InputError
+        If the file must not or cannot be written.
     PositionError
         If the suspension cannot move.
     """
     tell = progress or (lambda _: None)
+    refuse([path], force=force, inputs=inputs, endings=ENDINGS)
     text = render(model, title=title, tell=tell)
     tell("writing the page")
-    with replacing(path) as temporary:
+    with replacing(path, force=force, inputs=inputs) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")
-    return path
+    return Path(path)
 
 
 def render(
@@ -92,7 +110,7 @@ def render(
     side = model.suspension.vehicle.side
     template = _environment().get_template("page.html.jinja")
     return template.render(
-        title=title or f"{model.suspension.heading()}, front {side}",
+        title=legible(title or f"{model.suspension.heading()}, front {side}"),
         side=side,
         version=version("kintrafo"),
         samples=samples,
@@ -116,13 +134,15 @@ def _sample(model: Model, tell: Callable[[str], None]) -> _Samples:
     tell("positions over wheel travel and rack displacement")
     sampled = poses(model, travel, rack)
     drawn = curves(model, travel, rack, tell=tell)
+    gaps = gaps_on(model, grid)
     ranges = {curve.key: shown_range(curve.values) for curve in drawn}
-    accuracy = measure(model, grid, sampled, drawn, ranges, tell=tell)
+    accuracy = measure(model, grid, sampled, drawn, gaps, ranges, tell=tell)
     tell("one second of motion")
     return _Samples(
         grid=grid,
         poses=sampled,
         curves=drawn,
+        gaps=gaps,
         accuracy=accuracy,
         looks={c.key: _look(c, grid, ranges[c.key], accuracy) for c in drawn},
         motion=simulated_second(model, grid),
@@ -165,6 +185,7 @@ def _data(model: Model, samples: _Samples) -> str:
         samples.grid,
         samples.poses,
         samples.curves,
+        samples.gaps,
         samples.looks,
         samples.motion,
     )

@@ -44,6 +44,7 @@ def page_data(
     grid: Grid,
     sampled: Poses,
     drawn: list[Curve],
+    gaps: list[Array],
     looks: dict[str, Look],
     motion: Motion | NoMotion,
 ) -> str:
@@ -57,6 +58,8 @@ def page_data(
         On the grid.
     drawn : list of Curve
         Characteristics on the grid.
+    gaps : list of ndarray
+        What is open of the stops, on the grid.
     looks : dict
         How each is shown, by its key.
     motion : Motion or NoMotion
@@ -71,9 +74,11 @@ def page_data(
         "points": {name: _on_grid(values, grid) for name, values in sampled.points.items()},
         "spin_axis": _on_grid(sampled.spin_axis, grid),
         "samples": {c.key: _on_grid(c.smooth, grid) for c in drawn if stored[c.key] == c.key},
+        "gaps": [_on_grid(gap, grid) for gap in gaps],
         "curves": [
             {
                 "over": curve.over,
+                "jumps": curve.jumps,
                 "samples": stored[curve.key],
                 "reciprocal": curve.reciprocal,
                 **_described(curve, looks[curve.key]),

@@ -9,6 +9,7 @@ import { colour, onSchemeChange } from "./theme.js";
 const HEIGHT = 172;
 const MARGIN = 0.07; // above and below a curve, as part of its range
 const MOST_FLATTENED = 2.5; // by what a curve may be flattened to show the reference beside it
+const NEXT_TO = 1e-9; // how far from a jump its two sides are drawn [m]
 const FONT = "11px system-ui, sans-serif";
 
 /** What a chart is drawn over. */
@@ -56,16 +57,33 @@ function sampler(curve, grid, motion) {
     const values = scaled(curve.values);
     return {
       moving: false,
+      places: () => motion.axis.values,
       line: () => values,
       value: ({ time }) => inUnit(curve, motion.axis.interpolate(curve.values, time)),
     };
   }
   const overRack = curve.over === "rack";
+  const axis = grid[curve.over];
+  const held = ({ travel, rack }) => (overRack ? travel : rack);
+  const value = (where, other) =>
+    overRack ? grid.valueAt(curve, other, where) : grid.valueAt(curve, where, other);
+  const smooth = ({ travel, rack }) =>
+    overRack ? grid.overRack(curve.values, travel) : grid.overTravel(curve.values, rack);
   return {
     moving: overRack ? "travel" : "rack",
-    line: ({ travel, rack }) =>
-      scaled(overRack ? grid.overRack(curve.values, travel) : grid.overTravel(curve.values, rack)),
-    value: ({ travel, rack }) => inUnit(curve, grid.at(curve.values, travel, rack)),
+    // a jump of the line, and of the one at design behind it, has a point on either side
+    places: (position) => {
+      const jumps = [held(position), 0].flatMap((at) => grid.closings(curve, curve.over, at));
+      const sides = jumps.flatMap((at) => [at - NEXT_TO, at + NEXT_TO]);
+      return Float64Array.from([...axis.values, ...sides]).sort();
+    },
+    line: (position, places) =>
+      scaled(
+        curve.gaps.length === 0
+          ? smooth(position)
+          : Array.from(places, (where) => value(where, held(position))),
+      ),
+    value: ({ travel, rack }) => inUnit(curve, grid.valueAt(curve, travel, rack)),
   };
 }
 
@@ -115,12 +133,17 @@ class Chart {
 
   #draw() {
     if (!this.#plot) this.#build();
-    const { moving, line } = this.samples;
+    const { moving, places, line } = this.samples;
     const at = moving ? this.position[moving] : 0;
     if (at !== this.#drawnAt) {
       this.#drawnAt = at;
-      this.line = line(this.position).map((v) => this.#inRange(v));
-      this.#plot.setData([this.along.values, this.reference, this.line]);
+      const where = places(this.position);
+      const drawn = (position) => line(position, where).map((v) => this.#inRange(v));
+      this.line = drawn(this.position);
+      // where the curve moves, the one at design stays behind it, faintly
+      this.reference = moving ? drawn({ travel: 0, rack: 0, time: 0 }) : this.line.map(() => null);
+      const abscissas = Array.from(where, (v) => v * this.along.factor);
+      this.#plot.setData([abscissas, this.reference, this.line]);
     }
     this.shown = this.samples.value(this.position);
     this.output.textContent = reading(this.curve, this.shown);
@@ -134,11 +157,7 @@ class Chart {
   }
 
   #build() {
-    const { moving, line } = this.samples;
-    const atDesign = { travel: 0, rack: 0, time: 0 };
-    // where the curve moves, the one at design stays behind it, faintly
-    this.reference = moving ? line(atDesign).map((v) => this.#inRange(v)) : [];
-    if (!moving) this.reference = this.along.values.map(() => null);
+    const nothing = this.along.values.map(() => null);
     const axis = {
       stroke: colour("muted"),
       font: FONT,
@@ -147,7 +166,7 @@ class Chart {
       values: (_, ticks) => ticks.map(plain),
     };
     const curve = { points: { show: false }, pxAlign: 0 };
-    this.line = [];
+    [this.line, this.reference] = [[], []];
     this.#plot = new uPlot(
       {
         width: Math.max(this.host.clientWidth, 1),
@@ -182,7 +201,7 @@ class Chart {
         },
         hooks: { setCursor: [() => this.#hover()], draw: [() => this.#place()] },
       },
-      [this.along.values, this.reference, this.along.values.map(() => null)],
+      [this.along.values, nothing, nothing],
       this.host,
     );
     const over = this.#plot.over;

@@ -15,9 +15,14 @@ export class Axis {
     return Math.min(Math.max(where, this.first), this.last);
   }
 
+  /** A coordinate in steps from the first value. */
+  place(where) {
+    return (where - this.first) / this.step;
+  }
+
   /** First of the four neighbours, and Lagrange's cubic polynomials there. */
   weights(where) {
-    const place = (where - this.first) / this.step;
+    const place = this.place(where);
     const first = Math.min(Math.max(Math.floor(place) - 1, 0), this.count - ORDER);
     const s = place - first;
     return {
@@ -59,6 +64,57 @@ export class Grid {
     return sum;
   }
 
+  /** One interpolated value of a curve, which may jump where one of its gaps closes. */
+  valueAt({ values, gaps }, travel, rack) {
+    const plain = this.at(values, travel, rack);
+    if (gaps.length === 0) return plain;
+    const here = gaps.map((gap) => this.at(gap, travel, rack) <= 0);
+    const same = (index) => gaps.every((gap, k) => gap[index] <= 0 === here[k]);
+    if (this.#neighbours(travel, rack).every(same)) return plain;
+    return this.#oneSided(values, same, travel, rack) ?? plain;
+  }
+
+  /** Which samples take part in the plain interpolation of a place. */
+  #neighbours(travel, rack) {
+    const [t, r] = [this.travel.weights(travel).first, this.rack.weights(rack).first];
+    const four = [0, 1, 2, 3];
+    return four.flatMap((i) => four.map((k) => (t + i) * this.rack.count + r + k));
+  }
+
+  /** A value from the points alone that are on the same side of a jump; null if there is none. */
+  #oneSided(values, same, travel, rack) {
+    const index = (line, column) => line * this.rack.count + column;
+    const lines = Array.from({ length: this.travel.count }, (_, line) => line);
+    const marked = (column) => lines.map((line) => same(index(line, column)));
+    const columns = Array.from({ length: this.rack.count }, (_, column) => marked(column));
+    const [line, column] = [this.travel.place(travel), this.rack.place(rack)];
+    const across = run(
+      columns.map((flags) => flags.includes(true)),
+      column,
+    );
+    if (!across) return null;
+    const found = indices(across).map((c) => {
+      const along = run(columns[c], line);
+      return combined(
+        line - along.first,
+        indices(along).map((i) => values[index(i, c)]),
+      );
+    });
+    return combined(column - across.first, found);
+  }
+
+  /** Where a gap closes between neighbours of an axis, the other coordinate held. */
+  closings({ gaps }, over, held) {
+    const axis = this[over];
+    const at = (gap, where) =>
+      over === "travel" ? this.at(gap, where, held) : this.at(gap, held, where);
+    return gaps.flatMap((gap) =>
+      Array.from(axis.values.subarray(1), (high, i) => [axis.values[i], high])
+        .filter(([low, high]) => at(gap, low) <= 0 !== at(gap, high) <= 0)
+        .map(([low, high]) => bisected((where) => at(gap, where) <= 0, low, high)),
+    );
+  }
+
   /** An interpolated vector of three components. */
   vectorAt(samples, travel, rack) {
     return [0, 1, 2].map((component) => this.at(samples, travel, rack, 3, component));
@@ -79,4 +135,45 @@ export class Grid {
       weights.reduce((sum, w, k) => sum + w * samples[(first + k) * this.rack.count + j], 0),
     );
   }
+}
+
+/** Up to four neighbours, all of them marked, as near to a place as there are; null for none. */
+function run(marked, place) {
+  let nearest = null;
+  marked.forEach((flag, i) => {
+    if (flag && (nearest === null || Math.abs(i - place) < Math.abs(nearest - place))) nearest = i;
+  });
+  if (nearest === null) return null;
+  let [low, high] = [nearest, nearest];
+  while (marked[low - 1]) low -= 1;
+  while (marked[high + 1]) high += 1;
+  const first = Math.min(Math.max(Math.floor(place) - 1, low), Math.max(high + 1 - ORDER, low));
+  return { first, last: Math.min(first + ORDER - 1, high) };
+}
+
+function indices({ first, last }) {
+  return Array.from({ length: last - first + 1 }, (_, k) => first + k);
+}
+
+/** Lagrange's polynomial through neighbouring values, at a place counted from the first of them. */
+function combined(s, values) {
+  return values.reduce((sum, value, k) => {
+    const weight = values.reduce(
+      (w, _, other) => (other === k ? w : (w * (s - other)) / (k - other)),
+      1,
+    );
+    return sum + weight * value;
+  }, 0);
+}
+
+/** The place between two others at which a condition changes. */
+function bisected(condition, low, high) {
+  const before = condition(low);
+  let [from, to] = [low, high];
+  for (let count = 0; count < 50; count += 1) {
+    const middle = 0.5 * (from + to);
+    if (condition(middle) === before) from = middle;
+    else to = middle;
+  }
+  return 0.5 * (from + to);
 }

@@ -62,7 +62,7 @@ function connectTable() {
 }
 
 function value(curve) {
-  return inUnit(curve, position.grid.at(curve.values, position.travel, position.rack));
+  return inUnit(curve, position.grid.valueAt(curve, position.travel, position.rack));
 }
 
 window.kintrafo = {

@@ -5,10 +5,14 @@ export function readPayload() {
   const data = JSON.parse(document.getElementById("payload").textContent);
   for (const point of Object.values(data.points)) point.values = unpack(point);
   data.spin_axis.values = unpack(data.spin_axis);
+  data.gaps = data.gaps.map(unpack);
   const samples = Object.fromEntries(
     Object.entries(data.samples).map(([key, packed]) => [key, unpack(packed)]),
   );
-  for (const curve of data.curves) curve.values = samples[curve.samples];
+  for (const curve of data.curves) {
+    curve.values = samples[curve.samples];
+    curve.gaps = curve.jumps ? data.gaps : [];
+  }
   if (data.motion) {
     for (const name of ["travel", "rack", "spin"]) data.motion[name] = unpack(data.motion[name]);
     for (const signal of data.motion.signals) signal.values = unpack(signal);

@@ -1,0 +1,80 @@
+#include "margins.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* As in the emitted code: what a guarded quantity must be over. */
+#define GUARD_FLOOR 1.0e-24
+
+/*
+ * Part of the time that is left, margin over rate, which a step may take. The root of a margin is used
+ * up in twice that time: a step takes a quarter of it.
+ */
+#define PART 0.5
+
+/*
+ * Part of its greatest value below which a margin that falls is taken for zero. It is a difference of
+ * numbers of that size or some ten times that, each with a rounding of 1e-16: a thousand times less. The
+ * height that is its root is then a millionth of what it has been.
+ */
+#define NOTHING 1.0e-12
+
+int kt_open_margins(kt_margins *m, int count, const int *meaning, const double *scale)
+{
+    size_t size = (size_t)count * sizeof *m->now;
+    double *memory = malloc(4 * size + 1);
+    if (!memory) {
+        return 0;
+    }
+    *m = (kt_margins){count,          meaning,            memory, memory + count,
+                      memory + 2 * count, memory + 3 * count};
+    memcpy(m->greatest, scale, size);
+    return 1;
+}
+
+void kt_close_margins(kt_margins *m) { free(m->now); }
+
+int kt_crossed(const kt_margins *m, const double *values)
+{
+    for (int i = 0; i < m->count; ++i) {
+        if ((m->meaning[i] & KT_ACTS) && !(values[i] > GUARD_FLOOR)) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+int kt_reflected(const kt_margins *m, double lapse, double step)
+{
+    for (int i = 0; i < m->count; ++i) {
+        double gained = m->ahead[i] - m->now[i];
+        if ((m->meaning[i] & KT_PLACES) && 2.0 * m->now[i] * lapse < gained * step) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+double kt_longest_step(kt_margins *m, double lapse, int *nearest, int *over)
+{
+    double longest = INFINITY;
+    *over = 0;
+    for (int i = 0; i < m->count; ++i) {
+        double now = m->now[i], lost = now - m->ahead[i];
+        if (now > m->greatest[i]) {
+            m->greatest[i] = now;
+        }
+        if (!(m->meaning[i] & KT_PLACES) || !(lost > 0.0)) {
+            continue;
+        }
+        double step = PART * now * lapse / lost;
+        int nothing = now <= NOTHING * m->greatest[i];
+        if (nothing > *over || (nothing == *over && step < longest)) {
+            longest = step;
+            *nearest = i;
+            *over = nothing;
+        }
+    }
+    return longest;
+}

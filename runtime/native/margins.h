@@ -1,0 +1,51 @@
+/*
+ * How near a state is to where a loop cannot close, and for how long a step may be trusted there.
+ *
+ * A closed form takes the root of a margin with a sign that is chosen once. At a dead point the true
+ * motion passes to the other sign: the root, the height s of a triangle, goes through zero with a
+ * finite velocity. The equations know only s^2, which is smooth, so that a solver which steps over the
+ * dead point finds the reflected motion and sees nothing wrong with it. A motion that turns before
+ * the dead point has a bounded acceleration of s and is slow there. What tells the two apart is the
+ * time in which s would be used up, s over its velocity, that is twice the margin over its rate:
+ * it shrinks to nothing before a dead point and opens again before a turn. So no step is longer than a
+ * part of it; and a step at whose end s comes out of zero within the step is not believed.
+ */
+#ifndef KINTRAFO_MARGINS_H
+#define KINTRAFO_MARGINS_H
+
+/* What a guard of the model means for an integration; a guard may have both bits. */
+enum {
+    KT_ACTS = 1,  /* where its margin is not positive, the model refuses to be evaluated */
+    KT_PLACES = 2 /* it chooses a branch of where bodies are */
+};
+
+typedef struct {
+    int count;
+    const int *meaning; /* of each guard, bits as above */
+    double *now;        /* margins of a state */
+    double *ahead;      /* those of the same motion a short time later */
+    double *between;    /* those of an output within a step */
+    double *greatest;   /* so far: the size of the numbers that a margin is a difference of */
+} kt_margins;
+
+/* Return whether there is memory; `scale` has margins of the size that is usual. */
+int kt_open_margins(kt_margins *m, int count, const int *meaning, const double *scale);
+
+void kt_close_margins(kt_margins *m);
+
+/* Return a guard whose margin, one of `values`, is not positive where it must be; -1: none. */
+int kt_crossed(const kt_margins *m, const double *values);
+
+/*
+ * Return a guard that says that a step has passed a dead point: its margin rises as if it had been
+ * zero within the step. -1: none. `lapse` is the time from `now` to `ahead`, `step` that of the step.
+ */
+int kt_reflected(const kt_margins *m, double lapse, double step);
+
+/*
+ * Return how long the next step may be, infinite where no margin falls. `nearest` is the guard that
+ * limits it, and `over` tells whether its margin has come down to what rounding makes of zero.
+ */
+double kt_longest_step(kt_margins *m, double lapse, int *nearest, int *over);
+
+#endif

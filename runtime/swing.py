@@ -1,0 +1,152 @@
+"""How far a coordinate can be moved before something ends: a march that steps over nothing.
+
+Along one coordinate, a mechanism is looked at in some places: whether its loops close, how far the
+quantities are from zero that must be positive, and a height that should change one way only. Two
+neighbours that are both fine say nothing about what is between them, unless everything is smooth on
+the scale of their distance. That can be seen: the mean of two slopes and the chord between them
+belong to one smooth curve (the trapezoidal rule), and so do three values of a margin.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+GOAL, UNRESOLVED = -2, -3
+"""What ends a march besides a limit: nothing, and steps that have become too small."""
+
+# The chord misses the mean of two slopes by h^2 s'' / 12, and the slope between them misses it by
+# h^2 s'' / 8 at most: it keeps its sign if the first is less than 2/3 of the flatter slope. A third
+# of that, because s'' is not the same all over.
+_SMOOTH = 0.2
+# A parabola dips below its lower neighbour by at most 1/8 of its second difference; twice that.
+_DIP = 0.25
+# More than rounding does to a height of some metres [m].
+_ROUNDING = 1e-13
+# Steps of a march looked at together, and the smallest step [rad].
+_TOGETHER = 8
+_SMALLEST = 3e-13
+_FASTER = 4.0
+# A march needs some thirty of them.
+_MOST_LOOKS = 400
+
+
+class Seen(NamedTuple):
+    """What there is at some places; the last axis of the first four is along the coordinate.
+
+    Attributes
+    ----------
+    usable : ndarray of bool
+        Whether the place can be taken.
+    limit : ndarray of int
+        Why not, otherwise.
+    height, slope : ndarray
+        What should change one way only, and its derivative; mean nothing where not usable.
+    margins : ndarray, shape (..., places, margins)
+        Must be positive.
+    """
+
+    usable: NDArray[np.bool_]
+    limit: NDArray[np.int64]
+    height: Array
+    slope: Array
+    margins: Array
+
+
+def resolved(width: Array, seen: Seen) -> NDArray[np.bool_]:
+    """Tell between which neighbours nothing can be that they do not show.
+
+    Parameters
+    ----------
+    width : ndarray
+        Signed distance of two neighbours, equal along the last axis; broadcast with it.
+    seen : Seen
+
+    Returns
+    -------
+    ndarray of bool
+        One element less along the last axis; false where one of the two is not usable.
+    """
+    both = seen.usable[..., :-1] & seen.usable[..., 1:]
+    low, high = np.abs(seen.slope[..., :-1]), np.abs(seen.slope[..., 1:])
+    mean = 0.5 * (seen.slope[..., :-1] + seen.slope[..., 1:])
+    missed = np.abs(np.diff(seen.height, axis=-1) - mean * width)
+    smooth = missed <= _SMOOTH * np.minimum(low, high) * np.abs(width) + _ROUNDING
+    return both & smooth & margins_stay(seen.margins)
+
+
+def margins_stay(margins: Array) -> NDArray[np.bool_]:
+    """Tell between which neighbours all margins stay positive.
+
+    Parameters
+    ----------
+    margins : ndarray, shape (..., places, margins)
+        At equal distances; three places or more.
+
+    Returns
+    -------
+    ndarray of bool, shape (..., places - 1)
+    """
+    bend = np.maximum(np.diff(margins, 2, axis=-2), 0.0)
+    first, last = bend[..., :1, :], bend[..., -1:, :]
+    around = np.maximum(
+        np.concatenate([first, bend], axis=-2), np.concatenate([bend, last], axis=-2)
+    )
+    lower = np.minimum(margins[..., :-1, :], margins[..., 1:, :])
+    stay: NDArray[np.bool_] = (lower - _DIP * around > 0.0).all(axis=-1)
+    return stay
+
+
+def march(
+    look: Callable[[Array, NDArray[np.int64]], Seen], start: Array, goal: Array, step: float
+) -> tuple[Array, NDArray[np.int64]]:
+    """Go from each start towards its goal until something ends.
+
+    Parameters
+    ----------
+    look : callable
+        Given places, shape (rows, places), and which of the starts the rows belong to, returns
+        what is there.
+    start, goal : ndarray, shape (starts,)
+        The starts are usable.
+    step : float
+        First and greatest distance of two places.
+
+    Returns
+    -------
+    reached : ndarray, shape (starts,)
+        The last place up to which everything is usable, to `_SMALLEST`.
+    limit : ndarray of int
+        What ends there: as in `Seen`, or `GOAL` or `UNRESOLVED`.
+    """
+    reached = start.copy()
+    width = np.full(start.shape, step)
+    limit = np.full(start.shape, UNRESOLVED)
+    rows = np.arange(start.size)
+    for _ in range(_MOST_LOOKS):
+        left = goal[rows] - reached[rows]
+        limit[rows[left == 0.0]] = GOAL
+        rows, left = rows[left != 0.0], left[left != 0.0]
+        if rows.size == 0:
+            break
+        steps = np.sign(left) * np.minimum(width[rows], np.abs(left) / _TOGETHER)
+        places = reached[rows, None] + steps[:, None] * np.arange(_TOGETHER + 1)
+        ends = np.abs(steps) * _TOGETHER >= np.abs(left)
+        places[ends, -1] = goal[rows][ends]
+        seen = look(places, rows)
+        fine = resolved(steps[:, None], seen)
+        count = np.logical_and.accumulate(fine, axis=1).sum(axis=1)
+        reached[rows] = places[np.arange(rows.size), count]
+        stuck, all_fine = count == 0, count == _TOGETHER
+        factor = np.where(stuck, 1.0 / _TOGETHER, np.where(all_fine, _FASTER, 1.0))
+        width[rows] = np.minimum(np.abs(steps) * factor, step)
+        done = stuck & (width[rows] < _SMALLEST)
+        # of what is just behind, if nothing can be told of the step before it
+        wrong = ~seen.usable
+        first = seen.limit[np.arange(rows.size), wrong.argmax(axis=1)]
+        limit[rows[done]] = np.where(wrong.any(axis=1), first, UNRESOLVED)[done]
+        rows = rows[~done]
+    return reached, limit

@@ -1,0 +1,119 @@
+"""SciPy's methods with steps that end before a dead point, and at milestones."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import DOP853, LSODA, RK45, BDF, OdeSolver, Radau
+
+from .dead_points import LAPSE, SMALLEST_PART, Approach, DeadPoint
+from .generated._support import ModelError
+
+Array = NDArray[np.float64]
+
+_METHODS = {"RK45": RK45, "DOP853": DOP853, "Radau": Radau, "BDF": BDF, "LSODA": LSODA}
+# As in ``native/integrate.c``: parts of the whole time and of the longest step.
+_SMALLEST_OF_TIME, _SMALLEST_OF_STEP = 1e-9, 1e-6
+_NEAR = 1e-3
+_SHORTER = 0.25
+_COUNTS = ("nfev", "njev", "nlu")
+
+
+def watched(
+    name: str, approach: Approach, last_tried: Callable[[], float], milestones: Array
+) -> type[OdeSolver]:
+    """Return a method of SciPy whose steps are limited, and taken back, as those of SUNDIALS are.
+
+    Parameters
+    ----------
+    name : str
+        Of the method.
+    approach : Approach
+    last_tried : callable
+        Returns the time at which the right-hand side was evaluated last.
+    milestones : ndarray
+        Times that no step passes over, in the order of the integration [s].
+
+    Returns
+    -------
+    type
+        For ``solve_ivp``; its ``step`` raises `DeadPoint`, or `ModelError` where a state is refused
+        however short the step.
+    """
+    base: Any = _METHODS[name]
+
+    class Watched(base):  # type: ignore[misc]  # one of five bases
+        def __init__(self, fun: Any, t0: float, y0: Array, t_bound: float, **options: Any) -> None:
+            self._given, self._end, self._options = fun, t_bound, options
+            self._before = dict.fromkeys(_COUNTS, 0)
+            self._goals = [*milestones.tolist(), t_bound]
+            super().__init__(fun, t0, y0, t_bound, **options)
+            self._whole, self._longest = abs(t_bound - t0), 0.0
+            self._look(_SMALLEST_OF_STEP * self._whole)
+
+        def step(self) -> str | None:
+            while True:
+                time, state = self.t, self.y
+                try:
+                    message: str | None = self._limited()
+                except ModelError:
+                    self._anew(time, state, abs(last_tried() - time))
+                    continue
+                if self.status == "failed":
+                    return message
+                step = abs(self.t - time)
+                lapse = LAPSE * step
+                now, gained = approach.look(self.t, self.y, lapse)
+                guard = approach.doubt(now, gained, lapse, step)
+                if guard is None:
+                    self._longest = max(self._longest, step)
+                    self._limit(now, gained, lapse)
+                    return message
+                if _SHORTER * step < self._smallest():
+                    raise DeadPoint(guard, time, state)
+                self._anew(time, state, step)
+
+        def _limited(self) -> str | None:
+            """Take a step that is no longer than what is trusted."""
+            while len(self._goals) > 1 and self.direction * (self._goals[0] - self.t) <= 0.0:
+                del self._goals[0]
+            stop = self.t + self.direction * self._trusted
+            inside = self.direction * (self._goals[0] - stop) > 0.0
+            self._bound(stop if inside else self._goals[0])
+            message: str | None = super().step()
+            self._bound(self._end)
+            if self.status == "finished" and self.direction * (self._end - self.t) > 0.0:
+                self.status = "running"
+            return message
+
+        def _bound(self, time: float) -> None:
+            self.t_bound = time
+            if base is LSODA:  # it keeps the time that it must not pass in its workspace
+                self._lsoda_solver._integrator.rwork[0] = time
+
+        def _anew(self, time: float, state: Array, step: float) -> None:
+            """Begin anew with a shorter step; raise what is being handled if it is too short."""
+            step *= _SHORTER
+            if step < self._smallest():
+                raise  # noqa: PLE0704 (called where an error is handled, or after the same check)
+            counts = {name: self._before[name] + getattr(self, name) for name in _COUNTS}
+            options = self._options | {"first_step": step}
+            super().__init__(self._given, time, state, self._end, **options)
+            self._before = counts
+
+        def _smallest(self) -> float:
+            of_time = _SMALLEST_OF_TIME * self._whole
+            return min(of_time, _SMALLEST_OF_STEP * self._longest) if self._longest else of_time
+
+        def _look(self, lapse: float) -> None:
+            self._limit(*approach.look(self.t, self.y, lapse), lapse)
+
+        def _limit(self, now: Array, gained: Array, lapse: float) -> None:
+            self._trusted, guard, over = approach.longest_step(now, gained, lapse)
+            stuck = lapse < LAPSE * self._smallest() and self._trusted < _NEAR * self._longest
+            over = over or stuck or self._trusted < SMALLEST_PART * abs(self.t)
+            if guard is not None and over:
+                raise DeadPoint(guard, self.t, self.y)
+
+    return Watched

@@ -1,0 +1,296 @@
+"""Drops and kicks around dead points, by every method, against a tight reference.
+
+A motion is drawn whose start lies somewhere between the design position and a dead point, with rates
+that may carry it there. The reference is SciPy's DOP853 at 1e-12 with short steps around the bare
+right-hand side: it shares no code with what watches the margins in an integration. It ends where
+a height, the root of a margin, goes through zero, which it sees in a straight line of the height
+over time. What a result says has to agree: it ends there with an error, or it goes on and
+its states are those of the reference, and its signals can be had at all of its outputs.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import numpy as np
+from kintrafo import Model, SimulationError, System, simulate
+from kintrafo.generated import (
+    andrews,
+    excavator,
+    four_bar,
+    front_axle,
+    macpherson_free_rack,
+    slider_crank,
+)
+from kintrafo.generated._support import ModelError
+from kintrafo.solvers import native_methods
+from scipy.integrate import DOP853
+
+from ..attempts import WrongError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+SHORT = 16
+SECONDS = 60.0
+
+_MODULES = (four_bar, slider_crank, andrews, excavator, front_axle, macpherson_free_rack)
+_CARS = ("reference_car", "double_wishbone_car", "offset_strut_car")
+METHODS = tuple(dict.fromkeys([*native_methods(), "Radau", "LSODA", "RK45", "DOP853"]))
+
+
+@cache
+def systems() -> tuple[System, ...]:
+    """Return what is moved."""
+    return (*(System(module) for module in _MODULES), *(Model(name) for name in _CARS))
+
+
+@dataclass(frozen=True)
+class Motion:
+    """What is tried.
+
+    Attributes
+    ----------
+    system : System
+    start : ndarray
+        The state at time zero.
+    end : float
+        Last time; before zero for a motion that is followed backwards [s].
+    method : str
+    rtol : float
+    outputs : ndarray or None
+    """
+
+    system: System
+    start: Array
+    end: float
+    method: str
+    rtol: float
+    outputs: Array | None
+
+    @property
+    def atol(self) -> float:
+        """The absolute tolerance."""
+        return 1e-3 * self.rtol
+
+
+def drawn(random: np.random.Generator) -> Motion:
+    """Return a random motion."""
+    system = systems()[random.integers(len(systems()))]
+    start = _start(system, random)
+    end = 10.0 ** random.uniform(-1.5, -0.3) * (1.0 if random.random() < 0.9 else -1.0)
+    outputs = None
+    if random.random() < 0.5:
+        outputs = np.linspace(0.0, end, int(random.integers(2, 400)))
+    return Motion(
+        system,
+        start,
+        end,
+        str(random.choice(METHODS)),
+        10.0 ** random.uniform(-10.0, -3.0),
+        outputs,
+    )
+
+
+def _start(system: System, random: np.random.Generator) -> Array:
+    """Return a state on the way from design to where the loops close no more, and rates."""
+    half = system.design_state.size // 2
+    design = system.design_state[:half]
+    way = random.normal(size=half) * _reach(system)
+    near, far = 0.0, 1.0
+    while _closes(system, design + far * way) and far < 64.0:
+        far *= 2.0
+    for _ in range(40):
+        middle = 0.5 * (near + far)
+        near, far = (middle, far) if _closes(system, design + middle * way) else (near, middle)
+    share = 1.0 - 10.0 ** random.uniform(-4.0, 0.0)
+    rates = random.normal(size=half) * _reach(system) * 10.0 ** random.uniform(-1.0, 2.0)
+    if random.random() < 0.3:
+        rates = np.zeros(half)
+    return np.concatenate([design + share * near * way, rates])
+
+
+def _reach(system: System) -> Array:
+    """Return by how much each coordinate may be moved at a time."""
+    names = system.state_names[: system.design_state.size // 2]
+    units = [system.equations.STATE[name]["unit"] for name in names]
+    return np.array([0.1 if unit == "rad" else 0.02 for unit in units])
+
+
+def _closes(system: System, coordinates: Array) -> bool:
+    state = np.concatenate([coordinates, np.zeros_like(coordinates)])
+    try:
+        system.evaluate("rhs", state)
+    except ModelError:
+        return False
+    return True
+
+
+# -- the reference --------------------------------------------------------------------------------
+
+# Steps of the reference, as parts of the time: so short that a height is a straight line over some
+# of them, and so short that it is one down to zero. A motion that needs very many is not judged.
+_LONGEST, _SHORTEST, _MOST = 1.0 / 300.0, 1e-5, 4000
+
+
+@dataclass(frozen=True)
+class Reference:
+    """The tight reference.
+
+    Attributes
+    ----------
+    time : float
+        When the motion came to its dead point, or its end [s].
+    dead : bool
+        Whether it did.
+    state : ndarray
+        The state there.
+    """
+
+    time: float
+    dead: bool
+    state: Array
+
+
+def reference(motion: Motion) -> Reference | None:
+    """Follow a motion as well as double precision can; None for one that is too fast for that."""
+    system, sign, whole = motion.system, np.sign(motion.end), abs(motion.end)
+    time, state, step = 0.0, motion.start, _SHORTEST * whole
+    solver = _begun(motion, time, state, step)
+    for _ in range(_MOST):
+        failed = False
+        try:
+            solver.step()
+        except ModelError:
+            failed = True
+        took = step if failed else abs(solver.t - time)
+        if failed or _through_zero(system, (time, state), (solver.t, solver.y)):
+            step = 0.25 * took
+            if step < _SHORTEST * whole:
+                left = _left(system, state, sign * step)
+                return Reference(time + sign * min(left, step), dead=True, state=state)
+            solver = _begun(motion, time, state, step)
+            continue
+        time, state, step = solver.t, solver.y, took
+        left = _left(system, state, sign * step)
+        if left < _SHORTEST * whole:
+            return Reference(time + sign * left, dead=True, state=state)
+        if solver.status == "finished":
+            return Reference(time, dead=False, state=state)
+    return None
+
+
+def _begun(motion: Motion, time: float, state: Array, step: float) -> Any:
+    return DOP853(
+        lambda _, y: motion.system.evaluate("rhs", y),
+        time,
+        state,
+        motion.end,
+        max_step=_LONGEST * abs(motion.end),
+        first_step=min(step, abs(motion.end - time)),
+        rtol=1e-11,
+        atol=1e-13,
+    )
+
+
+def _heights(system: System, state: Array, lapse: float) -> tuple[Array, Array]:
+    """Return the roots of the margins that choose where bodies are, and their rates."""
+    acting = system.equations.ACTING_GUARDS
+    chosen = sorted(set(acting["rhs"]) & set(acting["positions"]))
+    half = state.size // 2
+    move = np.concatenate([lapse * state[half:], np.zeros(half)])
+    now, ahead = (system.evaluate("margins", y)[chosen] for y in (state, state + move))
+    height = np.sqrt(np.maximum(now, 0.0))
+    return height, (ahead - now) / (2.0 * lapse * np.maximum(height, 1e-300))
+
+
+def _through_zero(system: System, before: tuple[float, Array], after: tuple[float, Array]) -> bool:
+    """Tell whether a height falls to zero and rises from it within a step, seen from both ends."""
+    step = after[0] - before[0]
+    if step == 0.0:
+        return True
+    height, rate = _heights(system, before[1], step / 64.0)
+    falls = height + step * rate <= 0.0
+    if not falls.any():
+        return False
+    height, rate = _heights(system, after[1], -step / 64.0)
+    return bool((falls & (height - step * rate <= 0.0)).any())
+
+
+def _left(system: System, state: Array, step: float) -> float:
+    """Return the time until a height is zero, by a straight line."""
+    height, rate = _heights(system, state, step / 64.0)
+    speed = -rate * np.sign(step)
+    falling = speed > 0.0
+    return float((height[falling] / speed[falling]).min(initial=np.inf))
+
+
+# -- the attempt ----------------------------------------------------------------------------------
+
+
+def attempt(random: np.random.Generator) -> None:
+    motion = drawn(random)
+    try:
+        motion.system.evaluate("rhs", motion.start)
+    except ModelError:
+        return
+    expected = reference(motion)
+    if expected is None:
+        return
+    try:
+        result = simulate(
+            motion.system,
+            (0.0, motion.end),
+            motion.start,
+            method=motion.method,
+            rtol=motion.rtol,
+            atol=motion.atol,
+            t_eval=motion.outputs,
+            max_steps=200_000,
+        )
+    except SimulationError as error:
+        _judge_refusal(motion, expected, error)
+        raise
+    _judge_result(motion, expected, result)
+
+
+def _wrong(motion: Motion, text: str) -> NoReturn:
+    name = motion.system.equations.NAME
+    raise WrongError(f"{name} by {motion.method} at {motion.rtol:.1e} to {motion.end:g} s: {text}")
+
+
+def _judge_refusal(motion: Motion, expected: Reference, error: SimulationError) -> None:
+    text = f"refused at {error.time:.9g} s ({str(error)[:300]})"
+    if not expected.dead:
+        _wrong(motion, f"{text}, and the reference goes on")
+    late = abs(error.time) - abs(expected.time)
+    if abs(late) > _slack(motion):
+        _wrong(motion, f"{text}, and the reference at {expected.time:.9g} s")
+
+
+def _judge_result(motion: Motion, expected: Reference, result: Any) -> None:
+    if expected.dead:
+        _wrong(motion, f"goes on, and the reference ends at {expected.time:.9g} s")
+    try:
+        result.signals.values()
+        list(result.signals.items())
+    except ModelError as error:
+        _wrong(motion, f"success, and signals that cannot be had: {error}")
+    end = expected.state
+    off = np.abs(result.y[:, -1] - end).max()
+    # rates change by some thousand a second near a dead point
+    if off > 1e3 * _slack(motion) * (1.0 + np.abs(end).max()):
+        _wrong(motion, f"ends {off:.3g} off the reference")
+
+
+def _slack(motion: Motion) -> float:
+    """Return by how much times may differ [s].
+
+    Errors of a step add up to some hundred tolerances over an oscillation or two; and the
+    reference ends a 100,000th of its time before a dead point, and goes on in a straight line.
+    """
+    return abs(motion.end) * (300.0 * motion.rtol + 1e-4)
