@@ -68,13 +68,17 @@ def test_a_spherical_four_bar_goes_all_the_way_round() -> None:
     assert_same_turns(found, middle + side * half)
 
 
-PLANAR = [f for f in FAMILIES if f.model in (own_loops.STEPHENSON, own_loops.THREE_RRR)]
+PLANAR = [
+    family
+    for family in FAMILIES
+    if family.model in (own_loops.STEPHENSON, own_loops.IN_A_ROW, own_loops.THREE_RRR)
+]
 
 
 @pytest.mark.parametrize("family", PLANAR, ids=[f.model.name for f in PLANAR])
 def test_regular_positions_of_planar_linkages_are_answered(family: following.Family) -> None:
-    found = sum((judged(family, np.random.default_rng(seed)) for seed in range(4)), Judged())
-    assert found.regular > 5
+    found = sum((judged(family, np.random.default_rng(seed)) for seed in range(3)), Judged())
+    assert found.regular > 3
     assert found.answered == found.regular
     assert found.wrong == 0
 
