@@ -1,7 +1,7 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
 .PHONY: drawings help setup generate build run test test-elsewhere fuzz package lint types format baseline clean \
-	benchmark benchmark-andrews benchmark-bits benchmark-growth benchmark-page benchmark-peers benchmark-speed format-page front-axle-page report-assets
+	benchmark benchmark-andrews benchmark-bits benchmark-growth benchmark-loops benchmark-page benchmark-peers benchmark-speed format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
 EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/native/*.pyx runtime/native/*.[ch])
@@ -69,6 +69,9 @@ benchmark-peers: build ## The same suspension in CasADi, Exudyn, SymPy and Pinoc
 benchmark-andrews: build ## Andrews' squeezer here and as a differential-algebraic equation
 	@.venv/bin/pip install -q -e ".[peers]" --no-build-isolation
 	@$(PYTHON) -m benchmarks.andrews --out out/benchmark --page docs/andrews.md
+
+benchmark-loops: build ## Loops without a closed form against paths in maximal coordinates
+	@PYTHONPATH=tests $(PYTHON) -m benchmarks.loops --page docs/own-mechanism.md $(ARGS)
 
 benchmark-growth: build ## A chain of 1 to 40 loops: derivation, code and run time against its length
 	@$(PYTHON) -m benchmarks.growth --out out/benchmark --page docs/growth.md

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 from kintrafo import simulate, state_at_height
+from kintrafo.dead_points import meanings
 from kintrafo.model import Model
 from kintrafo.paper import (
     DURATION,
@@ -118,7 +119,7 @@ def native_call(
 ) -> Callable[[], dict[str, Any]]:
     """Return a function that integrates in C, with nothing of `simulate` around it."""
     equations = case.model.equations
-    names = ("rhs_rack_held", "rhs_jacobian_rack_held", "signals")
+    names = ("rhs_rack_held", "rhs_jacobian_rack_held", "signals", "margins")
     addresses = tuple(equations.ADDRESSES[name] for name in names)
     atol = np.full(case.start.shape, rtol * ATOL_PER_RTOL)
     none = np.zeros(1, dtype=np.int32)
@@ -129,6 +130,7 @@ def native_call(
             case.model.constants,
             case.inputs,
             [],
+            np.zeros(0),  # milestones
             case.start,
             times,
             method=SUNDIALS_METHODS[method],
@@ -145,6 +147,8 @@ def native_call(
             roots=(),
             directions=none,
             terminal=none,
+            guards=np.append(meanings(equations), np.int32(0)),
+            usual_margins=case.model.usual_margins,
         )
         if raw["outcome"] != "done":
             raise RuntimeError(f"{method}, rtol {rtol:g}: {raw['outcome']}")

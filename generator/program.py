@@ -135,12 +135,15 @@ class ConstantStage:
         What stands for other symbols that the equations name like parameters.
     steps
         The steps, in order.
+    blocks
+        The iterations of all programs, by their names.
     """
 
     parameters: tuple[sp.Symbol, ...]
     reserved: frozenset[str] = frozenset()
     derived: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
     steps: dict[sp.Symbol, Step] = field(default_factory=dict)
+    blocks: dict[str, Block] = field(default_factory=dict)
     _known: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
     _varying: set[str] = field(default_factory=set)  # names of steps of the programs
     _collected: int = 0
@@ -244,7 +247,6 @@ class Program:
     constants: ConstantStage
     steps: dict[sp.Symbol, Step] = field(default_factory=dict)
     guards: dict[sp.Symbol, Guard] = field(default_factory=dict)
-    blocks: dict[str, Block] = field(default_factory=dict)
     _section: str = ""
     _known: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
 
@@ -301,10 +303,9 @@ class Program:
         self.guards.setdefault(symbol, Guard(symbol, name, meaning, unit))
         return Guarded(symbol)
 
-    def iterated(self, name: str, block: Block, given: Iterable[sp.Expr]) -> dict[str, sp.Expr]:
+    def iterated(self, name: str, block: Block) -> dict[str, sp.Expr]:
         """Append the call of a block that iterates, and return its results by name."""
-        self.blocks[block.name] = block
-        results = self.define(name, Iterated(block.symbol, *given))
+        results = self.define(name, Iterated(block.symbol, *block.given))
         return {
             label: self.define(f"{name}_{label}", Component(results, place))
             for place, label in enumerate(block.results)
@@ -407,7 +408,7 @@ class Program:
             tuple(results),
             tuple(shape) if shape is not None else (len(expressions),),
             guards,
-            blocks=tuple(block for n, block in self.blocks.items() if n in called),
+            blocks=tuple(block for n, block in self.constants.blocks.items() if n in called),
         )
 
     # -- constants ------------------------------------------------------------------------------

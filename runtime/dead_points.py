@@ -3,6 +3,8 @@
 This is what ``native/margins.h`` explains and does for SUNDIALS, for the methods of SciPy.
 """
 
+from functools import cache
+from types import ModuleType
 from typing import Any, NoReturn
 
 import numpy as np
@@ -23,27 +25,21 @@ SMALLEST_PART = 1e-14
 LAPSE = 1.0 / 16.0
 
 
-def meanings(model: System) -> NDArray[np.int32]:
-    """Return what each guard of a model means for an integration.
+@cache
+def meanings(equations: ModuleType) -> NDArray[np.int32]:
+    """Return what each guard of some equations means for an integration.
 
     Bit 1: where its margin is not positive, the right-hand side or the signals refuse a state. Bit
     2: it chooses a branch of where bodies are, and the right-hand side depends on it.
     """
-    acting = model.equations.ACTING_GUARDS
+    acting = equations.ACTING_GUARDS
     places = set(acting["positions"]) | set(acting["orientations"])
-    found = np.zeros(len(model.equations.GUARDS), dtype=np.int32)
+    found = np.zeros(len(equations.GUARDS), dtype=np.int32)
     for guard in {*acting["rhs"], *acting.get("signals", ())}:
         found[guard] |= _ACTS
     for guard in places & set(acting["rhs"]):
         found[guard] |= _PLACES
     return found
-
-
-def usual_margins(model: System) -> Array:
-    """Return the margins at the design position: the size of the numbers in them."""
-    margins = model.evaluate("margins", model.design_state)
-    result: Array = np.where(np.isfinite(margins), np.abs(margins), 0.0)
-    return result
 
 
 def refuse(model: System, guard: int, state: Array, inputs: Array) -> NoReturn:
@@ -86,9 +82,9 @@ class Approach:
 
     def __init__(self, model: System, inputs_at: Any, direction: float) -> None:
         self._model, self._inputs_at, self._direction = model, inputs_at, direction
-        meaning = meanings(model)
+        meaning = meanings(model.equations)
         self._acts, self._places = (meaning & _ACTS) > 0, (meaning & _PLACES) > 0
-        self._greatest = usual_margins(model)
+        self._greatest = model.usual_margins
         self._half = model.design_state.size // 2
 
     def margins(self, time: float, state: Array) -> Array:

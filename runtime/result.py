@@ -10,6 +10,7 @@ from scipy.optimize import OptimizeResult
 from .errors import KintrafoError
 from .generated._support import ModelError
 from .system import System
+from .validity import Excursion, excursions
 
 Array = NDArray[np.float64]
 
@@ -62,6 +63,9 @@ class Simulation(OptimizeResult):
         Steps that failed the error test, order of the last step; with SUNDIALS only.
     solver : str
         What integrated.
+    validity : tuple of Excursion
+        Where the motion leaves what the model describes, by its outputs: a strut beyond its ends, a
+        tyre that pulls. Empty where it does not. Not an item of the mapping.
     """
 
     t: Array
@@ -81,6 +85,11 @@ class Simulation(OptimizeResult):
     message: str
     success: bool
     solver: str
+
+    @property
+    def validity(self) -> tuple[Excursion, ...]:
+        """Where the motion leaves what the model describes, by its outputs."""
+        return excursions(self.signals.model, self.t, self.signals)
 
 
 class DenseOutput:
@@ -122,6 +131,11 @@ class Signals(Mapping[str, Array]):
 
     def __init__(self, model: System, y: Array, inputs: Array, *, failed: bool) -> None:
         self._model, self._y, self._inputs, self._failed = model, y, inputs, failed
+
+    @property
+    def model(self) -> System:
+        """The model whose signals these are."""
+        return self._model
 
     def __getitem__(self, name: str) -> Array:
         """Return one signal."""

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from .dead_points import Approach, DeadPoint, meanings, usual_margins
+from .dead_points import Approach, DeadPoint, meanings
 from .events import Events
 from .generated._support import ModelError
 from .signals import Segment, TimeInputs
@@ -186,8 +186,8 @@ def solve_native(
         roots=events.functions,
         directions=np.array([*events.directions, 0], dtype=np.int32),
         terminal=np.array([*events.terminal, 0], dtype=np.int32),
-        guards=np.append(meanings(model), np.int32(0)),
-        usual_margins=usual_margins(model),
+        guards=np.append(meanings(model.equations), np.int32(0)),
+        usual_margins=model.usual_margins,
     )
     counts = ("nfev", "njev", "nlu", "steps", "error_test_failures", "order")
     output = raw["output"] if len(raw["output"]) else np.array([[segment.start, *state]])
@@ -211,7 +211,7 @@ def _contiguous(curve: Any, targets: tuple[int, int, int]) -> tuple[Array, Array
 
 @dataclass(frozen=True)
 class _Taylor:
-    """The polynomial of a step from its derivatives at the end of the step, shape (order + 1, n)."""
+    """The polynomial of a step from its derivatives at its end, shape (order + 1, n)."""
 
     end: float
     terms: Array

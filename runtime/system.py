@@ -1,7 +1,7 @@
 """Compiled equations of motion together with one set of parameters."""
 
 from collections.abc import Mapping
-from functools import cache
+from functools import cache, cached_property
 from types import ModuleType
 from typing import Any
 
@@ -67,6 +67,13 @@ class System:
 
     def __repr__(self) -> str:
         return f"<System {self.equations.NAME}>"
+
+    @cached_property
+    def usual_margins(self) -> Array:
+        """The margins of the guards at the design position: the size of the numbers in them."""
+        margins = self.evaluate("margins", self.design_state)
+        usual: Array = np.where(np.isfinite(margins), np.abs(margins), 0.0)
+        return usual
 
     # -- names ----------------------------------------------------------------------------------
 

@@ -1,11 +1,12 @@
 """SciPy's methods with steps that end before a dead point, and at milestones."""
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import DOP853, LSODA, RK45, BDF, OdeSolver, Radau
+from scipy.integrate import BDF, DOP853, LSODA, RK45, OdeSolver, Radau
 
 from .dead_points import LAPSE, SMALLEST_PART, Approach, DeadPoint
 from .generated._support import ModelError
@@ -16,8 +17,18 @@ _METHODS = {"RK45": RK45, "DOP853": DOP853, "Radau": Radau, "BDF": BDF, "LSODA":
 # As in ``native/integrate.c``: parts of the whole time and of the longest step.
 _SMALLEST_OF_TIME, _SMALLEST_OF_STEP = 1e-9, 1e-6
 _NEAR = 1e-3
+_MOST_STUCK = 8
 _SHORTER = 0.25
 _COUNTS = ("nfev", "njev", "nlu")
+
+
+@dataclass(frozen=True)
+class _Watch:
+    """What the steps of a method are watched with."""
+
+    approach: Approach
+    last_tried: Callable[[], float]
+    milestones: Array
 
 
 def watched(
@@ -42,78 +53,86 @@ def watched(
         however short the step.
     """
     base: Any = _METHODS[name]
+    watch = _Watch(approach, last_tried, milestones)
+    made: type[OdeSolver] = type(f"Watched{name}", (_Steps, base), {"watch": watch})
+    return made
 
-    class Watched(base):  # type: ignore[misc]  # one of five bases
-        def __init__(self, fun: Any, t0: float, y0: Array, t_bound: float, **options: Any) -> None:
-            self._given, self._end, self._options = fun, t_bound, options
-            self._before = dict.fromkeys(_COUNTS, 0)
-            self._goals = [*milestones.tolist(), t_bound]
-            super().__init__(fun, t0, y0, t_bound, **options)
-            self._whole, self._longest = abs(t_bound - t0), 0.0
-            self._look(_SMALLEST_OF_STEP * self._whole)
 
-        def step(self) -> str | None:
-            while True:
-                time, state = self.t, self.y
-                try:
-                    message: str | None = self._limited()
-                except ModelError:
-                    self._anew(time, state, abs(last_tried() - time))
-                    continue
-                if self.status == "failed":
-                    return message
-                step = abs(self.t - time)
-                lapse = LAPSE * step
-                now, gained = approach.look(self.t, self.y, lapse)
-                guard = approach.doubt(now, gained, lapse, step)
-                if guard is None:
-                    self._longest = max(self._longest, step)
-                    self._limit(now, gained, lapse)
-                    return message
-                if _SHORTER * step < self._smallest():
-                    raise DeadPoint(guard, time, state)
-                self._anew(time, state, step)
+class _Steps(OdeSolver):  # type: ignore[misc]  # SciPy has no types
+    """Steps that are limited and taken back; what takes them is the class behind it."""
 
-        def _limited(self) -> str | None:
-            """Take a step that is no longer than what is trusted."""
-            while len(self._goals) > 1 and self.direction * (self._goals[0] - self.t) <= 0.0:
-                del self._goals[0]
-            stop = self.t + self.direction * self._trusted
-            inside = self.direction * (self._goals[0] - stop) > 0.0
-            self._bound(stop if inside else self._goals[0])
-            message: str | None = super().step()
-            self._bound(self._end)
-            if self.status == "finished" and self.direction * (self._end - self.t) > 0.0:
-                self.status = "running"
-            return message
+    watch: _Watch
 
-        def _bound(self, time: float) -> None:
-            self.t_bound = time
-            if base is LSODA:  # it keeps the time that it must not pass in its workspace
-                self._lsoda_solver._integrator.rwork[0] = time
+    def __init__(self, fun: Any, t0: float, y0: Array, t_bound: float, **options: Any) -> None:
+        self._given, self._end, self._options = fun, t_bound, options
+        self._goals = [*self.watch.milestones.tolist(), t_bound]
+        super().__init__(fun, t0, y0, t_bound, **options)
+        self._whole, self._longest, self._stuck = abs(t_bound - t0), 0.0, 0
+        self._look(_SMALLEST_OF_STEP * self._whole)
 
-        def _anew(self, time: float, state: Array, step: float) -> None:
-            """Begin anew with a shorter step; raise what is being handled if it is too short."""
-            step *= _SHORTER
-            if step < self._smallest():
-                raise  # noqa: PLE0704 (called where an error is handled, or after the same check)
-            counts = {name: self._before[name] + getattr(self, name) for name in _COUNTS}
-            options = self._options | {"first_step": step}
-            super().__init__(self._given, time, state, self._end, **options)
-            self._before = counts
+    def step(self) -> str | None:
+        while True:
+            time, state = self.t, self.y
+            try:
+                message: str | None = self._limited()
+            except ModelError:
+                self._anew(time, state, abs(self.watch.last_tried() - time))
+                continue
+            if self.status == "failed":
+                return message
+            step = abs(self.t - time)
+            lapse = LAPSE * step
+            now, gained = self.watch.approach.look(self.t, self.y, lapse)
+            guard = self.watch.approach.doubt(now, gained, lapse, step)
+            if guard is None:
+                self._longest = max(self._longest, step)
+                self._limit(now, gained, lapse)
+                return message
+            if _SHORTER * step < self._smallest():
+                raise DeadPoint(guard, time, state)
+            self._anew(time, state, step)
 
-        def _smallest(self) -> float:
-            of_time = _SMALLEST_OF_TIME * self._whole
-            return min(of_time, _SMALLEST_OF_STEP * self._longest) if self._longest else of_time
+    def _limited(self) -> str | None:
+        """Take a step that is no longer than what is trusted."""
+        while len(self._goals) > 1 and self.direction * (self._goals[0] - self.t) <= 0.0:
+            del self._goals[0]
+        stop = self.t + self.direction * self._trusted
+        inside = self.direction * (self._goals[0] - stop) > 0.0
+        self._bound(stop if inside else self._goals[0])
+        message: str | None = super().step()
+        self._bound(self._end)
+        if self.status == "finished" and self.direction * (self._end - self.t) > 0.0:
+            self.status = "running"
+        return message
 
-        def _look(self, lapse: float) -> None:
-            self._limit(*approach.look(self.t, self.y, lapse), lapse)
+    def _bound(self, time: float) -> None:
+        self.t_bound = time
+        if isinstance(self, LSODA):  # it keeps the time that it must not pass in its workspace
+            integrator = self._lsoda_solver._integrator  # noqa: SLF001 (there is no other way)
+            integrator.rwork[0] = time
 
-        def _limit(self, now: Array, gained: Array, lapse: float) -> None:
-            self._trusted, guard, over = approach.longest_step(now, gained, lapse)
-            stuck = lapse < LAPSE * self._smallest() and self._trusted < _NEAR * self._longest
-            over = over or stuck or self._trusted < SMALLEST_PART * abs(self.t)
-            if guard is not None and over:
-                raise DeadPoint(guard, self.t, self.y)
+    def _anew(self, time: float, state: Array, step: float) -> None:
+        """Begin anew with a shorter step; raise what is being handled if it is too short."""
+        step *= _SHORTER
+        if step < self._smallest():
+            raise  # noqa: PLE0704 (called where an error is handled, or after the same check)
+        counts = {name: getattr(self, name) for name in _COUNTS}
+        options = self._options | {"first_step": step}
+        super().__init__(self._given, time, state, self._end, **options)
+        for name, count in counts.items():
+            setattr(self, name, getattr(self, name) + count)
 
-    return Watched
+    def _smallest(self) -> float:
+        of_time = _SMALLEST_OF_TIME * self._whole
+        return min(of_time, _SMALLEST_OF_STEP * self._longest) if self._longest else of_time
+
+    def _look(self, lapse: float) -> None:
+        self._limit(*self.watch.approach.look(self.t, self.y, lapse), lapse)
+
+    def _limit(self, now: Array, gained: Array, lapse: float) -> None:
+        self._trusted, guard, over = self.watch.approach.longest_step(now, gained, lapse)
+        stuck = lapse < LAPSE * self._smallest() and self._trusted < _NEAR * self._longest
+        self._stuck = self._stuck + 1 if stuck else 0
+        over = over or self._stuck >= _MOST_STUCK or self._trusted < SMALLEST_PART * abs(self.t)
+        if guard is not None and over:
+            raise DeadPoint(guard, self.t, self.y)

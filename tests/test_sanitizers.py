@@ -9,7 +9,7 @@ import pytest
 from c_text import sources
 from cases import MODELS, car_parameters
 from kintrafo import Model, state_at_height
-from kintrafo.dead_points import meanings, usual_margins
+from kintrafo.dead_points import meanings
 from kintrafo.solvers import native_available, native_version
 
 ROOT = Path(__file__).parent.parent
@@ -170,13 +170,13 @@ def test_generated_functions(tmp_path, name):
 def test_native_solver(tmp_path):
     model = Model("reference_car")
     start = state_at_height(model, 0.325, spin_rate=93.0)
-    guards = meanings(model)
+    guards = meanings(model.equations)
     text = INTEGRATION.format(
         parameters=assignments(MODELS["macpherson"], car_parameters(0)),
         state=listed(start),
         guard_count=len(guards),
         guards=listed(guards),
-        usual_margins=listed(usual_margins(model)),
+        usual_margins=listed(model.usual_margins),
     )
     files = [*sources("macpherson"), *sorted((ROOT / "runtime/native").glob("*.c"))]
     compiler, flags = with_sundials()

@@ -8,27 +8,19 @@ from __future__ import annotations
 
 import pprint
 import textwrap
-from importlib.resources import files
-from string import Template
 from typing import TYPE_CHECKING
 
 from ..arithmetic import NUMPY, OPERATIONS, write
 from ..design import design_coordinates
 from ..ranges import described as parameters_of
 from .c import CPrinter, count_line, iteration_note, mechanism_hash
+from .text import template
 
 if TYPE_CHECKING:
     from ..outputs import Entry, GeneratedModel
     from ..program import Function
 
 SHARED = ("__init__.py", "_support.py", "_arrays.py", "_native.pyx", "_native.pyi")
-
-
-def template(name: str) -> Template:
-    """Return a template that lies beside the printers."""
-    return Template(
-        files(__package__).joinpath("templates", f"{name}.in").read_text(encoding="utf-8")
-    )
 
 
 def shared_files() -> dict[str, str]:

@@ -9,12 +9,15 @@ from rich.markup import escape
 from rich.table import Table
 
 from .console import console, number, print_json, problems, say
+from .exits import Exit
 from .options import File, Force, Json, load, metres
 from .outputs import Figures, Formats, Out, Outputs, Plot, name_files
 from .simulation_options import (
     Atol,
     Duration,
     Height,
+    MaxStep,
+    MaxSteps,
     Measured,
     Method,
     OutputStep,
@@ -77,8 +80,10 @@ def command(
     duration: Duration = None,
     output_step: OutputStep = 1.0,
     method: Method = "BDF",
-    rtol: Rtol = 1e-6,
-    atol: Atol = 1e-9,
+    rtol: Rtol = None,
+    atol: Atol = None,
+    max_step: MaxStep = None,
+    max_steps: MaxSteps = 10_000_000,
     out: Out = None,
     plot: Plot = None,
     figures: Figures = None,
@@ -124,16 +129,28 @@ def command(
         spin_rate=spin * math.tau,
         inputs=inputs,
     )
-    options = {"method": method, "rtol": rtol, "atol": atol}
+    options = {
+        "method": method,
+        "rtol": rtol,
+        "atol": atol,
+        "max_step": math.inf if max_step is None else max_step / 1e3,
+        "max_steps": max_steps,
+    }
     result, motion = _played(model, scenario, options, outputs, file, silent=json)
     written = outputs.write(motion, title=file, names=_drawn(motion))
+    left = result.validity
     if json:
         print_json(_summary(result, motion))
-        return
-    console.print(_table(motion, file))
-    for line in _told(result):
-        say(line)
-    name_files(written)
+    else:
+        console.print(_table(motion, file))
+        for line in _told(result):
+            say(line)
+        name_files(written)
+    for excursion in left:
+        head, style = ("note", "yellow") if excursion.bound.possible else ("not valid", "red")
+        problems.print(f"{head}: {excursion}", style=style, highlight=False, markup=False)
+    if not all(excursion.bound.possible for excursion in left):
+        raise typer.Exit(Exit.REFUSED)
 
 
 def _tell_of_the_free_rack(file: str, inputs: dict[str, Any]) -> None:
@@ -174,7 +191,8 @@ def _played(
             motion = dataset_of(model, error.partial)
             written = outputs.write(motion, title=f"{title}, unfinished", names=_drawn(motion))
             name_files(() if silent else written)
-        raise
+        reason = error.reason.replace("max_steps", "--max-steps").replace("rtol", "--rtol")
+        raise SimulationError(reason, error.time, error.state, error.partial) from error
 
 
 def _drawn(motion: "Dataset") -> list[str]:
@@ -207,6 +225,10 @@ def _summary(result: "Simulation", motion: "Dataset") -> dict[str, Any]:
         "solver": {"name": result.solver, **_counts(result)},
         "wheel_leaves_ground": left,
         "wheel_touches_ground": back,
+        "validity": [
+            vars(found) | {"bound": vars(found.bound), "text": str(found)}
+            for found in result.validity
+        ],
         "statistics": {
             name: {"units": motion[name].attrs["units"], **vars(found)}
             for name, found in statistics(motion).items()

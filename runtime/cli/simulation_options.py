@@ -73,7 +73,23 @@ Method = Annotated[
         rich_help_panel="Solver",
     ),
 ]
-Rtol = Annotated[float, typer.Option(help="Relative tolerance.", rich_help_panel="Solver")]
+Rtol = Annotated[
+    float | None,
+    typer.Option(
+        help="Relative tolerance. Default: 1e-8 for BDF, else 1e-6.", rich_help_panel="Solver"
+    ),
+]
 Atol = Annotated[
-    float, typer.Option(help="Absolute tolerance, SI units.", rich_help_panel="Solver")
+    float | None,
+    typer.Option(
+        help="Absolute tolerance, SI units. Default: 1e-10 for BDF, else 1e-9.",
+        rich_help_panel="Solver",
+    ),
+]
+MaxStep = Annotated[
+    float | None,
+    typer.Option(metavar="MS", help="Longest step. Default: no limit.", rich_help_panel="Solver"),
+]
+MaxSteps = Annotated[
+    int, typer.Option(help="More steps than these end with an error.", rich_help_panel="Solver")
 ]

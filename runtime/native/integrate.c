@@ -31,6 +31,7 @@ typedef struct {
     double *moved;       /* a state a short time later */
     double start, end;   /* of the whole time */
     double longest_step; /* so far */
+    int stuck;           /* very short steps in a row */
     clock_t asked;       /* when the caller was asked last whether to go on */
 } worker;
 
@@ -527,8 +528,8 @@ static void evaluate_margins(worker *w, double time, const double *state, double
     w->problem->margins(w->problem->constants, state, w->inputs, out);
 }
 
-/* Evaluate the margins of a state, and those of a short time later on its way. */
-static void look(worker *w, double time, const double *state, double lapse)
+/* Evaluate the margins of what is a short time ahead of a state on its way. */
+static void look_ahead(worker *w, double time, const double *state, double lapse)
 {
     int n = w->problem->state_count, half = n / 2;
     double signed_lapse = w->end > w->start ? lapse : -lapse;
@@ -536,7 +537,6 @@ static void look(worker *w, double time, const double *state, double lapse)
         w->moved[i] = state[i] + signed_lapse * state[half + i];
         w->moved[half + i] = state[half + i];
     }
-    evaluate_margins(w, time, state, w->margins.now);
     evaluate_margins(w, time + signed_lapse, w->moved, w->margins.ahead);
 }
 
@@ -549,6 +549,9 @@ static void look(worker *w, double time, const double *state, double lapse)
 
 /* Part of the longest step: where less is left, a dead point is near. */
 #define NEAR 1.0e-3
+
+/* So many very short steps in a row near a dead point lead nowhere; one may end at an output. */
+#define MOST_STUCK 8
 
 /* Part of the time since zero that a clock of double precision tells apart, some times. */
 #define SMALLEST_PART 1.0e-14
@@ -618,13 +621,18 @@ static int put_out(worker *w, course *c, double reached)
     return KT_NONE;
 }
 
-/* Return a guard that says that a step is not to be believed; else what it covers is put out. */
-static int doubt(worker *w, course *c, double reached, double step)
+/*
+ * Return a guard that says that a step is not to be believed; else what it covers is put out. `looked`
+ * tells whether the margins ahead had to be looked at.
+ */
+static int doubt(worker *w, course *c, double reached, double step, int *looked)
 {
     const double *state = N_VGetArrayPointer(w->y);
-    look(w, reached, state, LAPSE * step);
+    evaluate_margins(w, reached, state, w->margins.now);
     int guard = kt_crossed(&w->margins, w->margins.now);
-    if (guard == KT_NONE) {
+    *looked = kt_changes(&w->margins, current_step(w) / step);
+    if (guard == KT_NONE && *looked) {
+        look_ahead(w, reached, state, LAPSE * step);
         guard = kt_reflected(&w->margins, LAPSE * step, step);
     }
     if (guard != KT_NONE) {
@@ -638,15 +646,16 @@ static int doubt(worker *w, course *c, double reached, double step)
 }
 
 /*
- * Limit the next step by the margins that were looked at; tell whether this is a dead point. It is one
- * also where rounding, not the margin, has made the solver's own steps so short that they lead nowhere.
+ * Limit the next step by the margins ahead; tell whether this is a dead point. It is one also
+ * where rounding, not the margin, has made the solver's own steps so short that they lead nowhere.
  */
 static int limit(worker *w, course *c, double lapse)
 {
     int nearest = KT_NONE, over = 0;
     c->trusted = kt_longest_step(&w->margins, lapse, &nearest, &over);
     int stuck = lapse < LAPSE * smallest_step(w) && c->trusted < NEAR * w->longest_step;
-    over = over || stuck || c->trusted < SMALLEST_PART * fabs(w->result->time);
+    w->stuck = stuck ? w->stuck + 1 : 0;
+    over = over || w->stuck >= MOST_STUCK || c->trusted < SMALLEST_PART * fabs(w->result->time);
     return over ? end_at(w, nearest) : KT_DONE;
 }
 
@@ -656,7 +665,7 @@ static int accept(worker *w, course *c, double reached)
     kt_result *r = w->result;
     long rows = r->output.rows, next = c->next;
     double step = fabs(reached - r->time);
-    int guard = doubt(w, c, reached, step);
+    int looked = 0, guard = doubt(w, c, reached, step, &looked);
     if (guard == KT_NO_MEMORY
         || (guard == KT_NONE && w->options->dense && keep_polynomial(w, r->time, reached))) {
         return KT_MEMORY;
@@ -670,7 +679,9 @@ static int accept(worker *w, course *c, double reached)
     r->time = reached;
     memcpy(r->state, N_VGetArrayPointer(w->y), (size_t)w->problem->state_count * sizeof(double));
     w->longest_step = fmax(w->longest_step, step);
-    return limit(w, c, LAPSE * step);
+    kt_reach(&w->margins);
+    c->trusted = INFINITY;
+    return looked ? limit(w, c, LAPSE * step) : KT_DONE;
 }
 
 /* Return the goal, or the next milestone if that comes before it. */
@@ -745,7 +756,9 @@ static int run(worker *w, const double *times, long count, int every_step)
     if (append_state(&r->output, times[0], r->state, w->problem->state_count)) {
         return KT_MEMORY;
     }
-    look(w, r->time, r->state, lapse);
+    evaluate_margins(w, r->time, r->state, w->margins.now);
+    look_ahead(w, r->time, r->state, lapse);
+    kt_reach(&w->margins);
     int outcome = limit(w, &c, lapse), root = 0;
     for (long tried = 0; outcome == KT_DONE && c.sign * (w->end - r->time) > 0.0; ++tried) {
         if (tried >= w->options->max_steps) {

@@ -13,6 +13,9 @@
  */
 #define PART 0.5
 
+/* Part of a margin that may change in a step before its rate is looked at. */
+#define LITTLE 0.125
+
 /*
  * Part of its greatest value below which a margin that falls is taken for zero. It is a difference of
  * numbers of that size or some ten times that, each with a rounding of 1e-16: a thousand times less. The
@@ -23,17 +26,22 @@
 int kt_open_margins(kt_margins *m, int count, const int *meaning, const double *scale)
 {
     size_t size = (size_t)count * sizeof *m->now;
-    double *memory = malloc(4 * size + 1);
+    double *memory = malloc(5 * size + 1);
     if (!memory) {
         return 0;
     }
-    *m = (kt_margins){count,          meaning,            memory, memory + count,
-                      memory + 2 * count, memory + 3 * count};
+    m->count = count;
+    m->meaning = meaning;
+    m->before = memory;
+    m->now = memory + count;
+    m->ahead = memory + 2 * count;
+    m->between = memory + 3 * count;
+    m->greatest = memory + 4 * count;
     memcpy(m->greatest, scale, size);
     return 1;
 }
 
-void kt_close_margins(kt_margins *m) { free(m->now); }
+void kt_close_margins(kt_margins *m) { free(m->before); }
 
 int kt_crossed(const kt_margins *m, const double *values)
 {
@@ -43,6 +51,17 @@ int kt_crossed(const kt_margins *m, const double *values)
         }
     }
     return -1;
+}
+
+int kt_changes(const kt_margins *m, double next)
+{
+    double little = LITTLE / fmax(next, 1.0);
+    for (int i = 0; i < m->count; ++i) {
+        if ((m->meaning[i] & KT_PLACES) && !(fabs(m->now[i] - m->before[i]) <= little * m->now[i])) {
+            return 1;
+        }
+    }
+    return 0;
 }
 
 int kt_reflected(const kt_margins *m, double lapse, double step)
@@ -56,15 +75,20 @@ int kt_reflected(const kt_margins *m, double lapse, double step)
     return -1;
 }
 
-double kt_longest_step(kt_margins *m, double lapse, int *nearest, int *over)
+void kt_reach(kt_margins *m)
+{
+    for (int i = 0; i < m->count; ++i) {
+        m->before[i] = m->now[i];
+        m->greatest[i] = fmax(m->greatest[i], m->now[i]);
+    }
+}
+
+double kt_longest_step(const kt_margins *m, double lapse, int *nearest, int *over)
 {
     double longest = INFINITY;
     *over = 0;
     for (int i = 0; i < m->count; ++i) {
         double now = m->now[i], lost = now - m->ahead[i];
-        if (now > m->greatest[i]) {
-            m->greatest[i] = now;
-        }
         if (!(m->meaning[i] & KT_PLACES) || !(lost > 0.0)) {
             continue;
         }

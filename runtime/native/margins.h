@@ -22,7 +22,8 @@ enum {
 typedef struct {
     int count;
     const int *meaning; /* of each guard, bits as above */
-    double *now;        /* margins of a state */
+    double *before;     /* margins of the state that was reached last */
+    double *now;        /* those of the state that is looked at */
     double *ahead;      /* those of the same motion a short time later */
     double *between;    /* those of an output within a step */
     double *greatest;   /* so far: the size of the numbers that a margin is a difference of */
@@ -37,6 +38,12 @@ void kt_close_margins(kt_margins *m);
 int kt_crossed(const kt_margins *m, const double *values);
 
 /*
+ * Return whether a margin has changed so much from `before` to `now` that its rate is needed, a step of
+ * `next` times the length of the last one being planned. Most steps pass here, at a small price.
+ */
+int kt_changes(const kt_margins *m, double next);
+
+/*
  * Return a guard that says that a step has passed a dead point: its margin rises as if it had been
  * zero within the step. -1: none. `lapse` is the time from `now` to `ahead`, `step` that of the step.
  */
@@ -46,6 +53,9 @@ int kt_reflected(const kt_margins *m, double lapse, double step);
  * Return how long the next step may be, infinite where no margin falls. `nearest` is the guard that
  * limits it, and `over` tells whether its margin has come down to what rounding makes of zero.
  */
-double kt_longest_step(kt_margins *m, double lapse, int *nearest, int *over);
+double kt_longest_step(const kt_margins *m, double lapse, int *nearest, int *over);
+
+/* Make `now` the margins of the state that is reached. */
+void kt_reach(kt_margins *m);
 
 #endif

@@ -1,0 +1,151 @@
+"""No motion is reflected at a dead point, by any method, and those that turn before one go on."""
+
+import numpy as np
+import pytest
+from kintrafo import Model, SimulationError, System, equilibrium, simulate
+from kintrafo.excitation import Course, excitation
+from kintrafo.generated import four_bar, slider_crank
+from kintrafo.generated._support import ClosureError
+from kintrafo.own.build import compile_mechanism
+from kintrafo.solvers import native_methods
+from scipy.integrate import solve_ivp
+
+METHODS = tuple(dict.fromkeys([*native_methods(), "BDF", "Radau", "LSODA", "RK45", "DOP853"]))
+
+
+def ended(system, start, end, **options):
+    with pytest.raises(SimulationError, match="dead point|cannot close") as caught:
+        simulate(system, (0.0, end), start, **options)
+    return caught.value
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize(
+    ("car", "step", "time"),
+    [("double_wishbone_car", -0.15, 0.164132), ("reference_car", 0.3, 0.1427227)],
+)
+def test_all_methods_end_at_the_same_time(method, car, step, time):
+    model = Model(car)
+    road = excitation({"road_height": Course(step=step, step_at=0.1)}, 0.5, None)
+    error = ended(model, equilibrium(model), 0.5, method=method, inputs=road)
+    # rtol of a state that changes by itself some ten times in this time
+    assert error.time == pytest.approx(time, abs=5e-6)
+    assert "beyond its dead point" in error.reason
+    partial = error.partial
+    assert not partial.success
+    assert partial.t[-1] == pytest.approx(error.time, abs=1e-6)
+    assert all(np.isfinite(values).all() for values in partial.signals.values())
+
+
+LONG_CRANK = {
+    "crank_pin_x": 0.2,
+    "crank_pin_y": 0.1,
+    "crank_com_x": 0.1,
+    "crank_com_y": 0.05,
+    "spring_rate": 5000.0,
+    "damper_rate": 0.0,
+}
+"""A crank that does not go round: it ends at dead points of the rocker, 2.4 rad back and 1.5 on."""
+
+
+def crank(rate):
+    """Return a four-bar whose crank is turned towards the dead point of its rocker."""
+    system = System(four_bar, LONG_CRANK)
+    return system, system.state(crank_angle_rate=rate)
+
+
+def least_margin(system, states):
+    return float(system.evaluate("margins", states)[:, 1].min())
+
+
+def finishes(rate, method="DOP853", rtol=1e-10):
+    system, start = crank(rate)
+    try:
+        return simulate(system, (0.0, 1.0), start, method=method, rtol=rtol, atol=1e-3 * rtol)
+    except SimulationError:
+        return None
+
+
+@pytest.fixture(scope="module")
+def turning():
+    """Return the greatest rate with which the four-bar still turns before its dead point."""
+    low, high = 0.0, 64.0
+    assert finishes(low) is not None
+    assert finishes(high) is None
+    for _ in range(30):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if finishes(middle) is not None else (low, middle)
+    return low
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_what_turns_before_a_dead_point_goes_on(turning, method):
+    rate = turning * (1.0 - 1e-4)
+    system, start = crank(rate)
+    bare = solve_ivp(
+        lambda _, y: system.evaluate("rhs", y),
+        (0.0, 1.0),
+        start,
+        "DOP853",
+        rtol=1e-12,
+        atol=1e-13,
+        max_step=1e-3,
+    )
+    usual = system.usual_margins[1]
+    assert least_margin(system, bare.y.T) < 1e-2 * usual
+    result = finishes(rate, method, rtol=1e-9)
+    assert result is not None
+    assert result.y[:, -1] == pytest.approx(bare.y[:, -1], abs=1e-3)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_little_faster_ends(turning, method):
+    system, start = crank(turning * (1.0 + 1e-4))
+    error = ended(system, start, 1.0, method=method, rtol=1e-9, atol=1e-12)
+    assert "rocker" in error.reason
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_an_input_that_moves_the_dead_point(method):
+    """A rack that is pushed out of reach, with a model that stands still otherwise."""
+    model = Model("reference_car")
+    times = np.linspace(0.0, 1.0, 50)
+    rack = {"rack_position": (times, 0.4 * times**2)}
+    error = ended(model, equilibrium(model), 1.0, method=method, inputs=rack)
+    one = ended(model, equilibrium(model), 1.0, method="DOP853", inputs=rack, rtol=1e-10)
+    assert error.time == pytest.approx(one.time, abs=1e-5)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_backwards(method):
+    system, start = crank(20.0)
+    start[1] = -start[1]
+    error = ended(system, start, -1.0, method=method)
+    forward, again = crank(20.0)
+    assert error.time == pytest.approx(-ended(forward, again, 1.0).time, abs=1e-5)
+
+
+def test_functions_of_arrays_end_too():
+    from kintrafo.generator.mechanisms.four_bar import FOUR_BAR  # noqa: PLC0415 (an extra)
+
+    system = System(compile_mechanism(FOUR_BAR, backend="numpy"), LONG_CRANK)
+    start = system.state(crank_angle_rate=20.0)
+    compiled, _ = crank(20.0)
+    expected = ended(compiled, start, 1.0, method="DOP853").time
+    assert ended(system, start, 1.0, method="BDF").time == pytest.approx(expected, abs=1e-5)
+
+
+def test_a_crank_that_goes_round_is_not_ended():
+    system = System(slider_crank)
+    start = system.state(crank_angle_rate=30.0)
+    for method in METHODS:
+        assert simulate(system, (0.0, 1.0), start, method=method).success
+
+
+def test_the_error_is_that_of_the_loop():
+    system, start = crank(20.0)
+    error = ended(system, start, 1.0)
+    message = "the rod coupler cannot reach rocker, beyond its dead point (rocker_closure = "
+    assert message in error.reason
+    with pytest.raises(ClosureError, match="cannot reach rocker"):
+        system.evaluate("rhs", error.state + [1e-3, 0.0])
