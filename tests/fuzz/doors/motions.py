@@ -208,9 +208,7 @@ def _heights(system: System, state: Array, lapse: float) -> tuple[Array, Array]:
     return height, (ahead - now) / (2.0 * lapse * np.maximum(height, 1e-300))
 
 
-def _through_zero(
-    system: System, before: tuple[float, Array], after: tuple[float, Array]
-) -> bool:
+def _through_zero(system: System, before: tuple[float, Array], after: tuple[float, Array]) -> bool:
     """Tell whether a height falls to zero and rises from it within a step, seen from both ends."""
     step = after[0] - before[0]
     if step == 0.0:
