@@ -25,8 +25,8 @@ generate: .venv/.ready ## Derive the equations again and write generated/
 	@$(PYTHON) -m kintrafo.generator generate generated
 
 run: build ## The paper's suspension: topology, Figures 4 to 6, summary, all in out/
-	@$(PYTHON) -m kintrafo.generator topology --picture out/topology.png
-	@$(PYTHON) -m kintrafo paper out
+	@$(PYTHON) -m kintrafo.generator topology --picture out/topology.png --force
+	@$(PYTHON) -m kintrafo paper out --force
 
 test: build ## Run all tests
 	@$(PYTHON) -m pytest -q -n 2 --dist worksteal
@@ -39,7 +39,7 @@ test-elsewhere: build ## Run the tests of numbers as another processor would com
 	@$(OLDER) $(PYTHON) -m pytest -q -n 2 --dist worksteal -m "not browser"
 
 fuzz: build ## Try every door for long; a table of what came of it (ARGS="--attempts 10000")
-	@cd tests && ../$(PYTHON) -m fuzz $(ARGS)
+	@PYTHONPATH=tests $(PYTHON) -m fuzz $(ARGS)
 
 lint: .venv/.ready ## Check style
 	@.venv/bin/ruff check .

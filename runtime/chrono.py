@@ -23,7 +23,8 @@ from .input.suspension import Suspension
 from .legible import short
 
 Array = NDArray[np.float64]
-Finite = Annotated[float, Field(allow_inf_nan=False)]
+# strict: neither a text nor true is a number
+Finite = Annotated[float, Field(allow_inf_nan=False, strict=True)]
 Point = tuple[Finite, Finite, Finite]
 
 TYRE_RATE = 200e3
@@ -133,7 +134,7 @@ class _File(_Part):
     template: Literal["MacPhersonStrut"] = Field(alias="Template")
     camber: Finite = Field(default=0.0, alias="Camber Angle (deg)")
     toe: Finite = Field(default=0.0, alias="Toe Angle (deg)")
-    vehicle_axes: bool = Field(default=False, alias="Vehicle-Frame Inertia")
+    vehicle_axes: bool = Field(default=False, strict=True, alias="Vehicle-Frame Inertia")
     spindle: _Spindle = Field(alias="Spindle")
     upright: _Body = Field(alias="Upright")
     arm: _ControlArm = Field(alias="Control Arm")

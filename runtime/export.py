@@ -155,7 +155,8 @@ def _write_parquet(dataset: xr.Dataset, path: Path) -> None:
     ]
     schema = pyarrow.schema(fields, metadata=_texts(dataset.attrs))
     columns = [np.asarray(frame[name]) for name in frame.columns]
-    parquet.write_table(pyarrow.Table.from_arrays(columns, schema=schema), path)
+    with path.open("wb") as file:  # pyarrow has no names that are not UTF-8
+        parquet.write_table(pyarrow.Table.from_arrays(columns, schema=schema), file)
 
 
 def _texts(attrs: dict[Any, Any]) -> dict[str, str]:

@@ -219,19 +219,24 @@ def _times(
             given = "none is given" if speed is None else f"{speed * 3.6:g} km/h is given"
             problem = f"a road over distance_m needs a speed of more than 0 km/h; {given}."
             raise InputError([problem], source)
-        times = columns["distance"] / speed
+        with np.errstate(over="ignore"):
+            times = columns["distance"] / speed
     elif speed is not None:
         problem = "a speed is for a road over distance_m; this one is over time. Leave it out."
         raise InputError([problem], source)
     else:
         times = columns["time"]
-    fall = np.flatnonzero(np.diff(times) < 0.0)
+    fall = np.flatnonzero(times[1:] < times[:-1])
     if fall.size:
         line = lines[int(fall[0]) + 1]
         name = "distance" if "distance" in columns else "time"
         problem = f"line {line}: the {name} falls. Sort the rows, each {name} once."
         raise InputError([problem], source)
-    shifted: Array = times - times[0]
+    with np.errstate(over="ignore", invalid="ignore"):
+        shifted: Array = times - times[0]
+    if not np.all(np.isfinite(shifted)):
+        problem = f"times from {times[0]:g} to {times[-1]:g} s are too far apart. Check the column."
+        raise InputError([problem], source)
     if shifted[-1] == 0.0:
         raise InputError(["all rows have the same time. Check the column."], source)
     return shifted

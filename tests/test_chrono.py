@@ -138,6 +138,9 @@ class TestMistakes:
             ({"Spindle": None}, '"Spindle" = null'),
             ({"Tierod": {"Location Chassis": [0, 0, 0]}}, '"Tierod > Location Upright" is missing'),
             ({"Axle": {"Inertia": -1}}, '"Axle > Inertia" = -1'),
+            ({"Axle": {"Inertia": "1"}}, '"Axle > Inertia" = "1"'),
+            ({"Axle": {"Inertia": True}}, '"Axle > Inertia" = true'),
+            ({"Vehicle-Frame Inertia": 1}, '"Vehicle-Frame Inertia" = 1'),
             ({"Toe Angle (deg)": "no"}, '"Toe Angle (deg)" = "no"'),
         ],
     )

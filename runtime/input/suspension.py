@@ -20,6 +20,7 @@ from pydantic import Field, ValidationError
 from .. import data as packaged_data
 from ..arguments import Arguments
 from ..errors import InputError
+from ..files import told
 from .bodies import Bodies
 from .hardpoints import Hardpoints
 from .messages import messages_of, subsection
@@ -322,7 +323,9 @@ def _find(path_or_name: str | Path) -> Path | Traversable:
     if isinstance(path_or_name, str) and path_or_name in packaged:
         return packaged[path_or_name]
     path = Path(path_or_name)
-    if not path.exists():
+    with told(path, "cannot be read"):
+        found = path.exists()
+    if not found:
         hint = suggestion(path.name, packaged)
         problem = f"There is no such file. Give the path of a TOML file, or a packaged name. {hint}"
         raise InputError([problem], str(path_or_name))

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..arguments import Arguments, shown
 from ..errors import InputError, KintrafoError
+from ..files import told
 from ..input.suggestions import suggestion
 
 if TYPE_CHECKING:
@@ -110,10 +111,8 @@ def _run(path: Path) -> ModuleType:
     from ..generator.declared import DeclarationError
 
     try:
-        source = path.read_text(encoding="utf-8")
-    except OSError as error:
-        problem = f"cannot be read: {error.strerror}. Give the path of a Python file."
-        raise InputError([problem], str(path)) from error
+        with told(path, "cannot be read"):
+            source = path.read_text(encoding="utf-8")
     except UnicodeDecodeError as error:
         problem = f"is no text in UTF-8 (byte {error.start}). Give a Python file."
         raise InputError([problem], str(path)) from error
