@@ -13,9 +13,9 @@ from .arguments import Arguments
 from .errors import InputError
 from .files import reason
 from .input.suggestions import nearest, suggestion
+from .interpolation import Between, Samples
 
 Array = NDArray[np.float64]
-Samples = tuple[Array, Array]
 
 _DELIMITERS = ("\t", ";", ",")
 # Problems with single rows are listed up to this number.
@@ -64,9 +64,9 @@ class Measurement:
         """Last time [s]."""
         return float(self.times[-1])
 
-    def inputs(self) -> dict[str, Samples]:
-        """Return the samples as `kintrafo.simulate` takes them."""
-        return {name: (self.times, samples) for name, samples in self.values.items()}
+    def inputs(self, between: Between = "monotone") -> dict[str, Samples]:
+        """Return the samples as `kintrafo.simulate` takes them; `between` is that of `Samples`."""
+        return {name: Samples(self.times, values, between) for name, values in self.values.items()}
 
 
 def measured(path: str | Path, *, speed: float | None = None) -> Measurement:
@@ -76,7 +76,7 @@ def measured(path: str | Path, *, speed: float | None = None) -> Measurement:
     and at least one of ``road_height_mm``, ``rack_position_mm`` (also in ``_m``), ``strut_force_N``
     and, of a double wishbone, ``spring_actuator_N``. Columns are separated by commas, semicolons or
     tabs; with the latter two, decimals may have a comma. Times increase and are shifted to begin
-    with zero; a time that is given twice is a jump. A cubic spline goes through the samples.
+    with zero; a time that is given twice is a jump. `kintrafo.Samples` says what is in between.
 
     Parameters
     ----------

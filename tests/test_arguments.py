@@ -37,7 +37,7 @@ SPAN = (0.0, 0.01)
         (lambda: kintrafo.equilibrium(CAR, spin_rate=np.nan), "spin_rate = nan rad/s"),
         (lambda: kintrafo.state_at_height(CAR, [0.3]), r"height = \[0.3\] m"),
         (lambda: kintrafo.state_at_height(CAR, 0.3, spin_rate=np.nan), "spin_rate = nan rad/s"),
-        (lambda: kintrafo.compile("/missing.py"), "No such file.*Give the path"),
+        (lambda: kintrafo.compile("/missing.py"), "No such file.*Check its name"),
         (lambda: CAR.signal("cambre", REST), "Did you mean camber"),
         (lambda: CAR.signals(REST[:2]), r"state has the shape \(2,\).*must be 4"),
         (lambda: CAR.evaluate("rsh", REST), "Did you mean rhs"),

@@ -314,7 +314,7 @@ def test_numpy_refuses_what_c_refuses():
         system.evaluate("rhs", states)
     with pytest.raises(kintrafo.ParameterError, match="not finite"):
         kintrafo.System(own, {"rocker_axis_x": 0.0, "rocker_axis_y": 0.0})
-    with pytest.raises(ValueError, match="last dimension of state must be 2"):
+    with pytest.raises(ValueError, match=r"state has the shape .*last dimension must be 2"):
         system.evaluate("rhs", [0.0])
 
 
@@ -439,7 +439,7 @@ class TestMistakes:
         path.write_bytes(b"\xff\xfe\x00")
         with pytest.raises(kintrafo.InputError, match="no text in UTF-8"):
             kintrafo.compile(path)
-        with pytest.raises(kintrafo.InputError, match="not int"):
+        with pytest.raises(kintrafo.InputError, match="not 3"):
             kintrafo.compile(3)
         with pytest.raises(kintrafo.InputError, match="Did you mean numpy"):
             kintrafo.compile(FOUR_BAR, backend="nunpy")

@@ -61,6 +61,7 @@ def travel(
 
     Examples
     --------
+    >>> import numpy as np
     >>> curves = travel(Model("reference_car"), [-0.05, 0.05])
     >>> np.rad2deg(curves["camber"].values).round(4).tolist()
     [1.3246, -0.9139]
@@ -107,6 +108,7 @@ def steering(model: Model, rack: ArrayLike | None = None, *, travel: float = 0.0
 
     Examples
     --------
+    >>> import numpy as np
     >>> curves = steering(Model("reference_car"), [-0.04, 0.04])
     >>> np.rad2deg(curves["steer_left"].values).round(3).tolist()
     [18.174, -17.836]

@@ -41,7 +41,8 @@ _RESULT = kintrafo.simulate(_CAR, (0.0, 0.01), _REST)
 NASTY = [
     None, True, False, "", "reference_car", "nan", b"x", 0, -1, 1, 10**400, 0.0, -0.3, 1e-320,
     1e308, np.nan, np.inf, -np.inf, 1j, Decimal("0.1"), Fraction(1, 3), np.float32(0.01),
-    np.int64(3), [], [1.0], [np.nan], [[0.0, 0.01]], [None], ["a"], [[1.0], [1.0, 2.0]], (0.0, 0.1), (1.0, 1.0),
+    np.int64(3), [], [1.0], [np.nan], [[0.0, 0.01]], [None], ["a"],
+    [[1.0], [1.0, 2.0]], (0.0, 0.1), (1.0, 1.0),
     (0.1, 0.0, 0.2), np.zeros((0, 4)), np.zeros(4), np.ones((2, 3)), np.array("x"),
     {}, {"a": 1.0}, {"road_height": np.nan}, {"road_height": "0.01"}, {1: 2}, set(), object(), _CAR,
     _SYSTEM, kintrafo.Model, four_bar, np, len, lambda: 0.0, lambda *_: np.nan,
