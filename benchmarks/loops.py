@@ -21,7 +21,7 @@ from .report import fill_page, markdown_table
 
 def table(found: dict[str, Judged]) -> str:
     """Return the results as Markdown."""
-    header = ("mechanism", "drawn", "positions", "on regular paths", "answered", "wrong")
+    header = ("mechanism", "that move", "positions", "on regular paths", "answered", "wrong")
     total = sum(found.values(), Judged())
     rows = [
         (
@@ -38,7 +38,7 @@ def table(found: dict[str, Judged]) -> str:
 
 
 def run(
-    count: Annotated[int, typer.Option(help="Mechanisms of each kind.")] = 100,
+    count: Annotated[int, typer.Option(help="Mechanisms of each kind.")] = 20,
     page: Annotated[Path | None, typer.Option(help="Also put the table into this page.")] = None,
 ) -> None:
     """Count what is answered of regular paths, and what is wrong."""
