@@ -17,9 +17,8 @@ from ._native import Function
 Array = NDArray[np.float64]
 Described = Mapping[str, Mapping[str, Any]]
 
-# As in the C code: guards from here on share a bit, and a guarded quantity must be over the floor.
+# As in the C code: guards from here on share a bit.
 _LAST_GUARD_BIT = 29
-_GUARD_FLOOR = 1e-24
 
 
 class ModelError(KintrafoError, ValueError):
@@ -105,7 +104,7 @@ class CompiledModel:
         relative: Described,
         code: Mapping[str, int | Callable[..., Any]],
         guard_units: Mapping[str, str],
-        assumptions: Sequence[tuple[str, str, str, str]],
+        assumptions: Sequence[tuple[str, str, str, str, str]],
     ) -> None:
         self.guard_units = guard_units
         self.assumptions = tuple(assumptions)
@@ -190,9 +189,17 @@ class CompiledModel:
                 "the design position is degenerate (coincident points, or a point on a line that "
                 "it must lie beside)"
             )
-        name, unit, meaning, remedy = self.assumptions[failed - len(self.constant_names) - 1]
+        name, unit, meaning, remedy, least = self.assumptions[
+            failed - len(self.constant_names) - 1
+        ]
         value = float(abs(constants[self.constant_names.index(name)]))
-        return f"{meaning}: it is off by {_amount_off(value, unit)}; {remedy}"
+        if not least:
+            return f"{meaning}: it is off by {_amount_off(value, unit)}; {remedy}"
+        needed = float(constants[self.constant_names.index(least)])
+        return (
+            f"{meaning}: {_amount_off(value, unit)}, and more than {_amount_off(needed, unit)} "
+            f"is needed; {remedy}"
+        )
 
     def call_residuals(
         self, constants: Array, state: Array, inputs: Array, given: Array, out: Array
@@ -237,7 +244,7 @@ class CompiledModel:
             place
             for place in range(len(self.guards))
             if status >> min(place, _LAST_GUARD_BIT) & 1
-            and (place < _LAST_GUARD_BIT or not margins[place] > _GUARD_FLOOR)
+            and (place < _LAST_GUARD_BIT or not margins[place] > 0.0)
         ]
         if not hit:
             shown = ", ".join(f"{name} = {value:.6g}" for name, value in coordinates.items())

@@ -153,7 +153,7 @@ class LinearTyre:
     center: Point
     spin: Direction
     rate: Amount
-    free_height: Amount
+    free_height: Name
     road: Name
     damper: Amount | None = None
     road_velocity: Name | None = None

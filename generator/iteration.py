@@ -299,10 +299,12 @@ class Derivation:
             for j, column in enumerate(columns):
                 kept = _dot(line, column) - (1 if i == j else 0)
                 squares.append(self.program.define(f"kept_{i + 1}{j + 1}", kept) ** 2)
-        guards = {
-            c.args[0] for s in self.program.steps.values() for c in s.expression.atoms(Guarded)
+        margins = {
+            sp.Add(guarded.args[0], -guarded.args[1])
+            for step in self.program.steps.values()
+            for guarded in step.expression.atoms(Guarded)
         }
-        failing = [1 - IsPositive(g) for g in sorted(guards, key=str)]
+        failing = [1 - IsPositive(margin) for margin in sorted(margins, key=str)]
         return sp.Add(*squares, *failing)
 
 

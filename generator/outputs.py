@@ -24,6 +24,7 @@ from .vectors import ZERO, Vector
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
+    from .conditioning import Condition
     from .laws import Law
     from .mechanism import Mechanism, Model
 
@@ -56,8 +57,8 @@ class GeneratedModel:
         The emitted functions by name; `prepare` computes the constants that the others read.
     guards
         All guards of the model; the bit of a guard in a status word is its position here.
-    assumptions
-        What the constants of a parameter set must fulfil.
+    assumptions, conditions
+        What the constants of a parameter set must fulfil: which must be zero, which must not.
     moving_bodies, massive_bodies
         Names in the order of the arrays of poses and of Jacobians.
     signals
@@ -74,6 +75,7 @@ class GeneratedModel:
     prepare: Function
     guards: tuple[Guard, ...]
     assumptions: tuple[Assumption, ...]
+    conditions: tuple[Condition, ...]
     moving_bodies: tuple[str, ...]
     massive_bodies: tuple[str, ...]
     signals: tuple[Entry, ...]
@@ -132,7 +134,7 @@ class _Builder:
             "margins",
             "Quantities that are positive where the model is valid; where one is not, those "
             "behind it mean nothing.",
-            {g.name: g.quantity for g in guards},
+            {g.name: g.margin for g in guards},
         )
         self.functions["margins"] = replace(margins, guards=())  # it reports, and does not refuse
         assumed = define_assumptions(self.program, self.assumed)
@@ -149,6 +151,7 @@ class _Builder:
             prepare=prepare,
             guards=guards,
             assumptions=assumed,
+            conditions=tuple(self.constants.conditions.values()),
             moving_bodies=self.moving,
             massive_bodies=self.massive,
             signals=tuple(self.signals),

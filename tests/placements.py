@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import sympy as sp
 from kintrafo.generator.emit import arrays
-from kintrafo.generator.emit.c import GUARD_FLOOR, blocks_of
+from kintrafo.generator.emit.c import blocks_of
 from kintrafo.generator.parts import Parts
 from kintrafo.generator.placement import from_axes, to_axes
 from kintrafo.generator.program import ConstantStage, Program
@@ -63,7 +63,7 @@ class Placements:
                 places |= {
                     f"{body.name} {i}{j}": value for i, value in enumerate(part.to_chassis(carried))
                 }
-        guards = {guard.name: guard.quantity for guard in program.guards.values()}
+        guards = {guard.name: guard.margin for guard in program.guards.values()}
         function = program.function("places", "", places | guards)
         prepare = constants.function([function])
         names = tuple(
@@ -95,7 +95,7 @@ class Placements:
         poses, margins = np.split(values, [12 * bodies], axis=1)
         poses = poses.reshape(count, bodies, 12)
         rotations = poses[..., 3:].reshape(count, bodies, 3, 3).swapaxes(-1, -2)
-        answered = np.isfinite(values).all(axis=1) & (margins > float(GUARD_FLOOR)).all(axis=1)
+        answered = np.isfinite(values).all(axis=1) & (margins > 0.0).all(axis=1)
         return answered, poses[..., :3], rotations
 
 
@@ -108,7 +108,7 @@ def _printed(function: Function, prepare: Function, parameters: list[str], names
     loads = [f"{n} = constants[{i}]" for i, n in enumerate(prepare.labels) if n in read]
     loads += [f"{n} = coordinates[:, {i}]" for i, n in enumerate(names) if n in read]
     texts = [
-        f"import numpy as np\nGUARD_FLOOR = {GUARD_FLOOR}",
+        "import numpy as np",
         *arrays.printed_blocks(blocks_of([function])),
         arrays.definition(prepare, "parameters", arrays.loaded("parameters", parameters, prepare)),
         arrays.definition(function, "constants, coordinates", loads),

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from ..arithmetic import NUMPY, write
 from ..assumptions import ROUNDING
 from ..iteration import LIMITS
-from .c import GUARD_FLOOR, CPrinter, blocks_of
+from .c import CPrinter, blocks_of
 from .text import template
 
 if TYPE_CHECKING:
@@ -35,7 +35,6 @@ class ArraysPrinter:
         names = ["prepare", *self.model.functions]
         return template("arrays.py").substitute(
             name=self.model.model.name,
-            floor=GUARD_FLOOR,
             rounding=ROUNDING,
             functions="\n\n\n".join(
                 [
@@ -49,10 +48,17 @@ class ArraysPrinter:
 
     def _prepare(self) -> str:
         loads = loaded("parameters", [e.name for e in self.model.parameters], self.model.prepare)
-        holds = [
-            f"{place}: abs({a.quantity}) <= ROUNDING{'' if a.scale == 1 else f' * {a.scale}'}"
-            for place, a in enumerate(self.model.assumptions)
+        tests = [
+            *(
+                f"not abs({a.quantity}) > ROUNDING{'' if a.scale == 1 else f' * {a.scale}'}"
+                for a in self.model.assumptions
+            ),
+            *(
+                f"not abs({c.quantity}) <= {write(c.least, NUMPY).text}"
+                for c in self.model.conditions
+            ),
         ]
+        holds = [f"{place}: {test}" for place, test in enumerate(tests)]
         return definition(self.model.prepare, "parameters", loads, holds)
 
     def _body(self, function: Function) -> str:
@@ -67,7 +73,7 @@ class ArraysPrinter:
             names = [f"given_{e.name}" for e in self.model.relative]
             loads += loaded("given", names, function)
         holds = [
-            f"{place}: {guard.quantity} > GUARD_FLOOR"
+            f"{place}: {guard.quantity} > {write(guard.floor, NUMPY).text}"
             for place, guard in enumerate(self.model.guards)
             if guard in function.guards
         ]

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ..arithmetic import OPERATIONS, Iterated
+from ..arithmetic import OPERATIONS, Iterated, write
 from ..assumptions import ROUNDING
 from ..iteration import ITERATIONS, LIMITS
 from .text import template
@@ -19,6 +19,8 @@ from .text import template
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
+    from ..assumptions import Assumption
+    from ..conditioning import Condition
     from ..iteration import Block
     from ..outputs import Entry, GeneratedModel
     from ..program import Function
@@ -26,10 +28,6 @@ if TYPE_CHECKING:
 GENERATOR_VERSION = "0.1.0"
 WIDTH = 100
 ARGUMENTS = "const double *restrict constants, const double *restrict state,"
-
-# The smallest value that a guarded quantity may take; below, the status says so. It is far under
-# any physical size (a closure within 1e-12 m of its dead point) and far over what would overflow.
-GUARD_FLOOR = "1.0e-24"
 
 # A status word has 30 bits for guards, under that for results that are not finite. The last one is
 # for all guards that are left: which of those it is follows from the margins.
@@ -213,14 +211,15 @@ class CPrinter:
 
     def _prepare_returns(self) -> str:
         first = " * Returns 0, or one plus the index of the first constant that is not finite"
-        if not self.model.assumptions:
+        checked: list[Assumption | Condition] = [*self.model.assumptions, *self.model.conditions]
+        if not checked:
             return f"{first}.\n"
         count = f"{self.upper}_CONSTANT_COUNT"
-        names = [f" *   {a.quantity}: {a.meaning}" for a in self.model.assumptions]
+        names = [f" *   {a.quantity}: {a.meaning}" for a in checked]
         return "\n".join(
             [
                 f"{first},",
-                f" * or {count} plus the number of the first that should be zero and is not:",
+                f" * or {count} plus the number of the first of these that applies:",
                 *(
                     line
                     for name in names
@@ -268,10 +267,6 @@ class CPrinter:
         blocks = [
             self._banner(),
             f'#include "{self.prefix}.h"\n\n#include <math.h>{text_functions}',
-            (
-                "/* The smallest value that a guarded quantity is given; see the status bits. */\n"
-                f"#define GUARD_FLOOR {GUARD_FLOOR}"
-            ),
             AT_LEAST,
             NOT_FINITE,
             *self._blocks(blocks_of(functions)),
@@ -318,24 +313,30 @@ class CPrinter:
         count = f"{self.upper}_CONSTANT_COUNT"
         lines += [
             "",
+            *self._assumptions(),
             f"    for (int i = 0; i < {count}; ++i) {{",
             "        if (!isfinite(constants[i])) {",
             "            return i + 1;",
             "        }",
             "    }",
-            *self._assumptions(),
             "    return 0;",
             "}",
         ]
         return "\n".join(lines)
 
     def _assumptions(self) -> list[str]:
-        """Return the checks of what must be zero."""
+        """Return the checks of what must be zero, and of what must not; a NaN is found later."""
         lines = []
-        for number, assumption in enumerate(self.model.assumptions, 1):
-            size = "" if assumption.scale == 1 else f" * {assumption.scale}"
+        tests = [
+            *(
+                f"fabs({a.quantity}) > ROUNDING{'' if a.scale == 1 else f' * {a.scale}'}"
+                for a in self.model.assumptions
+            ),
+            *(f"fabs({c.quantity}) <= {write(c.least).text}" for c in self.model.conditions),
+        ]
+        for number, test in enumerate(tests, 1):
             lines += [
-                f"    if (fabs({assumption.quantity}) > ROUNDING{size}) {{",
+                f"    if ({test}) {{",
                 f"        return {self.upper}_CONSTANT_COUNT + {number};",
                 "    }",
             ]
@@ -395,7 +396,7 @@ class CPrinter:
         A NaN or infinity that goes in comes out as one, or is caught by a guard.
         """
         bits = [
-            (f"!({g.quantity} > GUARD_FLOOR)", self.enumerator("status", g.name))
+            (f"!({g.quantity} > {write(g.floor).text})", self.enumerator("status", g.name))
             for g in self.model.guards
             if g in function.guards
         ]

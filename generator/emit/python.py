@@ -156,8 +156,12 @@ class PythonPrinter:
                 tuple((g.name, g.meaning) for g in model.guards),
             ),
             "ASSUMPTIONS": (
-                "tuple[tuple[str, str, str, str], ...]",
-                tuple((str(a.quantity), a.unit, a.meaning, a.remedy) for a in model.assumptions),
+                "tuple[tuple[str, str, str, str, str], ...]",
+                tuple((str(a.quantity), a.unit, a.meaning, a.remedy, "") for a in model.assumptions)
+                + tuple(
+                    (str(c.quantity), c.unit, c.meaning, c.remedy, str(c.least))
+                    for c in model.conditions
+                ),
             ),
             "GUARD_UNITS": ("dict[str, str]", {g.name: g.unit for g in model.guards}),
             "ACTING_GUARDS": ("dict[str, tuple[int, ...]]", _acting(model)),

@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from ..conditioning import DIRECTION, extent_squared
 from ..placement import Axes, Placed, PointMotion, from_axes, to_axes
 from ..vectors import UNIT_X, ZERO, Twist, Vector
 from .lines import once, projector
@@ -45,6 +46,7 @@ def solve_stroke(kin: Kinematics, action: SolveStroke) -> None:
         f"{kin.loop_of(action)} cannot close: the pins {action.anchor.name} and {action.end.name} "
         f"come nearer to each other than the guide of {action.links} allows",
         "m^2",
+        DIRECTION * extent_squared(kin, action),
     )
     extension = program.define(f"{near}_extension", pins.guide.branch * sp.sqrt(squared))
     kin.slides[joint.name] = program.define(f"slide_{joint.name}", action.sense * (extension - c))
@@ -54,7 +56,7 @@ def solve_stroke(kin: Kinematics, action: SolveStroke) -> None:
 def place_telescope(kin: Kinematics, action: PlaceTelescope) -> None:
     """Find the direction of a telescope of known slide between two placed pins."""
     pins = _Pins.of(kin, action)
-    _place(kin, pins, pins.guide.known_extension(kin))
+    _place(kin, pins, pins.guide.known_extension(kin, extent_squared(kin, action)))
 
 
 @dataclass(frozen=True)
@@ -80,7 +82,7 @@ class _Pins:
     def of(cls, kin: Kinematics, telescope: PinnedTelescope) -> _Pins:
         """Describe the pins of a telescope."""
         program, near = kin.program, telescope.near
-        guide = Guide.of(kin, telescope)
+        guide = Guide.of(kin, telescope, extent_squared(kin, telescope))
         parent = kin.placed[telescope.anchor_body]
         on_parent = to_axes(parent.design_axes, guide.axes[0])
         on_parent = program.vector(f"{near}_hinge_on_parent", on_parent, "123")

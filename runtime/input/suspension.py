@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from importlib import resources
 from importlib.resources.abc import Traversable
 from pathlib import Path
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar, NamedTuple, Self
 
 from pydantic import Field, ValidationError
 
@@ -43,6 +43,24 @@ _SMALLEST_WHEEL_RADIUS = 0.1
 _SMALLEST_SPIN_AXIS_ANGLE = 1.0
 
 _COMPONENTS = {"x": 0, "y": 1, "z": 2}
+
+
+class Allowed(NamedTuple):
+    """What a length may be, as the file says.
+
+    Attributes
+    ----------
+    signal : str
+        The signal of the equations that is the length.
+    limit : float
+        The least length; the greatest, with a minus sign [m].
+    meaning : str
+        What it means that the length is there.
+    """
+
+    signal: str
+    limit: float
+    meaning: str
 
 
 class Suspension(Section):
@@ -247,6 +265,16 @@ class Suspension(Section):
         _reverse(data["rack"]["axis"], 0)
         _reverse(data["rack"]["axis"], 2)
         return self.from_dict(data, "mirrored suspension")
+
+    def allowed_lengths(self) -> tuple[Allowed, ...]:
+        """Return the lengths that positions must keep, besides closing the loops.
+
+        Returns
+        -------
+        tuple of Allowed
+            Of what can be drawn in or out; empty where the file gives no limit.
+        """
+        return ()
 
     @abstractmethod
     def parameters(self) -> dict[str, float]:
