@@ -29,7 +29,8 @@ M_PI_2 M_PI_4 M_1_PI M_2_PI M_2_SQRTPI M_SQRT2 M_SQRT1_2 linux unix
 _OWN_WORDS = """
 sqrt sin cos asin atan2 copysign isfinite fabs abs at_least not_finite
 parameters constants state inputs given out status i np design_state prepare found results
-side crossed GUARD_FLOOR ROUNDING ITERATIONS CONVERGED
+follow follow_turns square fmax GUARD_FLOOR ROUNDING ITERATIONS CONVERGED STALLED LONGEST TURNED
+CLOSE SHORTEST CLOSED FULL_TURN UNKNOWNS ELEMENTS DRIVEN ADDRESSES
 """
 _WORDS = frozenset(
     [
@@ -50,6 +51,8 @@ _WORDS = frozenset(
         "static_assert",
     ]
 )
+# arguments of the residuals, and functions that iterate
+_BEGINNINGS = ("given_", "loops_through_", "pose_of_")
 _ENDS_OF_COMMENTS = ("*/", '"""', "\\", "\n", "\r")
 _COUNTED = ("count",)  # an enumeration ends with the number of its elements
 
@@ -88,7 +91,7 @@ def name_problems(mechanism: Mechanism) -> list[str]:
 
 def _reserved(kind: str, name: str) -> list[str]:
     """Find out whether a name is one that the code has for something else."""
-    if name in _WORDS or name.lower() in _COUNTED or name.startswith("given_"):
+    if name in _WORDS or name.lower() in _COUNTED or name.startswith(_BEGINNINGS):
         return [f"{kind} {name!r} has a name that the generated code needs; choose another one"]
     return []
 

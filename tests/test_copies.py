@@ -103,7 +103,7 @@ class Moving:
             model,
             tuple(kin.independent),
             _derived(mechanism),
-            _function([steps[s] for s in steps if s in needed], results, program.blocks.values()),
+            _function([steps[s] for s in steps if s in needed], results, stage.blocks.values()),
         )
 
     def design(self) -> list[mpmath.mpf]:

@@ -5,9 +5,11 @@ Every row is what somebody may write, with words that the message must have. Not
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from decimal import Decimal
 from fractions import Fraction
+from pathlib import Path
 
 import kintrafo
 import numpy as np
@@ -38,6 +40,7 @@ from kintrafo.generator import (
     TwistOfHinges,
     Weight,
     direction,
+    emit,
     point,
     rigid_body,
 )
@@ -601,7 +604,7 @@ def test_masses_and_rates_may_be_zero():
 
 # Names of C, of its library, of Python and of what is emitted, which nothing that is emitted needs.
 WORDS = """
-exp log pow fabsf isnan signbit fmax fma gamma j0 y1 yn I errno main printf stdin values x least
+exp log pow fabsf isnan signbit fmin fma gamma j0 y1 yn I errno main printf stdin values x least
 size_t len sum max min print range self math sp rhs margins results_ Array float_ sp_
 """
 
@@ -625,3 +628,17 @@ def test_words_of_c_and_python_can_be_parameters(tmp_path):
         total = float(len(words) * signals["dampers_velocity"])
         # so many equal terms are added, each with its rounding
         assert signals["dampers_damper_force"] == pytest.approx(-total, rel=1e-14)
+
+
+def test_macros_of_the_emitted_code_are_reserved():
+    folder = Path(emit.__file__).parent
+    printers, templates = (
+        "".join(p.read_text(encoding="utf-8") for p in sorted(folder.rglob(f"*{suffix}")))
+        for suffix in (".py", ".in")
+    )
+    defined = {*re.findall(r"#define ([A-Z][A-Z_]+)\b", printers + templates)}
+    defined |= {*re.findall(r"(?m)^([A-Z][A-Z_]+) = ", templates)}
+    assert {"GUARD_FLOOR", "CONVERGED"} <= defined
+    for name in sorted(defined):
+        with pytest.raises(DeclarationError, match=f"parameter '{name}' has a name that"):
+            with_parameter("spring_rate", name=name)
