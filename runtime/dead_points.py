@@ -20,9 +20,10 @@ _ACTS, _PLACES = 1, 2
 # As in the emitted code and in ``native/margins.c``, where the reasons are.
 _GUARD_FLOOR = 1e-24
 _PART = 0.5
-_NOTHING = 1e-12
+_NOTHING = 1e-10
 SMALLEST_PART = 1e-14
 LAPSE = 1.0 / 16.0
+LEFT = 4.0
 
 
 @cache
@@ -60,7 +61,9 @@ class DeadPoint(Exception):  # noqa: N818 (it ends an integration, and is told a
     ----------
     guard : int
     time : float
+        Of the dead point [s].
     state : ndarray
+        The last that was reached before it.
     """
 
     def __init__(self, guard: int, time: float, state: Array) -> None:

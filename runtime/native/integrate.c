@@ -17,7 +17,7 @@ typedef struct {
     const kt_options *options;
     kt_result *result;
     SUNContext context;
-    N_Vector y, tolerance, scratch;
+    N_Vector y, scratch;
     SUNMatrix matrix;
     SUNLinearSolver linear;
     void *solver;
@@ -31,6 +31,7 @@ typedef struct {
     double *moved;       /* a state a short time later */
     double start, end;   /* of the whole time */
     double longest_step; /* so far */
+    double part;         /* of the tolerances, near a dead point */
     int stuck;           /* very short steps in a row */
     clock_t asked;       /* when the caller was asked last whether to go on */
 } worker;
@@ -141,6 +142,29 @@ static int call_jacobian(sunrealtype time, N_Vector y, N_Vector derivative, SUNM
     return 0;
 }
 
+/*
+ * Below this part of the longest step the tolerances shrink with what is left, as the coordinates and their
+ * rates do whose motion leads to a dead point: else errors that are tolerated elsewhere decide about it.
+ */
+#define CLOSE 0.1
+#define SMALLEST_SHARE 1.0e-4
+#define SMALLEST_RTOL 1.0e-12 /* rounding would decide below */
+
+/* The weights of the errors: what the solver makes of the tolerances by itself, and near a dead point more. */
+static int call_weights(N_Vector y, N_Vector weights, void *data)
+{
+    const worker *w = data;
+    const kt_options *o = w->options;
+    double share = fmax(SMALLEST_SHARE, w->part * w->part), rtol = o->rtol;
+    if (share < 1.0) {
+        rtol = fmin(rtol, fmax(SMALLEST_RTOL, share * rtol));
+    }
+    for (int i = 0; i < w->problem->state_count; ++i) {
+        NV_Ith_S(weights, i) = 1.0 / (rtol * fabs(NV_Ith_S(y, i)) + share * o->atol[i]);
+    }
+    return 0;
+}
+
 static int call_roots(sunrealtype time, N_Vector y, sunrealtype *out, void *data)
 {
     worker *w = data;
@@ -212,7 +236,7 @@ static int set_up_cvode(worker *w, double start)
     double sign = w->end > w->start ? 1.0 : -1.0;
     int bad = CVodeInit(w->solver, call_rhs, start, w->y)
         || CVodeSetUserData(w->solver, w)
-        || CVodeSVtolerances(w->solver, o->rtol, w->tolerance)
+        || CVodeWFtolerances(w->solver, call_weights)
         || CVodeSetLinearSolver(w->solver, w->linear, w->matrix)
         || CVodeSetJacFn(w->solver, call_jacobian)
         || CVodeSetMaxNumSteps(w->solver, -1)
@@ -281,7 +305,7 @@ static int set_up_runge_kutta(worker *w, double start)
     double sign = w->end > w->start ? 1.0 : -1.0;
     int bad = ARKodeSetUserData(w->solver, w)
         || (exact && ARKodeSetInterpolantDegree(w->solver, 3))
-        || ARKodeSVtolerances(w->solver, o->rtol, w->tolerance)
+        || ARKodeWFtolerances(w->solver, call_weights)
         || ARKodeSetMaxNumSteps(w->solver, -1)
         || (o->first_step > 0.0 && ARKodeSetInitStep(w->solver, sign * o->first_step))
         || (o->max_step > 0.0 && ARKodeSetMaxStep(w->solver, o->max_step))
@@ -315,13 +339,11 @@ static int set_up(worker *w, const double *state, double start)
     }
     memcpy(w->inputs, p->inputs, (size_t)p->input_count * sizeof *w->inputs);
     w->y = new_vector((sunindextype)n, w->context);
-    w->tolerance = w->y ? N_VClone(w->y) : NULL;
     w->scratch = w->y ? N_VClone(w->y) : NULL;
-    if (!w->tolerance || !w->scratch) {
+    if (!w->scratch) {
         return KT_MEMORY;
     }
     memcpy(N_VGetArrayPointer(w->y), state, n * sizeof *state);
-    memcpy(N_VGetArrayPointer(w->tolerance), w->options->atol, n * sizeof *state);
     memcpy(r->state, state, n * sizeof *state);
     r->time = start;
     w->runge_kutta = w->options->method == KT_RUNGE_KUTTA;
@@ -345,9 +367,6 @@ static void tear_down(worker *w)
     }
     if (w->scratch) {
         N_VDestroy(w->scratch);
-    }
-    if (w->tolerance) {
-        N_VDestroy(w->tolerance);
     }
     if (w->y) {
         N_VDestroy(w->y);
@@ -563,12 +582,12 @@ static double smallest_step(const worker *w)
     return of_step > 0.0 && of_step < of_time ? of_step : of_time;
 }
 
-/* End at the dead point of a guard, at the state that was reached. */
-static int end_at(worker *w, int guard)
+/* End at the dead point of a guard, a time after the state that was reached. */
+static int end_at(worker *w, int guard, double left)
 {
     kt_result *r = w->result;
     r->refused_guard = guard;
-    r->refused_time = r->time;
+    r->refused_time = r->time + (w->end > w->start ? left : -left);
     memcpy(r->refused_state, r->state, (size_t)w->problem->state_count * sizeof *r->state);
     return KT_STATE;
 }
@@ -656,7 +675,7 @@ static int limit(worker *w, course *c, double lapse)
     int stuck = lapse < LAPSE * smallest_step(w) && c->trusted < NEAR * w->longest_step;
     w->stuck = stuck ? w->stuck + 1 : 0;
     over = over || w->stuck >= MOST_STUCK || c->trusted < SMALLEST_PART * fabs(w->result->time);
-    return over ? end_at(w, nearest) : KT_DONE;
+    return over ? end_at(w, nearest, KT_LEFT * c->trusted) : KT_DONE;
 }
 
 /* Make the end of a step the state that is reached, or take it back. */
@@ -674,14 +693,16 @@ static int accept(worker *w, course *c, double reached)
         r->output.rows = rows;
         c->next = next;
         int outcome = shorten(w, step);
-        return outcome == KT_STATE ? end_at(w, guard) : outcome ? outcome : KT_AGAIN;
+        return outcome == KT_STATE ? end_at(w, guard, 0.0) : outcome ? outcome : KT_AGAIN;
     }
     r->time = reached;
     memcpy(r->state, N_VGetArrayPointer(w->y), (size_t)w->problem->state_count * sizeof(double));
     w->longest_step = fmax(w->longest_step, step);
     kt_reach(&w->margins);
     c->trusted = INFINITY;
-    return looked ? limit(w, c, LAPSE * step) : KT_DONE;
+    int outcome = looked ? limit(w, c, LAPSE * step) : KT_DONE;
+    w->part = fmin(1.0, c->trusted / (CLOSE * w->longest_step));
+    return outcome;
 }
 
 /* Return the goal, or the next milestone if that comes before it. */
@@ -782,7 +803,7 @@ int kt_integrate(const kt_problem *problem, const kt_options *options, const dou
                  const double *times, long count, int every_step, kt_result *result)
 {
     worker w = {.problem = problem, .options = options, .result = result,
-                .start = times[0], .end = times[count - 1], .asked = clock()};
+                .start = times[0], .end = times[count - 1], .asked = clock(), .part = 1.0};
     memset(result, 0, sizeof *result);
     result->refused_guard = KT_NONE;
     int outcome = set_up(&w, state, times[0]);

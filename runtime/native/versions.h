@@ -32,7 +32,7 @@
 #define ARKodeSetRootDirection ERKStepSetRootDirection
 #define ARKodeSetStopTime ERKStepSetStopTime
 #define ARKodeSetUserData ERKStepSetUserData
-#define ARKodeSVtolerances ERKStepSVtolerances
+#define ARKodeWFtolerances ERKStepWFtolerances
 #endif
 
 /* Errors are told by return codes alone: each solver was silenced before 7.0, and the context since. */
