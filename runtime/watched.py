@@ -18,7 +18,6 @@ _METHODS = {"RK45": RK45, "DOP853": DOP853, "Radau": Radau, "BDF": BDF, "LSODA":
 _SMALLEST_OF_TIME, _SMALLEST_OF_STEP = 1e-9, 1e-6
 _NEAR = 1e-3
 _MOST_STUCK = 8
-_CLOSE, _SMALLEST_SHARE, _SMALLEST_RTOL = 0.1, 1e-4, 1e-12
 _SHORTER = 0.25
 _COUNTS = ("nfev", "njev", "nlu")
 
@@ -66,7 +65,6 @@ class _Steps(OdeSolver):  # type: ignore[misc]  # SciPy has no types
 
     def __init__(self, fun: Any, t0: float, y0: Array, t_bound: float, **options: Any) -> None:
         self._given, self._end, self._options = fun, t_bound, options
-        self._tolerances = options["rtol"], np.asarray(options["atol"])
         self._goals = [*self.watch.milestones.tolist(), t_bound]
         super().__init__(fun, t0, y0, t_bound, **options)
         self._whole, self._longest, self._stuck = abs(t_bound - t0), 0.0, 0
@@ -139,8 +137,3 @@ class _Steps(OdeSolver):  # type: ignore[misc]  # SciPy has no types
         if guard is not None and over:
             time = self.t + self.direction * LEFT * self._trusted
             raise DeadPoint(guard, time, self.y)
-        # as in ``native/integrate.c``; LSODA keeps its tolerances to itself
-        part = min(1.0, self._trusted / (_CLOSE * self._longest)) if self._longest else 1.0
-        share = max(_SMALLEST_SHARE, part**2)
-        self.rtol = min(self._tolerances[0], max(_SMALLEST_RTOL, share * self._tolerances[0]))
-        self.atol = share * self._tolerances[1]

@@ -17,7 +17,7 @@ typedef struct {
     const kt_options *options;
     kt_result *result;
     SUNContext context;
-    N_Vector y, scratch;
+    N_Vector y, tolerance, scratch;
     SUNMatrix matrix;
     SUNLinearSolver linear;
     void *solver;
@@ -31,7 +31,6 @@ typedef struct {
     double *moved;       /* a state a short time later */
     double start, end;   /* of the whole time */
     double longest_step; /* so far */
-    double part;         /* of the tolerances, near a dead point */
     int stuck;           /* very short steps in a row */
     clock_t asked;       /* when the caller was asked last whether to go on */
 } worker;
@@ -142,29 +141,6 @@ static int call_jacobian(sunrealtype time, N_Vector y, N_Vector derivative, SUNM
     return 0;
 }
 
-/*
- * Below this part of the longest step the tolerances shrink with what is left, as the coordinates and their
- * rates do whose motion leads to a dead point: else errors that are tolerated elsewhere decide about it.
- */
-#define CLOSE 0.1
-#define SMALLEST_SHARE 1.0e-4
-#define SMALLEST_RTOL 1.0e-12 /* rounding would decide below */
-
-/* The weights of the errors: what the solver makes of the tolerances by itself, and near a dead point more. */
-static int call_weights(N_Vector y, N_Vector weights, void *data)
-{
-    const worker *w = data;
-    const kt_options *o = w->options;
-    double share = fmax(SMALLEST_SHARE, w->part * w->part), rtol = o->rtol;
-    if (share < 1.0) {
-        rtol = fmin(rtol, fmax(SMALLEST_RTOL, share * rtol));
-    }
-    for (int i = 0; i < w->problem->state_count; ++i) {
-        NV_Ith_S(weights, i) = 1.0 / (rtol * fabs(NV_Ith_S(y, i)) + share * o->atol[i]);
-    }
-    return 0;
-}
-
 static int call_roots(sunrealtype time, N_Vector y, sunrealtype *out, void *data)
 {
     worker *w = data;
@@ -236,7 +212,7 @@ static int set_up_cvode(worker *w, double start)
     double sign = w->end > w->start ? 1.0 : -1.0;
     int bad = CVodeInit(w->solver, call_rhs, start, w->y)
         || CVodeSetUserData(w->solver, w)
-        || CVodeWFtolerances(w->solver, call_weights)
+        || CVodeSVtolerances(w->solver, o->rtol, w->tolerance)
         || CVodeSetLinearSolver(w->solver, w->linear, w->matrix)
         || CVodeSetJacFn(w->solver, call_jacobian)
         || CVodeSetMaxNumSteps(w->solver, -1)
@@ -305,7 +281,7 @@ static int set_up_runge_kutta(worker *w, double start)
     double sign = w->end > w->start ? 1.0 : -1.0;
     int bad = ARKodeSetUserData(w->solver, w)
         || (exact && ARKodeSetInterpolantDegree(w->solver, 3))
-        || ARKodeWFtolerances(w->solver, call_weights)
+        || ARKodeSVtolerances(w->solver, o->rtol, w->tolerance)
         || ARKodeSetMaxNumSteps(w->solver, -1)
         || (o->first_step > 0.0 && ARKodeSetInitStep(w->solver, sign * o->first_step))
         || (o->max_step > 0.0 && ARKodeSetMaxStep(w->solver, o->max_step))
@@ -339,11 +315,13 @@ static int set_up(worker *w, const double *state, double start)
     }
     memcpy(w->inputs, p->inputs, (size_t)p->input_count * sizeof *w->inputs);
     w->y = new_vector((sunindextype)n, w->context);
+    w->tolerance = w->y ? N_VClone(w->y) : NULL;
     w->scratch = w->y ? N_VClone(w->y) : NULL;
-    if (!w->scratch) {
+    if (!w->tolerance || !w->scratch) {
         return KT_MEMORY;
     }
     memcpy(N_VGetArrayPointer(w->y), state, n * sizeof *state);
+    memcpy(N_VGetArrayPointer(w->tolerance), w->options->atol, n * sizeof *state);
     memcpy(r->state, state, n * sizeof *state);
     r->time = start;
     w->runge_kutta = w->options->method == KT_RUNGE_KUTTA;
@@ -367,6 +345,9 @@ static void tear_down(worker *w)
     }
     if (w->scratch) {
         N_VDestroy(w->scratch);
+    }
+    if (w->tolerance) {
+        N_VDestroy(w->tolerance);
     }
     if (w->y) {
         N_VDestroy(w->y);
@@ -701,7 +682,6 @@ static int accept(worker *w, course *c, double reached)
     kt_reach(&w->margins);
     c->trusted = INFINITY;
     int outcome = looked ? limit(w, c, LAPSE * step) : KT_DONE;
-    w->part = fmin(1.0, c->trusted / (CLOSE * w->longest_step));
     return outcome;
 }
 
@@ -803,7 +783,7 @@ int kt_integrate(const kt_problem *problem, const kt_options *options, const dou
                  const double *times, long count, int every_step, kt_result *result)
 {
     worker w = {.problem = problem, .options = options, .result = result,
-                .start = times[0], .end = times[count - 1], .asked = clock(), .part = 1.0};
+                .start = times[0], .end = times[count - 1], .asked = clock()};
     memset(result, 0, sizeof *result);
     result->refused_guard = KT_NONE;
     int outcome = set_up(&w, state, times[0]);

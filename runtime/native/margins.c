@@ -59,7 +59,9 @@ int kt_changes(const kt_margins *m, double next)
 {
     double little = LITTLE / fmax(next, 1.0);
     for (int i = 0; i < m->count; ++i) {
-        if ((m->meaning[i] & KT_PLACES) && !(fabs(m->now[i] - m->before[i]) <= little * m->now[i])) {
+        double now = m->now[i], change = fabs(now - m->before[i]);
+        int calm = change <= little * now && now > NOTHING * m->greatest[i];
+        if ((m->meaning[i] & KT_PLACES) && !calm) {
             return 1;
         }
     }

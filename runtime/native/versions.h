@@ -32,7 +32,7 @@
 #define ARKodeSetRootDirection ERKStepSetRootDirection
 #define ARKodeSetStopTime ERKStepSetStopTime
 #define ARKodeSetUserData ERKStepSetUserData
-#define ARKodeWFtolerances ERKStepWFtolerances
+#define ARKodeSVtolerances ERKStepSVtolerances
 #endif
 
 /* Errors are told by return codes alone: each solver was silenced before 7.0, and the context since. */
