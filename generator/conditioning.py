@@ -10,9 +10,10 @@ Where the normal of two vectors is divided by its square, the same happens to th
 sine: `NORMAL`. A root that vanishes at a dead point spoils nothing: the equations that keep the
 distances hold with whatever it is. It must only be positive: `ROOT`.
 
-An extent is a constant: the root of the sum of squares of the positions of a loop's joints at the
-design position, in the axes in which positions are computed. What is constant itself, at the
-design position, is checked once, by `prepare`.
+An extent is a constant: the root of the sum of squares of the ways from one joint of a loop to the
+others, at the design position. Far from the origin of the axes in which positions are computed,
+they are rounded to more than u L; a tenth of that distance counts, which leaves 1e-9 in the worst case.
+What is constant itself, at the design position, is checked once, by `prepare`.
 """
 
 from __future__ import annotations
@@ -42,6 +43,9 @@ ROOT = sp.Float("1e-16")
 
 BRANCH = sp.Float("1e-9")
 """How far a design position must be from its dead point, so that it is clear on which side."""
+
+FAR = sp.Float("0.01")
+"""How much the square of the distance from the origin counts to that of the extent."""
 
 SMALLEST = sp.Float("1e-24")
 """A pure number that only has to be positive."""
@@ -82,10 +86,10 @@ def extent_squared(kin: Kinematics, action: Action | HeldByRod | PinnedTelescope
     found = [getattr(action, name, None) for name in ("anchor", "end", "axis_point")]
     found += [joint.center for joint in joints]
     found += [joint.axis.through for joint in joints if isinstance(joint, Revolute)]
-    squares = (kin.design(point) for point in dict.fromkeys(found) if point is not None)
-    return kin.program.define(
-        f"{label}_extent_squared", sum((p.dot(p) for p in squares), sp.Integer(0))
-    )
+    first, *others = (kin.design(point) for point in dict.fromkeys(found) if point is not None)
+    ways = (point - first for point in others)
+    squares = sum((way.dot(way) for way in ways), first.dot(first) * FAR)
+    return kin.program.define(f"{label}_extent_squared", squares)
 
 
 def require(

@@ -19,9 +19,10 @@ Array = NDArray[np.float64]
 _ACTS, _PLACES = 1, 2
 # As in the emitted code and in ``native/margins.c``, where the reasons are.
 _PART = 0.5
-_NOTHING = 1e-12
+_NOTHING = 1e-10
 SMALLEST_PART = 1e-14
 LAPSE = 1.0 / 16.0
+LEFT = 4.0
 
 
 @cache
@@ -59,7 +60,9 @@ class DeadPoint(Exception):  # noqa: N818 (it ends an integration, and is told a
     ----------
     guard : int
     time : float
+        Of the dead point [s].
     state : ndarray
+        The last that was reached before it.
     """
 
     def __init__(self, guard: int, time: float, state: Array) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import BDF, DOP853, LSODA, RK45, OdeSolver, Radau
 
-from .dead_points import LAPSE, SMALLEST_PART, Approach, DeadPoint
+from .dead_points import LAPSE, LEFT, SMALLEST_PART, Approach, DeadPoint
 from .generated._support import ModelError
 
 Array = NDArray[np.float64]
@@ -135,4 +135,5 @@ class _Steps(OdeSolver):  # type: ignore[misc]  # SciPy has no types
         self._stuck = self._stuck + 1 if stuck else 0
         over = over or self._stuck >= _MOST_STUCK or self._trusted < SMALLEST_PART * abs(self.t)
         if guard is not None and over:
-            raise DeadPoint(guard, self.t, self.y)
+            time = self.t + self.direction * LEFT * self._trusted
+            raise DeadPoint(guard, time, self.y)

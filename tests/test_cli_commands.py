@@ -262,9 +262,10 @@ def test_steering_with_mass_leaves_the_rack_free(kintrafo, tmp_path):
 
 
 def test_wheel_that_leaves_the_ground_is_told(kintrafo):
-    code, out, _ = kintrafo("simulate", CAR, "--road-step", -60)
-    assert code == 0
+    code, out, err = kintrafo("simulate", CAR, "--road-step", -60)
+    assert code == 1  # its tyre holds on to the road
     assert "The wheel leaves the ground" in out
+    assert "the tyre pulls at the road" in err
 
 
 def test_unfinished_simulation_keeps_what_it_has(kintrafo, tmp_path):
@@ -273,7 +274,7 @@ def test_unfinished_simulation_keeps_what_it_has(kintrafo, tmp_path):
     assert code == 1
     assert "cannot close" in err
     rows = (tmp_path / "part.csv").read_text(encoding="utf-8").splitlines()
-    assert 90 < len(rows) < 1001
+    assert 80 < len(rows) < 1001
 
 
 def test_topology_needs_no_sympy(kintrafo, monkeypatch):

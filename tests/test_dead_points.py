@@ -7,14 +7,15 @@ from kintrafo.excitation import Course, excitation
 from kintrafo.generated import four_bar, slider_crank
 from kintrafo.generated._support import ClosureError
 from kintrafo.own.build import compile_mechanism
-from kintrafo.solvers import native_methods
+from kintrafo.solvers import native_available, native_methods
 from scipy.integrate import solve_ivp
 
+_EXPLICIT = "Verner" if native_available() else "DOP853"
 METHODS = tuple(dict.fromkeys([*native_methods(), "BDF", "Radau", "LSODA", "RK45", "DOP853"]))
 
 
 def ended(system, start, end, **options):
-    with pytest.raises(SimulationError, match="dead point|cannot close") as caught:
+    with pytest.raises(SimulationError, match=r"dead point|cannot close") as caught:
         simulate(system, (0.0, end), start, **options)
     return caught.value
 
@@ -58,10 +59,10 @@ def least_margin(system, states):
     return float(system.evaluate("margins", states)[:, 1].min())
 
 
-def finishes(rate, method="DOP853", rtol=1e-10):
+def finishes(rate, method=_EXPLICIT, rtol=1e-10):
     system, start = crank(rate)
     try:
-        return simulate(system, (0.0, 1.0), start, method=method, rtol=rtol, atol=1e-3 * rtol)
+        return simulate(system, (0.0, 0.3), start, method=method, rtol=rtol, atol=1e-3 * rtol)
     except SimulationError:
         return None
 
@@ -72,7 +73,7 @@ def turning():
     low, high = 0.0, 64.0
     assert finishes(low) is not None
     assert finishes(high) is None
-    for _ in range(30):
+    for _ in range(24):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if finishes(middle) is not None else (low, middle)
     return low
@@ -84,7 +85,7 @@ def test_what_turns_before_a_dead_point_goes_on(turning, method):
     system, start = crank(rate)
     bare = solve_ivp(
         lambda _, y: system.evaluate("rhs", y),
-        (0.0, 1.0),
+        (0.0, 0.3),
         start,
         "DOP853",
         rtol=1e-12,
@@ -93,7 +94,7 @@ def test_what_turns_before_a_dead_point_goes_on(turning, method):
     )
     usual = system.usual_margins[1]
     assert least_margin(system, bare.y.T) < 1e-2 * usual
-    result = finishes(rate, method, rtol=1e-9)
+    result = finishes(rate, method, rtol=1e-8)
     assert result is not None
     assert result.y[:, -1] == pytest.approx(bare.y[:, -1], abs=1e-3)
 
@@ -126,7 +127,7 @@ def test_backwards(method):
 
 
 def test_functions_of_arrays_end_too():
-    from kintrafo.generator.mechanisms.four_bar import FOUR_BAR  # noqa: PLC0415 (an extra)
+    from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 
     system = System(compile_mechanism(FOUR_BAR, backend="numpy"), LONG_CRANK)
     start = system.state(crank_angle_rate=20.0)
@@ -148,4 +149,4 @@ def test_the_error_is_that_of_the_loop():
     message = "the rod coupler cannot reach rocker, beyond its dead point (rocker_closure = "
     assert message in error.reason
     with pytest.raises(ClosureError, match="cannot reach rocker"):
-        system.evaluate("rhs", error.state + [1e-3, 0.0])
+        system.evaluate("rhs", [error.state[0] + 1e-3, 0.0])

@@ -24,7 +24,8 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ..conditioning import DIRECTION, extent_squared
+from ..arithmetic import Positive
+from ..conditioning import DIRECTION, ROOT, extent_squared
 from ..placement import Axes, Placed, PointMotion, from_axes, to_axes
 from ..vectors import UNIT_X, ZERO, Twist, Vector
 from .lines import once, projector
@@ -40,13 +41,15 @@ def solve_stroke(kin: Kinematics, action: SolveStroke) -> None:
     program, near, joint = kin.program, action.near, action.joint
     pins = _Pins.of(kin, action)
     _, c, e = pins.guide.start
+    extent = extent_squared(kin, action)
     squared = program.guarded(
         f"{near}_extension_squared",
         pins.across.dot(pins.across) - e**2,
         f"{kin.loop_of(action)} cannot close: the pins {action.anchor.name} and {action.end.name} "
         f"come nearer to each other than the guide of {action.links} allows",
         "m^2",
-        DIRECTION * extent_squared(kin, action),
+        # the square of the distance of the pins is more by e^2: their direction counts as well
+        ROOT * extent + Positive(DIRECTION * extent - e**2),
     )
     extension = program.define(f"{near}_extension", pins.guide.branch * sp.sqrt(squared))
     kin.slides[joint.name] = program.define(f"slide_{joint.name}", action.sense * (extension - c))

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from ..scenario import Scenario
 
 EXAMPLES = (
-    "kintrafo simulate reference_car --height 325",
+    "kintrafo simulate reference_car --height 305",
     "kintrafo simulate my_car.toml --road-step 20 --road-step-at 0.1 -o bump.csv --plot bump.png",
     "kintrafo simulate my_car.toml --road-sine 10 --road-frequency 2 --duration 5",
     "kintrafo simulate my_car.toml --measured road.csv --speed 60 -o ride.nc",

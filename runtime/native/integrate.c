@@ -563,12 +563,12 @@ static double smallest_step(const worker *w)
     return of_step > 0.0 && of_step < of_time ? of_step : of_time;
 }
 
-/* End at the dead point of a guard, at the state that was reached. */
-static int end_at(worker *w, int guard)
+/* End at the dead point of a guard, a time after the state that was reached. */
+static int end_at(worker *w, int guard, double left)
 {
     kt_result *r = w->result;
     r->refused_guard = guard;
-    r->refused_time = r->time;
+    r->refused_time = r->time + (w->end > w->start ? left : -left);
     memcpy(r->refused_state, r->state, (size_t)w->problem->state_count * sizeof *r->state);
     return KT_STATE;
 }
@@ -656,7 +656,7 @@ static int limit(worker *w, course *c, double lapse)
     int stuck = lapse < LAPSE * smallest_step(w) && c->trusted < NEAR * w->longest_step;
     w->stuck = stuck ? w->stuck + 1 : 0;
     over = over || w->stuck >= MOST_STUCK || c->trusted < SMALLEST_PART * fabs(w->result->time);
-    return over ? end_at(w, nearest) : KT_DONE;
+    return over ? end_at(w, nearest, KT_LEFT * c->trusted) : KT_DONE;
 }
 
 /* Make the end of a step the state that is reached, or take it back. */
@@ -674,14 +674,15 @@ static int accept(worker *w, course *c, double reached)
         r->output.rows = rows;
         c->next = next;
         int outcome = shorten(w, step);
-        return outcome == KT_STATE ? end_at(w, guard) : outcome ? outcome : KT_AGAIN;
+        return outcome == KT_STATE ? end_at(w, guard, 0.0) : outcome ? outcome : KT_AGAIN;
     }
     r->time = reached;
     memcpy(r->state, N_VGetArrayPointer(w->y), (size_t)w->problem->state_count * sizeof(double));
     w->longest_step = fmax(w->longest_step, step);
     kt_reach(&w->margins);
     c->trusted = INFINITY;
-    return looked ? limit(w, c, LAPSE * step) : KT_DONE;
+    int outcome = looked ? limit(w, c, LAPSE * step) : KT_DONE;
+    return outcome;
 }
 
 /* Return the goal, or the next milestone if that comes before it. */

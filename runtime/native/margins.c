@@ -6,7 +6,7 @@
 
 /*
  * Part of the time that is left, margin over rate, which a step may take. The root of a margin is used
- * up in twice that time: a step takes a quarter of it.
+ * up in twice that time: a step takes a quarter of it, see KT_LEFT.
  */
 #define PART 0.5
 
@@ -15,10 +15,12 @@
 
 /*
  * Part of its greatest value below which a margin that falls is taken for zero. It is a difference of
- * numbers of that size or some ten times that, each with a rounding of 1e-16: a thousand times less. The
- * height that is its root is then a millionth of what it has been.
+ * numbers of that size or some ten times that, each with a rounding of 1e-16; the coordinates behind it
+ * carry the errors of the integration, of which a hundredth is a part of 1e-12 or more. The height that
+ * is its root is then a 100,000th of what it has been, and no motion of that accuracy tells whether it
+ * turns before zero.
  */
-#define NOTHING 1.0e-12
+#define NOTHING 1.0e-10
 
 int kt_open_margins(kt_margins *m, int count, const int *meaning, const double *scale)
 {
@@ -54,7 +56,9 @@ int kt_changes(const kt_margins *m, double next)
 {
     double little = LITTLE / fmax(next, 1.0);
     for (int i = 0; i < m->count; ++i) {
-        if ((m->meaning[i] & KT_PLACES) && !(fabs(m->now[i] - m->before[i]) <= little * m->now[i])) {
+        double now = m->now[i], change = fabs(now - m->before[i]);
+        int calm = change <= little * now && now > NOTHING * m->greatest[i];
+        if ((m->meaning[i] & KT_PLACES) && !calm) {
             return 1;
         }
     }

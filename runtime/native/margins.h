@@ -19,6 +19,9 @@ enum {
     KT_PLACES = 2 /* it chooses a branch of where bodies are */
 };
 
+/* How much longer than the longest step the root of a margin takes to zero in a straight line. */
+#define KT_LEFT 4.0
+
 typedef struct {
     int count;
     const int *meaning; /* of each guard, bits as above */
@@ -51,7 +54,7 @@ int kt_reflected(const kt_margins *m, double lapse, double step);
 
 /*
  * Return how long the next step may be, infinite where no margin falls. `nearest` is the guard that
- * limits it, and `over` tells whether its margin has come down to what rounding makes of zero.
+ * limits it, and `over` tells whether its margin has come down to nothing.
  */
 double kt_longest_step(const kt_margins *m, double lapse, int *nearest, int *over);
 

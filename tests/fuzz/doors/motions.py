@@ -1,11 +1,12 @@
 """Drops and kicks around dead points, by every method, against a tight reference.
 
 A motion is drawn whose start lies somewhere between the design position and a dead point, with
-rates that may carry it there. The reference is SciPy's DOP853 at 1e-12 with short steps around the
-bare right-hand side: it shares no code with what watches the margins in an integration. It ends
-where a height, the root of a margin, goes through zero, which it sees in a straight line of the height
-over time. What a result says has to agree: it ends there with an error, or it goes on and
-its states are those of the reference, and its signals can be had at all of its outputs.
+rates that may carry it there. The reference is SciPy's DOP853 at 1e-11 with short steps around
+the bare right-hand side: it shares no code with what watches the margins in an integration. It
+ends where a height, the root of a margin, goes through zero, which it sees in a straight line
+of the height over time. What a result says has to agree: it ends there with an error, or it
+goes on and its states are those of the reference, and its signals can be had at all of its
+outputs.
 """
 
 from __future__ import annotations

@@ -1,0 +1,141 @@
+"""What a simulation says about its end: interrupted, too long, on paths that no car can go."""
+
+import os
+import pickle
+import signal
+import threading
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+from kintrafo import Model, System, simulate, solvers, state_at_height
+from kintrafo.cli import app
+from kintrafo.generated import slider_crank
+from kintrafo.solvers import native_available
+from kintrafo.validity import bounds_of
+from typer.testing import CliRunner
+
+needs_sundials = pytest.mark.skipif(not native_available(), reason="built without SUNDIALS")
+CRANK = System(slider_crank)
+TURNING = CRANK.state(crank_angle_rate=30.0)
+
+
+def endless():
+    """Integrate for more steps than any machine takes in a minute."""
+    simulate(CRANK, (0.0, 1e9), TURNING, t_eval=[1e9], max_step=1e-3, max_steps=10**10)
+
+
+@needs_sundials
+@pytest.mark.skipif(os.name == "nt", reason="signals are sent to processes")
+@pytest.mark.parametrize("elsewhere", [False, True], ids=["here", "with a run in a thread"])
+def test_an_interrupt_is_seen_at_once(elsewhere):
+    stop = threading.Event()
+
+    def other():
+        while not stop.is_set():
+            simulate(CRANK, (0.0, 5.0), TURNING)
+
+    with ThreadPoolExecutor(1) as pool:
+        if elsewhere:
+            pool.submit(other)
+        timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        try:
+            with pytest.raises(KeyboardInterrupt):
+                endless()
+        finally:
+            stop.set()
+
+
+@pytest.mark.parametrize("method", ["BDF", "DOP853"])
+def test_a_dense_result_can_be_pickled(method):
+    result = simulate(CRANK, (0.0, 0.1), TURNING, method=method, dense_output=True)
+    again = pickle.loads(pickle.dumps(result))
+    times = np.linspace(0.0, 0.1, 7)
+    assert np.array_equal(again.sol(times), result.sol(times))
+
+
+def test_a_broken_native_module_is_not_called_missing(monkeypatch):
+    def broken(name):
+        raise ImportError(f"{name}: file too short")
+
+    monkeypatch.setattr(solvers, "import_module", broken)
+    module, why = solvers._load_native()
+    assert module is None
+    assert "cannot be loaded" in why
+    assert "file too short" in why
+    assert "without" not in why
+
+    def missing(name):
+        raise ModuleNotFoundError(name)
+
+    monkeypatch.setattr(solvers, "import_module", missing)
+    assert "built without SUNDIALS" in solvers._load_native()[1]
+
+
+def run(*arguments):
+    return CliRunner().invoke(app, ["simulate", "reference_car", *arguments])
+
+
+def test_the_command_line_names_its_own_options():
+    ended = run("--height", "325", "--max-steps", "20")
+    text = " ".join(str(ended.exception or ended.output).split())
+    assert ended.exit_code != 0
+    assert "Raise --max-steps" in text
+    assert "--rtol" in text
+    assert run("--height", "305", "--max-step", "5", "--duration", "0.1").exit_code == 0
+
+
+def test_a_motion_that_no_car_can_go_is_told():
+    """A tyre that pulls and a strut that comes apart: exit code 1, with times and amounts."""
+    ended = run("--road-sine", "200", "--road-frequency", "6", "--duration", "0.3")
+    assert ended.exit_code == 1
+    text = " ".join(ended.output.split()) + " ".join(ended.stderr.split())
+    assert "the tyre pulls at the road" in text
+    assert "the strut is longer than it can be" in text
+    assert "850 mm" in text
+    assert run("--road-step", "20", "--duration", "0.3").exit_code == 0
+
+
+def test_excursions_are_in_the_result():
+    model = Model("reference_car")
+    start = state_at_height(model, 0.325)
+    quiet = simulate(model, (0.0, 0.05), start, inputs={"road_height": 0.02})
+    assert quiet.validity == ()
+    times = np.linspace(0.0, 0.1, 101)
+    low = simulate(model, (0.0, 0.1), start, inputs={"road_height": -0.2}, t_eval=times)
+    pulls = next(found for found in low.validity if found.bound.signal == "tyre_force")
+    force = low.signals["tyre_force"]
+    assert pulls.worst == force.min() < -1000.0
+    assert pulls.time == times[force.argmin()]
+    assert pulls.spans[0][0] == times[np.flatnonzero(force < 0.0)[0]]
+    assert "N at" in str(pulls)
+
+
+def test_bounds_are_those_of_the_data():
+    bounds = {(b.signal, b.above): b for b in bounds_of(Model("offset_strut_car"))}
+    assert bounds["strut_velocity", False].possible
+    assert bounds["strut_velocity", True].limit > 0.0
+    assert not bounds["strut_length", True].possible
+
+
+@needs_sundials
+def test_defaults_of_the_methods():
+    """BDF has tighter ones, since it damps by its error; a long run names a better method."""
+    model = Model("reference_car")
+    start = state_at_height(model, 0.325)
+    by_default = simulate(model, (0.0, 0.1), start)
+    assert np.array_equal(by_default.y, simulate(model, (0.0, 0.1), start, rtol=1e-8, atol=1e-10).y)
+    by_default = simulate(model, (0.0, 0.1), start, method="Verner")
+    same = simulate(model, (0.0, 0.1), start, method="Verner", rtol=1e-6, atol=1e-9)
+    assert np.array_equal(by_default.y, same.y)
+    long = simulate(CRANK, (0.0, 250.0), TURNING, t_eval=[250.0], max_step=1e-3)
+    assert "Verner" in long.message
+
+
+@needs_sundials
+def test_first_steps_of_a_motion_followed_backwards():
+    forward = simulate(CRANK, (0.0, 0.1), TURNING, first_step=1e-4)
+    back = simulate(CRANK, (0.1, 0.0), forward.y[:, -1], first_step=1e-4)
+    # errors of some hundred steps at rtol 1e-8
+    assert back.y[:, -1] == pytest.approx(TURNING, abs=1e-4)
