@@ -638,7 +638,7 @@ def test_macros_of_the_emitted_code_are_reserved():
     )
     defined = {*re.findall(r"#define ([A-Z][A-Z_]+)\b", printers + templates)}
     defined |= {*re.findall(r"(?m)^([A-Z][A-Z_]+) = ", templates)}
-    assert {"GUARD_FLOOR", "CONVERGED"} <= defined
+    assert {"ROUNDING", "CONVERGED"} <= defined
     for name in sorted(defined):
         with pytest.raises(DeclarationError, match=f"parameter '{name}' has a name that"):
             with_parameter("spring_rate", name=name)
