@@ -30,7 +30,7 @@ from own_models import Built
 from ..attempts import RawError, WrongError
 
 SECONDS = 120.0
-SHORT = 60
+SHORT = 40
 
 _EXAMPLE = Path(__file__).parents[3] / "examples" / "pushrod_suspension.py"
 _DERIVED = 0.2  # share of the small accepted ones that are derived as a whole: a second each
