@@ -1,7 +1,7 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
 .PHONY: drawings help setup generate build run test test-elsewhere fuzz package lint types format baseline clean \
-	benchmark benchmark-andrews benchmark-bits benchmark-growth benchmark-page benchmark-peers benchmark-speed format-page front-axle-page report-assets
+	benchmark benchmark-andrews benchmark-bits benchmark-growth benchmark-loops benchmark-page benchmark-peers benchmark-speed format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
 EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/native/*.pyx runtime/native/*.[ch])
@@ -25,8 +25,8 @@ generate: .venv/.ready ## Derive the equations again and write generated/
 	@$(PYTHON) -m kintrafo.generator generate generated
 
 run: build ## The paper's suspension: topology, Figures 4 to 6, summary, all in out/
-	@$(PYTHON) -m kintrafo.generator topology --picture out/topology.png
-	@$(PYTHON) -m kintrafo paper out
+	@$(PYTHON) -m kintrafo.generator topology --picture out/topology.png --force
+	@$(PYTHON) -m kintrafo paper out --force
 
 test: build ## Run all tests
 	@$(PYTHON) -m pytest -q -n 2 --dist worksteal
@@ -39,7 +39,7 @@ test-elsewhere: build ## Run the tests of numbers as another processor would com
 	@$(OLDER) $(PYTHON) -m pytest -q -n 2 --dist worksteal -m "not browser"
 
 fuzz: build ## Try every door for long; a table of what came of it (ARGS="--attempts 10000")
-	@cd tests && ../$(PYTHON) -m fuzz $(ARGS)
+	@PYTHONPATH=tests $(PYTHON) -m fuzz $(ARGS)
 
 lint: .venv/.ready ## Check style
 	@.venv/bin/ruff check .
@@ -69,6 +69,9 @@ benchmark-peers: build ## The same suspension in CasADi, Exudyn, SymPy and Pinoc
 benchmark-andrews: build ## Andrews' squeezer here and as a differential-algebraic equation
 	@.venv/bin/pip install -q -e ".[peers]" --no-build-isolation
 	@$(PYTHON) -m benchmarks.andrews --out out/benchmark --page docs/andrews.md
+
+benchmark-loops: build ## Loops without a closed form against paths in maximal coordinates
+	@PYTHONPATH=tests $(PYTHON) -m benchmarks.loops --page docs/own-mechanism.md $(ARGS)
 
 benchmark-growth: build ## A chain of 1 to 40 loops: derivation, code and run time against its length
 	@$(PYTHON) -m benchmarks.growth --out out/benchmark --page docs/growth.md

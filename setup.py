@@ -110,8 +110,27 @@ def _mpi_flags(include: Path) -> tuple[list[str], list[str]]:
     return headers, [word for word in words if word not in headers]
 
 
+# What compiles the models, by the system's own way to install it.
+REMEDY = """Install it and try again:
+  Debian, Ubuntu   apt-get install gcc libc6-dev python3-dev
+  Fedora           dnf install gcc python3-devel
+  macOS            xcode-select --install
+  conda            conda install -c conda-forge c-compiler
+Or name another compiler in the variable CC."""
+
+
 class Build(build_ext):
-    """Say so when the solver could not be built."""
+    """Say what to install where a compiler is missing, and so when the solver was not built."""
+
+    def build_extensions(self) -> None:
+        """Build all extension modules, if there is what compiles them."""
+        # a compiler of Windows has no such command, and says itself what is missing
+        program = (getattr(self.compiler, "compiler_so", None) or [None])[0]
+        if program and shutil.which(program) is None:
+            sys.exit(f"kintrafo: its equations are C, and there is no compiler {program}. {REMEDY}")
+        if not any((Path(folder) / "Python.h").exists() for folder in self.include_dirs):
+            sys.exit(f"kintrafo: Python's own header Python.h is not installed. {REMEDY}")
+        super().build_extensions()
 
     def run(self) -> None:
         """Build all extension modules."""

@@ -94,11 +94,11 @@ def call_prepare(code: Code, parameters: Array, constants: Array) -> int:
     """Fill the constants; return 0, or what is wrong with them, as the C code does."""
     with np.errstate(all="ignore"):  # what is wrong is returned
         constants[:], holds = code(parameters)
+    broken = [place for place, good in holds.items() if not good]
+    if broken:
+        return constants.size + broken[0] + 1
     bad = np.flatnonzero(~np.isfinite(constants))
-    if bad.size:
-        return int(bad[0]) + 1
-    broken = [place for place, zero in holds.items() if not zero]
-    return constants.size + broken[0] + 1 if broken else 0
+    return int(bad[0]) + 1 if bad.size else 0
 
 
 def call_margins(

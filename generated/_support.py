@@ -9,19 +9,16 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..errors import KintrafoError
+from ..physical import inertia_of_no_body, out_of_range
 from . import _arrays, _native
 from ._native import Function
 
 Array = NDArray[np.float64]
 Described = Mapping[str, Mapping[str, Any]]
 
-# As in the C code: guards from here on share a bit, and a guarded quantity must be over the floor.
+# As in the C code: guards from here on share a bit.
 _LAST_GUARD_BIT = 29
-_GUARD_FLOOR = 1e-24
-
-
-class KintrafoError(Exception):
-    """Base of every exception that kintrafo raises on purpose."""
 
 
 class ModelError(KintrafoError, ValueError):
@@ -107,11 +104,12 @@ class CompiledModel:
         relative: Described,
         code: Mapping[str, int | Callable[..., Any]],
         guard_units: Mapping[str, str],
-        assumptions: Sequence[tuple[str, str, str, str]],
+        assumptions: Sequence[tuple[str, str, str, str, str]],
     ) -> None:
         self.guard_units = guard_units
         self.assumptions = tuple(assumptions)
         self.name = name
+        self.parameters = parameters
         self.parameter_names = tuple(parameters)
         self.state_names = tuple(state)
         self.input_names = tuple(inputs)
@@ -157,7 +155,8 @@ class CompiledModel:
         Raises
         ------
         ParameterError
-            If a name is unknown or missing, a value is not finite, or the geometry is degenerate.
+            If a name is unknown or missing, a value is not finite or out of its range, an inertia
+            is that of no body, or the geometry is degenerate.
         """
         values = self._ordered(parameters) if isinstance(parameters, Mapping) else parameters
         given = np.ascontiguousarray(values, dtype=np.float64)
@@ -171,6 +170,10 @@ class CompiledModel:
         if bad:
             message = f"{self.name}: parameters that are NaN or infinite: {', '.join(bad)}"
             raise ParameterError(message)
+        named = dict(zip(self.parameter_names, given.tolist(), strict=True))
+        problems = out_of_range(named, self.parameters) or inertia_of_no_body(named)
+        if problems:
+            raise ParameterError(f"{self.name}: {'; '.join(problems)}")
         constants = np.empty(len(self.constant_names))
         failed = self._calls.call_prepare(self._code["prepare"], given, constants)
         if failed:
@@ -186,9 +189,17 @@ class CompiledModel:
                 "the design position is degenerate (coincident points, or a point on a line that "
                 "it must lie beside)"
             )
-        name, unit, meaning, remedy = self.assumptions[failed - len(self.constant_names) - 1]
+        name, unit, meaning, remedy, least = self.assumptions[
+            failed - len(self.constant_names) - 1
+        ]
         value = float(abs(constants[self.constant_names.index(name)]))
-        return f"{meaning}: it is off by {_amount_off(value, unit)}; {remedy}"
+        if not least:
+            return f"{meaning}: it is off by {_amount_off(value, unit)}; {remedy}"
+        needed = float(constants[self.constant_names.index(least)])
+        return (
+            f"{meaning}: {_amount_off(value, unit)}, and more than {_amount_off(needed, unit)} "
+            f"is needed; {remedy}"
+        )
 
     def call_residuals(
         self, constants: Array, state: Array, inputs: Array, given: Array, out: Array
@@ -233,7 +244,7 @@ class CompiledModel:
             place
             for place in range(len(self.guards))
             if status >> min(place, _LAST_GUARD_BIT) & 1
-            and (place < _LAST_GUARD_BIT or not margins[place] > _GUARD_FLOOR)
+            and (place < _LAST_GUARD_BIT or not margins[place] > 0.0)
         ]
         if not hit:
             shown = ", ".join(f"{name} = {value:.6g}" for name, value in coordinates.items())

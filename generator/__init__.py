@@ -3,7 +3,7 @@
 The rooms, in the order in which a mechanism passes through them:
 
 ``mechanism``, ``joints``, ``geometry``, ``forces``, ``laws``, ``parameters``
-    what a person declares;
+    what a person declares (``declared`` checks each part, ``checks`` the whole);
 ``topology``
     mobility, joint graph, shortest paths, minimal cycle basis;
 ``transformer``
@@ -21,6 +21,7 @@ What a declaration is made of can be imported from here.
 """
 
 from . import memory  # noqa: F401 (before SymPy is imported)
+from .declared import DeclarationError
 from .forces import (
     AlongLine,
     AlongTelescope,
@@ -45,6 +46,7 @@ __all__ = [
     "Body",
     "Cylindrical",
     "DamperTable",
+    "DeclarationError",
     "Direction",
     "ForceElement",
     "Friction",

@@ -24,18 +24,17 @@ OPERATIONS = ("add", "multiply", "divide", "root", "trigonometric")
 
 
 class Guarded(sp.Function):  # type: ignore[misc]  # SymPy has no types
-    """The argument itself where it is positive enough, a tiny positive number where it is not.
+    """The first argument where it is over its floor, the second; that floor where it is not.
 
     It stands where a closed form has a root or a divisor that vanishes when a loop cannot close.
     The arithmetic stays free of branches and of NaN; the status word says that the guard acted.
     """
 
-    nargs = 1
+    nargs = 2
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
         """Differentiate as the identity: where the guard acts, the result is discarded anyway."""
-        del argindex
-        return sp.Integer(1)
+        return sp.Integer(int(argindex == 1))
 
 
 class SignOf(sp.Function):  # type: ignore[misc]  # SymPy has no types
@@ -119,8 +118,8 @@ C = Dialect(
         sp.sin: "sin({})",
         sp.cos: "cos({})",
         sp.asin: "asin({})",
-        sp.atan2: "atan2({})",
-        Guarded: "at_least({}, GUARD_FLOOR)",
+        sp.atan2: "atan2({}, {})",
+        Guarded: "at_least({}, {})",
         SignOf: "copysign(1.0, {})",
         Positive: "at_least({}, 0.0)",
         IsPositive: "(double)({} > 0.0)",
@@ -133,8 +132,8 @@ NUMPY = Dialect(
         sp.sin: "np.sin({})",
         sp.cos: "np.cos({})",
         sp.asin: "np.arcsin({})",
-        sp.atan2: "np.arctan2({})",
-        Guarded: "np.maximum({}, GUARD_FLOOR)",
+        sp.atan2: "np.arctan2({}, {})",
+        Guarded: "np.maximum({}, {})",
         SignOf: "np.copysign(1.0, {})",
         Positive: "np.maximum({}, 0.0)",
         IsPositive: "1.0*({} > 0.0)",
@@ -231,7 +230,7 @@ class _Writer:
         arguments = [self.write(a) for a in expression.args]
         selection = isinstance(expression, _SELECTIONS)
         return Written(
-            spelling.format(", ".join(a.text for a in arguments)),
+            spelling.format(*(a.text for a in arguments)),
             _ATOM,
             _total(arguments, trigonometric=int(not selection)),
             _after(arguments, "selection" if selection else "function"),

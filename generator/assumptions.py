@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from .actions import HeldByRod, SolveHinge, SolveSlide, SolveStrut, SolveTelescope, SolveTurn
-from .checks import DeclarationError
+from .declared import DeclarationError
 from .evaluation import AtDefaults
 from .joints import Prismatic, Revolute, Universal
 

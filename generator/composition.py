@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
-from .checks import DeclarationError
+from .declared import DeclarationError
 from .forces import (
     AlongLine,
     AlongTelescope,
@@ -150,6 +150,7 @@ class _Copy:
         joints = tuple(map(self._joint, source.joints))
         forces = tuple(map(self._force, source.forces))
         coordinates = tuple(map(self._coordinate, source.coordinates))
+        self._note_loose_points()
         return replace(
             source,
             name=f"{self.prefix}{source.name}",
@@ -212,12 +213,19 @@ class _Copy:
 
     def _note(self, name: str, *turned: str) -> None:
         """Note the components that the mirror turns round."""
-        if self.turned.setdefault(name, turned) != turned:
+        if self.mirrored and self.turned.setdefault(name, turned) != turned:
             problem = (
                 f"{name!r} is an axis of rotation and a direction of motion; a mirror image needs "
                 "two directions, since it turns the one round and not the other"
             )
             raise DeclarationError(self.mechanism.name, [problem])
+
+    def _note_loose_points(self) -> None:
+        """Note the points of which there are parameters only, for what acts between the copies."""
+        metres = {p.name for p in self.mechanism.parameters if p.unit == "m"}
+        for name in (n.removesuffix("_y") for n in metres if n.endswith("_y")):
+            if name not in self.turned and {f"{name}_x", f"{name}_z"} & metres:
+                self._note(name, "y")
 
     # -- geometry ---------------------------------------------------------------------------------
 

@@ -1,38 +1,71 @@
-"""Defaults that no mechanism could have: what is not a number, and inertia that no body has."""
+"""Defaults that no mechanism could have: out of range, of no body, or without a direction."""
 
 from __future__ import annotations
 
-from math import isfinite
-from typing import TYPE_CHECKING, SupportsFloat
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..physical import inertia_of_no_body, out_of_range
+from .declared import parts
 from .evaluation import AtDefaults
+from .forces import AlongLine
+from .geometry import Direction, Line, Point
 from .joints import Revolute
-from .vectors import ELEMENTS
+from .ranges import described
 
 if TYPE_CHECKING:
-    from .mechanism import Body, Mechanism
+    from collections.abc import Iterator
 
-# What rounding may do to a principal moment of inertia, relative to the largest element.
+    from .mechanism import Mechanism
+    from .vectors import Vector
+
+# What rounding may leave of a length or an angle that is none, relative to what it comes from.
 _ROUNDING = 1e-9
 
 
 def value_problems(mechanism: Mechanism) -> list[str]:
-    """Find defaults that are no finite numbers, negative masses and impossible inertia.
+    """Find defaults out of their ranges, impossible inertia, and lines without a direction.
 
-    Of a body whose mass or inertia is derived from other parameters, nothing is said.
+    Of what parameters are missing for nothing is said; that is found when they are read.
     """
-    problems = [
-        f"parameter {p.name!r} has the default {p.default!r} {p.unit}; give a finite number"
-        for p in mechanism.parameters
-        if not _is_finite(p.default)
-    ]
-    if problems:
-        return problems
     values = {p.name: p.default for p in mechanism.parameters}
-    problems = [p for body in mechanism.bodies for p in _body_problems(body, values)]
-    return problems + _angle_problems(mechanism)
+    problems = out_of_range(values, described(mechanism)) or inertia_of_no_body(values)
+    return problems + (list(_lost_directions(mechanism)) or _angle_problems(mechanism))
+
+
+def _lost_directions(mechanism: Mechanism) -> Iterator[str]:
+    """Find points that coincide where a line is between them, and directions of length zero."""
+    value = AtDefaults(mechanism)
+    told: set[str] = set()
+    for part in parts(mechanism):
+        if isinstance(part, AlongLine):
+            ends = part.first[1], part.second[1]
+            what, vector = _between(*ends), ends[1].position - ends[0].position
+            size = _size(value, *(end.position for end in ends))
+        elif isinstance(part, Line) and isinstance(part.towards, Point):
+            what, vector = _between(part.through, part.towards), part.vector
+            size = _size(value, part.through.position, part.towards.position)
+        elif isinstance(part, Direction):
+            what, vector = f"direction {part.name!r} has no length", part.components
+            size = (
+                1.0 if part.between is None else _size(value, *(p.position for p in part.between))
+            )
+        else:
+            continue
+        # a comparison with NaN is false: parameters that are missing are told elsewhere
+        if what not in told and np.linalg.norm(list(map(value, vector))) <= 1e-12 * size:
+            told.add(what)
+            yield f"{what} at the design position; check the defaults of its parameters"
+
+
+def _between(one: Point, other: Point) -> str:
+    return f"the points {one.name!r} and {other.name!r}, between which a line is declared, coincide"
+
+
+def _size(value: AtDefaults, *places: Vector) -> float:
+    """Return how far from the origin some places are: what their distance is compared with."""
+    return max(float(np.linalg.norm(list(map(value, place)))) for place in places)
 
 
 def _angle_problems(mechanism: Mechanism) -> list[str]:
@@ -55,52 +88,3 @@ def _angle_problems(mechanism: Mechanism) -> list[str]:
                     "angle_to out, and the angle counts from the design position"
                 )
     return problems
-
-
-def _is_finite(value: object) -> bool:
-    return isinstance(value, SupportsFloat) and isfinite(value)
-
-
-def _body_problems(body: Body, values: dict[str, float]) -> list[str]:
-    names = [f"{body.name}_mass", f"{body.name}_inertia_spin", f"{body.name}_inertia_diametral"]
-    names += [f"{body.name}_inertia_{element}" for element in ELEMENTS[:3]]
-    units = ["kg", *["kg m^2"] * 5]
-    problems = [
-        f"parameter {name!r} = {values[name]} {unit} is negative; give 0 or more"
-        for name, unit in zip(names, units, strict=True)
-        if values.get(name, 0.0) < 0.0
-    ]
-    return problems or _tensor_problems(body, values) or _rotor_problems(body, values)
-
-
-def _tensor_problems(body: Body, values: dict[str, float]) -> list[str]:
-    """See that the principal moments are those of some body: none above the sum of the others."""
-    names = [f"{body.name}_inertia_{element}" for element in ELEMENTS]
-    if not values.keys() >= set(names):
-        return []
-    xx, yy, zz, xy, xz, yz = (values[name] for name in names)
-    moments = np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    small, middle, large = map(float, moments)
-    if min(small, small + middle - large) >= -_ROUNDING * large:
-        return []
-    problem = (
-        f"inertia of {body.name!r}: the principal moments {small:.4g}, {middle:.4g} and "
-        f"{large:.4g} kg m^2 are those of no body, since the largest is at most the sum of the "
-        "others and none is negative. Check the diagonal and the signs of xy, xz and yz (elements "
-        "of the tensor: minus the products of inertia). In a plane, where only the moment about "
-        "the normal counts, give each of the others half of it"
-    )
-    return [problem]
-
-
-def _rotor_problems(body: Body, values: dict[str, float]) -> list[str]:
-    spin = values.get(f"{body.name}_inertia_spin")
-    across = values.get(f"{body.name}_inertia_diametral")
-    if spin is None or across is None or spin <= 2.0 * across * (1.0 + _ROUNDING):
-        return []
-    problem = (
-        f"parameter '{body.name}_inertia_spin' = {spin} kg m^2 is more than twice "
-        f"'{body.name}_inertia_diametral' = {across} kg m^2, the most that a body of revolution "
-        "can have (a flat disc)"
-    )
-    return [problem]

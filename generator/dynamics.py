@@ -17,7 +17,9 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from .arithmetic import IsPositive, Positive
+from .conditioning import DIRECTION, POSITIVE
 from .forces import (
+    AlongLine,
     AlongTelescope,
     ForceElement,
     JointForce,
@@ -349,7 +351,11 @@ class Dynamics:
         relative = self.kin.relative_motion(element.path.first, element.path.second)
         span = program.vector(f"{name}_span", relative.position)
         squared = program.guarded(
-            f"{name}_length_squared", span.dot(span), f"the ends of {name} coincide", "m^2"
+            f"{name}_length_squared",
+            span.dot(span),
+            f"the ends of {name} coincide",
+            "m^2",
+            DIRECTION * self._extent_squared(name, element.path),
         )
         length = program.define(f"{name}_length", sp.sqrt(squared))
         direction = program.vector(f"{name}_direction", span * (1 / length))
@@ -358,6 +364,11 @@ class Dynamics:
             for k, v in relative.motion.items()
         }
         return length, motion
+
+    def _extent_squared(self, name: str, path: AlongLine) -> sp.Expr:
+        """Return the square of the extent of two points at the design position."""
+        places = (self.kin.of(body).design(point) for body, point in (path.first, path.second))
+        return self.program.define(f"{name}_extent_squared", sum((p.dot(p) for p in places), NONE))
 
     def _twist_of(self, path: TwistOfHinges) -> tuple[sp.Expr, dict[str, sp.Expr]]:
         """Return the angle between two hinges, and its rate per unit rate of each coordinate."""
@@ -384,7 +395,11 @@ class Dynamics:
         pull = program.vector(f"{prefix}tyre_pull", up - axis * lean, "123")
         # not 1 - lean^2: of a wheel that lies flat, rounding would leave something positive
         squared = program.guarded(
-            f"{prefix}cos_camber_squared", pull.dot(pull), "the wheel lies flat on the road", "1"
+            f"{prefix}cos_camber_squared",
+            pull.dot(pull),
+            "the wheel lies flat on the road",
+            "1",
+            DIRECTION,
         )
         deflection = sp.Symbol(force.free_height) + sp.Symbol(force.road) - height
         load = self._tyre_load(force, carrier, center, deflection)
@@ -509,6 +524,7 @@ class Dynamics:
                 work[k, k],
                 f"the mass matrix is not positive definite at {k}",
                 "kg m^2 or kg",
+                POSITIVE,
             )
             inverse[k] = program.define(f"inverse_pivot_{k}", 1 / pivot)
             for j, row in enumerate(names[i + 1 :], i + 1):

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from .geometry import Direction, Point
-    from .laws import Law
+from .declared import Amount, DeclarationError, Name, Share, declared
+from .geometry import Direction, Point
+from .laws import Law
 
 
+@declared
 @dataclass(frozen=True, kw_only=True)
 class Weight:
     """The weight of every body that carries mass, along the downward chassis axis.
@@ -20,9 +20,10 @@ class Weight:
         Name of the parameter [m/s^2].
     """
 
-    gravity: str
+    gravity: Amount
 
 
+@declared
 @dataclass(frozen=True)
 class AlongTelescope:
     """From one end of a telescope to the other.
@@ -33,9 +34,10 @@ class AlongTelescope:
         Name of the cylindrical joint.
     """
 
-    joint: str
+    joint: Name
 
 
+@declared
 @dataclass(frozen=True)
 class AlongLine:
     """From a point of one body to a point of another.
@@ -46,10 +48,18 @@ class AlongLine:
         Body and point at either end.
     """
 
-    first: tuple[str, Point]
-    second: tuple[str, Point]
+    first: tuple[Name, Point]
+    second: tuple[Name, Point]
+
+    def __post_init__(self) -> None:
+        if self.first[0] == self.second[0]:
+            problem = (
+                f"both ends are on {self.first[0]!r}, so its length never changes; name two bodies"
+            )
+            raise DeclarationError("AlongLine", [problem])
 
 
+@declared
 @dataclass(frozen=True)
 class TwistOfHinges:
     """The angle of one hinge less that of another: what twists a bar between them.
@@ -64,13 +74,19 @@ class TwistOfHinges:
         Names of the two revolute joints.
     """
 
-    first: str
-    second: str
+    first: Name
+    second: Name
+
+    def __post_init__(self) -> None:
+        if self.first == self.second:
+            problem = f"the angle of {self.first!r} less itself is always zero; name two hinges"
+            raise DeclarationError("TwistOfHinges", [problem])
 
 
 Path = AlongTelescope | AlongLine | TwistOfHinges
 
 
+@declared
 @dataclass(frozen=True, kw_only=True)
 class ForceElement:
     """Springs, dampers and stops that act along one path between two bodies (Eq. 23).
@@ -86,7 +102,7 @@ class ForceElement:
         What it does; the forces add up.
     """
 
-    name: str
+    name: Name
     path: Path
     laws: tuple[Law, ...]
 
@@ -100,6 +116,7 @@ class ForceElement:
         return law.signal.replace("force", "moment") if self.turns else law.signal
 
 
+@declared
 @dataclass(frozen=True, kw_only=True)
 class LinearTyre:
     """A radial tyre spring in the wheel plane (Eq. 24 of the paper).
@@ -131,24 +148,25 @@ class LinearTyre:
         Name of the parameter: 1 if the tyre can leave the road, 0 if not; None: it cannot.
     """
 
-    name: str
-    carrier: str
+    name: Name
+    carrier: Name
     center: Point
     spin: Direction
-    rate: str
-    free_height: str
-    road: str
-    damper: str | None = None
-    road_velocity: str | None = None
-    lifts_off: str | None = None
+    rate: Amount
+    free_height: Name
+    road: Name
+    damper: Amount | None = None
+    road_velocity: Name | None = None
+    lifts_off: Share | None = None
 
 
+@declared
 @dataclass(frozen=True, kw_only=True)
 class JointForce:
     """A force (or moment) along an independent joint coordinate, given as an input."""
 
-    joint: str
-    input: str
+    joint: Name
+    input: Name
 
 
 Force = Weight | ForceElement | LinearTyre | JointForce

@@ -6,9 +6,13 @@ Chassis axes are ISO 8855: x forward, y left, z up. All components are parameter
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated, Any, Literal
 
 import sympy as sp
+from pydantic import BeforeValidator
+from pydantic_core import PydanticCustomError
 
+from .declared import DeclarationError, Name, declared
 from .vectors import UNIT_X, UNIT_Z, Vector
 
 
@@ -16,6 +20,21 @@ def _symbols(name: str) -> Vector:
     return Vector(*(sp.Symbol(f"{name}_{axis}") for axis in "xyz"))
 
 
+def _vector(given: Any) -> Any:
+    """Take three numbers for a vector, but not zeros."""
+    components = given if isinstance(given, Vector | tuple) else ()
+    try:
+        vector = Vector.of(*components)
+        usable = all(c.is_number and c.is_finite and c.is_real for c in vector)
+    except (TypeError, ValueError, AttributeError, sp.SympifyError):
+        usable = False
+    if not usable or vector.is_zero:
+        problem = "is no direction; give three numbers, not all of them zero"
+        raise PydanticCustomError("declared", problem)
+    return vector
+
+
+@declared
 @dataclass(frozen=True)
 class Point:
     """A hardpoint, in metres.
@@ -28,8 +47,8 @@ class Point:
         Axis along which the coordinate is zero and no parameter: the points of a planar mechanism.
     """
 
-    name: str
-    flat: str = ""
+    name: Name
+    flat: Literal["", "x", "y", "z"] = ""
 
     @property
     def position(self) -> Vector:
@@ -41,6 +60,7 @@ class Point:
         return Vector(x, y, z)
 
 
+@declared
 @dataclass(frozen=True)
 class Direction:
     """A direction: a chassis axis, a parameter of any length, or from one point to another.
@@ -55,9 +75,19 @@ class Direction:
         Two points; the direction is from the first to the second at the design position.
     """
 
-    name: str
-    fixed: Vector | None = None
+    name: Name
+    fixed: Annotated[Vector, BeforeValidator(_vector)] | None = None
     between: tuple[Point, Point] | None = None
+
+    def __post_init__(self) -> None:
+        problems = []
+        if self.fixed is not None and self.between is not None:
+            problems.append("it is fixed and between two points; leave one of the two out")
+        if self.between is not None and self.between[0] == self.between[1]:
+            name = self.between[0].name
+            problems.append(f"it is between {name!r} and itself; give two different points")
+        if problems:
+            raise DeclarationError(f"Direction {self.name!r}", problems)
 
     @property
     def components(self) -> Vector:
@@ -72,12 +102,18 @@ FORWARD = Direction("forward", UNIT_X)
 UP = Direction("up", UNIT_Z)
 
 
+@declared
 @dataclass(frozen=True)
 class Line:
     """An oriented line: from one point to another, or through a point along a direction."""
 
     through: Point
     towards: Point | Direction
+
+    def __post_init__(self) -> None:
+        if self.through == self.towards:
+            problem = f"it is from {self.through.name!r} to itself; give another point or direction"
+            raise DeclarationError("Line", [problem])
 
     @property
     def vector(self) -> Vector:

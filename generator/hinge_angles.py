@@ -15,6 +15,7 @@ from .vectors import UNIT_X, ZERO, Vector
 if TYPE_CHECKING:
     from .joints import Revolute
     from .kinematics import Kinematics
+    from .program import Program
 
 
 @dataclass(frozen=True)
@@ -54,6 +55,11 @@ class HingeDesign:
         radius = program.define(f"{name}_arm_radius", sp.sqrt(across.dot(across)))
         mark = program.vector(f"{name}_mark_design", across * (1 / radius))
         return cls(axis, zero, mark, along, radius)
+
+    def angle(self, program: Program, name: str) -> sp.Expr:
+        """Append the angle [rad], from 0 to pi."""
+        sine, cosine = self.axis.dot(self.zero.cross(self.mark)), self.zero.dot(self.mark)
+        return program.define(f"{name}_angle_design", sp.atan2(sine, cosine))
 
 
 def axis_at_design(kin: Kinematics, joint: Revolute) -> Vector:

@@ -1,16 +1,28 @@
 """Newton's method as a block of an otherwise straight-line program, for what has no closed form.
 
-A *block* is a function of its own: from some values, and from zero as the first estimate, it finds
-unknowns at which as many residuals vanish. What it repeats is straight-line code, written by the
-same printers as everything else; around it are a loop with a fixed number of iterations, and one
-comparison that ends it. The first estimate does not depend on any call before, so the function that
-calls a block stays a pure function.
+A *block* is a function of its own that follows a solution: from the design position, where it is
+zero, to the coordinates of a call. What it repeats is straight-line code, written by the same
+printers as everything else: residuals g and their Jacobian J at one estimate, for one position of
+the driven coordinates, with all that is placed before the loops (`Block.once`). Around it is one
+loop that all blocks share, with a bounded number of iterations (``emit/templates/follow.*``).
 
-Safeguards: a correction is not longer than `LONGEST`; a change of sign of the determinant of J is
-remembered (`CROSSED`); after `ITERATIONS`, or where J is singular, the block returns what it has,
-which is finite. Whether that is a solution is not for the block to
-say: the straight-line code behind it evaluates the residuals again, and its guard refuses what does
-not fulfil them (`solutions.carrier`).
+*The way* goes straight from the coordinates of the design position to those of the call, in stages.
+Where a hinge is further than a full turn from its design position, a turn alone is followed first;
+if it leads back to the design position, whole turns are left out. So what a block finds depends on
+its arguments only, is continuous wherever it is found, and is on the branch on which the mechanism
+moves along this way.
+
+*A stage* is accepted where Newton's method converges from the tangent (the way of the stage before,
+continued), and where J has changed by less than half of itself since the stage before, ``|J0^-1 J -
+1| <= 1/2`` (of more equations than unknowns: J0^-1 is the pseudoinverse). J cannot become singular
+in between then, so that no other branch meets this one; and where J differs from one matrix by less
+than that, g has one root, so that there is no other one to go to. Both are free of scales. A stage
+that is not accepted is tried again, shorter. Where stages become as short as nothing, the branch
+ends: a dead point.
+
+After `ITERATIONS`, or where a branch ends, the block says that it is lost (`LOST`) and returns what
+it has, which is finite. Behind it, straight-line code evaluates the residuals again; its guard
+refuses what does not fulfil them, and what is lost (`solutions.inverse`).
 
 Derivatives: a block returns the adjugate and the determinant of its Jacobian J as well. Behind it,
 one more correction ``x - J^-1 g(x, v)`` is written out, in which only g depends on the arguments v.
@@ -28,24 +40,95 @@ from typing import TYPE_CHECKING
 import sympy as sp
 from sympy.core.symbol import Str
 
-from .arithmetic import Positive
-from .program import ConstantStage, Program
+from .arithmetic import Guarded, IsPositive
+from .program import Program, ancestors
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from .program import Function
 
-ITERATIONS = 30
-"""Most iterations of a block. Within the travel of a suspension it takes four to six."""
+ITERATIONS = 400
+"""Most iterations of a block. Within the travel of a suspension it takes five to seven."""
 
-CONVERGED = "1.0e-13"
-"""Length of a correction that ends a block: that of its rounding."""
+LIMITS = {
+    "ITERATIONS": str(ITERATIONS),
+    "CONVERGED": "1.0e-13",
+    "STALLED": "1.0e-6",
+    "LONGEST": "0.5",
+    "TURNED": "0.5",
+    "CLOSE": "0.1",
+    "SHORTEST": "1.0e-9",
+    "CLOSED": "1.0e-6",
+}
+"""Numbers of `follow`: what each is, is said where they are printed."""
 
-LONGEST = sp.Rational(3, 10)
-"""Longest correction of an iteration: longer ones jump to other branches of the solution."""
+LOST = "lost"
+"""Result of a block: one where it has not arrived, else zero."""
 
 Matrix = list[list[sp.Expr]]
+
+
+@dataclass(frozen=True)
+class Driven:
+    """A coordinate on the way of a block.
+
+    Attributes
+    ----------
+    now
+        Its name in the block, where it stands for the coordinate of a stage.
+    start, end
+        At the design position, and in a call.
+    unit
+        What of it is as much as a radian.
+    turns
+        Whether it is an angle: a full turn changes nothing.
+    """
+
+    now: sp.Symbol
+    start: sp.Expr
+    end: sp.Symbol
+    unit: sp.Expr
+    turns: bool
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """What one iteration is given, as symbols.
+
+    Attributes
+    ----------
+    base, step
+        The estimate is this base, and this step from it.
+    held
+        The inverse of J of the stage before: a row for each unknown.
+    """
+
+    base: tuple[sp.Symbol, ...]
+    step: tuple[sp.Symbol, ...]
+    held: tuple[tuple[sp.Symbol, ...], ...]
+
+
+@dataclass(frozen=True)
+class Found:
+    """What one iteration finds.
+
+    Attributes
+    ----------
+    unknowns
+        The estimate.
+    misfits
+        What it leaves of the equations.
+    rows
+        J.
+    apart
+        The square of how far the estimate is from the design position; whole turns do not count.
+    """
+
+    unknowns: Sequence[sp.Expr]
+    misfits: Sequence[sp.Expr]
+    rows: Matrix
+    apart: sp.Expr
 
 
 @dataclass(frozen=True)
@@ -56,22 +139,28 @@ class Block:
     ----------
     name, doc
         Name of the function in C, and what it finds (behind a verb, without a full stop).
-    arguments
-        What it is given, in order; the names are its own.
     unknowns
-        What it finds; zero at the start.
-    results
-        Names of what it returns, in order.
+        Names of what it finds; at the design position they are zero.
+    equations
+        Number of residuals.
+    constants
+        What it reads of one parameter set.
+    driven
+        The coordinates that move it.
+    estimate
+        What `once` is given beside constants and coordinates.
     once
-        One iteration, as a function of arguments and unknowns. Its outputs are the results, the
-        next estimate of every unknown, and the square of the length of the correction.
+        One iteration. Its outputs are those of the block but for `LOST`, the square of how far it
+        is from the design position, the correction, and the square of how much J has changed.
     """
 
     name: str
     doc: str
-    arguments: tuple[sp.Symbol, ...]
-    unknowns: tuple[sp.Symbol, ...]
-    results: tuple[str, ...]
+    unknowns: tuple[str, ...]
+    equations: int
+    constants: tuple[sp.Symbol, ...]
+    driven: tuple[Driven, ...]
+    estimate: Estimate
     once: Function
 
     @cached_property
@@ -79,66 +168,162 @@ class Block:
         """The name, as an argument of `Iterated`."""
         return Str(self.name)
 
-    @classmethod
-    def of(
-        cls,
+    @property
+    def given(self) -> list[sp.Expr]:
+        """What it is called with: constants, and start, end and unit of every coordinate."""
+        along = [value for d in self.driven for value in (d.start, d.end, d.unit)]
+        return [*self.constants, *along]
+
+    @property
+    def elements(self) -> list[str]:
+        """Names of the elements of the inverse, row by row."""
+        rows, columns = range(1, len(self.unknowns) + 1), range(1, self.equations + 1)
+        return [f"inverse_{i}{j}" for i in rows for j in columns]
+
+    @property
+    def results(self) -> tuple[str, ...]:
+        """Names of what it returns, in order.
+
+        The unknowns; a matrix, row by row, that over the determinant is the inverse of J; that
+        determinant, with the sign that makes it positive at the design position; whether it is
+        lost.
+        """
+        return (*self.unknowns, *self.elements, "determinant", LOST)
+
+
+class Derivation:
+    """The program of one iteration, with all that is placed before the loops at that stage.
+
+    Parameters
+    ----------
+    around
+        The program that the block is called from.
+    driven
+        Of every coordinate that moves anything: the symbol, the value at design, and whether it is
+        an angle.
+    unit
+        What of a slide is as much as a radian.
+    """
+
+    def __init__(
+        self,
+        around: Program,
+        driven: Iterable[tuple[sp.Symbol, sp.Expr, bool]],
+        unit: sp.Expr,
+    ) -> None:
+        self._around = around
+        self.program = Program(around.constants)
+        self._driven = {
+            end: Driven(
+                self._own(f"{end}_now"), start, end, sp.Integer(1) if turns else unit, turns
+            )
+            for end, start, turns in driven
+        }
+        self._copies: dict[sp.Symbol, sp.Expr] = {end: d.now for end, d in self._driven.items()}
+        self._needed: set[sp.Symbol] = set()
+
+    def _own(self, name: str) -> sp.Symbol:
+        """Return a symbol that no constant has, or will have."""
+        constants, symbol = self._around.constants, sp.Symbol(name)
+        while constants.has(symbol.name):
+            symbol = sp.Symbol(f"{symbol}_")
+        constants.note(symbol.name)
+        return symbol
+
+    def repeated(self, values: Iterable[sp.Expr]) -> list[sp.Expr]:
+        """Append what values of the program around are at this stage."""
+        values, steps = list(values), self._around.steps
+        needed = ancestors(steps, values) - self._needed
+        for step in [s for s in steps.values() if s.symbol in needed]:
+            copy = self.program.define(str(step.symbol), step.expression.xreplace(self._copies))
+            if copy != step.symbol:
+                self._copies[step.symbol] = copy
+        self._needed |= needed
+        return [value.xreplace(self._copies) for value in values]
+
+    def block(
+        self,
         name: str,
         doc: str,
-        arguments: Sequence[sp.Symbol],
-        unknowns: Sequence[sp.Symbol],
-        derive: Callable[[Program], tuple[Mapping[str, sp.Expr], Sequence[sp.Expr], sp.Expr]],
+        unknowns: Sequence[str],
+        equations: int,
+        derive: Callable[[Program, Estimate], Found],
     ) -> Block:
-        """Derive a block.
+        """Derive the block.
 
         Parameters
         ----------
         derive
-            Writes one iteration into a program, and returns its results, the next estimates, and
-            the square of the length of the correction.
+            Writes the equations at an estimate into the program.
         """
-        own = frozenset(map(str, (*arguments, *unknowns)))
-        program = Program(ConstantStage((), reserved=own))
-        results, following, change = derive(program)
-        outputs = dict(results)
-        outputs |= {f"next {u}": new for u, new in zip(unknowns, following, strict=True)}
-        once = program.function(name, doc, outputs | {"change": change})
-        return cls(name, doc, tuple(arguments), tuple(unknowns), tuple(results), once)
+        program, count = self.program, len(unknowns)
+        estimate = Estimate(
+            tuple(self._own(f"{name}_from") for name in unknowns),
+            tuple(self._own(f"{name}_step") for name in unknowns),
+            tuple(
+                tuple(self._own(f"held_{i}{j}") for j in range(1, equations + 1))
+                for i in range(1, count + 1)
+            ),
+        )
+        found = derive(program, estimate)
+        program.section("how the equations change with the unknowns, and the correction")
+        rows = named(program, "row", found.rows)
+        inverse, scale = inverted(program, rows)
+        correction = [-c / scale for c in times(inverse, found.misfits)]
+        program.section("how much that has changed since the stage before")
+        outputs = dict(zip(unknowns, found.unknowns, strict=True))
+        places = [f"inverse_{i}{j}" for i in range(1, count + 1) for j in range(1, equations + 1)]
+        outputs |= dict(zip(places, (e for line in inverse for e in line), strict=True))
+        outputs |= {"determinant": scale, "apart": found.apart}
+        outputs |= {f"correction_{u}": c for u, c in zip(unknowns, correction, strict=True)}
+        outputs["changed"] = self._changed(estimate.held, rows)
+        once = program.function(name, doc, outputs)
+        read = once.free_symbols
+        constants = program.constants
+        return Block(
+            name,
+            doc,
+            tuple(unknowns),
+            equations,
+            tuple(s for s in (*constants.parameters, *constants.steps) if s in read),
+            tuple(d for d in self._driven.values() if d.now in read),
+            estimate,
+            once,
+        )
 
-
-def limited(program: Program, correction: Sequence[sp.Expr]) -> tuple[list[sp.Expr], sp.Expr]:
-    """Return a correction that is at most `LONGEST`, and the square of its length before."""
-    correction = [program.define(f"correction_{i}", c) for i, c in enumerate(correction, 1)]
-    squared = program.define("change", sum((c * c for c in correction), sp.Integer(0)))
-    most = LONGEST**2
-    length = program.define("length", sp.sqrt(most + Positive(squared - most)))
-    factor = program.define("factor", LONGEST / length)
-    return [c * factor for c in correction], squared
-
-
-SIDE = sp.Symbol("side")
-"""Argument of a block: the sign of the determinant at the design position, plus or minus one."""
-
-CROSSED = sp.Symbol("crossed")
-"""Unknown of a block: by how much the determinant has been on the other side on the way."""
-
-
-def crossed(determinant: sp.Expr) -> sp.Expr:
-    """Return the next value of `CROSSED`.
-
-    Where the determinant changes its sign, two branches of the solution meet; an iteration that has
-    been beyond may come back on another one, with the same sign.
-    """
-    return CROSSED + Positive(-SIDE * determinant - CROSSED)
+    def _changed(self, held: Sequence[Sequence[sp.Symbol]], rows: Matrix) -> sp.Expr:
+        """Return the square of ``|J0^-1 J - 1|``, and more where what is placed before is not."""
+        columns = [list(column) for column in zip(*rows, strict=True)]
+        squares = []
+        for i, line in enumerate(held):
+            for j, column in enumerate(columns):
+                kept = _dot(line, column) - (1 if i == j else 0)
+                squares.append(self.program.define(f"kept_{i + 1}{j + 1}", kept) ** 2)
+        margins = {
+            sp.Add(guarded.args[0], -guarded.args[1])
+            for step in self.program.steps.values()
+            for guarded in step.expression.atoms(Guarded)
+        }
+        failing = [1 - IsPositive(margin) for margin in sorted(margins, key=str)]
+        return sp.Add(*squares, *failing)
 
 
 # -- linear equations -----------------------------------------------------------------------------
 
 
-def determinant(program: Program, name: str, matrix: Matrix) -> sp.Expr:
-    """Append the determinant of a matrix, by minors of its first rows."""
-    size = len(matrix)
-    minors = _minors(program, f"{name}_upper", matrix)
-    return minors[size][tuple(range(size))]
+def inverted(program: Program, rows: Matrix) -> tuple[Matrix, sp.Expr]:
+    """Append the adjugate and the determinant of J, or those of J^T J, the former times J^T."""
+    if len(rows) == len(rows[0]):
+        return adjugate(program, rows)
+    columns = [list(column) for column in zip(*rows, strict=True)]
+    normal = [[_dot(a, b) for b in columns] for a in columns]
+    inverse, scale = adjugate(program, named(program, "normal", normal))
+    product = [[_dot(line, row) for row in rows] for line in inverse]
+    return named(program, "inverse", product), scale
+
+
+def _dot(one: Iterable[sp.Expr], two: Iterable[sp.Expr]) -> sp.Expr:
+    return sum((a * b for a, b in zip(one, two, strict=True)), sp.Integer(0))
 
 
 def adjugate(program: Program, matrix: Matrix) -> tuple[Matrix, sp.Expr]:

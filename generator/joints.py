@@ -9,9 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+from .declared import MoreThanZero, Name, declared
 from .geometry import FORWARD, UP, Direction, Line, Point
 
 
+@declared
 @dataclass(frozen=True, kw_only=True)
 class Joint:
     """A connection of two bodies.
@@ -24,9 +26,9 @@ class Joint:
         Names of the two bodies.
     """
 
-    name: str
-    first: str
-    second: str
+    name: Name
+    first: Name
+    second: Name
 
     kind: ClassVar[str]
     common: ClassVar[str]
@@ -52,6 +54,7 @@ class Joint:
         return self.second if body == self.first else self.first
 
 
+@declared
 @dataclass(frozen=True, kw_only=True)
 class Revolute(Joint):
     """A hinge about a line.
@@ -77,6 +80,7 @@ class Revolute(Joint):
     coordinates: ClassVar[tuple[str, ...]] = ("angle",)
 
 
+@declared
 @dataclass(frozen=True, kw_only=True)
 class Prismatic(Joint):
     """A guide along a direction; the slide is zero at the design position.
@@ -93,6 +97,7 @@ class Prismatic(Joint):
     coordinates: ClassVar[tuple[str, ...]] = ("slide",)
 
 
+@declared
 @dataclass(frozen=True, kw_only=True)
 class Cylindrical(Joint):
     """A telescope: slide along and rotation about a common line.
@@ -109,7 +114,7 @@ class Cylindrical(Joint):
     """
 
     axis: Line
-    length_at_zero_slide: str
+    length_at_zero_slide: MoreThanZero
     angle_to: Point
 
     kind: ClassVar[str] = "cylindrical"
@@ -117,6 +122,7 @@ class Cylindrical(Joint):
     coordinates: ClassVar[tuple[str, ...]] = ("slide", "angle")
 
 
+@declared
 @dataclass(frozen=True, kw_only=True)
 class Universal(Joint):
     """A cross of two perpendicular axes through a point.
@@ -153,6 +159,7 @@ class Universal(Joint):
         return self.at
 
 
+@declared
 @dataclass(frozen=True, kw_only=True)
 class Spherical(Joint):
     """A ball joint."""

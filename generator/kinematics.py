@@ -106,6 +106,15 @@ class Kinematics:
         name = self.coordinate_of(joint)
         return f"{name}_position" if joint.name in self.model.prescribed else name
 
+    def driven_coordinates(self) -> Iterator[tuple[sp.Symbol, sp.Expr, bool]]:
+        """Yield symbol, value at design, and whether it is an angle, of each driven coordinate."""
+        for joint in (j for j in self._driven if j.second in self.bodies):
+            start = sp.Integer(0)
+            if isinstance(joint, Revolute) and joint.angle_to is not None:
+                start = HingeDesign.of(self, joint).angle(self.program, joint.name)
+            symbol = self.coordinates[self.coordinate_of(joint)]
+            yield symbol, start, isinstance(joint, Revolute)
+
     @property
     def independent(self) -> list[str]:
         """Names of the independent coordinates, in the order of the state."""

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, ClassVar, Literal
 import sympy as sp
 
 from .arithmetic import Positive
+from .declared import Amount, Count, Length, MoreThanZero, Name, declared
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -38,6 +39,7 @@ class Stretch:
     slide: sp.Expr | None = None
 
 
+@declared
 @dataclass(frozen=True, kw_only=True)
 class LinearSpring:
     """Force ``rate (slide - free_slide)``, or ``rate (free_length - length)``.
@@ -51,9 +53,9 @@ class LinearSpring:
         first for a telescope only (Eq. 23 of the paper).
     """
 
-    rate: str
-    free_slide: str | None = None
-    free_length: str | None = None
+    rate: Amount
+    free_slide: Name | None = None
+    free_length: Length | None = None
 
     signal: ClassVar[str] = "spring_force"
     meaning: ClassVar[str] = "spring force"
@@ -65,6 +67,7 @@ class LinearSpring:
         return sp.Symbol(self.rate) * (sp.Symbol(str(self.free_length)) - at.length)
 
 
+@declared
 @dataclass(frozen=True, kw_only=True)
 class LinearDamper:
     """Force ``-rate velocity``.
@@ -75,7 +78,7 @@ class LinearDamper:
         Name of the parameter [N s/m].
     """
 
-    rate: str
+    rate: Amount
 
     signal: ClassVar[str] = "damper_force"
     meaning: ClassVar[str] = "damper force"
@@ -85,6 +88,7 @@ class LinearDamper:
         return -sp.Symbol(self.rate) * at.velocity
 
 
+@declared
 @dataclass(frozen=True, kw_only=True)
 class DamperTable:
     r"""A curve of force over velocity, smooth, with its own shape in bump and in rebound.
@@ -110,8 +114,8 @@ class DamperTable:
         inverse width).
     """
 
-    name: str
-    segments: int
+    name: Name
+    segments: Count
 
     signal: ClassVar[str] = "damper_force"
     meaning: ClassVar[str] = "damper force"
@@ -152,6 +156,7 @@ class DamperTable:
         return total
 
 
+@declared
 @dataclass(frozen=True, kw_only=True)
 class Friction:
     """Coulomb friction, regularised: ``-force velocity / sqrt(velocity^2 + speed^2)``.
@@ -164,8 +169,8 @@ class Friction:
         Name of the parameter: velocity at which 71 % of it act [m/s], more than zero.
     """
 
-    level: str
-    speed: str
+    level: Amount
+    speed: MoreThanZero
 
     signal: ClassVar[str] = "friction_force"
     meaning: ClassVar[str] = "friction force"
@@ -179,6 +184,7 @@ class Friction:
         return -sp.Symbol(self.level) * v / pace
 
 
+@declared
 @dataclass(frozen=True, kw_only=True)
 class Stop:
     """A progressive stop: ``rate x + progression x^3``, x being how far it is pressed in.
@@ -195,9 +201,9 @@ class Stop:
     """
 
     side: Literal["bump", "rebound"]
-    length: str
-    rate: str
-    progression: str
+    length: Length
+    rate: Amount
+    progression: Amount
 
     @property
     def signal(self) -> str:
@@ -219,6 +225,7 @@ class Stop:
         return sense * x * (sp.Symbol(self.rate) + sp.Symbol(self.progression) * x**2)
 
 
+@declared
 @dataclass(frozen=True, kw_only=True)
 class Actuator:
     """A force that is given from outside.
@@ -229,7 +236,7 @@ class Actuator:
         Name of the input [N].
     """
 
-    input: str
+    input: Name
 
     signal: ClassVar[str] = "actuator_force"
     meaning: ClassVar[str] = "actuator force"

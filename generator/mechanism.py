@@ -2,26 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+
+import sympy as sp
 
 from .checks import check_mechanism
-from .forces import ForceElement, LinearTyre
+from .declared import Name, Number, Numeral, declared
+from .forces import Force, ForceElement, LinearTyre
+from .geometry import Direction, Point
 from .joints import Cylindrical, Joint, Spherical, Universal
 from .model_checks import check_model
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    import sympy as sp
-
-    from .forces import Force
-    from .geometry import Direction, Point
-
 
 _ENDS = 2  # of a rod
 
 
+@declared
 @dataclass(frozen=True)
 class Parameter:
     """A number that a user of the generated code may change.
@@ -32,14 +28,20 @@ class Parameter:
         Value in SI units.
     unit, meaning
         For the documentation of the generated code.
+    least, most
+        Bounds of its values, where its role has none or wider ones: masses, rates and lengths are
+        not negative in any case.
     """
 
-    name: str
-    default: float
+    name: Name
+    default: Number
     unit: str
     meaning: str
+    least: Number | None = None
+    most: Number | None = None
 
 
+@declared
 @dataclass(frozen=True)
 class Body:
     """A rigid body.
@@ -47,7 +49,7 @@ class Body:
     Attributes
     ----------
     name, number
-        The number is that of the paper's or the user's figure.
+        The number is that of the paper's or the user's figure; every body has its own.
     center
         Centre of mass; its position at design is a parameter.
     rotor_axis
@@ -55,23 +57,25 @@ class Body:
         then has two parameters, about the axis and across it; other bodies have a full tensor.
     """
 
-    name: str
-    number: int
+    name: Name
+    number: Numeral
     center: Point
     rotor_axis: Direction | None = None
 
 
+@declared
 @dataclass(frozen=True)
 class RelativeCoordinate:
     """A relative joint coordinate of the report, such as the paper's beta2."""
 
-    name: str
-    joint: str
-    kind: str
+    name: Name
+    joint: Name
+    kind: Name
     unit: str
     meaning: str
 
 
+@declared
 @dataclass(frozen=True)
 class Mechanism:
     """Bodies and joints with everything that acts on them.
@@ -81,15 +85,15 @@ class Mechanism:
     gives, by name, what the declaration reads like a parameter but is an expression in parameters.
     """
 
-    name: str
+    name: Name
     title: str
     bodies: tuple[Body, ...]
     joints: tuple[Joint, ...]
     forces: tuple[Force, ...]
     parameters: tuple[Parameter, ...]
     coordinates: tuple[RelativeCoordinate, ...]
-    inputs: Mapping[str, tuple[str, str]] = field(default_factory=dict)
-    derived: Mapping[str, sp.Expr] = field(default_factory=dict)
+    inputs: Mapping[Name, tuple[str, str]] = field(default_factory=dict)
+    derived: Mapping[Name, sp.Expr] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         check_mechanism(self)
@@ -152,6 +156,7 @@ class Mechanism:
         return None
 
 
+@declared
 @dataclass(frozen=True)
 class Model:
     """One set of equations derived from a mechanism.
@@ -171,13 +176,13 @@ class Model:
         Without it such a loop is refused.
     """
 
-    name: str
+    name: Name
     title: str
     mechanism: Mechanism
-    independent: tuple[str, ...]
-    massive: tuple[str, ...]
-    prescribed: Mapping[str, str] = field(default_factory=dict)
-    held: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    independent: tuple[Name, ...]
+    massive: tuple[Name, ...]
+    prescribed: Mapping[Name, Name] = field(default_factory=dict)
+    held: Mapping[Name, tuple[Name, ...]] = field(default_factory=dict)
     allow_iteration: bool = False
 
     def __post_init__(self) -> None:

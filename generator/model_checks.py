@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .checks import DeclarationError, repeated, unknown
+from .checks import repeated, unknown
+from .declared import DeclarationError
 from .forces import JointForce
 from .joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
-from .names import misnamed, unwritable
+from .names import unwritable
 
 if TYPE_CHECKING:
     from .mechanism import Model
 
+# what the right-hand side has beside its variants: rhs_jacobian, rhs_input_jacobian
+_FUNCTIONS = ("jacobian", "input_jacobian")
 _RATES = ("position", "velocity", "acceleration")
 
 DRIVABLE: dict[type[Joint], str] = {
@@ -24,12 +27,12 @@ DRIVABLE: dict[type[Joint], str] = {
 
 def check_model(model: Model) -> None:
     """Raise `DeclarationError` if a model contradicts its mechanism or itself."""
-    texts = _text_for_tuple("independent", model.independent)
-    texts += _text_for_tuple("massive", model.massive)
-    if texts:
-        raise DeclarationError(model.name, texts)
-    problems = misnamed("model", model.name) + unwritable("title of the model", model.title)
-    problems += [p for variant in model.held for p in misnamed("variant", variant)]
+    problems = unwritable("title of the model", model.title)
+    problems += [
+        f"variant {name!r} would be the function rhs_{name}, which there is already; rename it"
+        for name in model.held
+        if name in _FUNCTIONS
+    ]
     problems += _driven_problems(model)
     problems += _mass_problems(model)
     problems += _force_problems(model)
@@ -38,18 +41,13 @@ def check_model(model: Model) -> None:
         raise DeclarationError(model.name, problems)
 
 
-def _text_for_tuple(what: str, given: object) -> list[str]:
-    if not isinstance(given, str):
-        return []
-    return [f"{what} is the text {given!r}; write a tuple of names, ({given!r},)"]
-
-
 def _driven_problems(model: Model) -> list[str]:
     mechanism = model.mechanism
     joints = {j.name: j for j in mechanism.joints}
     problems = repeated("independent joint", model.independent)
     problems += unknown("independent joint", model.independent, joints)
     problems += unknown("prescribed joint", model.prescribed, joints)
+    problems += repeated("input of prescribed joints", model.prescribed.values())
     for variant, held in model.held.items():
         problems += unknown(f"held joint of {variant!r}", held, model.prescribed)
     both = sorted(set(model.independent) & set(model.prescribed))

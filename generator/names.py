@@ -1,10 +1,14 @@
-"""Names and texts of a declaration that the emitted C and Python could not have."""
+"""Names and texts of a declaration that the emitted C and Python could not have.
+
+That a name is an identifier is checked where it is given (`declared.Name`).
+"""
 
 from __future__ import annotations
 
 import keyword
-import re
 from typing import TYPE_CHECKING
+
+from .forces import ForceElement, LinearTyre
 
 if TYPE_CHECKING:
     from .mechanism import Mechanism
@@ -15,17 +19,46 @@ auto break case char const continue default do double else enum extern float for
 long register restrict return short signed sizeof static struct switch typedef union unsigned void
 volatile while
 """
-_OWN_WORDS = """
-sqrt sin cos asin atan2 copysign isfinite fabs at_least not_finite
-parameters constants state inputs given out status i np design_state prepare
+# macros of <math.h>, also those of compilers that are not strict
+_MACROS = """
+NAN INFINITY HUGE_VAL HUGE_VALF HUGE_VALL MAXFLOAT FP_NAN FP_INFINITE FP_ZERO FP_SUBNORMAL FP_NORMAL
+FP_FAST_FMA FP_FAST_FMAF FP_FAST_FMAL FP_ILOGB0 FP_ILOGBNAN MATH_ERRNO MATH_ERREXCEPT
+math_errhandling DOMAIN SING OVERFLOW UNDERFLOW PLOSS TLOSS M_E M_LOG2E M_LOG10E M_LN2 M_LN10 M_PI
+M_PI_2 M_PI_4 M_1_PI M_2_PI M_2_SQRTPI M_SQRT2 M_SQRT1_2 linux unix
 """
-_WORDS = frozenset([*_C_WORDS.split(), *_OWN_WORDS.split(), *keyword.kwlist])
+_OWN_WORDS = """
+sqrt sin cos asin atan2 copysign isfinite fabs abs at_least not_finite
+parameters constants state inputs given out status i np design_state prepare found results
+follow follow_turns square fmax GUARD_FLOOR ROUNDING ITERATIONS CONVERGED STALLED LONGEST TURNED
+CLOSE SHORTEST CLOSED FULL_TURN UNKNOWNS ELEMENTS DRIVEN ADDRESSES
+"""
+_WORDS = frozenset(
+    [
+        *_C_WORDS.split(),
+        *_MACROS.split(),
+        *_OWN_WORDS.split(),
+        *keyword.kwlist,
+        "bool",
+        "true",
+        "false",
+        "asm",
+        "typeof",
+        "thread_local",
+        "nullptr",
+        "constexpr",
+        "alignas",
+        "alignof",
+        "static_assert",
+    ]
+)
+# arguments of the residuals, and functions that iterate
+_BEGINNINGS = ("given_", "loops_through_", "pose_of_")
 _ENDS_OF_COMMENTS = ("*/", '"""', "\\", "\n", "\r")
 _COUNTED = ("count",)  # an enumeration ends with the number of its elements
 
 
 def name_problems(mechanism: Mechanism) -> list[str]:
-    """Find names that code cannot have: no identifiers, reserved words, one name for two things."""
+    """Find names that code cannot have: reserved words, one name for two things."""
     coordinates = [c.name for c in mechanism.coordinates]
     kinds = {
         "body": [b.name for b in mechanism.bodies],
@@ -33,10 +66,11 @@ def name_problems(mechanism: Mechanism) -> list[str]:
         "parameter": [p.name for p in mechanism.parameters],
         "coordinate": coordinates,
         "input": list(mechanism.inputs),
-        "force element": [element.name for element in mechanism.elements],
+        "force": [f.name for f in mechanism.forces if isinstance(f, ForceElement | LinearTyre)],
     }
-    problems = misnamed("mechanism", mechanism.name)
-    problems += [p for kind, names in kinds.items() for n in names for p in misnamed(kind, n)]
+    # what the code reads by its own name; other names have something before or behind them
+    read_alone = ("parameter", "coordinate", "input")
+    problems = [p for kind in read_alone for n in kinds[kind] for p in _reserved(kind, n)]
     for kind, names in kinds.items():
         if kind != "joint":  # of joints there is no enumeration
             problems += _differ_in_case_only(kind, names)
@@ -55,13 +89,9 @@ def name_problems(mechanism: Mechanism) -> list[str]:
     return problems
 
 
-def misnamed(kind: str, name: str) -> list[str]:
-    """Find out whether code cannot have a name of some kind."""
-    if not re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name):
-        allowed = "use letters, digits and underscores, a letter first"
-        return [f"{kind} {name!r} cannot be written in C; {allowed}"]
-    reserved = name in _WORDS or name.lower() in _COUNTED or name.startswith("given_")
-    if reserved and kind in ("parameter", "coordinate", "input"):
+def _reserved(kind: str, name: str) -> list[str]:
+    """Find out whether a name is one that the code has for something else."""
+    if name in _WORDS or name.lower() in _COUNTED or name.startswith(_BEGINNINGS):
         return [f"{kind} {name!r} has a name that the generated code needs; choose another one"]
     return []
 

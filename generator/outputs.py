@@ -9,7 +9,8 @@ import sympy as sp
 
 from .arithmetic import SignOf
 from .assumptions import Assumption, define_assumptions, find_assumptions
-from .checks import DeclarationError, check_symbols
+from .checks import check_symbols
+from .declared import DeclarationError
 from .dynamics import Dynamics
 from .forces import ForceElement, JointForce, LinearTyre
 from .laws import Actuator
@@ -23,6 +24,7 @@ from .vectors import ZERO, Vector
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
+    from .conditioning import Condition
     from .laws import Law
     from .mechanism import Mechanism, Model
 
@@ -55,8 +57,8 @@ class GeneratedModel:
         The emitted functions by name; `prepare` computes the constants that the others read.
     guards
         All guards of the model; the bit of a guard in a status word is its position here.
-    assumptions
-        What the constants of a parameter set must fulfil.
+    assumptions, conditions
+        What the constants of a parameter set must fulfil: which must be zero, which must not.
     moving_bodies, massive_bodies
         Names in the order of the arrays of poses and of Jacobians.
     signals
@@ -73,6 +75,7 @@ class GeneratedModel:
     prepare: Function
     guards: tuple[Guard, ...]
     assumptions: tuple[Assumption, ...]
+    conditions: tuple[Condition, ...]
     moving_bodies: tuple[str, ...]
     massive_bodies: tuple[str, ...]
     signals: tuple[Entry, ...]
@@ -131,7 +134,7 @@ class _Builder:
             "margins",
             "Quantities that are positive where the model is valid; where one is not, those "
             "behind it mean nothing.",
-            {g.name: g.quantity for g in guards},
+            {g.name: g.margin for g in guards},
         )
         self.functions["margins"] = replace(margins, guards=())  # it reports, and does not refuse
         assumed = define_assumptions(self.program, self.assumed)
@@ -148,6 +151,7 @@ class _Builder:
             prepare=prepare,
             guards=guards,
             assumptions=assumed,
+            conditions=tuple(self.constants.conditions.values()),
             moving_bodies=self.moving,
             massive_bodies=self.massive,
             signals=tuple(self.signals),
@@ -201,7 +205,7 @@ class _Builder:
                 names += [law.input for law in force.laws if isinstance(law, Actuator)]
             elif isinstance(force, JointForce) and force.joint in self.model.independent:
                 names.append(force.input)
-        return names
+        return list(dict.fromkeys(names))  # two tyres may be on one road
 
     def _rate_inputs(self, joints: Iterable[str]) -> tuple[str, ...]:
         names = [self.model.prescribed[j] for j in joints]

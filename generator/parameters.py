@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from .declared import Name, Number, checked
 from .mechanism import Parameter
 from .vectors import ELEMENTS
 
+Three = tuple[Number, Number, Number]
 
-def point(name: str, position: tuple[float, float, float], meaning: str) -> list[Parameter]:
+
+@checked
+def point(name: Name, position: Three, meaning: str) -> list[Parameter]:
     """Coordinates of a point at the design position, chassis axes."""
     return [
         Parameter(f"{name}_{axis}", value, "m", f"{meaning}, {axis} at the design position")
@@ -14,7 +18,8 @@ def point(name: str, position: tuple[float, float, float], meaning: str) -> list
     ]
 
 
-def direction(name: str, components: tuple[float, float, float], meaning: str) -> list[Parameter]:
+@checked
+def direction(name: Name, components: Three, meaning: str) -> list[Parameter]:
     """Components of a direction, of any length, chassis axes."""
     return [
         Parameter(f"{name}_{axis}", value, "1", f"{meaning}, {axis} component")
@@ -22,11 +27,12 @@ def direction(name: str, components: tuple[float, float, float], meaning: str) -
     ]
 
 
+@checked
 def rigid_body(
-    name: str,
-    mass: float,
-    com: tuple[float, float, float],
-    inertia: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    name: Name,
+    mass: Number,
+    com: Three,
+    inertia: Three = (0.0, 0.0, 0.0),
 ) -> list[Parameter]:
     """Mass, centre of mass and inertia tensor (about it, chassis axes, at the design position)."""
     tensor = (*inertia, 0.0, 0.0, 0.0)
@@ -45,7 +51,8 @@ def rigid_body(
     ]
 
 
-def rotor(name: str, mass: float, spin: float, diametral: float) -> list[Parameter]:
+@checked
+def rotor(name: Name, mass: Number, spin: Number, diametral: Number) -> list[Parameter]:
     """Mass of a body of revolution, and its inertia about its axis and across it."""
     return [
         Parameter(f"{name}_mass", mass, "kg", f"mass of the {name}"),

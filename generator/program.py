@@ -19,23 +19,34 @@ from typing import TYPE_CHECKING, Any
 import sympy as sp
 
 from .arithmetic import Component, Guarded, Iterated, SignOf, Written, write
+from .conditioning import SMALLEST
 from .vectors import Vector
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
     from .assumptions import Assumption
+    from .conditioning import Condition
     from .iteration import Block
 
 
 @dataclass(frozen=True)
 class Guard:
-    """A quantity that must be positive, its unit, and what it means when it is not positive."""
+    """A quantity that must be over a floor, its unit, and what it means when it is not.
+
+    The floor is a constant, or a number; see `conditioning`.
+    """
 
     quantity: sp.Symbol
     name: str
     meaning: str
     unit: str
+    floor: sp.Expr
+
+    @property
+    def margin(self) -> sp.Expr:
+        """How far the quantity is over its floor: positive where the model is valid."""
+        return self.quantity - self.floor
 
 
 @dataclass(frozen=True)
@@ -135,12 +146,18 @@ class ConstantStage:
         What stands for other symbols that the equations name like parameters.
     steps
         The steps, in order.
+    blocks
+        The iterations of all programs, by their names.
+    conditions
+        Constants that must not vanish.
     """
 
     parameters: tuple[sp.Symbol, ...]
     reserved: frozenset[str] = frozenset()
     derived: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
     steps: dict[sp.Symbol, Step] = field(default_factory=dict)
+    blocks: dict[str, Block] = field(default_factory=dict)
+    conditions: dict[sp.Expr, Condition] = field(default_factory=dict)
     _known: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
     _varying: set[str] = field(default_factory=set)  # names of steps of the programs
     _collected: int = 0
@@ -160,9 +177,13 @@ class ConstantStage:
         return expression.xreplace(self.derived)
 
     def has(self, name: str) -> bool:
-        """Tell whether a name is that of a constant, a parameter, a state or an input."""
+        """Tell whether a name is that of a constant, a parameter, a state or an input.
+
+        Parameters of a copy count, since they are replaced wherever their names are read.
+        """
         symbol = sp.Symbol(name)
-        return symbol in self.steps or symbol in self._given or name in self.reserved
+        known = (self.steps, self._given, self.derived)
+        return any(symbol in names for names in known) or name in self.reserved
 
     def note(self, name: str) -> None:
         """Keep the name of a program's step from being used for a constant."""
@@ -207,13 +228,15 @@ class ConstantStage:
     def function(
         self, functions: Iterable[Function], assumptions: Iterable[Assumption] = ()
     ) -> Function:
-        """Return the parameter stage: all constants that some functions read or that must be zero.
+        """Return the parameter stage: all constants that some functions read or that are checked.
 
-        What must be zero is computed like any constant, so that an error can say by how much it is
-        not.
+        What must be zero, or must not, is computed like any constant, so that an error can say by
+        how much it is off.
         """
         used = set().union(*(f.free_symbols for f in functions))
         used = used.union(*(a.quantity.free_symbols | a.scale.free_symbols for a in assumptions))
+        kept = self.conditions.values()
+        used = used.union(*(c.quantity.free_symbols | c.least.free_symbols for c in kept))
         results = [s for s in (*self.parameters, *self.steps) if s in used]
         needed = ancestors(self.steps, results)
         return Function(
@@ -240,7 +263,6 @@ class Program:
     constants: ConstantStage
     steps: dict[sp.Symbol, Step] = field(default_factory=dict)
     guards: dict[sp.Symbol, Guard] = field(default_factory=dict)
-    blocks: dict[str, Block] = field(default_factory=dict)
     _section: str = ""
     _known: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
 
@@ -286,21 +308,33 @@ class Program:
         x, y, z = (self.vector(n, v, suffixes) for n, v in zip(names, vectors, strict=True))
         return x, y, z
 
-    def guarded(self, name: str, expression: Any, meaning: str, unit: str) -> sp.Expr:
-        """Append a step whose value must be positive, and return its guarded form.
+    def guarded(
+        self, name: str, expression: Any, meaning: str, unit: str, floor: Any = SMALLEST
+    ) -> sp.Expr:
+        """Append a step whose value must be over a floor, and return its guarded form.
 
         Constants are not guarded: the parameter stage checks them all at once.
+
+        Parameters
+        ----------
+        name, meaning, unit
+            Of the quantity, and what it means that it is not over the floor.
+        expression
+            The quantity.
+        floor
+            In parameters and constants, or a number; see `conditioning`.
         """
         symbol = self.define(name, expression)
         if self.constants.contains(symbol):
             return symbol
-        self.guards.setdefault(symbol, Guard(symbol, name, meaning, unit))
-        return Guarded(symbol)
+        if symbol not in self.guards:
+            least = self.define(f"{name}_floor", floor)
+            self.guards[symbol] = Guard(symbol, name, meaning, unit, least)
+        return Guarded(symbol, self.guards[symbol].floor)
 
-    def iterated(self, name: str, block: Block, given: Iterable[sp.Expr]) -> dict[str, sp.Expr]:
+    def iterated(self, name: str, block: Block) -> dict[str, sp.Expr]:
         """Append the call of a block that iterates, and return its results by name."""
-        self.blocks[block.name] = block
-        results = self.define(name, Iterated(block.symbol, *given))
+        results = self.define(name, Iterated(block.symbol, *block.given))
         return {
             label: self.define(f"{name}_{label}", Component(results, place))
             for place, label in enumerate(block.results)
@@ -362,6 +396,7 @@ class Program:
                     step.expression.xreplace(replaced),
                     guard.meaning,
                     guard.unit,
+                    guard.floor,
                 ).args[0]
             else:
                 new = self.define(f"{step.symbol}__{label}", step.expression.xreplace(replaced))
@@ -403,7 +438,7 @@ class Program:
             tuple(results),
             tuple(shape) if shape is not None else (len(expressions),),
             guards,
-            blocks=tuple(block for n, block in self.blocks.items() if n in called),
+            blocks=tuple(block for n, block in self.constants.blocks.items() if n in called),
         )
 
     # -- constants ------------------------------------------------------------------------------

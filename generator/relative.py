@@ -15,6 +15,7 @@ import networkx as nx
 import sympy as sp
 
 from .actions import PlaceByPin, SolveHinge, SolveSlide, SolveTelescope, SolveTurn
+from .conditioning import DIRECTION
 from .geometry import Point
 from .hinge_angles import angle_of, is_first_axis, positive_axis_at_design, turn_between
 from .joints import Cylindrical, Joint, Prismatic, Revolute, Universal
@@ -118,6 +119,7 @@ class RelativeCoordinates:
             n.x**2 + n.y**2,
             f"the shaft at universal joint {name} is vertical: its azimuth is undefined",
             "1",
+            DIRECTION,
         )
         level = program.define(f"shaft_level_{name}", sp.sqrt(squared))
         x = Vector(n.y / level, -n.x / level, ZERO.z)

@@ -67,11 +67,6 @@ class Topology:
 
     def __post_init__(self) -> None:
         names = [b.name for b in self.mechanism.bodies]
-        for joint in self.mechanism.joints:
-            for body in joint.bodies:
-                if body not in names:
-                    message = f"joint {joint.name!r} connects {body!r}, which is no declared body"
-                    raise TopologyError(message)
         unreached = set(names) - set(nx.node_connected_component(self.graph, names[0]))
         if unreached:
             message = f"no joint path leads from the ground to {', '.join(sorted(unreached))}"

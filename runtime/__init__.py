@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     )
     from .result import Simulation, SimulationError
     from .simulation import simulate
+    from .state import State
     from .system import System
 
 __version__ = version("kintrafo")
@@ -58,6 +59,7 @@ __all__ = [
     "SignalEvent",
     "Simulation",
     "SimulationError",
+    "State",
     "Suspension",
     "System",
     "arm_angles",
@@ -94,6 +96,7 @@ _MODULES = {
     ),
     ".result": ("Simulation", "SimulationError"),
     ".simulation": ("simulate",),
+    ".state": ("State",),
     ".system": ("System",),
 }
 _HOMES = {name: module for module, names in _MODULES.items() for name in names}

@@ -8,19 +8,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import paper
+from .arguments import Arguments
 from .characteristics import wheel
 from .characteristics.from_model import corner
 from .input.suspension import Suspension
 from .input.vectors import distance_from_line
 from .model import Model
+from .plausibility import USUAL_HOP, plausibility
 from .positions import PositionError, Range, design_height, equilibrium, travel_range
 from .starter import packaged
 
+__all__ = ["USUAL_HOP", "USUAL_RIDE", "Checkup", "Equilibrium", "as_dict", "checkup", "readable"]
+
 Array = NDArray[np.float64]
 
-# Where passenger cars have their wheel hop [Hz]: TRL Report SR12 UC, vehicles over discontinuities
-# of the road.
-USUAL_HOP = (10.0, 15.0)
 # Where the body of a comfortable passenger car has its frequency [Hz]: Audi, Self-Study Programme
 # 242, page 9.
 USUAL_RIDE = (1.0, 1.5)
@@ -46,7 +47,10 @@ class Equilibrium:
     frequency : float
         Undamped natural frequency of the wheel-hop mode [Hz].
     damping_ratio : float
-        Of that mode; above one where it does not oscillate.
+        Of that mode, without the friction in the strut; above one where it does not oscillate.
+    damping_ratio_with_friction : float or None
+        With the friction as steep as it is at rest, which holds for speeds far below
+        ``friction_velocity_m_per_s`` alone; None if there is no friction.
     ride_frequency : float or None
         Undamped natural frequency of the body above a wheel at rest on the road: of the mass that
         spring and stops carry, on their rate in series with the tyre's [Hz]. None where they carry
@@ -58,6 +62,7 @@ class Equilibrium:
     signals: dict[str, float]
     frequency: float
     damping_ratio: float
+    damping_ratio_with_friction: float | None
     ride_frequency: float | None
 
 
@@ -82,7 +87,7 @@ class Checkup:
     equilibrium : Equilibrium or None
         None if there is no stable one.
     problems : tuple of str
-        What keeps the suspension from working.
+        What keeps the suspension from working, or is almost surely a mistake.
     notes : tuple of str
         What works but is unusual.
     """
@@ -115,6 +120,8 @@ def checkup(model: Model) -> Checkup:
     >>> found.problems, round(found.equilibrium.frequency, 2)
     ((), 12.35)
     """
+    with Arguments("checkup") as given:
+        given.suspension(model)
     reach = travel_range(model)
     design = design_height(model)
     travel = reach.height[0] - design, reach.height[1] - design
@@ -125,6 +132,7 @@ def checkup(model: Model) -> Checkup:
     except PositionError as error:
         problems.append(str(error))
     extension = _extension_travel(model, reach)
+    seen = plausibility(model.suspension)
     return Checkup(
         title=model.suspension.TITLE,
         side=model.suspension.vehicle.side,
@@ -133,8 +141,8 @@ def checkup(model: Model) -> Checkup:
         travel=travel,
         extension_travel=extension,
         equilibrium=rest,
-        problems=tuple(problems),
-        notes=tuple(_notes(travel, rest, extension)),
+        problems=(*seen.problems, *problems),
+        notes=(*seen.notes, *_notes(travel, rest, extension)),
     )
 
 
@@ -142,15 +150,29 @@ def _equilibrium(model: Model) -> Equilibrium:
     state = equilibrium(model)
     signals = {name: float(value) for name, value in model.signals(state).items()}
     mode = paper.rest(model).hop
+    smooth = _without_friction(model)
+    sliding = mode if smooth is model else paper.rest(smooth).hop
     height = signals["wheel_center_z"]
     return Equilibrium(
         height=height,
         travel=height - design_height(model),
         signals=signals,
-        frequency=mode.natural_frequency,
-        damping_ratio=mode.damping_ratio,
+        frequency=sliding.natural_frequency,
+        damping_ratio=sliding.damping_ratio,
+        damping_ratio_with_friction=None if smooth is model else mode.damping_ratio,
         ride_frequency=_ride_frequency(model, state),
     )
+
+
+def _without_friction(model: Model) -> Model:
+    """Return the model without friction, the same one if it has none.
+
+    Friction is smoothed near rest, so that it has a slope there: a damper of friction over speed,
+    many times what the wheel meets in any motion that is seen. At rest it has no force.
+    """
+    if not model.parameters.get("strut_friction"):
+        return model
+    return Model(model.suspension.with_changes({"strut.friction_N": 0.0}))
 
 
 def _ride_frequency(model: Model, state: Array) -> float | None:

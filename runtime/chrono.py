@@ -20,9 +20,11 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from .errors import InputError
 from .files import reason
 from .input.suspension import Suspension
+from .legible import short
 
 Array = NDArray[np.float64]
-Finite = Annotated[float, Field(allow_inf_nan=False)]
+# strict: neither a text nor true is a number
+Finite = Annotated[float, Field(allow_inf_nan=False, strict=True)]
 Point = tuple[Finite, Finite, Finite]
 
 TYRE_RATE = 200e3
@@ -132,7 +134,7 @@ class _File(_Part):
     template: Literal["MacPhersonStrut"] = Field(alias="Template")
     camber: Finite = Field(default=0.0, alias="Camber Angle (deg)")
     toe: Finite = Field(default=0.0, alias="Toe Angle (deg)")
-    vehicle_axes: bool = Field(default=False, alias="Vehicle-Frame Inertia")
+    vehicle_axes: bool = Field(default=False, strict=True, alias="Vehicle-Frame Inertia")
     spindle: _Spindle = Field(alias="Spindle")
     upright: _Body = Field(alias="Upright")
     arm: _ControlArm = Field(alias="Control Arm")
@@ -239,14 +241,12 @@ def _without_comment(found: re.Match[str]) -> str:
 
 def _problem(detail: Any) -> str:
     place = " > ".join(str(part) for part in detail["loc"])
+    given = short(json.dumps(detail["input"], default=str))
     if detail["type"] == "missing":
         return f'"{place}" is missing. Add it, in SI units.'
     if detail["type"] == "literal_error":
-        return (
-            f'"{place}" is {json.dumps(detail["input"])}; only {detail["ctx"]["expected"]} can be '
-            "read."
-        )
-    return f'"{place}" = {json.dumps(detail["input"], default=str)}: {detail["msg"].lower()}.'
+        return f'"{place}" is {given}; only {detail["ctx"]["expected"]} can be read.'
+    return f'"{place}" = {given}: {detail["msg"].lower()}.'
 
 
 # -- converting -----------------------------------------------------------------------------------

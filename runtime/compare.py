@@ -9,6 +9,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from . import characteristics
+from .arguments import Arguments
 from .errors import InputError
 from .model import Model
 from .sweep import usual_rack, usual_travel
@@ -45,6 +46,13 @@ def compare(
     xarray.Dataset
         As that of `kintrafo.characteristics`, with the further dimension ``data_set``.
     """
+    with Arguments("compare") as given:
+        for model in given.mapping("models", models, "names and models").values():
+            given.suspension(model)
+        given.among("over", over, ("travel", "rack"))
+        given.function("progress", progress)
+        if positions is not None:
+            positions = given.array("positions", positions, "m", dimensions=[1])
     if len(models) < 2:
         problem = f"{len(models)} data set; two or more are needed for a comparison."
         raise InputError([problem], "compare")
@@ -74,6 +82,12 @@ def common_positions(models: Mapping[str, Model], *, over: Over = "travel") -> A
     ndarray
         Zero included.
     """
+    with Arguments("compare") as given:
+        for model in given.mapping("models", models, "names and models").values():
+            given.suspension(model)
+        if not models:
+            given.refuse("models is empty: one or more are needed.")
+        given.among("over", over, ("travel", "rack"))
     grids = [
         usual_travel(model) if over == "travel" else usual_rack(model) for model in models.values()
     ]

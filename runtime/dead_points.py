@@ -18,7 +18,6 @@ Array = NDArray[np.float64]
 # What a guard means for an integration: bits as in ``native/margins.h``.
 _ACTS, _PLACES = 1, 2
 # As in the emitted code and in ``native/margins.c``, where the reasons are.
-_GUARD_FLOOR = 1e-24
 _PART = 0.5
 _NOTHING = 1e-10
 SMALLEST_PART = 1e-14
@@ -96,7 +95,7 @@ class Approach:
 
     def crossed(self, margins: Array) -> int | None:
         """Return a guard whose margin is not positive where it must be."""
-        return _first(self._acts & ~(margins > _GUARD_FLOOR))
+        return _first(self._acts & ~(margins > 0.0))
 
     def look(self, time: float, state: Array, lapse: float) -> tuple[Array, Array]:
         """Return the margins of a state, and by how much they change in a short time."""

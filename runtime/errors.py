@@ -1,14 +1,16 @@
 """The exceptions that kintrafo raises on purpose.
 
-Each of them derives from `KintrafoError`, so that one ``except`` clause catches them all.
+Each of them derives from `KintrafoError`, so that one ``except`` clause catches them all: those of
+the generator and of the generated code too. So this file depends on nothing.
 """
 
 from collections.abc import Iterable
 
-# The generated code raises errors too, and must not depend on anything: the base class is there.
-from .generated._support import KintrafoError
-
 __all__ = ["InputError", "KintrafoError"]
+
+
+class KintrafoError(Exception):
+    """Base of every exception that kintrafo raises on purpose."""
 
 
 class InputError(KintrafoError, ValueError):

@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from .arguments import Arguments, shown
 from .errors import InputError
 from .input.suggestions import suggestion
 from .system import System
@@ -41,6 +42,7 @@ NAMED = {
     "strut_reaches_bump_stop": "the strut becomes as short as its bump stop allows freely",
     "strut_reaches_rebound_stop": "the strut becomes as long as its rebound stop allows freely",
 }
+_MOST_CROSSINGS = 2**31 - 1
 _AT_THE_GROUND = {"wheel_leaves_ground": -1.0, "wheel_touches_ground": 1.0}
 # Which stop, and the sense of the strut's length when it touches.
 _AT_A_STOP = {
@@ -111,7 +113,7 @@ def events_of(model: System, given: Event | Sequence[Event] | None) -> Events:
         elif callable(event):
             functions.append((index, event))
         else:
-            problem = f"event {event!r} is neither a name, nor a SignalEvent, nor a function."
+            problem = f"event {shown(event)} is neither a name, nor a SignalEvent, nor a function."
             raise InputError([problem], "events")
     order = tuple(i for i, _ in (*signal, *functions))
     return Events(tuple(e for _, e in signal), tuple(f for _, f in functions), order)
@@ -143,7 +145,12 @@ def _touching(model: System, side: str, direction: float) -> SignalEvent:
 
 
 def _checked(model: System, event: SignalEvent) -> SignalEvent:
-    if event.signal not in model.signal_names:
-        known = suggestion(event.signal, model.signal_names)
-        raise InputError([f"signal {event.signal!r} is not known. {known}"], "events")
+    with Arguments("events") as given:
+        given.among("signal", event.signal, model.signal_names)
+        given.number(f"level of {event.signal!r}", event.level)
+        given.number(f"direction of {event.signal!r}", event.direction)
+        if not isinstance(event.terminal, bool):
+            given.whole(
+                f"terminal of {event.signal!r}", event.terminal, least=0, most=_MOST_CROSSINGS
+            )
     return event

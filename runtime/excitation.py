@@ -1,9 +1,9 @@
 """What moves a suspension in a simulation: road and rack, by formula or as they were measured."""
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from .arguments import Arguments
 from .courses import Signal
 from .errors import InputError
 from .measurement import Measurement
@@ -41,6 +41,9 @@ class Course:
 
     def signal(self, end: float) -> Signal:
         """Return what `kintrafo.simulate` takes, for a simulation up to a time [s]."""
+        with Arguments("course") as given:
+            for name in self.given:
+                given.number(name, getattr(self, name), "m")
         if self.step is not None:
             return step(self.step, at=self.step_at, end=end)
         if self.sine is not None:
@@ -77,8 +80,12 @@ def excitation(
     >>> excitation({"road_height": Course(held=0.01)}, end=1.0)
     {'road_height': 0.01}
     """
-    if not 0.0 < end < math.inf:
-        raise InputError([f"duration = {end:g} s: more than 0 s is needed."], "simulation")
+    with Arguments("simulation") as given:
+        end = given.number("duration", end, "s", above=0.0)
+        for name, course in given.mapping("courses", courses, "input names, courses").items():
+            given.kind(f"course of {name!r}", course, Course, "a Course is needed")
+        if measured is not None:
+            given.kind("measured", measured, Measurement, "a Measurement is needed")
     inputs: dict[str, Signal] = {} if measured is None else dict(measured.inputs())
     problems = []
     for name, course in courses.items():

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from .arguments import Arguments
 from .errors import InputError
 from .files import Paths, replacing
 from .legible import legible
@@ -53,6 +54,8 @@ def write(
     MissingPackageError
         If the format needs a package that is not installed.
     """
+    with Arguments("export") as given:
+        given.dataset(dataset)
     writer = _WRITERS[check_format(path)]
     with replacing(path, force=force, inputs=inputs) as temporary:
         writer(_legible(dataset), temporary)
@@ -61,6 +64,8 @@ def write(
 
 def check_format(path: str | Path) -> str:
     """Return the ending of a file's name, or refuse it where no such file can be written."""
+    with Arguments("export") as given:
+        given.path("path", path)
     ending = Path(path).suffix.lower()
     if ending not in _WRITERS:
         found = f"{ending} is no format" if ending else "the name has no ending"
@@ -84,6 +89,8 @@ def as_dict(dataset: xr.Dataset) -> dict[str, Any]:
         ``coordinates`` and ``variables``, each by name: ``units``, ``long_name``, ``sign``,
         ``dimensions`` and ``values``.
     """
+    with Arguments("export") as given:
+        given.dataset(dataset)
 
     def described(data: xr.DataArray) -> dict[str, Any]:
         texts = {key: data.attrs.get(key, "") for key in ("units", "long_name", "sign")}
@@ -148,7 +155,8 @@ def _write_parquet(dataset: xr.Dataset, path: Path) -> None:
     ]
     schema = pyarrow.schema(fields, metadata=_texts(dataset.attrs))
     columns = [np.asarray(frame[name]) for name in frame.columns]
-    parquet.write_table(pyarrow.Table.from_arrays(columns, schema=schema), path)
+    with path.open("wb") as file:  # pyarrow has no names that are not UTF-8
+        parquet.write_table(pyarrow.Table.from_arrays(columns, schema=schema), file)
 
 
 def _texts(attrs: dict[Any, Any]) -> dict[str, str]:

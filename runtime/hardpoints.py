@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .arguments import Arguments
 from .model import Model
 
 Array = NDArray[np.float64]
@@ -29,6 +30,8 @@ def hardpoints(model: Model, state: ArrayLike, inputs: ArrayLike | None = None) 
     >>> hardpoints(model, model.design_state)["tie_rod_inner"].round(12).tolist()
     [-0.14, -0.31, 0.28]
     """
+    with Arguments("hardpoints") as given:
+        given.suspension(model)
     points, bodies = model.suspension.hardpoints, model.equations.BODIES
     design_centers = _centers_of_mass(model)
     centers = model.evaluate("positions", state, inputs)

@@ -26,6 +26,27 @@ def legible(text: str) -> str:
     return _STRANGE.sub(_escaped, text)
 
 
+def short(text: str, most: int = 80) -> str:
+    """Return the beginning of a text that nobody would read to its end.
+
+    Parameters
+    ----------
+    text : str
+    most : int, optional
+        So many characters are the most.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> short("rate = 1" + 5000 * "0", most=16)
+    'rate = 100000...'
+    """
+    return text if len(text) <= most else f"{text[: most - 3]}..."
+
+
 def _escaped(found: re.Match[str]) -> str:
     code = ord(found[0])
     if code in _BYTES:

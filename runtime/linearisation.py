@@ -17,8 +17,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .arguments import Arguments
 from .errors import InputError
 from .modes import Mode, eigenvalues_of, mode_of_states, modes_of
+from .state import inputs_of
 
 if TYPE_CHECKING:
     from scipy.signal import StateSpace
@@ -30,6 +32,8 @@ Complex = NDArray[np.complex128]
 
 # A rate, relative to the forces' own accelerations, below which a state counts as steady.
 _STEADY = 1e-6
+# Its square must not overflow [Hz].
+_GREATEST_FREQUENCY = 1e100
 # Of a suspension: coordinates that no equation depends on, as a balanced wheel looks the same at
 # every angle, and those of the arm that swings in wheel hop.
 _CYCLIC = ("beta5", "spin_angle")
@@ -128,7 +132,13 @@ class Linearisation:
         InputError
             If there is no such input, or an eigenvalue lies on one of the frequencies.
         """
-        frequencies = np.asarray(frequency, dtype=np.float64)
+        with Arguments("frequency response") as given:
+            frequencies = given.array("frequency", frequency, "Hz", empty=True)
+            given.among("source", source, self.input_names)
+            if np.abs(frequencies).max(initial=0.0) > _GREATEST_FREQUENCY:
+                given.refuse(
+                    f"frequency: {_GREATEST_FREQUENCY:g} Hz at most, in size, are possible."
+                )
         s = (2j * np.pi * frequencies[..., None]).astype(np.complex128)
         column = self._harmonic(source, s)
         moved = s[..., None] * np.eye(len(self.A)) - self.A
@@ -145,9 +155,6 @@ class Linearisation:
 
     def _harmonic(self, source: str, s: Complex) -> Complex:
         """Return the amplitudes of all inputs while one of them moves with amplitude one."""
-        if source not in self.input_names:
-            problem = f"source = {source!r} is no input; there are {', '.join(self.input_names)}."
-            raise InputError([problem], "frequency response")
         column = np.zeros((*s.shape[:-1], len(self.input_names)), dtype=np.complex128)
         column[..., self.input_names.index(source)] = 1.0
         stem, _, kind = source.rpartition("_")
@@ -171,8 +178,8 @@ def linearise(
     ----------
     model : System or Model
     state, inputs : array_like
-        One state, and inputs, zero by default. A state of rest is found by
-        `kintrafo.equilibrium`; any other is allowed, see `Linearisation.steady`.
+        One state, and inputs: by default those that belong to the state, or zeros. A state of
+        rest is found by `kintrafo.equilibrium`; any other is allowed, see `Linearisation.steady`.
     outputs : sequence of str, optional
         Signals to take as outputs, all by default.
 
@@ -194,30 +201,34 @@ def linearise(
     >>> linear.steady, linear.wheel_hop.text
     (True, '12.35 Hz, damping ratio 0.233')
     """
-    state = _one(state, "state")
-    inputs = _one(model.inputs() if inputs is None else inputs, "inputs")
-    names = model.signal_names if outputs is None else tuple(outputs)
-    unknown = [name for name in names if name not in model.signal_names]
-    if unknown:
-        problem = f"outputs: no signal {unknown[0]!r}; there are {', '.join(model.signal_names)}."
-        raise InputError([problem], "linearise")
+    inputs = inputs_of(state) if inputs is None else inputs
+    with Arguments("linearise") as checked:
+        checked.system(model)
+        if not checked.refused:
+            given = checked.array(
+                "inputs", model.inputs() if inputs is None else inputs, dimensions=[1],
+                last=len(model.input_names), empty=True,
+            )  # fmt: skip
+            point = checked.array("state", state, dimensions=[1], last=len(model.state_names))
+            outputs = model.signal_names if outputs is None else outputs
+            names = checked.names("outputs", outputs, model.signal_names)
     rows = [model.signal_names.index(name) for name in names]
     described = model.equations
 
     def evaluated(function: str, *shape: int) -> Array:
         """Return a result, empty where the mechanism has no inputs or no signals."""
-        return model.evaluate(function, state, inputs) if all(shape) else np.empty(shape)
+        return model.evaluate(function, point, given) if all(shape) else np.empty(shape)
 
-    signals, states, given = map(len, (model.signal_names, model.state_names, model.input_names))
+    signals, states, entries = map(len, (model.signal_names, model.state_names, model.input_names))
     return Linearisation(
-        state=state,
-        inputs=inputs,
+        state=point,
+        inputs=given,
         outputs=evaluated("signals", signals)[rows],
-        rate=model.evaluate("rhs", state, inputs),
-        A=model.evaluate("rhs_jacobian", state, inputs),
-        B=evaluated("rhs_input_jacobian", states, given),
+        rate=model.evaluate("rhs", point, given),
+        A=model.evaluate("rhs_jacobian", point, given),
+        B=evaluated("rhs_input_jacobian", states, entries),
         C=evaluated("signals_jacobian", signals, states)[rows],
-        D=evaluated("signals_input_jacobian", signals, given)[rows],
+        D=evaluated("signals_input_jacobian", signals, entries)[rows],
         state_names=model.state_names,
         input_names=model.input_names,
         output_names=names,
@@ -225,11 +236,3 @@ def linearise(
         input_units=tuple(entry["unit"] for entry in described.INPUTS.values()),
         output_units=tuple(described.SIGNALS[name]["unit"] for name in names),
     )
-
-
-def _one(values: ArrayLike, name: str) -> Array:
-    array = np.asarray(values, dtype=np.float64)
-    if array.ndim != 1:
-        problem = f"{name} has the shape {array.shape}; one row of numbers is needed."
-        raise InputError([problem], "linearise")
-    return array

@@ -9,12 +9,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .arguments import Arguments
 from .errors import InputError
 from .files import reason
 from .input.suggestions import nearest, suggestion
+from .interpolation import Between, Samples
 
 Array = NDArray[np.float64]
-Samples = tuple[Array, Array]
 
 _DELIMITERS = ("\t", ";", ",")
 # Problems with single rows are listed up to this number.
@@ -63,9 +64,9 @@ class Measurement:
         """Last time [s]."""
         return float(self.times[-1])
 
-    def inputs(self) -> dict[str, Samples]:
-        """Return the samples as `kintrafo.simulate` takes them."""
-        return {name: (self.times, samples) for name, samples in self.values.items()}
+    def inputs(self, between: Between = "monotone") -> dict[str, Samples]:
+        """Return the samples as `kintrafo.simulate` takes them; `between` is that of `Samples`."""
+        return {name: Samples(self.times, values, between) for name, values in self.values.items()}
 
 
 def measured(path: str | Path, *, speed: float | None = None) -> Measurement:
@@ -75,7 +76,7 @@ def measured(path: str | Path, *, speed: float | None = None) -> Measurement:
     and at least one of ``road_height_mm``, ``rack_position_mm`` (also in ``_m``), ``strut_force_N``
     and, of a double wishbone, ``spring_actuator_N``. Columns are separated by commas, semicolons or
     tabs; with the latter two, decimals may have a comma. Times increase and are shifted to begin
-    with zero; a time that is given twice is a jump. A cubic spline goes through the samples.
+    with zero; a time that is given twice is a jump. `kintrafo.Samples` says what is in between.
 
     Parameters
     ----------
@@ -92,6 +93,10 @@ def measured(path: str | Path, *, speed: float | None = None) -> Measurement:
     InputError
         If the file cannot be used; with the lines that are wrong.
     """
+    with Arguments("measured") as given:
+        given.kind("path", path, (str, Path), "the path of a CSV file is needed")
+        if speed is not None:
+            given.number("speed", speed, "m/s", above=0.0)
     source = str(path)
     lines = _lines_of(Path(path))
     if not lines:
@@ -214,19 +219,24 @@ def _times(
             given = "none is given" if speed is None else f"{speed * 3.6:g} km/h is given"
             problem = f"a road over distance_m needs a speed of more than 0 km/h; {given}."
             raise InputError([problem], source)
-        times = columns["distance"] / speed
+        with np.errstate(over="ignore"):
+            times = columns["distance"] / speed
     elif speed is not None:
         problem = "a speed is for a road over distance_m; this one is over time. Leave it out."
         raise InputError([problem], source)
     else:
         times = columns["time"]
-    fall = np.flatnonzero(np.diff(times) < 0.0)
+    fall = np.flatnonzero(times[1:] < times[:-1])
     if fall.size:
         line = lines[int(fall[0]) + 1]
         name = "distance" if "distance" in columns else "time"
         problem = f"line {line}: the {name} falls. Sort the rows, each {name} once."
         raise InputError([problem], source)
-    shifted: Array = times - times[0]
+    with np.errstate(over="ignore", invalid="ignore"):
+        shifted: Array = times - times[0]
+    if not np.all(np.isfinite(shifted)):
+        problem = f"times from {times[0]:g} to {times[-1]:g} s are too far apart. Check the column."
+        raise InputError([problem], source)
     if shifted[-1] == 0.0:
         raise InputError(["all rows have the same time. Check the column."], source)
     return shifted

@@ -5,6 +5,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
 
+from .arguments import Arguments, shown
 from .errors import InputError
 from .generated import double_wishbone, macpherson, macpherson_free_rack, macpherson_general
 from .input.macpherson import MacPherson
@@ -73,6 +74,8 @@ class Model(System):
     """
 
     def __init__(self, suspension: Suspension | str | Path, *, free_rack: bool = False) -> None:
+        with Arguments("Model") as given:
+            free_rack = given.flag("free_rack", free_rack)
         suspension = _suspension_of(suspension)
         if not free_rack:
             _refuse_neglected_mass(suspension)
@@ -95,7 +98,7 @@ def _suspension_of(given: Any) -> Suspension:
         return Suspension.load(given)
     if isinstance(given, Suspension):
         return given
-    problem = f"a Suspension, a name or a path is needed, not {type(given).__name__}."
+    problem = f"a Suspension, a name or a path is needed, not {shown(given)}."
     raise InputError([problem], "Model")
 
 

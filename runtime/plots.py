@@ -21,6 +21,7 @@ from matplotlib.text import Text
 from matplotlib.ticker import MaxNLocator, ScalarFormatter
 from numpy.typing import NDArray
 
+from .arguments import Arguments, shown
 from .errors import InputError
 from .figures import BLUE, GREEN, METADATA, ORANGE, STYLE, save
 from .files import Paths, refuse, replacing
@@ -92,6 +93,9 @@ def write(
         If one of them must not be written, before any is; or if one cannot be.
     """
     check_formats(formats=formats)
+    with Arguments("figures") as given:
+        given.path("folder", folder)
+        given.function("progress", progress)
     pages = {f"overview_{_slug(group)}": names for group, names in grouped(dataset).items()}
     single = {str(name): (name,) for name in _curves(dataset)}
     drawn = {**pages, **single}
@@ -159,6 +163,12 @@ def write_overview(
 
 def check_formats(paths: Sequence[str | Path] = (), formats: Sequence[str] = ()) -> None:
     """Refuse names of files, and formats, in which no figure can be written."""
+    with Arguments("figures") as given:
+        for name, listed in (("paths", paths), ("formats", formats)):
+            if not isinstance(listed, list | tuple):
+                given.refuse(f"{name} = {shown(listed)}: a list is needed.")
+            for path in () if given.refused or name == "formats" else listed:
+                given.path("path", path)
     endings = {str(path): Path(path).suffix.lower().removeprefix(".") for path in paths}
     wrong = [given for given, ending in endings.items() if ending not in FORMATS]
     problems = [f"{given}: a figure ends in .{', .'.join(FORMATS)}." for given in wrong]
@@ -185,6 +195,8 @@ def grouped(dataset: xr.Dataset) -> dict[str, tuple[Hashable, ...]]:
     dict of str to tuple of str
         In the order of the report.
     """
+    with Arguments("figures") as given:
+        given.dataset(dataset)
     groups: dict[str, tuple[Hashable, ...]] = {}
     names = _curves(dataset)
     varying = tuple(name for name in names if not _is_constant(displayed(dataset[name])))

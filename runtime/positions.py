@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
+from .arguments import Arguments
 from .errors import InputError
 from .model import Model
 from .reach import (
@@ -18,6 +19,7 @@ from .reach import (
     height_and_slope,
     travel_range,
 )
+from .state import State
 
 __all__ = [
     "PositionError",
@@ -47,6 +49,8 @@ _STEP = np.deg2rad(0.5)  # of the search for an equilibrium [rad]
 
 def design_height(model: Model) -> float:
     """Return the height of the wheel centre at the design position [m]."""
+    with Arguments("design_height") as given:
+        given.suspension(model)
     return float(model.signal("wheel_center_z", model.design_state))
 
 
@@ -80,9 +84,17 @@ def arm_angles(model: Model, height: ArrayLike, rack_position: ArrayLike = 0.0) 
     >>> (model.design_state[0] - arm_angles(model, [0.3, 0.325])).round(9).tolist()
     [0.0, 0.068123601]
     """
-    heights, racks = np.broadcast_arrays(
-        _finite(height, "wheel height"), _finite(rack_position, "rack position")
-    )
+    with Arguments("positions") as given:
+        given.suspension(model)
+        heights = given.array("height", height, "m", empty=True)
+        racks = given.array("rack_position", rack_position, "m", empty=True)
+        try:
+            heights, racks = np.broadcast_arrays(heights, racks)
+        except ValueError:
+            given.refuse(
+                f"height and rack_position have the shapes {heights.shape} and {racks.shape}, "
+                "which do not go together. Give one of them as a single number."
+            )
     if heights.size == 0:
         return np.empty(heights.shape)
     distinct, index = np.unique(racks.ravel(), return_inverse=True)
@@ -96,7 +108,7 @@ def arm_angles(model: Model, height: ArrayLike, rack_position: ArrayLike = 0.0) 
 
 def state_at_height(
     model: Model, height: float, *, rack_position: float = 0.0, spin_rate: float = 0.0
-) -> Array:
+) -> State:
     """Return the state of rest with the wheel centre at a given height.
 
     Parameters
@@ -111,8 +123,9 @@ def state_at_height(
 
     Returns
     -------
-    ndarray
-        State with zero rates but that of the wheel's spin.
+    State
+        With zero rates but that of the wheel's spin. It carries the position of its rack, for
+        whatever takes a state and inputs.
 
     Raises
     ------
@@ -126,7 +139,14 @@ def state_at_height(
     >>> round(float(model.design_state[0] - state[0]), 10)
     0.068123601
     """
-    return _state(model, float(arm_angles(model, height, rack_position)), rack_position, spin_rate)
+    with Arguments("state_at_height") as given:
+        given.suspension(model)
+        height = given.number("height", height, "m")
+        rack_position = given.number("rack_position", rack_position, "m")
+        spin_rate = given.number("spin_rate", spin_rate, "rad/s")
+    angle = float(arm_angles(model, height, rack_position))
+    state, inputs = at_rest(model, angle, rack_position)
+    return _spinning(model, State.of(state, inputs), spin_rate)
 
 
 def equilibrium(
@@ -137,7 +157,7 @@ def equilibrium(
     wheel_load: float | None = None,
     strut_force: float = 0.0,
     spin_rate: float = 0.0,
-) -> Array:
+) -> State:
     """Return the stable state of rest under spring, tyre and weight.
 
     Parameters
@@ -159,8 +179,10 @@ def equilibrium(
 
     Returns
     -------
-    ndarray
-        State with zero rates but that of the wheel's spin.
+    State
+        With zero rates but that of the wheel's spin. It carries the inputs that keep it at rest
+        (road, rack, actuator force): ``model.signals(rest)`` are those of rest, and
+        ``simulate(model, t_span, rest)`` stays there.
 
     Raises
     ------
@@ -175,11 +197,20 @@ def equilibrium(
     >>> round(float(model.signal("wheel_center_z", equilibrium(model, wheel_load=3000.0))), 4)
     0.2665
     """
-    if wheel_load is not None and road_height != 0.0:
-        problem = "road_height and wheel_load are both given. Give the one that is known."
-        raise InputError([problem], "equilibrium")
+    with Arguments("equilibrium") as given:
+        given.suspension(model)
+        rack_position = given.number("rack_position", rack_position, "m")
+        road_height = given.number("road_height", road_height, "m")
+        strut_force = given.number("strut_force", strut_force, "N")
+        spin_rate = given.number("spin_rate", spin_rate, "rad/s")
+        if wheel_load is not None:
+            wheel_load = _load(given, wheel_load)
+            if road_height != 0.0:
+                given.refuse(
+                    "road_height and wheel_load are both given. Give the one that is known."
+                )
 
-    def moment(arm_angle: ArrayLike) -> Array:
+    def at(arm_angle: ArrayLike) -> tuple[Array, Array]:
         states, inputs = at_rest(model, arm_angle, rack_position)
         road = inputs[..., model.input_names.index("road_height")]
         if wheel_load is None:
@@ -187,10 +218,13 @@ def equilibrium(
         else:
             road[...] = road_under_load(model, wheel_load, states, inputs)
         inputs[..., model.input_names.index(model.names.actuator)] = strut_force
-        return model.evaluate("forces", states, inputs)[..., 0]
+        return states, inputs
+
+    def moment(arm_angle: ArrayLike) -> Array:
+        return model.evaluate("forces", *at(arm_angle))[..., 0]
 
     angle = _stable_root(moment, travel_range(model, rack_position), model.design_state[0])
-    return _state(model, angle, rack_position, spin_rate)
+    return _spinning(model, State.of(*at(angle)), spin_rate)
 
 
 def road_under_load(
@@ -216,9 +250,9 @@ def road_under_load(
     InputError
         If the load is not a finite number of 0 N or more, or the tyre has no stiffness.
     """
-    if not (np.isfinite(wheel_load) and wheel_load >= 0.0):
-        problem = f"wheel_load = {wheel_load:g} N; 0 N or more is needed: a road only pushes."
-        raise InputError([problem], "wheel load")
+    with Arguments("wheel load") as given:
+        given.suspension(model)
+        wheel_load = _load(given, wheel_load)
     tyre = model.suspension.tyre.parameters()
     if tyre["tyre_rate"] == 0.0:
         problem = (
@@ -230,19 +264,13 @@ def road_under_load(
     return height + deflection - tyre["tyre_free_height"]
 
 
-def _state(model: Model, angle: float, rack_position: float, spin_rate: float) -> Array:
-    state, _ = at_rest(model, angle, rack_position)
+def _load(given: Arguments, wheel_load: float) -> float:
+    return given.number("wheel_load", wheel_load, "N", least=0.0, advice="A road only pushes.")
+
+
+def _spinning(model: Model, state: State, spin_rate: float) -> State:
     state[model.state_names.index(f"{model.names.spin}_rate")] = spin_rate
     return state
-
-
-def _finite(values: ArrayLike, name: str) -> Array:
-    array = np.asarray(values, dtype=np.float64)
-    bad = array[~np.isfinite(array)]
-    if bad.size:
-        problem = f"{name} = {bad[0]:g}: a finite number is needed, in metres."
-        raise InputError([problem], "positions")
-    return array
 
 
 def _beyond(heights: Array, table: Branch, index: NDArray[np.int64]) -> NDArray[np.bool_]:
@@ -258,12 +286,12 @@ def _refuse_out_of_reach(
     beyond = _beyond(heights, table, index)
     if not beyond.any():
         return
-    height, rack = heights[beyond][0], float(racks[beyond][0])
+    height, rack = float(heights[beyond][0]), float(racks[beyond][0])
     reach = travel_range(model, rack)
     ends = _rounded_inward(reach.height)
     travels = _rounded_inward([end - design_height(model) for end in reach.height])
     message = (
-        f"wheel height {height * 1e3:.6g} mm is out of reach: from {ends[0]:.2f} mm "
+        f"wheel height {1e3 * height:.6g} mm is out of reach: from {ends[0]:.2f} mm "
         f"({reach.lower_limit}) to {ends[1]:.2f} mm ({reach.upper_limit}) with the rack at "
         f"{rack * 1e3:g} mm; that is {travels[0]:+.2f} mm to {travels[1]:+.2f} mm of wheel travel "
         "from design. Choose a height within this range."

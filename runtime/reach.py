@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .arguments import Arguments
 from .errors import KintrafoError
 from .model import Model
 from .swing import GOAL, UNRESOLVED, Seen, march, margins_stay, resolved
@@ -86,6 +87,9 @@ def travel_range(model: Model, rack_position: float = 0.0) -> Range:
     >>> [round(1e3 * height, 1) for height in reach.height]
     [-65.6, 615.9]
     """
+    with Arguments("travel_range") as given:
+        given.suspension(model)
+        rack_position = given.number("rack_position", rack_position, "m")
     racks = np.array([rack_position], dtype=np.float64)
     low, low_limits = _ends(model, racks, +1.0)
     high, high_limits = _ends(model, racks, -1.0)
@@ -277,19 +281,26 @@ def _ends(model: Model, racks: Array, direction: float) -> tuple[Array, list[int
 def _look(model: Model, angles: Array, racks: Array) -> Seen:
     """Return whether the loops close and the wheel rises as the arm does.
 
-    The limit of what is not usable is the index of a margin, or `_TURNS_BACK`.
+    The limit of what is not usable is the index of a margin, or `_TURNS_BACK`; behind the margins
+    of the equations stand those of the lengths that the file allows.
     """
     states, inputs = at_rest(model, angles, racks, arm_rate=1.0)
     margins = _margins(model, states, inputs)
     # a NaN behind a failed guard must not pass
-    failed = ~(margins > 0.0)
-    closes = ~failed.any(axis=-1)
+    closes = (margins > 0.0).all(axis=-1)
     heights, slopes = np.zeros(closes.shape), np.zeros(closes.shape)
     signals = model.signals(states[closes], inputs[closes])
     heights[closes], slopes[closes] = signals["wheel_center_z"], signals["wheel_velocity"]
+    allowed = model.suspension.allowed_lengths()
+    left = np.ones((*closes.shape, len(allowed)))
+    for column, (name, limit, _) in enumerate(allowed):
+        left[closes, column] = np.sign(limit) * signals[name] - limit
+    margins = np.concatenate([margins, left], axis=-1)
+    failed = ~(margins > 0.0)
+    fine = ~failed.any(axis=-1)
     # the arm's angle falls as the wheel rises (Eq. 6)
-    limits = np.where(closes, _TURNS_BACK, failed.argmax(axis=-1))
-    return Seen(slopes < 0.0, limits, heights, slopes, margins)
+    limits = np.where(fine, _TURNS_BACK, failed.argmax(axis=-1))
+    return Seen(fine & (slopes < 0.0), limits, heights, slopes, margins)
 
 
 def _margins(model: Model, states: Array, inputs: Array) -> Array:
@@ -302,7 +313,10 @@ def _margins(model: Model, states: Array, inputs: Array) -> Array:
 
 
 def _in_words(model: Model, limit: int) -> str:
-    return _REASONS[limit] if limit < 0 else model.equations.GUARDS[limit][1]
+    if limit < 0:
+        return _REASONS[limit]
+    closing: list[str] = [meaning for _, meaning in model.equations.GUARDS]
+    return [*closing, *(one.meaning for one in model.suspension.allowed_lengths())][limit]
 
 
 def _refuse_racks(model: Model, racks: Array, seen: Seen, column: int) -> None:

@@ -7,6 +7,7 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy.integrate import trapezoid
 
+from .arguments import Arguments
 from .model import Model
 from .quantities import variable
 from .result import Simulation
@@ -38,6 +39,9 @@ def dataset_of(model: Model, result: Simulation) -> xr.Dataset:
     >>> dataset_of(model, result)["camber"].attrs["units"]
     'rad'
     """
+    with Arguments("dataset_of") as given:
+        given.system(model)
+        given.kind("result", result, Simulation, "what kintrafo.simulate returns is needed")
     equations = model.equations
     tables = (
         (equations.SIGNALS, [result.signals[name] for name in model.signal_names]),
@@ -92,6 +96,8 @@ def statistics(dataset: xr.Dataset) -> dict[str, Statistics]:
     >>> found.mean, round(found.rms**2, 12)
     (1.0, 0.5)
     """
+    with Arguments("statistics") as given:
+        given.dataset(dataset, over=TIME)
     times = np.asarray(dataset[TIME].values, dtype=np.float64)
     return {str(name): _of(times, np.asarray(data.values)) for name, data in dataset.items()}
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from .arguments import Arguments
 from .errors import InputError
 
 Array = NDArray[np.float64]
@@ -43,7 +44,10 @@ def step(height: float, *, at: float, end: float) -> Samples | float:
     >>> times.tolist(), heights.tolist()
     ([0.0, 0.1, 0.1, 1.0], [0.0, 0.0, 0.02, 0.02])
     """
-    _check_finite(height=height, at=at)
+    with Arguments("road step") as given:
+        height = given.number("height", height, "m")
+        at = given.number("at", at, "s")
+        end = given.number("end", end, "s", above=0.0)
     if at <= 0.0:
         return height
     if at >= end:
@@ -74,7 +78,10 @@ def sine(amplitude: float, frequency: float, *, end: float) -> CubicSpline:
     >>> round(float(sine(0.01, 0.5, end=2.0)(0.5)), 11)
     0.01
     """
-    _check_finite(amplitude=amplitude, frequency=frequency)
+    with Arguments("sine") as given:
+        amplitude = given.number("amplitude", amplitude, "m")
+        frequency = given.number("frequency", frequency, "Hz")
+        end = given.number("end", end, "s", above=0.0)
     periods = frequency * end
     if not 0.0 < periods <= _MOST_PERIODS:
         problem = (
@@ -84,10 +91,3 @@ def sine(amplitude: float, frequency: float, *, end: float) -> CubicSpline:
         raise InputError([problem], "sine")
     times = np.linspace(0.0, end, 4 + math.ceil(_SAMPLES_OF_A_PERIOD * periods))
     return CubicSpline(times, amplitude * np.sin(2.0 * math.pi * frequency * times))
-
-
-def _check_finite(**values: float) -> None:
-    bad = [f"{name} = {value}: a finite number is needed." for name, value in values.items()]
-    problems = [text for text, v in zip(bad, values.values(), strict=True) if not math.isfinite(v)]
-    if problems:
-        raise InputError(problems, "input")

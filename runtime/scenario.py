@@ -7,8 +7,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from .arguments import Arguments
 from .courses import Signal
-from .errors import InputError
 from .model import Model
 from .positions import equilibrium, state_at_height
 from .recording import dataset_of
@@ -49,18 +49,14 @@ class Scenario:
 
     def times(self) -> Array:
         """Return the times of the output, the first and the last included [s]."""
-        problems = [
-            f"{name} = {value:g} s: a time of more than 0 s is needed."
-            for name, value in (("duration", self.duration), ("output step", self.output_step))
-            if not (np.isfinite(value) and value > 0.0)
-        ]
-        if not problems and self.duration / self.output_step > _MOST_OUTPUTS:
-            problems.append(
-                f"an output every {self.output_step:g} s for {self.duration:g} s makes more than "
-                f"{_MOST_OUTPUTS} rows. Choose a larger output step."
-            )
-        if problems:
-            raise InputError(problems, "simulation")
+        with Arguments("simulation") as given:
+            given.number("duration", self.duration, "s", above=0.0)
+            given.number("output step", self.output_step, "s", above=0.0)
+            if not given.refused and self.duration / self.output_step > _MOST_OUTPUTS:
+                given.refuse(
+                    f"an output every {self.output_step:g} s for {self.duration:g} s makes more "
+                    f"than {_MOST_OUTPUTS} rows. Choose a larger output step."
+                )
         count = int(np.floor(self.duration / self.output_step + 1e-9))
         times = np.linspace(0.0, count * self.output_step, count + 1)
         if self.duration - times[-1] > 1e-9 * self.output_step:
@@ -116,6 +112,9 @@ def play(model: Model, scenario: Scenario, **options: Any) -> tuple[Simulation, 
     >>> round(float(motion["wheel_center_z"][-1] - motion["wheel_center_z"][0]), 4)
     0.0178
     """
+    with Arguments("simulation") as given:
+        given.suspension(model)
+        given.kind("scenario", scenario, Scenario, "a Scenario is needed")
     times = scenario.times()
     result = simulate(
         model,

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline, CubicSpline, PPoly
 
+from .arguments import Arguments
 from .courses import Signal, course
 from .errors import InputError
 from .input.suggestions import suggestion
@@ -126,6 +127,7 @@ def time_inputs(
     signals: Mapping[str, Signal] | None,
     t_span: tuple[float, float],
     *,
+    held: Array | None = None,
     max_step: float = np.inf,
 ) -> TimeInputs:
     """Check the inputs of a simulation and bring them into one form.
@@ -140,6 +142,8 @@ def time_inputs(
         the curve.
     t_span : tuple of float
         First and last time of the simulation, which samples must cover [s].
+    held : ndarray, optional
+        Values of the inputs that are not given, zero by default.
     max_step : float, optional
         Greatest step of the integration, and between two calls of a function [s].
 
@@ -149,7 +153,9 @@ def time_inputs(
     """
     names = model.input_names
     derived = _derived(names)
-    collected = _Collected(np.zeros(len(names)))
+    with Arguments("inputs") as given:
+        given.mapping("inputs", {} if signals is None else signals, "input names, what they do")
+    collected = _Collected(np.zeros(len(names)) if held is None else held.copy())
     for name, signal in (signals or {}).items():
         if name not in names or name in derived:
             raise InputError([_refusal(name, names, derived)], "inputs")

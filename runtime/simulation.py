@@ -2,17 +2,18 @@
 
 import warnings
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .arguments import Arguments, shown
 from .courses import Signal
 from .dead_points import refuse
 from .errors import InputError
 from .events import Event, Events, events_of
 from .generated._support import ModelError
-from .input.suggestions import suggestion
 from .result import DenseOutput, Signals, Simulation, SimulationError
 from .signals import Segment, TimeInputs, time_inputs
 from .solvers import (
@@ -27,6 +28,7 @@ from .solvers import (
     solve_scipy,
     why_not_native,
 )
+from .state import inputs_of
 from .system import System
 
 Array = NDArray[np.float64]
@@ -35,11 +37,12 @@ Method = Literal[
 ]
 Backend = Literal["auto", "sundials", "scipy"]
 
+_MOST_STEPS = 2**62
 _SMALLEST_RTOL = 100.0 * np.finfo(float).eps
 # Default tolerances. An undamped wheel hop of 25 mm loses half a per cent of it in 1,000 s by BDF
 # with these, and 22 % with the others; ``python -m benchmarks.amplitude`` measures it.
 _TOLERANCE = (1e-6, 1e-9)
-_TOLERANCES = {"BDF": (1e-8, 1e-10)}
+_TOLERANCE_OF_BDF = (1e-8, 1e-10)
 # So many steps of BDF are more than a thousand oscillations: its damping begins to show.
 _LONG = 200_000
 _told = False
@@ -73,9 +76,9 @@ def simulate(
     y0 : array_like
         Initial state, see `model.state`, `state_at_height` and `equilibrium`.
     inputs : mapping, optional
-        Time-varying inputs by name: numbers, samples ``(times, values)``, or functions of time.
-        They become cubic splines; at a time that is given twice, the input jumps and the
-        integration starts anew, as it does where an input begins to move after a long rest.
+        Inputs by name, SI units: numbers, samples ``(times, values)`` or `Samples`, piecewise
+        cubics of SciPy, or functions of time; see Notes. Others stay as they are in the state, if
+        it comes from `equilibrium` or `state_at_height`, or else zero.
     method : str, optional
         'BDF' (Gear's formulas) or 'Adams'; Runge-Kutta 'Verner' (8 stages, order 6),
         'DormandPrince' or 'Tsitouras' (order 5); or SciPy's 'Radau', 'LSODA', 'RK45', 'DOP853'.
@@ -90,7 +93,7 @@ def simulate(
     max_step, first_step : float, optional
         [s]
     max_steps : int, optional
-        More end with an error.
+        More end with an error; ``numpy.inf`` for any number.
     dense_output : bool, optional
         Whether to keep the solution as a function of time, ``sol``.
     events : str, SignalEvent, callable, or sequence of these, optional
@@ -116,6 +119,15 @@ def simulate(
 
     Notes
     -----
+    Between samples an input only rises or only falls, so it never leaves their range; other ways
+    are asked for by name, see `Samples`. At a time that is given twice it jumps, and the
+    integration begins anew. A function of time is called at least every millisecond and every
+    `max_step`, and followed to 1e-10 of its range; what is shorter than twice that may be missed,
+    and a function that jumps is refused. Velocity and acceleration of a prescribed position are
+    the derivatives of the curve through the samples, or of the spline that follows the function.
+    No step passes over a time at which an input, or a derivative of it that the model takes,
+    turns from rising to falling.
+
     Without stops in its data, the strut may become longer than its greatest length, or very short.
     The event 'strut_fully_extended' watches the former, a `SignalEvent` of ``strut_length`` the
     latter.
@@ -129,54 +141,85 @@ def simulate(
     >>> result.success, bool(abs(result.signals["wheel_center_z"][-1] - 0.3) < 1e-6)
     (True, True)
     """
-    y0 = np.asarray(y0, dtype=np.float64)
-    times = None if t_eval is None else np.asarray(t_eval, dtype=np.float64)
-    usual = _TOLERANCES.get(method, _TOLERANCE)
-    rtol = usual[0] if rtol is None else rtol
-    absolute = np.asarray(usual[1] if atol is None else atol, dtype=np.float64)
-    if absolute.ndim == 0:
-        absolute = np.full(y0.shape, absolute)
-    options = Options(
-        method, rtol, absolute, max_step, first_step, max_steps, dense_output, stop_at_outputs
-    )
-    _check_arguments(model, t_span, y0, times, options)
-    given = time_inputs(model, inputs, t_span, max_step=max_step)
+    held = inputs_of(y0)
+    usual = _TOLERANCE_OF_BDF if method == "BDF" else _TOLERANCE
+    state, times, options = _checked(
+        model, t_span, y0, t_eval, Options(
+            method,
+            usual[0] if rtol is None else rtol,
+            usual[1] if atol is None else atol,
+            max_step, first_step, max_steps, dense_output, stop_at_outputs,
+        )
+    )  # fmt: skip
+    given = time_inputs(model, inputs, t_span, held=held, max_step=options.max_step)
     watched = events_of(model, events)
     solve = _choose_backend(model, backend, options)
-    return _Run(model, given, options, watched, times, solve).over(y0)
+    return _Run(model, given, options, watched, times, solve).over(state)
 
 
 # -- arguments ----------------------------------------------------------------------------------
 
 
-def _check_arguments(
-    model: System, t_span: tuple[float, float], y0: Array, times: Array | None, options: Options
-) -> None:
-    problems = []
-    known = SUNDIALS_METHODS | SCIPY_METHODS
-    if options.method not in known:
-        problems.append(
-            f"method {options.method!r} is not known. {suggestion(options.method, known)} "
-            f"There are {', '.join(known)}."
-        )
-    if not np.isfinite(y0).all():
-        bad = [n for n, v in zip(model.state_names, y0.ravel(), strict=False) if not np.isfinite(v)]
-        problems.append(f"y0 is NaN or infinite in {', '.join(bad)}.")
-    if y0.shape != model.design_state.shape:
-        problems.append(
-            f"y0 has shape {y0.shape}; the state of {model.equations.NAME} has the elements "
+def _checked(
+    model: System, t_span: Any, y0: Any, t_eval: Any, options: Options
+) -> tuple[Array, Array | None, Options]:
+    """Return the state, the times of the output and the options, or refuse them."""
+    with Arguments("simulate") as given:
+        given.system(model)
+        given.among("method", options.method, SUNDIALS_METHODS | SCIPY_METHODS)
+        state = given.array("y0", y0, empty=True, finite=False)
+        span = given.array("t_span", t_span, "s", finite=False)
+        if not given.refused:
+            _check_state(given, model, state)
+            span_is_good = span.shape == (2,) and np.isfinite(span).all() and span[0] != span[1]
+            if not span_is_good:
+                given.refuse(f"t_span = {shown(t_span)}: two different finite times are needed.")
+            elif t_eval is not None:
+                t_eval = given.array("t_eval", t_eval, "s", empty=True, finite=False)
+                if not (given.refused or _in_order(t_eval, span)):
+                    given.refuse(f"t_eval must go from {span[0]:g} s to {span[1]:g} s, in order.")
+        options = _checked_options(given, options, state)
+    return state, t_eval, options
+
+
+def _check_state(given: Arguments, model: System, state: Array) -> None:
+    if state.shape != model.design_state.shape:
+        given.refuse(
+            f"y0 has shape {state.shape}; the state of {model.equations.NAME} has the elements "
             f"{', '.join(model.state_names)}."
         )
-    if not (np.all(np.isfinite(t_span)) and t_span[0] != t_span[1]):
-        problems.append(f"t_span = {t_span}: two different finite times are needed.")
-    elif times is not None and not _in_order(times, t_span):
-        problems.append(f"t_eval must go from {t_span[0]:g} s to {t_span[1]:g} s, in order.")
-    problems += _tolerance_problems(y0, options)
-    if problems:
-        raise InputError(problems, "simulate")
+    elif not np.isfinite(state).all():
+        bad = [n for n, v in zip(model.state_names, state, strict=True) if not np.isfinite(v)]
+        given.refuse(f"y0 is NaN or infinite in {', '.join(bad)}.")
 
 
-def _in_order(times: Array, t_span: tuple[float, float]) -> bool:
+def _checked_options(given: Arguments, options: Options, state: Array) -> Options:
+    rtol = given.number("rtol", options.rtol, advice="Try 1e-6.")
+    if not given.refused and not _SMALLEST_RTOL <= rtol < 1.0:
+        given.refuse(
+            f"rtol = {rtol:g}: from {_SMALLEST_RTOL:.3g} (what double precision can do) to below "
+            "1. Try 1e-6."
+        )
+    atol = given.array("atol", options.atol)
+    if not given.refused and not (atol.shape in ((), state.shape) and (atol > 0.0).all()):
+        given.refuse(
+            f"atol = {shown(options.atol)}: one positive number, or one for each of the "
+            f"{state.size} elements of the state."
+        )
+    first = options.first_step
+    return replace(
+        options,
+        rtol=rtol,
+        atol=np.full(state.shape, atol) if atol.ndim == 0 else atol,
+        max_step=given.step("max_step", options.max_step, "s"),
+        first_step=None if first is None else given.number("first_step", first, "s", above=0.0),
+        max_steps=given.count("max_steps", options.max_steps, most=_MOST_STEPS),
+        dense_output=given.flag("dense_output", options.dense_output),
+        stop_at_outputs=given.flag("stop_at_outputs", options.stop_at_outputs),
+    )
+
+
+def _in_order(times: Array, t_span: Array) -> bool:
     if times.ndim != 1 or times.size == 0 or not np.isfinite(times).all():
         return False
     sign = 1.0 if t_span[1] > t_span[0] else -1.0
@@ -184,31 +227,12 @@ def _in_order(times: Array, t_span: tuple[float, float]) -> bool:
     return bool(inside and (sign * np.diff(times) > 0.0).all())
 
 
-def _tolerance_problems(y0: Array, options: Options) -> list[str]:
-    problems = []
-    if not _SMALLEST_RTOL <= options.rtol < 1.0:
-        problems.append(
-            f"rtol = {options.rtol:g}: from {_SMALLEST_RTOL:.3g} (what double precision can do) to "
-            "below 1. Try 1e-6."
-        )
-    if options.atol.shape != y0.shape or not (options.atol > 0.0).all():
-        problems.append(
-            f"atol: one positive number, or one for each of the {y0.size} elements of the state."
-        )
-    for name in ("max_step", "first_step", "max_steps"):
-        value = getattr(options, name)
-        if value is not None and not value > 0:
-            problems.append(f"{name} = {value}: a positive number is needed.")
-    return problems
-
-
 def _choose_backend(model: System, backend: Backend, options: Options) -> Callable[..., Piece]:
     """Return the solver for a method, and say once if it is not the one that was meant."""
     # SUNDIALS has no vectors without elements: those of a model that is prescribed as a whole
     method, compiled = options.method, bool(model.equations.ADDRESSES and model.state_names)
-    if backend not in ("auto", "sundials", "scipy"):
-        known = "'auto', 'sundials' and 'scipy'"
-        raise InputError([f"backend {backend!r} is not known; there are {known}."], "simulate")
+    with Arguments("simulate") as given:
+        given.among("backend", backend, ("auto", "sundials", "scipy"))
     if backend != "scipy" and method in native_methods() and compiled:
         return solve_native
     if backend == "sundials" or options.stop_at_outputs or method not in SCIPY_METHODS:

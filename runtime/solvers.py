@@ -50,7 +50,7 @@ class Options:
 
     method: str
     rtol: float
-    atol: Array
+    atol: Any
     max_step: float
     first_step: float | None
     max_steps: int

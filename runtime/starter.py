@@ -10,6 +10,10 @@ from .input.suggestions import suggestion
 
 _ENDING = ".toml"
 
+# Sections and keys that a first file has, and that the data sets keep in a comment.
+_SECTIONS = ("# [bump_stop]", "# [rebound_stop]")
+_KEYS = ("# lifts_off = ", "# length_min_mm = ", "# length_max_mm = ")
+
 # What a file of each kind of suspension begins with.
 STARTERS = {"macpherson": "reference_car", "double_wishbone": "double_wishbone_car"}
 
@@ -56,6 +60,20 @@ def write_starter(
         raise InputError([problem], "template")
     refuse([path], force=force, endings=[_ENDING])
     text = resources.files(data).joinpath(f"{template}{_ENDING}").read_text(encoding="utf-8")
+    text = _with_limits(text)
     with replacing(path, force=force) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")
     return Path(path)
+
+
+def _with_limits(text: str) -> str:
+    """Switch on what keeps a motion within what a suspension can do, where a data set has it.
+
+    The packaged data are those of the paper, without it.
+    """
+    lines, within = [], False
+    for line in text.splitlines():
+        within = line.startswith(_SECTIONS) or (within and line.startswith("# "))
+        on = within or line.startswith(_KEYS)
+        lines.append(line.removeprefix("# ") if on else line)
+    return "\n".join(lines) + "\n"

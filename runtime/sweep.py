@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
+from .arguments import Arguments
 from .errors import InputError
 from .hardpoints import hardpoints
 from .model import Model
@@ -63,8 +64,11 @@ def positions(
     >>> curves["camber"].values[[0, 2]].round(4).tolist()
     [0.0231, -0.016]
     """
-    travels = _numbers(usual_travel(model) if travel is None else travel, "travel")
-    racks = _numbers(0.0 if rack is None else rack, "rack")
+    with Arguments("sweep") as given:
+        given.suspension(model)
+        travels = given.array("travel", 0.0 if travel is None else travel, "m", dimensions=[0, 1])
+        racks = given.array("rack", 0.0 if rack is None else rack, "m", dimensions=[0, 1])
+    travels = usual_travel(model) if travel is None else travels
     # travels go down, racks across; a single one of either has no dimension
     heights = design_height(model) + (travels[:, None] if travels.ndim and racks.ndim else travels)
     angles = arm_angles(model, heights, racks)
@@ -90,7 +94,11 @@ def grid(lowest: float, highest: float, step: float) -> Array:
     >>> grid(-0.025, 0.02, 0.01).tolist()
     [-0.025, -0.02, -0.01, 0.0, 0.01, 0.02]
     """
-    if not (np.isfinite([lowest, highest, step]).all() and step > 0.0 and lowest <= 0.0 <= highest):
+    with Arguments("sweep") as given:
+        lowest = given.number("lowest", lowest)
+        highest = given.number("highest", highest)
+        step = given.number("step", step)
+    if not (step > 0.0 and lowest <= 0.0 <= highest):
         problem = (
             f"from {lowest * 1e3:g} mm to {highest * 1e3:g} mm by {step * 1e3:g} mm: the ends must "
             "lie on either side of zero (the design position), and the step be more than 0 mm."
@@ -136,6 +144,9 @@ def usual_travel(
     ndarray
         From ``-rebound`` to ``bump``, the design position included [m].
     """
+    with Arguments("sweep") as given:
+        given.suspension(model)
+        rack = given.number("rack", rack, "m")
     _check_amounts(rebound=rebound, bump=bump)
     if rebound is None or bump is None:
         reach = travel_range(model, rack)
@@ -166,6 +177,9 @@ def usual_rack(
     ndarray
         From ``-extent`` to ``extent``, zero included [m].
     """
+    with Arguments("sweep") as given:
+        given.suspension(model)
+        travel = given.number("travel", travel, "m")
     _check_amounts(extent=extent)
     if extent is None:
         extent = _reachable_rack(model, travel)
@@ -195,21 +209,13 @@ def _reaches(model: Model, travel: float, rack: float) -> bool:
 
 
 def _check_amounts(**amounts: float | None) -> None:
-    problems = [
-        f"{name} = {value * 1e3:g} mm: a distance of 0 mm or more is needed, without a sign."
-        for name, value in amounts.items()
-        if value is not None and not (np.isfinite(value) and value >= 0.0)
-    ]
-    if problems:
-        raise InputError(problems, "sweep")
-
-
-def _numbers(given: ArrayLike, name: str) -> Array:
-    values = np.asarray(given, dtype=np.float64)
-    if values.ndim > 1 or values.size == 0 or not np.isfinite(values).all():
-        problem = f"{name}: one finite number or a row of them is needed, in metres."
-        raise InputError([problem], "sweep")
-    return values
+    with Arguments("sweep") as given:
+        for name, value in amounts.items():
+            if value is not None and given.number(name, value, "m") < 0.0:
+                given.refuse(
+                    f"{name} = {value * 1e3:g} mm: a distance of 0 mm or more is needed, without a "
+                    "sign."
+                )
 
 
 def _evaluated(model: Model, angles: Array, racks: Array) -> dict[str, Array]:

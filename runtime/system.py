@@ -1,17 +1,17 @@
 """Compiled equations of motion together with one set of parameters."""
 
 from collections.abc import Mapping
-from functools import cached_property
+from functools import cache, cached_property
 from types import ModuleType
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .errors import InputError
-from .input.suggestions import suggestion
+from .arguments import Arguments, shown
 from .modes import eigenvalues_of
 from .own.loader import find
+from .state import inputs_of
 
 Array = NDArray[np.float64]
 
@@ -48,6 +48,13 @@ class System:
     def __init__(
         self, equations: ModuleType, parameters: Mapping[str, float] | None = None
     ) -> None:
+        with Arguments("System") as given:
+            if not (isinstance(equations, ModuleType) and hasattr(equations, "PARAMETERS")):
+                given.refuse(
+                    f"equations = {shown(equations)}: a module of kintrafo.generated, or what "
+                    "kintrafo.compile returns, is needed. A suspension is a kintrafo.Model."
+                )
+            given.mapping("parameters", {} if parameters is None else parameters, "names, values")
         self.equations = equations
         self.parameters = _filled(equations, parameters or {})
         self.constants: Array = equations.prepare(self.parameters)
@@ -116,7 +123,7 @@ class System:
         ndarray, shape (number of inputs,)
         """
         array = np.zeros(len(self.input_names))
-        _assign(array, self.input_names, values or {}, "inputs")
+        _assign(array, self.input_names, {} if values is None else values, "inputs")
         return array
 
     # -- evaluation -------------------------------------------------------------------------------
@@ -129,14 +136,24 @@ class System:
         function : str
             Name of a function of `equations`.
         state, inputs : array_like
-            One or many, as in the compiled module.
+            One or many, as in the compiled module. Without inputs those that belong to the state
+            (see `State`), or zeros.
 
         Returns
         -------
         ndarray
             Shape of the result behind the leading dimensions.
         """
-        result: Array = getattr(self.equations, function)(state, inputs, self.constants)
+        with Arguments(f"{self.equations.NAME}.{function}") as given:
+            given.among("function", function, _functions(self.equations))
+            rows = given.array("state", state, last=len(self.state_names), empty=True, finite=False)
+            columns = inputs_of(state) if inputs is None else inputs
+            if columns is not None:
+                columns = given.array(
+                    "inputs", columns, last=len(self.input_names), empty=True, finite=False
+                )
+                _check_leading(given, rows, columns)
+        result: Array = getattr(self.equations, function)(rows, columns, self.constants)
         return result
 
     def signals(self, state: ArrayLike, inputs: ArrayLike | None = None) -> dict[str, Array]:
@@ -145,7 +162,7 @@ class System:
         Parameters
         ----------
         state, inputs : array_like
-            One or many, as in the compiled module.
+            One or many, as for `evaluate`.
 
         Returns
         -------
@@ -159,9 +176,8 @@ class System:
 
     def signal(self, name: str, state: ArrayLike, inputs: ArrayLike | None = None) -> Array:
         """Return one physical signal."""
-        if name not in self.signal_names:
-            message = f"no signal {name!r}; there are {', '.join(self.signal_names)}"
-            raise InputError([message], "signals")
+        with Arguments("signals") as given:
+            given.among("signal", name, self.signal_names)
         return self.signals(state, inputs)[name]
 
     def eigenvalues(
@@ -183,6 +199,12 @@ class System:
         return eigenvalues_of(self.evaluate("rhs_jacobian", state, inputs))
 
 
+@cache
+def _functions(equations: ModuleType) -> tuple[str, ...]:
+    """Return the names of the functions of states and inputs."""
+    return tuple(name for name, made in vars(equations).items() if hasattr(made, "labels"))
+
+
 def _found_again(name: str, file: str, parameters: Mapping[str, float]) -> System:
     return System(find(name, file), parameters)
 
@@ -190,21 +212,31 @@ def _found_again(name: str, file: str, parameters: Mapping[str, float]) -> Syste
 def _filled(equations: ModuleType, values: Mapping[str, float]) -> dict[str, float]:
     """Return values for all parameters, the defaults where nothing is given."""
     known = {name: entry["default"] for name, entry in equations.PARAMETERS.items()}
-    unknown = [name for name in values if name not in known]
-    if unknown:
-        problems = [
-            f"parameter {name!r} is not known. {suggestion(name, known)}".rstrip()
-            for name in unknown
-        ]
-        raise InputError(problems, equations.NAME)
-    return known | dict(values)
+    units = {name: entry["unit"] for name, entry in equations.PARAMETERS.items()}
+    with Arguments(equations.NAME) as given:
+        checked = {
+            given.among("parameter", name, known): given.number(
+                f"parameter {shown(name)}",
+                value,
+                units.get(name, ""),
+            )
+            for name, value in values.items()
+        }
+    return known | checked
 
 
 def _assign(array: Array, names: tuple[str, ...], values: Mapping[str, Any], what: str) -> None:
-    unknown = [name for name in values if name not in names]
-    if unknown:
-        raise InputError(
-            [f"{what}: {name!r} is not known; there are {', '.join(names)}." for name in unknown]
+    with Arguments(what) as given:
+        for name, value in given.mapping(what, values, "names and values").items():
+            number = given.number(f"{what} {shown(name)}", value)
+            array[names.index(given.among("element", name, names))] = number
+
+
+def _check_leading(given: Arguments, state: Array, inputs: Array) -> None:
+    try:
+        np.broadcast_shapes(state.shape[:-1], inputs.shape[:-1])
+    except ValueError:
+        given.refuse(
+            f"state and inputs have the shapes {state.shape} and {inputs.shape}: their leading "
+            "dimensions must go together."
         )
-    for name, value in values.items():
-        array[names.index(name)] = value

@@ -301,3 +301,134 @@ DRIVEN_GUIDE = ring(
     driven="guide_2",
 )
 """A guide within a ring in space drives it, with a force on it; another one closes the loop."""
+
+
+# -- all axes through a point -------------------------------------------------------------------
+
+
+def around_a_point(name: str, axes: list[Place]) -> Model:
+    """Return a ring of hinges whose axes meet in a point: five equations, two unknowns for four."""
+    places = [tuple((0.2 * np.array(a) / np.linalg.norm(a)).tolist()) for a in axes]
+    return ring(name, in_a_ring(len(axes)), places, axes)
+
+
+BEND = 0.9
+
+
+def hooke_axes(bend: float) -> list[Place]:
+    """Return the axes of a Hooke joint between two shafts: input, both of the cross, output."""
+    return [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (np.cos(bend), np.sin(bend), 0.0)]
+
+
+HOOKE = around_a_point("hooke", hooke_axes(BEND))
+"""A Hooke joint between two shafts, declared of hinges."""
+
+SPHERICAL_AXES: list[Place] = [
+    (1.0, 0.0, 0.0),
+    (0.8, 0.6, 0.1),
+    (0.1, 0.7, 1.0),
+    (0.2, -0.5, 1.1),
+]
+SPHERICAL = around_a_point("spherical", SPHERICAL_AXES)
+"""A spherical four-bar linkage."""
+
+
+# -- planar linkages, driven where no closed form begins -------------------------------------------
+
+
+def planar(
+    name: str,
+    hinges: list[tuple[str, str, str, tuple[float, float]]],
+    driven: tuple[str, ...],
+    seat: tuple[str, tuple[float, float]],
+) -> Model:
+    """Return a linkage of pins in an oblique plane.
+
+    Parameters
+    ----------
+    hinges
+        Of each: its name, the two bodies, and where it is in the plane, m.
+    driven
+        The independent ones.
+    seat
+        A body, and where a spring from the ground ends on it.
+    """
+    places: dict[str, list[tuple[float, float]]] = {}
+    for _, first, second, at in hinges:
+        for body in (first, second):
+            places.setdefault(body, []).append(at)
+    body, end = seat
+    model = declare(
+        name,
+        {b: askew(*np.mean(p, axis=0), 0.01) for b, p in places.items() if b != "ground"},
+        tuple(hinge(n, one, two, f"{n}_at", "normal") for n, one, two, _ in hinges),
+        {
+            **{f"{n}_at": askew(*at) for n, *_, at in hinges},
+            "ground_top": askew(0.2, 0.7, 0.05),
+            f"{body}_seat": askew(*end),
+        },
+        {"normal": NORMAL},
+        driven,
+        spring=("ground_top", f"{body}_seat"),
+    )
+    return replace(model, massive=(body,), allow_iteration=True)
+
+
+FOUR_BAR_AT_ITS_KNEE = planar(
+    "knee_bar",
+    [
+        ("crank_hinge", "ground", "crank", (0.0, 0.0)),
+        ("knee", "crank", "coupler", (0.0, 0.12)),
+        ("knuckle", "coupler", "rocker", (0.3, 0.25)),
+        ("rocker_hinge", "rocker", "ground", (0.35, 0.0)),
+    ],
+    ("knee",),
+    ("coupler", (0.15, 0.3)),
+)
+"""A four-bar linkage that is driven at the pin between crank and coupler."""
+
+_SIX_BAR = [
+    ("crank_hinge", "ground", "crank", (0.0, 0.0)),
+    ("crank_pin", "crank", "coupler", (0.02, 0.15)),
+    ("rocker_pin", "coupler", "rocker", (0.3, 0.25)),
+    ("rocker_hinge", "ground", "rocker", (0.32, 0.0)),
+    ("link_pin", "coupler", "link", (0.12, 0.35)),
+    ("arm_pin", "link", "arm", (0.4, 0.45)),
+    ("arm_hinge", "ground", "arm", (0.55, 0.2)),
+]
+STEPHENSON = planar("stephenson", _SIX_BAR, ("arm_hinge",), ("coupler", (0.15, 0.25)))
+"""A six-bar linkage that is driven from its far side: the coupler is held by three."""
+
+IN_A_ROW = planar(
+    "in_a_row",
+    [
+        *_SIX_BAR,
+        ("next_crank_hinge", "ground", "next_crank", (-0.5, 0.0)),
+        ("next_crank_pin", "next_crank", "next_coupler", (-0.48, 0.15)),
+        ("next_rocker_pin", "next_coupler", "next_rocker", (-0.2, 0.25)),
+        ("next_rocker_hinge", "ground", "next_rocker", (-0.18, 0.0)),
+        ("next_link_pin", "next_coupler", "next_link", (-0.38, 0.35)),
+        ("last_pin", "next_link", "crank", (-0.08, 0.12)),
+    ],
+    ("arm_hinge",),
+    ("coupler", (0.15, 0.25)),
+)
+"""Two of them: what the first one finds drives the second one."""
+
+_LEGS = (((0.0, 0.0), (0.02, 0.14), (0.15, 0.2)), ((0.5, 0.0), (0.4, 0.1), (0.27, 0.19)))
+_LEGS = (*_LEGS, ((0.25, 0.5), (0.3, 0.38), (0.2, 0.29)))
+THREE_RRR = planar(
+    "three_rrr",
+    [
+        pin
+        for i, (at, elbow, end) in enumerate(_LEGS)
+        for pin in (
+            (f"crank_{i}_hinge", "ground", f"crank{i}", at),
+            (f"elbow_{i}", f"crank{i}", f"rod{i}", elbow),
+            (f"end_{i}", f"rod{i}", "plate", end),
+        )
+    ],
+    ("crank_0_hinge", "crank_1_hinge", "crank_2_hinge"),
+    ("plate", (0.2, 0.25)),
+)
+"""A plate on three legs, each with a driven hinge on the ground."""

@@ -161,18 +161,40 @@ class _Printer(MpmathPrinter):
 
 
 def _solved(block: Block) -> Any:
-    """Return a function that iterates a block until nothing changes in mpmath's precision."""
-    once, count = python(block.once), len(block.results)
+    """Return a function that finds the results of a block to mpmath's precision.
+
+    The path is that of the emitted code, straight from the design position, but its stages are all
+    alike and short, whatever the equations are.
+    """
+    once, n = python(block.once), len(block.unknowns)
+    read = {s.name for s in block.once.free_symbols}
+    names = [str(s) for s in (*block.estimate.base, *block.estimate.step)]
+    zeros = {str(s): mpmath.mpf(0) for line in block.estimate.held for s in line}
 
     def run(*given: Any) -> Any:
-        values = dict(zip(map(str, block.arguments), given, strict=True))
-        values |= {str(u): mpmath.mpf(0) for u in block.unknowns}
-        for _ in range(100):
-            *results, change = once(values)
-            if change <= mpmath.mpf(10) ** (10 - 2 * mpmath.mp.dps):
-                return results[:count]
-            values |= dict(zip(map(str, block.unknowns), results[count:], strict=True))
-        raise AssertionError(f"{block.name} does not converge")
+        count = len(block.constants)
+        values = dict(zip(map(str, block.constants), given[:count], strict=True)) | zeros
+        along = [given[i : i + 3] for i in range(count, len(given), 3)]
+        stages = 1 + max(
+            (int(5 * abs(end - start) / unit) for start, end, unit in along), default=0
+        )
+        estimate, side = [mpmath.mpf(0)] * (2 * n), 0
+        for stage in range(stages + 1):
+            for driven, (start, end, _) in zip(block.driven, along, strict=True):
+                values[str(driven.now)] = start + (end - start) * mpmath.mpf(stage) / stages
+            tolerance = mpmath.mpf(10) ** (5 - mpmath.mp.dps if stage == stages else -3)
+            for _ in range(100):
+                values |= dict(zip(names, estimate, strict=True))
+                results = once({k: v for k, v in values.items() if k in read})
+                side = side or _sign(results[-n - 3])
+                correction = results[-n - 1 : -1]
+                estimate = [*results[:n], *correction]
+                if max(map(abs, correction)) <= tolerance:
+                    break
+            else:
+                message = f"{block.name} does not converge"
+                raise AssertionError(message)
+        return [*results[:n], *(side * e for e in results[n : -n - 2]), mpmath.mpf(0)]
 
     return run
 

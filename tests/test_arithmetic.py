@@ -22,6 +22,9 @@ EXACT = {symbol: sp.Float(value, 60) for symbol, value in VALUES.items()}
 calm = settings(deadline=None, max_examples=150)
 
 
+FLOOR = sp.Float("1e-24")
+
+
 def positive(expression: sp.Expr) -> sp.Expr:
     """Return an expression that is positive whatever the symbols are."""
     return 1 + expression**2
@@ -42,7 +45,7 @@ def compound(parts: st.SearchStrategy[sp.Expr]) -> st.SearchStrategy[sp.Expr]:
         parts.map(sp.sin),
         parts.map(sp.cos),
         pairs.map(lambda pair: sp.atan2(pair[0], positive(pair[1]))),
-        parts.map(lambda part: Guarded(positive(part))),
+        parts.map(lambda part: Guarded(positive(part), FLOOR)),
         parts.map(lambda part: SignOf(positive(part))),
         parts.map(Positive),
         parts.map(IsPositive),
@@ -96,7 +99,7 @@ def evaluate(text: str) -> mpmath.mpf:
     """Evaluate written text in mpmath's precision."""
     tree = ast.fix_missing_locations(_Exact().visit(ast.parse(text, mode="eval")))
     names = {symbol.name: mpmath.mpf(value) for symbol, value in VALUES.items()}
-    known = {"np": _Functions, "mpf": mpmath.mpf, "GUARD_FLOOR": 1e-24, **names}
+    known = {"np": _Functions, "mpf": mpmath.mpf, **names}
     return mpmath.mpf(eval(compile(tree, "text", "eval"), known))
 
 
@@ -230,7 +233,8 @@ x, y, z = SYMBOLS
         (z * (x - y), "z*(x - y)"),
         (sp.Rational(1, 3) * x, "(1.0/3.0)*x"),
         (x / 2, "0.5*x"),
-        (Guarded(x), "at_least(x, GUARD_FLOOR)"),
+        (Guarded(x, y), "at_least(x, y)"),
+        (Guarded(x, FLOOR), "at_least(x, 1e-24)"),
         (Positive(x - y), "at_least(x - y, 0.0)"),
         (IsPositive(x - y), "(double)(x - y > 0.0)"),
         (x * Positive(y) ** 2, "at_least(y, 0.0)*at_least(y, 0.0)*x"),
@@ -259,7 +263,7 @@ def test_pi() -> None:
 
 
 def test_guard_is_differentiated_as_the_identity() -> None:
-    assert Guarded(x**2).diff(x) == 2 * x
+    assert Guarded(x**2, FLOOR).diff(x) == 2 * x
 
 
 def test_kinks_are_differentiated_on_their_sides() -> None:
@@ -281,8 +285,8 @@ def test_kinks_in_numpy(value: float) -> None:
 
 
 def test_no_number_goes_through_a_kink_unseen() -> None:
-    names = {"np": np, "x": np.array([np.nan]), "GUARD_FLOOR": 1e-24}
-    for kink in (Positive(x), Guarded(x), Positive(x) * IsPositive(x)):
+    names = {"np": np, "x": np.array([np.nan])}
+    for kink in (Positive(x), Guarded(x, FLOOR), Positive(x) * IsPositive(x)):
         assert np.isnan(eval(write(kink, NUMPY).text, names)).all()
 
 

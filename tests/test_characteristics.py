@@ -28,7 +28,7 @@ CHRONO = Suspension.load("chrono_generic")
 
 # Of the published curves: what a column is called here.
 TRAVEL_COLUMNS = {
-    "theta": "arm_angle",
+    "theta": "arm_rotation",
     "camber": "camber",
     "toe_in": "toe",
     "caster": "caster",

@@ -138,6 +138,9 @@ class TestMistakes:
             ({"Spindle": None}, '"Spindle" = null'),
             ({"Tierod": {"Location Chassis": [0, 0, 0]}}, '"Tierod > Location Upright" is missing'),
             ({"Axle": {"Inertia": -1}}, '"Axle > Inertia" = -1'),
+            ({"Axle": {"Inertia": "1"}}, '"Axle > Inertia" = "1"'),
+            ({"Axle": {"Inertia": True}}, '"Axle > Inertia" = true'),
+            ({"Vehicle-Frame Inertia": 1}, '"Vehicle-Frame Inertia" = 1'),
             ({"Toe Angle (deg)": "no"}, '"Toe Angle (deg)" = "no"'),
         ],
     )
@@ -173,6 +176,29 @@ class TestMistakes:
         text = json.dumps(content() | {"Name": "a // b /* c */"})
         path.write_text("/* before\n */" + text + "// after", encoding="utf-8")
         assert chrono.read(path).suspension.vehicle.side == "left"
+
+    @pytest.mark.parametrize(
+        ("text", "words"),
+        [
+            # of the length of the text, and not of its square or worse: minutes before
+            ('{"a":"' + '\\"' * 200_000, "Line 1 is not valid JSON"),
+            ("/*/" * 200_000, "is not valid JSON"),
+            ('{"a": 1} /* never closed', "Line 1 is not valid JSON"),
+            ('{\n/* two\nlines */ "a": ?}', "Line 3 is not valid JSON"),
+            ('{"a":' * 100_000, "too deeply"),
+            ('{"a": ' + "9" * 5000 + "}", "thousands of digits"),
+        ],
+        ids=["text", "comments", "open comment", "lines", "deep", "digits"],
+    )
+    def test_what_no_person_writes(self, tmp_path, text, words):
+        path = tmp_path / "strut.json"
+        path.write_text(text, encoding="utf-8")
+        with pytest.raises(InputError, match=words):
+            chrono.read(path)
+
+    def test_no_such_file(self, tmp_path):
+        with pytest.raises(InputError, match="cannot be read: No such file"):
+            chrono.read(tmp_path / "strut.json")
 
 
 class TestCommand:

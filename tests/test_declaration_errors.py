@@ -1,7 +1,5 @@
 """What a declaration can get wrong: every mistake has a message with its name and a remedy."""
 
-import os
-import time
 from dataclasses import replace
 
 import kintrafo
@@ -30,9 +28,7 @@ from kintrafo.generator import (
 from kintrafo.generator.checks import DeclarationError
 from kintrafo.generator.default_values import value_problems
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
-from kintrafo.generator.mechanisms.four_bar import MODELS as FOUR_BARS
 from kintrafo.generator.mechanisms.multi_link import MODELS as MULTI_LINKS
-from kintrafo.generator.mechanisms.slider_crank import SLIDER_CRANK
 from typer.testing import CliRunner
 
 PLACES = {
@@ -188,14 +184,13 @@ class TestRods:
 class TestNames:
     @pytest.mark.parametrize("name", ["gate 2", "2nd", "café", ""])
     def test_of_models_and_mechanisms(self, name):
-        with pytest.raises(DeclarationError, match=r"mechanism .* cannot be written in C"):
-            replace(RUSR, name=name)
-        with pytest.raises(DeclarationError, match=r"model .* cannot be written in C; use"):
-            replace(model(RUSR, "A"), name=name)
+        for named in (RUSR, model(RUSR, "A"), RUSR.bodies[0], RUSR.parameters[0], CRANK):
+            with pytest.raises(DeclarationError, match=r"name .* cannot be written in C; use"):
+                replace(named, name=name)
 
     def test_of_force_elements(self):
         (spring,) = FOUR_BAR.elements
-        with pytest.raises(DeclarationError, match="force element 'my spring' cannot be written"):
+        with pytest.raises(DeclarationError, match="name 'my spring' cannot be written"):
             replace(FOUR_BAR, forces=(replace(spring, name="my spring"),))
 
 
@@ -216,24 +211,23 @@ class TestTexts:
             replace(model(RUSR, "A"), title=text)
 
     def test_in_place_of_names(self):
-        with pytest.raises(DeclarationError, match=r"independent is the text .* \('crank',\)"):
+        with pytest.raises(DeclarationError, match=r"independent is 'crank'; .* \('crank',\)"):
             Model(name="m", title="m", mechanism=RUSR, independent="crank", massive=())
 
 
 class TestNumbers:
     @pytest.mark.parametrize("value", [float("nan"), float("inf"), "1.0", None, 1j])
     def test_that_are_none(self, value):
-        parameters = (replace(RUSR.parameters[0], default=value), *RUSR.parameters[1:])
-        with pytest.raises(DeclarationError, match=r"'crank_pin_x' has the default .* m; give a f"):
-            replace(RUSR, parameters=parameters)
+        with pytest.raises(DeclarationError, match=r"'crank_pin_x':\n.* is no finite real number"):
+            replace(RUSR.parameters[0], default=value)
 
     @pytest.mark.parametrize(
         ("parameters", "words"),
         [
-            (rigid_body("crank", -1.0, (0.0, 0.0, 0.0)), "'crank_mass' = -1.0 kg is negative"),
+            (rigid_body("crank", -1.0, (0.0, 0.0, 0.0)), "'crank_mass' = -1 kg is out of its"),
             (
                 rigid_body("crank", 1.0, (0.0, 0.0, 0.0), (1.0, -1.0, 1.0)),
-                "'crank_inertia_yy' = -1.0 kg m^2 is negative",
+                "'crank_inertia_yy' = -1 kg m^2 is out of its range; give 0 kg m^2 or",
             ),
             (
                 rigid_body("crank", 1.0, (0.0, 0.0, 0.0), (1.0, 1.0, 9.0)),
@@ -416,7 +410,7 @@ class TestProposals:
         assert found.iterates
 
     def test_a_search_ends_in_time(self):
-        assert list(kintrafo.proposals(stephenson("G", "A"), seconds=-1.0)) == []
+        assert list(kintrafo.proposals(stephenson("G", "A"), seconds=1e-9)) == []
 
     def test_of_a_file_and_a_name_in_it(self, tmp_path):
         path = tmp_path / "mine.py"
@@ -486,7 +480,8 @@ class TestFiles:
         with pytest.raises(kintrafo.InputError) as caught:
             kintrafo.compile(path)
         (problem,) = caught.value.problems
-        assert problem.startswith("Line 4: mechanism 'four bar' cannot be written in C")
+        start = "Line 4: Mechanism 'four bar': name 'four bar' cannot be written in C"
+        assert problem.startswith(start)
 
     IMPORTING = "from beside_it import FOUR_BAR\n"
     BESIDE = "from kintrafo.generator.mechanisms.four_bar import FOUR_BAR\n"
@@ -507,21 +502,3 @@ class TestFiles:
         path.write_text(f"import sys\n{end}\n")
         with pytest.raises(kintrafo.InputError, match=r"Line 2: SystemExit.*__main__"):
             kintrafo.compile(path)
-
-
-def test_what_killed_processes_left_is_removed_the_next_day(tmp_path):
-    kintrafo.compile(FOUR_BARS[0], backend="numpy", folder=tmp_path)
-    (made,) = tmp_path.iterdir()
-    old, recent = (tmp_path / f".{made.name}-{suffix}" for suffix in ("k1ll3d", "bu5y"))
-    other = tmp_path / ".settings-of-something-else"
-    for folder in (old, recent, other):
-        folder.mkdir()
-        (folder / "half_written.c").write_text("")
-    yesterday = time.time() - 25 * 3600.0
-    for folder in (old, other):
-        os.utime(folder, (yesterday, yesterday))
-    kintrafo.compile(SLIDER_CRANK, backend="numpy", folder=tmp_path)
-    assert not old.exists()
-    assert recent.exists()
-    assert other.exists()
-    assert made.exists()

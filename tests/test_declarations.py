@@ -66,7 +66,7 @@ STRUT = ForceElement(name="strut", path=AlongTelescope("BC"), laws=(SPRING,))
 @pytest.mark.parametrize(
     ("force", "words"),
     [
-        (replace(STRUT, path=AlongTelescope("CB")), "'strut': joint 'CB' is not declared"),
+        (replace(STRUT, path=AlongTelescope("CB")), "cylindrical joint 'CB' .*there are BC"),
         (
             replace(STRUT, path=AlongLine(("chassi", macpherson.C), ("knuckle", macpherson.B))),
             "body 'chassi' .*\n.*a free_slide needs a telescope",
@@ -135,7 +135,6 @@ def renamed(old: str, new: str) -> tuple[Parameter, ...]:
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"parameters": renamed("gravity", "9.81 g")}, "parameter '9.81 g' cannot be written in C"),
         ({"parameters": renamed("gravity", "double")}, "parameter 'double' has a name that"),
         ({"parameters": renamed("gravity", "given_g")}, "parameter 'given_g' has a name that"),
         ({"parameters": renamed("gravity", "Count")}, "parameter 'Count' has a name that"),
@@ -152,10 +151,6 @@ def renamed(old: str, new: str) -> tuple[Parameter, ...]:
             "'rack_force' is the name of a parameter and of an input; rename the parameter",
         ),
         ({"inputs": {**MECHANISM.inputs, "for": ("N", "")}}, "input 'for' has a name that"),
-        (
-            {"bodies": (*MECHANISM.bodies, Body("tie-rod", 9, center=macpherson.G))},
-            "body 'tie-rod' cannot be written in C; use letters",
-        ),
     ],
 )
 def test_names_that_code_cannot_have(changes, words):

@@ -44,7 +44,8 @@ def run(monkeypatch, capsys, tmp_path):
 
 def test_new_file_is_the_packaged_one(run, tmp_path):
     assert run("new", "mine.toml", "--suspension", "double_wishbone")[0] == 0
-    assert Suspension.load(tmp_path / "mine.toml") == Suspension.load(CAR)
+    ends = dict.fromkeys(("damper.length_min_mm", "damper.length_max_mm"))
+    assert Suspension.load(tmp_path / "mine.toml").with_changes(ends) == Suspension.load(CAR)
     code, out, _ = run("check", "mine.toml")
     assert code == 0
     assert "No problems found." in out

@@ -10,11 +10,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from kintrafo import InputError, Model, export, plots, report, written
+from kintrafo import InputError, Model, Suspension, export, plots, report, written
 from kintrafo.chrono import read
 from kintrafo.files import refuse, replacing
 from kintrafo.input.toml_writer import write_toml
 from kintrafo.legible import legible
+from kintrafo.measurement import measured
+from kintrafo.own.build import compile_mechanism
 from kintrafo.starter import write_starter
 from matplotlib.image import imread
 
@@ -226,6 +228,15 @@ def test_places_where_nothing_can_be_written(tmp_path, path, words):
         export.write(LINE, tmp_path / path)
 
 
+@pytest.mark.parametrize("name", ["x" * 300, "file/a", "circle", "missing"])
+def test_places_where_nothing_can_be_read(tmp_path, name):
+    (tmp_path / "file").write_text("x")
+    (tmp_path / "circle").symlink_to("circle")
+    for door in (Suspension.load, measured, read, compile_mechanism):
+        with pytest.raises(InputError, match=r"cannot be read|no such file"):
+            door(tmp_path / name)
+
+
 @pytest.fixture
 def full(tmp_path, monkeypatch):
     """A folder on a disk that is full: what is written in it ends with the system's error."""
@@ -306,7 +317,7 @@ def test_strange_names_in_every_format(tmp_path, ending):
         {"camber": (("data_set", "wheel_travel"), values)},
         {"data_set": STRANGE, "wheel_travel": [0.0, 0.01]},
     )
-    path = tmp_path / f"a.{ending}"
+    path = tmp_path / os.fsdecode(f"caf\xe9.{ending}".encode("latin-1"))
     if ending in plots.FORMATS:
         plots.write_overview(family, path, title=" and ".join(STRANGE))
     else:

@@ -353,6 +353,7 @@ def test_halves_of_the_bar_may_have_mass() -> None:
         "bar_mass": 2.0,
         "bar_inertia_xx": 0.02,
         "bar_inertia_yy": 0.05,
+        "bar_inertia_zz": 0.06,
         "bar_inertia_xy": 4e-3,
     }
     given = parameters_of(1, **heavy)

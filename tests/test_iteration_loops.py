@@ -292,7 +292,8 @@ def test_anywhere_it_closes_or_says_so(model: Model, built: Callable[[Model], Bu
             continue
         outcomes.add("closed")
         assert np.abs(compiled.oracle.closure(motion).value).max() < 1e-12
-    assert outcomes == {"closed", "refused"}
+    rounds = {"bennett"}  # its crank goes all the way round
+    assert outcomes == {"closed"} | ({"refused"} if model.name not in rounds else set())
 
 
 def test_a_chain_that_moves_by_its_dimensions_alone_is_refused_with_others(
@@ -313,7 +314,7 @@ def test_c_computes_what_numpy_computes(
     derive: Callable[[Model], GeneratedModel],
     tmp_path: Path,
 ) -> None:
-    model = own_loops.PLATE_ON_A_PIN
+    model = own_loops.BENNETT
     arrays = built(model)
     folder = tmp_path / f"{model.name}-c"
     folder.mkdir()
@@ -321,6 +322,7 @@ def test_c_computes_what_numpy_computes(
     build(derive(model), folder, Compiler(("gcc", *FLAGS, *STRICT, "-O0"), "of the tests"))
     compiled = replace(arrays, module=load(folder))
     state = states(arrays, 100)
+    state[:, 0] = np.linspace(-15.0, 15.0, 100)  # two turns and a part of one, either way
     for function in ("rhs", "rhs_jacobian", "positions", "margins"):
         found, expected = compiled(function, state), arrays(function, state)
         # the last digits of sines and cosines differ, and with them when an iteration ends

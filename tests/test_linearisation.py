@@ -305,8 +305,8 @@ def test_inputs_change_the_point():
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"outputs": ["tire_force"]}, "no signal 'tire_force'; there are .*tyre_force"),
-        ({"state": np.zeros((3, 4))}, r"state has the shape \(3, 4\); one row"),
+        ({"outputs": ["tire_force"]}, "'tire_force' is not known. Did you mean tyre_force"),
+        ({"state": np.zeros((3, 4))}, r"state has the shape \(3, 4\): a row"),
     ],
 )
 def test_what_cannot_be_linearised_is_refused(arguments, message):
@@ -316,7 +316,7 @@ def test_what_cannot_be_linearised_is_refused(arguments, message):
 
 def test_unknown_source_and_resonance_of_the_spin_are_refused():
     linear = linearise(HELD, REST)
-    with pytest.raises(InputError, match=r"'road' is no input; there are .*road_height"):
+    with pytest.raises(InputError, match=r"'road' is not known. Did you mean road_height"):
         linear.frequency_response([1.0], "road")
     with pytest.raises(InputError, match="0 Hz"):
         linear.frequency_response([0.0])

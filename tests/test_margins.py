@@ -79,6 +79,8 @@ def knuckle_off_axis(car: Mechanism, pose: Pose) -> dict[str, float]:
     normal = np.cross(span, reach)
     return {
         "length_squared_BC": float(span @ strut) ** 2,
+        # how far the ball joint is along the strut: the length and a constant
+        "length_BC": float(span @ strut),
         "knuckle_reach_squared": squared(normal),
         "knuckle_closure": float(arm @ unit(normal)) ** 2,
         "knuckle_plane_squared": squared(np.cross(span, arm)),
@@ -96,5 +98,19 @@ def test_margins(model, seed: int) -> None:
         names = [name for name, _ in model.GUARDS]
         found = dict(zip(names, at("margins").tolist(), strict=True))
         expected = measured(car, at)
+        floors = {name: floor_of(at, name) for name in names}
+        over = {name: found[name] + floors[name] for name in names}
         # some roundings of squares of lengths of about 1 m, and of up to 10 kg m²
-        assert found == pytest.approx({n: expected[n] for n in names}, rel=1e-12, abs=1e-14)
+        assert over == pytest.approx({n: expected[n] for n in names}, rel=1e-12, abs=1e-14)
+        # far under what a car has
+        relative = [name for name in names if name != "length_BC"]
+        assert all(0.0 <= floors[name] < 2e-3 * expected[name] for name in relative)
+
+
+def floor_of(at: At, name: str) -> float:
+    """Return what a margin is measured from: a constant of the loop's extent, or a number."""
+    shared = {"knuckle_plane_squared": "knuckle_reach_squared"}
+    constants = dict(zip(at.model.CONSTANTS, at.constants, strict=True))
+    if name.startswith("pivot"):
+        return 0.0
+    return float(constants.get(f"{shared.get(name, name)}_floor", 1e-10))

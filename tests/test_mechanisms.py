@@ -133,6 +133,8 @@ def changed(model: Model, rng: np.random.Generator) -> dict[str, float]:
     for p in model.mechanism.parameters:
         if p.name[:-2] in points:
             new[p.name] = p.default + 0.02 * np.ptp(places) * rng.standard_normal()
+        elif p.unit == "1" and p.name[-2] != "_":  # a switch
+            new[p.name] = p.default
         elif p.unit == "1":
             # directions; those of a planar loop must stay in its plane (see test_assumptions)
             new[p.name] = p.default + (0.0 if oblique else 0.1 * rng.standard_normal())

@@ -4,6 +4,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -21,6 +22,23 @@ def needed(module):
     shown = subprocess.run(["ldd", module.__file__], capture_output=True, text=True, check=True)
     names = re.findall(r"^\s*(?:/\S*/)?([\w.+-]+)[.]so", shown.stdout, re.MULTILINE)
     return {name.removesuffix("-x86-64").removesuffix("-aarch64") for name in names}
+
+
+def test_without_a_compiler_it_is_said_what_to_install(tmp_path):
+    root = Path(__file__).parent.parent
+    places = [option for name in ("lib", "temp") for option in (f"--build-{name}", tmp_path / name)]
+    done = subprocess.run(
+        [sys.executable, "setup.py", "--quiet", "build_ext", *places],
+        cwd=root,
+        env=os.environ | {"CC": "no-such-compiler"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 1
+    assert "there is no compiler no-such-compiler" in done.stderr
+    assert "apt-get install gcc" in done.stderr
+    assert "Traceback" not in done.stderr
 
 
 @needs_ldd

@@ -270,6 +270,14 @@ class TestWithoutCompiler:
         with pytest.raises(kintrafo.CompilerError, match="CC = no-such-compiler"):
             kintrafo.compile(FOUR_BAR)
 
+    @pytest.mark.parametrize(
+        ("variable", "text"), [("CC", "gcc '-O2"), ("CFLAGS", '-DNAME="x'), ("CFLAGS", "-O1 \\")]
+    )
+    def test_a_quotation_that_nothing_closes(self, monkeypatch, variable, text):
+        monkeypatch.setenv(variable, text)
+        with pytest.raises(kintrafo.CompilerError, match=f"{variable} = .*: no (closing|escaped)"):
+            kintrafo.compile(FOUR_BAR)
+
     def test_native_methods_need_c(self):
         system = kintrafo.System(kintrafo.compile(FOUR_BAR, backend="numpy"))
         with pytest.raises(kintrafo.InputError, match="needs compiled equations"):
@@ -306,7 +314,7 @@ def test_numpy_refuses_what_c_refuses():
         system.evaluate("rhs", states)
     with pytest.raises(kintrafo.ParameterError, match="not finite"):
         kintrafo.System(own, {"rocker_axis_x": 0.0, "rocker_axis_y": 0.0})
-    with pytest.raises(ValueError, match="last dimension of state must be 2"):
+    with pytest.raises(ValueError, match=r"state has the shape .*last dimension must be 2"):
         system.evaluate("rhs", [0.0])
 
 
@@ -431,7 +439,7 @@ class TestMistakes:
         path.write_bytes(b"\xff\xfe\x00")
         with pytest.raises(kintrafo.InputError, match="no text in UTF-8"):
             kintrafo.compile(path)
-        with pytest.raises(kintrafo.InputError, match="not int"):
+        with pytest.raises(kintrafo.InputError, match="not 3"):
             kintrafo.compile(3)
         with pytest.raises(kintrafo.InputError, match="Did you mean numpy"):
             kintrafo.compile(FOUR_BAR, backend="nunpy")
@@ -445,7 +453,7 @@ class TestMistakes:
 
     def test_a_joint_to_nowhere(self, tmp_path):
         text = EXAMPLE.read_text(encoding="utf-8").replace('second="rocker"', 'second="rokcer"')
-        with pytest.raises(kintrafo.MechanismError, match="rokcer"):
+        with pytest.raises(kintrafo.InputError, match="'rokcer' is not declared; did you mean"):
             kintrafo.compile(write(tmp_path, text))
 
     def test_the_command_line_has_no_traceback(self, tmp_path):

@@ -1,5 +1,8 @@
 """Positions from a wheel height, the reachable range, static equilibrium."""
 
+import copy
+import pickle
+
 import kintrafo
 import numpy as np
 import pytest
@@ -10,14 +13,18 @@ from kintrafo import (
     InputError,
     Model,
     PositionError,
+    characteristics,
     equilibrium,
     linearise,
+    simulate,
     state_at_height,
+    sweep,
     travel_range,
 )
 from kintrafo.hardpoints import hardpoints
 from kintrafo.positions import arm_angles, design_height, road_under_load
 from kintrafo.reach import at_rest, branch, height_and_slope
+from kintrafo.state import inputs_of
 from oracle import newton
 from oracle.multipliers import solve_prescribed
 from oracle.reference import reference_parameters
@@ -152,7 +159,7 @@ def test_model_takes_a_path_and_refuses_what_is_none():
 
     path = Path(__file__).parent.parent / "runtime/data/reference_car.toml"
     assert np.array_equal(Model(path).constants, MODEL.constants)
-    with pytest.raises(kintrafo.InputError, match="not dict"):
+    with pytest.raises(kintrafo.InputError, match=r"not \{\}"):
         Model({})
 
 
@@ -209,9 +216,9 @@ def test_the_range_in_the_message_is_within_reach():
 
 @pytest.mark.parametrize("wrong", [np.nan, np.inf])
 def test_heights_and_racks_that_are_no_numbers_are_refused(wrong):
-    with pytest.raises(InputError, match=r"wheel height = .* finite number"):
+    with pytest.raises(InputError, match=r"height = .* finite number"):
         arm_angles(MODEL, [0.3, wrong])
-    with pytest.raises(InputError, match=r"rack position = .* finite number"):
+    with pytest.raises(InputError, match=r"rack_position = .* finite number"):
         arm_angles(MODEL, 0.3, wrong)
 
 
@@ -309,7 +316,7 @@ def test_more_load_presses_the_wheel_up():
 
 @pytest.mark.parametrize("load", [-1.0, np.nan, np.inf])
 def test_loads_that_no_road_exerts_are_refused(load):
-    with pytest.raises(InputError, match=r"wheel_load = .* N; 0 N or more"):
+    with pytest.raises(InputError, match=r"wheel_load = .* N: a finite number of 0 N or more"):
         equilibrium(MODEL, wheel_load=load)
 
 
@@ -347,3 +354,53 @@ def test_one_of_many_out_of_reach_is_refused_by_name():
     heights[500] = 1.0
     with pytest.raises(PositionError, match="wheel height 1000 mm is out of reach"):
         arm_angles(Model("reference_car"), heights, racks)
+
+
+LOADED = {"wheel_load": 3000.0, "rack_position": 0.01, "strut_force": 200.0}
+
+
+class TestStatesOfRestKnowTheirInputs:
+    def test_signals_are_those_of_rest(self):
+        rest = equilibrium(MODEL, **LOADED)
+        signals = MODEL.signals(rest)
+        # the tyre's force lies in the plane of the wheel, the load is what it has upright; both
+        # are as close as the arm's angle is to rest, some 1e-15 of it
+        slopes = np.tan([signals["camber"], signals["toe"]])
+        lean = slopes[0] / np.sqrt(1.0 + slopes @ slopes)
+        upright = signals["tyre_force"] * np.sqrt(1.0 - lean**2)
+        assert upright == pytest.approx(3000.0, rel=1e-9)
+        assert abs(signals["wheel_acceleration"]) < 1e-6
+        assert linearise(MODEL, rest).steady
+        assert linearise(MODEL, rest).inputs == pytest.approx(rest.inputs)
+
+    def test_a_simulation_stays_at_rest(self):
+        rest = equilibrium(MODEL, **LOADED)
+        result = simulate(MODEL, (0.0, 0.2), rest)
+        assert np.abs(result.y - rest[:, None]).max() < 1e-8
+        # what is given is taken instead; the others stay
+        raised = simulate(MODEL, (0.0, 0.2), rest, inputs={"road_height": 0.05})
+        assert np.ptp(raised.y[0]) > 0.01
+        assert raised.inputs[:, 0] == pytest.approx(0.01, abs=0.0)
+        assert raised.inputs[:, 4] == pytest.approx(0.05, abs=0.0)
+
+    def test_a_height_goes_with_its_rack(self):
+        state = state_at_height(MODEL, 0.32, rack_position=0.02)
+        assert MODEL.signal("wheel_center_z", state) == pytest.approx(0.32, abs=1e-12)
+        assert abs(MODEL.signal("steer", state)) > 0.1
+
+    def test_copies_keep_their_inputs_and_other_arrays_have_none(self):
+        rest = equilibrium(MODEL, **LOADED)
+        kept = [rest.copy(), rest + 0.0, copy.deepcopy(rest), pickle.loads(pickle.dumps(rest))]
+        assert all(np.array_equal(state.inputs, rest.inputs) for state in kept)
+        assert inputs_of(np.array(rest)) is inputs_of(rest[:2]) is inputs_of([*rest]) is None
+
+    def test_an_arm_has_one_angle(self):
+        """States, positions and kinematics count from upright; characteristics from design."""
+        travels = np.array([-0.05, 0.0, 0.04])
+        positions = sweep.positions(MODEL, travels)
+        over_travel = characteristics.travel(MODEL, travels)
+        angles = positions["arm_angle"].values.ravel()
+        assert angles == pytest.approx(arm_angles(MODEL, design_height(MODEL) + travels), rel=1e-14)
+        turned = MODEL.design_state[0] - angles
+        assert over_travel["arm_rotation"].values == pytest.approx(turned, abs=1e-12)
+        assert turned[2] > 0.0 > turned[0]

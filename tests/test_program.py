@@ -23,7 +23,7 @@ def expanded(program: Program, expression: sp.Expr) -> sp.Expr:
     for stage in (program, program.constants):
         for step in reversed(stage.steps.values()):
             expression = expression.xreplace({step.symbol: step.expression})
-    return expression.replace(Guarded, lambda q: q)
+    return expression.replace(Guarded, lambda q, _: q)
 
 
 def run(function: Function, values: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Expr]:
@@ -32,8 +32,8 @@ def run(function: Function, values: Mapping[sp.Symbol, sp.Expr]) -> list[sp.Expr
     for step in function.steps:
         assert step.expression.free_symbols <= known.keys()
         assert step.symbol not in known
-        known[step.symbol] = step.expression.replace(Guarded, lambda q: q).xreplace(known)
-    return [result.replace(Guarded, lambda q: q).xreplace(known) for result in function.results]
+        known[step.symbol] = step.expression.replace(Guarded, lambda q, _: q).xreplace(known)
+    return [result.replace(Guarded, lambda q, _: q).xreplace(known) for result in function.results]
 
 
 # -- defining -------------------------------------------------------------------------------------

@@ -296,7 +296,7 @@ def test_folder_in_the_way_is_a_clear_error(tmp_path):
 
 @pytest.mark.usefixtures("coarse")
 def test_title_is_text_and_not_markup():
-    text = render(MODEL, title="</title><script>alert(1)</script>")
+    text = render(MODEL, title="</title><script>alert(1)</script>$^$ caf\udce9")
     assert "<script>alert" not in text
     assert "<h1>&lt;/title&gt;&lt;script&gt;" in text
 

@@ -103,6 +103,8 @@ def test_distance_becomes_time(tmp_path):
         ("time_s,road_height_mm\n0,0\n1,x\n", "line 3 has road_height_mm = 'x'"),
         ("time_s,road_height_mm\n0,0\n1,\n", "line 3 has road_height_mm = ''"),
         ("time_s,road_height_mm\n0,0\n1,nan\n", "finite"),
+        ("time_s,road_height_mm\n0,0\n1,1_000\n", "line 3 has road_height_mm = '1_000'"),
+        ("time_s,road_height_mm\n-1e308,0\n1e308,1\n", "too far apart"),
         ("time_s,road_height_mm\n0,0\n\n1\n", "line 4 has 1 values"),
         ("time_s,road_height_mm\n0,0\n2,1\n1,1\n", "line 4: the time falls"),
         ("time_s,road_height_mm\n1,0\n1,1\n", "same time"),

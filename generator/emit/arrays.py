@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 
 from ..arithmetic import NUMPY, write
 from ..assumptions import ROUNDING
-from ..iteration import CONVERGED, ITERATIONS
-from .c import GUARD_FLOOR, CPrinter, blocks_of
-from .python import template
+from ..iteration import LIMITS
+from .c import CPrinter, blocks_of
+from .text import template
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     import sympy as sp
 
@@ -35,11 +35,10 @@ class ArraysPrinter:
         names = ["prepare", *self.model.functions]
         return template("arrays.py").substitute(
             name=self.model.model.name,
-            floor=GUARD_FLOOR,
             rounding=ROUNDING,
             functions="\n\n\n".join(
                 [
-                    *map(_block, blocks_of(self.model.functions.values())),
+                    *printed_blocks(blocks_of(self.model.functions.values())),
                     self._prepare(),
                     *map(self._body, self.model.functions.values()),
                 ]
@@ -48,33 +47,42 @@ class ArraysPrinter:
         )
 
     def _prepare(self) -> str:
-        loads = _loads("parameters", [e.name for e in self.model.parameters], self.model.prepare)
-        holds = [
-            f"{place}: abs({a.quantity}) <= ROUNDING{'' if a.scale == 1 else f' * {a.scale}'}"
-            for place, a in enumerate(self.model.assumptions)
+        loads = loaded("parameters", [e.name for e in self.model.parameters], self.model.prepare)
+        tests = [
+            *(
+                f"not abs({a.quantity}) > ROUNDING{'' if a.scale == 1 else f' * {a.scale}'}"
+                for a in self.model.assumptions
+            ),
+            *(
+                f"not abs({c.quantity}) <= {write(c.least, NUMPY).text}"
+                for c in self.model.conditions
+            ),
         ]
-        return _definition(self.model.prepare, "parameters", loads, holds)
+        holds = [f"{place}: {test}" for place, test in enumerate(tests)]
+        return definition(self.model.prepare, "parameters", loads, holds)
 
     def _body(self, function: Function) -> str:
         loads = [
-            *_loads("constants", self.model.prepare.labels, function),
-            *_loads("state", [e.name for e in self.model.state], function),
-            *_loads("inputs", [e.name for e in self.model.inputs], function),
+            *loaded("constants", self.model.prepare.labels, function),
+            *loaded("state", [e.name for e in self.model.state], function),
+            *loaded("inputs", [e.name for e in self.model.inputs], function),
         ]
         arguments = "constants, state, inputs"
         if CPrinter.reads_given(function):
             arguments += ", given"
             names = [f"given_{e.name}" for e in self.model.relative]
-            loads += _loads("given", names, function)
+            loads += loaded("given", names, function)
         holds = [
-            f"{place}: {guard.quantity} > GUARD_FLOOR"
+            f"{place}: {guard.quantity} > {write(guard.floor, NUMPY).text}"
             for place, guard in enumerate(self.model.guards)
             if guard in function.guards
         ]
-        return _definition(function, arguments, loads, holds)
+        return definition(function, arguments, loads, holds)
 
 
-def _definition(function: Function, arguments: str, loads: list[str], holds: list[str]) -> str:
+def definition(
+    function: Function, arguments: str, loads: Sequence[str], holds: Sequence[str] = ()
+) -> str:
     """Return a function: what it reads, its steps, its results and what its guards say."""
     steps, results = _written(function)
     lines = [
@@ -88,36 +96,53 @@ def _definition(function: Function, arguments: str, loads: list[str], holds: lis
     return "\n".join(lines)
 
 
+def printed_blocks(blocks: Sequence[Block]) -> list[str]:
+    """Return what follows loops, and the equations of each."""
+    if not blocks:
+        return []
+    return [template("follow.py").substitute(LIMITS).strip(), *map(_block, blocks)]
+
+
 def _block(block: Block) -> str:
-    """Return an iteration: where one state has converged, its unknowns wait for the others."""
+    """Return one iteration, and the call that repeats it."""
     steps, results = _written(block.once)
-    count = len(block.results)
-    found, following, change = results[:count], results[count:-1], results[-1]
+    read = {s.name for s in block.once.free_symbols}
+    kinds = {
+        "given": block.constants,
+        "now": [d.now for d in block.driven],
+        "base": block.estimate.base,
+        "step": block.estimate.step,
+        "held": [s for line in block.estimate.held for s in line],
+    }
+    loads = [
+        f"{s} = {array}[{i}]"
+        for array, symbols in kinds.items()
+        for i, s in enumerate(symbols)
+        if s.name in read
+    ]
+    along = [f"({d.now}_start, {d.now}_end, {d.now}_unit)" for d in block.driven]
+    names = [name for d in along for name in d.strip("()").split(", ")]
     lines = [
-        f"def {block.name}({', '.join(map(str, block.arguments))}):",
+        f"def {block.name}_once({', '.join(kinds)}):",
+        *(f"    {line}" for line in (*loads, *steps)),
+        "    return (",
+        *(f"        {value}," for value in results),
+        "    )",
+        "",
+        "",
+        f"def {block.name}({', '.join([*map(str, block.constants), *names])}):",
         f'    """Find {block.doc}."""',
-        *(f"    {u} = 0.0" for u in block.unknowns),
-        f"    for _ in range({ITERATIONS}):",
-        *(f"        {step}" for step in steps),
-        "        found = (",
-        *(f"            {value}," for value in found),
-        "        )",
-        f"        moving = ({change} > {CONVERGED} * {CONVERGED}) & np.isfinite({change})",
-        "        if not np.any(moving):",
-        "            break",
-        "        following = (",
-        *(f"            {value}," for value in following),
-        "        )",
-        *(
-            f"        {u} = np.where(moving, following[{i}], {u})"
-            for i, u in enumerate(block.unknowns)
-        ),
-        "    return found",
+        f"    turns = {[d.turns for d in block.driven]}",
+        f"    given = [{', '.join(map(str, block.constants))}]",
+        f"    along = [{', '.join(along)}]",
+        f"    once, elements = {block.name}_once, {len(block.elements)}",
+        f"    return follow_turns(once, {len(block.unknowns)}, elements, turns, given, along)",
     ]
     return "\n".join(lines)
 
 
-def _loads(array: str, names: Iterable[str], function: Function) -> list[str]:
+def loaded(array: str, names: Iterable[str], function: Function) -> list[str]:
+    """Return the lines that give the elements of an array, as far as they are read, their names."""
     read = {s.name for s in function.free_symbols}
     return [f"{n} = {array}[..., {i}]" for i, n in enumerate(names) if n in read]
 

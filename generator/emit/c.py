@@ -11,13 +11,16 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ..arithmetic import OPERATIONS, Iterated
+from ..arithmetic import OPERATIONS, Iterated, write
 from ..assumptions import ROUNDING
-from ..iteration import CONVERGED, ITERATIONS
+from ..iteration import ITERATIONS, LIMITS
+from .text import template
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
+    from ..assumptions import Assumption
+    from ..conditioning import Condition
     from ..iteration import Block
     from ..outputs import Entry, GeneratedModel
     from ..program import Function
@@ -25,10 +28,6 @@ if TYPE_CHECKING:
 GENERATOR_VERSION = "0.1.0"
 WIDTH = 100
 ARGUMENTS = "const double *restrict constants, const double *restrict state,"
-
-# The smallest value that a guarded quantity may take; below, the status says so. It is far under
-# any physical size (a closure within 1e-12 m of its dead point) and far over what would overflow.
-GUARD_FLOOR = "1.0e-24"
 
 # A status word has 30 bits for guards, under that for results that are not finite. The last one is
 # for all guards that are left: which of those it is follows from the margins.
@@ -51,16 +50,19 @@ def iteration_note(model: GeneratedModel) -> str:
         return ""
     found = "; ".join(block.doc for block in blocks)
     return (
-        f"This model is not free of iteration. Newton's method finds {found}: from the design "
-        f"position on, in at most {ITERATIONS} iterations, until a correction is below "
-        f"{CONVERGED}. A status bit says where that fails. Operations are counted for one "
-        "iteration."
+        f"This model is not free of iteration. Newton's method finds {found}: in stages from the "
+        f"design position on, in at most {ITERATIONS} iterations, until a correction is below "
+        f"{LIMITS['CONVERGED']}. A status bit says where that fails. Operations are counted for "
+        "one iteration."
     )
 
 
 def blocks_of(functions: Iterable[Function]) -> list[Block]:
-    """Return the iterations of some functions, each once."""
-    return list({block.name: block for f in functions for block in f.blocks}.values())
+    """Return the iterations of some functions, each once, and behind those that it calls."""
+    found: dict[str, Block] = {}
+    for block in (b for f in functions for b in f.blocks):
+        found |= {inner.name: inner for inner in blocks_of([block.once])} | {block.name: block}
+    return list(found.values())
 
 
 def mechanism_hash(model: GeneratedModel) -> str:
@@ -76,9 +78,6 @@ def mechanism_hash(model: GeneratedModel) -> str:
             digest.update(f"{written.text};".encode())
     return digest.hexdigest()[:16]
 
-
-_KEPT = "\N{NO-BREAK SPACE}"
-"""Stands for a space at which no line is broken."""
 
 AT_LEAST = """\
 /* The greater of two numbers; NaN for a NaN. One instruction, where fmax may be a call. */
@@ -212,14 +211,15 @@ class CPrinter:
 
     def _prepare_returns(self) -> str:
         first = " * Returns 0, or one plus the index of the first constant that is not finite"
-        if not self.model.assumptions:
+        checked: list[Assumption | Condition] = [*self.model.assumptions, *self.model.conditions]
+        if not checked:
             return f"{first}.\n"
         count = f"{self.upper}_CONSTANT_COUNT"
-        names = [f" *   {a.quantity}: {a.meaning}" for a in self.model.assumptions]
+        names = [f" *   {a.quantity}: {a.meaning}" for a in checked]
         return "\n".join(
             [
                 f"{first},",
-                f" * or {count} plus the number of the first that should be zero and is not:",
+                f" * or {count} plus the number of the first of these that applies:",
                 *(
                     line
                     for name in names
@@ -263,13 +263,10 @@ class CPrinter:
     def source(self, part: str = "") -> str:
         """Return the text of a source file."""
         functions = [f for f in self.model.functions.values() if f.part == part]
+        text_functions = "\n#include <string.h>" if blocks_of(functions) else ""
         blocks = [
             self._banner(),
-            f'#include "{self.prefix}.h"\n\n#include <math.h>',
-            (
-                "/* The smallest value that a guarded quantity is given; see the status bits. */\n"
-                f"#define GUARD_FLOOR {GUARD_FLOOR}"
-            ),
+            f'#include "{self.prefix}.h"\n\n#include <math.h>{text_functions}',
             AT_LEAST,
             NOT_FINITE,
             *self._blocks(blocks_of(functions)),
@@ -287,51 +284,16 @@ class CPrinter:
         return [f"{comment}\n#define ROUNDING {ROUNDING}"]
 
     def _blocks(self, blocks: Sequence[Block]) -> list[str]:
+        """Print what follows loops, and the equations of each."""
         if not blocks:
             return []
-        limits = (
-            "/* Most iterations, and the length of a correction that ends them. */\n"
-            f"#define ITERATIONS {ITERATIONS}\n#define CONVERGED {CONVERGED}"
-        )
-        return [limits, *map(self._block, blocks)]
-
-    def _block(self, block: Block) -> str:
-        """Print an iteration: the one loop, and the one branch, of the code."""
-        results = len(block.results)
-        written = block.once.written.results
-        found, following, change = written[:results], written[results:-1], written[-1]
-        arguments = ", ".join(f"double{_KEPT}{a}" for a in block.arguments)
-        signature = f"static struct {block.name} {block.name}({arguments})"
-        indent = " " * (signature.index("(") + 1)
-        lines = [
-            *textwrap.wrap(f"/* Finds {block.doc}. */", WIDTH, subsequent_indent="   "),
-            f"struct {block.name} {{",
-            f"    double at[{results}];",
-            "};",
-            "",
-            *(
-                line.replace(_KEPT, " ")
-                for line in textwrap.wrap(signature, WIDTH, subsequent_indent=indent)
-            ),
-            "{",
-            f"    struct {block.name} found;",
-            *(f"    double {u} = 0.0;" for u in block.unknowns),
-            "    for (int i = 0; i < ITERATIONS; ++i) {",
-            *(f"    {line}".rstrip() for line in self._steps(block.once)[1:]),
-            "",
-        ]
-        for i, (name, result) in enumerate(zip(block.results, found, strict=True)):
-            text = f"        found.at[{i}] = {result.text};"
-            lines.append(f"{text:<70} /* {name} */")
-        lines += [
-            f"        if (!({change.text} > CONVERGED * CONVERGED) || !isfinite({change.text})) {{",
-            "            break;",
-            "        }",
-        ]
-        for unknown, result in zip(block.unknowns, following, strict=True):
-            lines.append(f"        const double next_{unknown} = {result.text};")
-        lines += [f"        {unknown} = next_{unknown};" for unknown in block.unknowns]
-        return "\n".join([*lines, "    }", "    return found;", "}"])
+        sizes = {
+            "unknowns": max(len(block.unknowns) for block in blocks),
+            "elements": max(len(block.elements) for block in blocks),
+            "driven": max(1, *(len(block.driven) for block in blocks)),
+        }
+        text = template("follow.c").substitute(LIMITS, **sizes).strip()
+        return [text, *(part for block in blocks for part in (_once(self, block), _call(block)))]
 
     def _prepare_body(self) -> str:
         prepare = self.model.prepare
@@ -343,7 +305,7 @@ class CPrinter:
             ),
             "{",
             *self._loads("parameter", "parameters", read),
-            *self._steps(prepare),
+            *self.steps(prepare),
             "",
         ]
         for label, result in zip(prepare.labels, prepare.results, strict=True):
@@ -351,24 +313,30 @@ class CPrinter:
         count = f"{self.upper}_CONSTANT_COUNT"
         lines += [
             "",
+            *self._assumptions(),
             f"    for (int i = 0; i < {count}; ++i) {{",
             "        if (!isfinite(constants[i])) {",
             "            return i + 1;",
             "        }",
             "    }",
-            *self._assumptions(),
             "    return 0;",
             "}",
         ]
         return "\n".join(lines)
 
     def _assumptions(self) -> list[str]:
-        """Return the checks of what must be zero."""
+        """Return the checks of what must be zero, and of what must not; a NaN is found later."""
         lines = []
-        for number, assumption in enumerate(self.model.assumptions, 1):
-            size = "" if assumption.scale == 1 else f" * {assumption.scale}"
+        tests = [
+            *(
+                f"fabs({a.quantity}) > ROUNDING{'' if a.scale == 1 else f' * {a.scale}'}"
+                for a in self.model.assumptions
+            ),
+            *(f"fabs({c.quantity}) <= {write(c.least).text}" for c in self.model.conditions),
+        ]
+        for number, test in enumerate(tests, 1):
             lines += [
-                f"    if (fabs({assumption.quantity}) > ROUNDING{size}) {{",
+                f"    if ({test}) {{",
                 f"        return {self.upper}_CONSTANT_COUNT + {number};",
                 "    }",
             ]
@@ -390,7 +358,7 @@ class CPrinter:
         lines += [
             f"    const double given_{n} = given[{self.enumerator('relative', n)}];" for n in given
         ]
-        lines += self._steps(function)
+        lines += self.steps(function)
         lines.append("")
         for index, (label, result) in enumerate(
             zip(function.labels, function.written.results, strict=True)
@@ -403,7 +371,9 @@ class CPrinter:
     def _loads(self, kind: str, array: str, names: Iterable[str]) -> list[str]:
         return [f"    const double {n} = {array}[{self.enumerator(kind, n)}];" for n in names]
 
-    def _steps(self, function: Function) -> list[str]:
+    @staticmethod
+    def steps(function: Function) -> list[str]:
+        """Return the assignments of a function, with the parts of the derivation in between."""
         lines, section = [], None
         for step, written in zip(function.steps, function.written.steps, strict=True):
             if step.section != section:
@@ -426,7 +396,7 @@ class CPrinter:
         A NaN or infinity that goes in comes out as one, or is caught by a guard.
         """
         bits = [
-            (f"!({g.quantity} > GUARD_FLOOR)", self.enumerator("status", g.name))
+            (f"!({g.quantity} > {write(g.floor).text})", self.enumerator("status", g.name))
             for g in self.model.guards
             if g in function.guards
         ]
@@ -435,6 +405,79 @@ class CPrinter:
         lines = [f"    unsigned status = {bits[0][0]} * {bits[0][1]};"]
         lines += [f"    status |= {test} * {bit};" for test, bit in bits[1:]]
         return [*lines, "    return (int)status;"]
+
+
+def _once(printer: CPrinter, block: Block) -> str:
+    """Print one iteration: straight-line code."""
+    read = {s.name for s in block.once.free_symbols}
+    arrays = {
+        "given": block.constants,
+        "now": [d.now for d in block.driven],
+        "from": block.estimate.base,
+        "step": block.estimate.step,
+        "held": [s for line in block.estimate.held for s in line],
+    }
+    start = f"static void {block.name}_once("
+    arguments = textwrap.wrap(
+        ", ".join(
+            [*(f"const{_KEPT}double{_KEPT}*{name}" for name in arrays), f"double{_KEPT}*out)"]
+        ),
+        WIDTH - len(start),
+    )
+    lines = [(start + f"\n{' ' * len(start)}".join(arguments)).replace(_KEPT, " "), "{"]
+    for array, symbols in arrays.items():
+        loads = [
+            f"    const double {s} = {array}[{i}];" for i, s in enumerate(symbols) if s.name in read
+        ]
+        lines += loads or [f"    (void){array};"]
+    lines += [*printer.steps(block.once), ""]
+    for i, (label, result) in enumerate(
+        zip(block.once.labels, block.once.written.results, strict=True)
+    ):
+        text = f"    out[{i}] = {result.text};"
+        lines.append(f"{text:<70} /* {label} */")
+    return "\n".join([*lines, "}"])
+
+
+def _call(block: Block) -> str:
+    """Print the function that follows the loops of a block."""
+    along = [(f"{d.now}_start", f"{d.now}_end", f"{d.now}_unit") for d in block.driven]
+    names = [*map(str, block.constants), *(name for values in along for name in values)]
+    start = f"static struct {block.name} {block.name}("
+    arguments = ", ".join(f"double{_KEPT}{name}" for name in names) + ")"
+    signature = textwrap.wrap(start + arguments, WIDTH, subsequent_indent=" " * len(start))
+
+    def array(kind: str, name: str, values: Sequence[str]) -> list[str]:
+        text = f"{kind} {name}[] = {{{', '.join(values) or '0'}}};"
+        return textwrap.wrap(text, WIDTH, initial_indent="    ", subsequent_indent="        ")
+
+    count = f"{len(block.unknowns)}, {len(block.elements)}, {len(block.driven)}"
+    starts, ends, units = ([values[k] for values in along] for k in range(3))
+    lines = [
+        *textwrap.wrap(f"/* Finds {block.doc}. */", WIDTH, subsequent_indent="   "),
+        f"struct {block.name} {{",
+        f"    double at[{len(block.results)}];",
+        "};",
+        "",
+        *(line.replace(_KEPT, " ") for line in signature),
+        "{",
+        *array("static const unsigned char", "turns", [str(int(d.turns)) for d in block.driven]),
+        f"    static const struct loops loops = {{{count}, turns, {block.name}_once}};",
+        *array("const double", "given", [str(s) for s in block.constants]),
+        *array("const double", "start", starts),
+        *array("const double", "unit", units),
+        *array("double", "end", ends),
+        f"    struct {block.name} found;",
+        "    const int arrived = follow_turns(&loops, given, start, end, unit, found.at);",
+        f"    found.at[{len(block.results) - 1}] = arrived ? 0.0 : 1.0;",
+        "    return found;",
+        "}",
+    ]
+    return "\n".join(lines)
+
+
+_KEPT = "\N{NO-BREAK SPACE}"
+"""Stands for a space at which no line is broken."""
 
 
 def _type(expression: sp.Expr) -> str:

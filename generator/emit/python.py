@@ -8,26 +8,19 @@ from __future__ import annotations
 
 import pprint
 import textwrap
-from importlib.resources import files
-from string import Template
 from typing import TYPE_CHECKING
 
 from ..arithmetic import NUMPY, OPERATIONS, write
 from ..design import design_coordinates
+from ..ranges import described as parameters_of
 from .c import CPrinter, count_line, iteration_note, mechanism_hash
+from .text import template
 
 if TYPE_CHECKING:
     from ..outputs import Entry, GeneratedModel
     from ..program import Function
 
 SHARED = ("__init__.py", "_support.py", "_arrays.py", "_native.pyx", "_native.pyi")
-
-
-def template(name: str) -> Template:
-    """Return a template that lies beside the printers."""
-    return Template(
-        files(__package__).joinpath("templates", f"{name}.in").read_text(encoding="utf-8")
-    )
 
 
 def shared_files() -> dict[str, str]:
@@ -146,16 +139,11 @@ class PythonPrinter:
 
     def _tables(self) -> dict[str, tuple[str, object]]:
         model = self.model
-        defaults = {p.name: p.default for p in model.model.mechanism.parameters}
-        parameters = {
-            e.name: {"default": defaults[e.name], "unit": e.unit, "meaning": e.meaning}
-            for e in model.parameters
-        }
         described = "dict[str, dict[str, str]]"
         names = "tuple[str, ...]"
         topology = model.plan.topology
         return {
-            "PARAMETERS": ("dict[str, dict[str, Any]]", parameters),
+            "PARAMETERS": ("dict[str, dict[str, Any]]", parameters_of(model.model.mechanism)),
             "STATE": (described, _described(model.state)),
             "INPUTS": (described, _described(model.inputs)),
             "RELATIVE_COORDINATES": (described, _described(model.relative)),
@@ -168,8 +156,12 @@ class PythonPrinter:
                 tuple((g.name, g.meaning) for g in model.guards),
             ),
             "ASSUMPTIONS": (
-                "tuple[tuple[str, str, str, str], ...]",
-                tuple((str(a.quantity), a.unit, a.meaning, a.remedy) for a in model.assumptions),
+                "tuple[tuple[str, str, str, str, str], ...]",
+                tuple((str(a.quantity), a.unit, a.meaning, a.remedy, "") for a in model.assumptions)
+                + tuple(
+                    (str(c.quantity), c.unit, c.meaning, c.remedy, str(c.least))
+                    for c in model.conditions
+                ),
             ),
             "GUARD_UNITS": ("dict[str, str]", {g.name: g.unit for g in model.guards}),
             "ACTING_GUARDS": ("dict[str, tuple[int, ...]]", _acting(model)),

@@ -16,7 +16,7 @@ from ..actions import (
     SolveTelescope,
     SolveTogether,
 )
-from ..arithmetic import OPERATIONS
+from ..arithmetic import OPERATIONS, write
 from ..assumptions import ROUNDING
 from ..iteration import ITERATIONS
 from .c import iteration_note, mechanism_hash
@@ -262,8 +262,8 @@ def markdown(model: GeneratedModel) -> str:
         "## Validity",
         "Each function reports, by a status bit, which of these has left its range:",
         table(
-            ("quantity, positive where valid", "unit", "meaning when it is not"),
-            [(f"`{g.name}`", g.unit, g.meaning) for g in model.guards],
+            ("quantity", "floor", "unit", "meaning when it is not over the floor"),
+            [(f"`{g.name}`", f"`{write(g.floor).text}`", g.unit, g.meaning) for g in model.guards],
         ),
         *_assumptions(model),
     ]
@@ -295,6 +295,25 @@ def _transformer_sections(model: GeneratedModel) -> list[str]:
 
 
 def _assumptions(model: GeneratedModel) -> list[str]:
+    return [*_zeros(model), *_conditions(model)]
+
+
+def _conditions(model: GeneratedModel) -> list[str]:
+    if not model.conditions:
+        return []
+    return [
+        "Parameters are refused for which one of these is not more than its least amount:",
+        table(
+            ("quantity", "least", "unit", "meaning when it is less"),
+            [
+                (f"`{c.quantity}`", f"`{write(c.least).text}`", c.unit, c.meaning)
+                for c in model.conditions
+            ],
+        ),
+    ]
+
+
+def _zeros(model: GeneratedModel) -> list[str]:
     if not model.assumptions:
         return []
     return [

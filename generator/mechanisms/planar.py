@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from ..geometry import UP, Direction, Line, Point
 from ..joints import Revolute
@@ -12,18 +12,20 @@ from ..vectors import UNIT_Y
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
+Axis = Literal["x", "y", "z"]
+
 ACROSS = Direction("across", UNIT_Y)
 
 # Axis that the plane is perpendicular to, and its direction.
 _NORMALS = {"z": UP, "y": ACROSS}
 
 
-def flat(name: str, normal: str = "z") -> Point:
+def flat(name: str, normal: Axis = "z") -> Point:
     """Return a point of the plane perpendicular to an axis."""
     return Point(name, flat=normal)
 
 
-def hinge(name: str, first: str, second: str, at: str, normal: str = "z") -> Revolute:
+def hinge(name: str, first: str, second: str, at: str, normal: Axis = "z") -> Revolute:
     """Return a hinge across the plane; its angle is zero at the design position."""
     axis = Line(flat(at, normal), _NORMALS[normal])
     return Revolute(name=name, first=first, second=second, axis=axis)
@@ -38,7 +40,7 @@ def places(
             yield Parameter(f"{name}_{axis}", value, "m", f"{meaning} at the start, {axis}")
 
 
-def inertia(name: str, mass: float, moment: float, normal: str = "z") -> Iterator[Parameter]:
+def inertia(name: str, mass: float, moment: float, normal: Axis = "z") -> Iterator[Parameter]:
     """Yield the mass of a body and its moment of inertia about the normal of the plane."""
     yield Parameter(f"{name}_mass", mass, "kg", f"mass of {name}")
     element = f"{name}_inertia_{normal}{normal}"

@@ -28,6 +28,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..arithmetic import SignOf
+from ..conditioning import BRANCH, DIRECTION, LENGTH, ROOT, extent_squared, require
 from ..vectors import ZERO, Vector
 from .rod import Rod
 
@@ -48,22 +49,43 @@ class Arm:
         Coordinates of the point D from the base: along the line, and across it.
     design_axes
         Line, direction to D across it, normal to both; in work axes.
+    base
+        The point on the line from which D is seen, at the design position.
     """
 
     along: sp.Expr
     radius: sp.Expr
     design_axes: Axes
+    base: Vector
 
     @classmethod
-    def of(cls, kin: Kinematics, body: str, line: Vector, base: Point, end: Point) -> Arm:
+    def of(
+        cls,
+        kin: Kinematics,
+        body: str,
+        line: Vector,
+        base: Point,
+        end: Point,
+        extent: sp.Expr,
+    ) -> Arm:
         """Return the arm of a body from a base on its line, whose design direction is given."""
         program = kin.program
         arm = program.vector(f"{body}_arm_design", kin.design(end) - kin.design(base))
         along = program.define(f"{body}_arm_along", arm.dot(line))
         across = program.vector(f"{body}_arm_across", arm - line * along)
         radius = program.define(f"{body}_arm_radius", sp.sqrt(across.dot(across)))
+        require(
+            kin,
+            f"{body}_arm_radius",
+            radius,
+            LENGTH * sp.sqrt(extent),
+            "m",
+            f"at the design position, {end.name} is on the line about which {body} turns",
+            f"move {end.name} away from that line",
+        )
         t = program.vector(f"{body}_arm_unit", across * (1 / radius))
-        return cls(along, radius, (line, t, program.vector(f"{body}_normal_design", line.cross(t))))
+        normal = program.vector(f"{body}_normal_design", line.cross(t))
+        return cls(along, radius, (line, t, normal), kin.design(base))
 
     @property
     def local(self) -> Vector:
@@ -96,14 +118,16 @@ def fit_rod(
     """Turn an arm about a line until the rod of an action fits."""
     program, body, rho = kin.program, action.body, arm.radius
     rod = Rod.of(kin, action)
-    branch = program.define(f"{body}_branch", SignOf(rod.design.dot(arm.design_axes[2])))
-    loop = kin.loop_of(action)
+    loop, extent = kin.loop_of(action), extent_squared(kin, action)
+    _require_reach(kin, action, arm, extent)
+    branch = _branch(kin, action, arm, rod, extent)
     squared = program.guarded(
         f"{body}_reach_squared",
         reach.across.dot(reach.across),
         f"{loop}: point {action.anchor.name} lies on the line of {body}, whose rotation is "
         "undetermined",
         "m^2",
+        DIRECTION * extent,
     )
     k = program.define(
         f"{body}_reach_needed",
@@ -114,6 +138,7 @@ def fit_rod(
         squared - k**2,
         f"{loop} cannot close: the {rod.name} cannot reach {body}, beyond its dead point",
         "m^2",
+        ROOT * extent,
     )
     root = program.define(f"{body}_closure_root", sp.sqrt(room))
     inverse = program.define(f"{body}_reach_inverse", 1 / squared)
@@ -129,3 +154,45 @@ def fit_rod(
     gap = program.vector(f"{body}_rod", Vector(-reach.axial, rho - k, height), "123")
     hold = program.define(f"{body}_hold", -branch / (rho * root))
     return Fit(axes, gap, hold, rod)
+
+
+def _require_reach(
+    kin: Kinematics, action: SolveTurn | SolveHinge, arm: Arm, extent: sp.Expr
+) -> None:
+    """Have `prepare` see that the rod's anchor is beside the line."""
+    program, body, anchor = kin.program, action.body, action.anchor
+    line = arm.design_axes[0]
+    way = program.vector(f"{body}_reach_design", kin.design(anchor) - arm.base)
+    across = program.vector(
+        f"{body}_reach_design_across",
+        way - line * program.define(f"{body}_reach_design_along", way.dot(line)),
+    )
+    require(
+        kin,
+        f"{body}_reach_design",
+        sp.sqrt(across.dot(across)),
+        LENGTH * sp.sqrt(extent),
+        "m",
+        f"at the design position, {anchor.name} is on the line about which {body} turns, so that "
+        f"{action.rod} does not hold it",
+        f"move {anchor.name} away from that line",
+    )
+
+
+def _branch(
+    kin: Kinematics, action: SolveTurn | SolveHinge, arm: Arm, rod: Rod, extent: sp.Expr
+) -> sp.Expr:
+    """Return on which side of the arm the rod is at the design position."""
+    program, body = kin.program, action.body
+    height = program.define(f"{body}_rod_height_design", rod.design.dot(arm.design_axes[2]))
+    require(
+        kin,
+        f"{body}_rod_height_design",
+        height,
+        BRANCH * sp.sqrt(extent),
+        "m",
+        f"at the design position the {rod.name} is at its dead point: it, {action.end.name} and "
+        f"the line about which {body} turns are in one plane",
+        f"choose a design position where {action.anchor.name} is beside that plane",
+    )
+    return program.define(f"{body}_branch", SignOf(height))

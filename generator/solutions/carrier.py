@@ -17,8 +17,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ..arithmetic import SignOf
-from ..iteration import Matrix, determinant, named
+from ..iteration import LOST, Matrix, named
 from ..placement import Placed, PointMotion, from_axes
 from ..transformer import NoClosedFormError
 from ..vectors import ZERO, Twist, Vector
@@ -85,7 +84,7 @@ class _Held:
             _RodAtBody.of(kin, entry, end, start, size, pinned=base is not None)
             for entry, end in zip(action.rods, ends, strict=True)
         ]
-        if all(program.constants.contains(c) for rod in rods for c in rod.equation.values):
+        if all(program.constants.contains(c) for rod in rods for c in rod.equation.moving):
             message = (
                 f"{body}, held by {action.rod_names}, cannot move: all that holds it stands still. "
                 "Declare it as a part of the ground"
@@ -145,20 +144,17 @@ class _Solved:
 # -- position -------------------------------------------------------------------------------------
 
 
-def _found(kin: Kinematics, held: _Held, branch: sp.Expr) -> dict[str, sp.Expr]:
+def _found(kin: Kinematics, held: _Held) -> dict[str, sp.Expr]:
     """Append the call of the iteration, and return its results."""
-    body, pinned = held.action.body, held.base is not None
-    values = [x for rod in held.rods for x in rod.equation.values]
-    values += [branch] if pinned else [held.size, branch]
-    names = [rod.rod for rod in held.action.rods]
-    return kin.program.iterated(f"{body}_found", block(body, names, pinned=pinned), values)
+    body, rods = held.action.body, {rod.entry.rod: rod.equation for rod in held.rods}
+    iteration = block(kin.program, body, rods, held.size, kin.driven_coordinates())
+    return kin.program.iterated(f"{body}_found", iteration)
 
 
 def _corrected(kin: Kinematics, held: _Held) -> _Solved:
     """Correct what the iteration has found, and return the pose with its linear equations."""
     program, body, count = kin.program, held.action.body, len(held.rods)
-    branch = _branch(kin, held)
-    found = _found(kin, held, branch)
+    found = _found(kin, held)
     u, sigma = split(list(found.values())[:count])
     axes = rotation(program, f"{body}_found", u)
     start = Pose(axes, program.vector(f"{body}_found_shift", sigma * held.size))
@@ -167,17 +163,16 @@ def _corrected(kin: Kinematics, held: _Held) -> _Solved:
         for rod in held.rods
     ]
     places = range(1, count + 1)
-    adjugate = [[found[f"adjugate_{i}{j}"] for j in places] for i in places]
+    adjugate = [[found[f"inverse_{i}{j}"] for j in places] for i in places]
     factor = guarded_factor(
         kin,
         body,
         found["determinant"],
-        branch,
         left,
-        found["crossed"],
+        found[LOST],
         f"the loops of {body} through {held.action.rod_names} cannot close, or an iteration has "
-        f"not found how in {{iterations}} steps: the rods cannot reach {body}, or they have no "
-        "hold on it",
+        f"not found how in {{iterations}} steps on the way from the design position: the rods "
+        f"cannot reach {body}, or they have no hold on it",
     )
     inverse = Inverse(adjugate, factor)
     step = [
@@ -193,14 +188,6 @@ def _corrected(kin: Kinematics, held: _Held) -> _Solved:
     ]
     rows = [rod.equation.row(gap) for rod, gap in zip(held.rods, gaps, strict=True)]
     return _Solved(pose, gaps, named(program, f"{body}_row", rows), inverse)
-
-
-def _branch(kin: Kinematics, held: _Held) -> sp.Expr:
-    """Return the sign of the determinant of J at the design position."""
-    program, body = kin.program, held.action.body
-    design = [rod.equation.row(rod.rod.design) for rod in held.rods]
-    rows = named(program, f"{body}_row_design", design)
-    return program.define(f"{body}_branch", SignOf(determinant(program, f"{body}_design", rows)))
 
 
 # -- motion ---------------------------------------------------------------------------------------

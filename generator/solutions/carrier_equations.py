@@ -22,17 +22,17 @@ The attitude is given by Rodrigues' parameters u, relative to the design positio
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ..iteration import CROSSED, SIDE, Block, adjugate, crossed, limited, named, times
+from ..iteration import Block, Derivation, Estimate, Found
 from ..placement import Axes, from_axes, to_axes
 from ..vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Vector
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
     from ..program import Program
 
@@ -69,9 +69,9 @@ class RodEquation:
     size: sp.Expr | None
 
     @property
-    def values(self) -> list[sp.Expr]:
-        """What the iteration reads of it, in order."""
-        return [*self.anchor, *self.end, self.squared, self.scale]
+    def moving(self) -> list[sp.Expr]:
+        """What may move of it."""
+        return [*self.anchor, self.squared]
 
     def gap(self, pose: Pose) -> Vector:
         """Return the way from the start of the rod to its end, in body axes."""
@@ -113,71 +113,60 @@ def split(values: Sequence[sp.Expr]) -> tuple[Vector, Vector]:
     return Vector(*values[:3]), Vector(*values[3:]) if values[3:] else ZERO
 
 
-def block(body: str, rods: Sequence[str], *, pinned: bool) -> Block:
-    """Return the iteration that finds the pose of a body held by some rods.
+def block(
+    program: Program,
+    body: str,
+    rods: Mapping[str, RodEquation],
+    size: sp.Expr,
+    driven: Iterable[tuple[sp.Symbol, sp.Expr, bool]],
+) -> Block:
+    """Return the iteration that finds the pose of a body held by some rods (`Derivation`).
 
-    Its results are the unknowns (u, and sigma where the body has no known point), `CROSSED`, the
-    adjugate of J, row by row, and its determinant.
+    Parameters
+    ----------
+    rods
+        The equation of every rod, by its name.
+    size
+        The length c of the equations.
     """
-    equations = [_formal(f"{i}", pinned=pinned) for i in range(1, len(rods) + 1)]
-    unknowns = [sp.Symbol(f"u_{a}") for a in "xyz"]
-    unknowns += [] if pinned else [sp.Symbol(f"shift_{a}") for a in "xyz"]
+    name = f"pose_of_{body}"
+    if name in program.constants.blocks:
+        return program.constants.blocks[name]
+    derivation = Derivation(program, driven, size)
+    pinned = all(rod.size is None for rod in rods.values())
 
-    def derive(
-        program: Program,
-    ) -> tuple[Mapping[str, sp.Expr], Sequence[sp.Expr], sp.Expr]:
-        u, sigma = split(unknowns)
-        program.section("pose of this iteration")
-        axes = rotation(program, "body", u)
-        pose = Pose(axes, program.vector("moved", sigma * (1 if pinned else _SIZE)))
-        program.section("what the rods leave of their lengths, and how that changes with the pose")
-        gaps = [program.vector(f"gap_{i}", e.gap(pose), "123") for i, e in enumerate(equations, 1)]
+    def derive(own: Program, estimate: Estimate) -> Found:
+        own.section("what is placed before, at this stage")
+        equations = [
+            replace(
+                rod,
+                anchor=Vector(*derivation.repeated(rod.anchor)),
+                squared=derivation.repeated([rod.squared])[0],
+            )
+            for rod in rods.values()
+        ]
+        own.section("pose of this iteration")
+        (u, sigma), (turn, way) = split(estimate.base), split(estimate.step)
+        before = rotation(own, "before", u)
+        u = own.vector("turn", _composed(own, u, turn))
+        axes = rotation(own, "body", u)
+        sigma = own.vector("shift", sigma + from_axes(before, way))
+        pose = Pose(axes, own.vector("moved", sigma * size))
+        own.section("what the rods leave of their lengths")
+        gaps = [own.vector(f"gap_{i}", e.gap(pose), "123") for i, e in enumerate(equations, 1)]
         left = [
-            program.define(f"misfit_{i}", e.misfit(gap))
+            own.define(f"misfit_{i}", e.misfit(gap))
             for i, (e, gap) in enumerate(zip(equations, gaps, strict=True), 1)
         ]
         rows = [e.row(gap) for e, gap in zip(equations, gaps, strict=True)]
-        inverse, scale = adjugate(program, named(program, "row", rows))
-        program.section("next pose")
-        step, change = limited(program, [-c / scale for c in times(inverse, left)])
-        turn, way = split([program.define(f"step_{i}", s) for i, s in enumerate(step, 1)])
-        following = [*_composed(program, u, turn)]
-        following += [] if pinned else [*(sigma + from_axes(axes, way))]
-        following.append(crossed(scale))
-        results = {str(x): x for x in unknowns}
-        results |= {str(CROSSED): CROSSED}
-        results |= {
-            f"adjugate_{i}{j}": entry
-            for i, row in enumerate(inverse, 1)
-            for j, entry in enumerate(row, 1)
-        }
-        return results | {"determinant": scale}, following, change
+        return Found([*u, *([] if pinned else sigma)], left, rows, u.dot(u) + sigma.dot(sigma))
 
-    return Block.of(
-        f"pose_of_{body}",
-        f"the pose of {body}, held by {', '.join(rods)}",
-        [*(x for e in equations for x in e.values), *([] if pinned else [_SIZE]), SIDE],
-        [*unknowns, CROSSED],
-        derive,
+    unknowns = [f"{kind}_{a}" for kind in ("turn", "shift")[: 1 if pinned else 2] for a in "xyz"]
+    found = derivation.block(
+        name, f"the pose of {body}, held by {', '.join(rods)}", unknowns, len(rods), derive
     )
-
-
-_SIZE = sp.Symbol("size")
-
-
-def _formal(label: str, *, pinned: bool) -> RodEquation:
-    """Return an equation in the names that the block has for its arguments."""
-
-    def vector(name: str, suffixes: str) -> Vector:
-        return Vector(*(sp.Symbol(f"{name}_{label}_{s}") for s in suffixes))
-
-    return RodEquation(
-        vector("anchor", "xyz"),
-        vector("end", "123"),
-        sp.Symbol(f"squared_{label}"),
-        sp.Symbol(f"scale_{label}"),
-        None if pinned else _SIZE,
-    )
+    program.constants.blocks[name] = found
+    return found
 
 
 def _composed(program: Program, u: Vector, turn: Vector) -> Vector:

@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ..iteration import CROSSED, SIDE, Block, Matrix, adjugate, crossed, limited, named, times
+from ..iteration import Block, Derivation, Estimate, Found, Matrix
 from ..joints import Prismatic, Revolute, Spherical, Universal
 from ..placement import IDENTITY, Axes, from_axes
 from ..vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Vector
@@ -393,74 +393,48 @@ _SQUARE_IN_PLANE = {Revolute.kind: [], Prismatic.kind: [("axis", "side")]}
 # -- the iteration --------------------------------------------------------------------------------
 
 
-def block(action: SolveTogether, geometry: Geometry) -> tuple[Block, list[sp.Expr]]:
-    """Return the iteration that finds the unknowns, and what it is given, but for `SIDE`.
+def block(
+    program: Program,
+    action: SolveTogether,
+    geometry: Geometry,
+    driven: Iterable[tuple[sp.Symbol, sp.Expr, bool]],
+) -> Block:
+    """Return the iteration that finds the unknowns (`Derivation`)."""
+    name = f"loops_through_{action.body}"
+    if name in program.constants.blocks:
+        return program.constants.blocks[name]
+    derivation = Derivation(program, driven, geometry["size"].x)
 
-    Its results are the unknowns; `CROSSED`; a matrix, row by row, which over the determinant is the
-    inverse of J; and that determinant. Where equations are more than unknowns, they are those of
-    J^T J: the matrix is the adjugate times J^T.
-    """
-    formal, given = _formal(geometry)
-    unknowns = [sp.Symbol(f"{branch.joint.name}_estimate") for branch in action.unknowns]
-
-    def derive(
-        program: Program,
-    ) -> tuple[Mapping[str, sp.Expr], Sequence[sp.Expr], sp.Expr]:
-        program.section("position of this iteration")
-        now = position(program, "", action, formal, unknowns)
-        program.section("what is left of the equations, and how that changes with the unknowns")
+    def derive(own: Program, estimate: Estimate) -> Found:
+        own.section("what is placed before, at this stage")
+        components = [c for vector in geometry.values() for c in vector]
+        staged = iter(derivation.repeated(components))
+        here = {n: Vector(next(staged), next(staged), next(staged)) for n in geometry}
+        own.section("position of this iteration")
+        x = [
+            own.define(f"{branch.joint.name}_estimate", base + step)
+            for branch, base, step in zip(
+                action.unknowns, estimate.base, estimate.step, strict=True
+            )
+        ]
+        now = position(own, "", action, here, x)
+        own.section("what is left of the equations")
         left = [
-            program.define(f"misfit_{i}", equation.misfit())
+            own.define(f"misfit_{i}", equation.misfit())
             for i, equation in enumerate(now.equations, 1)
         ]
-        rows = named(program, "row", now.jacobian())
-        inverse, scale = _inverse(program, rows)
-        program.section("next estimate")
-        step, change = limited(program, [-c / scale for c in times(inverse, left)])
-        results = {str(x): x for x in (*unknowns, CROSSED)}
-        results |= {
-            f"inverse_{i}{j}": entry
-            for i, row in enumerate(inverse, 1)
-            for j, entry in enumerate(row, 1)
-        }
-        following = [x + dx for x, dx in zip(unknowns, step, strict=True)] + [crossed(scale)]
-        return results | {"determinant": scale}, following, change
+        apart = [
+            value**2 if isinstance(branch.joint, Prismatic) else 2 - 2 * sp.cos(value)
+            for branch, value in zip(action.unknowns, x, strict=True)
+        ]
+        return Found(x, left, now.jacobian(), sp.Add(*apart))
 
-    found = Block.of(
-        f"loops_through_{action.body}",
+    found = derivation.block(
+        name,
         f"the coordinates of {action.joint_names}, with which {action.closing_names} close",
-        [*(symbol for symbol, _ in given), SIDE],
-        [*unknowns, CROSSED],
+        [f"{branch.joint.name}_coordinate" for branch in action.unknowns],
+        action.equations,
         derive,
     )
-    return found, [value for _, value in given]
-
-
-def _formal(geometry: Geometry) -> tuple[Geometry, list[tuple[sp.Symbol, sp.Expr]]]:
-    """Return the geometry in names of its own, and what those stand for; numbers stay numbers."""
-    formal, given = {}, []
-    for name, vector in geometry.items():
-        components = []
-        for value, axis in zip(vector, "xyz", strict=True):
-            if value.is_Number:
-                components.append(value)
-                continue
-            components.append(sp.Symbol(f"{name}_{axis}"))
-            given.append((components[-1], value))
-        formal[name] = Vector(*components)
-    return formal, given
-
-
-def _inverse(program: Program, rows: Matrix) -> tuple[Matrix, sp.Expr]:
-    """Append the adjugate and the determinant of J, or those of J^T J, the former times J^T."""
-    if len(rows) == len(rows[0]):
-        return adjugate(program, rows)
-    columns = [list(column) for column in zip(*rows, strict=True)]
-    normal = [[_dot(a, b) for b in columns] for a in columns]
-    inverse, scale = adjugate(program, named(program, "normal", normal))
-    product = [[_dot(line, row) for row in rows] for line in inverse]
-    return named(program, "inverse", product), scale
-
-
-def _dot(one: Iterable[sp.Expr], two: Iterable[sp.Expr]) -> sp.Expr:
-    return sum((a * b for a, b in zip(one, two, strict=True)), sp.Integer(0))
+    program.constants.blocks[name] = found
+    return found

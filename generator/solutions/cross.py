@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..actions import SolveTelescope
+from ..conditioning import DIRECTION, LENGTH, require
 from ..placement import Axes, OnLine, Placed, from_axes, to_axes
 from ..vectors import ZERO, Twist, Vector
 from .lines import line_alpha, line_omega, once, projector
@@ -74,7 +75,7 @@ def _place(
     axis = program.vector(f"{body}_first_axis", from_axes(parent.axes, local_axis))
     n = record.direction
     cross = program.vector(f"{body}_cross", axis.cross(n))
-    squared = program.guarded(f"{body}_cross_squared", cross.dot(cross), meaning, "1")
+    squared = program.guarded(f"{body}_cross_squared", cross.dot(cross), meaning, "1", DIRECTION)
     lever = program.define(f"{body}_lever", sp.sqrt(squared))
     second = program.vector(f"{body}_second_axis", cross * (1 / lever))
     axes: Axes = (n, second, program.vector(f"{body}_third_axis", n.cross(second)))
@@ -83,7 +84,7 @@ def _place(
         origin=record.anchor_motion.position,
         axes=axes,
         design_origin=kin.design(record.anchor),
-        design_axes=_cross_design_axes(kin, body, record, at_design),
+        design_axes=_cross_design_axes(kin, body, record, at_design, meaning),
         local={record.anchor: ZERO},
         carrier=(
             record.anchor_body,
@@ -101,8 +102,21 @@ def _line(kin: Kinematics, body: str) -> OnLine:
     return record.reversed() if body in far else record
 
 
-def _cross_design_axes(kin: Kinematics, body: str, record: OnLine, axis: Vector) -> Axes:
+def _cross_design_axes(
+    kin: Kinematics, body: str, record: OnLine, axis: Vector, meaning: str
+) -> Axes:
+    program = kin.program
     n = kin.unit(f"{body}_line_design", kin.design(record.end) - kin.design(record.anchor))
+    across = program.vector(f"{body}_cross_design", axis.cross(n))
+    require(
+        kin,
+        f"{body}_cross_design",
+        sp.sqrt(across.dot(across)),
+        LENGTH,
+        "1",
+        f"at the design position, {meaning}",
+        "turn that axis, or move an end of the shaft",
+    )
     second = kin.unit(f"{body}_second_design", axis.cross(n))
     return n, second, kin.program.vector(f"{body}_third_design", n.cross(second))
 

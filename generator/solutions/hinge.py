@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from ..conditioning import extent_squared
 from ..placement import Axes, Placed, PointMotion, from_axes, to_axes
 from ..vectors import UNIT_X, ZERO, Twist, Vector
 from .arm import Arm, Reach, fit_rod
@@ -42,8 +43,11 @@ class _Hinge:
     arm: Arm
 
 
-def _hinge(kin: Kinematics, body: str, joint: Revolute, parent_name: str, point: Point) -> _Hinge:
+def _hinge(
+    kin: Kinematics, action: SolveHinge | PlaceByPin, point: Point, extent: sp.Expr
+) -> _Hinge:
     """Describe a hinge, from the design position."""
+    body, joint, parent_name = action.body, action.joint, action.parent
     parent, through = kin.placed[parent_name], joint.axis.through
     n = kin.unit(f"{body}_hinge_design", kin.to_work(joint.axis.vector))
     on_parent = kin.program.vector(f"{body}_hinge_on_parent", to_axes(parent.design_axes, n), "123")
@@ -55,7 +59,7 @@ def _hinge(kin: Kinematics, body: str, joint: Revolute, parent_name: str, point:
         kin.point_motion(parent_name, through),
         through,
         point,
-        Arm.of(kin, body, n, through, point),
+        Arm.of(kin, body, n, through, point, extent),
     )
 
 
@@ -67,7 +71,7 @@ def solve_hinge(kin: Kinematics, action: SolveHinge) -> None:
     rod: boom, cylinder and chassis of a crane, driven by the stroke.
     """
     program, body = kin.program, action.body
-    hinge = _hinge(kin, body, action.joint, action.parent, action.end)
+    hinge = _hinge(kin, action, action.end, extent_squared(kin, action))
     anchor = kin.point_motion(action.anchor_body, action.anchor)
     e = program.vector(f"{body}_reach", anchor.position - hinge.origin.position)
     along = program.define(f"{body}_reach_along", e.dot(hinge.axis))
@@ -92,7 +96,7 @@ def place_by_pin(kin: Kinematics, action: PlaceByPin) -> None:
     nothing is singular: the loop has closed before.
     """
     program, body = kin.program, action.body
-    hinge = _hinge(kin, body, action.joint, action.parent, action.pin)
+    hinge = _hinge(kin, action, action.pin, extent_squared(kin, action))
     pin = kin.point_motion(action.pin_body, action.pin)
     n = hinge.axis
     span = program.vector(f"{body}_span", pin.position - hinge.origin.position)

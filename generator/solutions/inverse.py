@@ -64,40 +64,37 @@ def guarded_factor(
     kin: Kinematics,
     name: str,
     found: sp.Expr,
-    branch: sp.Expr,
     left: Sequence[sp.Expr],
-    crossed: sp.Expr,
+    lost: sp.Expr,
     meaning: str,
 ) -> sp.Expr:
     """Append the reciprocal of a determinant, guarded.
 
     With e the square of what the iteration has left of g, over that of `_TOLERANCE`, and d the
     determinant with the sign that it has at the design position, the guard is
-    ``(d - e) / (1 + e)``. It is not positive where a loop cannot close, where J is singular, on the
-    branches behind, and where the iteration has come across one of these: that counts to e. Else it
-    is d to the last digit.
+    ``(d - e) / (1 + e)``. It is not positive where a loop cannot close, where J is singular, and
+    where the iteration has not come through from the design position: that counts to e. Else it is
+    d to the last digit.
 
     Parameters
     ----------
     found
         The determinant, as the iteration returns it.
-    branch
-        Its sign at the design position.
     left
         What the iteration has left of g.
-    crossed
-        By how much the determinant has been on the other side on the way.
+    lost
+        One where the iteration has not arrived, else zero.
     meaning
         What it means that the guard acts; how many iterations there were is said behind it.
     """
     program = kin.program
     squares = sum((g * g for g in left), sp.Integer(0))
-    excess = program.define(f"{name}_excess", squares / _TOLERANCE**2 + crossed / _TOLERANCE)
+    excess = program.define(f"{name}_excess", squares / _TOLERANCE**2 + lost / _TOLERANCE)
     hold = program.guarded(
         f"{name}_closure",
-        (branch * found - excess) / (1 + excess),
+        (found - excess) / (1 + excess),
         meaning.format(iterations=ITERATIONS),
         "1",
     )
     held_at_all = IsPositive(hold.args[0])  # else no correction: what was found last stays finite
-    return program.define(f"{name}_hold", Frozen(branch * held_at_all / hold))
+    return program.define(f"{name}_hold", Frozen(held_at_all / hold))

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from ..conditioning import DIRECTION, LENGTH, extent_squared, require
 from ..placement import OnLine, Placed, PointMotion, to_axes
 from ..vectors import ZERO, Twist, Vector
 
@@ -80,12 +81,15 @@ def line_of_ends(kin: Kinematics, action: SolveTelescope | SolveStrut, what: str
     anchor = kin.point_motion(action.anchor_body, action.anchor)
     end = kin.point_motion(action.end_body, action.end)
     span = kin.program.vector(f"span_{name}", end.minus(anchor).position)
+    extent = extent_squared(kin, action)
+    require_length(kin, name, (action.anchor, action.end), what, extent)
     squared = kin.program.guarded(
         f"length_squared_{name}",
         span.dot(span),
         f"{kin.loop_of(action)}: the ends {action.anchor.name} and {action.end.name} of {what} "
         "coincide",
         "m^2",
+        DIRECTION * extent,
     )
     return line_between(
         kin,
@@ -96,6 +100,23 @@ def line_of_ends(kin: Kinematics, action: SolveTelescope | SolveStrut, what: str
         span,
         kin.program.define(f"length_{name}", sp.sqrt(squared)),
         squared,
+    )
+
+
+def require_length(
+    kin: Kinematics, name: str, ends: tuple[Point, Point], what: str, extent: sp.Expr
+) -> None:
+    """Have `prepare` see that two points are apart at the design position."""
+    first, second = ends
+    span = kin.program.vector(f"{name}_span_design", kin.design(second) - kin.design(first))
+    require(
+        kin,
+        f"{name}_length_design",
+        sp.sqrt(span.dot(span)),
+        LENGTH * sp.sqrt(extent),
+        "m",
+        f"at the design position, the ends {first.name} and {second.name} of {what} coincide",
+        "move one of the two",
     )
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..arithmetic import SignOf
+from ..conditioning import BRANCH, NORMAL, ROOT, extent_squared, require
 from ..placement import Axes, OffLine, OnLine, Placed, PointMotion
 from ..vectors import ZERO, Twist, Vector
 from .lines import once, place_rod, projector
@@ -85,6 +86,8 @@ class _OffsetTurn:
         self.rod_length = program.define(f"{self.action.rod}_length", sp.sqrt(rod.dot(rod)))
         kin.rod_lengths[self.action.rod] = self.rod_length
         span = kin.design(self.base) - kin.design(telescope.anchor)
+        self.extent = extent_squared(kin, self.action)
+        self._require(arm, span, anchor - base)
         self.branch = program.define(f"{body}_branch", SignOf(arm.dot(span.cross(anchor - base))))
         self.arm = Vector(along, radius, ZERO.z)
         self.arm_squared = program.define(f"{body}_arm_squared", self.arm.dot(self.arm))
@@ -95,6 +98,37 @@ class _OffsetTurn:
         )
         self.span = self.offset + Vector(self.record.reach, ZERO.y, ZERO.z)
         self.design_axes = (e1, e2, e3)
+
+    def _require(self, arm: Vector, span: Vector, reach: Vector) -> None:
+        """Have `prepare` see that the design position is away from all singular sets."""
+        kin, body, action = self.kin, self.body, self.action
+        size = sp.sqrt(self.extent)
+        line = f"the line of {self.base.name} and {self.record.action.anchor.name}"
+        for name, point, way in (
+            ("arm", action.end, arm),
+            ("reach", action.anchor, reach),
+        ):
+            normal = self.program.vector(f"{body}_{name}_across_span", span.cross(way))
+            require(
+                kin,
+                f"{body}_{name}_off_span",
+                sp.sqrt(normal.dot(normal) / span.dot(span)),
+                sp.sqrt(NORMAL) * self.extent / sp.sqrt(span.dot(span)),
+                "m",
+                f"at the design position, {point.name} is on {line}, about which {body} turns",
+                f"move {point.name} away from that line",
+            )
+        normal = self.program.vector(f"{body}_reach_across_span", span.cross(reach))
+        require(
+            kin,
+            f"{body}_height_design",
+            arm.dot(normal) / sp.sqrt(normal.dot(normal)),
+            BRANCH * size,
+            "m",
+            f"at the design position the rod {action.rod} is at its dead point: it and {line} are "
+            "in one plane",
+            f"choose a design position where {action.anchor.name} is beside that plane",
+        )
 
     def _position(self) -> None:
         """Solve for D - B, then for the axes of the body."""
@@ -107,6 +141,7 @@ class _OffsetTurn:
             f"{self.kin.loop_of(self.action)}: point {self.action.anchor.name} lies on the line of "
             f"{body}, whose rotation is undetermined",
             "m^4",
+            NORMAL * self.extent**2,
         )
         along_span = program.define(f"{body}_arm_on_span", self.arm.dot(self.span))
         slant = program.define(f"{body}_reach_on_span", w.dot(record.span))
@@ -129,6 +164,7 @@ class _OffsetTurn:
             f"{self.kin.loop_of(self.action)} cannot close: the rod {self.action.rod} cannot reach "
             f"{body}, beyond its dead point",
             "m^2",
+            ROOT * self.extent,
         )
         self.height = program.define(
             f"{body}_share_of_normal", self.branch * sp.sqrt(room * inverse)
@@ -160,6 +196,7 @@ class _OffsetTurn:
             third_local.dot(third_local),
             f"point {self.action.end.name} lies on the line of {body}",
             "m^4",
+            NORMAL * self.extent**2,
         )
         inverse = program.define(f"{body}_plane_inverse", 1 / squared)
         of_span = self.span * self.arm_squared - self.arm * along_span

@@ -22,6 +22,7 @@ import sympy as sp
 
 from ..actions import HeldByRod, Strut
 from ..arithmetic import SignOf
+from ..conditioning import BRANCH, LENGTH, extent_squared, require
 from ..vectors import ZERO, Vector
 
 if TYPE_CHECKING:
@@ -62,20 +63,41 @@ class Rod:
         """Return the rod of an action."""
         design = kin.design(action.end) - kin.design(action.anchor)
         design = kin.program.vector(f"{action.rod}_design", design)
-        telescope = getattr(action, "telescope", None)
+        telescope, extent = getattr(action, "telescope", None), extent_squared(kin, action)
         if isinstance(action, HeldByRod) and action.guide is not None:
             sense = 1 if action.guide.direction.between == (action.anchor, action.end) else -1
-            rod = cls._strut(kin, (action.rod, action.far or ""), action.guide, sense, design)
+            links = action.rod, action.far or ""
+            rod = cls._strut(kin, links, action.guide, sense, design, extent)
         elif isinstance(telescope, Strut):
             links = telescope.near, telescope.far
-            rod = cls._strut(kin, links, telescope.joint, telescope.sense, design)
+            rod = cls._strut(kin, links, telescope.joint, telescope.sense, design, extent)
         elif telescope is None:
             length = kin.program.define(f"{action.rod}_length", sp.sqrt(design.dot(design)))
+            cls._require_length(kin, action, length, extent)
             rod = cls(f"rod {action.rod}", design, length, length**2)
         else:
-            rod = cls._telescopic(kin, telescope, design)
+            rod = cls._telescopic(kin, telescope, design, extent)
         kin.rod_lengths[action.rod] = rod.length
         return rod
+
+    @staticmethod
+    def _require_length(
+        kin: Kinematics,
+        action: SolveTurn | SolveHinge | SolveSlide | HeldByRod,
+        length: sp.Expr,
+        extent: sp.Expr,
+    ) -> None:
+        first, second = action.anchor, action.end
+        require(
+            kin,
+            f"{action.rod}_length",
+            length,
+            LENGTH * sp.sqrt(extent),
+            "m",
+            f"at the design position, the ends {first.name} and {second.name} of {action.rod} "
+            "coincide",
+            "move one of the two",
+        )
 
     @classmethod
     def _strut(
@@ -85,6 +107,7 @@ class Rod:
         guide: Prismatic,
         sense: int,
         design: Vector,
+        extent: sp.Expr,
     ) -> Rod:
         """Return a strut of known slide x along its line: l = l_0 + x, or l_0 - x."""
         program, (near, far) = kin.program, links
@@ -95,6 +118,7 @@ class Rod:
             start + sense * kin.coordinates[coordinate],
             f"the strut of {near} and {far} is drawn in until its ends meet",
             "m",
+            LENGTH * sp.sqrt(extent),
         )
         stretch, bias = {}, sp.Integer(0)
         if coordinate in kin.moving:
@@ -103,11 +127,13 @@ class Rod:
         return cls(f"strut {near}", design, length, length**2, stretch, bias)
 
     @classmethod
-    def _telescopic(cls, kin: Kinematics, telescope: PinnedTelescope, design: Vector) -> Rod:
+    def _telescopic(
+        cls, kin: Kinematics, telescope: PinnedTelescope, design: Vector, extent: sp.Expr
+    ) -> Rod:
         """Return a telescope of known slide as a rod."""
         near = telescope.near
-        guide = Guide.of(kin, telescope)
-        extension = guide.known_extension(kin)
+        guide = Guide.of(kin, telescope, extent)
+        extension = guide.known_extension(kin, extent)
         beside = guide.start.x**2 + guide.start.z**2
         squared = kin.program.define(f"{near}_length_squared", extension**2 + beside)
         coordinate = kin.coordinate_of(telescope.joint)
@@ -140,7 +166,7 @@ class Guide:
     branch: sp.Expr
 
     @classmethod
-    def of(cls, kin: Kinematics, telescope: PinnedTelescope) -> Guide:
+    def of(cls, kin: Kinematics, telescope: PinnedTelescope, extent: sp.Expr) -> Guide:
         """Describe the guide of a telescope."""
         program, near = kin.program, telescope.near
         n = kin.unit(f"{near}_hinge_design", kin.to_work(telescope.near_hinge.axis.vector))
@@ -157,11 +183,21 @@ class Guide:
             side = program.vector(f"{near}_side_design", n.cross(d))
             along = (span.dot(axis) for axis in (n, d, side))
             start = program.vector(f"{near}_start", Vector(*along), "123")
+            require(
+                kin,
+                f"{near}_along_design",
+                start.y,
+                BRANCH * sp.sqrt(extent),
+                "m",
+                f"at the design position, the pins {telescope.anchor.name} and "
+                f"{telescope.end.name} stand across the guide of {telescope.links}",
+                "move one of the two along the guide",
+            )
             sign = program.define(f"{near}_branch", SignOf(start.y))
         side = program.vector(f"{near}_side_design", n.cross(d))
         return cls(telescope, (n, d, side), start, sign)
 
-    def known_extension(self, kin: Kinematics) -> sp.Expr:
+    def known_extension(self, kin: Kinematics, extent: sp.Expr) -> sp.Expr:
         """Return c + x of a telescope of known slide x."""
         telescope = self.telescope
         slide = kin.coordinates[kin.coordinate_of(telescope.joint)]
@@ -171,5 +207,6 @@ class Guide:
             f"the telescope of {telescope.links} is drawn in until its pins "
             f"{telescope.anchor.name} and {telescope.end.name} meet, or pass each other",
             "m",
+            LENGTH * sp.sqrt(extent),
         )
         return self.branch * drawn

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..arithmetic import SignOf
+from ..conditioning import BRANCH, ROOT, extent_squared, require
 from ..placement import Placed, from_axes
 from ..vectors import ZERO, Twist
 from .lines import once, place_rod, projector
@@ -36,9 +37,21 @@ def solve_slide(kin: Kinematics, action: SolveSlide) -> None:
     d = program.vector(f"{body}_guide", from_axes(parent.axes, local))
     anchor = kin.point_motion(action.anchor_body, action.anchor)
     rod = Rod.of(kin, action)
-    branch = program.define(
-        f"{body}_branch", SignOf(rod.design.dot(kin.design_direction(joint.direction)))
+    extent = extent_squared(kin, action)
+    drawn = program.define(
+        f"{body}_rod_along_design", rod.design.dot(kin.design_direction(joint.direction))
     )
+    require(
+        kin,
+        f"{body}_rod_along_design",
+        drawn,
+        BRANCH * sp.sqrt(extent),
+        "m",
+        f"at the design position the {rod.name} is at its dead point: it stands across the guide "
+        f"of {body}",
+        f"move {action.anchor.name} or {action.end.name} along the guide",
+    )
+    branch = program.define(f"{body}_branch", SignOf(drawn))
     start = program.vector(
         f"{body}_start", parent.origin + from_axes(parent.axes, kin.local(parent, action.end))
     )
@@ -51,6 +64,7 @@ def solve_slide(kin: Kinematics, action: SolveSlide) -> None:
         f"{kin.loop_of(action)} cannot close: the {rod.name} is too short to reach the guide "
         f"of {body}",
         "m^2",
+        ROOT * extent,
     )
     root = program.define(f"{body}_closure_root", sp.sqrt(room))
     slide = program.define(f"{body}_slide", along + branch * root)

@@ -24,6 +24,8 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from ..arithmetic import Positive
+from ..conditioning import DIRECTION, ROOT, extent_squared
 from ..placement import Axes, Placed, PointMotion, from_axes, to_axes
 from ..vectors import UNIT_X, ZERO, Twist, Vector
 from .lines import once, projector
@@ -39,12 +41,15 @@ def solve_stroke(kin: Kinematics, action: SolveStroke) -> None:
     program, near, joint = kin.program, action.near, action.joint
     pins = _Pins.of(kin, action)
     _, c, e = pins.guide.start
+    extent = extent_squared(kin, action)
     squared = program.guarded(
         f"{near}_extension_squared",
         pins.across.dot(pins.across) - e**2,
         f"{kin.loop_of(action)} cannot close: the pins {action.anchor.name} and {action.end.name} "
         f"come nearer to each other than the guide of {action.links} allows",
         "m^2",
+        # the square of the distance of the pins is more by e^2: their direction counts as well
+        ROOT * extent + Positive(DIRECTION * extent - e**2),
     )
     extension = program.define(f"{near}_extension", pins.guide.branch * sp.sqrt(squared))
     kin.slides[joint.name] = program.define(f"slide_{joint.name}", action.sense * (extension - c))
@@ -54,7 +59,7 @@ def solve_stroke(kin: Kinematics, action: SolveStroke) -> None:
 def place_telescope(kin: Kinematics, action: PlaceTelescope) -> None:
     """Find the direction of a telescope of known slide between two placed pins."""
     pins = _Pins.of(kin, action)
-    _place(kin, pins, pins.guide.known_extension(kin))
+    _place(kin, pins, pins.guide.known_extension(kin, extent_squared(kin, action)))
 
 
 @dataclass(frozen=True)
@@ -80,7 +85,7 @@ class _Pins:
     def of(cls, kin: Kinematics, telescope: PinnedTelescope) -> _Pins:
         """Describe the pins of a telescope."""
         program, near = kin.program, telescope.near
-        guide = Guide.of(kin, telescope)
+        guide = Guide.of(kin, telescope, extent_squared(kin, telescope))
         parent = kin.placed[telescope.anchor_body]
         on_parent = to_axes(parent.design_axes, guide.axes[0])
         on_parent = program.vector(f"{near}_hinge_on_parent", on_parent, "123")

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from ..conditioning import BRANCH, LENGTH, ROOT, extent_squared, require
 from ..placement import OffLine
-from .lines import line_of_ends
+from .lines import line_of_ends, require_length
 
 if TYPE_CHECKING:
     from ..actions import SolveTelescope
@@ -60,15 +61,37 @@ def _solve_offset(kin: Kinematics, action: SolveTelescope) -> None:
     relative = end.minus(anchor)
     span = program.vector(f"span_{name}", relative.position)
     span_squared = program.define(f"span_squared_{name}", span.dot(span))
+    extent = extent_squared(kin, action)
+    require_length(kin, name, (action.anchor, lower), f"telescope {name}", extent)
+    require(
+        kin,
+        f"{name}_reach_design",
+        along,
+        BRANCH * sp.sqrt(extent),
+        "m",
+        f"at the design position, {action.end.name} is beside {action.anchor.name}, seen along "
+        f"telescope {name}",
+        f"move {lower.name}",
+    )
     squared = program.guarded(
         f"length_squared_{name}",
         span_squared - offset.dot(offset),
         f"{kin.loop_of(action)} cannot close: {action.anchor.name} would be nearer to "
         f"{action.end.name} than the axis of telescope {name}",
         "m^2",
+        ROOT * extent,
     )
     reach = program.define(f"reach_{name}", sp.sqrt(squared))
     inverse = program.define(f"inverse_reach_{name}", 1 / reach)
+    # the length is the reach and a constant, so that nothing has to be added for its guard
+    drawn = program.guarded(
+        f"length_{name}",
+        reach,
+        f"{kin.loop_of(action)}: telescope {name} is drawn in until its ends {action.anchor.name} "
+        f"and {lower.name} meet, or pass each other",
+        "m",
+        LENGTH * sp.sqrt(extent) - lead,
+    )
     kin.off_line[action.end_link] = OffLine(
         action,
         anchor,
@@ -77,9 +100,9 @@ def _solve_offset(kin: Kinematics, action: SolveTelescope) -> None:
         offset,
         span,
         span_squared,
-        reach,
+        drawn,
         inverse,
-        program.define(f"length_{name}", reach + lead),
+        program.define(f"length_{name}", drawn + lead),
         lead,
         relative,
         {

@@ -18,9 +18,8 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ..arithmetic import SignOf
 from ..hinge_angles import HingeDesign, axis_at_design, positive_axis_at_design
-from ..iteration import Matrix, determinant, named
+from ..iteration import LOST, Matrix, named
 from ..joints import Joint, Prismatic, Revolute, Spherical, Universal
 from ..placement import Placed, from_axes, to_axes
 from ..vectors import NO_TWIST, UNIT_X, UNIT_Y, UNIT_Z, ZERO, Twist, Vector
@@ -136,9 +135,7 @@ def _given(kin: Kinematics, joint: Revolute | Prismatic, size: sp.Expr) -> sp.Ex
         return kin.program.define(f"{joint.name}_given", coordinate / size)
     if joint.angle_to is None:
         return coordinate
-    design = HingeDesign.of(kin, joint)
-    sine, cosine = design.axis.dot(design.zero.cross(design.mark)), design.zero.dot(design.mark)
-    start = kin.program.define(f"{joint.name}_angle_design", sp.atan2(sine, cosine))
+    start = HingeDesign.of(kin, joint).angle(kin.program, joint.name)
     return kin.program.define(f"{joint.name}_given", coordinate - start)
 
 
@@ -211,9 +208,9 @@ class _Solved:
 def _corrected(kin: Kinematics, action: SolveTogether, geometry: Geometry) -> _Solved:
     """Call the iteration, and correct what it has found."""
     program, name = kin.program, action.body
-    iteration, given = block(action, geometry)
-    branch = _branch(kin, action, geometry)
-    results = program.iterated(f"{name}_loops", iteration, [*given, branch])
+    results = program.iterated(
+        f"{name}_loops", block(program, action, geometry, kin.driven_coordinates())
+    )
     count = len(action.unknowns)
     found = list(results.values())[:count]
     start = position(program, f"{name}_found_", action, geometry, found)
@@ -228,12 +225,11 @@ def _corrected(kin: Kinematics, action: SolveTogether, geometry: Geometry) -> _S
         kin,
         name,
         results["determinant"],
-        branch,
         left,
-        results["crossed"],
+        results[LOST],
         f"the loops through {', '.join(action.bodies)} cannot close, or an iteration has not found "
-        f"how in {{iterations}} steps: {action.closing_names} cannot meet with any coordinates of "
-        f"{action.joint_names}",
+        f"how in {{iterations}} steps on the way from the design position: {action.closing_names} "
+        f"cannot meet with any coordinates of {action.joint_names}",
     )
     inverse = Inverse(matrix, factor)
     unknowns = [
@@ -243,22 +239,6 @@ def _corrected(kin: Kinematics, action: SolveTogether, geometry: Geometry) -> _S
     now = position(program, "", action, geometry, unknowns)
     rows = named(program, f"{name}_row", now.jacobian())
     return _Solved(geometry["size"].x, unknowns, now, rows, inverse)
-
-
-def _branch(kin: Kinematics, action: SolveTogether, geometry: Geometry) -> sp.Expr:
-    """Return the sign of the determinant of J at design; that of J^T J has none."""
-    if action.equations > len(action.unknowns):
-        return sp.Integer(1)
-    program, name = kin.program, action.body
-    at_rest = {
-        f"{b}_{axis}": e for b in bases(action) for axis, e in zip("xyz", _UNITS, strict=True)
-    }
-    at_rest |= {f"{b}_{place}": ZERO for b in bases(action) for place in ("origin", "start")}
-    at_rest |= {f"{b.joint.name}_given": ZERO for b in action.tree if b.driven}
-    zeros = [sp.Integer(0)] * len(action.unknowns)
-    design = position(program, f"{name}_design_", action, geometry | at_rest, zeros)
-    rows = named(program, f"{name}_row_design", design.jacobian())
-    return program.define(f"{name}_branch", SignOf(determinant(program, f"{name}_design", rows)))
 
 
 # -- placing --------------------------------------------------------------------------------------

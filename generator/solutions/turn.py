@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from ..conditioning import extent_squared
 from ..placement import OnLine, Placed, PointMotion
 from ..vectors import ZERO, Twist, Vector
 from .arm import Arm, Fit, Reach, fit_rod
@@ -33,7 +34,8 @@ def solve_turn(kin: Kinematics, action: SolveTurn) -> None:
     line = kin.unit(
         f"{action.body}_line_design", kin.design(record.end) - kin.design(record.anchor)
     )
-    arm = Arm.of(kin, action.body, line, base.point, action.end)
+    extent = extent_squared(kin, action)
+    arm = Arm.of(kin, action.body, line, base.point, action.end, extent)
     rod_anchor = kin.point_motion(action.anchor_body, action.anchor)
     reach = _reach(kin, action.body, record, base, arm, rod_anchor)
     fit = fit_rod(kin, action, arm, record.direction, reach)

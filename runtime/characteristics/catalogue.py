@@ -191,12 +191,12 @@ CORNER = (
         wheel.wheelbase_change,
     ),
     Quantity(
-        "arm_angle",
+        "arm_rotation",
         "rad",
-        "arm angle",
+        "arm rotation",
         "rotation of the lower control arm about its hinge from design",
         "positive with the wheel up",
-        lambda corner: corner.arm_angle,
+        lambda corner: corner.arm_rotation,
     ),
 )
 """Where the wheel is and how it stands: over wheel travel and over the rack."""

@@ -156,8 +156,8 @@ class Corner:
     stops : tuple of Spring
         What else pushes by its position.
     damper : Stroke
-    arm_angle : ndarray
-        Angle of the lower link, zero at design, positive with the wheel up [rad].
+    arm_rotation : ndarray
+        Of the lower link, zero at design, positive with the wheel up [rad].
     """
 
     vehicle: Vehicle
@@ -173,4 +173,4 @@ class Corner:
     spring: Spring
     stops: tuple[Spring, ...]
     damper: Stroke
-    arm_angle: Array
+    arm_rotation: Array

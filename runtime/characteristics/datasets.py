@@ -2,11 +2,10 @@
 
 from collections.abc import Iterable
 
-import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from ..errors import InputError
+from ..arguments import Arguments
 from ..model import Model
 from ..positions import arm_angles, design_height
 from ..sweep import usual_rack, usual_travel
@@ -62,13 +61,19 @@ def travel(
 
     Examples
     --------
+    >>> import numpy as np
     >>> curves = travel(Model("reference_car"), [-0.05, 0.05])
     >>> np.rad2deg(curves["camber"].values).round(4).tolist()
     [1.3246, -0.9139]
     >>> curves["motion_ratio"].attrs["definition"]
     'compression of the spring per wheel travel; some programs print the inverse'
     """
-    travels = _row(usual_travel(model, rack=rack_position) if travel is None else travel, "travel")
+    with Arguments("characteristics") as given:
+        given.suspension(model)
+        rack_position = given.number("rack_position", rack_position, "m")
+        if travel is not None:
+            travel = given.array("travel", travel, "m", dimensions=[1])
+    travels = usual_travel(model, rack=rack_position) if travel is None else travel
     angles = arm_angles(model, design_height(model) + travels, rack_position)
     found = corner(model, angles, rack_position)
     data = _evaluated(catalogue.CORNER + catalogue.TRAVEL, found)
@@ -103,11 +108,17 @@ def steering(model: Model, rack: ArrayLike | None = None, *, travel: float = 0.0
 
     Examples
     --------
+    >>> import numpy as np
     >>> curves = steering(Model("reference_car"), [-0.04, 0.04])
     >>> np.rad2deg(curves["steer_left"].values).round(3).tolist()
     [18.174, -17.836]
     """
-    racks = _row(usual_rack(model, travel=travel) if rack is None else rack, "rack")
+    with Arguments("characteristics") as given:
+        given.suspension(model)
+        travel = given.number("travel", travel, "m")
+        if rack is not None:
+            rack = given.array("rack", rack, "m", dimensions=[1])
+    racks = usual_rack(model, travel=travel) if rack is None else rack
     own = _at_height(model, travel, racks)
     other = _at_height(Model(model.suspension.mirrored(), free_rack=model.free_rack), travel, racks)
     data = _evaluated(catalogue.CORNER + catalogue.STEERING, own) | _both_sides(own, other)
@@ -154,14 +165,3 @@ def _dataset(
         for quantity, values in data.items()
     }
     return xr.Dataset(variables, coordinates, {"title": f"characteristics over {over.long_name}"})
-
-
-def _row(given: ArrayLike, name: str) -> Array:
-    values = np.asarray(given, dtype=np.float64)
-    if values.ndim != 1 or values.size == 0:
-        problem = (
-            f"{name} has the shape {values.shape}; a row of one or more numbers is needed, in "
-            "metres. Write [0.0] for one position."
-        )
-        raise InputError([problem], "characteristics")
-    return values

@@ -55,7 +55,7 @@ def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -
         spring=guidance.spring(strokes),
         stops=guidance.stops(strokes),
         damper=guidance.damper(strokes),
-        arm_angle=model.design_state[0] - np.broadcast_to(arm_angle, states.shape[:-1]),
+        arm_rotation=model.design_state[0] - np.broadcast_to(arm_angle, states.shape[:-1]),
     )
 
 

@@ -183,7 +183,7 @@ def wheel_rate(corner: Corner) -> Array:
     By virtual work a spring of force F acts at the wheel as F MR, with MR the motion ratio; both
     change.
     """
-    rate = np.zeros_like(corner.arm_angle)
+    rate = np.zeros_like(corner.arm_rotation)
     for spring in (corner.spring, *corner.stops):
         stroke = spring.stroke
         rate = rate - spring.force_slope * stroke.slope - spring.force * stroke.curvature

@@ -89,6 +89,11 @@ def _rest(found: "Checkup") -> dict[str, str]:
         "wheel-hop mode": f"{_frequency(rest.frequency, USUAL_HOP)}, "
         f"damping ratio {rest.damping_ratio:.3f}",
     }
+    if rest.damping_ratio_with_friction is not None:
+        rows["wheel-hop mode"] += " without friction"
+        rows["below the friction velocity"] = (
+            f"damping ratio {rest.damping_ratio_with_friction:.3f}, with the slope of the friction"
+        )
     if rest.ride_frequency is not None:
         rows["ride frequency"] = _frequency(rest.ride_frequency, USUAL_RIDE)
     return rows

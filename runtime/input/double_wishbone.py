@@ -1,7 +1,7 @@
 """The input data of a double wishbone suspension: hardpoints, spring, damper, bodies."""
 
 from collections.abc import Mapping
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
@@ -9,7 +9,7 @@ from pydantic import Field
 from .bodies import Bodies, Rack, RigidBody, TieRod
 from .hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
 from .section import NonNegative, Number, Positive, Section, Triple
-from .suspension import Suspension
+from .suspension import Allowed, Suspension
 from .units import in_metres
 from .vectors import Vector, unit_vector
 
@@ -97,7 +97,7 @@ class DoubleWishboneHardpoints(Hardpoints):
             if "upper arm" not in bad:
                 problems += self._dead_centre(axis)
             if not bad & {"knuckle", "tie rod"}:
-                problems += self.steering_problems(axis)
+                problems += self.steering_problems()
         return problems
 
     def _upside_down(self) -> list[str]:
@@ -188,6 +188,29 @@ class LinearDamper(Section):
     rate_N_s_per_m: NonNegative = Field(  # noqa: N815 (N is the newton)
         description="rate of the damper"
     )
+    length_min_mm: Positive | None = Field(
+        default=None,
+        description="distance of spring_seat and spring_top with the damper pressed in as far as "
+        "it goes; no position beyond it is returned",
+    )
+    length_max_mm: Positive | None = Field(
+        default=None, description="the same with the damper drawn out as far as it goes"
+    )
+
+    def length_problems(self, at_design: float) -> list[str]:
+        """Say why the damper cannot be as long as it is at the design position [m]."""
+        length = 1e3 * at_design
+        ends = (
+            ("length_min_mm", self.length_min_mm, 1.0, "or more", "Lower"),
+            ("length_max_mm", self.length_max_mm, -1.0, "or less", "Raise"),
+        )
+        return [
+            f"[damper] {key} = {end:g} mm, and at design the damper is {length:.1f} mm long, the "
+            f"distance of spring_seat and spring_top; {end:g} mm {needed} is needed. {change} "
+            f"{key}, or correct these hardpoints."
+            for key, end, sense, needed, change in ends
+            if end is not None and sense * (length - end) < 0.0
+        ]
 
 
 class LowerArm(RigidBody):
@@ -267,3 +290,23 @@ class DoubleWishbone(Suspension):
             "spring_free_length": self.spring.free_length(self.hardpoints.distance(*_SPRING)),
             "damper_rate": self.damper.rate_N_s_per_m,
         }
+
+    def allowed_lengths(self) -> tuple[Allowed, ...]:
+        """Return the least and the greatest length of the damper, where they are given."""
+        ends = (("min", 1.0, "least"), ("max", -1.0, "greatest"))
+        given = ((getattr(self.damper, f"length_{end}_mm"), end, sign, n) for end, sign, n in ends)
+        return tuple(
+            Allowed(
+                "spring_length",
+                sign * in_metres(value, "mm"),
+                f"the damper is at its {name} length, [damper] length_{end}_mm = {value:g} mm",
+            )
+            for value, end, sign, name in given
+            if value is not None
+        )
+
+    @classmethod
+    def further_problems(cls, sections: Mapping[str, Any]) -> list[str]:
+        """Say what is wrong with the damper together with the hardpoints."""
+        damper, points = sections.get("damper"), sections["hardpoints"]
+        return [] if damper is None else damper.length_problems(points.distance(*_SPRING))

@@ -216,25 +216,30 @@ class Hardpoints(Section):
         )
         return [problem]
 
-    def steering_problems(self, direction: Vector) -> list[str]:
-        """Check that the tie rod can turn the knuckle.
-
-        Parameters
-        ----------
-        direction : numpy.ndarray
-            Unit vector along the axis about which the knuckle turns.
-        """
+    def steering_problems(self) -> list[str]:
+        """Check that the tie rod can turn the knuckle about the line of two points of it."""
         low, high = self.STEERING_AXIS
+        direction = unit_vector(self.metres(high) - self.metres(low))
         outer, foot = self.metres("tie_rod_outer"), self.metres(low)
         arm = distance_from_line(outer, foot, self.metres(high))
         if arm < SMALLEST_DISTANCE:
             problem = (
-                f"{self.text('tie_rod_outer')} lies {1000 * arm:.3f} mm from the {self.AXIS_NAME} "
+                f"{self.text('tie_rod_outer')} lies {1000 * arm:.3g} mm from the {self.AXIS_NAME} "
                 f"through {low} and {high}; the steering arm must be at least "
                 f"{1000 * SMALLEST_DISTANCE:g} mm long. Move tie_rod_outer off the axis."
             )
             return [problem]
-        rod = unit_vector(self.metres("tie_rod_inner") - outer)
+        inner = self.metres("tie_rod_inner")
+        beside = distance_from_line(inner, foot, self.metres(high))
+        if beside < SMALLEST_DISTANCE:
+            problem = (
+                f"{self.text('tie_rod_inner')} lies {1000 * beside:.3g} mm from the line through "
+                f"{low} and {high}, about which the knuckle turns, so that the tie rod does not "
+                f"hold it; at least {1000 * SMALLEST_DISTANCE:g} mm are needed. Move "
+                "tie_rod_inner off that line."
+            )
+            return [problem]
+        rod = unit_vector(inner - outer)
         lever = abs(float(np.cross(outer - foot, rod) @ direction))
         if lever < SMALLEST_DISTANCE:
             problem = (

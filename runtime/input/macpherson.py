@@ -12,7 +12,7 @@ from .damper import Damper
 from .hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
 from .section import Flag, NonNegative, Number, Triple
 from .strut import Stop, Strut
-from .suspension import Suspension
+from .suspension import Allowed, Suspension
 from .units import in_metres
 from .vectors import Vector, unit_vector
 from .vehicle import Tyre
@@ -117,7 +117,7 @@ class MacPhersonHardpoints(Hardpoints):
         if "control arm" not in coinciding.values():
             problems += self.hinge_problems("arm_front", "arm_rear", "ball_joint")
         if not coinciding.keys() & _DIRECTIONS_OF_STEERING:
-            problems += self.steering_problems(self.strut_axis())
+            problems += self.steering_problems()
             strut, rod = ("strut_top", "strut_lower"), ("tie_rod_inner", "tie_rod_outer")
             problems += self.cross_problems(strut, "strut", _FORWARD, "the x axis")
             problems += self.cross_problems(rod, "tie rod", _UP, "the vertical")
@@ -256,6 +256,14 @@ class MacPherson(Suspension):
             "tyre_lifts_off": float(self.tyre.lifts_off),
         }
 
+    def allowed_lengths(self) -> tuple[Allowed, ...]:
+        """Return the least length of the strut, where it is given."""
+        least = self.strut.length_min_mm
+        if least is None:
+            return ()
+        key = f"the strut is at its least length, [strut] length_min_mm = {least:g} mm"
+        return (Allowed("strut_length", in_metres(least, "mm"), key),)
+
     def beyond_the_paper(self) -> list[str]:
         """Return what this suspension has that the paper's equations leave out.
 
@@ -292,9 +300,24 @@ class MacPherson(Suspension):
         without_curve = "damper" in sections and sections["damper"] is None
         return [
             *_strut_too_long(strut, points),
+            *_strut_too_short(strut, points),
             *strut.spring_problems(own_seats=points.has_spring_seats()),
             *_damper_problems(strut, with_curve=not without_curve),
         ]
+
+
+def _strut_too_short(strut: Strut, hardpoints: MacPhersonHardpoints) -> list[str]:
+    """Refuse a strut that is shorter at design than when it is pressed in as far as it goes."""
+    length = 1000.0 * hardpoints.distance("strut_lower", "strut_top")
+    if strut.length_min_mm is None or strut.length_min_mm <= length:
+        return []
+    limit = math.floor(10.0 * length) / 10.0  # rounded down, so that the printed value is accepted
+    problem = (
+        f"[strut] length_min_mm = {strut.length_min_mm} mm is more than the length at design; "
+        f"allowed is {limit:.1f} mm or less, the distance of the strut's ends. Lower it, or "
+        "correct these hardpoints."
+    )
+    return [problem]
 
 
 def _damper_problems(strut: Strut, *, with_curve: bool) -> list[str]:
@@ -320,6 +343,18 @@ def _strut_too_long(strut: Strut, hardpoints: MacPhersonHardpoints) -> list[str]
     lower = "ball_joint" if hardpoints.strut_lower is None else "strut_lower"
     if strut.length_max_mm >= length:
         return []
+    across = [
+        name
+        for name in (lower, "strut_top")
+        if hardpoints.metres(name)[1] * hardpoints.metres("wheel_center")[1] < 0.0
+    ]
+    if across:
+        problem = (
+            f"{hardpoints.text(across[0], 'wheel_center')} are on different sides of the car. "
+            f"That makes the strut {length:.1f} mm long at design, and [strut] length_max_mm is "
+            f"{strut.length_max_mm} mm. y points left: correct the sign of y."
+        )
+        return [problem]
     limit = math.ceil(10.0 * length) / 10.0  # rounded up, so that the printed value is accepted
     problem = (
         f"[strut] length_max_mm = {strut.length_max_mm} mm is less than the length at design; "

@@ -8,6 +8,7 @@ from typing import Any, get_args
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
+from ..legible import short
 from .section import Range, Section
 from .suggestions import nearest, suggestion
 
@@ -79,7 +80,7 @@ class _Place:
         self.key = str(rest[0]) if rest else ""
         self.title = f"[{'.'.join(sections)}]" if sections else ""
         elements = (f", {_element(model, self.key, part)}" for part in rest[1:])
-        self.name = f"{self.title} {self.key}{''.join(elements)}".strip()
+        self.name = f"{self.title} {short(self.key)}{''.join(elements)}".strip()
         self.unit = model.unit_of_key(self.key, data)
 
     def probably_meant(self) -> tuple[str, ...]:
@@ -140,7 +141,7 @@ def _wrong(place: _Place, detail: ErrorDetails) -> str:
 def _unknown(place: _Place, value: Any) -> str:
     """Say that a key or a section is unknown, and what was probably meant."""
     if isinstance(value, Mapping):
-        subject = f"[{'.'.join([*place.sections, place.key])}] is not a known section."
+        subject = f"[{'.'.join([*place.sections, short(place.key)])}] is not a known section."
     else:
         subject = f"{place.name} is not a known key."
     return f"{subject} {suggestion(place.key, place.model.model_fields)}"

@@ -26,6 +26,11 @@ class Strut(Section):
     length_max_mm: Number = Field(
         description="distance of strut_lower (or else ball_joint) and strut_top, strut extended"
     )
+    length_min_mm: Positive | None = Field(
+        default=None,
+        description="the same distance with the strut pressed in as far as it goes; no position "
+        "beyond it is returned",
+    )
     spring_rate_N_per_m: NonNegative = Field(  # noqa: N815 (N is the newton)
         description="rate of the spring"
     )

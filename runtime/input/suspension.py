@@ -13,12 +13,14 @@ from collections.abc import Mapping
 from importlib import resources
 from importlib.resources.abc import Traversable
 from pathlib import Path
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar, NamedTuple, Self
 
 from pydantic import Field, ValidationError
 
 from .. import data as packaged_data
+from ..arguments import Arguments
 from ..errors import InputError
+from ..files import told
 from .bodies import Bodies
 from .hardpoints import Hardpoints
 from .messages import messages_of, subsection
@@ -41,6 +43,24 @@ _SMALLEST_WHEEL_RADIUS = 0.1
 _SMALLEST_SPIN_AXIS_ANGLE = 1.0
 
 _COMPONENTS = {"x": 0, "y": 1, "z": 2}
+
+
+class Allowed(NamedTuple):
+    """What a length may be, as the file says.
+
+    Attributes
+    ----------
+    signal : str
+        The signal of the equations that is the length.
+    limit : float
+        The least length; the greatest, with a minus sign [m].
+    meaning : str
+        What it means that the length is there.
+    """
+
+    signal: str
+    limit: float
+    meaning: str
 
 
 class Suspension(Section):
@@ -119,6 +139,8 @@ class Suspension(Section):
             If the file cannot be read or no suspension can be like this; it lists everything that
             is wrong.
         """
+        with Arguments(cls.__name__) as given:
+            given.path("path_or_name", path_or_name)
         file = _find(path_or_name)
         # Printing the path inside the package would not help whoever asked for a name.
         return cls.from_dict(read_toml(file), source=str(path_or_name))
@@ -144,6 +166,7 @@ class Suspension(Section):
         InputError
             If no suspension can be like this; it lists everything that is wrong.
         """
+        _check_keys("data", data, source)
         # here, because a kind is made from this class
         from .kinds import kind_of  # noqa: PLC0415
 
@@ -191,6 +214,7 @@ class Suspension(Section):
         >>> stiffer.hardpoints.ball_joint
         (5.0, -710.0, 185.0)
         """
+        _check_keys("changes", changes, "suspension")
         data = self.to_dict()
         source = f"suspension with changed {', '.join(changes)}"
         problems = [problem for place in changes if (problem := _put(data, place, changes[place]))]
@@ -241,6 +265,16 @@ class Suspension(Section):
         _reverse(data["rack"]["axis"], 0)
         _reverse(data["rack"]["axis"], 2)
         return self.from_dict(data, "mirrored suspension")
+
+    def allowed_lengths(self) -> tuple[Allowed, ...]:
+        """Return the lengths that positions must keep, besides closing the loops.
+
+        Returns
+        -------
+        tuple of Allowed
+            Of what can be drawn in or out; empty where the file gives no limit.
+        """
+        return ()
 
     @abstractmethod
     def parameters(self) -> dict[str, float]:
@@ -300,6 +334,13 @@ class Suspension(Section):
         return []
 
 
+def _check_keys(name: str, given: Any, source: str) -> None:
+    """Refuse what is no dict with texts as keys."""
+    with Arguments(source) as checked:
+        for key in checked.mapping(name, given, "keys and values of the input file"):
+            checked.kind(f"key of {name}", key, str, "a text is needed")
+
+
 def _find(path_or_name: str | Path) -> Path | Traversable:
     """Return the packaged file of this name, or else the file at this path."""
     packaged = {
@@ -310,7 +351,9 @@ def _find(path_or_name: str | Path) -> Path | Traversable:
     if isinstance(path_or_name, str) and path_or_name in packaged:
         return packaged[path_or_name]
     path = Path(path_or_name)
-    if not path.exists():
+    with told(path, "cannot be read"):
+        found = path.exists()
+    if not found:
         hint = suggestion(path.name, packaged)
         problem = f"There is no such file. Give the path of a TOML file, or a packaged name. {hint}"
         raise InputError([problem], str(path_or_name))

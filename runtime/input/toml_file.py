@@ -8,6 +8,7 @@ from typing import Any
 
 from ..errors import InputError
 from ..files import reason
+from ..legible import short
 
 _DEEP = "Tables or lists stand in each other too deeply. No key of a suspension does."
 # A key of a hundred parts, in time linear in the length; tomllib's grows with the square of them.
@@ -71,7 +72,7 @@ def _syntax_problem(message: str, text: str) -> str:
     )
     reason = found[1] if found else message
     number = int(found[2]) if found and found[2] else last
-    line = text.split("\n")[number - 1].strip()
+    line = short(text.split("\n")[number - 1].strip())
     return (
         f"Line {number} `{line}` is not valid TOML: {reason}. "
         "Write `key = value`, text in quotes, points as [x, y, z], decimals with a point."

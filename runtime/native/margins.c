@@ -4,9 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* As in the emitted code: what a guarded quantity must be over. */
-#define GUARD_FLOOR 1.0e-24
-
 /*
  * Part of the time that is left, margin over rate, which a step may take. The root of a margin is used
  * up in twice that time: a step takes a quarter of it, see KT_LEFT.
@@ -48,7 +45,7 @@ void kt_close_margins(kt_margins *m) { free(m->before); }
 int kt_crossed(const kt_margins *m, const double *values)
 {
     for (int i = 0; i < m->count; ++i) {
-        if ((m->meaning[i] & KT_ACTS) && !(values[i] > GUARD_FLOOR)) {
+        if ((m->meaning[i] & KT_ACTS) && !(values[i] > 0.0)) {
             return i;
         }
     }

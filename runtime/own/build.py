@@ -6,6 +6,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Literal
 
+from ..arguments import Arguments
 from ..errors import InputError
 from ..input.suggestions import suggestion
 from ..optional import require
@@ -82,6 +83,11 @@ def compile_mechanism(
     >>> four_bar.MOBILITY, list(four_bar.STATE)
     (1, ['crank_angle', 'crank_angle_rate'])
     """
+    with Arguments("compile") as given:
+        given.among("backend", backend, ("auto", "c", "numpy"))
+        given.function("progress", progress)
+        if folder is not None:
+            given.path("folder", folder)
     require_generator()
     from ..generator.outputs import generate
 

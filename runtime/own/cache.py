@@ -4,6 +4,7 @@ The folder of one has a manifest with size and digest of each of its files. What
 with it, so that a file that was cut off, changed or lost is found before any of it runs.
 """
 
+import errno
 import hashlib
 import json
 import platform
@@ -88,8 +89,15 @@ def seal(folder: Path, name: str) -> None:
 
 
 def _described(path: Path) -> list[Any]:
-    content = path.read_bytes()
+    content = _content(path)
     return [len(content), hashlib.sha256(content).hexdigest()]
+
+
+def _content(path: Path) -> bytes:
+    """Return the bytes of a file; a pipe would keep whoever reads it waiting."""
+    if path.exists() and not path.is_file():
+        raise OSError(errno.EINVAL, "no ordinary file")
+    return path.read_bytes()
 
 
 def damage(folder: Path) -> str:
@@ -106,9 +114,11 @@ def damage(folder: Path) -> str:
         Empty if all files are as they were when it was sealed; other files do not matter.
     """
     try:
-        manifest = json.loads((folder / _MANIFEST).read_bytes())
+        manifest = json.loads(_content(folder / _MANIFEST))
         listed = [(str(n), int(size), digest) for n, (size, digest) in manifest["files"].items()]
         sealed = manifest["folder"]
+        if any("\0" in name or Path(name).name != name for name, *_ in listed):
+            return f"{_MANIFEST} names other folders"
     except FileNotFoundError:
         return f"{_MANIFEST} is missing"
     except (OSError, ValueError, TypeError, KeyError, AttributeError, RecursionError):
@@ -120,11 +130,10 @@ def damage(folder: Path) -> str:
 
 def _changed(folder: Path, name: str, size: int, digest: str) -> str:
     """Say how a file differs from what it was; empty if it does not."""
-    path = folder / name
     try:
-        if not path.is_file():  # a pipe would keep whoever reads it waiting
-            return f"{name} is missing"
-        found = _described(path)
+        found = _described(folder / name)
+    except FileNotFoundError:
+        return f"{name} is missing"
     except OSError as error:
         return f"{name} cannot be read ({error.strerror})"
     if found[0] != size:

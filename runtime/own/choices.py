@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING
 
+from ..arguments import Arguments
 from .build import require_generator
 from .declaration import given_by, telling
 
@@ -59,6 +60,9 @@ def proposals(
     >>> next(kintrafo.proposals(SLIDER_CRANK))
     Proposal(independent=('A',), iterates=False)
     """
+    with Arguments("proposals") as given:
+        if seconds is not None:
+            seconds = given.step("seconds", seconds, "s")
     require_generator()
     return _tried(given_by(declared, name), seconds)
 

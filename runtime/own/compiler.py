@@ -99,18 +99,31 @@ def find_compiler() -> Compiler | None:
     Raises
     ------
     CompilerError
-        If ``CC`` names a program that there is not.
+        If ``CC`` names a program that there is not, or one of the variables has a quotation mark
+        that nothing closes.
     """
-    named = os.environ.get("CC")
-    for candidate in [named] if named else [sysconfig.get_config_var("CC"), "cc", "gcc", "clang"]:
-        words = shlex.split(candidate or "")
+    named, more = _words_of("CC"), _words_of("CFLAGS")
+    built_by = (sysconfig.get_config_var("CC") or "").split()
+    for words in [named] if named else [built_by, ["cc"], ["gcc"], ["clang"]]:
         if words and shutil.which(words[0]):
-            options = (*words[1:], *FLAGS, *shlex.split(os.environ.get("CFLAGS", "")))
+            options = (*words[1:], *FLAGS, *more)
             return Compiler((words[0], *options), _version(words[0]))
     if named:
-        message = f"CC = {named}: there is no such program. Name a C compiler, or unset CC."
+        message = (
+            f"CC = {shlex.join(named)}: there is no such program. Name a C compiler, or unset CC."
+        )
         raise CompilerError(message)
     return None
+
+
+def _words_of(variable: str) -> list[str]:
+    """Return what an environment variable says, word by word."""
+    text = os.environ.get(variable, "")
+    try:
+        return shlex.split(text)
+    except ValueError as error:  # "No closing quotation", "No escaped character"
+        problem = f"{variable} = {text}: {str(error).lower()}. Close the quotation, or unset it."
+        raise CompilerError(problem) from error
 
 
 def _version(program: str) -> str:

@@ -8,7 +8,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
+from ..arguments import Arguments, shown
 from ..errors import InputError, KintrafoError
+from ..files import told
 from ..input.suggestions import suggestion
 
 if TYPE_CHECKING:
@@ -29,7 +31,7 @@ def telling(model: "Model | None" = None) -> Iterator[None]:
         What is being derived: where a loop does not close, the error names other choices of
         independent coordinates.
     """
-    from ..generator.checks import DeclarationError
+    from ..generator.declared import DeclarationError
     from ..generator.proposal import advice
     from ..generator.topology import TopologyError
     from ..generator.transformer import NoClosedFormError
@@ -88,6 +90,9 @@ def given_by(declared: "Model | Mechanism | str | Path", name: str | None) -> "M
     """
     from ..generator.mechanism import Mechanism, Model
 
+    with Arguments("compile") as checked:
+        if name is not None:
+            checked.kind("name", name, str, "the name of a model or a mechanism is needed")
     given: Any = declared
     if isinstance(declared, str | Path):
         with telling():
@@ -96,17 +101,18 @@ def given_by(declared: "Model | Mechanism | str | Path", name: str | None) -> "M
         return given
     problem = (
         "a Model, a Mechanism (kintrafo.generator.mechanism) or the path of a Python file with one "
-        f"is needed, not {type(declared).__name__}."
+        f"is needed, not {shown(declared)}."
     )
     raise InputError([problem], "compile")
 
 
 def _run(path: Path) -> ModuleType:
     """Run a file and return what it defines."""
-    from ..generator.checks import DeclarationError
+    from ..generator.declared import DeclarationError
 
     try:
-        source = path.read_text(encoding="utf-8")
+        with told(path, "cannot be read"):
+            source = path.read_text(encoding="utf-8")
     except UnicodeDecodeError as error:
         problem = f"is no text in UTF-8 (byte {error.start}). Give a Python file."
         raise InputError([problem], str(path)) from error
@@ -125,7 +131,7 @@ def _run(path: Path) -> ModuleType:
         )
         raise InputError([problem], str(path)) from error
     except DeclarationError as error:
-        problems = [f"{_line(error, path)}{problem}" for problem in error.problems]
+        problems = [f"{_line(error, path)}{error.name}: {problem}" for problem in error.problems]
         raise InputError(problems, str(path)) from error
     except Exception as error:
         raise InputError([_where(error, path)], str(path)) from error

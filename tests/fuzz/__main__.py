@@ -6,10 +6,10 @@ import argparse
 import sys
 from pathlib import Path
 
+from benchmarks.report import fill_page
+
 from .attempts import names
 from .campaign import Campaign, campaign, table
-
-_MARKS = "<!-- fuzz: table -->\n", "<!-- fuzz: end -->\n"
 
 
 def _progress(found: Campaign) -> None:
@@ -37,14 +37,8 @@ def main() -> int:
     print()
     print(table(campaigns))
     if options.page:
-        _write(options.page, table(campaigns))
+        fill_page(options.page, {"fuzz": table(campaigns)})
     return int(any(found.defects for found in campaigns))
-
-
-def _write(page: Path, text: str) -> None:
-    before, rest = page.read_text(encoding="utf-8").split(_MARKS[0])
-    after = rest.split(_MARKS[1])[1]
-    page.write_text(f"{before}{_MARKS[0]}\n{text}\n\n{_MARKS[1]}{after}", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
+from tempfile import TemporaryFile
 from typing import TYPE_CHECKING
+
+from benchmarks.report import count as count_of
+from benchmarks.report import markdown_table
 
 from .attempts import DEFECTS, OUTCOMES, Tried, door
 
@@ -16,6 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
 _TESTS = Path(__file__).parents[1]
+_PATH = os.pathsep.join([str(_TESTS), str(_TESTS.parent)])
 
 
 @dataclass
@@ -76,20 +82,22 @@ def campaign(
 def _worked(name: str, first: int, count: int) -> Iterator[Tried]:
     """Yield what one process tells, and at the end what the seed that ended it came to."""
     command = [sys.executable, "-m", "fuzz.worker", name, str(first), str(count)]
-    with subprocess.Popen(
-        command, cwd=_TESTS, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE, text=True,
-    ) as process:  # fmt: skip
-        seed = first
-        assert process.stdout is not None
-        assert process.stderr is not None
-        for line in process.stdout:
+    environment = os.environ | {"PYTHONPATH": _PATH}
+    seed, plain = first, {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "text": True}
+    # a file, since a pipe that nobody reads from would fill up
+    with (
+        TemporaryFile("w+", encoding="utf-8", errors="replace") as complaints,
+        subprocess.Popen(command, env=environment, stderr=complaints, **plain) as process,
+    ):
+        for line in process.stdout or ():
             one = Tried(**json.loads(line))
             seed = one.seed + 1
             yield one
-        last_words = process.stderr.read().strip()
+        process.wait()
+        complaints.seek(0)
+        last_words = complaints.read().strip()
     if seed < first + count:
-        hung = last_words.startswith("Timeout")
+        hung = "Timeout (" in last_words
         yield Tried(
             seed, "hung" if hung else "raw", f"exit code {process.returncode}: {last_words[-2000:]}"
         )
@@ -97,20 +105,12 @@ def _worked(name: str, first: int, count: int) -> Iterator[Tried]:
 
 def table(campaigns: list[Campaign]) -> str:
     """Return a table in Markdown: a row for each door."""
-    head = ["door", "what is tried", "attempts", *OUTCOMES]
     rows = [
-        [c.name, c.what, f"{c.counts.total():,}", *(f"{c.counts[o]:,}" for o in OUTCOMES)]
+        [
+            f"`{c.name}`: {c.what}",
+            count_of(c.counts.total()),
+            *(count_of(c.counts[outcome]) for outcome in OUTCOMES),
+        ]
         for c in campaigns
     ]
-    widths = [max(len(row[i]) for row in [head, *rows]) for i in range(len(head))]
-    right = range(2, len(head))
-
-    def line(cells: list[str]) -> str:
-        padded = [
-            cell.rjust(width) if i in right else cell.ljust(width)
-            for i, (cell, width) in enumerate(zip(cells, widths, strict=True))
-        ]
-        return f"| {' | '.join(padded)} |"
-
-    rule = [("-" * (w - 1) + ":") if i in right else "-" * w for i, w in enumerate(widths)]
-    return "\n".join([line(head), line(rule), *map(line, rows)])
+    return markdown_table(["door, and what is tried", "attempts", *OUTCOMES], rows)

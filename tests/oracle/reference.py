@@ -367,6 +367,9 @@ def perturbed_parameters(rng: np.random.Generator, scale: float = 0.02) -> Param
         )
     for name in ("spring_rate", "damper_rate", "tyre_rate", "wheel_mass", "wheel_inertia_spin"):
         parameters[name] *= rng.uniform(0.8, 1.2)
+    # a wheel is no thinner than a disc
+    spin = parameters["wheel_inertia_spin"]
+    parameters["wheel_inertia_diametral"] = max(parameters["wheel_inertia_diametral"], 0.5 * spin)
     return parameters
 
 

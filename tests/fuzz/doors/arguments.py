@@ -1,0 +1,196 @@
+"""Arguments of every public function: wrong types, shapes, NaN, infinity, names that are none.
+
+One or two arguments of a call that is right are replaced. What comes back must be finite, or a
+refusal that names an argument, a value or what is out of reach.
+"""
+
+import warnings
+from decimal import Decimal
+from fractions import Fraction
+from pathlib import Path
+
+import kintrafo
+import numpy as np
+import xarray as xr
+from kintrafo import (
+    characteristics,
+    checkup,
+    compare,
+    excitation,
+    export,
+    measurement,
+    plots,
+    roads,
+    scenario,
+    sweep,
+)
+from kintrafo.generated import four_bar
+from kintrafo.hardpoints import hardpoints
+from kintrafo.positions import design_height
+from kintrafo.recording import dataset_of, statistics
+
+from ..attempts import RawError, WrongError
+
+SHORT = 60
+_CAR = kintrafo.Model("reference_car")
+_SYSTEM = kintrafo.System(four_bar)
+_REST = kintrafo.equilibrium(_CAR)
+_LINEAR = kintrafo.linearise(_CAR, _REST)
+_RESULT = kintrafo.simulate(_CAR, (0.0, 0.01), _REST)
+
+NASTY = [
+    None, True, False, "", "reference_car", "nan", b"x", 0, -1, 1, 10**400, 0.0, -0.3, 1e-320,
+    1e308, np.nan, np.inf, -np.inf, 1j, Decimal("0.1"), Fraction(1, 3), np.float32(0.01),
+    np.int64(3), [], [1.0], [np.nan], [[0.0, 0.01]], [None], ["a"],
+    [[1.0], [1.0, 2.0]], (0.0, 0.1), (1.0, 1.0),
+    (0.1, 0.0, 0.2), np.zeros((0, 4)), np.zeros(4), np.ones((2, 3)), np.array("x"),
+    {}, {"a": 1.0}, {"road_height": np.nan}, {"road_height": "0.01"}, {1: 2}, set(), object(), _CAR,
+    _SYSTEM, kintrafo.Model, four_bar, np, len, lambda: 0.0, lambda *_: np.nan,
+    Path("/missing.toml"), "camber", "BDF", slice(3), range(3), iter([1.0]), xr.Dataset(),
+]  # fmt: skip
+
+_SPAN = (0.0, 0.01)
+CALLS = {
+    "Model": (kintrafo.Model, {"suspension": "reference_car", "free_rack": False}),
+    "System": (kintrafo.System, {"equations": four_bar, "parameters": {"crank_mass": 2.0}}),
+    "System.state": (_CAR.state, {"beta1": 1.7, "beta5_rate": 3.0}),
+    "System.inputs": (_CAR.inputs, {"values": {"road_height": 0.01}}),
+    "System.evaluate": (_CAR.evaluate, {"function": "rhs", "state": _REST, "inputs": None}),
+    "System.signals": (_CAR.signals, {"state": _REST, "inputs": None}),
+    "System.signal": (_CAR.signal, {"name": "camber", "state": _REST, "inputs": None}),
+    "System.eigenvalues": (_CAR.eigenvalues, {"state": _REST, "inputs": None}),
+    "simulate": (
+        kintrafo.simulate,
+        {
+            "model": _CAR, "t_span": _SPAN, "y0": _REST, "inputs": {"road_height": 0.01},
+            "method": "BDF", "t_eval": None, "rtol": 1e-6, "atol": 1e-9, "max_step": np.inf,
+            "first_step": None, "max_steps": 10_000, "dense_output": False, "events": None,
+            "stop_at_outputs": False, "backend": "auto",
+        },
+    ),
+    "SignalEvent": (
+        lambda **given: kintrafo.simulate(
+            _CAR, _SPAN, _REST, events=kintrafo.SignalEvent(**given)
+        ),
+        {"signal": "camber", "level": 0.0, "direction": 0.0, "terminal": False},
+    ),
+    "equilibrium": (
+        kintrafo.equilibrium,
+        {
+            "model": _CAR, "rack_position": 0.0, "road_height": 0.0, "wheel_load": None,
+            "strut_force": 0.0, "spin_rate": 0.0,
+        },
+    ),
+    "state_at_height": (
+        kintrafo.state_at_height,
+        {"model": _CAR, "height": 0.3, "rack_position": 0.0, "spin_rate": 0.0},
+    ),
+    "arm_angles": (kintrafo.arm_angles, {"model": _CAR, "height": 0.3, "rack_position": 0.0}),
+    "travel_range": (kintrafo.travel_range, {"model": _CAR, "rack_position": 0.0}),
+    "design_height": (design_height, {"model": _CAR}),
+    "road_under_load": (
+        kintrafo.road_under_load, {"model": _CAR, "wheel_load": 3e3, "state": _REST, "inputs": None}
+    ),
+    "hardpoints": (hardpoints, {"model": _CAR, "state": _REST, "inputs": None}),
+    "linearise": (
+        kintrafo.linearise, {"model": _CAR, "state": _REST, "inputs": None, "outputs": ["camber"]}
+    ),
+    "frequency_response": (
+        _LINEAR.frequency_response, {"frequency": [1.0, 2.0], "source": "road_height"}
+    ),
+    "sweep.positions": (sweep.positions, {"model": _CAR, "travel": [0.0], "rack": 0.0}),
+    "sweep.grid": (sweep.grid, {"lowest": -0.01, "highest": 0.01, "step": 0.01}),
+    "sweep.usual_travel": (
+        sweep.usual_travel,
+        {"model": _CAR, "rebound": 0.01, "bump": None, "step": 0.01, "rack": 0.0},
+    ),
+    "sweep.usual_rack": (
+        sweep.usual_rack, {"model": _CAR, "extent": 0.01, "step": 0.01, "travel": 0.0}
+    ),
+    "characteristics.travel": (
+        characteristics.travel, {"model": _CAR, "travel": [0.0, 0.01], "rack_position": 0.0}
+    ),
+    "characteristics.steering": (
+        characteristics.steering, {"model": _CAR, "rack": [0.0], "travel": 0.0}
+    ),
+    "compare": (
+        compare.compare,
+        {"models": {"a": _CAR, "b": _CAR}, "positions": [0.0], "over": "travel", "progress": None},
+    ),
+    "common_positions": (compare.common_positions, {"models": {"a": _CAR}, "over": "travel"}),
+    "checkup": (checkup.checkup, {"model": _CAR}),
+    "roads.step": (roads.step, {"height": 0.01, "at": 0.1, "end": 1.0}),
+    "roads.sine": (roads.sine, {"amplitude": 0.01, "frequency": 1.0, "end": 1.0}),
+    "Course": (
+        lambda end, **given: excitation.Course(**given).signal(end),
+        {"held": None, "step": 0.01, "step_at": 0.1, "sine": None, "frequency": 1.0, "end": 1.0},
+    ),
+    "excitation": (
+        excitation.excitation,
+        {"courses": {"road_height": excitation.Course(held=0.01)}, "end": 1.0, "measured": None},
+    ),
+    "measured": (measurement.measured, {"path": "missing.csv", "speed": None}),
+    "Scenario": (
+        lambda **given: scenario.play(_CAR, scenario.Scenario(**given)),
+        {"duration": 0.01, "output_step": 1e-3, "height": None, "spin_rate": 0.0, "inputs": {}},
+    ),
+    "play": (scenario.play, {"model": _CAR, "scenario": scenario.Scenario(0.01)}),
+    "Samples": (
+        lambda **given: kintrafo.simulate(
+            _CAR, _SPAN, _REST, inputs={"road_height": kintrafo.Samples(**given)}
+        ),
+        {"times": [0.0, 1.0], "values": [0.0, 0.01], "between": "monotone"},
+    ),
+    "dataset_of": (dataset_of, {"model": _CAR, "result": _RESULT}),
+    "statistics": (statistics, {"dataset": dataset_of(_CAR, _RESULT)}),
+    "export.as_dict": (export.as_dict, {"dataset": dataset_of(_CAR, _RESULT)}),
+    "export.check_format": (export.check_format, {"path": "a.csv"}),
+    "plots.check_formats": (plots.check_formats, {"paths": ["a.png"], "formats": ["svg"]}),
+    "plots.grouped": (plots.grouped, {"dataset": dataset_of(_CAR, _RESULT)}),
+    "compile": (kintrafo.compile, {"declared": "/missing.py", "name": None, "backend": "numpy"}),
+    "proposals": (
+        lambda **given: next(kintrafo.proposals(**given)),
+        {"declared": "/missing.py", "name": None, "seconds": 1.0},
+    ),
+    "Suspension.load": (kintrafo.Suspension.load, {"path_or_name": "reference_car"}),
+    "Suspension.from_dict": (kintrafo.Suspension.from_dict, {"data": {}}),
+    "Suspension.with_changes": (_CAR.suspension.with_changes, {"changes": {}}),
+}  # fmt: skip
+
+
+def attempt(random):
+    name = str(random.choice(list(CALLS)))
+    function, right = CALLS[name]
+    given = dict(right)
+    for wrong in random.choice(list(given), random.integers(1, 1 + min(2, len(given)))):
+        given[str(wrong)] = NASTY[random.integers(len(NASTY))]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", RuntimeWarning)
+        try:
+            found = function(**given)
+        except kintrafo.KintrafoError as error:
+            _check_words(name, str(error))
+            raise
+        except Exception as error:
+            told = {key: value for key, value in given.items() if value is not right[key]}
+            error.add_note(f"{name}: {told}")
+            raise RawError(f"{name}({told}): {type(error).__name__}: {error}") from error
+    _check_finite(name, found)
+
+
+def _check_words(name, text):
+    """Refuse the words of the library below, or none."""
+    for foreign in ("Traceback", "NoneType", "object has no attribute", "could not convert"):
+        if foreign in text:
+            raise RawError(f"{name}: {text}")
+    if len(text) < 20:
+        raise RawError(f"{name}: {text}")
+
+
+def _check_finite(name, found):
+    arrays = found if isinstance(found, tuple | list) else [found]
+    if name == "simulate":
+        arrays = [found.y, found.inputs]
+    for array in arrays:
+        if isinstance(array, np.ndarray | float) and not np.isfinite(array).all():
+            raise WrongError(f"{name}: a result that is not finite")

@@ -1,0 +1,227 @@
+"""Commands with random arguments and names of files that are hard to handle."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import os
+import sys
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING
+from unittest import mock
+
+from kintrafo import cli
+from kintrafo.starter import packaged
+
+from ..attempts import RawError, WrongError
+from .chrono import DATA
+from .toml import TEXTS
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from numpy.random import Generator
+
+
+class RefusedError(Exception):
+    """The command ended with a message and an exit code of its own."""
+
+
+SHORT = 12
+SECONDS = 60.0  # a report of a machine with something else to do
+STEMS = (
+    "a", "$^$", "two words", "two\nlines", "-o", "--help", os.fsdecode(b"caf\xe9"), "[red]x[",
+    "=1+1", "日本", "\x1b[2J", "x" * 240, "x" * 300, "%s{0}",
+    "..", "\u202etxt", "'", '"', "~", "CON", " ",
+)  # fmt: skip
+ENDINGS = (
+    ".toml", ".toml", ".csv", ".nc", ".parquet", ".html", ".json", ".pdf", ".png", ".svg", ".py",
+    "", ".",
+)  # fmt: skip
+PLACES = ("", "", "", "", "sub/", "missing/", "file/", "link/", "circle/", "/proc/", "../")
+NUMBERS = (
+    "0",
+    "1",
+    "-1",
+    "20",
+    "60",
+    "1e-9",
+    "1e9",
+    "1e400",
+    "nan",
+    "inf",
+    "x",
+    "",
+    "0.001",
+    "7,5",
+)
+FLAGS = ("--json", "--force", "--force")
+COARSE = ("--step", "40")
+OPTIONS = {
+    "new": ("--suspension", "--template"),
+    "import-chrono": ("--tire", "--side"),
+    "schema": (),
+    "check": ("--json",),
+    "topology": ("--free-rack", "--json"),
+    "kinematics": ("-o", "--plot", "--over", "--bump", "--rebound", "--travel", "--rack", "--step"),
+    "characteristics": ("-o", "--bump", "--rebound", "--travel", "--rack", "--rack-extent"),
+    "simulate": ("-o", "--road-step", "--road-sine", "--road-frequency", "--measured", "--speed",
+                 "--rack", "--rack-sine", "--height", "--spin", "--output-step", "--method",
+                 "--rtol", "--atol", "--road-step-at"),
+    "compare": ("-o", "--over"),
+    "report": ("--title",),
+    "paper": ("--data",),
+    "generate": ("--to", "--model", "--numpy"),
+}  # fmt: skip
+WORDS = {
+    "--suspension": ("macpherson", "double_wishbone", "x"),
+    "--template": (*packaged(), "x"),
+    "--side": ("left", "right", "x"),
+    "--over": ("travel", "rack", "both", "x"),
+    "--method": ("BDF", "Adams", "Verner", "Radau", "RK45", "x", ""),
+    "--model": ("four_bar", "x"),
+}
+PATHS = ("-o", "--plot", "--to", "--data", "--tire", "--measured", "--title")
+CLEAR = (RefusedError,)
+MECHANISM = "from kintrafo.generator.mechanisms.four_bar import FOUR_BAR\n"
+
+
+def attempt(random: Generator) -> None:
+    """Run one command in a folder of files that are somebody's, and look at what is left."""
+    with tempfile.TemporaryDirectory() as name, _in(Path(name, "work")) as folder:
+        named = _files(random, folder)
+        arguments = _arguments(random, named)
+        before = _contents(folder)
+        code, out, err = run(arguments)
+        after = _contents(folder)
+    told = f"{arguments!r}: code {code}, {err[-600:]!r}"
+    if code not in (0, 1, 2, 3):
+        raise RawError(told)
+    if "Traceback" in out + err or (code and not (out + err).strip()):
+        raise RawError(told)
+    if "--force" not in arguments:
+        lost = [path for path in before if after.get(path) != before[path]]
+        if lost:
+            raise WrongError(f"{told}: changed {lost}")
+    elif any(after.get(path) != before[path] for path in before if path.endswith(".py")):
+        raise WrongError(f"{told}: a source was changed by force")
+    if any(".kintrafo-" in path for path in after):
+        raise WrongError(f"{told}: left {sorted(after.keys() - before.keys())}")
+    if code:
+        raise RefusedError(told)
+
+
+@contextlib.contextmanager
+def _in(folder: Path) -> Iterator[Path]:
+    folder.mkdir()
+    here = Path.cwd()
+    os.chdir(folder)
+    try:
+        with mock.patch.dict(os.environ, {"KINTRAFO_CACHE": str(folder.parent / "cache")}):
+            yield folder
+    finally:
+        os.chdir(here)
+
+
+def _files(random: Generator, folder: Path) -> list[str]:
+    """Fill the folder; return names, of which some are there."""
+    (folder / "sub").mkdir()
+    (folder / "file").write_text("mine")
+    (folder / "link").symlink_to("sub")
+    (folder / "circle").symlink_to("circle")
+    names = [
+        str(random.choice(PLACES))
+        + STEMS[random.integers(len(STEMS))]
+        + str(random.choice(ENDINGS))
+        for _ in range(5)
+    ]
+    for name in names[:3]:
+        # RuntimeError: pathlib's, of links that lead in a circle
+        with contextlib.suppress(OSError, RuntimeError):
+            path = folder / name
+            if path.exists() or folder not in path.resolve().parents:
+                continue
+            path.write_bytes(_content(random, path.suffix))
+    return names
+
+
+def _content(random: Generator, ending: str) -> bytes:
+    if ending == ".py":
+        return MECHANISM.encode()
+    if ending == ".json":
+        return (DATA / "MacPhersonStrut.json").read_bytes()
+    if ending == ".csv" and random.random() < 0.5:
+        return b"time_s,road_height_mm\n0,0\n0.1,5\n"
+    return TEXTS[random.integers(len(TEXTS))]
+
+
+def _arguments(random: Generator, names: list[str]) -> list[str]:
+    command = str(random.choice(list(OPTIONS), p=_WEIGHTS))
+    arguments = [command]
+    for _ in range(random.choice([0, 1, 1, 1, 1, 2, 2])):
+        known = str(random.choice(packaged()))
+        arguments.append(known if random.random() < 0.4 else names[random.integers(len(names))])
+    options = OPTIONS[command]
+    for _ in range(random.integers(0, 4)):
+        if options:
+            option = options[random.integers(len(options))]
+            arguments += [option, *_value(random, option, names)]
+    if command in ("kinematics", "characteristics") and "--step" not in arguments:
+        arguments += COARSE
+    if command == "simulate":
+        arguments += ["--duration", "0.02"]
+    if random.random() < 0.4:
+        arguments.append(FLAGS[random.integers(len(FLAGS))])
+    return arguments
+
+
+_COSTLY = {
+    "report": 0.02,
+    "paper": 0.01,
+    "generate": 0.03,
+    "compare": 0.05,
+    "characteristics": 0.05,
+}
+_WEIGHTS = [
+    _COSTLY.get(name, (1.0 - sum(_COSTLY.values())) / (len(OPTIONS) - len(_COSTLY)))
+    for name in OPTIONS
+]
+
+
+def _value(random: Generator, option: str, names: list[str]) -> list[str]:
+    if option in ("--json", "--free-rack", "--numpy"):
+        return []
+    if option in WORDS:
+        return [str(random.choice(WORDS[option]))]
+    if option in PATHS:
+        return [names[random.integers(len(names))]]
+    return [str(random.choice(NUMBERS))]
+
+
+def _contents(folder: Path) -> dict[str, bytes]:
+    return {
+        str(path.relative_to(folder)): path.read_bytes()
+        for path in folder.rglob("*")
+        if path.is_file() and not path.is_symlink()
+    }
+
+
+def run(arguments: list[str]) -> tuple[int, str, str]:
+    """Run a command line in this process; return exit code, stdout and stderr."""
+    streams = [io.TextIOWrapper(io.BytesIO(), encoding="utf-8") for _ in range(2)]
+    code: object = 0
+    with (
+        mock.patch.object(sys, "argv", ["kintrafo", *arguments]),
+        mock.patch.object(sys, "stdout", streams[0]),
+        mock.patch.object(sys, "stderr", streams[1]),
+    ):
+        try:
+            cli.run()
+        except SystemExit as end:
+            code = end.code or 0
+    texts = []
+    for stream in streams:
+        stream.flush()
+        texts.append(stream.buffer.getvalue().decode("utf-8", "replace"))  # type: ignore[attr-defined]
+    return (code if isinstance(code, int) else -1), *texts

@@ -1,0 +1,81 @@
+"""Arguments that cannot be used are told by name, with what would be right."""
+
+import kintrafo
+import numpy as np
+import pytest
+from kintrafo.arguments import Arguments, shown
+from kintrafo.generated import four_bar
+
+CAR = kintrafo.Model("reference_car")
+SYSTEM = kintrafo.System(four_bar)
+REST = kintrafo.equilibrium(CAR)
+SPAN = (0.0, 0.01)
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda: kintrafo.equilibrium(SYSTEM), "a kintrafo.Model of a suspension"),
+        (lambda: kintrafo.simulate("reference_car", SPAN, REST), r"model = 'reference_car'"),
+        (lambda: kintrafo.simulate(kintrafo.Model, SPAN, REST), "a class, not one of its"),
+        (lambda: kintrafo.simulate(CAR, SPAN, REST, rtol=[1e-6]), r"rtol = \[1e-06\]"),
+        (lambda: kintrafo.simulate(CAR, SPAN, REST, max_steps=2.5), "max_steps = 2.5: a whole"),
+        (lambda: kintrafo.simulate(CAR, SPAN, REST, atol=np.inf), "atol = inf"),
+        (lambda: kintrafo.simulate(CAR, SPAN, "x"), "y0 = 'x': numbers"),
+        (lambda: kintrafo.simulate(CAR, 1.0, REST), "t_span = 1.0: two different"),
+        (lambda: kintrafo.simulate(CAR, SPAN, REST, inputs=[1]), r"inputs = \[1\]: a dict"),
+        (
+            lambda: kintrafo.simulate(CAR, SPAN, REST, inputs={"road_height": "0.01"}),
+            "'road_height' = '0.01'",
+        ),
+        (
+            lambda: kintrafo.simulate(
+                CAR, SPAN, REST, events=kintrafo.SignalEvent("camber", np.nan)
+            ),
+            "level of 'camber' = nan",
+        ),
+        (lambda: kintrafo.equilibrium(CAR, spin_rate=np.nan), "spin_rate = nan rad/s"),
+        (lambda: kintrafo.state_at_height(CAR, [0.3]), r"height = \[0.3\] m"),
+        (lambda: kintrafo.state_at_height(CAR, 0.3, spin_rate=np.nan), "spin_rate = nan rad/s"),
+        (lambda: kintrafo.compile("/missing.py"), "No such file.*Check its name"),
+        (lambda: CAR.signal("cambre", REST), "Did you mean camber"),
+        (lambda: CAR.signals(REST[:2]), r"state has the shape \(2,\).*must be 4"),
+        (lambda: CAR.evaluate("rsh", REST), "Did you mean rhs"),
+        (lambda: CAR.signals(np.tile(REST, (2, 1)), np.zeros((3, 5))), "must go together"),
+        (lambda: CAR.state(beta1=True), "'beta1' = True"),
+        (lambda: kintrafo.System(four_bar, {"crank_mass": np.nan}), "'crank_mass' = nan kg"),
+        (lambda: kintrafo.System("four_bar"), "equations = 'four_bar': a module"),
+        (lambda: kintrafo.linearise(CAR, REST, outputs="camber"), "a list of names"),
+        (lambda: kintrafo.Suspension.load(3), "path_or_name = 3"),
+        (lambda: kintrafo.Suspension.from_dict([1]), r"data = \[1\]: a dict"),
+        (lambda: kintrafo.Model("reference_car", free_rack="yes"), "free_rack = 'yes': True"),
+    ],
+)
+def test_a_mistake_is_told(call, words):
+    with pytest.raises(kintrafo.InputError, match=words):
+        call()
+
+
+def test_all_that_is_wrong_is_told_at_once():
+    with pytest.raises(kintrafo.InputError) as caught:
+        kintrafo.equilibrium(SYSTEM, rack_position="0", spin_rate=np.inf, wheel_load=-3.0)
+    assert len(caught.value.problems) == 4
+    assert caught.value.source == "equilibrium"
+
+
+def test_any_number_of_steps():
+    assert kintrafo.simulate(CAR, SPAN, REST, max_steps=np.inf).success
+
+
+def test_numbers_of_other_kinds_are_numbers():
+    from decimal import Decimal
+    from fractions import Fraction
+
+    with Arguments("test") as given:
+        for value in (Decimal("0.5"), Fraction(1, 2), np.float32(0.5), np.array(0.5)):
+            assert given.number("x", value) == 0.5
+        assert given.array("x", [Fraction(1, 2), 1]).tolist() == [0.5, 1.0]
+
+
+def test_what_is_long_is_cut():
+    assert len(shown(list(range(1000)))) < 70

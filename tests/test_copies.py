@@ -1,0 +1,214 @@
+"""A mechanism moves in company as it moves alone.
+
+Beside a copy of it stands its mirror image, in one mechanism with it. Both get the state of the
+original, and so they have its accelerations.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import mpmath
+import numpy as np
+import own_loops
+import own_mechanisms
+import pytest
+import sympy as sp
+from kintrafo.generator.actions import PlaceIdle
+from kintrafo.generator.composition import combined, copy
+from kintrafo.generator.design import _angle, design_coordinates
+from kintrafo.generator.dynamics import Dynamics
+from kintrafo.generator.joints import Revolute
+from kintrafo.generator.mechanism import Model
+from kintrafo.generator.mechanisms import MODELS, chains, multi_link
+from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
+from kintrafo.generator.parts import Parts
+from kintrafo.generator.program import ConstantStage, Function, Program, Step, ancestors
+from kintrafo.generator.solutions import CATALOGUE
+from kintrafo.generator.transformer import Plan
+from symbolic import python
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from kintrafo.generator.iteration import Block
+    from kintrafo.generator.mechanism import Mechanism
+
+DIGITS = 40
+COPIES = "a_", "b_"
+EVERY = {
+    model.name: model
+    for model in (
+        *MODELS,
+        *multi_link.MODELS,
+        *chains.MODELS,
+        n_four_bar(2),
+        *own_mechanisms.MODELS,
+        own_loops.CROSSED_RING,
+        own_loops.BALL_RING,
+        own_loops.BENNETT,
+        own_loops.PLATE_ON_A_SLOT,
+        own_loops.PLATE_ON_A_PIN,
+        own_loops.ROCKERS,
+        own_loops.FIVE_BAR,
+        own_loops.DRIVEN_GUIDE,
+    )
+}
+NOT_MIRRORED = ("rockers",)
+"""It has a direction that is an axis of rotation and one of motion, which a mirror turns apart."""
+
+SAMPLE = (
+    "slider_crank",
+    "four_bar",
+    "macpherson",
+    "excavator_lifting",
+    "cross_at_rocker",
+    "pushed_slider",
+    "pulled_carriage",
+    "lifted_turret",
+    "inverted_crank",
+    "control_arm_multi_link",
+    "plate_on_a_pin",
+)
+"""Mechanisms with every step of the catalogue; all of them are tried by the fuzzer."""
+
+
+@dataclass(frozen=True)
+class Moving:
+    """The accelerations of a model; to derive its other functions takes most of the time."""
+
+    model: Model
+    coordinates: tuple[str, ...]
+    constants: tuple[Step, ...]
+    accelerations: Function
+
+    @classmethod
+    def of(cls, model: Model) -> Moving:
+        """Derive them."""
+        mechanism, plan = model.mechanism, Plan.of(model)
+        driven = [c.name for c in mechanism.coordinates if c.joint in model.independent]
+        stage = ConstantStage(
+            tuple(sp.Symbol(p.name) for p in mechanism.parameters),
+            frozenset([*driven, *(f"{n}_rate" for n in driven), *mechanism.inputs]),
+            derived={sp.Symbol(n): value for n, value in mechanism.derived.items()},
+        )
+        program = Program(stage)
+        kin = Parts(program, plan)
+        found = Dynamics(kin).accelerations
+        results = [stage.insert_derived(found[k]) for k in kin.independent]
+        steps = stage.steps | program.steps
+        needed = ancestors(steps, results)
+        return cls(
+            model,
+            tuple(kin.independent),
+            _derived(mechanism),
+            _function([steps[s] for s in steps if s in needed], results, stage.blocks.values()),
+        )
+
+    def design(self) -> list[mpmath.mpf]:
+        """Return the coordinates at the design position."""
+        steps = design_coordinates(self.model)
+        every = [Step(*step, "") for own in steps.values() for step in own]
+        values = [sp.Symbol(k) if k in steps else sp.Integer(0) for k in self.coordinates]
+        return list(map(mpmath.mpf, python(_function(every, values))(self._given())))
+
+    def given_angles(self) -> dict[str, mpmath.mpf]:
+        """Return the positions at design of prescribed hinges that measure their angle."""
+        found = {}
+        for name, given in self.model.prescribed.items():
+            joint = self.model.mechanism.joint(name)
+            if isinstance(joint, Revolute) and joint.angle_to is not None:
+                steps = [Step(*step, "") for step in _angle(given, joint)]
+                (angle,) = python(_function(steps, [sp.Symbol(given)]))(self._given())
+                found[f"{given}_position"] = mpmath.mpf(angle)
+        return found
+
+    def __call__(self, values: Mapping[str, float]) -> list[mpmath.mpf]:
+        """Return the accelerations at some state and inputs, with the default parameters."""
+        found: list[mpmath.mpf] = python(self.accelerations)(self._given() | dict(values))
+        return found
+
+    def _given(self) -> dict[str, mpmath.mpf]:
+        given = {p.name: mpmath.mpf(p.default) for p in self.model.mechanism.parameters}
+        names = [step.symbol for step in self.constants]
+        found = python(_function(self.constants, names))(given)
+        return given | dict(zip(map(str, names), found, strict=True))
+
+
+def _function(
+    steps: Iterable[Step], results: Iterable[sp.Expr], blocks: Iterable[Block] = ()
+) -> Function:
+    results = tuple(results)
+    labels = tuple(map(str, range(len(results))))
+    return Function(
+        "", "", tuple(steps), results, labels, (len(results),), (), blocks=tuple(blocks)
+    )
+
+
+def _derived(mechanism: Mechanism) -> tuple[Step, ...]:
+    """Return what the names of a copy stand for."""
+    return tuple(Step(sp.Symbol(n), e, "") for n, e in mechanism.derived.items())
+
+
+def in_company(model: Model) -> Model:
+    """Return a copy of a model beside its mirror image."""
+    parts = [
+        copy(model.mechanism, prefix, mirrored=mirrored and model.name not in NOT_MIRRORED)
+        for prefix, mirrored in zip(COPIES, (False, True), strict=True)
+    ]
+
+    def both(names: Iterable[str]) -> tuple[str, ...]:
+        names = tuple(names)
+        return tuple(f"{prefix}{name}" for prefix in COPIES for name in names)
+
+    return Model(
+        name="pair",
+        title="Two of them",
+        mechanism=combined("pair", "Two of them", parts),
+        independent=both(model.independent),
+        prescribed=dict(zip(both(model.prescribed), both(model.prescribed.values()), strict=True)),
+        massive=both(model.massive),
+        allow_iteration=model.allow_iteration,
+    )
+
+
+def check_in_company(model: Model, random: np.random.Generator) -> None:
+    """See that a copy of a model and its image have the accelerations of the original."""
+    one, two = Moving.of(model), Moving.of(in_company(model))
+    with mpmath.workdps(DIGITS):
+        off = 1e-3 * random.standard_normal(len(one.coordinates))
+        rates = random.standard_normal(len(one.coordinates))
+        state = dict(zip(one.coordinates, np.array(one.design()) + off, strict=True))
+        state |= {f"{k}_rate": r for k, r in zip(one.coordinates, rates, strict=True)}
+        inputs = model.mechanism.inputs
+        state |= dict(zip(inputs, 1e-3 * random.standard_normal(len(inputs)), strict=True))
+        state |= one.given_angles()
+        alone = one(state)
+        together = two({f"{prefix}{k}": v for prefix in COPIES for k, v in state.items()})
+    # computed with 40 digits: no rounding is near this bound
+    size = max(map(abs, alone))
+    for found, expected in zip(together, alone * 2, strict=True):
+        assert abs(found - expected) <= 1e-20 * size
+
+
+@pytest.mark.parametrize("name", SAMPLE)
+def test_a_copy_and_an_image_move_as_the_original_does(name: str) -> None:
+    check_in_company(EVERY[name], np.random.default_rng([*name.encode()]))
+
+
+def test_the_sample_has_every_step_of_the_catalogue() -> None:
+    found = {type(action) for name in SAMPLE for action in Plan.of(EVERY[name]).actions}
+    assert found >= CATALOGUE.keys() - {PlaceIdle}  # this one is in no model but test_struts'
+
+
+def test_a_step_does_not_take_the_name_of_a_parameter_of_a_copy() -> None:
+    """It would be replaced by what that name stands for."""
+    height, angle = sp.symbols("rod_end_x angle")
+    stage = ConstantStage(
+        (height,), frozenset(["angle"]), derived={sp.Symbol("a_rod_end_x"): -height}
+    )
+    program = Program(stage)
+    step = program.define("a_rod_end_x", sp.sin(angle))
+    doubled = program.define("doubled", 2 * step)
+    assert program.steps[doubled].expression == 2 * step

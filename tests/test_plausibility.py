@@ -1,0 +1,123 @@
+"""What people get wrong in hardpoint files, one mistake at a time: told, and told as what it is."""
+
+import pytest
+from kintrafo import Model, Suspension
+from kintrafo.checkup import checkup
+from kintrafo.errors import InputError
+from kintrafo.plausibility import plausibility
+from kintrafo.starter import packaged
+
+CARS = {name: Suspension.load(name) for name in packaged()}
+
+
+def changed(name, changes):
+    """Return a car with changes; a section stands for all of its numbers, times a factor."""
+    return CARS[name].with_changes(changes)
+
+
+def with_sign(name, axis, *points):
+    """Return changes that reverse one coordinate of some points."""
+    place = "xyz".index(axis)
+    return {
+        f"hardpoints.{point}.{axis}": -getattr(CARS[name].hardpoints, point)[place]
+        for point in points
+    }
+
+
+def swapped(name, one, other):
+    points = CARS[name].hardpoints
+    return {
+        f"hardpoints.{one}": list(getattr(points, other)),
+        f"hardpoints.{other}": list(getattr(points, one)),
+    }
+
+
+@pytest.mark.parametrize("name", CARS)
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_nothing_is_wrong_with_the_cars_that_come_with_it(name, mirrored):
+    car = CARS[name].mirrored() if mirrored else CARS[name]
+    assert plausibility(car).problems == ()
+
+
+REFERENCE, WISHBONE = "reference_car", "double_wishbone_car"
+LONG = {"strut.length_max_mm": 3000.0}
+MISTAKES = [
+    (REFERENCE, with_sign(REFERENCE, "y", "tie_rod_inner"), "tie_rod_inner", "sign of y"),
+    (REFERENCE, with_sign(REFERENCE, "y", "strut_top") | LONG, "strut_top", "sign of y"),
+    (REFERENCE, with_sign(REFERENCE, "y", "arm_front"), "arm_front", "sign of y"),
+    (REFERENCE, with_sign(REFERENCE, "z", "strut_top") | LONG, "strut_top", "z points up"),
+    (REFERENCE, swapped(REFERENCE, "tie_rod_inner", "tie_rod_outer"), "tie_rod", "swapped"),
+    (REFERENCE, {"rack.axis": [1.0, 0.0, 0.0]}, "[rack] axis", "across the car"),
+    (REFERENCE, {"rack.axis": [0.0, 0.0, 1.0]}, "[rack] axis", "across the car"),
+    (REFERENCE, {"tyre.rate_N_per_m": 200.0}, "[tyre] rate", "N/mm"),
+    (REFERENCE, {"strut.spring_rate_N_per_m": 25.0}, "[strut] spring_rate", "N/mm"),
+    (REFERENCE, {"strut.damper_rate_N_s_per_m": 1.5}, "[strut] damper_rate", "N s/mm"),
+    (REFERENCE, {"bodies.wheel.mass_kg": 22000.0}, "bodies", "grams"),
+    (REFERENCE, {"bodies.knuckle.mass_kg": 15000.0}, "bodies", "grams"),
+    (
+        REFERENCE,
+        {f"bodies.knuckle.inertia_{e}_kg_m2": 1e5 for e in ("xx", "yy", "zz")},
+        "bodies.knuckle",
+        "kg mm^2",
+    ),
+    (
+        REFERENCE,
+        {"bodies.wheel.inertia_spin_kg_m2": 1.1e6, "bodies.wheel.inertia_diametral_kg_m2": 6e5},
+        "bodies.wheel",
+        "kg mm^2",
+    ),
+    (WISHBONE, with_sign(WISHBONE, "y", "tie_rod_inner"), "tie_rod_inner", "sign of y"),
+    (WISHBONE, with_sign(WISHBONE, "y", "spring_top"), "spring_top", "sign of y"),
+    (WISHBONE, swapped(WISHBONE, "tie_rod_inner", "tie_rod_outer"), "tie_rod", "swapped"),
+    (WISHBONE, {"rack.axis": [1.0, 0.0, 0.0]}, "[rack] axis", "across the car"),
+    (WISHBONE, {"tyre.rate_N_per_m": 200.0}, "[tyre] rate", "N/mm"),
+    (WISHBONE, {"spring.rate_N_per_m": 60.0}, "[spring] rate", "N/mm"),
+    (WISHBONE, {"damper.rate_N_s_per_m": 4.0}, "[damper] rate", "N s/mm"),
+]
+
+
+@pytest.mark.parametrize(("name", "changes", "what", "why"), MISTAKES)
+def test_a_mistake_is_a_problem(name, changes, what, why):
+    told = plausibility(changed(name, changes)).problems
+    assert any(what in text and why in text for text in told), told
+
+
+def test_a_strut_on_the_other_side_is_told_by_its_sign():
+    with pytest.raises(InputError, match=r"strut_top = .*different sides.*correct the sign of y"):
+        changed(REFERENCE, with_sign(REFERENCE, "y", "strut_top"))
+
+
+def test_metres_among_millimetres():
+    inner = {"hardpoints.tie_rod_inner": [-0.14, -0.31, 0.28]}
+    assert any("in metres" in text for text in plausibility(changed(REFERENCE, inner)).problems)
+
+
+def test_the_caster_of_a_sign_is_unusual():
+    leaning = changed(REFERENCE, {"hardpoints.strut_top.x": 228.0})
+    assert any("caster" in text and "sign of x" in text for text in plausibility(leaning).notes)
+
+
+def test_a_checkup_tells_it():
+    found = checkup(Model(changed(REFERENCE, with_sign(REFERENCE, "y", "tie_rod_inner"))))
+    assert any("sign of y" in text for text in found.problems)
+
+
+def test_a_joint_on_the_axis_of_steering_is_refused_by_name():
+    on_axis = [-31.999999678024796, -580.0000007297222, 814.9999990761419]
+    with pytest.raises(InputError, match=r"tie_rod_inner = .* lies .* mm from the line through"):
+        changed("offset_strut_car", {"hardpoints.tie_rod_inner": on_axis})
+
+
+# -- friction -------------------------------------------------------------------------------------
+
+
+def test_friction_does_not_overdamp_the_wheel():
+    """Smoothed friction is a damper at rest: what it makes of the ratio is said beside it."""
+    smooth = checkup(Model(CARS[REFERENCE]))
+    rough = checkup(Model(changed(REFERENCE, {"strut.friction_N": 50.0})))
+    assert rough.equilibrium.damping_ratio == pytest.approx(
+        smooth.equilibrium.damping_ratio, rel=1e-9
+    )
+    assert smooth.equilibrium.damping_ratio_with_friction is None
+    assert rough.equilibrium.damping_ratio_with_friction > 1.0
+    assert not any("overdamped" in note for note in rough.notes)
