@@ -373,7 +373,7 @@ def _piece_of(result: Any, steps: int, events: Events, options: Options) -> Piec
         for time, state in zip(result.t_events[index], result.y_events[index], strict=True)
     ]
     counts = {name: int(result[name]) for name in ("nfev", "njev", "nlu")} | {"steps": steps}
-    interpolants = []
+    interpolants: list[tuple[float, float, Callable[[Array], Array]]] = []
     if options.dense_output:
         interpolants = [
             (float(a), float(b), _Transposed(part))

@@ -58,7 +58,7 @@ def watched(
     return made
 
 
-class _Steps(OdeSolver):  # type: ignore[misc]  # SciPy has no types
+class _Steps(OdeSolver):
     """Steps that are limited and taken back; what takes them is the class behind it."""
 
     watch: _Watch
@@ -108,8 +108,8 @@ class _Steps(OdeSolver):  # type: ignore[misc]  # SciPy has no types
     def _bound(self, time: float) -> None:
         self.t_bound = time
         if isinstance(self, LSODA):  # it keeps the time that it must not pass in its workspace
-            integrator = self._lsoda_solver._integrator  # noqa: SLF001 (there is no other way)
-            integrator.rwork[0] = time
+            held: Any = self
+            held._lsoda_solver._integrator.rwork[0] = time  # noqa: SLF001 (no other way)
 
     def _anew(self, time: float, state: Array, step: float) -> None:
         """Begin anew with a shorter step; raise what is being handled if it is too short."""

@@ -34,7 +34,8 @@ def test_all_methods_end_at_the_same_time(method, car, step, time):
     assert "beyond its dead point" in error.reason
     partial = error.partial
     assert not partial.success
-    assert partial.t[-1] == pytest.approx(error.time, abs=1e-6)
+    # the last height is a 100,000th of its greatest, 0.4 m, and is used up at 0.2 m/s or more
+    assert partial.t[-1] == pytest.approx(error.time, abs=2e-5)
     assert all(np.isfinite(values).all() for values in partial.signals.values())
 
 
