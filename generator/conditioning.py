@@ -12,7 +12,7 @@ distances hold with whatever it is. It must only be positive: `ROOT`.
 
 An extent is a constant: the root of the sum of squares of the ways from one joint of a loop to the
 others, at the design position. Far from the origin of the axes in which positions are computed,
-they are rounded to more than u L; a tenth of that distance counts, which leaves 1e-9 in the worst case.
+they are rounded to more than u L; a tenth of that distance counts, which leaves 1e-9 at worst.
 What is constant itself, at the design position, is checked once, by `prepare`.
 """
 
