@@ -346,8 +346,10 @@ class _Run:
 
     def _fail(self, segment: Segment, piece: Piece) -> None:
         time, state = float(piece.t[-1]), piece.y[-1]
-        if piece.outcome == "state" and piece.refused_state is not None:
-            time, state = piece.refused_time, piece.refused_state
+        # what overflows on the way may leave a state that is none
+        refused = piece.refused_state
+        if piece.outcome == "state" and refused is not None and np.isfinite(refused).all():
+            time, state = piece.refused_time, refused
         reason = self._reason(segment, piece, time, state)
         raise SimulationError(reason, time, state, self._assembled(reason))
 
@@ -362,6 +364,9 @@ class _Run:
                     "ends earlier."
                 )
         texts = {
+            # refused, and not at this state: at one that is not finite
+            "state": "the motion overflows double precision. Try another initial state, or smaller "
+            "forces.",
             "too_many_steps": f"more than {options.max_steps} steps. Raise max_steps, or loosen "
             f"rtol = {options.rtol:g}.",
             "too_accurate": f"rtol = {options.rtol:g} and the given atol ask for more accuracy "

@@ -577,7 +577,7 @@ static int end_at(worker *w, int guard, double left)
 static int shorten(worker *w, double step)
 {
     step *= 0.25;
-    if (step < smallest_step(w)) {
+    if (!(step >= smallest_step(w))) { /* nor a NaN */
         return KT_STATE;
     }
     w->result->refused_status = 0;
