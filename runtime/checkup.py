@@ -18,7 +18,16 @@ from .plausibility import USUAL_HOP, plausibility
 from .positions import PositionError, Range, design_height, equilibrium, travel_range
 from .starter import packaged
 
-__all__ = ["USUAL_HOP", "USUAL_RIDE", "Checkup", "Equilibrium", "as_dict", "checkup", "readable"]
+__all__ = [
+    "USUAL_HOP",
+    "USUAL_RIDE",
+    "Checkup",
+    "Equilibrium",
+    "as_dict",
+    "checkup",
+    "readable",
+    "without_friction",
+]
 
 Array = NDArray[np.float64]
 
@@ -150,7 +159,7 @@ def _equilibrium(model: Model) -> Equilibrium:
     state = equilibrium(model)
     signals = {name: float(value) for name, value in model.signals(state).items()}
     mode = paper.rest(model).hop
-    smooth = _without_friction(model)
+    smooth = without_friction(model)
     sliding = mode if smooth is model else paper.rest(smooth).hop
     height = signals["wheel_center_z"]
     return Equilibrium(
@@ -164,11 +173,19 @@ def _equilibrium(model: Model) -> Equilibrium:
     )
 
 
-def _without_friction(model: Model) -> Model:
+def without_friction(model: Model) -> Model:
     """Return the model without friction, the same one if it has none.
 
     Friction is smoothed near rest, so that it has a slope there: a damper of friction over speed,
     many times what the wheel meets in any motion that is seen. At rest it has no force.
+
+    Parameters
+    ----------
+    model : Model
+
+    Returns
+    -------
+    Model
     """
     if not model.parameters.get("strut_friction"):
         return model

@@ -121,3 +121,13 @@ def test_friction_does_not_overdamp_the_wheel():
     assert smooth.equilibrium.damping_ratio_with_friction is None
     assert rough.equilibrium.damping_ratio_with_friction > 1.0
     assert not any("overdamped" in note for note in rough.notes)
+
+
+def test_the_paper_of_a_rough_strut_says_so_too():
+    from kintrafo import paper
+    from kintrafo.cli.paper import _hop
+
+    smooth, rough = Model(CARS[REFERENCE]), Model(changed(REFERENCE, {"strut.friction_N": 50.0}))
+    text = _hop(rough, paper.rest(rough))
+    assert text == f"{paper.rest(smooth).hop.text}, without friction"
+    assert "overdamped" in paper.rest(rough).hop.text
