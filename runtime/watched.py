@@ -14,6 +14,9 @@ from .generated._support import ModelError
 Array = NDArray[np.float64]
 
 _METHODS = {"RK45": RK45, "DOP853": DOP853, "Radau": Radau, "BDF": BDF, "LSODA": LSODA}
+# Part of the whole time: a shorter step gains nothing. Steps grow tenfold at most, so that a first
+# one that is too short takes some tens of them.
+_NO_GAIN, _MOST_IDLE = 1e-20, 1000
 # As in ``native/integrate.c``: parts of the whole time and of the longest step.
 _SMALLEST_OF_TIME, _SMALLEST_OF_STEP = 1e-9, 1e-6
 _NEAR = 1e-3
@@ -67,7 +70,7 @@ class _Steps(OdeSolver):
         self._given, self._end, self._options = fun, t_bound, options
         self._goals = [*self.watch.milestones.tolist(), t_bound]
         super().__init__(fun, t0, y0, t_bound, **options)
-        self._whole, self._longest, self._stuck = abs(t_bound - t0), 0.0, 0
+        self._whole, self._longest, self._stuck, self._idled = abs(t_bound - t0), 0.0, 0, 0
         self._look(_SMALLEST_OF_STEP * self._whole)
 
     def step(self) -> str | None:
@@ -81,6 +84,9 @@ class _Steps(OdeSolver):
             if self.status == "failed":
                 return message
             step = abs(self.t - time)
+            if self._idle(step):
+                self.status = "failed"
+                return "its steps became too small, since the error stays too large"
             lapse = LAPSE * step
             now, gained = self.watch.approach.look(self.t, self.y, lapse)
             guard = self.watch.approach.doubt(now, gained, lapse, step)
@@ -91,6 +97,11 @@ class _Steps(OdeSolver):
             if _SHORTER * step < self._smallest():
                 raise DeadPoint(guard, time, state)
             self._anew(time, state, step)
+
+    def _idle(self, step: float) -> bool:
+        """Tell whether step after step gains nothing: near time zero nothing else ends them."""
+        self._idled = self._idled + 1 if step < _NO_GAIN * self._whole else 0
+        return self._idled > _MOST_IDLE
 
     def _limited(self) -> str | None:
         """Take a step that is no longer than what is trusted."""

@@ -451,6 +451,12 @@ def test_an_explanation_where_the_steps_become_too_small():
         simulate(MODEL, (0, 1), START, inputs={"strut_force": 1e300})
 
 
+def test_steps_that_gain_nothing_end():
+    """1e100 N: steps of 1e-50 s, for ever, where a clock at zero can still tell them apart."""
+    with pytest.raises(SimulationError, match="too small"):
+        simulate(MODEL, (0, 1), START, inputs={"strut_force": 1e100}, method="RK45")
+
+
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_backward_in_time(backend):
     there = simulate(MODEL, (0, 0.05), START, rtol=1e-10, atol=1e-12, backend=backend)
