@@ -38,7 +38,7 @@ OLDER := GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX,-AVX2,-FMA,-FMA4 OPENBLAS_CORETYPE
 test-elsewhere: build ## Run the tests of numbers as another processor would compute
 	@$(OLDER) $(PYTHON) -m pytest -q -n 2 --dist worksteal -m "not browser"
 
-fuzz: build ## Try every door for long; a table of what came of it (ARGS="--attempts 10000")
+fuzz: build ## Try every door for long; a table of what came of it (ARGS="--rounds 100")
 	@PYTHONPATH=tests $(PYTHON) -m fuzz $(ARGS)
 
 lint: .venv/.ready ## Check style

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from benchmarks.report import fill_page
 
-from .attempts import names
+from .attempts import door, names, setting
 from .campaign import Campaign, campaign, table
 
 
@@ -23,13 +23,15 @@ def main() -> int:
     """Run the command."""
     parser = argparse.ArgumentParser(prog="fuzz", description=__doc__)
     parser.add_argument("doors", nargs="*", default=names(), help="all by default")
-    parser.add_argument("--attempts", type=int, default=1000, help="at each door")
+    parser.add_argument("--rounds", type=int, default=25, help="so many times the short run")
+    parser.add_argument("--attempts", type=int, help="so many at each door instead")
     parser.add_argument("--first", type=int, default=0, help="the first seed")
     parser.add_argument("--page", type=Path, help="a page whose table is written anew")
     options = parser.parse_args()
     campaigns = []
     for name in options.doors:
-        found = campaign(name, options.attempts, first=options.first, told=_progress)
+        count = options.attempts or options.rounds * setting(door(name), "SHORT")
+        found = campaign(name, count, first=options.first, told=_progress)
         campaigns.append(found)
         for one in found.defects:
             print(f"{name}, seed {one.seed}: {one.outcome}: {one.text}")
