@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-SHORT = 16
+SHORT = 8
 SECONDS = 60.0
 
 _MODULES = (four_bar, slider_crank, andrews, excavator, front_axle, macpherson_free_rack)
