@@ -342,7 +342,10 @@ def test_to_the_end_of_the_range(name: str, side: int, loop: Callable[[str], Loo
 def test_a_shaft_next_to_the_first_axis_of_its_cross(
     off: float, loop: Callable[[str], Loop]
 ) -> None:
-    """The cross is singular there; its rotation is as exact as the distance from that allows."""
+    """The cross is singular there; its rotation is as exact as the distance from that allows.
+
+    Where that is worse than 1e-9 in the worst case, within some 1e-5 rad, it is refused.
+    """
     case, drive = loop("rocker"), mpf("0.3")
     with mpmath.workdps(DIGITS):
         eye, pin = case.ends(case.solve(drive, mpf(0)), drive)
@@ -357,6 +360,10 @@ def test_a_shaft_next_to_the_first_axis_of_its_cross(
         start = crossed(unit(start_eye - start_pin), axis)
         now = crossed(shaft, turned(line, drive, axis))
         state, inputs = case.state(float(drive))
+        if off <= 1e-5:
+            with pytest.raises(built.module.ClosureError, match="lies along the first axis"):
+                built("orientations", state, inputs)
+            return
         found = built("orientations", state, inputs)[list(built.module.BODIES).index("rod")]
         left = [f - e for f, e in zip(found.ravel(), (now @ start.T).ravel(), strict=True)]
         assert max(map(abs, left)) < 4e-15 / off

@@ -290,8 +290,10 @@ def test_write_makes_folders_and_tells_what_it_does(tmp_path):
 
 @pytest.mark.usefixtures("coarse")
 def test_folder_in_the_way_is_a_clear_error(tmp_path):
+    folder = tmp_path / "report.html"
+    folder.mkdir()
     with pytest.raises(InputError, match="not a file"):
-        kintrafo.report.write(MODEL, tmp_path)
+        kintrafo.report.write(MODEL, folder)
 
 
 @pytest.mark.usefixtures("coarse")
