@@ -3,7 +3,7 @@
 What is wrong is collected, so that one error tells all of it::
 
     with Arguments("equilibrium") as given:
-        given.suspension(model)
+        given.kind("model", model, Model, Model.NEEDED)
         road_height = given.number("road_height", road_height, "m")
 """
 
@@ -223,24 +223,6 @@ class Arguments:
         """Refuse what is neither a function nor None."""
         if not (value is None or callable(value)):
             self.refuse(f"{name} = {shown(value)}: a function, or None, is needed.")
-
-    def system(self, model: Any) -> None:
-        """Refuse what is no `System`, of which `Model` is one."""
-        from .system import System  # noqa: PLC0415 (it checks its own arguments here)
-
-        self.kind(
-            "model", model, System,
-            'a kintrafo.Model, such as Model("reference_car"), or a kintrafo.System is needed',
-        )  # fmt: skip
-
-    def suspension(self, model: Any) -> None:
-        """Refuse what is no `Model`: a `System` has no wheel, road and rack that one could name."""
-        from .model import Model  # noqa: PLC0415 (it checks its own arguments here)
-
-        self.kind(
-            "model", model, Model,
-            'a kintrafo.Model of a suspension, such as Model("reference_car"), is needed',
-        )  # fmt: skip
 
 
 def _as_float(value: Any) -> float:

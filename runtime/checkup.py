@@ -130,7 +130,7 @@ def checkup(model: Model) -> Checkup:
     ((), 12.35)
     """
     with Arguments("checkup") as given:
-        given.suspension(model)
+        given.kind("model", model, Model, Model.NEEDED)
     reach = travel_range(model)
     design = design_height(model)
     travel = reach.height[0] - design, reach.height[1] - design

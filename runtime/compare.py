@@ -48,7 +48,7 @@ def compare(
     """
     with Arguments("compare") as given:
         for model in given.mapping("models", models, "names and models").values():
-            given.suspension(model)
+            given.kind("model", model, Model, Model.NEEDED)
         given.among("over", over, ("travel", "rack"))
         given.function("progress", progress)
         if positions is not None:
@@ -84,7 +84,7 @@ def common_positions(models: Mapping[str, Model], *, over: Over = "travel") -> A
     """
     with Arguments("compare") as given:
         for model in given.mapping("models", models, "names and models").values():
-            given.suspension(model)
+            given.kind("model", model, Model, Model.NEEDED)
         if not models:
             given.refuse("models is empty: one or more are needed.")
         given.among("over", over, ("travel", "rack"))

@@ -31,7 +31,7 @@ def hardpoints(model: Model, state: ArrayLike, inputs: ArrayLike | None = None) 
     [-0.14, -0.31, 0.28]
     """
     with Arguments("hardpoints") as given:
-        given.suspension(model)
+        given.kind("model", model, Model, Model.NEEDED)
     points, bodies = model.suspension.hardpoints, model.equations.BODIES
     design_centers = _centers_of_mass(model)
     centers = model.evaluate("positions", state, inputs)

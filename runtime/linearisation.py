@@ -21,11 +21,11 @@ from .arguments import Arguments
 from .errors import InputError
 from .modes import Mode, eigenvalues_of, mode_of_states, modes_of
 from .state import inputs_of
+from .system import System
 
 if TYPE_CHECKING:
     from scipy.signal import StateSpace
 
-    from .system import System
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -203,7 +203,7 @@ def linearise(
     """
     inputs = inputs_of(state) if inputs is None else inputs
     with Arguments("linearise") as checked:
-        checked.system(model)
+        checked.kind("model", model, System, System.NEEDED)
         if not checked.refused:
             given = checked.array(
                 "inputs", model.inputs() if inputs is None else inputs, dimensions=[1],

@@ -73,6 +73,8 @@ class Model(System):
     0.3
     """
 
+    NEEDED = 'a kintrafo.Model of a suspension, such as Model("reference_car"), is needed'
+
     def __init__(self, suspension: Suspension | str | Path, *, free_rack: bool = False) -> None:
         with Arguments("Model") as given:
             free_rack = given.flag("free_rack", free_rack)

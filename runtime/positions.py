@@ -50,7 +50,7 @@ _STEP = np.deg2rad(0.5)  # of the search for an equilibrium [rad]
 def design_height(model: Model) -> float:
     """Return the height of the wheel centre at the design position [m]."""
     with Arguments("design_height") as given:
-        given.suspension(model)
+        given.kind("model", model, Model, Model.NEEDED)
     return float(model.signal("wheel_center_z", model.design_state))
 
 
@@ -85,7 +85,7 @@ def arm_angles(model: Model, height: ArrayLike, rack_position: ArrayLike = 0.0) 
     [0.0, 0.068123601]
     """
     with Arguments("positions") as given:
-        given.suspension(model)
+        given.kind("model", model, Model, Model.NEEDED)
         heights = given.array("height", height, "m", empty=True)
         racks = given.array("rack_position", rack_position, "m", empty=True)
         try:
@@ -140,7 +140,7 @@ def state_at_height(
     0.068123601
     """
     with Arguments("state_at_height") as given:
-        given.suspension(model)
+        given.kind("model", model, Model, Model.NEEDED)
         height = given.number("height", height, "m")
         rack_position = given.number("rack_position", rack_position, "m")
         spin_rate = given.number("spin_rate", spin_rate, "rad/s")
@@ -198,7 +198,7 @@ def equilibrium(
     0.2665
     """
     with Arguments("equilibrium") as given:
-        given.suspension(model)
+        given.kind("model", model, Model, Model.NEEDED)
         rack_position = given.number("rack_position", rack_position, "m")
         road_height = given.number("road_height", road_height, "m")
         strut_force = given.number("strut_force", strut_force, "N")
@@ -251,7 +251,7 @@ def road_under_load(
         If the load is not a finite number of 0 N or more, or the tyre has no stiffness.
     """
     with Arguments("wheel load") as given:
-        given.suspension(model)
+        given.kind("model", model, Model, Model.NEEDED)
         wheel_load = _load(given, wheel_load)
     tyre = model.suspension.tyre.parameters()
     if tyre["tyre_rate"] == 0.0:

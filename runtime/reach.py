@@ -88,7 +88,7 @@ def travel_range(model: Model, rack_position: float = 0.0) -> Range:
     [-65.6, 615.9]
     """
     with Arguments("travel_range") as given:
-        given.suspension(model)
+        given.kind("model", model, Model, Model.NEEDED)
         rack_position = given.number("rack_position", rack_position, "m")
     racks = np.array([rack_position], dtype=np.float64)
     low, low_limits = _ends(model, racks, +1.0)

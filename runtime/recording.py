@@ -11,6 +11,7 @@ from .arguments import Arguments
 from .model import Model
 from .quantities import variable
 from .result import Simulation
+from .system import System
 
 Array = NDArray[np.float64]
 
@@ -40,7 +41,7 @@ def dataset_of(model: Model, result: Simulation) -> xr.Dataset:
     'rad'
     """
     with Arguments("dataset_of") as given:
-        given.system(model)
+        given.kind("model", model, System, System.NEEDED)
         given.kind("result", result, Simulation, "what kintrafo.simulate returns is needed")
     equations = model.equations
     tables = (

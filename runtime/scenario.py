@@ -113,7 +113,7 @@ def play(model: Model, scenario: Scenario, **options: Any) -> tuple[Simulation, 
     0.0178
     """
     with Arguments("simulation") as given:
-        given.suspension(model)
+        given.kind("model", model, Model, Model.NEEDED)
         given.kind("scenario", scenario, Scenario, "a Scenario is needed")
     times = scenario.times()
     result = simulate(

@@ -165,7 +165,7 @@ def _checked(
 ) -> tuple[Array, Array | None, Options]:
     """Return the state, the times of the output and the options, or refuse them."""
     with Arguments("simulate") as given:
-        given.system(model)
+        given.kind("model", model, System, System.NEEDED)
         given.among("method", options.method, SUNDIALS_METHODS | SCIPY_METHODS)
         state = given.array("y0", y0, empty=True, finite=False)
         span = given.array("t_span", t_span, "s", finite=False)

@@ -65,7 +65,7 @@ def positions(
     [0.0231, -0.016]
     """
     with Arguments("sweep") as given:
-        given.suspension(model)
+        given.kind("model", model, Model, Model.NEEDED)
         travels = given.array("travel", 0.0 if travel is None else travel, "m", dimensions=[0, 1])
         racks = given.array("rack", 0.0 if rack is None else rack, "m", dimensions=[0, 1])
     travels = usual_travel(model) if travel is None else travels
@@ -145,7 +145,7 @@ def usual_travel(
         From ``-rebound`` to ``bump``, the design position included [m].
     """
     with Arguments("sweep") as given:
-        given.suspension(model)
+        given.kind("model", model, Model, Model.NEEDED)
         rack = given.number("rack", rack, "m")
     _check_amounts(rebound=rebound, bump=bump)
     if rebound is None or bump is None:
@@ -178,7 +178,7 @@ def usual_rack(
         From ``-extent`` to ``extent``, zero included [m].
     """
     with Arguments("sweep") as given:
-        given.suspension(model)
+        given.kind("model", model, Model, Model.NEEDED)
         travel = given.number("travel", travel, "m")
     _check_amounts(extent=extent)
     if extent is None:

@@ -45,6 +45,8 @@ class System:
     ('crank_angle', 'crank_angle_rate')
     """
 
+    NEEDED = 'a kintrafo.Model, such as Model("reference_car"), or a kintrafo.System is needed'
+
     def __init__(
         self, equations: ModuleType, parameters: Mapping[str, float] | None = None
     ) -> None:

@@ -69,7 +69,7 @@ def travel(
     'compression of the spring per wheel travel; some programs print the inverse'
     """
     with Arguments("characteristics") as given:
-        given.suspension(model)
+        given.kind("model", model, Model, Model.NEEDED)
         rack_position = given.number("rack_position", rack_position, "m")
         if travel is not None:
             travel = given.array("travel", travel, "m", dimensions=[1])
@@ -114,7 +114,7 @@ def steering(model: Model, rack: ArrayLike | None = None, *, travel: float = 0.0
     [18.174, -17.836]
     """
     with Arguments("characteristics") as given:
-        given.suspension(model)
+        given.kind("model", model, Model, Model.NEEDED)
         travel = given.number("travel", travel, "m")
         if rack is not None:
             rack = given.array("rack", rack, "m", dimensions=[1])
