@@ -4,6 +4,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from .arguments import Arguments, shown
 from .errors import InputError
 from .input.suggestions import suggestion
@@ -61,27 +63,27 @@ class Events:
     ----------
     signal : tuple of SignalEvent
     functions : tuple of callable
-        Of time and state, with SciPy's attributes ``terminal`` and ``direction``.
+        Of time and state, with SciPy's attributes ``terminal`` and ``direction``. They give finite
+        numbers or raise an `InputError`: a solver takes NaN for "no crossing".
     order : tuple of int
         Position of each of them in what the caller gave.
     """
 
     signal: tuple[SignalEvent, ...]
-    functions: tuple[EventFunction, ...]
+    functions: tuple["_CheckedFunction", ...]
     order: tuple[int, ...]
 
     @property
     def directions(self) -> list[int]:
         """The sense of each event: -1, 0 or +1."""
         values = [e.direction for e in self.signal]
-        values += [float(getattr(f, "direction", 0.0)) for f in self.functions]
+        values += [f.direction for f in self.functions]
         return [(v > 0) - (v < 0) for v in values]
 
     @property
     def terminal(self) -> list[int]:
         """At which crossing each event ends the simulation; 0 for never."""
-        values: list[Any] = [e.terminal for e in self.signal]
-        values += [getattr(f, "terminal", False) for f in self.functions]
+        values = [e.terminal for e in self.signal] + [f.terminal for f in self.functions]
         return [int(v) for v in values]
 
     def __len__(self) -> int:
@@ -104,14 +106,14 @@ def events_of(model: System, given: Event | Sequence[Event] | None) -> Events:
     listed: list[Any] = list(given) if isinstance(given, Sequence) and not single else [given]
     listed = [event for event in listed if event is not None]
     signal: list[tuple[int, SignalEvent]] = []
-    functions: list[tuple[int, EventFunction]] = []
+    functions: list[tuple[int, _CheckedFunction]] = []
     for index, event in enumerate(listed):
         if isinstance(event, str):
             signal.append((index, _checked(model, _named(model, event))))
         elif isinstance(event, SignalEvent):
             signal.append((index, _checked(model, event)))
         elif callable(event):
-            functions.append((index, event))
+            functions.append((index, _CheckedFunction.of(event)))
         else:
             problem = f"event {shown(event)} is neither a name, nor a SignalEvent, nor a function."
             raise InputError([problem], "events")
@@ -148,9 +150,38 @@ def _checked(model: System, event: SignalEvent) -> SignalEvent:
     with Arguments("events") as given:
         given.among("signal", event.signal, model.signal_names)
         given.number(f"level of {event.signal!r}", event.level)
-        given.number(f"direction of {event.signal!r}", event.direction)
-        if not isinstance(event.terminal, bool):
-            given.whole(
-                f"terminal of {event.signal!r}", event.terminal, least=0, most=_MOST_CROSSINGS
-            )
+        _check_sense(given, repr(event.signal), event.direction, event.terminal)
     return event
+
+
+def _check_sense(given: Arguments, name: str, direction: Any, terminal: Any) -> None:
+    given.number(f"direction of {name}", direction)
+    if not isinstance(terminal, bool):
+        given.whole(f"terminal of {name}", terminal, least=0, most=_MOST_CROSSINGS)
+
+
+@dataclass(frozen=True)
+class _CheckedFunction:
+    """A caller's function that gives a finite number or an error."""
+
+    function: EventFunction
+    name: str
+    direction: float
+    terminal: bool | int
+
+    @classmethod
+    def of(cls, function: EventFunction) -> "_CheckedFunction":
+        name = getattr(function, "__name__", None) or shown(function)
+        direction = getattr(function, "direction", 0.0)
+        terminal = getattr(function, "terminal", False)
+        with Arguments("events") as given:
+            _check_sense(given, name, direction, terminal)
+        return cls(function, name, float(direction), terminal)
+
+    def __call__(self, time: float, state: Any) -> float:
+        value = self.function(time, state)
+        number = np.asarray(value)
+        if number.ndim or number.dtype.kind not in "fiub" or not np.isfinite(number):
+            problem = f"{self.name} gave {shown(value)} at {time:.6g} s: a finite number is needed."
+            raise InputError([problem], "events")
+        return float(number)

@@ -201,10 +201,11 @@ def linearise(
     >>> linear.steady, linear.wheel_hop.text
     (True, '12.35 Hz, damping ratio 0.233')
     """
-    inputs = inputs_of(state) if inputs is None else inputs
     with Arguments("linearise") as checked:
         checked.kind("model", model, System, System.NEEDED)
         if not checked.refused:
+            held = inputs_of(state, model.names_of_states)
+            inputs = held if inputs is None else inputs
             given = checked.array(
                 "inputs", model.inputs() if inputs is None else inputs, dimensions=[1],
                 last=len(model.input_names), empty=True,

@@ -146,7 +146,7 @@ def state_at_height(
         spin_rate = given.number("spin_rate", spin_rate, "rad/s")
     angle = float(arm_angles(model, height, rack_position))
     state, inputs = at_rest(model, angle, rack_position)
-    return _spinning(model, State.of(state, inputs), spin_rate)
+    return _spinning(model, State.of(state, inputs, model.names_of_states), spin_rate)
 
 
 def equilibrium(
@@ -224,7 +224,7 @@ def equilibrium(
         return model.evaluate("forces", *at(arm_angle))[..., 0]
 
     angle = _stable_root(moment, travel_range(model, rack_position), model.design_state[0])
-    return _spinning(model, State.of(*at(angle)), spin_rate)
+    return _spinning(model, State.of(*at(angle), model.names_of_states), spin_rate)
 
 
 def road_under_load(

@@ -141,7 +141,6 @@ def simulate(
     >>> result.success, bool(abs(result.signals["wheel_center_z"][-1] - 0.3) < 1e-6)
     (True, True)
     """
-    held = inputs_of(y0)
     usual = _TOLERANCE_OF_BDF if method == "BDF" else _TOLERANCE
     state, times, options = _checked(
         model, t_span, y0, t_eval, Options(
@@ -151,6 +150,7 @@ def simulate(
             max_step, first_step, max_steps, dense_output, stop_at_outputs,
         )
     )  # fmt: skip
+    held = inputs_of(y0, model.names_of_states)
     given = time_inputs(model, inputs, t_span, held=held, max_step=options.max_step)
     watched = events_of(model, events)
     solve = _choose_backend(model, backend, options)
@@ -345,7 +345,7 @@ class _Run:
         return np.concatenate(([segment.start], inside, [segment.end]))
 
     def _fail(self, segment: Segment, piece: Piece) -> None:
-        time, state = float(piece.t[-1]), piece.y[-1]
+        time, state = piece.reached_time, piece.reached_state
         # what overflows on the way may leave a state that is none
         refused = piece.refused_state
         if piece.outcome == "state" and refused is not None and np.isfinite(refused).all():

@@ -66,6 +66,8 @@ class Piece:
     ----------
     t, y
         Output times, and states with one row each.
+    reached_time, reached_state
+        The end of the last step, which outputs need not show.
     events
         (index of the event, time, state), in the order of time.
     outcome
@@ -85,6 +87,8 @@ class Piece:
     y: Array
     outcome: str
     counts: dict[str, int]
+    reached_time: float
+    reached_state: Array
     events: list[tuple[int, float, Array]] = field(default_factory=list)
     interpolants: list[tuple[float, float, Callable[[Array], Array]]] = field(default_factory=list)
     refused_time: float = 0.0
@@ -196,6 +200,8 @@ def solve_native(
         y=output[:, 1:],
         outcome="flat_event" if raw["code"] == _ILL_INPUT and len(events) else raw["outcome"],
         counts={name: raw[name] for name in counts},
+        reached_time=raw["time"],
+        reached_state=np.array(raw["state"]),
         events=[(int(row[0]), float(row[1]), row[2:]) for row in raw["events"]],
         interpolants=[_taylor(row, state.size) for row in raw["dense"]],
         refused_time=raw["refused_time"],
@@ -316,16 +322,19 @@ def solve_scipy(
     except (DeadPoint, ModelError, _TooManySteps) as error:
         outcome = "too_many_steps" if isinstance(error, _TooManySteps) else "state"
         dead = error if isinstance(error, DeadPoint) else None
+        steps = steps or [(segment.start, state)]
         return Piece(
-            t=np.array([time for time, _ in steps] or [segment.start]),
-            y=np.array([y for _, y in steps] or [state]),
+            t=np.array([time for time, _ in steps]),
+            y=np.array([y for _, y in steps]),
             outcome=outcome,
             counts={"nfev": function.evaluations},
+            reached_time=steps[-1][0],
+            reached_state=steps[-1][1],
             refused_time=dead.time if dead else function.time,
             refused_state=dead.state if dead else function.state,
             refused_guard=dead.guard if dead else None,
         )
-    piece = _piece_of(result, len(steps) - 1, events, options)
+    piece = _piece_of(result, steps, events, options)
     return _checked_outputs(piece, approach)
 
 
@@ -365,14 +374,16 @@ def _recorder(steps: list[tuple[float, Array]]) -> Callable[[float, Array], floa
     return note
 
 
-def _piece_of(result: Any, steps: int, events: Events, options: Options) -> Piece:
+def _piece_of(
+    result: Any, steps: list[tuple[float, Array]], events: Events, options: Options
+) -> Piece:
     outcomes = {0: "done", 1: "event", -1: "failed"}
     crossings = [
         (index, float(time), state)
         for index in range(len(events))
         for time, state in zip(result.t_events[index], result.y_events[index], strict=True)
     ]
-    counts = {name: int(result[name]) for name in ("nfev", "njev", "nlu")} | {"steps": steps}
+    counts = {name: int(result[name]) for name in ("nfev", "njev", "nlu")}
     interpolants: list[tuple[float, float, Callable[[Array], Array]]] = []
     if options.dense_output:
         interpolants = [
@@ -385,7 +396,9 @@ def _piece_of(result: Any, steps: int, events: Events, options: Options) -> Piec
         t=result.t,
         y=result.y.T,
         outcome=outcomes[result.status],
-        counts=counts,
+        counts=counts | {"steps": len(steps) - 1},
+        reached_time=steps[-1][0],
+        reached_state=steps[-1][1],
         events=sorted(crossings, key=lambda c: c[1]),
         interpolants=interpolants,
         detail=str(result.message),

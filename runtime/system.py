@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from .arguments import Arguments, shown
 from .modes import eigenvalues_of
 from .own.loader import find
-from .state import inputs_of
+from .state import Names, inputs_of
 
 Array = NDArray[np.float64]
 
@@ -89,6 +89,11 @@ class System:
         """Names of the inputs, in order."""
         return tuple(self.equations.INPUTS)
 
+    @cached_property
+    def names_of_states(self) -> Names:
+        """Names of what a `State` of this system is made of."""
+        return Names(self.state_names, self.input_names)
+
     @property
     def signal_names(self) -> tuple[str, ...]:
         """Names of the physical signals, in order."""
@@ -149,7 +154,8 @@ class System:
         with Arguments(f"{self.equations.NAME}.{function}") as given:
             given.among("function", function, _functions(self.equations))
             rows = given.array("state", state, last=len(self.state_names), empty=True, finite=False)
-            columns = inputs_of(state) if inputs is None else inputs
+            held = inputs_of(state, self.names_of_states)
+            columns = held if inputs is None else inputs
             if columns is not None:
                 columns = given.array(
                     "inputs", columns, last=len(self.input_names), empty=True, finite=False

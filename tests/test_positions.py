@@ -392,7 +392,23 @@ class TestStatesOfRestKnowTheirInputs:
         rest = equilibrium(MODEL, **LOADED)
         kept = [rest.copy(), rest + 0.0, copy.deepcopy(rest), pickle.loads(pickle.dumps(rest))]
         assert all(np.array_equal(state.inputs, rest.inputs) for state in kept)
-        assert inputs_of(np.array(rest)) is inputs_of(rest[:2]) is inputs_of([*rest]) is None
+        for other in (np.array(rest), rest[:2], [*rest]):
+            assert inputs_of(other, MODEL.names_of_states) is None
+
+    def test_another_model_refuses_them(self):
+        """Its coordinates mean something else, however many they are."""
+        other = Model("double_wishbone_car")
+        rest = equilibrium(MODEL, **LOADED)
+        assert rest.shape == other.design_state.shape
+        for use in (
+            lambda: other.signals(rest),
+            lambda: other.evaluate("rhs", rest, other.inputs()),
+            lambda: simulate(other, (0.0, 0.1), rest),
+            lambda: linearise(other, rest),
+        ):
+            with pytest.raises(InputError, match=r"beta1, .* this model \(arm_angle, "):
+                use()
+        assert simulate(other, (0.0, 1e-3), np.array(other.design_state)).success
 
     def test_an_arm_has_one_angle(self):
         """States, positions and kinematics count from upright; characteristics from design."""

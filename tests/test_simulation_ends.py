@@ -8,10 +8,10 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from kintrafo import Model, System, simulate, solvers, state_at_height
+from kintrafo import InputError, Model, SimulationError, System, simulate, solvers, state_at_height
 from kintrafo.cli import app
 from kintrafo.generated import slider_crank
-from kintrafo.solvers import native_available
+from kintrafo.solvers import native_available, native_methods
 from kintrafo.validity import bounds_of
 from typer.testing import CliRunner
 
@@ -131,6 +131,37 @@ def test_defaults_of_the_methods():
     assert np.array_equal(by_default.y, same.y)
     long = simulate(CRANK, (0.0, 250.0), TURNING, t_eval=[250.0], max_step=1e-3)
     assert "Verner" in long.message
+
+
+@pytest.mark.parametrize("method", [*native_methods(), "RK45", "LSODA"])
+def test_an_error_tells_the_last_step_and_not_the_last_output(method):
+    """However few outputs are asked for."""
+    with pytest.raises(SimulationError) as error:
+        simulate(CRANK, (0.0, 1.0), TURNING, method=method, t_eval=[0.0, 1.0], max_steps=30)
+    assert 0.0 < error.value.time < 1.0
+    assert error.value.state != pytest.approx(TURNING, abs=1e-3)
+
+
+@pytest.mark.parametrize("method", [*native_methods()[:2], "RK45"])
+@pytest.mark.parametrize("given", [np.nan, np.inf, None, "x", 1j, np.ones(2)], ids=str)
+def test_an_event_without_a_number_ends_the_motion(method, given):
+    """A solver takes NaN for "no crossing", and calls it a success."""
+
+    def height(time, _state):
+        return given if time > 0.01 else 1.0
+
+    with pytest.raises(InputError, match=r"height gave .* at 0\.0.* s: a finite number"):
+        simulate(CRANK, (0.0, 0.1), TURNING, method=method, events=height)
+
+
+def test_what_an_event_says_of_itself_is_checked():
+    def height(*_):
+        return 1.0
+
+    height.direction, height.terminal = "up", -1
+    with pytest.raises(InputError, match="direction of height = 'up'") as error:
+        simulate(CRANK, (0.0, 0.1), TURNING, events=height)
+    assert "terminal of height = -1" in str(error.value)
 
 
 @needs_sundials

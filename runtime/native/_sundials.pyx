@@ -230,6 +230,7 @@ def integrate(
                 "error_test_failures": result.statistics.error_test_failures,
                 "order": result.statistics.order,
                 "time": result.time,
+                "state": [result.state[i] for i in range(n)] if result.state != NULL else [],
                 "refused_status": result.refused_status,
                 "refused_guard": result.refused_guard,
                 "refused_time": result.refused_time,

@@ -5,6 +5,7 @@ and with a function ``attempt(random)`` that tries it once with what it draws fr
 `numpy.random.Generator`. What it may do:
 
 - return: something went in and every check of the result held (clean);
+- raise `UnjudgedError`: something went in, and what it is checked against has no answer (unjudged);
 - raise a `KintrafoError`, or another error that the door names in ``CLEAR``: a refusal, in words
   that name what is wrong (clear). A door that can judge the words does so, and raises `RawError`;
 - raise `WrongError`: a result that contradicts what shares no code with it;
@@ -29,14 +30,18 @@ from . import doors
 if TYPE_CHECKING:
     from types import ModuleType
 
-OUTCOMES = ("clean", "clear", "wrong", "raw", "hung")
+OUTCOMES = ("clean", "unjudged", "clear", "wrong", "raw", "hung")
 """What may come of an attempt; the last three are defects."""
 
-DEFECTS = OUTCOMES[2:]
+DEFECTS = OUTCOMES[3:]
 
 
 class WrongError(AssertionError):
     """A result that contradicts its oracle."""
+
+
+class UnjudgedError(Exception):
+    """An attempt of which the oracle cannot say what should come of it."""
 
 
 class RawError(AssertionError):
@@ -86,6 +91,8 @@ def tried(module: ModuleType, seed: int) -> Tried:
         module.attempt(np.random.default_rng(seed))
     except WrongError as error:
         return Tried(seed, "wrong", str(error))
+    except UnjudgedError as error:
+        return Tried(seed, "unjudged", str(error))
     except clear as error:
         return Tried(seed, "clear", str(error))
     except Exception as error:  # noqa: BLE001 (every other error is what is looked for)

@@ -5,10 +5,10 @@ import time
 
 from kintrafo.errors import InputError
 
-from ..attempts import WrongError
+from ..attempts import UnjudgedError, WrongError
 
 SECONDS = 0.5
-_WAYS = ("clean", "clear", "wrong", "raw", "hung", "exit", "clean")
+_WAYS = ("clean", "clear", "wrong", "raw", "hung", "exit", "clean", "unjudged")
 SHORT = len(_WAYS)
 
 
@@ -16,6 +16,8 @@ def attempt(random):
     way = _WAYS[int(random.bit_generator.seed_seq.entropy)]
     if way == "clear":
         raise InputError(["x = -1 m: 0 m or more."], "a file")
+    if way == "unjudged":
+        raise UnjudgedError("who can say")
     if way == "wrong":
         raise WrongError("twice as much as there is")
     if way == "raw":

@@ -27,7 +27,7 @@ from kintrafo.own.loader import load
 from own_mechanisms import spatial_four_bar
 from own_models import Built
 
-from ..attempts import RawError, WrongError
+from ..attempts import RawError, UnjudgedError, WrongError
 
 SECONDS = 120.0
 SHORT = 40
@@ -199,7 +199,7 @@ def _compare(model, random):
         motion, found = built.motion(state, inputs), built("rhs", state, inputs)[built.size :]
     sizes = [abs(p.default) for p in model.mechanism.parameters if p.default]
     if max(sizes) > _EXTREME or min(sizes) < 1.0 / _EXTREME:
-        return
+        raise UnjudgedError("sizes so far apart that roundings of one are more than the other")
     # closed to rounding, which grows from 1e-16 with the angle at which circles cut
     if np.abs(built.oracle.closure(motion).value).max() > 1e-9 * max(sizes):
         raise WrongError(f"a loop is open: {built.oracle.closure(motion).value}")

@@ -6,7 +6,8 @@ the bare right-hand side: it shares no code with what watches the margins in an 
 ends where a height, the root of a margin, goes through zero, which it sees in a straight line
 of the height over time. What a result says has to agree: it ends there with an error, or it
 goes on and its states are those of the reference, and its signals can be had at all of its
-outputs.
+outputs. At some of its states the mechanism in maximal coordinates, which shares nothing with the
+equations, says whether hardpoints keep their distances and what the accelerations are.
 """
 
 from __future__ import annotations
@@ -26,10 +27,12 @@ from kintrafo.generated import (
     slider_crank,
 )
 from kintrafo.generated._support import ModelError
+from kintrafo.generator.mechanisms import MODELS
 from kintrafo.solvers import native_methods
+from own_models import Built
 from scipy.integrate import DOP853
 
-from ..attempts import WrongError
+from ..attempts import UnjudgedError, WrongError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -237,11 +240,11 @@ def attempt(random: np.random.Generator) -> None:
     motion = drawn(random)
     try:
         motion.system.evaluate("rhs", motion.start)
-    except ModelError:
-        return
+    except ModelError as error:
+        raise UnjudgedError("the start itself is beyond a dead point") from error
     expected = reference(motion)
     if expected is None:
-        return
+        raise UnjudgedError("too fast to be followed by the reference")
     try:
         result = simulate(
             motion.system,
@@ -255,8 +258,10 @@ def attempt(random: np.random.Generator) -> None:
         )
     except SimulationError as error:
         _judge_refusal(motion, expected, error)
+        _judge_states(motion, error.partial)
         raise
     _judge_result(motion, expected, result)
+    _judge_states(motion, result)
 
 
 def _wrong(motion: Motion, text: str) -> NoReturn:
@@ -286,6 +291,42 @@ def _judge_result(motion: Motion, expected: Reference, result: Any) -> None:
     # rates change by some thousand a second near a dead point
     if off > 1e3 * _slack(motion) * (1.0 + np.abs(end).max()):
         _wrong(motion, f"ends {off:.3g} off the reference")
+
+
+# -- in maximal coordinates -----------------------------------------------------------------------
+
+# Part of a margin's usual size. Near a dead point what is a rounding of a length is more of an
+# angle, by the root of this, and of an acceleration, by its third power.
+_FAR = 1e-2
+_STATES = 3
+
+
+def _judge_states(motion: Motion, result: Any) -> None:
+    """Hold the first, the last and a middle state, as far as they are far from dead points."""
+    system, built = motion.system, _built(motion.system)
+    for place in np.linspace(0, result.t.size - 1, _STATES).astype(int):
+        state, inputs = result.y[:, place], result.inputs[place]
+        if (system.evaluate("margins", state, inputs) < _FAR * system.usual_margins).any():
+            continue
+        at = built.motion(state, inputs)
+        gap = np.abs(built.oracle.closure(at).value).max()
+        axes = at.rotation @ np.swapaxes(at.rotation, 1, 2) - np.eye(3)
+        if gap > 1e-9 or np.abs(axes).max() > 1e-9:
+            _wrong(motion, f"joints {gap:.3g} m open, axes {np.abs(axes).max():.3g} off")
+        given = dict.fromkeys(built.model.prescribed, 0.0)  # nothing is driven
+        expected = built.oracle.reduced(at, built.named(inputs), given).accelerations
+        found = system.evaluate("rhs", state, inputs)[built.size :]
+        # centripetal accelerations are what roundings are a part of, where they cancel
+        scale = np.abs(expected).max() + np.square(state[built.size :]).max()
+        off = np.abs(found - expected).max()
+        if off > 1e-7 * (1.0 + scale):
+            _wrong(motion, f"accelerations {found}, in maximal coordinates {expected}")
+
+
+@cache
+def _built(system: System) -> Built:
+    model = {model.name: model for model in MODELS}[system.equations.NAME]
+    return Built.of(model, system.equations, system.parameters)
 
 
 def _slack(motion: Motion) -> float:

@@ -13,7 +13,7 @@ import tomlkit
 from kintrafo import InputError, Model, Suspension
 
 from .. import mutations
-from ..attempts import RawError, WrongError
+from ..attempts import RawError, UnjudgedError, WrongError
 
 if TYPE_CHECKING:
     from numpy.random import Generator
@@ -34,8 +34,8 @@ def attempt(random: Generator) -> None:
         data = mutations.nested(random, tomlkit.parse(text).unwrap())
         try:
             text = tomlkit.dumps(data).encode("utf-8", "surrogatepass")
-        except (ValueError, TypeError):  # what TOML has no word for
-            return
+        except (ValueError, TypeError) as error:
+            raise UnjudgedError("TOML has no word for it") from error
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "car.toml")
         path.write_bytes(text)
