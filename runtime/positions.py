@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq
+from scipy.optimize import brentq, minimize_scalar
 
 from .arguments import Arguments
 from .errors import InputError
@@ -357,11 +357,38 @@ def _refuse_missed(model: Model, heights: Array, racks: Array, found: Array, err
     raise PositionError(message)
 
 
+def _with_dips(
+    moment: Callable[[ArrayLike], Array], grid: Array, values: Array
+) -> tuple[Array, Array]:
+    """Add where the moment comes to zero and goes back between neighbours of a grid.
+
+    Two roots within a step leave no change of sign, but a least amount beside them.
+    """
+    amounts = np.abs(values)
+    lower = (amounts[1:-1] <= amounts[:-2]) & (amounts[1:-1] <= amounts[2:])
+    same = (values[:-2] * values[1:-1] > 0.0) & (values[1:-1] * values[2:] > 0.0)
+    added = []
+    for place in np.flatnonzero(lower & same):
+        sign = np.sign(values[place])
+        least = minimize_scalar(
+            lambda a, sign=sign: sign * float(moment(a)),
+            bounds=sorted((grid[place], grid[place + 2])),
+            method="bounded",
+            options={"xatol": 1e-9},
+        )
+        if least.fun <= 0.0:
+            added.append(float(least.x))
+    falling = grid[0] > grid[-1]
+    together = np.sort(np.concatenate((grid, added)))
+    together = together[::-1] if falling else together
+    return together, moment(together) if added else values
+
+
 def _stable_root(moment: Callable[[ArrayLike], Array], reach: Range, design: float) -> float:
     """Return the arm angle nearest to design at which the moment vanishes and pushes back."""
     low, high = reach.arm_angle
     grid = np.linspace(low, high, 1 + round(abs(high - low) / _STEP))
-    values = moment(grid)
+    grid, values = _with_dips(moment, grid, moment(grid))
     # from low to high wheel position the angle falls: a stable moment goes from below to above zero
     stable = np.flatnonzero((values[:-1] <= 0.0) & (values[1:] > 0.0))
     if stable.size == 0:

@@ -22,7 +22,7 @@ from kintrafo import (
     travel_range,
 )
 from kintrafo.hardpoints import hardpoints
-from kintrafo.positions import arm_angles, design_height, road_under_load
+from kintrafo.positions import _stable_root, arm_angles, design_height, road_under_load
 from kintrafo.reach import at_rest, branch, height_and_slope
 from kintrafo.state import inputs_of
 from oracle import newton
@@ -98,7 +98,7 @@ def test_equilibrium_with_a_free_rack_holds_the_rack():
 
 def test_no_equilibrium_says_what_the_moments_are():
     with pytest.raises(PositionError, match=r"no stable equilibrium .* N m"):
-        equilibrium(MODEL, strut_force=1e6)
+        equilibrium(MODEL, strut_force=1e7)  # 1e6 N rests just before a dead point
 
 
 def test_rack_beyond_the_dead_point_is_refused():
@@ -420,3 +420,19 @@ class TestStatesOfRestKnowTheirInputs:
         turned = MODEL.design_state[0] - angles
         assert over_travel["arm_rotation"].values == pytest.approx(turned, abs=1e-12)
         assert turned[2] > 0.0 > turned[0]
+
+
+@pytest.mark.parametrize("gap", [1e-3, 1e-5])
+def test_two_positions_of_rest_within_a_step_are_seen(gap):
+    """A stable one and an unstable one that a grid of half a degree steps over."""
+    reach = travel_range(MODEL)
+    low, high = reach.arm_angle
+    middle = low + 0.37 * (high - low)
+
+    def moment(angle):
+        # from below to above zero as the angle goes from low to high, and back
+        place = (np.asarray(angle) - middle) / (high - low)
+        return place * (gap - place)
+
+    root = _stable_root(moment, reach, high)
+    assert root == pytest.approx(middle, abs=1e-12)
