@@ -180,16 +180,29 @@ class Arguments:
 
     def names(self, name: str, values: Any, known: Iterable[str]) -> tuple[str, ...]:
         """Return a row of names, each of which is known."""
-        if isinstance(values, str) or not isinstance(values, Iterable):
+        if isinstance(values, str) or not np.iterable(values):
             self.refuse(f"{name} = {shown(values)}: a list of names is needed.")
             return ()
-        return tuple(self.among(name, value, known) for value in values)
+        every = tuple(known)
+        return tuple(self.among(name, value, every) for value in values)
 
     def flag(self, name: str, value: Any) -> bool:
         """Return True or False."""
         if not isinstance(value, bool | np.bool_):
             self.refuse(f"{name} = {shown(value)}: True or False is needed.")
         return bool(isinstance(value, bool | np.bool_) and value)
+
+    def text(self, name: str, value: Any) -> None:
+        """Refuse what is no text."""
+        self.kind(name, value, str, "a text is needed")
+
+    def paths(self, name: str, values: Any) -> None:
+        """Refuse what are no paths of files."""
+        if not isinstance(values, list | tuple):
+            self.refuse(f"{name} = {shown(values)}: a list of paths is needed.")
+            return
+        for value in values:
+            self.path(name, value)
 
     def mapping(self, name: str, value: Any, of: str) -> Mapping[Any, Any]:
         """Return a dict."""

@@ -4,8 +4,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from .arguments import Arguments, shown
 from .errors import InputError
 from .input.suggestions import suggestion
@@ -180,8 +178,5 @@ class _CheckedFunction:
 
     def __call__(self, time: float, state: Any) -> float:
         value = self.function(time, state)
-        number = np.asarray(value)
-        if number.ndim or number.dtype.kind not in "fiub" or not np.isfinite(number):
-            problem = f"{self.name} gave {shown(value)} at {time:.6g} s: a finite number is needed."
-            raise InputError([problem], "events")
-        return float(number)
+        with Arguments("events") as given:
+            return given.number(f"{self.name} at {time:.6g} s", value)

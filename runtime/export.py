@@ -56,6 +56,10 @@ def write(
     """
     with Arguments("export") as given:
         given.dataset(dataset)
+        if not given.refused and not dataset.data_vars:
+            given.refuse("dataset: it has no variables.")
+        given.flag("force", force)
+        given.paths("inputs", inputs)
     writer = _WRITERS[check_format(path)]
     with replacing(path, force=force, inputs=inputs) as temporary:
         writer(_legible(dataset), temporary)

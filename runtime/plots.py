@@ -94,8 +94,13 @@ def write(
     """
     check_formats(formats=formats)
     with Arguments("figures") as given:
+        given.dataset(dataset)
         given.path("folder", folder)
+        given.text("title", title)
+        given.text("suffix", suffix)
         given.function("progress", progress)
+        given.flag("force", force)
+        given.paths("inputs", inputs)
     pages = {f"overview_{_slug(group)}": names for group, names in grouped(dataset).items()}
     single = {str(name): (name,) for name in _curves(dataset)}
     drawn = {**pages, **single}
@@ -145,6 +150,13 @@ def write_overview(
         If the file must not or cannot be written.
     """
     check_formats([path])
+    with Arguments("figures") as given:
+        given.dataset(dataset)
+        given.text("title", title)
+        given.flag("force", force)
+        given.paths("inputs", inputs)
+        if not given.refused:
+            names = given.names("names", names, map(str, _curves(dataset)))
     pages = {"": tuple(names)} if names else grouped(dataset)
     with rc_context(STYLE):
         if Path(path).suffix.lower() != ".pdf":
@@ -229,6 +241,14 @@ def figure(
     -------
     matplotlib.figure.Figure
     """
+    with Arguments("figures") as given:
+        given.dataset(dataset)
+        given.text("title", title)
+        given.flag("alone", alone)
+        if not given.refused:
+            names = given.names("names", names, map(str, _curves(dataset)))
+            if not names:
+                given.refuse("names is empty: at least one variable is needed.")
     columns = min(_COLUMNS, len(names))
     rows = -(-len(names) // columns)
     size = (7.2, 4.6) if alone else (max(3.7 * columns, 5.0), 1.0 + 2.5 * rows)

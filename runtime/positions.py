@@ -371,8 +371,8 @@ def _with_dips(
     for place in np.flatnonzero(lower & same):
         sign = np.sign(values[place])
         least = minimize_scalar(
-            lambda a, sign=sign: sign * float(moment(a)),
-            bounds=sorted((grid[place], grid[place + 2])),
+            lambda a, sign=sign: float(sign * moment(a)),
+            bounds=(min(grid[place], grid[place + 2]), max(grid[place], grid[place + 2])),
             method="bounded",
             options={"xatol": 1e-9},
         )

@@ -43,6 +43,8 @@ def dataset_of(model: Model, result: Simulation) -> xr.Dataset:
     with Arguments("dataset_of") as given:
         given.kind("model", model, System, System.NEEDED)
         given.kind("result", result, Simulation, "what kintrafo.simulate returns is needed")
+        if not given.refused and tuple(result.signals) != model.signal_names:
+            given.refuse(f"result: it is not a motion of this model, {model!r}.")
     equations = model.equations
     tables = (
         (equations.SIGNALS, [result.signals[name] for name in model.signal_names]),

@@ -4,7 +4,9 @@ One or two arguments of a call that is right are replaced. What comes back must 
 refusal that names an argument, a value or what is out of reach.
 """
 
+import tempfile
 import warnings
+from contextlib import chdir
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
@@ -37,6 +39,8 @@ _SYSTEM = kintrafo.System(four_bar)
 _REST = kintrafo.equilibrium(_CAR)
 _LINEAR = kintrafo.linearise(_CAR, _REST)
 _RESULT = kintrafo.simulate(_CAR, (0.0, 0.01), _REST)
+_DATASET = dataset_of(_CAR, _RESULT)
+_ONE_CURVE = _DATASET[["camber"]]
 
 NASTY = [
     None, True, False, "", "reference_car", "nan", b"x", 0, -1, 1, 10**400, 0.0, -0.3, 1e-320,
@@ -50,6 +54,18 @@ NASTY = [
 ]  # fmt: skip
 
 _SPAN = (0.0, 0.01)
+
+
+def _event(value, **attributes):
+    """Return an event's function that gives this, and has these attributes."""
+
+    def watch(*_):
+        return value
+
+    vars(watch).update(attributes)
+    return watch
+
+
 CALLS = {
     "Model": (kintrafo.Model, {"suspension": "reference_car", "free_rack": False}),
     "System": (kintrafo.System, {"equations": four_bar, "parameters": {"crank_mass": 2.0}}),
@@ -142,11 +158,35 @@ CALLS = {
         {"times": [0.0, 1.0], "values": [0.0, 0.01], "between": "monotone"},
     ),
     "dataset_of": (dataset_of, {"model": _CAR, "result": _RESULT}),
-    "statistics": (statistics, {"dataset": dataset_of(_CAR, _RESULT)}),
-    "export.as_dict": (export.as_dict, {"dataset": dataset_of(_CAR, _RESULT)}),
+    "statistics": (statistics, {"dataset": _DATASET}),
+    "export.write": (
+        export.write, {"dataset": _DATASET, "path": "a.csv", "force": False, "inputs": ()}
+    ),
+    "plots.write": (
+        plots.write,
+        {
+            "dataset": _ONE_CURVE, "folder": "plots", "formats": ("svg",), "title": "",
+            "suffix": "", "force": False, "inputs": (),
+        },
+    ),
+    "plots.write_overview": (
+        plots.write_overview,
+        {
+            "dataset": _ONE_CURVE, "path": "a.svg", "names": (), "title": "", "force": False,
+            "inputs": (),
+        },
+    ),
+    "plots.figure": (
+        plots.figure, {"dataset": _ONE_CURVE, "names": ["camber"], "title": "", "alone": True}
+    ),
+    "Events": (
+        lambda **given: kintrafo.simulate(_CAR, _SPAN, _REST, events=_event(**given)),
+        {"value": 1.0, "direction": 0.0, "terminal": False},
+    ),
+    "export.as_dict": (export.as_dict, {"dataset": _DATASET}),
     "export.check_format": (export.check_format, {"path": "a.csv"}),
     "plots.check_formats": (plots.check_formats, {"paths": ["a.png"], "formats": ["svg"]}),
-    "plots.grouped": (plots.grouped, {"dataset": dataset_of(_CAR, _RESULT)}),
+    "plots.grouped": (plots.grouped, {"dataset": _DATASET}),
     "compile": (kintrafo.compile, {"declared": "/missing.py", "name": None, "backend": "numpy"}),
     "proposals": (
         lambda **given: next(kintrafo.proposals(**given)),
@@ -164,7 +204,8 @@ def attempt(random):
     given = dict(right)
     for wrong in random.choice(list(given), random.integers(1, 1 + min(2, len(given)))):
         given[str(wrong)] = NASTY[random.integers(len(NASTY))]
-    with warnings.catch_warnings():
+    # some calls write what they return
+    with tempfile.TemporaryDirectory() as folder, chdir(folder), warnings.catch_warnings():
         warnings.simplefilter("error", RuntimeWarning)
         try:
             found = function(**given)
