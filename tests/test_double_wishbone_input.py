@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo import InputError, Model, Suspension, equilibrium
 from kintrafo.generated import double_wishbone
-from kintrafo.input.double_wishbone import DoubleWishbone
-from kintrafo.input.macpherson import MacPherson
+from kintrafo.suspension.kinds.double_wishbone import DoubleWishbone
+from kintrafo.suspension.kinds.macpherson import MacPherson
 
 CAR = Suspension.load("double_wishbone_car")
 CAR_OF_THE_PAPER = Suspension.load("reference_car")

@@ -8,11 +8,12 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from kintrafo import Model, System, simulate, solvers, state_at_height
+from kintrafo import Model, System, simulate, state_at_height
 from kintrafo.cli import app
 from kintrafo.generated import slider_crank
-from kintrafo.solvers import native_available
-from kintrafo.validity import bounds_of
+from kintrafo.simulation import solvers
+from kintrafo.simulation.solvers import native_available
+from kintrafo.simulation.validity import bounds_of
 from typer.testing import CliRunner
 
 needs_sundials = pytest.mark.skipif(not native_available(), reason="built without SUNDIALS")

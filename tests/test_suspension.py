@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from kintrafo.errors import InputError, KintrafoError
-from kintrafo.input.suspension import Suspension
+from kintrafo.core.errors import InputError, KintrafoError
+from kintrafo.suspension.input.suspension import Suspension
 
 CAR = Suspension.load("reference_car")
 CAR_TEXT = (resources.files("kintrafo") / "data" / "reference_car.toml").read_text("utf-8")

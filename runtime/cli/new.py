@@ -28,7 +28,7 @@ def command(
     force: Force = False,
 ) -> None:
     """Write an annotated hardpoint file to begin with: every key, its unit and its sign."""
-    from ..starter import STARTERS, write_starter
+    from ..suspension.starter import STARTERS, write_starter
 
     copied = STARTERS[suspension] if template is None else template
     say(f"  {write_starter(path, template=copied, force=force)}")

@@ -11,11 +11,11 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 from numpy.typing import NDArray
 
-from ..files import Paths, refuse, replacing
-from ..groups import ORDER
-from ..legible import legible
-from ..model import Model
-from ..paper import SPIN_RATE
+from ..core.files import Paths, refuse, replacing
+from ..core.legible import legible
+from ..study.characteristics.groups import ORDER
+from ..study.paper import SPIN_RATE
+from ..suspension.model import Model
 from .accuracy import Accuracy, measure
 from .curves import Curve, curves, gaps_on, only_over_rack
 from .grid import Grid
@@ -77,7 +77,7 @@ def write(
     progress : callable, optional
         Called with a few words on what is being done.
     force : bool, optional
-        Whether a file that somebody else wrote is replaced, see `kintrafo.files`.
+        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
     inputs : iterable of str or pathlib.Path, optional
         Files that are never replaced.
 

@@ -26,7 +26,7 @@ from kintrafo.generated import (
     slider_crank,
 )
 from kintrafo.generated._support import ModelError
-from kintrafo.solvers import native_methods
+from kintrafo.simulation.solvers import native_methods
 from scipy.integrate import DOP853
 
 from ..attempts import WrongError
