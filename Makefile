@@ -1,6 +1,6 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
-.PHONY: drawings help setup generate build run test test-elsewhere fuzz package lint types format baseline clean \
+.PHONY: drawings help setup generate build run test test-elsewhere fuzz package lint tree types format baseline clean \
 	benchmark benchmark-andrews benchmark-bits benchmark-growth benchmark-loops benchmark-page benchmark-peers benchmark-speed format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
@@ -41,9 +41,10 @@ test-elsewhere: build ## Run the tests of numbers as another processor would com
 fuzz: build ## Try every door for long; a table of what came of it (ARGS="--rounds 100")
 	@PYTHONPATH=tests $(PYTHON) -m fuzz $(ARGS)
 
-lint: .venv/.ready ## Check style
+lint: .venv/.ready tree ## Check style, and that every file imports only from lower floors
 	@.venv/bin/ruff check .
 	@.venv/bin/ruff format --check .
+	@PYTHONPATH=build/types .venv/bin/lint-imports --no-logo
 
 format: .venv/.ready ## Rewrite the sources in the project's style
 	@.venv/bin/ruff check --fix-only --quiet .
@@ -51,7 +52,6 @@ format: .venv/.ready ## Rewrite the sources in the project's style
 
 # mypy and the linter follow folders, not the mapping of the three of them onto one package: this is
 # a tree of links that has that shape, made anew so that nothing in it points to what has moved
-.PHONY: tree
 tree:
 	@rm -rf build/types && mkdir -p build/types/kintrafo
 	@for item in runtime/*; do ln -sfn "../../../$$item" build/types/kintrafo/; done
