@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from .simulation.interpolation import Samples
     from .simulation.result import Simulation, SimulationError
     from .simulation.simulate import simulate
-    from .suspension.input.suspension import Suspension
+    from .suspension.kinds import Suspension
     from .suspension.model import Model
     from .suspension.positions import (
         PositionError,
@@ -79,7 +79,7 @@ _MODULES = {
     ".core.errors": ("InputError", "KintrafoError"),
     ".simulation.events": ("SignalEvent",),
     ".generated._support": ("ClosureError", "ModelError", "ParameterError"),
-    ".suspension.input.suspension": ("Suspension",),
+    ".suspension.kinds": ("Suspension",),
     ".simulation.interpolation": ("Samples",),
     ".systems.linearisation": ("Linearisation", "linearise"),
     ".suspension.model": ("Model",),

@@ -15,8 +15,8 @@ from hypothesis import strategies as st
 from kintrafo import InputError, Model, Suspension, chrono
 from kintrafo.cli import app
 from kintrafo.study.characteristics import travel
-from kintrafo.suspension.input.toml_writer import toml_text, write_toml
 from kintrafo.suspension.starter import packaged
+from kintrafo.suspension.toml_writer import toml_text, write_toml
 from typer.testing import CliRunner
 
 FOLDER = Path(__file__).parent / "data/chrono"

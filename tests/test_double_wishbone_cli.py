@@ -14,7 +14,7 @@ from kintrafo.plots.overview import write_overview
 from kintrafo.study.checkup import checkup
 from kintrafo.study.compare import compare
 from kintrafo.study.scenario import Scenario, play
-from kintrafo.suspension.input.toml_writer import toml_text, write_toml
+from kintrafo.suspension.toml_writer import toml_text, write_toml
 from matplotlib.image import imread
 
 CAR = "double_wishbone_car"

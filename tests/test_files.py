@@ -16,8 +16,8 @@ from kintrafo.core.files import refuse, replacing
 from kintrafo.core.legible import legible
 from kintrafo.simulation.measurement import measured
 from kintrafo.suspension.chrono import read
-from kintrafo.suspension.input.toml_writer import write_toml
 from kintrafo.suspension.starter import write_starter
+from kintrafo.suspension.toml_writer import write_toml
 from kintrafo.systems.compile.build import compile_mechanism
 from matplotlib.image import imread
 

@@ -79,7 +79,7 @@ def a_file_with_heavy_rack_simulates(folder):
     end = simulate(model, (0.0, 0.2), start, inputs=road)
     assert end.success
     assert abs(end.signals["wheel_center_z"][-1] - end.signals["wheel_center_z"][0]) > 0.005
-    from kintrafo.suspension.input.toml_writer import write_toml
+    from kintrafo.suspension.toml_writer import write_toml
 
     path = write_toml(CAR, folder / "heavy.toml")
     result = CliRunner().invoke(app, ["topology", str(path)])

@@ -19,8 +19,9 @@ from kintrafo.report.grid import Axis, Grid
 from kintrafo.report.page import _upper_limit, render
 from kintrafo.report.plotted import decimals, has_pole, shown_range
 from kintrafo.report.poses import poses, reachable_grid
-from kintrafo.report.tables import input_tables, typical_ranges
+from kintrafo.report.tables import input_tables
 from kintrafo.suspension.points import hardpoints
+from kintrafo.suspension.typical import typical_ranges
 from scipy.interpolate import KroghInterpolator
 
 MODEL = Model("reference_car")

@@ -37,7 +37,7 @@ def command(
     """
     from ..core.errors import InputError
     from ..suspension.chrono import read
-    from ..suspension.input.toml_writer import write_toml
+    from ..suspension.toml_writer import write_toml
 
     if side not in ("left", "right"):
         raise InputError([f"side {side!r} is not known; there are left and right."], "--side")

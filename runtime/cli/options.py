@@ -79,11 +79,11 @@ def load(file: str) -> "Model":
     -------
     Model
     """
-    from ..suspension.input.suspension import Suspension
-    from ..suspension.model import Model, neglected_masses
+    from ..suspension.kinds import Suspension
+    from ..suspension.model import Model
 
     suspension = Suspension.load(file)
-    if not neglected_masses(suspension):
+    if not suspension.neglected_masses():
         return Model(suspension)
     # these equations may have to be derived first
     with problems.status("preparing the equations with a free rack"):

@@ -20,30 +20,7 @@ GREY = "#b8b8b8"
 TYRE_WIDTH = 0.205  # of the drawing only [m]
 TYRE_RADIUS = 0.300
 
-# What is drawn of each kind of suspension: ends and colour of each link, corners of the knuckle.
-_LINKS = {
-    "macpherson": {
-        "control arm": ("arm_front", "ball_joint", BLUE),
-        "strut": ("strut_top", "ball_joint", "black"),
-        "tie rod": ("tie_rod_inner", "tie_rod_outer", ORANGE),
-    },
-    "double_wishbone": {
-        "lower arm": ("lower_arm_front", "lower_ball_joint", BLUE),
-        "upper arm": ("upper_arm_front", "upper_ball_joint", GREEN),
-        "spring and damper": ("spring_top", "spring_seat", "black"),
-        "tie rod": ("tie_rod_inner", "tie_rod_outer", ORANGE),
-    },
-}
-_KNUCKLES = {
-    "macpherson": ("ball_joint", "tie_rod_outer", "wheel_center"),
-    "double_wishbone": (
-        "tie_rod_outer",
-        "lower_ball_joint",
-        "upper_ball_joint",
-        "wheel_center",
-        "lower_ball_joint",
-    ),
-}
+_COLOURS = {"arm": BLUE, "upper arm": GREEN, "strut": "black", "rod": ORANGE}
 
 
 def write_overview(model: Model, path: Path, travel: float = 0.08, *, force: bool = False) -> None:
@@ -78,19 +55,19 @@ def write_overview(model: Model, path: Path, travel: float = 0.08, *, force: boo
 def _draw_front(axes: Axes, model: Model, state: Array, colour: str) -> None:
     points = {name: p[1:] * 1e3 for name, p in hardpoints(model, state).items()}
     strong = colour != GREY
-    kind = model.suspension.suspension
-    for name, (first, second, own) in _LINKS[kind].items():
+    drawing = model.suspension.drawing()
+    for name, (first, second, role) in drawing.links.items():
         line = np.array([points[first], points[second]])
         axes.plot(
             *line.T,
-            color=own if strong else colour,
+            color=_COLOURS[role] if strong else colour,
             linewidth=3.0 if strong else 1.4,
             marker="o",
             markersize=5 if strong else 3,
             label=name if strong else None,
             zorder=3 if strong else 2,
         )
-    spokes = np.array([points[name] for name in _KNUCKLES[kind]])
+    spokes = np.array([points[name] for name in drawing.knuckle])
     axes.plot(*spokes.T, color="#666666" if strong else colour, linewidth=1.6, zorder=2)
     _draw_tyre(axes, model, state, points["wheel_center"], strong=strong)
 

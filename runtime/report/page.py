@@ -30,12 +30,6 @@ Array = NDArray[np.float64]
 ENDINGS = (".html", ".htm")
 """What the name of a report ends in."""
 
-# What is drawn in these colours, by the kind of suspension.
-_PARTS = {
-    "macpherson": {"arm": "control arm", "strut": "strut"},
-    "double_wishbone": {"arm": "control arms", "strut": "damper"},
-}
-
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -118,7 +112,7 @@ def render(
         over_rack=_over_rack(samples.curves),
         rows=summary(samples.curves, samples.grid, samples.looks, model.suspension.suspension),
         inputs=input_tables(model.suspension),
-        parts=_PARTS[model.suspension.suspension],
+        parts=model.suspension.drawing().legend,
         drop=DROP,
         spin=SPIN_RATE / (2.0 * np.pi),
         data=Markup(_data(model, samples)),  # noqa: S704 (page_data leaves no end tag in it)

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..suspension.input.suspension import Suspension
+from ..suspension.kinds import Suspension
 from .curves import Curve
 from .encode import packed
 from .grid import Axis, Grid

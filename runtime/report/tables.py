@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..suspension.input.section import Section
-from ..suspension.input.suspension import Suspension
+from ..suspension.kinds import Suspension
 from ..suspension.typical import typical_ranges
 from .curves import Curve
 from .grid import Grid

@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.arguments import Arguments
-from ..suspension.input.suspension import Suspension
+from ..suspension.base import Extended
 from ..suspension.input.vectors import distance_from_line
+from ..suspension.kinds import Suspension
 from ..suspension.model import Model
 from ..suspension.plausibility import USUAL_HOP, plausibility
 from ..suspension.positions import PositionError, Range, design_height, equilibrium, travel_range
@@ -56,7 +57,7 @@ class Equilibrium:
     frequency : float
         Undamped natural frequency of the wheel-hop mode [Hz].
     damping_ratio : float
-        Of that mode, without the friction in the strut; above one where it does not oscillate.
+        Of that mode, without friction; above one where it does not oscillate.
     damping_ratio_with_friction : float or None
         With the friction as steep as it is at rest, which holds for speeds far below
         ``friction_velocity_m_per_s`` alone; None if there is no friction.
@@ -92,7 +93,7 @@ class Checkup:
     travel : tuple of float
         The same as travel from design: lowest and highest.
     extension_travel : float or None
-        Travel at which the strut is fully extended; None if it is never.
+        Travel at which the strut is fully extended; None if it never is, or there is none.
     equilibrium : Equilibrium or None
         None if there is no stable one.
     problems : tuple of str
@@ -151,7 +152,7 @@ def checkup(model: Model) -> Checkup:
         extension_travel=extension,
         equilibrium=rest,
         problems=(*seen.problems, *problems),
-        notes=(*seen.notes, *_notes(travel, rest, extension)),
+        notes=(*seen.notes, *_notes(model.suspension.extended(), travel, rest, extension)),
     )
 
 
@@ -187,9 +188,8 @@ def without_friction(model: Model) -> Model:
     -------
     Model
     """
-    if not model.parameters.get("strut_friction"):
-        return model
-    return Model(model.suspension.with_changes({"strut.friction_N": 0.0}))
+    smooth = model.suspension.without_friction()
+    return model if smooth is model.suspension else Model(smooth)
 
 
 def _ride_frequency(model: Model, state: Array) -> float | None:
@@ -212,7 +212,7 @@ def _geometry(model: Model) -> dict[str, float]:
     return {
         "half_track": abs(float(center[1])),
         "wheel_center_height": float(center[2]),
-        **_lengths(model),
+        **model.suspension.lengths(),
         "tie_rod_length": points.distance("tie_rod_outer", "tie_rod_inner"),
         "steering_arm_length": distance_from_line(points.metres("tie_rod_outer"), low, high),
         "caster_angle": float(wheel.caster(at_design)),
@@ -220,36 +220,20 @@ def _geometry(model: Model) -> dict[str, float]:
     }
 
 
-def _lengths(model: Model) -> dict[str, float]:
-    """Return the lengths at design that only this kind of suspension has."""
-    points = model.suspension.hardpoints
-    if "strut_length_max" in model.parameters:
-        return {
-            "strut_length": points.distance("strut_lower", "strut_top"),
-            "strut_length_max": model.parameters["strut_length_max"],
-        }
-    arms = {
-        f"{arm}_arm_length": distance_from_line(
-            *(points.metres(f"{arm}_{end}") for end in ("ball_joint", "arm_front", "arm_rear"))
-        )
-        for arm in ("lower", "upper")
-    }
-    return arms | {"spring_length": points.distance("spring_seat", "spring_top")}
-
-
 def _extension_travel(model: Model, reach: Range) -> float | None:
-    """Return the travel at which the strut has its greatest length, looked up in a table.
+    """Return the travel at which what the wheel hangs on is drawn out, looked up in a table.
 
-    None if there is no strut, or it never is.
+    None if nothing is, or it never is.
     """
-    if "strut_length_max" not in model.parameters:
+    extended = model.suspension.extended()
+    if extended is None:
         return None
     angles = np.linspace(*reach.arm_angle, 721)
     states = np.tile(model.design_state, (angles.size, 1))
     states[:, 0] = angles
     signals: dict[str, Array] = model.signals(states)
-    longer = signals["strut_length"] - model.parameters["strut_length_max"]
-    # from low to high positions the strut becomes shorter
+    longer = signals[extended.signal] - extended.length
+    # from low to high positions it becomes shorter
     below = np.flatnonzero((longer[:-1] > 0.0) & (longer[1:] <= 0.0))
     if below.size == 0:
         return None
@@ -260,7 +244,10 @@ def _extension_travel(model: Model, reach: Range) -> float | None:
 
 
 def _notes(
-    travel: tuple[float, float], rest: Equilibrium | None, extension: float | None
+    extended: Extended | None,
+    travel: tuple[float, float],
+    rest: Equilibrium | None,
+    extension: float | None,
 ) -> list[str]:
     notes = [
         f"only {abs(end) * 1e3:.1f} mm of {name} can be reached from design."
@@ -274,8 +261,8 @@ def _notes(
             f"the wheel rests {rest.travel * 1e3:+.1f} mm from design. Where the spring is free "
             "of force and [tyre] free_height_mm decide where."
         )
-    if extension is not None and rest.travel < extension:
-        notes.append("at rest, the strut is longer than [strut] length_max_mm.")
+    if extended is not None and extension is not None and rest.travel < extension:
+        notes.append(f"at rest, the {extended.name} is longer than {extended.key}.")
     if rest.signals["tyre_force"] <= 0.0:
         notes.append("the tyre carries nothing at rest: check [tyre] free_height_mm.")
     if rest.damping_ratio <= 0.0:

@@ -20,7 +20,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from ..core.errors import InputError
 from ..core.files import reason
 from ..core.legible import short
-from .input.suspension import Suspension
+from .kinds import Suspension
 
 Array = NDArray[np.float64]
 # strict: neither a text nor true is a number

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .input.suspension import Suspension
 from .input.vectors import angle_between_lines
+from .kinds import Suspension
 from .typical import typical_ranges
 
 # Where passenger cars have their wheel hop [Hz]: TRL Report SR12 UC, vehicles over discontinuities
@@ -99,16 +99,6 @@ def _outboard(suspension: Suspension, name: str) -> float:
     return suspension.vehicle.sign * float(suspension.hardpoints.metres(name)[1])
 
 
-def _bearings(suspension: Suspension) -> dict[str, tuple[str, str]]:
-    """Return the bearings of each arm, by its ball joint."""
-    names = suspension.hardpoints.names()
-    found = {}
-    for arm in ("", "lower_", "upper_"):
-        if f"{arm}ball_joint" in names:
-            found[f"{arm}ball_joint"] = (f"{arm}arm_front", f"{arm}arm_rear")
-    return found
-
-
 def _other_side(suspension: Suspension) -> Iterator[str]:
     points = suspension.hardpoints
     for name in points.given():
@@ -128,7 +118,7 @@ def _swapped(suspension: Suspension) -> Iterator[str]:
             f"{points.text('tie_rod_outer', 'tie_rod_inner')}: the tie rod's end at the knuckle is "
             f"{1e3 * (inner - outer):.0f} mm inboard of that at the rack. Are the two swapped?"
         )
-    for ball, bearings in _bearings(suspension).items():
+    for ball, bearings in points.ARMS.items():
         hinge = min(_outboard(suspension, name) for name in bearings)
         inboard = hinge - _outboard(suspension, ball)
         if inboard > 0.0:
@@ -186,24 +176,16 @@ def _rates(suspension: Suspension) -> Iterator[str]:
     least, most = _TYRE_TO_SPRING
     if spring != 0.0 and not least <= tyre / spring <= most:
         yield (
-            f"{_key(suspension, 'spring')} = {spring:g} N/m: the tyre's rate is "
+            f"{suspension.rate_key('spring')} = {spring:g} N/m: the tyre's rate is "
             f"{tyre / spring:.3g} times that, on cars it is 5 to 20 times as much. Is it in N/mm?"
         )
     least, most = _DAMPING
     ratio = damper / (2.0 * float(np.sqrt(tyre * mass)))
     if damper != 0.0 and not least <= ratio <= most:
         yield (
-            f"{_key(suspension, 'damper')} = {damper:g} N s/m: the wheel on its tyre has a damping "
-            f"ratio of {ratio:.2g} by it, on cars some 0.1 to 0.6. Is it in N s/mm?"
+            f"{suspension.rate_key('damper')} = {damper:g} N s/m: the wheel on its tyre has a "
+            f"damping ratio of {ratio:.2g} by it, on cars some 0.1 to 0.6. Is it in N s/mm?"
         )
-
-
-def _key(suspension: Suspension, part: str) -> str:
-    """Return where the rate of the spring or the damper stands in the file."""
-    unit = "N_per_m" if part == "spring" else "N_s_per_m"
-    return (
-        f"[strut] {part}_rate_{unit}" if hasattr(suspension, "strut") else f"[{part}] rate_{unit}"
-    )
 
 
 def _inertia(suspension: Suspension) -> Iterator[str]:
@@ -236,7 +218,7 @@ def _hoop(suspension: Suspension) -> Iterator[str]:
 
 def _wheel_place(suspension: Suspension) -> Iterator[str]:
     points = suspension.hardpoints
-    for ball, bearings in _bearings(suspension).items():
+    for ball, bearings in points.ARMS.items():
         inboard = _outboard(suspension, ball) - _outboard(suspension, "wheel_center")
         if inboard > _INBOARD:
             yield (
@@ -245,7 +227,7 @@ def _wheel_place(suspension: Suspension) -> Iterator[str]:
             )
         hinge = 0.5 * sum(float(points.metres(name)[2]) for name in bearings)
         below = hinge - float(points.metres("wheel_center")[2])
-        if below > _BELOW and not ball.startswith("upper"):
+        if below > _BELOW and ball == points.STEERING_AXIS[0]:
             yield (
                 f"{points.text('wheel_center')} is {1e3 * below:.0f} mm below the bearings of its "
                 "arm. z points up: is its sign right?"

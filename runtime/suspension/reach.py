@@ -306,9 +306,9 @@ def _look(model: Model, angles: Array, racks: Array) -> Seen:
 def _margins(model: Model, states: Array, inputs: Array) -> Array:
     """Return what must be positive at a position."""
     margins = model.evaluate("margins", states, inputs)
-    # the azimuth of a vertical shaft is undefined, and nothing here depends on it
-    unwatched = [name.startswith("shaft_level") for name, _ in model.equations.GUARDS]
-    margins[..., unwatched] = 1.0
+    # what guards an angle that no position depends on, as the azimuth of a vertical shaft
+    acting = {guard for guards in model.equations.ACTING_GUARDS.values() for guard in guards}
+    margins[..., [guard not in acting for guard in range(margins.shape[-1])]] = 1.0
     return margins
 
 

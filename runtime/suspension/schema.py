@@ -11,11 +11,12 @@ from typing import Any
 
 from pydantic.json_schema import models_json_schema
 
+from .base import KIND
 from .input.bodies import RigidBody
 from .input.section import Section
-from .input.suspension import KIND
 from .input.units import unit_of
-from .kinds import DEFAULT, KINDS
+from .kinds import KINDS
+from .starter import DEFAULT
 
 _LIMITS = {
     "ge": "minimum",
@@ -54,19 +55,6 @@ _EVERY_BODY = """\
 Except for the wheel, which is round and has keys of its own. The inertia is the tensor about the
 centre of mass, in chassis axes; `xy` is the element of the matrix, minus the product of inertia.
 """
-
-_NOTES = {
-    "macpherson": """, which may be left out.
-
-Where the spring is free of force is said in one of four ways: by the slide of the strut
-(`spring_free_slide_mm`), by the distance of its seats (`spring_free_length_mm`), by its force with
-the strut extended (`spring_preload_N`), or by its force at the design position
-(`spring_force_at_design_N`). The damper has a rate in `[strut]`, or a curve in `[damper]`.""",
-    "double_wishbone": """.
-
-Where the spring is free of force is said by the distance of its ends (`free_length_mm`) or by its
-force at the design position (`force_at_design_N`). Spring and damper are on the lower arm.""",
-}
 
 _TABLE_HEAD = "| key | unit | allowed | left out | meaning |\n|---|---|---|---|---|"
 
@@ -136,7 +124,7 @@ def page_text() -> str:
     parts += _table(_with_units(RigidBody.model_json_schema()))
     for name, kind in KINDS.items():
         own = [section for section in kind.model_fields if section not in shared]
-        parts.append(f'## {_capital(kind.TITLE)}\n\n`{KIND} = "{name}"`{_NOTES[name]}\n')
+        parts.append(f'## {_capital(kind.TITLE)}\n\n`{KIND} = "{name}"`{kind.PAGE}\n')
         parts += _described(sections, kind, own)
     return "\n".join(parts).rstrip() + "\n"
 

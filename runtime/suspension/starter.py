@@ -6,16 +6,29 @@ from pathlib import Path
 from ..core.errors import InputError
 from ..core.files import refuse, replacing
 from ..core.suggestions import suggestion
-from . import data
+from .data import data_sets
 
 _ENDING = ".toml"
+
+DEFAULT = "macpherson"
+"""The kind of a file that does not say it."""
 
 # Sections and keys that a first file has, and that the data sets keep in a comment.
 _SECTIONS = ("# [bump_stop]", "# [rebound_stop]")
 _KEYS = ("# lifts_off = ", "# length_min_mm = ", "# length_max_mm = ")
 
-# What a file of each kind of suspension begins with.
-STARTERS = {"macpherson": "reference_car", "double_wishbone": "double_wishbone_car"}
+
+def kinds() -> tuple[str, ...]:
+    """Return the names of the kinds of suspension, without loading any; the default first.
+
+    Examples
+    --------
+    >>> kinds()
+    ('macpherson', 'double_wishbone')
+    """
+    files = resources.files(__package__).joinpath("kinds").iterdir()
+    names = sorted(f.name.removesuffix(".py") for f in files if f.name.endswith(".py"))
+    return DEFAULT, *(name for name in names if name not in (DEFAULT, "__init__"))
 
 
 def packaged() -> tuple[str, ...]:
@@ -26,8 +39,7 @@ def packaged() -> tuple[str, ...]:
     >>> "reference_car" in packaged()
     True
     """
-    files = (file.name for file in resources.files(data).iterdir())
-    return tuple(sorted(name.removesuffix(_ENDING) for name in files if name.endswith(_ENDING)))
+    return tuple(data_sets())
 
 
 def write_starter(
@@ -59,8 +71,7 @@ def write_starter(
         )
         raise InputError([problem], "template")
     refuse([path], force=force, endings=[_ENDING])
-    text = resources.files(data).joinpath(f"{template}{_ENDING}").read_text(encoding="utf-8")
-    text = _with_limits(text)
+    text = _with_limits(data_sets()[template].read_text(encoding="utf-8"))
     with replacing(path, force=force) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")
     return Path(path)

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from ..systems.system import System
 from .corner import Array, Spring, Stroke
-from .model import Model
 
 
 class Strokes:
@@ -11,9 +11,11 @@ class Strokes:
 
     Parameters
     ----------
-    model : Model
+    model : System
     states, inputs : ndarray
         Positions at rest, as in the compiled module.
+    arm : str
+        The state that is the angle of the arm.
 
     Attributes
     ----------
@@ -21,10 +23,10 @@ class Strokes:
         Those of the model, by name [SI units].
     """
 
-    def __init__(self, model: Model, states: Array, inputs: Array) -> None:
+    def __init__(self, model: System, states: Array, inputs: Array, arm: str) -> None:
         # at unit rate velocities are first derivatives, and their derivatives second ones
         states = states.copy()
-        states[..., model.state_names.index(f"{model.names.arm}_rate")] = 1.0
+        states[..., model.state_names.index(f"{arm}_rate")] = 1.0
         self.parameters = model.parameters
         self._signals = model.signals(states, inputs)
         by_arm = model.evaluate("signals_jacobian", states, inputs)[..., 0]

@@ -34,10 +34,6 @@ Complex = NDArray[np.complex128]
 _STEADY = 1e-6
 # Its square must not overflow [Hz].
 _GREATEST_FREQUENCY = 1e100
-# Of a suspension: coordinates that no equation depends on, as a balanced wheel looks the same at
-# every angle, and those of the arm that swings in wheel hop.
-_CYCLIC = ("beta5", "spin_angle")
-_ARM = ("beta1", "beta1_rate", "arm_angle", "arm_angle_rate")
 
 
 @dataclass(frozen=True)
@@ -76,8 +72,11 @@ class Linearisation:
 
     @property
     def steady(self) -> bool:
-        """Whether nothing changes at the point but the angle of a spinning wheel."""
-        changing = [i for i, name in enumerate(self.state_names) if name not in _CYCLIC]
+        """Whether nothing changes at the point but what no equation depends on.
+
+        That is the angle of a spinning wheel: it looks the same at every angle.
+        """
+        changing = self.A.any(axis=0)
         # the size of what has to cancel: a state off by 1e-6 rad or m, or so
         scale = max(1.0, float(np.abs(self.A[changing]).max()))
         return bool(np.abs(self.rate[changing]).max() <= _STEADY * scale)
@@ -94,14 +93,14 @@ class Linearisation:
 
     @property
     def wheel_hop(self) -> Mode:
-        """The mode in which the control arm swings: wheel and knuckle between spring and tyre.
+        """The mode of the first coordinate, which of a suspension is the angle of its arm.
 
-        It is the pair of eigenvalues in which arm angle and rate take part most (see
-        `mode_of_states`). The two zeros of the spin have no part of the arm: a wheel may stand at
-        any angle, and roll at any speed.
+        It is the pair of eigenvalues in which this coordinate and its rate take part most (see
+        `mode_of_states`): wheel and knuckle between spring and tyre. The two zeros of the spin have
+        no part of the arm: a wheel may stand at any angle, and roll at any speed.
         """
-        arm = tuple(name for name in self.state_names if name in _ARM)
-        return mode_of_states(self.A, self.state_names, arm)
+        names = self.state_names
+        return mode_of_states(self.A, names, (names[0], names[len(names) // 2]))
 
     def state_space(self) -> "StateSpace":
         """Return the matrices as SciPy's ``StateSpace``."""

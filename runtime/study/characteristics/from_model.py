@@ -4,17 +4,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...suspension.corner import Array, Corner, Motion, Vehicle
-from ...suspension.input.suspension import Suspension
 from ...suspension.input.units import in_metres
+from ...suspension.kinds import Suspension
 from ...suspension.model import Model
 from ...suspension.points import hardpoints
 from ...suspension.reach import at_rest
 from ...suspension.strokes import Strokes
-from .double_wishbone import DOUBLE_WISHBONE
-from .macpherson import MACPHERSON
-
-# By the name of the kind in the input file.
-_GUIDANCE = {"macpherson": MACPHERSON, "double_wishbone": DOUBLE_WISHBONE}
 
 
 def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -> Corner:
@@ -31,7 +26,7 @@ def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -
     -------
     Corner
     """
-    guidance = _GUIDANCE[model.suspension.suspension]
+    kind = model.suspension
     states, inputs = at_rest(model, arm_angle, rack_position)
     points = hardpoints(model, states, inputs)
     turned = model.evaluate("orientations", states, inputs)[..., _knuckle(model), :, :]
@@ -39,7 +34,7 @@ def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -
     by_arm = _motion(model, points, states, inputs, "arm")
     by_rack = _motion(model, points, states, inputs, "rack")
     travel = by_arm.per(by_arm.velocity[..., 2])
-    strokes = Strokes(model, states, inputs)
+    strokes = _strokes(model, states, inputs)
     low, high = model.suspension.hardpoints.STEERING_AXIS
     return Corner(
         vehicle=vehicle(model.suspension),
@@ -51,10 +46,10 @@ def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -
         upper=points[high],
         travel=travel,
         steering=by_rack.minus(travel, by_rack.velocity[..., 2]),
-        links=guidance.links(points),
-        spring=guidance.spring(strokes),
-        stops=guidance.stops(strokes),
-        damper=guidance.damper(strokes),
+        links=kind.links_at(points),
+        spring=kind.spring_at(strokes),
+        stops=kind.stops_at(strokes),
+        damper=kind.damper_at(strokes),
         arm_rotation=model.design_state[0] - np.broadcast_to(arm_angle, states.shape[:-1]),
     )
 
@@ -75,8 +70,7 @@ def gaps(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -> 
         For each stop that the model has: positive where it is free, negative where it is compressed
         [m]. What `catalogue.AT_STOPS` names jumps where a gap closes.
     """
-    guidance = _GUIDANCE[model.suspension.suspension]
-    return guidance.gaps(Strokes(model, *at_rest(model, arm_angle, rack_position)))
+    return model.suspension.gaps_at(_strokes(model, *at_rest(model, arm_angle, rack_position)))
 
 
 def vehicle(suspension: Suspension) -> Vehicle:
@@ -100,6 +94,10 @@ def vehicle(suspension: Suspension) -> Vehicle:
         front_brake_share=given.front_brake_share,
         travel_per_turn=_metres(suspension.rack.travel_per_turn_mm),
     )
+
+
+def _strokes(model: Model, states: Array, inputs: Array) -> Strokes:
+    return Strokes(model, states, inputs, model.names.arm)
 
 
 def _metres(length: float | None) -> float | None:

@@ -37,6 +37,8 @@ class Hardpoints(Section):
         Points that a file may leave out, and which other point then stands in.
     CARRIERS : dict
         Which moving body carries a point; the others are fixed to the chassis.
+    ARMS : dict
+        The bearings of each arm on the chassis, by the ball joint that it carries.
     JOINTS : tuple of str
         Moving points that belong into a table of positions, besides the wheel centre.
     STEERING_AXIS : tuple of str
@@ -47,6 +49,7 @@ class Hardpoints(Section):
 
     STAND_INS: ClassVar[Mapping[str, str]] = {}
     CARRIERS: ClassVar[Mapping[str, str]]
+    ARMS: ClassVar[Mapping[str, Pair]]
     JOINTS: ClassVar[tuple[str, ...]]
     STEERING_AXIS: ClassVar[Pair]
     AXIS_NAME: ClassVar[str] = "steering axis"

@@ -1,17 +1,28 @@
-"""The input data of a double wishbone suspension: hardpoints, spring, damper, bodies."""
+"""The double wishbone suspension: two arms, of which the lower one carries spring and damper.
+
+Its hardpoints, sections, bodies and checks, its equations and their parameters, what its
+characteristics are computed from, and how it is drawn.
+"""
 
 from collections.abc import Mapping
+from types import ModuleType
 from typing import Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
+from ...core.errors import InputError
+from ...generated import double_wishbone
+from ..base import Allowed, Names, Suspension
+from ..corner import Array, Plane, Stroke
+from ..corner import Spring as SpringStroke
+from ..drawing import Drawing
 from ..input.bodies import Bodies, Rack, RigidBody, TieRod
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
 from ..input.section import NonNegative, Number, Positive, Section, Triple
-from ..input.suspension import Allowed, Suspension
 from ..input.units import in_metres
-from ..input.vectors import Vector, unit_vector
+from ..input.vectors import Vector, distance_from_line, unit_vector
+from ..strokes import Strokes
 
 _UP = np.array([0.0, 0.0, 1.0])
 
@@ -46,6 +57,10 @@ class DoubleWishboneHardpoints(Hardpoints):
         "wheel_center": "knuckle",
         "tie_rod_inner": "rack",
         "spring_seat": "lower_arm",
+    }
+    ARMS: ClassVar[Mapping[str, Pair]] = {
+        "lower_ball_joint": ("lower_arm_front", "lower_arm_rear"),
+        "upper_ball_joint": ("upper_arm_front", "upper_arm_rear"),
     }
     JOINTS: ClassVar[tuple[str, ...]] = (
         "lower_ball_joint",
@@ -269,12 +284,29 @@ class DoubleWishbone(Suspension):
     """
 
     TITLE: ClassVar[str] = "double wishbone suspension"
+    NAMES: ClassVar[Names] = Names(
+        "arm_angle", "spin_angle", "rack_displacement", "spring_actuator"
+    )
+    STARTER: ClassVar[str] = "double_wishbone_car"
+    PAGE: ClassVar[str] = """.
+
+Where the spring is free of force is said by the distance of its ends (`free_length_mm`) or by its
+force at the design position (`force_at_design_N`). Spring and damper are on the lower arm."""
 
     suspension: Literal["double_wishbone"] = Field(description="the kind of suspension")
     hardpoints: DoubleWishboneHardpoints = Field(description="the points that define the geometry")
     spring: Spring = Field(description="the spring, between chassis and lower arm")
     damper: LinearDamper = Field(description="the damper, on the spring's axis")
     bodies: DoubleWishboneBodies = Field(description="masses and inertia")
+
+    # -- its equations --------------------------------------------------------------------------
+
+    def equations(self, *, free_rack: bool) -> ModuleType:
+        """Return the equations, in which the rack is prescribed."""
+        if free_rack:
+            problem = f"free_rack=True: the rack of a {self.TITLE} is prescribed. Leave that out."
+            raise InputError([problem], "Model")
+        return double_wishbone
 
     def parameters(self) -> dict[str, float]:
         """Return everything that the equations of motion need, in SI units.
@@ -291,6 +323,19 @@ class DoubleWishbone(Suspension):
             "damper_rate": self.damper.rate_N_s_per_m,
         }
 
+    # -- its geometry ---------------------------------------------------------------------------
+
+    def lengths(self) -> dict[str, float]:
+        """Return the lengths of the arms and of the spring at design [m]."""
+        points = self.hardpoints
+        arms = {
+            f"{ball.removesuffix('_ball_joint')}_arm_length": distance_from_line(
+                *(points.metres(name) for name in (ball, *bearings))
+            )
+            for ball, bearings in points.ARMS.items()
+        }
+        return arms | {"spring_length": points.distance(*_SPRING)}
+
     def allowed_lengths(self) -> tuple[Allowed, ...]:
         """Return the least and the greatest length of the damper, where they are given."""
         ends = (("min", 1.0, "least"), ("max", -1.0, "greatest"))
@@ -304,6 +349,45 @@ class DoubleWishbone(Suspension):
             for value, end, sign, name in given
             if value is not None
         )
+
+    def drawing(self) -> Drawing:
+        """Return how arms, spring and tie rod are drawn."""
+        return Drawing(
+            links={
+                "lower arm": ("lower_arm_front", "lower_ball_joint", "arm"),
+                "upper arm": ("upper_arm_front", "upper_ball_joint", "upper arm"),
+                "spring and damper": ("spring_top", "spring_seat", "strut"),
+                "tie rod": ("tie_rod_inner", "tie_rod_outer", "rod"),
+            },
+            knuckle=(
+                "tie_rod_outer",
+                "lower_ball_joint",
+                "upper_ball_joint",
+                "wheel_center",
+                "lower_ball_joint",
+            ),
+            legend={"arm": "control arms", "strut": "damper"},
+        )
+
+    # -- what its characteristics are computed from ---------------------------------------------
+
+    def links_at(self, points: Mapping[str, Array]) -> tuple[Plane, Plane]:
+        """Return the planes of the lower and of the upper arm."""
+        lower, upper = (
+            Plane(points[ball], np.cross(points[front] - points[rear], points[ball] - points[rear]))
+            for ball, (front, rear) in self.hardpoints.ARMS.items()
+        )
+        return lower, upper
+
+    def spring_at(self, strokes: Strokes) -> SpringStroke:
+        """Return the spring, which acts on the lower arm."""
+        return strokes.spring("spring_force", "spring")
+
+    def damper_at(self, strokes: Strokes) -> Stroke:
+        """Return the stroke of the damper, which is on the spring's axis."""
+        return strokes.stroke("spring")
+
+    # -- its checks -----------------------------------------------------------------------------
 
     @classmethod
     def further_problems(cls, sections: Mapping[str, Any]) -> list[str]:

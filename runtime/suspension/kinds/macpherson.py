@@ -1,21 +1,32 @@
-"""The input data of a MacPherson suspension: hardpoints, strut, bodies."""
+"""The MacPherson suspension: a control arm, and a strut in which the knuckle turns.
+
+Its hardpoints, bodies and checks, its equations and their parameters, what its characteristics are
+computed from, and how it is drawn.
+"""
 
 import math
 from collections.abc import Mapping
-from typing import Any, ClassVar, Literal
+from functools import cache
+from types import ModuleType
+from typing import Any, ClassVar, Literal, Self
 
 import numpy as np
 from pydantic import Field
 
+from ...generated import macpherson, macpherson_free_rack, macpherson_general
+from ...systems.compile.build import compile_mechanism, require_generator
+from ..base import Allowed, Extended, Names, Suspension
+from ..corner import Array, Plane, Spring, Stroke
+from ..drawing import Drawing
 from ..input.bodies import Bodies, Rack, RigidBody, TieRod
 from ..input.damper import Damper
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
 from ..input.section import Flag, NonNegative, Number, Triple
 from ..input.strut import Stop, Strut
-from ..input.suspension import Allowed, Suspension
 from ..input.units import in_metres
 from ..input.vectors import Vector, unit_vector
 from ..input.vehicle import Tyre
+from ..strokes import Strokes
 
 NO_DAMPER = Damper(velocity_m_per_s=(-1.0, 1.0), force_N=(0.0, 0.0))
 NO_STOP = Stop(clearance_mm=0.0, rate_N_per_m=0.0)
@@ -39,6 +50,9 @@ _DIRECTIONS_OF_STEERING = {
     ("strut_lower", "strut_top"),
 }
 
+# Bodies that the paper's equations leave without mass.
+_MASSLESS_IN_THE_PAPER = ("tie_rod", "rack", "upper_strut")
+
 _FORWARD, _UP = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
 
 
@@ -61,6 +75,7 @@ class MacPhersonHardpoints(Hardpoints):
         "strut_lower": "knuckle",
         "spring_seat": "knuckle",
     }
+    ARMS: ClassVar[Mapping[str, Pair]] = {"ball_joint": ("arm_front", "arm_rear")}
     JOINTS: ClassVar[tuple[str, ...]] = ("ball_joint", "tie_rod_outer", "tie_rod_inner")
     STEERING_AXIS: ClassVar[Pair] = ("ball_joint", "strut_top")
     AXIS_NAME: ClassVar[str] = "strut axis"
@@ -207,6 +222,15 @@ class MacPherson(Suspension):
     """A MacPherson suspension at its design position; see `Suspension`."""
 
     TITLE: ClassVar[str] = "MacPherson suspension"
+    # the equations of the paper's suspension, whatever was added to it, keep the paper's names
+    NAMES: ClassVar[Names] = Names("beta1", "beta5", "beta9", "strut_force")
+    STARTER: ClassVar[str] = "reference_car"
+    PAGE: ClassVar[str] = """, which may be left out.
+
+Where the spring is free of force is said in one of four ways: by the slide of the strut
+(`spring_free_slide_mm`), by the distance of its seats (`spring_free_length_mm`), by its force with
+the strut extended (`spring_preload_N`), or by its force at the design position
+(`spring_force_at_design_N`). The damper has a rate in `[strut]`, or a curve in `[damper]`."""
 
     suspension: Literal["macpherson"] = Field(
         default="macpherson", description="the kind of suspension"
@@ -218,6 +242,24 @@ class MacPherson(Suspension):
     damper: Damper | None = Field(default=None, description="a damper curve instead of a rate")
     bump_stop: Stop | None = Field(default=None, description="the strut's stop in bump")
     rebound_stop: Stop | None = Field(default=None, description="the strut's stop in rebound")
+
+    # -- its equations --------------------------------------------------------------------------
+
+    def equations(self, *, free_rack: bool) -> ModuleType:
+        """Return the paper's equations, or those with everything that was added to them."""
+        if not self.beyond_the_paper():
+            return macpherson_free_rack if free_rack else macpherson
+        return _general_free_rack() if free_rack else macpherson_general
+
+    def neglected_masses(self) -> dict[str, float]:
+        """Return the bodies that the paper's equations leave without mass, where they have some."""
+        rigid = self.bodies.rigid()
+        masses = {name: rigid[name].mass_kg for name in _MASSLESS_IN_THE_PAPER}
+        return {name: mass for name, mass in masses.items() if mass > 0.0}
+
+    def without_friction(self) -> Self:
+        """Return the same suspension without the friction of its strut."""
+        return self.with_changes({"strut.friction_N": 0.0}) if self.strut.friction_N else self
 
     def parameters(self) -> dict[str, float]:
         """Return everything that the equations of motion need, in SI units.
@@ -256,6 +298,19 @@ class MacPherson(Suspension):
             "tyre_lifts_off": float(self.tyre.lifts_off),
         }
 
+    # -- its geometry ---------------------------------------------------------------------------
+
+    def lengths(self) -> dict[str, float]:
+        """Return the length of the strut at design and extended [m]."""
+        return {
+            "strut_length": self.hardpoints.distance("strut_lower", "strut_top"),
+            "strut_length_max": self.strut.length_max,
+        }
+
+    def extended(self) -> Extended:
+        """Return the strut drawn out."""
+        return Extended("strut_length", self.strut.length_max, "strut", "[strut] length_max_mm")
+
     def allowed_lengths(self) -> tuple[Allowed, ...]:
         """Return the least length of the strut, where it is given."""
         least = self.strut.length_min_mm
@@ -263,6 +318,54 @@ class MacPherson(Suspension):
             return ()
         key = f"the strut is at its least length, [strut] length_min_mm = {least:g} mm"
         return (Allowed("strut_length", in_metres(least, "mm"), key),)
+
+    def rate_key(self, part: str) -> str:
+        """Return where the rate of the spring or the damper stands: with the strut."""
+        return super().rate_key(part).replace(f"[{part}] ", f"[strut] {part}_")
+
+    def drawing(self) -> Drawing:
+        """Return how arm, strut and tie rod are drawn."""
+        return Drawing(
+            links={
+                "control arm": ("arm_front", "ball_joint", "arm"),
+                "strut": ("strut_top", "ball_joint", "strut"),
+                "tie rod": ("tie_rod_inner", "tie_rod_outer", "rod"),
+            },
+            knuckle=("ball_joint", "tie_rod_outer", "wheel_center"),
+            legend={"arm": "control arm", "strut": "strut"},
+        )
+
+    # -- what its characteristics are computed from ---------------------------------------------
+
+    def links_at(self, points: Mapping[str, Array]) -> tuple[Plane, Plane]:
+        """Return the plane of the control arm and that across the strut through its mount."""
+        ball, front, rear = points["ball_joint"], points["arm_front"], points["arm_rear"]
+        top, bottom = points["strut_top"], points["strut_lower"]
+        return Plane(ball, np.cross(front - rear, ball - rear)), Plane(top, top - bottom)
+
+    def spring_at(self, strokes: Strokes) -> Spring:
+        """Return the spring, which may have an axis of its own."""
+        return strokes.spring("spring_force", "spring" if "spring_length" in strokes else "strut")
+
+    def stops_at(self, strokes: Strokes) -> tuple[Spring, ...]:
+        """Return the stops that the equations have."""
+        return tuple(strokes.spring(f"{side}_stop_force", "strut") for side in _sides(strokes))
+
+    def gaps_at(self, strokes: Strokes) -> tuple[Array, ...]:
+        """Return how far the strut is from touching each of its stops [m]."""
+        sense = {"bump": 1.0, "rebound": -1.0}
+        length = strokes.stroke("strut").length
+        return tuple(
+            sense[side] * (length - strokes.parameters[f"{side}_stop_length"])
+            for side in _sides(strokes)
+            if strokes.parameters[f"{side}_stop_rate"]
+        )
+
+    def damper_at(self, strokes: Strokes) -> Stroke:
+        """Return the stroke of the damper: that of the strut."""
+        return strokes.stroke("strut")
+
+    # -- its checks -----------------------------------------------------------------------------
 
     def beyond_the_paper(self) -> list[str]:
         """Return what this suspension has that the paper's equations leave out.
@@ -304,6 +407,20 @@ class MacPherson(Suspension):
             *strut.spring_problems(own_seats=points.has_spring_seats()),
             *_damper_problems(strut, with_curve=not without_curve),
         ]
+
+
+@cache
+def _general_free_rack() -> ModuleType:
+    """Return the equations with everything, which do not come compiled: they are seldom wanted."""
+    require_generator()
+    from ...generator.mechanisms.macpherson import GENERAL_FREE_RACK  # noqa: PLC0415 (an extra)
+
+    return compile_mechanism(GENERAL_FREE_RACK)
+
+
+def _sides(strokes: Strokes) -> tuple[str, ...]:
+    """Return the sides on which the equations can have a stop."""
+    return tuple(side for side in ("bump", "rebound") if f"{side}_stop_force" in strokes)
 
 
 def _strut_too_short(strut: Strut, hardpoints: MacPhersonHardpoints) -> list[str]:

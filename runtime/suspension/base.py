@@ -1,8 +1,9 @@
 """A suspension as an engineer describes it: hardpoints, alignment, rates and masses.
 
-`Suspension` is what all have in common; each kind has a file of its own. It holds the values as
-they stand in the input file, in the units that the names of its keys carry.
-`Suspension.parameters` returns what the equations of motion take, in SI units.
+`Suspension` is what all have in common; each kind has a file of its own in `kinds`, where all that
+differs between them stands. It holds the values as they stand in the input file, in the units that
+the names of its keys carry. `Suspension.parameters` returns what the equations of motion take, in
+SI units.
 
 Axes are those of ISO 8855, fixed to the chassis: x forward, y left, z up. A right suspension lies
 at negative y, a left one at positive y.
@@ -10,26 +11,30 @@ at negative y, a left one at positive y.
 
 from abc import abstractmethod
 from collections.abc import Mapping
-from importlib import resources
 from importlib.resources.abc import Traversable
 from pathlib import Path
-from typing import Any, ClassVar, NamedTuple, Self
+from types import ModuleType
+from typing import Any, ClassVar, NamedTuple, Self, TypeVar, get_args
 
 from pydantic import Field, ValidationError
 
-from ...core.arguments import Arguments
-from ...core.errors import InputError
-from ...core.files import told
-from ...core.suggestions import suggestion
-from .. import data as packaged_data
-from .bodies import Bodies
-from .hardpoints import Hardpoints
-from .messages import messages_of, subsection
-from .section import Section
-from .toml_file import read_toml
-from .units import in_metres
-from .vectors import angle_between_lines, components, unit_vector
-from .vehicle import Gravity, Steering, Tyre, Vehicle, Wheel
+from ..core.arguments import Arguments
+from ..core.errors import InputError
+from ..core.files import told
+from ..core.suggestions import suggestion
+from .corner import Array, Plane, Spring, Stroke
+from .data import data_sets
+from .drawing import Drawing
+from .input.bodies import Bodies
+from .input.hardpoints import Hardpoints
+from .input.messages import messages_of, subsection
+from .input.section import Section
+from .input.toml_file import read_toml
+from .input.units import in_metres
+from .input.vectors import angle_between_lines, components, unit_vector
+from .input.vehicle import Gravity, Steering, Tyre, Vehicle, Wheel
+from .starter import DEFAULT
+from .strokes import Strokes
 
 # The top-level key that says which suspension a file describes.
 KIND = "suspension"
@@ -43,6 +48,46 @@ _SMALLEST_WHEEL_RADIUS = 0.1
 _SMALLEST_SPIN_AXIS_ANGLE = 1.0
 
 _COMPONENTS = {"x": 0, "y": 1, "z": 2}
+# How the names of their keys end.
+_RATE_UNITS = {"spring": "N_per_m", "damper": "N_s_per_m"}
+
+
+class Names(NamedTuple):
+    """What the equations call that which every suspension has.
+
+    Attributes
+    ----------
+    arm, spin : str
+        States: angle of the lower arm, which falls as the wheel rises, and of the wheel [rad].
+    rack : str
+        Relative coordinate, and with a free rack a state: displacement of the rack [m].
+    actuator : str
+        Input: force of an actuator in the strut, or beside the spring [N].
+    """
+
+    arm: str
+    spin: str
+    rack: str
+    actuator: str
+
+
+class Extended(NamedTuple):
+    """What the wheel hangs on when it is drawn out as far as it goes.
+
+    Attributes
+    ----------
+    signal : str
+        The signal of the equations that is its length.
+    length : float
+        The greatest one [m].
+    name, key : str
+        What it is called, and where the file says its greatest length.
+    """
+
+    signal: str
+    length: float
+    name: str
+    key: str
 
 
 class Allowed(NamedTuple):
@@ -84,6 +129,12 @@ class Suspension(Section):
     ----------
     TITLE : str
         What the suspension is called.
+    NAMES : Names
+        What its equations call that which every suspension has.
+    STARTER : str
+        The packaged data set that a new file is copied from.
+    PAGE : str
+        What the page of the input file says of the kind: the end of a sentence, and more of them.
 
     Examples
     --------
@@ -98,6 +149,9 @@ class Suspension(Section):
     """
 
     TITLE: ClassVar[str]
+    NAMES: ClassVar[Names]
+    STARTER: ClassVar[str]
+    PAGE: ClassVar[str]
 
     suspension: str = Field(description="the kind of suspension")
     vehicle: Vehicle = Field(description="where the suspension is mounted")
@@ -117,6 +171,12 @@ class Suspension(Section):
         problems += _geometry_problems(type(self), data)
         if problems:
             raise InputError(problems)
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, **_: Any) -> None:
+        """Make a kind known by the name that a file calls it."""
+        for name in get_args(cls.model_fields[KIND].annotation):
+            _known[name] = cls
 
     @classmethod
     def load(cls, path_or_name: str | Path) -> Self:
@@ -167,11 +227,8 @@ class Suspension(Section):
             If no suspension can be like this; it lists everything that is wrong.
         """
         _check_keys("data", data, source)
-        # here, because a kind is made from this class
-        from ..kinds import kind_of  # noqa: PLC0415
-
         try:
-            return kind_of(data, cls)(**data)
+            return _kind_of(data, cls)(**data)
         except InputError as error:
             raise InputError(error.problems, source) from None
 
@@ -276,6 +333,81 @@ class Suspension(Section):
         """
         return ()
 
+    # -- what each kind says of itself ----------------------------------------------------------
+
+    @abstractmethod
+    def equations(self, *, free_rack: bool) -> ModuleType:
+        """Return the shortest equations that have everything that this suspension has.
+
+        Parameters
+        ----------
+        free_rack : bool
+            Whether the rack is a degree of freedom.
+
+        Raises
+        ------
+        InputError
+            If there are none.
+        """
+
+    @abstractmethod
+    def lengths(self) -> dict[str, float]:
+        """Return the lengths at design that only this kind has, by name [m]."""
+
+    @abstractmethod
+    def drawing(self) -> Drawing:
+        """Return how the suspension is drawn."""
+
+    @abstractmethod
+    def links_at(self, points: Mapping[str, Array]) -> tuple[Plane, Plane]:
+        """Return the planes of the links that hold the wheel carrier; see `Corner`.
+
+        Parameters
+        ----------
+        points : mapping
+            The hardpoints by name, each of shape (..., 3) [m].
+        """
+
+    @abstractmethod
+    def spring_at(self, strokes: Strokes) -> Spring:
+        """Return the spring at many positions."""
+
+    @abstractmethod
+    def damper_at(self, strokes: Strokes) -> Stroke:
+        """Return the stroke of the damper at many positions."""
+
+    def stops_at(self, strokes: Strokes) -> tuple[Spring, ...]:
+        """Return what else pushes by its position, at many positions: no stops."""
+        del strokes
+        return ()
+
+    def gaps_at(self, strokes: Strokes) -> tuple[Array, ...]:
+        """Return what is open of each stop [m]: where it closes, the stop begins to act."""
+        del strokes
+        return ()
+
+    def extended(self) -> Extended | None:
+        """Return what the wheel hangs on drawn out; None where the equations have no such end."""
+        return None
+
+    def without_friction(self) -> Self:
+        """Return the same suspension without friction; this one if it has none."""
+        return self
+
+    def neglected_masses(self) -> dict[str, float]:
+        """Return the bodies whose mass counts only with a free rack.
+
+        Returns
+        -------
+        dict of str to float
+            Name to mass [kg], more than zero; empty where the rack may be prescribed.
+        """
+        return {}
+
+    def rate_key(self, part: str) -> str:
+        """Return where the rate of a part, "spring" or "damper", stands in the file."""
+        return f"[{part}] rate_{_RATE_UNITS[part]}"
+
     @abstractmethod
     def parameters(self) -> dict[str, float]:
         """Return everything that the equations of motion need, in SI units.
@@ -334,6 +466,72 @@ class Suspension(Section):
         return []
 
 
+SuspensionT = TypeVar("SuspensionT", bound=Suspension)
+
+_known: dict[str, type[Suspension]] = {}
+
+
+def known_kinds() -> dict[str, type[Suspension]]:
+    """Return the kinds that are loaded, by the names that a file calls them, the default first."""
+    return dict(sorted(_known.items(), key=lambda item: item[0] != DEFAULT))
+
+
+def _kind_of(data: Mapping[str, Any], wanted: type[SuspensionT]) -> type[SuspensionT]:
+    """Return the class that describes the suspension of a file.
+
+    Parameters
+    ----------
+    data : mapping
+        The file's content; not checked yet.
+    wanted : type of Suspension
+        `Suspension`, or the kind that it has to be.
+
+    Returns
+    -------
+    type of Suspension
+
+    Raises
+    ------
+    InputError
+        If there is no such kind, it is not the one that is wanted, or it is not said although the
+        hardpoints are not those of a MacPherson suspension.
+    """
+    name = data.get(KIND, DEFAULT)
+    if not isinstance(name, str) or name not in _known:
+        meant = suggestion(str(name), known_kinds())
+        problem = f"{KIND} = {name!r} is not a known kind of suspension. {meant}"
+        raise InputError([problem.rstrip()])
+    if KIND not in data:
+        _refuse_hardpoints_of_another(data)
+    kind = _known[name]
+    if issubclass(kind, wanted):
+        return kind
+    problem = f'{KIND} = "{name}": a {wanted.TITLE} is needed here. Load it with Suspension.'
+    raise InputError([problem])
+
+
+def _refuse_hardpoints_of_another(data: Mapping[str, Any]) -> None:
+    """Refuse data that do not say their kind, where the hardpoints are those of another one."""
+    points = data.get("hardpoints")
+    if not isinstance(points, Mapping):
+        return
+    own = _points_of(DEFAULT)
+    for name, kind in _known.items():
+        strange = [point for point in points if point in _points_of(name) - own]
+        if strange:
+            problem = (
+                f"[hardpoints] {', '.join(map(str, strange))} are points of a {kind.TITLE}. Add a "
+                f'line `{KIND} = "{name}"` above the first section.'
+            )
+            raise InputError([problem])
+
+
+def _points_of(name: str) -> set[str]:
+    """Return the names of the hardpoints of a kind."""
+    hardpoints = _known[name].model_fields["hardpoints"].annotation
+    return set(getattr(hardpoints, "model_fields", ()))
+
+
 def _check_keys(name: str, given: Any, source: str) -> None:
     """Refuse what is no dict with texts as keys."""
     with Arguments(source) as checked:
@@ -343,11 +541,7 @@ def _check_keys(name: str, given: Any, source: str) -> None:
 
 def _find(path_or_name: str | Path) -> Path | Traversable:
     """Return the packaged file of this name, or else the file at this path."""
-    packaged = {
-        file.name.removesuffix(".toml"): file
-        for file in resources.files(packaged_data).iterdir()
-        if file.name.endswith(".toml")
-    }
+    packaged = data_sets()
     if isinstance(path_or_name, str) and path_or_name in packaged:
         return packaged[path_or_name]
     path = Path(path_or_name)

@@ -6,9 +6,9 @@ from typing import Any
 
 import tomlkit
 
-from ...core.files import Paths, refuse, replacing
-from ...core.legible import legible
-from .suspension import Suspension
+from ..core.files import Paths, refuse, replacing
+from ..core.legible import legible
+from .kinds import Suspension
 
 _ENDING = ".toml"
 
