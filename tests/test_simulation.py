@@ -465,8 +465,8 @@ def test_backward_in_time(backend):
 
 
 def test_without_sundials_the_user_is_told_once(monkeypatch):
-    from kintrafo.simulation.simulate import simulate as simulation
-    from kintrafo.simulation.simulate import solvers
+    from kintrafo.simulation import simulate as simulation
+    from kintrafo.simulation import solvers
 
     monkeypatch.setattr(solvers, "sundials", None)
     monkeypatch.setattr(simulation, "_told", False)

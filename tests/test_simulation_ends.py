@@ -12,8 +12,8 @@ from kintrafo import Model, System, simulate, state_at_height
 from kintrafo.cli import app
 from kintrafo.generated import slider_crank
 from kintrafo.simulation import solvers
+from kintrafo.simulation.elements import bounds_of
 from kintrafo.simulation.solvers import native_available
-from kintrafo.simulation.validity import bounds_of
 from typer.testing import CliRunner
 
 needs_sundials = pytest.mark.skipif(not native_available(), reason="built without SUNDIALS")

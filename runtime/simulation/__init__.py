@@ -5,6 +5,7 @@
 `courses`, `fitting`, `interpolation`, `turning`    curves over time, and where they turn
 `roads`, `measurement`, `excitation`    inputs from a formula, from a file, from both
 `events`         at which level of a signal something happens
+`elements`       the events and bounds of struts, tyres and dampers
 `solvers`        the integration methods; `native` has those of SUNDIALS
 `dead_points`, `watched`    how near a motion is to a dead point, for the methods of SciPy
 `result`         what a simulation gives; `validity` says where it has no meaning

@@ -10,6 +10,7 @@ from scipy.optimize import OptimizeResult
 from ..core.errors import KintrafoError
 from ..generated._support import ModelError
 from ..systems.system import System
+from .elements import bounds_of
 from .validity import Excursion, excursions
 
 Array = NDArray[np.float64]
@@ -89,7 +90,8 @@ class Simulation(OptimizeResult):
     @property
     def validity(self) -> tuple[Excursion, ...]:
         """Where the motion leaves what the model describes, by its outputs."""
-        return excursions(self.signals.model, self.t, self.signals)
+        model = self.signals.model
+        return excursions(model, bounds_of(model), self.t, self.signals)
 
 
 class DenseOutput:

@@ -10,7 +10,6 @@ a rack). Two things keep an integrator from missing what happens:
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache
 from itertools import pairwise
 
 import numpy as np
@@ -20,6 +19,7 @@ from scipy.interpolate import CubicHermiteSpline, CubicSpline, PPoly
 from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..core.suggestions import suggestion
+from ..systems.inputs import derived_inputs, may_jump, rates_of, what_moves
 from ..systems.system import System
 from .courses import Signal, course
 from .interpolation import Eased
@@ -27,12 +27,6 @@ from .turning import turning_points
 
 Array = NDArray[np.float64]
 
-# What follows by differentiation in time from an input that ends so, where a model takes it. A jump
-# of the road passes the tyre's damper without a blow.
-_RATES = {
-    "_position": ("_velocity", "_acceleration"),
-    "_height": ("_velocity",),
-}
 # Times that differ by less than this part of them are one to an integrator.
 _RESOLVED = 1e-13
 # A derivative jumps where the two sides differ by more than this part of its greatest value.
@@ -152,14 +146,14 @@ def time_inputs(
     TimeInputs
     """
     names = model.input_names
-    derived = _derived(names)
+    derived = derived_inputs(names)
     with Arguments("inputs") as given:
         given.mapping("inputs", {} if signals is None else signals, "input names, what they do")
     collected = _Collected(np.zeros(len(names)) if held is None else held.copy())
     for name, signal in (signals or {}).items():
         if name not in names or name in derived:
             raise InputError([_refusal(name, names, derived)], "inputs")
-        rates = len(_rates(name, names))
+        rates = len(rates_of(name, names))
         found = course(name, signal, t_span, max_step=max_step, rates=rates)
         if isinstance(found, float):
             collected.constant[names.index(name)] = found
@@ -170,26 +164,10 @@ def time_inputs(
     )
 
 
-@cache
-def _rates(name: str, names: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the inputs of a model that are the derivatives of another one, in order."""
-    for ending, rates in _RATES.items():
-        if name.endswith(ending):
-            return tuple(
-                r for r in (name.removesuffix(ending) + rate for rate in rates) if r in names
-            )
-    return ()
-
-
-def _derived(names: tuple[str, ...]) -> dict[str, str]:
-    """Return the inputs that follow from another one, and from which."""
-    return {rate: name for name in names for rate in _rates(name, names)}
-
-
 def _variant(model: System, collected: _Collected) -> str:
     """Return the ending of the shortest functions that have all that moves."""
     names = model.input_names
-    moving = {rate for name in collected.curves for rate in _rates(name, names)}
+    moving = {rate for name in collected.curves for rate in rates_of(name, names)}
     for variant, still in model.equations.HELD_VARIANTS.items():
         if moving.isdisjoint(still):
             return f"_{variant}"
@@ -239,7 +217,7 @@ def _covering(curves: list[PPoly], time: float) -> PPoly:
 
 def _targets(name: str, names: tuple[str, ...]) -> tuple[int, int, int]:
     """Return where a value and its two derivatives go; -1 for what the model does not take."""
-    first, second, *_ = (*(names.index(rate) for rate in _rates(name, names)), -1, -1)
+    first, second, *_ = (*(names.index(rate) for rate in rates_of(name, names)), -1, -1)
     return names.index(name), first, second
 
 
@@ -268,11 +246,11 @@ def _collect(collected: _Collected, name: str, found: Sequence[PPoly], rates: in
 
 def _check_jump(name: str, time: float, order: int, rates: int) -> None:
     """Refuse the jump of a position, or of its velocity, where the model takes what is infinite."""
-    if not (name.endswith("_position") and order < rates):
+    if may_jump(name) or order >= rates:
         return
     what, needs = (("", "velocity"), ("the velocity of ", "acceleration"))[order]
     problem = (
-        f"{what}{name!r} jumps at t = {time:g} s: the {name.removesuffix('_position')} "
+        f"{what}{name!r} jumps at t = {time:g} s: the {what_moves(name)} "
         f"would need an infinite {needs} there. Give one value for each time, and a smooth way "
         "between them."
     )

@@ -15,6 +15,7 @@ from ..systems.state import inputs_of
 from ..systems.system import System
 from .courses import Signal
 from .dead_points import refuse
+from .elements import named_event
 from .events import Event, Events, events_of
 from .result import DenseOutput, Signals, Simulation, SimulationError
 from .signals import Segment, TimeInputs, time_inputs
@@ -152,7 +153,7 @@ def simulate(
         )
     )  # fmt: skip
     given = time_inputs(model, inputs, t_span, held=held, max_step=options.max_step)
-    watched = events_of(model, events)
+    watched = events_of(model, events, named_event)
     solve = _choose_backend(model, backend, options)
     return _Run(model, given, options, watched, times, solve).over(state)
 

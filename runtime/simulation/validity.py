@@ -1,9 +1,9 @@
-"""Where a motion leaves what a model describes: a strut beyond its ends, a tyre that pulls.
+"""Where a motion leaves what a model describes.
 
 The equations go on there, and what they give has no meaning for the car.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,9 +13,6 @@ from ..core.quantities import attributes, display_of
 from ..systems.system import System
 
 Array = NDArray[np.float64]
-
-# A pull below this is rounding: nanometres of a tyre's deflection [N].
-_TOUCH = 1e-3
 
 
 @dataclass(frozen=True)
@@ -77,12 +74,15 @@ class Excursion:
         )
 
 
-def excursions(model: System, times: Array, signals: Mapping[str, Array]) -> tuple[Excursion, ...]:
+def excursions(
+    model: System, bounds: Iterable[Bound], times: Array, signals: Mapping[str, Array]
+) -> tuple[Excursion, ...]:
     """Return what a motion passes, by its outputs.
 
     Parameters
     ----------
     model : System or Model
+    bounds : iterable of Bound
     times : ndarray, shape (n,)
         [s]
     signals : mapping
@@ -93,7 +93,7 @@ def excursions(model: System, times: Array, signals: Mapping[str, Array]) -> tup
     tuple of Excursion
     """
     found = []
-    for bound in bounds_of(model):
+    for bound in bounds:
         values = signals[bound.signal]
         by = values - bound.limit if bound.above else bound.limit - values
         beyond = by > 0.0
@@ -111,57 +111,3 @@ def _spans(times: Array, beyond: NDArray[np.bool_]) -> tuple[tuple[float, float]
     return tuple(
         (float(times[a]), float(times[b - 1])) for a, b in zip(edges[::2], edges[1::2], strict=True)
     )
-
-
-def bounds_of(model: System) -> Iterator[Bound]:
-    """Yield what the signals of a model must not pass.
-
-    Whoever has a new bound writes a function like those in `_KINDS`.
-    """
-    for signal in model.signal_names:
-        for ending, kind in _KINDS.items():
-            if signal == ending or signal.endswith(f"_{ending}"):
-                yield from kind(model, signal, signal.removesuffix(ending))
-
-
-def _strut_length(model: System, signal: str, prefix: str) -> Iterator[Bound]:
-    greatest = _parameter(model, prefix, "strut_length_max")
-    if greatest:
-        yield Bound(signal, greatest, above=True, words="the strut is longer than it can be")
-    least = _parameter(model, prefix, "strut_length_min") or 0.0
-    yield Bound(signal, least, above=False, words="the strut is shorter than it can be")
-
-
-def _tyre_force(model: System, signal: str, prefix: str) -> Iterator[Bound]:
-    if not _parameter(model, prefix, "tyre_lifts_off"):
-        yield Bound(signal, -_TOUCH, above=False, words="the tyre pulls at the road")
-
-
-def _compression(model: System, signal: str, prefix: str) -> Iterator[Bound]:
-    """Yield the ends of a damper's table, which is one of velocities in bump."""
-    if signal.endswith("spring_velocity") and f"{prefix}strut_velocity" in model.signal_names:
-        return
-    table = {
-        name.removeprefix(prefix): value
-        for name, value in model.parameters.items()
-        if name.removeprefix(prefix).startswith("damper_table_")
-    }
-    knots = [value for name, value in table.items() if "_knot_" in name]
-    if not knots or max(knots) <= min(knots):
-        return
-    words = "the damper is faster in {} than its table goes, and is taken to go on straight"
-    yield Bound(signal, -max(knots), above=False, words=words.format("bump"), possible=True)
-    yield Bound(signal, -min(knots), above=True, words=words.format("rebound"), possible=True)
-
-
-def _parameter(model: System, prefix: str, name: str) -> float | None:
-    """Return a parameter of this side, or the common one; None where there is neither."""
-    return model.parameters.get(f"{prefix}{name}", model.parameters.get(name))
-
-
-_KINDS: dict[str, Callable[[System, str, str], Iterator[Bound]]] = {
-    "strut_length": _strut_length,
-    "tyre_force": _tyre_force,
-    "strut_velocity": _compression,
-    "spring_velocity": _compression,
-}

@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..core.arguments import Arguments
 from ..core.errors import InputError
+from .inputs import rates_of
 from .modes import Mode, eigenvalues_of, mode_of_states, modes_of
 from .state import inputs_of
 from .system import System
@@ -156,11 +157,8 @@ class Linearisation:
         """Return the amplitudes of all inputs while one of them moves with amplitude one."""
         column = np.zeros((*s.shape[:-1], len(self.input_names)), dtype=np.complex128)
         column[..., self.input_names.index(source)] = 1.0
-        stem, _, kind = source.rpartition("_")
-        if kind in ("position", "height"):
-            for order, rate in enumerate(("velocity", "acceleration"), 1):
-                if f"{stem}_{rate}" in self.input_names:
-                    column[..., self.input_names.index(f"{stem}_{rate}")] = s[..., 0] ** order
+        for order, rate in enumerate(rates_of(source, self.input_names), 1):
+            column[..., self.input_names.index(rate)] = s[..., 0] ** order
         return column
 
 

@@ -10,6 +10,7 @@ from ...suspension.model import Model
 from ...suspension.points import hardpoints
 from ...suspension.reach import at_rest
 from ...suspension.strokes import Strokes
+from ...systems.inputs import rates_of
 
 
 def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -> Corner:
@@ -128,7 +129,8 @@ def _motion(
     elif model.free_rack:
         states[..., model.state_names.index(f"{model.names.rack}_rate")] = 1.0
     else:
-        inputs[..., model.input_names.index("rack_velocity")] = 1.0
+        velocity_input, *_ = rates_of("rack_position", model.input_names)
+        inputs[..., model.input_names.index(velocity_input)] = 1.0
     twist = model.evaluate("velocities", states, inputs)[..., _knuckle(model), :]
     turning, velocity = twist[..., :3], twist[..., 3:]
     origin = model.evaluate("positions", states, inputs)[..., _knuckle(model), :]
