@@ -104,7 +104,7 @@ def test_scene_moves_without_complaint(tmp_path, side):
         for travel, rack in [(37.5, 0.0), (-62.0, 41.5), (100.0, -60.0)]:
             page.locator("#travel").fill(str(travel))
             page.locator("#rack").fill(str(rack))
-            drawn = page.evaluate("kintrafo.systems.state().wheelCenter")
+            drawn = page.evaluate("kintrafo.state().wheelCenter")
             state = state_at_height(model, 0.3 + 1e-3 * travel, rack_position=1e-3 * rack)
             inputs = model.inputs({"rack_position": 1e-3 * rack})
             expected = hardpoints(model, state, inputs)["wheel_center"]

@@ -68,7 +68,7 @@ class Watched:
         assert self.page.evaluate("typeof kintrafo") == "object", self.complaints
 
     def state(self):
-        return self.page.evaluate("kintrafo.systems.state()")
+        return self.page.evaluate("kintrafo.state()")
 
 
 @pytest.fixture
