@@ -16,7 +16,7 @@ from ...generated import double_wishbone
 from ..base import Allowed, Names, Suspension
 from ..corner import Array, Plane, Stroke
 from ..corner import Spring as SpringStroke
-from ..drawing import Drawing
+from ..drawing import Axis, Drawing
 from ..input.bodies import Bodies, Rack, RigidBody, TieRod
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
 from ..input.section import NonNegative, Number, Positive, Section, Triple
@@ -351,7 +351,11 @@ force at the design position (`force_at_design_N`). Spring and damper are on the
         )
 
     def drawing(self) -> Drawing:
-        """Return how arms, spring and tie rod are drawn."""
+        """Return how arms, spring and tie rod are drawn; the lower arm holds the spring."""
+        held = {
+            f"{end}_bracket": ("spring_seat", "lower_ball_joint", f"lower_arm_{end}")
+            for end in ("front", "rear")
+        }
         return Drawing(
             links={
                 "lower arm": ("lower_arm_front", "lower_ball_joint", "arm"),
@@ -367,6 +371,10 @@ force at the design position (`force_at_design_N`). Spring and damper are on the
                 "lower_ball_joint",
             ),
             legend={"arm": "control arms", "strut": "damper"},
+            damper=Axis("spring_seat", "spring_top", 0.5),
+            spring=Axis("spring_seat", "spring_top", 0.32),
+            upright=self.hardpoints.STEERING_AXIS,
+            brackets={name: (place, "spring_seat") for name, place in held.items()},
         )
 
     # -- what its characteristics are computed from ---------------------------------------------

@@ -17,7 +17,7 @@ from ...generated import macpherson, macpherson_free_rack, macpherson_general
 from ...systems.compile.build import compile_mechanism, require_generator
 from ..base import Allowed, Extended, Names, Suspension
 from ..corner import Array, Plane, Spring, Stroke
-from ..drawing import Drawing
+from ..drawing import Axis, Drawing
 from ..input.bodies import Bodies, Rack, RigidBody, TieRod
 from ..input.damper import Damper
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
@@ -52,6 +52,10 @@ _DIRECTIONS_OF_STEERING = {
 
 # Bodies that the paper's equations leave without mass.
 _MASSLESS_IN_THE_PAPER = ("tie_rod", "rack", "upper_strut")
+
+# Of the drawing: a spring seat nearer to the ball joint than this is taken to be in line with the
+# strut [m].
+_OWN_SEAT = 0.05
 
 _FORWARD, _UP = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
 
@@ -324,7 +328,12 @@ the strut extended (`spring_preload_N`), or by its force at the design position
         return super().rate_key(part).replace(f"[{part}] ", f"[strut] {part}_")
 
     def drawing(self) -> Drawing:
-        """Return how arm, strut and tie rod are drawn."""
+        """Return how arm, strut and tie rod are drawn.
+
+        The knuckle is drawn to hold the strut on its axis beside the wheel centre.
+        """
+        clamp = ("wheel_center", "strut_lower", "strut_top")
+        in_line = self.hardpoints.distance("spring_seat", "ball_joint") <= _OWN_SEAT
         return Drawing(
             links={
                 "control arm": ("arm_front", "ball_joint", "arm"),
@@ -333,6 +342,12 @@ the strut extended (`spring_preload_N`), or by its force at the design position
             },
             knuckle=("ball_joint", "tie_rod_outer", "wheel_center"),
             legend={"arm": "control arm", "strut": "strut"},
+            damper=Axis(clamp, "strut_top", 0.585),
+            spring=Axis(clamp, "strut_top", 0.46)
+            if in_line
+            else Axis("spring_seat", "spring_top", 0.0),
+            upright=("ball_joint", clamp),
+            brackets={},
         )
 
     # -- what its characteristics are computed from ---------------------------------------------
