@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.arguments import Arguments
-from ..suspension.base import Extended
+from ..suspension.facts import Extended
 from ..suspension.input.vectors import distance_from_line
 from ..suspension.kinds import Suspension
 from ..suspension.model import Model

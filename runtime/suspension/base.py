@@ -11,101 +11,39 @@ at negative y, a left one at positive y.
 
 from abc import abstractmethod
 from collections.abc import Mapping
-from importlib.resources.abc import Traversable
 from pathlib import Path
 from types import ModuleType
-from typing import Any, ClassVar, NamedTuple, Self, TypeVar, get_args
+from typing import Any, ClassVar, Self, TypeVar, get_args
 
 from pydantic import Field, ValidationError
 
 from ..core.arguments import Arguments
 from ..core.errors import InputError
-from ..core.files import told
 from ..core.suggestions import suggestion
 from .corner import Array, Plane, Spring, Stroke
-from .data import data_sets
+from .data import find
 from .drawing import Drawing
+from .facts import Allowed, Extended, Names
+from .geometry import geometry_problems
 from .input.bodies import Bodies
 from .input.hardpoints import Hardpoints
-from .input.messages import messages_of, subsection
+from .input.messages import messages_of
 from .input.section import Section
 from .input.toml_file import read_toml
 from .input.units import in_metres
-from .input.vectors import angle_between_lines, components, unit_vector
+from .input.vectors import components, unit_vector
 from .input.vehicle import Gravity, Steering, Tyre, Vehicle, Wheel
+from .places import put, reverse
 from .starter import DEFAULT
 from .strokes import Strokes
 
 # The top-level key that says which suspension a file describes.
 KIND = "suspension"
 
-# A wheel nearer to the vehicle's centre plane than this is on neither side, in m.
-_SMALLEST_HALF_TRACK = 0.001
 # A wheel centre lower than this above z = 0 says that z = 0 is not the ground, in m.
 _SMALLEST_WHEEL_RADIUS = 0.1
-# Nearer to the axis of steering than this, the spin axis would make the wheel turn instead of
-# steer, in degrees.
-_SMALLEST_SPIN_AXIS_ANGLE = 1.0
-
-_COMPONENTS = {"x": 0, "y": 1, "z": 2}
 # How the names of their keys end.
 _RATE_UNITS = {"spring": "N_per_m", "damper": "N_s_per_m"}
-
-
-class Names(NamedTuple):
-    """What the equations call that which every suspension has.
-
-    Attributes
-    ----------
-    arm, spin : str
-        States: angle of the lower arm, which falls as the wheel rises, and of the wheel [rad].
-    rack : str
-        Relative coordinate, and with a free rack a state: displacement of the rack [m].
-    actuator : str
-        Input: force of an actuator in the strut, or beside the spring [N].
-    """
-
-    arm: str
-    spin: str
-    rack: str
-    actuator: str
-
-
-class Extended(NamedTuple):
-    """What the wheel hangs on when it is drawn out as far as it goes.
-
-    Attributes
-    ----------
-    signal : str
-        The signal of the equations that is its length.
-    length : float
-        The greatest one [m].
-    name, key : str
-        What it is called, and where the file says its greatest length.
-    """
-
-    signal: str
-    length: float
-    name: str
-    key: str
-
-
-class Allowed(NamedTuple):
-    """What a length may be, as the file says.
-
-    Attributes
-    ----------
-    signal : str
-        The signal of the equations that is the length.
-    limit : float
-        The least length; the greatest, with a minus sign [m].
-    meaning : str
-        What it means that the length is there.
-    """
-
-    signal: str
-    limit: float
-    meaning: str
 
 
 class Suspension(Section):
@@ -168,7 +106,7 @@ class Suspension(Section):
             super().__init__(**data)
         except ValidationError as error:
             problems = messages_of(error, type(self), data)
-        problems += _geometry_problems(type(self), data)
+        problems += geometry_problems(type(self), data, self.further_problems)
         if problems:
             raise InputError(problems)
 
@@ -201,7 +139,7 @@ class Suspension(Section):
         """
         with Arguments(cls.__name__) as given:
             given.path("path_or_name", path_or_name)
-        file = _find(path_or_name)
+        file = find(path_or_name)
         # Printing the path inside the package would not help whoever asked for a name.
         return cls.from_dict(read_toml(file), source=str(path_or_name))
 
@@ -274,7 +212,7 @@ class Suspension(Section):
         _check_keys("changes", changes, "suspension")
         data = self.to_dict()
         source = f"suspension with changed {', '.join(changes)}"
-        problems = [problem for place in changes if (problem := _put(data, place, changes[place]))]
+        problems = [problem for place in changes if (problem := put(data, place, changes[place]))]
         if problems:
             raise InputError(problems, source)
         return self.from_dict(data, source)
@@ -314,13 +252,13 @@ class Suspension(Section):
         points = [data["hardpoints"][name] for name in self.hardpoints.given()]
         bodies = [data["bodies"][name] for name in self.bodies.rigid()]
         for point in points + [body["com_mm"] for body in bodies if "com_mm" in body]:
-            _reverse(point, 1)
+            reverse(point, 1)
         for body in bodies:
-            _reverse(body, "inertia_xy_kg_m2")
-            _reverse(body, "inertia_yz_kg_m2")
+            reverse(body, "inertia_xy_kg_m2")
+            reverse(body, "inertia_yz_kg_m2")
         # The mirror image of (x, y, z) is (x, -y, z), which with the sense kept is (-x, y, -z).
-        _reverse(data["rack"]["axis"], 0)
-        _reverse(data["rack"]["axis"], 2)
+        reverse(data["rack"]["axis"], 0)
+        reverse(data["rack"]["axis"], 2)
         return self.from_dict(data, "mirrored suspension")
 
     def allowed_lengths(self) -> tuple[Allowed, ...]:
@@ -537,113 +475,3 @@ def _check_keys(name: str, given: Any, source: str) -> None:
     with Arguments(source) as checked:
         for key in checked.mapping(name, given, "keys and values of the input file"):
             checked.kind(f"key of {name}", key, str, "a text is needed")
-
-
-def _find(path_or_name: str | Path) -> Path | Traversable:
-    """Return the packaged file of this name, or else the file at this path."""
-    packaged = data_sets()
-    if isinstance(path_or_name, str) and path_or_name in packaged:
-        return packaged[path_or_name]
-    path = Path(path_or_name)
-    with told(path, "cannot be read"):
-        found = path.exists()
-    if not found:
-        hint = suggestion(path.name, packaged)
-        problem = f"There is no such file. Give the path of a TOML file, or a packaged name. {hint}"
-        raise InputError([problem], str(path_or_name))
-    return path
-
-
-def _put(data: dict[str, Any], place: str, value: Any) -> str:
-    """Change one value of nested dictionaries, in which points are lists.
-
-    Returns what is wrong with the place; empty if nothing is. A key that is not known is left to
-    the checks of the section.
-    """
-    *sections, key = place.split(".")
-    table: Any = data
-    for section in sections:
-        known = table if isinstance(table, dict) else {}
-        if section not in known:
-            return f"{place}: there is no {section} in the data. {suggestion(section, known)}"
-        table = known[section]
-    if isinstance(table, dict):
-        table[key] = value
-        return ""
-    if isinstance(table, list) and key in _COMPONENTS:
-        table[_COMPONENTS[key]] = value
-        return ""
-    return f"{place}: {key} is no part of {sections[-1]}. Points have x, y and z; numbers no parts."
-
-
-def _reverse(values: Any, index: int | str) -> None:
-    """Change the sign of one value in a list or a dictionary."""
-    values[index] = 0.0 - values[index]  # unlike -x, this leaves no negative zero
-
-
-def _valid(kind: type[Suspension], data: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the sections that are right, whatever the others are; None for one left out."""
-    sections: dict[str, Any] = {}
-    for name, field in kind.model_fields.items():
-        model = subsection(kind, name)
-        if model is None:
-            continue
-        if data.get(name) is None and not field.is_required():
-            sections[name] = None
-            continue
-        try:
-            sections[name] = model.model_validate(data.get(name))
-        except ValidationError:
-            continue
-    return sections
-
-
-def _geometry_problems(kind: type[Suspension], data: Mapping[str, Any]) -> list[str]:
-    """Say what is wrong with the geometry, as far as the sections that define it are right."""
-    sections = _valid(kind, data)
-    hardpoints = sections.get("hardpoints")
-    if hardpoints is None:
-        return []
-    problems: list[str] = hardpoints.unit_problems()
-    if problems:
-        return problems
-    problems = hardpoints.geometry_problems()
-    vehicle, wheel = sections.get("vehicle"), sections.get("wheel")
-    if vehicle is not None:
-        problems += _wrong_side(vehicle, hardpoints)
-    if vehicle is not None and wheel is not None:
-        problems += _spin_axis_along_steering_axis(vehicle, wheel, hardpoints)
-    return problems + kind.further_problems(sections)
-
-
-def _wrong_side(vehicle: Vehicle, hardpoints: Hardpoints) -> list[str]:
-    """Compare the declared side with that of the wheel."""
-    if vehicle.sign * hardpoints.metres("wheel_center")[1] >= _SMALLEST_HALF_TRACK:
-        return []
-    half = "above" if vehicle.side == "left" else "below"
-    limit = 1000.0 * vehicle.sign * _SMALLEST_HALF_TRACK
-    problem = (
-        f'[vehicle] side = "{vehicle.side}", but {hardpoints.text("wheel_center")}: '
-        f"y points left, so a {vehicle.side} wheel must have y {half} {limit:g} mm. Change "
-        "side, or the sign of y of all hardpoints."
-    )
-    return [problem]
-
-
-def _spin_axis_along_steering_axis(
-    vehicle: Vehicle, wheel: Wheel, hardpoints: Hardpoints
-) -> list[str]:
-    """Refuse a wheel that would spin when it should steer."""
-    axis = hardpoints.steering_axis()
-    if axis is None:
-        return []
-    angle = angle_between_lines(wheel.spin_axis(vehicle.sign), axis)
-    if angle >= _SMALLEST_SPIN_AXIS_ANGLE:
-        return []
-    problem = (
-        f"[wheel] camber_deg = {wheel.camber_deg} deg and toe_deg = {wheel.toe_deg} deg put the "
-        f"spin axis within {angle:.3f} deg of the {hardpoints.AXIS_NAME}; at least "
-        f"{_SMALLEST_SPIN_AXIS_ANGLE:g} deg are needed to steer the wheel. Correct the angles, or "
-        f"{hardpoints.text(*hardpoints.STEERING_AXIS)}."
-    )
-    return [problem]

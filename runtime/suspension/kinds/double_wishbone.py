@@ -13,10 +13,11 @@ from pydantic import Field
 
 from ...core.errors import InputError
 from ...generated import double_wishbone
-from ..base import Allowed, Names, Suspension
+from ..base import Suspension
 from ..corner import Array, Plane, Stroke
 from ..corner import Spring as SpringStroke
 from ..drawing import Axis, Drawing
+from ..facts import Allowed, Names
 from ..input.bodies import Bodies, Rack, RigidBody, TieRod
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
 from ..input.section import NonNegative, Number, Positive, Section, Triple

@@ -15,9 +15,10 @@ from pydantic import Field
 
 from ...generated import macpherson, macpherson_free_rack, macpherson_general
 from ...systems.compile.build import compile_mechanism, require_generator
-from ..base import Allowed, Extended, Names, Suspension
+from ..base import Suspension
 from ..corner import Array, Plane, Spring, Stroke
 from ..drawing import Axis, Drawing
+from ..facts import Allowed, Extended, Names
 from ..input.bodies import Bodies, Rack, RigidBody, TieRod
 from ..input.damper import Damper
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
