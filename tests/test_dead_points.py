@@ -5,8 +5,8 @@ import pytest
 from kintrafo import Model, SimulationError, System, equilibrium, simulate
 from kintrafo.generated import four_bar, slider_crank
 from kintrafo.generated._support import ClosureError
-from kintrafo.simulation.excitation import Course, excitation
 from kintrafo.simulation.solvers import native_available, native_methods
+from kintrafo.study.excitation import Course, excitation
 from kintrafo.systems.compile.build import compile_mechanism
 from scipy.integrate import solve_ivp
 

@@ -14,7 +14,7 @@ from kintrafo import InputError, Model, Suspension, export, plots, report
 from kintrafo.core import written
 from kintrafo.core.files import refuse, replacing
 from kintrafo.core.legible import legible
-from kintrafo.simulation.measurement import measured
+from kintrafo.study.measurement import measured
 from kintrafo.suspension.chrono import read
 from kintrafo.suspension.starter import write_starter
 from kintrafo.suspension.toml_writer import write_toml

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from kintrafo import InputError, Model
-from kintrafo.simulation.excitation import Course, excitation
-from kintrafo.simulation.measurement import measured
 from kintrafo.simulation.roads import sine, step
+from kintrafo.study.excitation import Course, excitation
+from kintrafo.study.measurement import measured
 from kintrafo.study.scenario import Scenario, play
 from kintrafo.study.sweep import grid
 

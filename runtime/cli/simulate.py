@@ -95,8 +95,8 @@ def command(
 
     Without --height it starts from rest on the road as it is at the beginning.
     """
-    from ..simulation.excitation import Course, excitation
-    from ..simulation.measurement import measured as read
+    from ..study.excitation import Course, excitation
+    from ..study.measurement import measured as read
     from ..study.scenario import Scenario
 
     read_here = [Path(file), *([] if measured is None else [measured])]

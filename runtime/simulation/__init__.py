@@ -3,7 +3,7 @@
 `simulate`       the one function of this folder that a person calls
 `signals`        what an input does over time, cut where it jumps
 `courses`, `fitting`, `interpolation`, `turning`    curves over time, and where they turn
-`roads`, `measurement`, `excitation`    inputs from a formula, from a file, from both
+`roads`          inputs from a formula
 `events`         at which level of a signal something happens
 `elements`       the events and bounds of struts, tyres and dampers
 `solvers`        the integration methods; `native` has those of SUNDIALS

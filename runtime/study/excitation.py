@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 from ..core.arguments import Arguments
 from ..core.errors import InputError
-from .courses import Signal
+from ..simulation.courses import Signal
+from ..simulation.roads import sine, step
 from .measurement import Measurement
-from .roads import sine, step
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,8 @@ from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..core.files import reason
 from ..core.suggestions import nearest, suggestion
-from .interpolation import Between, Samples
+from ..simulation.interpolation import Between, Samples
+from ..suspension.kinds import KINDS
 
 Array = NDArray[np.float64]
 
@@ -37,8 +38,7 @@ _COLUMNS = {
     "road_height_m": _Column("road_height", 1.0),
     "rack_position_mm": _Column("rack_position", 1e-3),
     "rack_position_m": _Column("rack_position", 1.0),
-    "strut_force_N": _Column("strut_force", 1.0),
-    "spring_actuator_N": _Column("spring_actuator", 1.0),
+    **{f"{kind.NAMES.actuator}_N": _Column(kind.NAMES.actuator, 1.0) for kind in KINDS.values()},
 }
 _ABSCISSAE = ("time", "distance")
 
@@ -52,8 +52,8 @@ class Measurement:
     times : ndarray, shape (n,)
         Beginning with zero [s].
     values : dict
-        Input name (``road_height``, ``rack_position``, ``strut_force``; of a double wishbone
-        ``spring_actuator``) to samples of shape (n,), SI units.
+        Input name (``road_height``, ``rack_position``, that of the actuator) to samples of shape
+        (n,), SI units.
     """
 
     times: Array
@@ -73,10 +73,11 @@ def measured(path: str | Path, *, speed: float | None = None) -> Measurement:
     """Read inputs from a CSV file.
 
     The first line names the columns: ``time_s`` or ``time_ms``, or ``distance_m`` along the road;
-    and at least one of ``road_height_mm``, ``rack_position_mm`` (also in ``_m``), ``strut_force_N``
-    and, of a double wishbone, ``spring_actuator_N``. Columns are separated by commas, semicolons or
-    tabs; with the latter two, decimals may have a comma. Times increase and are shifted to begin
-    with zero; a time that is given twice is a jump. `kintrafo.Samples` says what is in between.
+    and at least one of ``road_height_mm``, ``rack_position_mm`` (also in ``_m``), and the force of
+    the actuator by the name that the kind of suspension has for it: ``strut_force_N``,
+    ``spring_actuator_N``. Columns are separated by commas, semicolons or tabs; with the latter two,
+    decimals may have a comma. Times increase and are shifted to begin with zero; a time that is
+    given twice is a jump. `kintrafo.Samples` says what is in between.
 
     Parameters
     ----------
