@@ -1,9 +1,9 @@
 """A suspension as an engineer describes it: hardpoints, alignment, rates and masses.
 
-`Suspension` is what all have in common; each kind has a file of its own in `kinds`, where all that
-differs between them stands. It holds the values as they stand in the input file, in the units that
-the names of its keys carry. `Suspension.parameters` returns what the equations of motion take, in
-SI units.
+`Suspension` is what all have in common. Each kind has a file of its own in `kinds`, where all that
+differs between them stands; there `Suspension` is imported from, so that all kinds are known. It
+holds the values as they stand in the input file, in the units that the names of its keys carry.
+`Suspension.parameters` returns what the equations of motion take, in SI units.
 
 Axes are those of ISO 8855, fixed to the chassis: x forward, y left, z up. A right suspension lies
 at negative y, a left one at positive y.
