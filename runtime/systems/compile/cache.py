@@ -57,10 +57,8 @@ def _generator_hash() -> str:
     """Return a hash of everything that derives and emits."""
     import sympy
 
-    from ... import generator
-
     digest = hashlib.sha256(sympy.__version__.encode())
-    for name, content in sorted(_contents(files(generator), "")):
+    for name, content in sorted(_contents(files("kintrafo.generator"), "")):
         digest.update(name.encode() + b"\0" + content)
     return digest.hexdigest()
 
