@@ -1,10 +1,10 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
-.PHONY: drawings help setup generate build run test test-elsewhere fuzz package lint types format baseline clean \
+.PHONY: drawings help setup generate build run test test-elsewhere fuzz package lint tree types format baseline clean \
 	benchmark benchmark-andrews benchmark-bits benchmark-growth benchmark-loops benchmark-page benchmark-peers benchmark-speed format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
-EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/native/*.pyx runtime/native/*.[ch])
+EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/simulation/native/*.pyx runtime/simulation/native/*.[ch])
 
 help: ## Show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -41,19 +41,23 @@ test-elsewhere: build ## Run what is compared with oracles as a processor of 200
 fuzz: build ## Try every door for long; a table of what came of it (ARGS="--rounds 100")
 	@PYTHONPATH=tests $(PYTHON) -m fuzz $(ARGS)
 
-lint: .venv/.ready ## Check style
+lint: .venv/.ready tree ## Check style, and that every file imports only from lower floors
 	@.venv/bin/ruff check .
 	@.venv/bin/ruff format --check .
+	@PYTHONPATH=build/types .venv/bin/lint-imports --no-logo
 
 format: .venv/.ready ## Rewrite the sources in the project's style
 	@.venv/bin/ruff check --fix-only --quiet .
 	@.venv/bin/ruff format --quiet .
 
-# mypy follows folders, not the mapping of the three of them onto one package
-types: .venv/.ready ## Check types
-	@mkdir -p build/types/kintrafo
+# mypy and the linter follow folders, not the mapping of the three of them onto one package: this is
+# a tree of links that has that shape, made anew so that nothing in it points to what has moved
+tree:
+	@rm -rf build/types && mkdir -p build/types/kintrafo
 	@for item in runtime/*; do ln -sfn "../../../$$item" build/types/kintrafo/; done
 	@ln -sfn ../../../generator ../../../generated build/types/kintrafo/
+
+types: .venv/.ready tree ## Check types
 	@MYPYPATH=build/types .venv/bin/mypy -p kintrafo
 
 benchmark: build ## Gear against Runge-Kutta: tables and plots in out/benchmark/
@@ -86,7 +90,7 @@ front-axle-page: build ## The page of the front axle: operations, wheel rates, a
 	@$(PYTHON) -m benchmarks.front_axle --page docs/front-axle.md
 
 format-page: build ## The input file's JSON Schema, and its page in docs/
-	@$(PYTHON) -m kintrafo.input.schema runtime/data/suspension.schema.json docs/file-format.md
+	@$(PYTHON) -m kintrafo.suspension.schema runtime/suspension/data/suspension.schema.json docs/file-format.md
 
 benchmark-bits: build ## Which results are the same bits on another processor
 	@$(PYTHON) -m benchmarks.same_bits --page docs/conventions.md
@@ -109,4 +113,4 @@ baseline: build ## Store the present operation counts as the baseline
 	@$(PYTHON) -m pytest -q tests/test_operation_counts.py --update-baseline
 
 clean: ## Remove everything that can be made again
-	rm -rf .venv build out dist *.egg-info generated/*.so runtime/native/*.so .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf .venv build out dist *.egg-info generated/*.so runtime/simulation/native/*.so .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -17,7 +17,7 @@ from setuptools.command.build_ext import build_ext
 
 GENERATED = Path("generated")
 SOURCES = GENERATED / "c"
-NATIVE = Path("runtime/native")
+NATIVE = Path("runtime/simulation/native")
 # No errno from the mathematical functions, so that roots become single instructions; contraction
 # into fused operations is left off, so that every machine computes the same bits.
 FLAGS = [] if sys.platform == "win32" else ["-O2", "-fno-math-errno", "-ffp-contract=off"]
@@ -61,7 +61,7 @@ def solver_extension() -> Extension | None:
     static, shared, homes = _libraries(folders)
     headers, linked = _mpi_flags(prefix / "include")
     return Extension(
-        "kintrafo.native._sundials",
+        "kintrafo.simulation.native._sundials",
         [(NATIVE / name).as_posix() for name in ("_sundials.pyx", "integrate.c", "margins.c")],
         include_dirs=[NATIVE.as_posix(), (prefix / "include").as_posix()],
         library_dirs=homes,

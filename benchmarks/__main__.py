@@ -5,8 +5,8 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from kintrafo.paper import OUTPUT_INTERVAL
-from kintrafo.solvers import native_available
+from kintrafo.simulation.solvers import native_available
+from kintrafo.study.paper import OUTPUT_INTERVAL
 from rich.console import Console
 from rich.markdown import Markdown
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn

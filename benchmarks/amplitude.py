@@ -11,7 +11,7 @@ import time
 
 import numpy as np
 from kintrafo import Model, System, simulate, state_at_height
-from kintrafo.solvers import native_methods
+from kintrafo.simulation.solvers import native_methods
 
 CASES = (
     ("BDF", 1e-6, 1e-9),

@@ -16,8 +16,8 @@ import casadi as ca
 import numpy as np
 import typer
 from kintrafo import System, simulate
-from kintrafo.figures import BLUE, GREEN, ORANGE, STYLE
 from kintrafo.generated import andrews
+from kintrafo.plots.figures import BLUE, GREEN, ORANGE, STYLE
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 from rich.console import Console

@@ -21,13 +21,13 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 from kintrafo import System, simulate
-from kintrafo.figures import BLUE, STYLE
 from kintrafo.generator.mechanism import Model
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.generator.outputs import GeneratedModel, generate
-from kintrafo.own.build import build
-from kintrafo.own.compiler import Compiler, find_compiler
-from kintrafo.own.loader import load
+from kintrafo.plots.figures import BLUE, STYLE
+from kintrafo.systems.compile.build import build
+from kintrafo.systems.compile.compiler import Compiler, find_compiler
+from kintrafo.systems.compile.loader import load
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure

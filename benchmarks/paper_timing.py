@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 from kintrafo import simulate, state_at_height
-from kintrafo.dead_points import meanings
-from kintrafo.model import Model
-from kintrafo.paper import (
+from kintrafo.simulation.dead_points import meanings
+from kintrafo.simulation.solvers import SUNDIALS_METHODS, sundials
+from kintrafo.study.paper import (
     DURATION,
     OUTPUT_INTERVAL,
     PAPER_GEAR_S,
@@ -23,7 +23,7 @@ from kintrafo.paper import (
     START_HEIGHT,
     rest,
 )
-from kintrafo.solvers import SUNDIALS_METHODS, sundials
+from kintrafo.suspension.model import Model
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 

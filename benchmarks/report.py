@@ -16,7 +16,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from kintrafo.solvers import native_available, native_version
+from kintrafo.simulation.solvers import native_available, native_version
 
 NO_SUNDIALS = (
     "SUNDIALS is not built in: only the methods of SciPy are shown, and the paper's protocol, "

@@ -9,8 +9,8 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import KintrafoError
-from ..physical import inertia_of_no_body, out_of_range
+from ..core.errors import KintrafoError
+from ..core.physical import inertia_of_no_body, out_of_range
 from . import _arrays, _native
 from ._native import Function
 

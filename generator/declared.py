@@ -24,8 +24,8 @@ import numpy as np
 from pydantic import AfterValidator, BeforeValidator, Field, ValidationError, validate_call
 from pydantic_core import PydanticCustomError
 
-from ..errors import KintrafoError
-from ..input.suggestions import suggestion
+from ..core.errors import KintrafoError
+from ..core.suggestions import suggestion
 
 Declared = TypeVar("Declared", bound=type)
 Function = TypeVar("Function", bound=Callable[..., Any])

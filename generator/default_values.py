@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..physical import inertia_of_no_body, out_of_range
+from ..core.physical import inertia_of_no_body, out_of_range
 from .declared import parts
 from .evaluation import AtDefaults
 from .forces import AlongLine

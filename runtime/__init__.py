@@ -16,17 +16,15 @@ from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .errors import InputError, KintrafoError
-    from .events import SignalEvent
+    from .core.errors import InputError, KintrafoError
     from .generated._support import ClosureError, ModelError, ParameterError
-    from .input.suspension import Suspension
-    from .interpolation import Samples
-    from .linearisation import Linearisation, linearise
-    from .model import Model
-    from .modes import Mode
-    from .own import CompilerError, MechanismError, proposals
-    from .own import compile_mechanism as compile  # noqa: A004 (what the user calls it)
-    from .positions import (
+    from .simulation.events import SignalEvent
+    from .simulation.interpolation import Samples
+    from .simulation.result import Simulation, SimulationError
+    from .simulation.simulate import simulate
+    from .suspension.kinds import Suspension
+    from .suspension.model import Model
+    from .suspension.positions import (
         PositionError,
         Range,
         arm_angles,
@@ -35,10 +33,12 @@ if TYPE_CHECKING:
         state_at_height,
         travel_range,
     )
-    from .result import Simulation, SimulationError
-    from .simulation import simulate
-    from .state import State
-    from .system import System
+    from .systems.compile import CompilerError, MechanismError, proposals
+    from .systems.compile import compile_mechanism as compile  # noqa: A004 (what the user calls it)
+    from .systems.linearisation import Linearisation, linearise
+    from .systems.modes import Mode
+    from .systems.state import State
+    from .systems.system import System
 
 __version__ = version("kintrafo")
 
@@ -76,16 +76,16 @@ __all__ = [
 # Names are loaded when they are first used: the generator is part of this package, and must run
 # where no model has been generated or compiled yet.
 _MODULES = {
-    ".errors": ("InputError", "KintrafoError"),
-    ".events": ("SignalEvent",),
+    ".core.errors": ("InputError", "KintrafoError"),
+    ".simulation.events": ("SignalEvent",),
     ".generated._support": ("ClosureError", "ModelError", "ParameterError"),
-    ".input.suspension": ("Suspension",),
-    ".interpolation": ("Samples",),
-    ".linearisation": ("Linearisation", "linearise"),
-    ".model": ("Model",),
-    ".modes": ("Mode",),
-    ".own": ("CompilerError", "MechanismError", "compile_mechanism", "proposals"),
-    ".positions": (
+    ".suspension.kinds": ("Suspension",),
+    ".simulation.interpolation": ("Samples",),
+    ".systems.linearisation": ("Linearisation", "linearise"),
+    ".suspension.model": ("Model",),
+    ".systems.modes": ("Mode",),
+    ".systems.compile": ("CompilerError", "MechanismError", "compile_mechanism", "proposals"),
+    ".suspension.positions": (
         "PositionError",
         "Range",
         "arm_angles",
@@ -94,35 +94,35 @@ _MODULES = {
         "state_at_height",
         "travel_range",
     ),
-    ".result": ("Simulation", "SimulationError"),
-    ".simulation": ("simulate",),
-    ".state": ("State",),
-    ".system": ("System",),
+    ".simulation.result": ("Simulation", "SimulationError"),
+    ".simulation.simulate": ("simulate",),
+    ".systems.state": ("State",),
+    ".systems.system": ("System",),
 }
 _HOMES = {name: module for module, names in _MODULES.items() for name in names}
 # Where this name would hide one of Python's at home.
 _OTHER_NAMES = {"compile": "compile_mechanism"}
 
 
-# Modules that are themselves part of the interface.
-_INTERFACES = (
-    "characteristics",
-    "checkup",
-    "chrono",
-    "compare",
-    "excitation",
-    "export",
-    "measurement",
-    "plots",
-    "roads",
-    "scenario",
-    "sweep",
-)
+# Modules that are themselves part of the interface, and where they are.
+_INTERFACES = {
+    "characteristics": ".study.characteristics",
+    "checkup": ".study.checkup",
+    "chrono": ".suspension.chrono",
+    "compare": ".study.compare",
+    "excitation": ".study.excitation",
+    "export": ".study.export",
+    "measurement": ".study.measurement",
+    "plots": ".plots",
+    "roads": ".simulation.roads",
+    "scenario": ".study.scenario",
+    "sweep": ".study.sweep",
+}
 
 
 def __getattr__(name: str) -> Any:
     if name in _INTERFACES:
-        return import_module(f".{name}", __name__)
+        return import_module(_INTERFACES[name], __name__)
     at_home = _OTHER_NAMES.get(name, name)
     if at_home not in _HOMES:
         message = f"module {__name__!r} has no attribute {name!r}"

@@ -4,7 +4,7 @@ import os
 import random
 import time
 
-from kintrafo.own.cache import _LONG_AGO_S, _MARK, _MARKED, appearing, damage, seal
+from kintrafo.systems.compile.cache import _LONG_AGO_S, _MARK, _MARKED, appearing, damage, seal
 
 ROUNDS = 60
 

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from kintrafo.own.build import build
-from kintrafo.own.compiler import FLAGS, Compiler
-from kintrafo.own.loader import load
+from kintrafo.systems.compile.build import build
+from kintrafo.systems.compile.compiler import FLAGS, Compiler
+from kintrafo.systems.compile.loader import load
 from oracle.maximal import Motion, Oracle
 
 if TYPE_CHECKING:

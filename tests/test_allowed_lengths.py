@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 from kintrafo import Model, PositionError, Suspension, state_at_height, travel_range
-from kintrafo.errors import InputError
-from kintrafo.reach import at_rest
-from kintrafo.starter import write_starter
+from kintrafo.core.errors import InputError
+from kintrafo.suspension.reach import at_rest
+from kintrafo.suspension.starter import write_starter
 
 
 def lengths(model, signal):

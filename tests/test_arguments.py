@@ -3,7 +3,7 @@
 import kintrafo
 import numpy as np
 import pytest
-from kintrafo.arguments import Arguments, shown
+from kintrafo.core.arguments import Arguments, shown
 from kintrafo.generated import four_bar
 
 CAR = kintrafo.Model("reference_car")

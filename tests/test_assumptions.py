@@ -21,9 +21,9 @@ from kintrafo.generator.mechanism import Body, Mechanism, Model, Parameter, Rela
 from kintrafo.generator.outputs import generate
 from kintrafo.generator.parameters import direction, point, rigid_body, rotor
 from kintrafo.generator.vectors import Vector
-from kintrafo.own.build import build
-from kintrafo.own.compiler import find_compiler
-from kintrafo.own.loader import load
+from kintrafo.systems.compile.build import build
+from kintrafo.systems.compile.compiler import find_compiler
+from kintrafo.systems.compile.loader import load
 from own_mechanisms import NORMAL, askew, ball, cross, guide, heading, hinge
 from own_models import Built
 

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from kintrafo import solvers
-from kintrafo.solvers import native_available
+from kintrafo.simulation import solvers
+from kintrafo.simulation.solvers import native_available
 
 from benchmarks import friction, paper_timing, report, work_precision
 

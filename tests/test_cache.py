@@ -17,10 +17,10 @@ import pytest
 from kintrafo.generator import outputs
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.generator.proposal import model_of
-from kintrafo.own import build as own_build
-from kintrafo.own.cache import _MARK, _MARKED, appearing, damage, seal
-from kintrafo.own.compiler import Compiler, find_compiler
-from kintrafo.own.loader import load
+from kintrafo.systems.compile import build as own_build
+from kintrafo.systems.compile.cache import _MARK, _MARKED, appearing, damage, seal
+from kintrafo.systems.compile.compiler import Compiler, find_compiler
+from kintrafo.systems.compile.loader import load
 
 STATES = np.random.default_rng(3).normal(size=(5, 2)) * [0.3, 2.0]
 needs_compiler = pytest.mark.skipif(find_compiler() is None, reason="no C compiler")

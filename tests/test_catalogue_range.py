@@ -19,8 +19,8 @@ from kintrafo.generated import double_wishbone, macpherson
 from kintrafo.generated._support import ClosureError
 from kintrafo.generator.mechanisms import MODELS as SHIPPED
 from kintrafo.generator.outputs import generate
-from kintrafo.own.build import build
-from kintrafo.own.loader import load
+from kintrafo.systems.compile.build import build
+from kintrafo.systems.compile.loader import load
 from mpmath import mpf
 from own_mechanisms import moving_slider_crank, spatial_four_bar
 from own_models import Built

@@ -16,8 +16,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo import InputError, Model, PositionError, Suspension, characteristics, travel_range
-from kintrafo.characteristics import axle, wheel
-from kintrafo.characteristics.from_model import corner
+from kintrafo.study.characteristics import axle, wheel
+from kintrafo.study.characteristics.from_model import corner
 from oracle.constraints import KNUCKLE
 from oracle.newton import Mechanism, observe, solve_pose_at_height
 

@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from kintrafo import Model, Suspension
-from kintrafo.checkup import USUAL_HOP, USUAL_RIDE, as_dict, checkup
-from kintrafo.hardpoints import hardpoints
-from kintrafo.positions import state_at_height
-from kintrafo.report.tables import typical_ranges
+from kintrafo.study.checkup import USUAL_HOP, USUAL_RIDE, as_dict, checkup
+from kintrafo.suspension.points import hardpoints
+from kintrafo.suspension.positions import state_at_height
+from kintrafo.suspension.typical import typical_ranges
 
 PAGE = Path(__file__).parents[1] / "docs/characteristics.md"
 

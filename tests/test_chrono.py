@@ -13,10 +13,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo import InputError, Model, Suspension, chrono
-from kintrafo.characteristics import travel
 from kintrafo.cli import app
-from kintrafo.input.toml_writer import toml_text, write_toml
-from kintrafo.starter import packaged
+from kintrafo.study.characteristics import travel
+from kintrafo.suspension.starter import packaged
+from kintrafo.suspension.toml_writer import toml_text, write_toml
 from typer.testing import CliRunner
 
 FOLDER = Path(__file__).parent / "data/chrono"

@@ -12,7 +12,7 @@ from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 ROOT = Path(__file__).parent.parent
 CAR = "reference_car"
-TEXT = (ROOT / "runtime/data/reference_car.toml").read_text(encoding="utf-8")
+TEXT = (ROOT / "runtime/suspension/data/reference_car.toml").read_text(encoding="utf-8")
 CHRONO = ROOT / "tests/data/chrono/MacPhersonStrut.json"
 FULL = Path("/dev/full")
 

@@ -5,13 +5,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from kintrafo import Model, cli, paper
+from kintrafo import Model, cli
 from kintrafo.generator.__main__ import app as generator_app
+from kintrafo.study import paper
 from matplotlib.image import imread
 from typer.testing import CliRunner
 
 MODEL = Model("reference_car")
-REFERENCE = Path(__file__).parent.parent / "runtime/data/reference_car.toml"
+REFERENCE = Path(__file__).parent.parent / "runtime/suspension/data/reference_car.toml"
 
 
 def test_paper_writes_figures_and_a_summary(tmp_path):
@@ -38,7 +39,7 @@ def test_users_mistake_has_no_traceback(monkeypatch, capsys, tmp_path):
 
 def test_error_keeps_the_brackets_of_section_names(monkeypatch, capsys, tmp_path):
     path = tmp_path / "my_car.toml"
-    text = (Path(__file__).parent.parent / "runtime/data/reference_car.toml").read_text(
+    text = (Path(__file__).parent.parent / "runtime/suspension/data/reference_car.toml").read_text(
         encoding="utf-8"
     )
     path.write_text(text.replace("spring_rate_N", "sprng_rate_N"), encoding="utf-8")

@@ -7,10 +7,10 @@ where the steering axis pierces the ground. Nothing here knows the definitions o
 import numpy as np
 import pytest
 from kintrafo import Model, Suspension, state_at_height
-from kintrafo.characteristics import steering, travel
-from kintrafo.hardpoints import hardpoints
-from kintrafo.positions import design_height
-from kintrafo.reach import at_rest
+from kintrafo.study.characteristics import steering, travel
+from kintrafo.suspension.points import hardpoints
+from kintrafo.suspension.positions import design_height
+from kintrafo.suspension.reach import at_rest
 
 RIGHT = Suspension.load("reference_car")
 CARS = {"right": RIGHT, "left": RIGHT.mirrored()}

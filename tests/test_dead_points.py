@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 from kintrafo import Model, SimulationError, System, equilibrium, simulate
-from kintrafo.excitation import Course, excitation
 from kintrafo.generated import four_bar, slider_crank
 from kintrafo.generated._support import ClosureError
-from kintrafo.own.build import compile_mechanism
-from kintrafo.solvers import native_available, native_methods
+from kintrafo.simulation.solvers import native_available, native_methods
+from kintrafo.study.excitation import Course, excitation
+from kintrafo.systems.compile.build import compile_mechanism
 from scipy.integrate import solve_ivp
 
 _EXPLICIT = "Verner" if native_available() else "DOP853"

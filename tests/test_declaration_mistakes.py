@@ -51,8 +51,8 @@ from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.generator.mechanisms.four_bar import MODELS as FOUR_BARS
 from kintrafo.generator.mechanisms.planar import flat
 from kintrafo.generator.outputs import generate
-from kintrafo.own.build import build
-from kintrafo.own.loader import load
+from kintrafo.systems.compile.build import build
+from kintrafo.systems.compile.loader import load
 from own_models import needs_gcc, own
 
 (FOUR, WISHBONE) = (FOUR_BARS[0], WISHBONES[0])

@@ -31,7 +31,7 @@ def test_docstring_examples(name):
 
 def test_there_are_examples():
     finder = doctest.DocTestFinder()
-    examples = list(finder.find(importlib.import_module("kintrafo.positions")))
+    examples = list(finder.find(importlib.import_module("kintrafo.suspension.positions")))
     assert sum(len(test.examples) for test in examples) >= 4
 
 
@@ -52,7 +52,7 @@ def test_readme_python_runs(capsys):
 
 def test_readme_error_is_the_one_printed(tmp_path):
     (block,) = readme_blocks("text")[:1]
-    text = (ROOT / "runtime/data/reference_car.toml").read_text(encoding="utf-8")
+    text = (ROOT / "runtime/suspension/data/reference_car.toml").read_text(encoding="utf-8")
     path = tmp_path / "my_car.toml"
     path.write_text(text.replace("spring_rate_N_per_m", "sprng_rate_N_per_m"), encoding="utf-8")
     with pytest.raises(kintrafo.InputError) as caught:

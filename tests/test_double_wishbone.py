@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo import Model, PositionError, Suspension, characteristics
-from kintrafo.hardpoints import hardpoints
+from kintrafo.suspension.points import hardpoints
 from oracle.links import Carrier
 
 CAR = Suspension.load("double_wishbone_car")

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 import xarray as xr
 from kintrafo import InputError, Model, Suspension, cli
-from kintrafo.checkup import checkup
-from kintrafo.compare import compare
-from kintrafo.input.toml_writer import toml_text, write_toml
-from kintrafo.overview import write_overview
-from kintrafo.scenario import Scenario, play
+from kintrafo.plots.overview import write_overview
+from kintrafo.study.checkup import checkup
+from kintrafo.study.compare import compare
+from kintrafo.study.scenario import Scenario, play
+from kintrafo.suspension.toml_writer import toml_text, write_toml
 from matplotlib.image import imread
 
 CAR = "double_wishbone_car"

@@ -9,10 +9,10 @@ import kintrafo.report
 import numpy as np
 import pytest
 from kintrafo import Model, state_at_height
-from kintrafo.hardpoints import hardpoints
 from kintrafo.report.grid import Axis, Grid
 from kintrafo.report.page import render
 from kintrafo.report.poses import poses, reachable_grid
+from kintrafo.suspension.points import hardpoints
 
 MODEL = Model("double_wishbone_car")
 CHROMIUM = next(

@@ -7,7 +7,7 @@ import pyarrow.parquet as pq
 import pytest
 import xarray as xr
 from kintrafo import InputError, Model, PositionError, compare, export, plots, sweep
-from kintrafo.files import replacing
+from kintrafo.core.files import replacing
 from matplotlib.image import imread
 
 MODEL = Model("reference_car")

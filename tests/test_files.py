@@ -10,14 +10,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from kintrafo import InputError, Model, Suspension, export, plots, report, written
-from kintrafo.chrono import read
-from kintrafo.files import refuse, replacing
-from kintrafo.input.toml_writer import write_toml
-from kintrafo.legible import legible
-from kintrafo.measurement import measured
-from kintrafo.own.build import compile_mechanism
-from kintrafo.starter import write_starter
+from kintrafo import InputError, Model, Suspension, export, plots, report
+from kintrafo.core import written
+from kintrafo.core.files import refuse, replacing
+from kintrafo.core.legible import legible
+from kintrafo.study.measurement import measured
+from kintrafo.suspension.chrono import read
+from kintrafo.suspension.starter import write_starter
+from kintrafo.suspension.toml_writer import write_toml
+from kintrafo.systems.compile.build import compile_mechanism
 from matplotlib.image import imread
 
 LINE = xr.Dataset({"camber": ("wheel_travel", [0.0, 0.1])}, {"wheel_travel": [0.0, 0.01]})
@@ -251,7 +252,7 @@ def full(tmp_path, monkeypatch):
             (folder / name).symlink_to(device)
         return str(folder)
 
-    monkeypatch.setattr("kintrafo.files.tempfile.mkdtemp", leading_nowhere)
+    monkeypatch.setattr("kintrafo.core.files.tempfile.mkdtemp", leading_nowhere)
     return tmp_path
 
 

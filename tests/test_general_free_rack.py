@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from kintrafo import Model, Suspension, equilibrium, simulate
 from kintrafo.cli import app
+from kintrafo.core.optional import MissingPackageError
 from kintrafo.generator.mechanisms.macpherson import GENERAL_FREE_RACK
-from kintrafo.optional import MissingPackageError
-from kintrafo.own.compiler import find_compiler
+from kintrafo.systems.compile.compiler import find_compiler
 from own_models import Built
 from typer.testing import CliRunner
 
@@ -79,7 +79,7 @@ def a_file_with_heavy_rack_simulates(folder):
     end = simulate(model, (0.0, 0.2), start, inputs=road)
     assert end.success
     assert abs(end.signals["wheel_center_z"][-1] - end.signals["wheel_center_z"][0]) > 0.005
-    from kintrafo.input.toml_writer import write_toml
+    from kintrafo.suspension.toml_writer import write_toml
 
     path = write_toml(CAR, folder / "heavy.toml")
     result = CliRunner().invoke(app, ["topology", str(path)])

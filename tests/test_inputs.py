@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from kintrafo import InputError, Model, Samples, equilibrium, simulate
-from kintrafo.interpolation import curves
-from kintrafo.signals import time_inputs
-from kintrafo.solvers import native_available
+from kintrafo.simulation.interpolation import curves
+from kintrafo.simulation.signals import time_inputs
+from kintrafo.simulation.solvers import native_available
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline, PchipInterpolator, PPoly
 
@@ -212,7 +212,7 @@ class TestFunctions:
 
     def test_fast_oscillations_are_resolved_or_refused(self, monkeypatch):
         """Calls come at irregular times: nothing that repeats itself hides between them."""
-        monkeypatch.setattr("kintrafo.fitting._MOST_KNOTS", 10_000)
+        monkeypatch.setattr("kintrafo.simulation.fitting._MOST_KNOTS", 10_000)
         for frequency in (1e3, 2e3, 1e4):
             with pytest.raises(InputError, match="does not follow"):
                 time_inputs(

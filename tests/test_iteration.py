@@ -29,9 +29,9 @@ from kintrafo.generator.mechanisms.multi_link import CONTROL_ARM, FIVE_LINK, MOD
 from kintrafo.generator.outputs import GeneratedModel, generate
 from kintrafo.generator.program import ConstantStage, Program
 from kintrafo.generator.transformer import NoClosedFormError, Plan
-from kintrafo.own.build import build
-from kintrafo.own.compiler import FLAGS, Compiler
-from kintrafo.own.loader import load
+from kintrafo.systems.compile.build import build
+from kintrafo.systems.compile.compiler import FLAGS, Compiler
+from kintrafo.systems.compile.loader import load
 from own_models import STRICT, Built, needs_gcc
 from scipy.integrate import solve_ivp
 from scipy.optimize import root

@@ -24,9 +24,9 @@ from kintrafo.generator.mobility import Mobility
 from kintrafo.generator.outputs import GeneratedModel, generate
 from kintrafo.generator.topology import Topology
 from kintrafo.generator.transformer import NoClosedFormError, Plan
-from kintrafo.own.build import build
-from kintrafo.own.compiler import FLAGS, Compiler
-from kintrafo.own.loader import load
+from kintrafo.systems.compile.build import build
+from kintrafo.systems.compile.compiler import FLAGS, Compiler
+from kintrafo.systems.compile.loader import load
 from own_mechanisms import askew, heading
 from own_models import STRICT, Built, needs_gcc
 from scipy.optimize import root

@@ -13,7 +13,7 @@ from kintrafo import (
     simulate,
     state_at_height,
 )
-from kintrafo.modes import eigenvalues_of, mode_of_states
+from kintrafo.systems.modes import eigenvalues_of, mode_of_states
 from oracle.multipliers import solve_free, solve_prescribed
 from oracle.newton import Mechanism, solve_pose
 from oracle.reference import EIGENVALUES_AT_REST, SPIN_RATE, reference_parameters

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from kintrafo.generated import _macpherson, _native
-from kintrafo.solvers import native_available, native_version, sundials
+from kintrafo.simulation.solvers import native_available, native_version, sundials
 
 OF_EVERY_SYSTEM = {"linux-vdso", "linux-gate", "ld-linux", "libc", "libm", "libpthread"}
 ARCHIVES = list(Path("/usr/lib").glob("*-linux-gnu/libsundials_cvode.a"))

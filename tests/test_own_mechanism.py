@@ -23,9 +23,9 @@ from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.generator.mechanisms.four_bar import MODELS as FOUR_BAR_MODELS
 from kintrafo.generator.mechanisms.slider_crank import SLIDER_CRANK
 from kintrafo.generator.proposal import Proposal, model_of, proposals
-from kintrafo.own import build as own_build
-from kintrafo.own.cache import cache_folder
-from kintrafo.own.compiler import find_compiler
+from kintrafo.systems.compile import build as own_build
+from kintrafo.systems.compile.cache import cache_folder
+from kintrafo.systems.compile.compiler import find_compiler
 from own_mechanisms import spatial_four_bar
 from typer.testing import CliRunner
 

@@ -12,10 +12,10 @@ from kintrafo import (
     linearise,
     simulate,
 )
-from kintrafo.checkup import checkup
 from kintrafo.generated import macpherson_general
-from kintrafo.positions import state_at_height
-from kintrafo.starter import packaged
+from kintrafo.study.checkup import checkup
+from kintrafo.suspension.positions import state_at_height
+from kintrafo.suspension.starter import packaged
 
 OFFSET = Suspension.load("offset_strut_car")
 
@@ -85,7 +85,7 @@ class TestInTheAir:
     @pytest.mark.parametrize("backend", ["sundials", "scipy"])
     def test_leaves_the_ground_over_a_step_and_lands(self, model, backend):
         if backend == "sundials":
-            pytest.importorskip("kintrafo.native._sundials")
+            pytest.importorskip("kintrafo.simulation.native._sundials")
         result = simulate(
             model, (0.0, 1.0), equilibrium(model), inputs=ROAD, events=LANDINGS, backend=backend
         )
@@ -113,7 +113,7 @@ class TestInTheAir:
         assert result.t_events[0].size == 0
 
     def test_an_event_that_stays_at_zero_is_named(self, model):
-        pytest.importorskip("kintrafo.native._sundials")
+        pytest.importorskip("kintrafo.simulation.native._sundials")
         event = SignalEvent("tyre_force", 0.0)
         with pytest.raises(SimulationError, match="event stays at zero"):
             simulate(model, (0.0, 1.0), equilibrium(model), inputs=ROAD, events=event)

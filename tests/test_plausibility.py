@@ -2,10 +2,10 @@
 
 import pytest
 from kintrafo import Model, Suspension
-from kintrafo.checkup import checkup
-from kintrafo.errors import InputError
-from kintrafo.plausibility import plausibility
-from kintrafo.starter import packaged
+from kintrafo.core.errors import InputError
+from kintrafo.study.checkup import checkup
+from kintrafo.suspension.plausibility import plausibility
+from kintrafo.suspension.starter import packaged
 
 CARS = {name: Suspension.load(name) for name in packaged()}
 
@@ -124,8 +124,8 @@ def test_friction_does_not_overdamp_the_wheel():
 
 
 def test_the_paper_of_a_rough_strut_says_so_too():
-    from kintrafo import paper
     from kintrafo.cli.paper import _hop
+    from kintrafo.study import paper
 
     smooth, rough = Model(CARS[REFERENCE]), Model(changed(REFERENCE, {"strut.friction_N": 50.0}))
     text = _hop(rough, paper.rest(rough))

@@ -21,10 +21,15 @@ from kintrafo import (
     sweep,
     travel_range,
 )
-from kintrafo.hardpoints import hardpoints
-from kintrafo.positions import _stable_root, arm_angles, design_height, road_under_load
-from kintrafo.reach import at_rest, branch, height_and_slope
-from kintrafo.state import inputs_of
+from kintrafo.suspension.points import hardpoints
+from kintrafo.suspension.positions import (
+    _stable_root,
+    arm_angles,
+    design_height,
+    road_under_load,
+)
+from kintrafo.suspension.reach import at_rest, branch, height_and_slope
+from kintrafo.systems.state import inputs_of
 from oracle import newton
 from oracle.multipliers import solve_prescribed
 from oracle.reference import reference_parameters
@@ -157,7 +162,7 @@ def test_models_travel_between_processes():
 def test_model_takes_a_path_and_refuses_what_is_none():
     from pathlib import Path
 
-    path = Path(__file__).parent.parent / "runtime/data/reference_car.toml"
+    path = Path(__file__).parent.parent / "runtime/suspension/data/reference_car.toml"
     assert np.array_equal(Model(path).constants, MODEL.constants)
     with pytest.raises(kintrafo.InputError, match=r"not \{\}"):
         Model({})

@@ -13,14 +13,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from kintrafo import InputError, Model, state_at_height
-from kintrafo.hardpoints import hardpoints
 from kintrafo.report.curves import curves
 from kintrafo.report.encode import packed, rounded
 from kintrafo.report.grid import Axis, Grid
 from kintrafo.report.page import _upper_limit, render
 from kintrafo.report.plotted import decimals, has_pole, shown_range
 from kintrafo.report.poses import poses, reachable_grid
-from kintrafo.report.tables import input_tables, typical_ranges
+from kintrafo.report.tables import input_tables
+from kintrafo.suspension.points import hardpoints
+from kintrafo.suspension.typical import typical_ranges
 from scipy.interpolate import KroghInterpolator
 
 MODEL = Model("reference_car")

@@ -8,7 +8,7 @@ import kintrafo.report
 import numpy as np
 import pytest
 from kintrafo import Model, state_at_height
-from kintrafo.hardpoints import hardpoints
+from kintrafo.suspension.points import hardpoints
 
 CHROMIUM = next(
     filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None

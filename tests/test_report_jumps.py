@@ -5,13 +5,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from kintrafo import Model, characteristics, state_at_height
-from kintrafo.characteristics.catalogue import AT_STOPS
-from kintrafo.positions import design_height
 from kintrafo.report.accuracy import measure
 from kintrafo.report.curves import curves, gaps_on
 from kintrafo.report.grid import Axis, Grid
 from kintrafo.report.plotted import shown_range
 from kintrafo.report.poses import poses
+from kintrafo.study.characteristics.catalogue import AT_STOPS
+from kintrafo.suspension.positions import design_height
 from scipy.optimize import brentq
 
 CAR = Model("offset_strut_car")  # with bump and rebound stops within its travel

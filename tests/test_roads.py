@@ -8,11 +8,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from kintrafo import InputError, Model
-from kintrafo.excitation import Course, excitation
-from kintrafo.measurement import measured
-from kintrafo.roads import sine, step
-from kintrafo.scenario import Scenario, play
-from kintrafo.sweep import grid
+from kintrafo.simulation.roads import sine, step
+from kintrafo.study.excitation import Course, excitation
+from kintrafo.study.measurement import measured
+from kintrafo.study.scenario import Scenario, play
+from kintrafo.study.sweep import grid
 
 MODEL = Model("reference_car")
 

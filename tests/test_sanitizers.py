@@ -9,8 +9,8 @@ import pytest
 from c_text import sources
 from cases import MODELS, car_parameters
 from kintrafo import Model, state_at_height
-from kintrafo.dead_points import meanings
-from kintrafo.solvers import native_available, native_version
+from kintrafo.simulation.dead_points import meanings
+from kintrafo.simulation.solvers import native_available, native_version
 
 ROOT = Path(__file__).parent.parent
 # without optimisation, which takes most of the time and hides what it removes
@@ -132,7 +132,7 @@ def with_sundials():
 def run_clean(folder, text, files, flags=(), compiler="gcc"):
     program = folder / "program.c"
     program.write_text(text, encoding="utf-8")
-    include = [f"-I{ROOT / 'generated/c'}", f"-I{ROOT / 'runtime/native'}"]
+    include = [f"-I{ROOT / 'generated/c'}", f"-I{ROOT / 'runtime/simulation/native'}"]
     command = [compiler, *FLAGS, *include, program, *files, "-o", folder / "program", *flags]
     built = subprocess.run([*map(str, command), "-lm"], capture_output=True, text=True, check=False)
     if "cannot find" in built.stderr and "asan" in built.stderr:
@@ -178,7 +178,7 @@ def test_native_solver(tmp_path):
         guards=listed(guards),
         usual_margins=listed(model.usual_margins),
     )
-    files = [*sources("macpherson"), *sorted((ROOT / "runtime/native").glob("*.c"))]
+    files = [*sources("macpherson"), *sorted((ROOT / "runtime/simulation/native").glob("*.c"))]
     compiler, flags = with_sundials()
     run_clean(tmp_path, text, files, flags, compiler)
 

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import jsonschema
 import pytest
-from kintrafo import Suspension, data
+from kintrafo import Suspension
 from kintrafo.cli import app
-from kintrafo.errors import InputError
-from kintrafo.input import schema
+from kintrafo.core.errors import InputError
+from kintrafo.suspension import data, schema
 from typer.testing import CliRunner
 
 ROOT = Path(__file__).parents[1]

@@ -16,7 +16,7 @@ from kintrafo import (
     simulate,
     state_at_height,
 )
-from kintrafo.solvers import native_available, native_methods
+from kintrafo.simulation.solvers import native_available, native_methods
 from oracle import multipliers, newton
 from oracle.reference import DYNAMICS, SPIN_RATE, reference_parameters
 from scipy.interpolate import CubicSpline
@@ -465,7 +465,8 @@ def test_backward_in_time(backend):
 
 
 def test_without_sundials_the_user_is_told_once(monkeypatch):
-    from kintrafo import simulation, solvers
+    from kintrafo.simulation import simulate as simulation
+    from kintrafo.simulation import solvers
 
     monkeypatch.setattr(solvers, "sundials", None)
     monkeypatch.setattr(simulation, "_told", False)

@@ -8,11 +8,12 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from kintrafo import InputError, Model, SimulationError, System, simulate, solvers, state_at_height
+from kintrafo import InputError, Model, SimulationError, System, simulate, state_at_height
 from kintrafo.cli import app
 from kintrafo.generated import slider_crank
-from kintrafo.solvers import native_available, native_methods
-from kintrafo.validity import bounds_of
+from kintrafo.simulation import solvers
+from kintrafo.simulation.elements import bounds_of
+from kintrafo.simulation.solvers import native_available, native_methods
 from typer.testing import CliRunner
 
 needs_sundials = pytest.mark.skipif(not native_available(), reason="built without SUNDIALS")

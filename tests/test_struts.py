@@ -14,8 +14,8 @@ from kintrafo.generator.geometry import Line, Point
 from kintrafo.generator.joints import Cylindrical
 from kintrafo.generator.mechanism import Parameter
 from kintrafo.generator.outputs import generate
-from kintrafo.own.build import build
-from kintrafo.own.loader import load
+from kintrafo.systems.compile.build import build
+from kintrafo.systems.compile.loader import load
 from own_mechanisms import ball, cross, spatial_four_bar, turret
 from own_models import Built
 

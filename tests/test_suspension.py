@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from kintrafo.errors import InputError, KintrafoError
-from kintrafo.input.suspension import Suspension
+from kintrafo.core.errors import InputError, KintrafoError
+from kintrafo.suspension.kinds import Suspension
 
 CAR = Suspension.load("reference_car")
-CAR_TEXT = (resources.files("kintrafo") / "data" / "reference_car.toml").read_text("utf-8")
+CAR_TEXT = (resources.files("kintrafo.suspension.data") / "reference_car.toml").read_text("utf-8")
 POINTS = [key for key in CAR.to_dict()["hardpoints"] if key != "unit"]
 RIGID_BODIES = ["control_arm", "knuckle", "tie_rod", "rack", "upper_strut"]
 ELEMENTS = ["xx", "yy", "zz", "xy", "xz", "yz"]

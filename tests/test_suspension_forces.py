@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kintrafo import InputError, Model, Suspension, data
+from kintrafo import InputError, Model, Suspension
+from kintrafo.suspension import data
 from scipy.interpolate import PchipInterpolator
 
 CAR = Suspension.load("reference_car")

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from kintrafo import Model, Suspension
-from kintrafo.characteristics import wheel
-from kintrafo.characteristics.from_model import corner
-from kintrafo.figures import BLUE, GREEN, ORANGE, STYLE
-from kintrafo.hardpoints import hardpoints
+from kintrafo.plots.figures import BLUE, GREEN, ORANGE, STYLE
+from kintrafo.study.characteristics import wheel
+from kintrafo.study.characteristics.from_model import corner
+from kintrafo.suspension.points import hardpoints
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -20,7 +20,7 @@ from matplotlib.patches import Arc, Circle, Polygon
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from kintrafo.characteristics.corner import Corner
+    from kintrafo.suspension.corner import Corner
 
 Array = NDArray[np.float64]
 

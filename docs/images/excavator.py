@@ -7,8 +7,8 @@ how boom, arm and bucket turn with the strokes of their cylinders.
 from pathlib import Path
 
 import numpy as np
-from kintrafo.figures import BLUE, GREEN, ORANGE, STYLE
 from kintrafo.generated import excavator
+from kintrafo.plots.figures import BLUE, GREEN, ORANGE, STYLE
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure

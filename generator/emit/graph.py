@@ -10,7 +10,7 @@ mpl.use("Agg")
 import networkx as nx
 from matplotlib.figure import Figure
 
-from ...files import replacing
+from ...core.files import replacing
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -35,7 +35,7 @@ def draw(plan: Plan, path: Path, *, force: bool = False) -> None:
     path
         Where to write; the ending gives the format.
     force
-        Whether a file that somebody else wrote is replaced, see `kintrafo.files`.
+        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
     """
     mechanism, topology = plan.model.mechanism, plan.topology
     positions = nx.kamada_kawai_layout(topology.graph, weight=None)

@@ -52,10 +52,11 @@ for panel, modules in _PANELS.items():
 
 def _show_version(*, wanted: bool) -> None:
     if wanted:
-        from .. import __version__
-        from ..solvers import native_version
+        from importlib.metadata import version
 
-        typer.echo(f"kintrafo {__version__}, SUNDIALS {native_version()}")
+        from ..simulation.solvers import native_version
+
+        typer.echo(f"kintrafo {version('kintrafo')}, SUNDIALS {native_version()}")
         raise typer.Exit
 
 

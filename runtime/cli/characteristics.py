@@ -44,7 +44,7 @@ def command(
 
     Each data file and page is written twice, with _travel and _rack behind its name.
     """
-    from .. import characteristics, export, sweep
+    from ..study import characteristics, export, sweep
 
     outputs = Outputs.of(
         out,
@@ -79,7 +79,7 @@ def command(
 
 def _at_design(dataset: "Dataset", title: str) -> Table:
     """Return the table of all variables at zero of the dataset's dimension."""
-    from ..quantities import display_of, displayed, long_name
+    from ..core.quantities import display_of, displayed, long_name
 
     (along,) = dataset.sizes
     index = int(abs(dataset[along].values).argmin())

@@ -11,7 +11,7 @@ from .exits import Exit
 from .options import File, Json, load
 
 if TYPE_CHECKING:
-    from ..checkup import Checkup
+    from ..study.checkup import Checkup
 
 EXAMPLES = ("kintrafo check reference_car", "kintrafo check my_car.toml --json")
 
@@ -22,8 +22,8 @@ def command(file: File, *, json: Json = False) -> None:
     Geometry at design, reachable travel and what limits it, static equilibrium, wheel-hop mode.
     The exit code is 1 if there is a problem.
     """
-    from ..checkup import as_dict, checkup, readable
-    from ..errors import InputError
+    from ..core.errors import InputError
+    from ..study.checkup import as_dict, checkup, readable
 
     readable(file)
     try:
@@ -55,7 +55,7 @@ def _table(found: "Checkup", file: str) -> Table:
 
 
 def _geometry(found: "Checkup") -> dict[str, str]:
-    from ..quantities import display_of
+    from ..core.quantities import display_of
 
     rows = {}
     for name, value in found.geometry.items():
@@ -76,7 +76,7 @@ def _travel(found: "Checkup") -> dict[str, str]:
 
 
 def _rest(found: "Checkup") -> dict[str, str]:
-    from ..checkup import USUAL_HOP, USUAL_RIDE
+    from ..study.checkup import USUAL_HOP, USUAL_RIDE
 
     rest = found.equilibrium
     if rest is None:

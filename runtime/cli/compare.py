@@ -13,7 +13,7 @@ from .outputs import Figures, Formats, Out, Outputs, Plot, name_files
 if TYPE_CHECKING:
     from xarray import Dataset
 
-    from ..compare import Difference
+    from ..study.compare import Difference
 
 EXAMPLES = (
     "kintrafo compare reference_car my_car.toml",
@@ -36,8 +36,8 @@ def command(
 
     Differences are those from the first file: at design, and where they are largest.
     """
-    from .. import compare
-    from ..quantities import distinct
+    from ..core.quantities import distinct
+    from ..study import compare
 
     outputs = Outputs.of(out, plot, figures, formats, force=force, inputs=files)
     models = dict(zip(distinct(files), map(load, files), strict=True))
@@ -61,7 +61,7 @@ def _units(dataset: "Dataset", difference: "Difference") -> str:
 
 
 def _table(dataset: "Dataset", found: list["Difference"], first: str, other: str) -> Table:
-    from ..quantities import bracketed, display_of, long_name
+    from ..core.quantities import bracketed, display_of, long_name
 
     along = next(str(name) for name in dataset.sizes if name != "data_set")
     where = bracketed(long_name(dataset[along]), dataset[along].attrs)

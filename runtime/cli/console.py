@@ -72,7 +72,7 @@ def curve_table(dataset: "Dataset", names: Sequence[str], title: str) -> Table:
     rich.table.Table
         With 17 rows at most, zero among them where it is a position.
     """
-    from ..quantities import bracketed, displayed
+    from ..core.quantities import bracketed, displayed
 
     (along,) = dataset.sizes
     table = Table(title=escape(title))

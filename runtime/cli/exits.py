@@ -85,10 +85,10 @@ def guarded() -> Iterator[None]:
 def _explained(error: Exception) -> tuple[str, Exit] | None:
     """Return message and exit code; None for a defect of the program."""
     # imported here, because only a run that fails needs them
-    from ..errors import InputError, KintrafoError
-    from ..files import reason
+    from ..core.errors import InputError, KintrafoError
+    from ..core.files import reason
+    from ..core.optional import MissingPackageError
     from ..generated._support import ParameterError
-    from ..optional import MissingPackageError
 
     if isinstance(error, MissingPackageError):
         return str(error), Exit.MISSING

@@ -48,7 +48,7 @@ def command(
     from a sketch. What was compiled before is found again. Needs the packages of the extra
     "generator": pip install "kintrafo[generator]".
     """
-    from ..own.build import compile_mechanism
+    from ..systems.compile.build import compile_mechanism
 
     started = time.perf_counter()
     columns = SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn()
@@ -111,7 +111,7 @@ def _show(module: ModuleType, file: Path, seconds: float) -> None:
 
 def _copy(module: ModuleType, folder: Path, *, force: bool, declaration: Path) -> None:
     """Copy the sources of a compiled mechanism to where a person reads them."""
-    from ..files import refuse, replacing
+    from ..core.files import refuse, replacing
 
     source = Path(str(module.__file__)).parent
     copied = [p for p in sorted(source.iterdir()) if p.suffix in (".c", ".h", ".py", ".md")]

@@ -35,9 +35,9 @@ def command(
 
     What its file leaves open is assumed; the assumptions are printed, and stand in the new file.
     """
-    from ..chrono import read
-    from ..errors import InputError
-    from ..input.toml_writer import write_toml
+    from ..core.errors import InputError
+    from ..suspension.chrono import read
+    from ..suspension.toml_writer import write_toml
 
     if side not in ("left", "right"):
         raise InputError([f"side {side!r} is not known; there are left and right."], "--side")

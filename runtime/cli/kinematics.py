@@ -45,7 +45,7 @@ def command(
     json: Json = False,
 ) -> None:
     """Positions of wheel and joints over wheel travel and rack displacement."""
-    from .. import export, sweep
+    from ..study import export, sweep
 
     if (travel and over != "rack") or (rack and over != "travel"):
         raise typer.BadParameter(f"--travel and --rack are for what is held; --over is {over}")

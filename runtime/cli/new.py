@@ -1,10 +1,11 @@
 """``kintrafo new``: an annotated file to begin with."""
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
+from ..suspension.starter import DEFAULT, kinds
 from .console import say
 from .options import Force
 
@@ -15,12 +16,17 @@ EXAMPLES = (
 )
 
 
+# the choices that are shown are the files that there are
+if TYPE_CHECKING:
+    Kind = str
+else:
+    Kind = Literal[kinds()]
+
+
 def command(
     path: Annotated[Path, typer.Argument(metavar="PATH", help="File to write; ends in .toml.")],
     *,
-    suspension: Annotated[
-        Literal["macpherson", "double_wishbone"], typer.Option(help="What guides the wheel.")
-    ] = "macpherson",
+    suspension: Annotated[Kind, typer.Option(help="What guides the wheel.")] = DEFAULT,
     template: Annotated[
         str | None,
         typer.Option(metavar="NAME", help="Packaged data set to copy. Default: by --suspension."),
@@ -28,8 +34,9 @@ def command(
     force: Force = False,
 ) -> None:
     """Write an annotated hardpoint file to begin with: every key, its unit and its sign."""
-    from ..starter import STARTERS, write_starter
+    from ..suspension.kinds import KINDS
+    from ..suspension.starter import write_starter
 
-    copied = STARTERS[suspension] if template is None else template
+    copied = KINDS[suspension].STARTER if template is None else template
     say(f"  {write_starter(path, template=copied, force=force)}")
     say(f"Edit it, then: kintrafo check {path}")

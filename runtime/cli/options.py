@@ -8,12 +8,12 @@ import typer
 from .console import problems
 
 if TYPE_CHECKING:
-    from ..model import Model
+    from ..suspension.model import Model
 
 
 def complete_file(incomplete: str) -> list[str]:
     """Return packaged names and TOML files that begin like this."""
-    from ..starter import packaged
+    from ..suspension.starter import packaged
 
     parent = Path(incomplete).parent if "/" in incomplete else Path()
     files = sorted(str(path) for path in parent.glob("*.toml"))
@@ -79,11 +79,11 @@ def load(file: str) -> "Model":
     -------
     Model
     """
-    from ..input.suspension import Suspension
-    from ..model import Model, neglected_masses
+    from ..suspension.kinds import Suspension
+    from ..suspension.model import Model
 
     suspension = Suspension.load(file)
-    if not neglected_masses(suspension):
+    if not suspension.neglected_masses():
         return Model(suspension)
     # these equations may have to be derived first
     with problems.status("preparing the equations with a free rack"):

@@ -51,7 +51,7 @@ Formats = Annotated[
 
 
 class _Rule(TypedDict):
-    """What may be replaced, see `kintrafo.files`."""
+    """What may be replaced, see `kintrafo.core.files`."""
 
     force: bool
     inputs: Sequence[str | Path]
@@ -93,13 +93,13 @@ class Outputs:
         suffixes : sequence of str, optional
             What goes behind the names, where a command has several datasets.
         """
-        from .. import export
-        from ..files import refuse
+        from ..core.files import refuse
+        from ..study import export
 
         for path in data or ():
             export.check_format(path)
         if pages or formats:
-            from .. import plots
+            from ..plots import curves as plots
 
             plots.check_formats(pages or (), formats or ())
         paths = [_named(p, suffix) for p in (*(data or ()), *(pages or ())) for suffix in suffixes]
@@ -126,7 +126,7 @@ class Outputs:
         suffix : str, optional
             Goes behind the name of each file, where a command has several datasets.
         """
-        from .. import export
+        from ..study import export
 
         rule: _Rule = {"force": self.force, "inputs": self.inputs}
         written = [export.write(dataset, _named(path, suffix), **rule) for path in self.data]
@@ -137,7 +137,7 @@ class Outputs:
     def _drawn(
         self, dataset: "Dataset", title: str, names: Sequence[str], suffix: str, rule: "_Rule"
     ) -> list[Path]:
-        from .. import plots
+        from ..plots import curves as plots
 
         written = [
             plots.write_overview(dataset, _named(path, suffix), names, title, **rule)

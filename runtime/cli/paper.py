@@ -10,8 +10,8 @@ from .console import console, problems, say
 from .options import Force
 
 if TYPE_CHECKING:
-    from .. import paper
-    from ..model import Model
+    from ..study import paper
+    from ..suspension.model import Model
 
 EXAMPLES = ("kintrafo paper out", "kintrafo paper out --data my_car.toml")
 
@@ -23,11 +23,11 @@ def command(
     force: Force = False,
 ) -> None:
     """Show the paper's results: Figures 4, 5 and 6 and a summary."""
-    from .. import paper
-    from ..figures import figure_files, write_figures
-    from ..files import refuse
-    from ..model import Model
-    from ..overview import write_overview
+    from ..core.files import refuse
+    from ..plots.figures import figure_files, write_figures
+    from ..plots.overview import write_overview
+    from ..study import paper
+    from ..suspension.model import Model
 
     overview = folder / "overview.png"
     refuse([*figure_files(folder), overview], force=force)
@@ -51,7 +51,7 @@ def command(
 
 def summary(model: "Model", rest: "paper.Rest", dynamics: "paper.Dynamics") -> Table:
     """Return the table of what was found."""
-    from ..paper import PAPER_GEAR_S, PAPER_RUNGE_KUTTA_S
+    from ..study.paper import PAPER_GEAR_S, PAPER_RUNGE_KUTTA_S
 
     equations, result = model.equations, dynamics.result
     loops = "; ".join(" - ".join(bodies) for bodies in equations.LOOPS)
@@ -80,8 +80,8 @@ def summary(model: "Model", rest: "paper.Rest", dynamics: "paper.Dynamics") -> T
 
 def _hop(model: "Model", rest: "paper.Rest") -> str:
     """Return the wheel-hop mode in words; smoothed friction is no damper of it."""
-    from ..checkup import without_friction
-    from ..paper import rest as at_rest
+    from ..study.checkup import without_friction
+    from ..study.paper import rest as at_rest
 
     smooth = without_friction(model)
     return rest.hop.text if smooth is model else f"{at_rest(smooth).hop.text}, without friction"

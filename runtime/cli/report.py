@@ -25,7 +25,7 @@ def command(
     force: Force = False,
 ) -> None:
     """Write a report that opens in any browser: the mechanism to move by hand, curves, data."""
-    from ..files import refuse
+    from ..core.files import refuse
     from ..report import ENDINGS
 
     target = path or Path(f"{Path(file).stem}.html")

@@ -24,8 +24,8 @@ def command(
     Editors complete and check hardpoint files with it. Write it beside them, and let their first
     line be [bold]#:schema ./kintrafo.schema.json[/bold], which TOML language servers understand.
     """
-    from ..files import refuse, replacing
-    from ..input.schema import schema_text
+    from ..core.files import refuse, replacing
+    from ..suspension.schema import schema_text
 
     if path is None:
         typer.echo(schema_text(), nl=False)

@@ -36,9 +36,9 @@ from .simulation_options import (
 if TYPE_CHECKING:
     from xarray import Dataset
 
-    from ..model import Model
-    from ..result import Simulation
-    from ..scenario import Scenario
+    from ..simulation.result import Simulation
+    from ..study.scenario import Scenario
+    from ..suspension.model import Model
 
 EXAMPLES = (
     "kintrafo simulate reference_car --height 305",
@@ -95,9 +95,9 @@ def command(
 
     Without --height it starts from rest on the road as it is at the beginning.
     """
-    from ..excitation import Course, excitation
-    from ..measurement import measured as read
-    from ..scenario import Scenario
+    from ..study.excitation import Course, excitation
+    from ..study.measurement import measured as read
+    from ..study.scenario import Scenario
 
     read_here = [Path(file), *([] if measured is None else [measured])]
     outputs = Outputs.of(out, plot, figures, formats, force=force, inputs=read_here)
@@ -155,7 +155,7 @@ def command(
 
 def _tell_of_the_free_rack(file: str, inputs: dict[str, Any]) -> None:
     """Say that nothing holds the rack; refuse to prescribe its motion."""
-    from ..errors import InputError
+    from ..core.errors import InputError
 
     reason = "tie rod, rack or upper strut have mass, so the rack moves freely"
     if "rack_position" in inputs:
@@ -179,9 +179,9 @@ def _played(
     silent: bool,
 ) -> "tuple[Simulation, Dataset]":
     """Simulate; where that cannot be finished, write the motion up to there."""
-    from ..recording import dataset_of
-    from ..result import SimulationError
-    from ..scenario import play
+    from ..simulation.result import SimulationError
+    from ..study.recording import dataset_of
+    from ..study.scenario import play
 
     try:
         with problems.status("integrating"):
@@ -216,7 +216,7 @@ def _counts(result: "Simulation") -> dict[str, int]:
 
 
 def _summary(result: "Simulation", motion: "Dataset") -> dict[str, Any]:
-    from ..recording import statistics
+    from ..study.recording import statistics
 
     left, back = _crossings(result)
     return {
@@ -237,8 +237,8 @@ def _summary(result: "Simulation", motion: "Dataset") -> dict[str, Any]:
 
 
 def _table(motion: "Dataset", file: str) -> Table:
-    from ..quantities import bracketed, display_of, long_name
-    from ..recording import statistics
+    from ..core.quantities import bracketed, display_of, long_name
+    from ..study.recording import statistics
 
     table = Table(title=f"{escape(file)}: motion from 0 s to {float(motion['time'][-1]):g} s")
     table.add_column("signal")

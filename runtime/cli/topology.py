@@ -43,7 +43,7 @@ def command(
     They were found when the equations were derived, and come with the compiled model. Of a
     mechanism of your own, the joints are listed too that can be independent.
     """
-    from ..topology import topology
+    from ..systems.topology import topology
 
     found = topology(
         _FREE_RACK if free_rack else "macpherson" if file is None else _equations(file)
@@ -73,14 +73,14 @@ def _equations(file: str) -> ModuleType:
     """Return the compiled equations that a file leads to."""
     if not file.endswith(".py"):
         return load(file).equations
-    from ..own.build import compile_mechanism
+    from ..systems.compile.build import compile_mechanism
 
     return compile_mechanism(file)
 
 
 def _choices(file: str) -> list[dict[str, Any]]:
     """Return the first sets of joints that can be independent."""
-    from ..own.choices import proposals
+    from ..systems.compile.choices import proposals
 
     first = islice(proposals(file, seconds=_SECONDS), _MOST_CHOICES)
     return [{"independent": p.independent, "iterates": p.iterates} for p in first]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model import Model
+from ..suspension.model import Model
 from .curves import Curve, curves
 from .encode import rounded
 from .grid import Grid

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import characteristics
-from ..characteristics.catalogue import AT_STOPS
-from ..characteristics.from_model import gaps
-from ..groups import group_of
-from ..model import Model
-from ..positions import arm_angles, design_height
+from ..study import characteristics
+from ..study.characteristics.catalogue import AT_STOPS
+from ..study.characteristics.from_model import gaps
+from ..study.characteristics.groups import group_of
+from ..suspension.model import Model
+from ..suspension.positions import arm_angles, design_height
 from .grid import Grid
 from .plotted import has_pole
 

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import KintrafoError
-from ..model import Model
-from ..paper import DURATION, REST_HEIGHT, SPIN_RATE, START_HEIGHT
-from ..positions import design_height, state_at_height
-from ..quantities import attributes
-from ..simulation import simulate
+from ..core.errors import KintrafoError
+from ..core.quantities import attributes
+from ..simulation.simulate import simulate
+from ..study.paper import DURATION, REST_HEIGHT, SPIN_RATE, START_HEIGHT
+from ..suspension.model import Model
+from ..suspension.positions import design_height, state_at_height
 from .curves import printed
 from .grid import Axis, Grid
 

@@ -11,11 +11,11 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 from numpy.typing import NDArray
 
-from ..files import Paths, refuse, replacing
-from ..groups import ORDER
-from ..legible import legible
-from ..model import Model
-from ..paper import SPIN_RATE
+from ..core.files import Paths, refuse, replacing
+from ..core.legible import legible
+from ..study.characteristics.groups import ORDER
+from ..study.paper import SPIN_RATE
+from ..suspension.model import Model
 from .accuracy import Accuracy, measure
 from .curves import Curve, curves, gaps_on, only_over_rack
 from .grid import Grid
@@ -29,12 +29,6 @@ Array = NDArray[np.float64]
 
 ENDINGS = (".html", ".htm")
 """What the name of a report ends in."""
-
-# What is drawn in these colours, by the kind of suspension.
-_PARTS = {
-    "macpherson": {"arm": "control arm", "strut": "strut"},
-    "double_wishbone": {"arm": "control arms", "strut": "damper"},
-}
 
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -77,7 +71,7 @@ def write(
     progress : callable, optional
         Called with a few words on what is being done.
     force : bool, optional
-        Whether a file that somebody else wrote is replaced, see `kintrafo.files`.
+        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
     inputs : iterable of str or pathlib.Path, optional
         Files that are never replaced.
 
@@ -118,7 +112,7 @@ def render(
         over_rack=_over_rack(samples.curves),
         rows=summary(samples.curves, samples.grid, samples.looks, model.suspension.suspension),
         inputs=input_tables(model.suspension),
-        parts=_PARTS[model.suspension.suspension],
+        parts=model.suspension.drawing().legend,
         drop=DROP,
         spin=SPIN_RATE / (2.0 * np.pi),
         data=Markup(_data(model, samples)),  # noqa: S704 (page_data leaves no end tag in it)

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..input.suspension import Suspension
+from ..suspension.kinds import Suspension
 from .curves import Curve
 from .encode import packed
 from .grid import Axis, Grid
@@ -158,10 +158,24 @@ def _drawing(suspension: Suspension, grid: Grid, sampled: Poses) -> dict[str, An
     low, high = corners.min(axis=0), corners.max(axis=0)
     return {
         "suspension": suspension.suspension,
+        "linkage": _linkage(suspension),
         "side_sign": suspension.vehicle.sign,
         "road_height": float(z) - loaded,
         "tyre": {"radius": radius, "width": TYRE_WIDTH},
         "rack_inward": (-suspension.vehicle.sign * np.sign(rack[1] or 1.0) * rack).tolist(),
         "middle": (0.5 * (low + high)).tolist(),
         "size": float(np.linalg.norm(high - low)),
+    }
+
+
+def _linkage(suspension: Suspension) -> dict[str, Any]:
+    """Return what guides and springs the wheel, by the names of the points."""
+    drawing, points = suspension.drawing(), suspension.hardpoints
+    return {
+        "arms": [(*bearings, ball) for ball, bearings in points.ARMS.items()],
+        "brackets": dict(drawing.brackets),
+        "damper": drawing.damper._asdict(),
+        "spring": drawing.spring._asdict(),
+        "upright": drawing.upright,
+        "steering_axis": points.STEERING_AXIS,
     }

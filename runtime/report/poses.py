@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..hardpoints import hardpoints
-from ..model import Model
-from ..positions import PositionError, arm_angles, design_height, travel_range
-from ..reach import at_rest
+from ..suspension.model import Model
+from ..suspension.points import hardpoints
+from ..suspension.positions import PositionError, arm_angles, design_height, travel_range
+from ..suspension.reach import at_rest
 from .grid import Axis, Grid
 
 Array = NDArray[np.float64]

@@ -1,13 +1,12 @@
 """The tables of the page: characteristics at design, and the input data."""
 
-import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass
-from importlib import resources
 from typing import Any
 
-from ..input.section import Section
-from ..input.suspension import Suspension
+from ..suspension.input.section import Section
+from ..suspension.kinds import Suspension
+from ..suspension.typical import typical_ranges
 from .curves import Curve
 from .grid import Grid
 from .payload import Look
@@ -87,24 +86,6 @@ def summary(drawn: list[Curve], grid: Grid, looks: dict[str, Look], kind: str) -
         for curve in drawn
         if curve.over == "travel"
     ]
-
-
-def typical_ranges(kind: str) -> dict[str, dict[str, Any]]:
-    """Return the usual ranges of front suspensions by the name of the characteristic.
-
-    Parameters
-    ----------
-    kind : str
-        Kind of the suspension, as in the input file.
-
-    Returns
-    -------
-    dict
-        ``low``, ``high``, ``unit`` and ``source`` of each.
-    """
-    text = resources.files(__package__).joinpath("typical.toml").read_text(encoding="utf-8")
-    ranges: dict[str, dict[str, Any]] = tomllib.loads(text)
-    return {name: usual for name, usual in ranges.items() if usual.get("only", kind) == kind}
 
 
 def _row(curve: Curve, value: float, decimals: int, usual: dict[str, Any] | None) -> Row:

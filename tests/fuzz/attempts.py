@@ -23,7 +23,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from kintrafo.errors import KintrafoError
+from kintrafo.core.errors import KintrafoError
 
 from . import doors
 

@@ -3,7 +3,7 @@
 import os
 import time
 
-from kintrafo.errors import InputError
+from kintrafo.core.errors import InputError
 
 from ..attempts import UnjudgedError, WrongError
 

@@ -27,9 +27,9 @@ from kintrafo import (
     sweep,
 )
 from kintrafo.generated import four_bar
-from kintrafo.hardpoints import hardpoints
-from kintrafo.positions import design_height
-from kintrafo.recording import dataset_of, statistics
+from kintrafo.study.recording import dataset_of, statistics
+from kintrafo.suspension.points import hardpoints
+from kintrafo.suspension.positions import design_height
 
 from ..attempts import RawError, WrongError
 

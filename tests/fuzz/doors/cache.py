@@ -18,8 +18,8 @@ import numpy as np
 from kintrafo.generator import outputs
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.generator.proposal import model_of
-from kintrafo.own.cache import damage
-from kintrafo.own.compiler import Compiler
+from kintrafo.systems.compile.cache import damage
+from kintrafo.systems.compile.compiler import Compiler
 
 from ..attempts import WrongError
 

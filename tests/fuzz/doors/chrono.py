@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from kintrafo.chrono import read
-from kintrafo.errors import InputError
+from kintrafo.core.errors import InputError
+from kintrafo.suspension.chrono import read
 
 from .. import mutations
 from ..attempts import RawError, WrongError

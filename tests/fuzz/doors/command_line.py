@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from unittest import mock
 
 from kintrafo import cli
-from kintrafo.starter import packaged
+from kintrafo.suspension.starter import packaged
 
 from ..attempts import RawError, WrongError
 from .chrono import DATA

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from kintrafo.errors import InputError
-from kintrafo.measurement import Measurement, measured
+from kintrafo.core.errors import InputError
+from kintrafo.study.measurement import Measurement, measured
 
 from .. import mutations
 from ..attempts import RawError, WrongError

@@ -16,14 +16,14 @@ from pathlib import Path
 
 import numpy as np
 import test_copies
-from kintrafo.errors import KintrafoError
+from kintrafo.core.errors import KintrafoError
 from kintrafo.generator.declared import DeclarationError
 from kintrafo.generator.mechanisms import double_wishbone, four_bar, slider_crank
 from kintrafo.generator.outputs import generate
 from kintrafo.generator.transformer import Plan
-from kintrafo.own.build import build
-from kintrafo.own.declaration import given_by, telling
-from kintrafo.own.loader import load
+from kintrafo.systems.compile.build import build
+from kintrafo.systems.compile.declaration import given_by, telling
+from kintrafo.systems.compile.loader import load
 from own_mechanisms import spatial_four_bar
 from own_models import Built
 

@@ -10,9 +10,9 @@ from itertools import combinations
 
 import numpy as np
 from kintrafo import Model, Suspension, equilibrium, state_at_height, travel_range
-from kintrafo.characteristics.datasets import travel
-from kintrafo.hardpoints import hardpoints
-from kintrafo.positions import PositionError
+from kintrafo.study.characteristics.datasets import travel
+from kintrafo.suspension.points import hardpoints
+from kintrafo.suspension.positions import PositionError
 
 from ..attempts import WrongError
 

@@ -7,7 +7,7 @@ SciPy's interpolation; and no input may leave the range of the samples on either
 
 import numpy as np
 from kintrafo import Model, Samples, equilibrium, simulate
-from kintrafo.signals import time_inputs
+from kintrafo.simulation.signals import time_inputs
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline, PchipInterpolator
 

@@ -28,7 +28,7 @@ from kintrafo.generated import (
 )
 from kintrafo.generated._support import ModelError
 from kintrafo.generator.mechanisms import MODELS
-from kintrafo.solvers import native_methods
+from kintrafo.simulation.solvers import native_methods
 from own_models import Built
 from scipy.integrate import DOP853
 

@@ -19,13 +19,9 @@ import {
   Vector3,
 } from "three";
 
-import * as doubleWishbone from "./double_wishbone.js";
 import { UP, nearestOnLine, place } from "./geometry.js";
-import * as macpherson from "./macpherson.js";
+import { Linkage } from "./linkage.js";
 import { colour } from "./theme.js";
-
-// What guides the wheel, by the name in the input file.
-const LINKAGES = { macpherson, double_wishbone: doubleWishbone };
 
 // Drawing only: what the model does not know about the shape of its bodies [m].
 const ARM = 0.012;
@@ -75,7 +71,7 @@ export class Mechanism extends Group {
       new Vector3(...design),
     ]);
     this.design = Object.fromEntries(atDesign);
-    this.linkage = LINKAGES[data.suspension];
+    this.linkage = new Linkage(data.linkage);
     this.linkage.build(this);
     this.#buildKnuckle();
     this.#buildSteering();

@@ -1,0 +1,13 @@
+"""What every floor above needs: errors, arguments, files, words.
+
+`errors`       the errors of this package
+`arguments`    what a person passes to a function: checked, refused in words
+`suggestions`  what was probably meant
+`optional`     packages of an extra, and what to say where they are missing
+`quantities`   names, units and signs of what is shown
+`legible`      texts of others, made harmless before they are shown
+`physical`     what the parameters of a mechanism can be
+`files`        writing a file as a whole, and replacing none of somebody else's
+`folders`      where things are kept between two runs
+`written`      which files this program wrote
+"""

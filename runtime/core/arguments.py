@@ -1,0 +1,271 @@
+"""Checks of arguments, the same for every public function.
+
+What is wrong is collected, so that one error tells all of it::
+
+    with Arguments("equilibrium") as given:
+        given.kind("model", model, Model, Model.NEEDED)
+        road_height = given.number("road_height", road_height, "m")
+"""
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import PurePath
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import InputError
+from .suggestions import suggestion
+
+if TYPE_CHECKING:
+    from types import TracebackType
+
+Array = NDArray[np.float64]
+
+_LONGEST = 60
+
+
+def shown(value: Any) -> str:
+    """Return a value as it stands in a message, cut where it is long."""
+    try:
+        text = " ".join(repr(value).split())
+    except Exception:  # noqa: BLE001 (whatever a stranger's __repr__ does, it is not the problem)
+        text = f"a {type(value).__name__}"
+    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}..."
+
+
+class Arguments:
+    """The arguments of one call; raises one `InputError` for all that are wrong.
+
+    Each check returns the argument as it is used, or something harmless where it is wrong: what is
+    computed from it between the checks cannot fail for that reason, and is never seen.
+
+    Parameters
+    ----------
+    source : str
+        What was called.
+    """
+
+    def __init__(self, source: str) -> None:
+        self._source = source
+        self._problems: list[str] = []
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: "TracebackType | None",
+    ) -> None:
+        if self._problems:
+            raise InputError(self._problems, self._source) from None
+
+    def refuse(self, problem: str) -> None:
+        """Note what is wrong."""
+        self._problems.append(problem)
+
+    @property
+    def refused(self) -> bool:
+        """Whether anything is wrong."""
+        return bool(self._problems)
+
+    # -- numbers --------------------------------------------------------------------------------
+
+    def number(
+        self,
+        name: str,
+        value: Any,
+        unit: str = "",
+        *,
+        least: float = -math.inf,
+        above: float = -math.inf,
+        below: float = math.inf,
+        advice: str = "",
+    ) -> float:
+        """Return a finite number within a range."""
+        number = _as_float(value)
+        if math.isfinite(number) and least <= number and above < number < below:
+            return number
+        unit = f" {unit}" if unit else ""
+        allowed = [f"of {least:g}{unit} or more"] if least > -math.inf else []
+        allowed += [f"above {above:g}{unit}"] if above > -math.inf else []
+        allowed += [f"below {below:g}{unit}"] if below < math.inf else []
+        told = shown(value) if isinstance(value, str | bytes) else f"{_plain(value)}{unit}"
+        words = " ".join(["a finite number", " and ".join(allowed)]).strip()
+        self.refuse(f"{name} = {told}: {words} is needed. {advice}".strip())
+        return max(least, 1.0) if math.isinf(below) else below / 2.0
+
+    def step(self, name: str, value: Any, unit: str = "") -> float:
+        """Return a number above zero, which may be infinite."""
+        number = _as_float(value)
+        if not number > 0.0:
+            unit = f" {unit}" if unit else ""
+            self.refuse(f"{name} = {_plain(value)}{unit}: a number above 0{unit} is needed.")
+            return math.inf
+        return number
+
+    def count(self, name: str, value: Any, *, most: int) -> int:
+        """Return a whole number from one on, where infinity stands for the greatest."""
+        return most if _as_float(value) == math.inf else self.whole(name, value, most=most)
+
+    def whole(self, name: str, value: Any, *, least: int = 1, most: float = math.inf) -> int:
+        """Return a whole number within a range."""
+        number = _as_float(value)
+        if math.isfinite(number) and number == int(number) and least <= number <= most:
+            return int(number)
+        up_to = "or more" if math.isinf(most) else f"to {most:g}"
+        self.refuse(f"{name} = {_plain(value)}: a whole number, {least} {up_to}, is needed.")
+        return least
+
+    def array(
+        self,
+        name: str,
+        values: Any,
+        unit: str = "",
+        *,
+        dimensions: Sequence[int] | None = None,
+        last: int | None = None,
+        empty: bool = False,
+        finite: bool = True,
+    ) -> Array:
+        """Return numbers as an array.
+
+        Parameters
+        ----------
+        name, values, unit
+            The argument.
+        dimensions
+            How many dimensions it may have.
+        last
+            Length of the last one.
+        empty
+            Whether it may have no elements.
+        finite
+            Whether NaN and infinity are refused.
+        """
+        array = _as_array(values)
+        in_unit = f", in {unit}," if unit else ""
+        if array is None:
+            self.refuse(f"{name} = {shown(values)}: numbers{in_unit} are needed.")
+        elif dimensions is not None and array.ndim not in dimensions:
+            shapes = "one number", "a row of numbers", "a table"
+            wanted = " or ".join(shapes[d] for d in dimensions)
+            hint = f" Write [{float(array):g}] for one." if array.ndim == 0 else ""
+            self.refuse(f"{name} has the shape {array.shape}: {wanted}{in_unit} is needed.{hint}")
+        elif last is not None and array.shape[-1:] != (last,):
+            self.refuse(f"{name} has the shape {array.shape}: its last dimension must be {last}.")
+        elif not empty and array.size == 0:
+            self.refuse(f"{name} is empty: one number{in_unit} or more is needed.")
+        elif finite and not np.isfinite(array).all():
+            bad = array[~np.isfinite(array)].flat[0]
+            self.refuse(f"{name} = {bad:g}{f' {unit}' if unit else ''}: a finite number is needed.")
+        else:
+            return array
+        return np.ones((1,) if last is None else (last,))
+
+    # -- names and kinds ------------------------------------------------------------------------
+
+    def among(self, name: str, value: Any, known: Iterable[str]) -> Any:
+        """Return one of several names."""
+        names = list(known)
+        if isinstance(value, str) and value in names:
+            return value
+        hint = f"{suggestion(value, names)} " if isinstance(value, str) else ""
+        there = "" if hint.startswith("Known are") else f"There are {', '.join(names)}."
+        self.refuse(f"{name} {shown(value)} is not known. {hint}{there}".strip())
+        return next(iter(names), "")
+
+    def names(self, name: str, values: Any, known: Iterable[str]) -> tuple[str, ...]:
+        """Return a row of names, each of which is known."""
+        if isinstance(values, str) or not np.iterable(values):
+            self.refuse(f"{name} = {shown(values)}: a list of names is needed.")
+            return ()
+        every = tuple(known)
+        return tuple(self.among(name, value, every) for value in values)
+
+    def flag(self, name: str, value: Any) -> bool:
+        """Return True or False."""
+        if not isinstance(value, bool | np.bool_):
+            self.refuse(f"{name} = {shown(value)}: True or False is needed.")
+        return bool(isinstance(value, bool | np.bool_) and value)
+
+    def text(self, name: str, value: Any) -> None:
+        """Refuse what is no text."""
+        self.kind(name, value, str, "a text is needed")
+
+    def paths(self, name: str, values: Any) -> None:
+        """Refuse what are no paths of files."""
+        if not isinstance(values, list | tuple):
+            self.refuse(f"{name} = {shown(values)}: a list of paths is needed.")
+            return
+        for value in values:
+            self.path(name, value)
+
+    def mapping(self, name: str, value: Any, of: str) -> Mapping[Any, Any]:
+        """Return a dict."""
+        if not isinstance(value, Mapping):
+            self.refuse(f"{name} = {shown(value)}: a dict of {of} is needed.")
+            return {}
+        return value
+
+    def kind(self, name: str, value: Any, kinds: type | tuple[type, ...], needed: str) -> Any:
+        """Return something of a certain class."""
+        if not isinstance(value, kinds):
+            given = "a class, not one of its instances" if isinstance(value, type) else shown(value)
+            self.refuse(f"{name} = {given}: {needed}.")
+        return value
+
+    def path(self, name: str, value: Any) -> None:
+        """Refuse what is no path of a file or folder."""
+        self.kind(name, value, (str, PurePath), "the path of a file or folder is needed")
+
+    def dataset(self, value: Any, *, over: str = "") -> None:
+        """Refuse what is no dataset, or one that is not over what it must be."""
+        from xarray import Dataset  # noqa: PLC0415 (slow to import)
+
+        self.kind("dataset", value, Dataset, "an xarray.Dataset is needed")
+        if over and isinstance(value, Dataset) and over not in value.coords:
+            self.refuse(
+                f"dataset: it has no coordinate {over!r}, over which its variables must be."
+            )
+
+    def function(self, name: str, value: Any) -> None:
+        """Refuse what is neither a function nor None."""
+        if not (value is None or callable(value)):
+            self.refuse(f"{name} = {shown(value)}: a function, or None, is needed.")
+
+
+def _as_float(value: Any) -> float:
+    """Return a number; NaN for what is none."""
+    if isinstance(value, bool | np.bool_ | str | bytes):
+        return math.nan
+    try:
+        return float(value)
+    except (TypeError, ValueError, OverflowError):
+        return math.nan
+
+
+def _as_array(values: Any) -> Array | None:
+    """Return an array of numbers; nothing for what is none."""
+    try:
+        array = np.asarray(values)
+        if array.dtype.kind == "O":
+            array = np.array([_as_float(v) if v is not None else "" for v in array.flat])
+            array = array.reshape(np.shape(values))
+        if array.dtype.kind not in "iuf" and array.size:
+            return None
+        return array.astype(np.float64, copy=False)
+    except (TypeError, ValueError, OverflowError):
+        return None
+
+
+def _plain(value: Any) -> str:
+    """Return a number in few digits, and anything else as it is shown."""
+    number = isinstance(value, int | float | np.number) and not isinstance(value, bool)
+    try:
+        return f"{value:g}" if number else shown(value)
+    except (TypeError, ValueError, OverflowError):
+        return shown(value)

@@ -1,0 +1,10 @@
+"""Pictures for print.
+
+`curves`    the variables of a dataset, each in a figure or grouped on a page
+`figures`   the figures of the paper, and the style of them all
+`overview`  one picture of a suspension
+"""
+
+from .curves import FORMATS, check_formats, figure, grouped, write, write_overview
+
+__all__ = ["FORMATS", "check_formats", "figure", "grouped", "write", "write_overview"]

@@ -1,0 +1,403 @@
+"""Curves for print: one figure for each variable of a dataset, and one page for each group.
+
+Any variable over one dimension can be drawn, or over two, of which the second makes a family of
+lines: several suspensions, or several positions of the rack. Names, units and signs are those of
+the variables' attributes, see `kintrafo.core.quantities`.
+"""
+
+from collections.abc import Callable, Hashable, Sequence
+from io import BytesIO
+from pathlib import Path
+from textwrap import fill
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib import colormaps, rc_context
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_pdf import PdfPages
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+from matplotlib.ticker import MaxNLocator, ScalarFormatter
+from numpy.typing import NDArray
+
+from ..core.arguments import Arguments, shown
+from ..core.errors import InputError
+from ..core.files import Paths, refuse, replacing
+from ..core.legible import legible
+from ..core.quantities import bracketed, display_of, displayed, long_name
+from ..study.characteristics.groups import ORDER, group_of
+from .figures import BLUE, GREEN, METADATA, ORANGE, STYLE, save
+
+Array = NDArray[np.float64]
+
+FORMATS = ("png", "svg", "pdf")
+# Told apart in colour and, by the dashes, in black and white too.
+_COLOURS = (BLUE, ORANGE, GREEN, "#cc79a7", "#56b4e9", "#e69f00", "#000000")
+_DASHES = ("-", "--", "-.", ":")
+# The dimension of several suspensions that are compared.
+_FAMILY = "data_set"
+# Positions have a design value at zero; time has not.
+_WITH_DESIGN = ("wheel_travel", "rack_position")
+# More lines than this are a carpet: some of them are drawn.
+_MOST_LINES = 7
+_COLUMNS = 3
+# Round values only, and never an offset that must be added in the head.
+_TICK_STEPS = [1, 2, 2.5, 5, 10]
+# Less variation than this part of its size is rounding, and the curve a constant.
+_CONSTANT = 1e-6
+# A curve whose extremes are so many times farther apart than nine tenths of it passes a pole.
+_POLE = 10.0
+
+
+def write(
+    dataset: xr.Dataset,
+    folder: str | Path,
+    *,
+    formats: Sequence[str] = ("png",),
+    title: str = "",
+    suffix: str = "",
+    progress: Callable[[float], None] | None = None,
+    force: bool = False,
+    inputs: Paths = (),
+) -> list[Path]:
+    """Write one figure for each curve, and an overview of each group.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Variables over one dimension or two.
+    folder : str or pathlib.Path
+        Made if there is none.
+    formats : sequence of str, optional
+        Of 'png', 'svg' and 'pdf'.
+    title : str, optional
+        Stands above each figure, usually the name of the data.
+    suffix : str, optional
+        Ends the name of each file, before its ending.
+    progress : callable, optional
+        Called with the part that is done, up to 1.
+    force : bool, optional
+        Whether files that somebody else wrote are replaced, see `kintrafo.core.files`.
+    inputs : iterable of str or pathlib.Path, optional
+        Files that are never replaced.
+
+    Returns
+    -------
+    list of pathlib.Path
+        ``overview_<group><suffix>.<format>`` and ``<variable><suffix>.<format>``.
+
+    Raises
+    ------
+    InputError
+        If one of them must not be written, before any is; or if one cannot be.
+    """
+    check_formats(formats=formats)
+    with Arguments("figures") as given:
+        given.dataset(dataset)
+        given.path("folder", folder)
+        given.text("title", title)
+        given.text("suffix", suffix)
+        given.function("progress", progress)
+        given.flag("force", force)
+        given.paths("inputs", inputs)
+    pages = {f"overview_{_slug(group)}": names for group, names in grouped(dataset).items()}
+    single = {str(name): (name,) for name in _curves(dataset)}
+    drawn = {**pages, **single}
+    files = {n: [Path(folder) / f"{n}{suffix}.{ending}" for ending in formats] for n in drawn}
+    refuse([path for paths in files.values() for path in paths], force=force, inputs=inputs)
+    for index, (name, variables) in enumerate(drawn.items()):
+        with rc_context(STYLE):
+            one = figure(dataset, variables, title=title, alone=name in single)
+            for path in files[name]:
+                save(one, path, force=force, inputs=inputs)
+        if progress is not None:
+            progress((index + 1) / len(drawn))
+    return [path for paths in files.values() for path in paths]
+
+
+def write_overview(
+    dataset: xr.Dataset,
+    path: str | Path,
+    names: Sequence[Hashable] = (),
+    title: str = "",
+    *,
+    force: bool = False,
+    inputs: Paths = (),
+) -> Path:
+    """Write the curves of some variables on one page; a PDF has a page for each group.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+    path : str or pathlib.Path
+        The ending is the format: ``.png``, ``.svg`` or ``.pdf``.
+    names : sequence of str, optional
+        By default all that vary.
+    title : str, optional
+    force : bool, optional
+        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
+    inputs : iterable of str or pathlib.Path, optional
+        Files that are never replaced.
+
+    Returns
+    -------
+    pathlib.Path
+
+    Raises
+    ------
+    InputError
+        If the file must not or cannot be written.
+    """
+    check_formats([path])
+    with Arguments("figures") as given:
+        given.dataset(dataset)
+        given.text("title", title)
+        given.flag("force", force)
+        given.paths("inputs", inputs)
+        if not given.refused:
+            names = given.names("names", names, map(str, _curves(dataset)))
+    pages = {"": tuple(names)} if names else grouped(dataset)
+    with rc_context(STYLE):
+        if Path(path).suffix.lower() != ".pdf":
+            chosen = tuple(name for page in pages.values() for name in page)
+            one = figure(dataset, chosen, title=title, alone=False)
+            return save(one, path, force=force, inputs=inputs)
+        drawn = BytesIO()
+        with PdfPages(drawn, metadata=METADATA["pdf"]) as document:
+            for group, variables in pages.items():
+                heading = ": ".join(text for text in (title, group) if text)
+                document.savefig(figure(dataset, variables, title=heading, alone=False))
+    with replacing(path, force=force, inputs=inputs) as temporary:
+        temporary.write_bytes(drawn.getvalue())
+    return Path(path)
+
+
+def check_formats(paths: Sequence[str | Path] = (), formats: Sequence[str] = ()) -> None:
+    """Refuse names of files, and formats, in which no figure can be written."""
+    with Arguments("figures") as given:
+        for name, listed in (("paths", paths), ("formats", formats)):
+            if not isinstance(listed, list | tuple):
+                given.refuse(f"{name} = {shown(listed)}: a list is needed.")
+            for path in () if given.refused or name == "formats" else listed:
+                given.path("path", path)
+    endings = {str(path): Path(path).suffix.lower().removeprefix(".") for path in paths}
+    wrong = [given for given, ending in endings.items() if ending not in FORMATS]
+    problems = [f"{given}: a figure ends in .{', .'.join(FORMATS)}." for given in wrong]
+    problems += [
+        f"{name!r} is no format of figures; there are {', '.join(FORMATS)}."
+        for name in formats
+        if name not in FORMATS
+    ]
+    if problems:
+        raise InputError(problems, "figures")
+
+
+def grouped(dataset: xr.Dataset) -> dict[str, tuple[Hashable, ...]]:
+    """Return the variables that belong on one page, by the name of their group.
+
+    What does not vary is left out, unless nothing varies.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+
+    Returns
+    -------
+    dict of str to tuple of str
+        In the order of the report.
+    """
+    with Arguments("figures") as given:
+        given.dataset(dataset)
+    groups: dict[str, tuple[Hashable, ...]] = {}
+    names = _curves(dataset)
+    varying = tuple(name for name in names if not _is_constant(displayed(dataset[name])))
+    for name in varying or names:
+        group = group_of(name)
+        groups[group] = (*groups.get(group, ()), name)
+    return {group: groups[group] for group in ORDER if group in groups}
+
+
+def _slug(text: str) -> str:
+    """Return a text as part of the name of a file."""
+    return "_".join(text.lower().split())
+
+
+def figure(
+    dataset: xr.Dataset, names: Sequence[Hashable], *, title: str = "", alone: bool = True
+) -> Figure:
+    """Draw curves of some variables, each in its own axes.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+    names : sequence of str
+        Variables over one dimension or two.
+    title : str, optional
+    alone : bool, optional
+        Whether this is the figure of one curve, with its definition where there is one.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    with Arguments("figures") as given:
+        given.dataset(dataset)
+        given.text("title", title)
+        given.flag("alone", alone)
+        if not given.refused:
+            names = given.names("names", names, map(str, _curves(dataset)))
+            if not names:
+                given.refuse("names is empty: at least one variable is needed.")
+    columns = min(_COLUMNS, len(names))
+    rows = -(-len(names) // columns)
+    size = (7.2, 4.6) if alone else (max(3.7 * columns, 5.0), 1.0 + 2.5 * rows)
+    result = Figure(figsize=size, layout="constrained")
+    panels = result.subplots(rows, columns, squeeze=False).ravel()
+    for index, (axes, name) in enumerate(zip(panels, names, strict=False)):
+        along = _draw(axes, dataset[name])
+        (_describe_alone if alone else _describe_panel)(axes, dataset[name])
+        if index + columns >= len(names):
+            axes.set_xlabel(_with_sign(dataset[along]), fontsize=10 if alone else 9)
+    for axes in panels[len(names) :]:
+        axes.remove()
+    _legend(result, panels[0], dataset[names[0]], alone=alone)
+    result.suptitle("\n".join(line for line in (title, _held(dataset)) if line), fontsize=11)
+    for text in result.findobj(Text):
+        # what a person wrote stands there as it was written, dollars and all
+        text.set_parse_math(False)
+        text.set_text("\n".join(map(legible, text.get_text().split("\n"))))
+    return result
+
+
+def _curves(dataset: xr.Dataset) -> tuple[Hashable, ...]:
+    """Return the names of the variables that can be drawn."""
+    return tuple(n for n, data in dataset.items() if data.ndim in (1, 2) and data.dtype.kind == "f")
+
+
+def _draw(axes: Axes, data: xr.DataArray) -> str:
+    """Draw one variable with its zero lines and its design position; return what it is over."""
+    along, lines = _lines(data)
+    position = displayed(data[along])
+    styles = _styles(data, len(lines))
+    for (_, values), (colour, dashes) in zip(lines, styles, strict=True):
+        axes.plot(position, values, dashes, color=colour)
+    if along in _WITH_DESIGN:
+        axes.axvline(0.0, color="#888888", linewidth=0.8, zorder=1)
+        for (_, values), (colour, _) in zip(lines, styles, strict=True):
+            at_design = values[position == 0.0]
+            dot = "black" if len(lines) == 1 else colour
+            axes.plot(np.zeros(at_design.size), at_design, "o", color=dot, markersize=4)
+    axes.margins(x=0.02)
+    _limit(axes, np.concatenate([v for _, v in lines]), may_have_pole=along in _WITH_DESIGN)
+    low, high = axes.get_ylim()
+    if low < 0.0 < high:
+        axes.axhline(0.0, color="#888888", linewidth=0.8, zorder=1)
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(MaxNLocator(nbins=7, steps=_TICK_STEPS))
+        axis.set_major_formatter(ScalarFormatter(useOffset=False))
+    return along
+
+
+def _describe_alone(axes: Axes, data: xr.DataArray) -> None:
+    axes.set_ylabel(_with_sign(data))
+    definition = str(data.attrs.get("definition", ""))
+    axes.set_title(fill(definition, 100), fontsize=8.5, color="#555555")
+
+
+def _describe_panel(axes: Axes, data: xr.DataArray) -> None:
+    sign = str(data.attrs.get("sign", ""))
+    axes.set_title(fill(_typeset(bracketed(long_name(data), data.attrs)), 40), fontsize=9.5)
+    if sign:
+        axes.set_ylabel(fill(sign, 34), fontsize=8, color="#555555")
+
+
+def _styles(data: xr.DataArray, count: int) -> list[tuple[Any, str]]:
+    """Return colour and dashes of each line: a scale for numbers, contrast for names."""
+    if count > 1 and _FAMILY not in data.dims:
+        scale = colormaps["viridis"]
+        return [(scale(0.9 * index / (count - 1)), "-") for index in range(count)]
+    return [
+        (_COLOURS[index % len(_COLOURS)], _DASHES[index % len(_DASHES)]) for index in range(count)
+    ]
+
+
+def _lines(data: xr.DataArray) -> tuple[str, list[tuple[str, Array]]]:
+    """Return the dimension along the axis, and label and displayed values of each line."""
+    along = next(str(d) for d in data.dims if d != _FAMILY) if data.ndim > 1 else str(data.dims[0])
+    values = displayed(data)
+    if data.ndim == 1:
+        return along, [("", values)]
+    across = next(d for d in data.dims if d != along)
+    if data.dims[0] == along:
+        values = values.T
+    count = data.sizes[across]
+    chosen = np.unique(np.linspace(0, count - 1, min(count, _MOST_LINES)).round().astype(int))
+    labels = _labels(data[across])
+    return along, [(labels[i], values[i]) for i in chosen]
+
+
+def _labels(coordinate: xr.DataArray) -> list[str]:
+    if coordinate.dtype.kind != "f":
+        return [str(value) for value in coordinate.values]
+    unit = display_of(coordinate.attrs).units
+    return [f"{value:g} {unit}" for value in displayed(coordinate)]
+
+
+def _is_constant(values: Array) -> bool:
+    finite = values[np.isfinite(values)]
+    return finite.size > 0 and bool(np.ptp(finite) <= _CONSTANT * max(np.abs(finite).max(), 1e-6))
+
+
+def _limit(axes: Axes, values: Array, *, may_have_pole: bool) -> None:
+    """Choose limits that neither magnify rounding errors nor follow a curve into a pole."""
+    finite = values[np.isfinite(values)]
+    if finite.size == 0:
+        axes.text(0.5, 0.5, "not defined", transform=axes.transAxes, ha="center")
+    elif _is_constant(finite):
+        middle = float(finite.mean())
+        half = max(0.05 * abs(middle), 0.1)
+        axes.set_ylim(middle - half, middle + half)
+    elif may_have_pole:
+        low, high = np.quantile(finite, (0.05, 0.95))
+        if high > low and np.ptp(finite) > _POLE * (high - low):
+            axes.set_ylim(1.5 * low - 0.5 * high, 1.5 * high - 0.5 * low)
+
+
+def _with_sign(data: xr.DataArray) -> str:
+    sign = str(data.attrs.get("sign", ""))
+    label = _typeset(bracketed(long_name(data), data.attrs))
+    return f"{label}\n{sign}" if sign else label
+
+
+def _typeset(text: str) -> str:
+    return text.replace("^2", "\u00b2")
+
+
+def _legend(result: Figure, axes: Axes, data: xr.DataArray, *, alone: bool) -> None:
+    """Name the lines once, below the figure, where there are several."""
+    if data.ndim == 1:
+        return
+    along, lines = _lines(data)
+    across = next(d for d in data.dims if d != along)
+    handles = [line for line in axes.get_lines() if line.get_linestyle() != "None"][: len(lines)]
+    result.legend(
+        handles,
+        [label for label, _ in lines],
+        title=None if across == _FAMILY else long_name(data[across]),
+        loc="outside lower center",
+        ncols=4 if alone else _MOST_LINES,
+        frameon=False,
+        fontsize=9,
+    )
+
+
+def _held(dataset: xr.Dataset) -> str:
+    """Say where the coordinates stand that do not vary."""
+    scalars = [data for name, data in dataset.coords.items() if data.ndim == 0]
+    texts = [
+        f"{long_name(data)} {float(displayed(data)):g} {display_of(data.attrs).units}"
+        for data in scalars
+        if data.dtype.kind == "f"
+    ]
+    return ", ".join(texts)

@@ -1,0 +1,51 @@
+// What guides and springs the wheel, as the page's data describe it by the names of points.
+
+import { nearestOnLine } from "./geometry.js";
+
+/** A point of a name; or, of three, the one nearest to the first on the line through the others. */
+function at(place, points) {
+  return Array.isArray(place) ? nearestOnLine(...place.map((n) => points[n])) : points[place];
+}
+
+export class Linkage {
+  #data;
+
+  constructor(data) {
+    this.#data = data;
+  }
+
+  build(mechanism) {
+    const { arms, brackets } = this.#data;
+    for (const arm of arms) mechanism.buildArm(...arm);
+    mechanism.buildBars(Object.keys(brackets), "arm");
+    mechanism.buildSpringAndDamper();
+  }
+
+  pose(mechanism, points) {
+    const { arms, brackets, damper, spring } = this.#data;
+    for (const arm of arms) mechanism.poseArm(points, ...arm);
+    for (const [name, [from, to]] of Object.entries(brackets)) {
+      mechanism.poseBar(name, at(from, points), at(to, points));
+    }
+    const foot = at(damper.foot, points);
+    mechanism.poseDamper(foot, points[damper.top], along(damper, mechanism.design));
+    const seat = at(spring.foot, points);
+    const top = points[spring.top];
+    const axis = top.clone().sub(seat).normalize();
+    mechanism.poseSpring(seat.clone().addScaledVector(axis, along(spring, mechanism.design)), top);
+  }
+
+  /** The two ends of the knuckle, which holds the wheel between them. */
+  upright(points) {
+    return this.#data.upright.map((place) => at(place, points));
+  }
+
+  steeringAxis(points) {
+    return this.#data.steering_axis.map((name) => points[name]);
+  }
+}
+
+/** How far from its foot, in metres: its part of the length at design. */
+function along({ foot, top, part }, design) {
+  return part * at(foot, design).distanceTo(design[top]);
+}

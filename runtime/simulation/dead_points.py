@@ -1,0 +1,133 @@
+"""How near a motion is to a dead point, and for how long a step may be trusted there.
+
+This is what ``native/margins.h`` explains and does for SUNDIALS, for the methods of SciPy.
+"""
+
+from functools import cache
+from types import ModuleType
+from typing import Any, NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..generated._support import ClosureError
+from ..systems.system import System
+
+Array = NDArray[np.float64]
+
+# What a guard means for an integration: bits as in ``native/margins.h``.
+_ACTS, _PLACES = 1, 2
+# As in the emitted code and in ``native/margins.c``, where the reasons are.
+_PART = 0.5
+_NOTHING = 1e-10
+SMALLEST_PART = 1e-14
+LAPSE = 1.0 / 256.0
+LEFT = 4.0
+
+
+@cache
+def meanings(equations: ModuleType) -> NDArray[np.int32]:
+    """Return what each guard of some equations means for an integration.
+
+    Bit 1: where its margin is not positive, the right-hand side or the signals refuse a state. Bit
+    2: it chooses a branch of where bodies are, and the right-hand side depends on it.
+    """
+    acting = equations.ACTING_GUARDS
+    places = set(acting["positions"]) | set(acting["orientations"])
+    found = np.zeros(len(equations.GUARDS), dtype=np.int32)
+    for guard in {*acting["rhs"], *acting.get("signals", ())}:
+        found[guard] |= _ACTS
+    for guard in places & set(acting["rhs"]):
+        found[guard] |= _PLACES
+    return found
+
+
+def refuse(model: System, guard: int, state: Array, inputs: Array) -> NoReturn:
+    """Raise the error of a guard at whose dead point a motion ends."""
+    name, meaning = model.equations.GUARDS[guard]
+    margin = float(model.evaluate("margins", state, inputs)[guard])
+    values = dict(zip(model.state_names, map(float, state), strict=True))
+    values |= zip(model.input_names, map(float, inputs), strict=True)
+    where = f"{model.equations.NAME}.rhs"
+    units = model.equations.GUARD_UNITS
+    raise ClosureError(where, [meaning], {name: margin}, values, (), units)
+
+
+class DeadPoint(Exception):  # noqa: N818 (it ends an integration, and is told as another error)
+    """The motion has come to a dead point.
+
+    Attributes
+    ----------
+    guard : int
+    time : float
+        Of the dead point [s].
+    state : ndarray
+        The last that was reached before it.
+    """
+
+    def __init__(self, guard: int, time: float, state: Array) -> None:
+        self.guard, self.time, self.state = guard, time, state
+        super().__init__(guard, time, state)
+
+
+class Approach:
+    """The margins along a motion.
+
+    Parameters
+    ----------
+    model : System
+    inputs_at : callable
+        From a time to the array of inputs.
+    direction : float
+        Plus or minus one, in which the time goes.
+    """
+
+    def __init__(self, model: System, inputs_at: Any, direction: float) -> None:
+        self._model, self._inputs_at, self._direction = model, inputs_at, direction
+        meaning = meanings(model.equations)
+        self._acts, self._places = (meaning & _ACTS) > 0, (meaning & _PLACES) > 0
+        self._greatest = model.usual_margins
+        self._half = model.design_state.size // 2
+
+    def margins(self, time: float, state: Array) -> Array:
+        """Return the margins of a state."""
+        return self._model.evaluate("margins", state, self._inputs_at(time))
+
+    def crossed(self, margins: Array) -> int | None:
+        """Return a guard whose margin is not positive where it must be."""
+        return _first(self._acts & ~(margins > 0.0))
+
+    def look(self, time: float, state: Array, lapse: float) -> tuple[Array, Array]:
+        """Return the margins of a state, and by how much they change in a short time."""
+        lapse *= self._direction
+        moved = state.copy()
+        moved[: self._half] += lapse * state[self._half :]
+        now = self.margins(time, state)
+        return now, self.margins(time + lapse, moved) - now
+
+    def doubt(self, now: Array, gained: Array, lapse: float, step: float) -> int | None:
+        """Return a guard that says that a step is not to be believed."""
+        crossed = self.crossed(now)
+        if crossed is not None:
+            return crossed
+        return _first(self._places & (2.0 * now * lapse < gained * step))
+
+    def longest_step(
+        self, now: Array, gained: Array, lapse: float
+    ) -> tuple[float, int | None, bool]:
+        """Return how long the next step may be, which guard limits it, and if this is its end."""
+        self._greatest = np.maximum(self._greatest, now)
+        falling = self._places & (gained < 0.0)
+        if not falling.any():
+            return np.inf, None, False
+        over = falling & (now <= _NOTHING * self._greatest)
+        chosen = over if over.any() else falling
+        steps = np.full(now.size, np.inf)
+        steps[chosen] = -_PART * now[chosen] * lapse / gained[chosen]
+        nearest = int(np.argmin(steps))
+        return float(steps[nearest]), nearest, bool(over.any())
+
+
+def _first(found: NDArray[np.bool_]) -> int | None:
+    places = np.flatnonzero(found)
+    return int(places[0]) if places.size else None

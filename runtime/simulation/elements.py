@@ -1,0 +1,122 @@
+"""Struts, tyres and dampers: the events and the bounds that their signals have.
+
+The equations do not say which of their signals is the length of a strut or the force of a tyre, so
+that it is read from the names: here, and nowhere else below what knows suspensions.
+"""
+
+from collections.abc import Callable, Iterator
+
+from ..core.errors import InputError
+from ..core.suggestions import suggestion
+from ..systems.system import System
+from .events import SignalEvent
+from .validity import Bound
+
+NAMED = {
+    "wheel_leaves_ground": "the tyre force falls through zero",
+    "wheel_touches_ground": "the tyre force rises through zero",
+    "strut_fully_extended": "the strut reaches its greatest length",
+    "strut_reaches_bump_stop": "the strut becomes as short as its bump stop allows freely",
+    "strut_reaches_rebound_stop": "the strut becomes as long as its rebound stop allows freely",
+}
+_AT_THE_GROUND = {"wheel_leaves_ground": -1.0, "wheel_touches_ground": 1.0}
+# Which stop, and the sense of the strut's length when it touches.
+_AT_A_STOP = {
+    "strut_reaches_bump_stop": ("bump", -1.0),
+    "strut_reaches_rebound_stop": ("rebound", 1.0),
+}
+# Force at which a tyre that can lift off is taken to touch, and below which the pull of another is
+# rounding [N]: nanometres of its deflection.
+_TOUCH = 1e-3
+
+
+def named_event(model: System, name: str) -> SignalEvent:
+    """Return an event by its name.
+
+    Parameters
+    ----------
+    model : System or Model
+    name : str
+        One of `NAMED`.
+
+    Raises
+    ------
+    InputError
+        If there is no such event, or the model has not what it is of.
+    """
+    if name in _AT_THE_GROUND:
+        # a tyre that lifts off has no force in the air: a zero would last as long as the flight
+        level = _TOUCH if model.parameters.get("tyre_lifts_off") else 0.0
+        return SignalEvent("tyre_force", level, direction=_AT_THE_GROUND[name])
+    if name == "strut_fully_extended" and "strut_length_max" in model.parameters:
+        length = model.parameters["strut_length_max"]
+        return SignalEvent("strut_length", length, direction=+1.0, terminal=True)
+    if name in _AT_A_STOP and "strut_length" in model.signal_names:
+        return _touching(model, *_AT_A_STOP[name])
+    if name in NAMED:
+        problem = f"event {name!r} belongs to a strut, which {model.equations.NAME} has not."
+        raise InputError([problem], "events")
+    problem = f"event {name!r} is not known. {suggestion(name, NAMED)}"
+    raise InputError([problem], "events")
+
+
+def _touching(model: System, side: str, direction: float) -> SignalEvent:
+    """Return the event of the strut touching one of its stops."""
+    if not model.parameters.get(f"{side}_stop_rate"):
+        problem = f"there is no {side} stop. Give the suspension's file a [{side}_stop]."
+        raise InputError([problem], "events")
+    return SignalEvent("strut_length", model.parameters[f"{side}_stop_length"], direction)
+
+
+def bounds_of(model: System) -> Iterator[Bound]:
+    """Yield what the signals of a model must not pass.
+
+    Whoever has a new bound writes a function like those in `_BOUNDS`.
+    """
+    for signal in model.signal_names:
+        for ending, kind in _BOUNDS.items():
+            if signal == ending or signal.endswith(f"_{ending}"):
+                yield from kind(model, signal, signal.removesuffix(ending))
+
+
+def _strut_length(model: System, signal: str, prefix: str) -> Iterator[Bound]:
+    greatest = _parameter(model, prefix, "strut_length_max")
+    if greatest:
+        yield Bound(signal, greatest, above=True, words="the strut is longer than it can be")
+    least = _parameter(model, prefix, "strut_length_min") or 0.0
+    yield Bound(signal, least, above=False, words="the strut is shorter than it can be")
+
+
+def _tyre_force(model: System, signal: str, prefix: str) -> Iterator[Bound]:
+    if not _parameter(model, prefix, "tyre_lifts_off"):
+        yield Bound(signal, -_TOUCH, above=False, words="the tyre pulls at the road")
+
+
+def _compression(model: System, signal: str, prefix: str) -> Iterator[Bound]:
+    """Yield the ends of a damper's table, which is one of velocities in bump."""
+    if signal.endswith("spring_velocity") and f"{prefix}strut_velocity" in model.signal_names:
+        return
+    table = {
+        name.removeprefix(prefix): value
+        for name, value in model.parameters.items()
+        if name.removeprefix(prefix).startswith("damper_table_")
+    }
+    knots = [value for name, value in table.items() if "_knot_" in name]
+    if not knots or max(knots) <= min(knots):
+        return
+    words = "the damper is faster in {} than its table goes, and is taken to go on straight"
+    yield Bound(signal, -max(knots), above=False, words=words.format("bump"), possible=True)
+    yield Bound(signal, -min(knots), above=True, words=words.format("rebound"), possible=True)
+
+
+def _parameter(model: System, prefix: str, name: str) -> float | None:
+    """Return a parameter of this side, or the common one; None where there is neither."""
+    return model.parameters.get(f"{prefix}{name}", model.parameters.get(name))
+
+
+_BOUNDS: dict[str, Callable[[System, str, str], Iterator[Bound]]] = {
+    "strut_length": _strut_length,
+    "tyre_force": _tyre_force,
+    "strut_velocity": _compression,
+    "spring_velocity": _compression,
+}

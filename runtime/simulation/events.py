@@ -1,0 +1,147 @@
+"""Events during a simulation: by physical name, by signal and level, or by a function."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from ..core.arguments import Arguments, shown
+from ..core.errors import InputError
+from ..systems.system import System
+
+
+@dataclass(frozen=True)
+class SignalEvent:
+    """A signal of the model passes a level.
+
+    Attributes
+    ----------
+    signal : str
+        Name, see ``model.signal_names``.
+    level : float
+        SI units.
+    direction : float
+        Negative: falling only; positive: rising only; zero: both.
+    terminal : bool or int
+        Whether, or at which crossing, the simulation ends.
+    """
+
+    signal: str
+    level: float
+    direction: float = 0.0
+    terminal: bool | int = False
+
+
+EventFunction = Callable[..., float]
+Event = str | SignalEvent | EventFunction
+
+_MOST_CROSSINGS = 2**31 - 1
+
+
+@dataclass(frozen=True)
+class Events:
+    """The events of a simulation: `signal` ones first, then the caller's functions.
+
+    Attributes
+    ----------
+    signal : tuple of SignalEvent
+    functions : tuple of callable
+        Of time and state, with SciPy's attributes ``terminal`` and ``direction``. They give finite
+        numbers or raise an `InputError`: a solver takes NaN for "no crossing".
+    order : tuple of int
+        Position of each of them in what the caller gave.
+    """
+
+    signal: tuple[SignalEvent, ...]
+    functions: tuple["_CheckedFunction", ...]
+    order: tuple[int, ...]
+
+    @property
+    def directions(self) -> list[int]:
+        """The sense of each event: -1, 0 or +1."""
+        values = [e.direction for e in self.signal]
+        values += [f.direction for f in self.functions]
+        return [(v > 0) - (v < 0) for v in values]
+
+    @property
+    def terminal(self) -> list[int]:
+        """At which crossing each event ends the simulation; 0 for never."""
+        values = [e.terminal for e in self.signal] + [f.terminal for f in self.functions]
+        return [int(v) for v in values]
+
+    def __len__(self) -> int:
+        return len(self.order)
+
+
+def events_of(
+    model: System,
+    given: Event | Sequence[Event] | None,
+    named: Callable[[System, str], SignalEvent],
+) -> Events:
+    """Sort the events that a caller gave.
+
+    Parameters
+    ----------
+    model : System or Model
+    given : str, SignalEvent, callable, or sequence of these
+    named : callable
+        Takes the model and a name; returns the event of this name.
+
+    Returns
+    -------
+    Events
+    """
+    single = given is None or callable(given) or isinstance(given, str | SignalEvent)
+    listed: list[Any] = list(given) if isinstance(given, Sequence) and not single else [given]
+    listed = [event for event in listed if event is not None]
+    signal: list[tuple[int, SignalEvent]] = []
+    functions: list[tuple[int, _CheckedFunction]] = []
+    for index, event in enumerate(listed):
+        if isinstance(event, str):
+            signal.append((index, _checked(model, named(model, event))))
+        elif isinstance(event, SignalEvent):
+            signal.append((index, _checked(model, event)))
+        elif callable(event):
+            functions.append((index, _CheckedFunction.of(event)))
+        else:
+            problem = f"event {shown(event)} is neither a name, nor a SignalEvent, nor a function."
+            raise InputError([problem], "events")
+    order = tuple(i for i, _ in (*signal, *functions))
+    return Events(tuple(e for _, e in signal), tuple(f for _, f in functions), order)
+
+
+def _checked(model: System, event: SignalEvent) -> SignalEvent:
+    with Arguments("events") as given:
+        given.among("signal", event.signal, model.signal_names)
+        given.number(f"level of {event.signal!r}", event.level)
+        _check_sense(given, repr(event.signal), event.direction, event.terminal)
+    return event
+
+
+def _check_sense(given: Arguments, name: str, direction: Any, terminal: Any) -> None:
+    given.number(f"direction of {name}", direction)
+    if not isinstance(terminal, bool):
+        given.whole(f"terminal of {name}", terminal, least=0, most=_MOST_CROSSINGS)
+
+
+@dataclass(frozen=True)
+class _CheckedFunction:
+    """A caller's function that gives a finite number or an error."""
+
+    function: EventFunction
+    name: str
+    direction: float
+    terminal: bool | int
+
+    @classmethod
+    def of(cls, function: EventFunction) -> "_CheckedFunction":
+        name = getattr(function, "__name__", None) or shown(function)
+        direction = getattr(function, "direction", 0.0)
+        terminal = getattr(function, "terminal", False)
+        with Arguments("events") as given:
+            _check_sense(given, name, direction, terminal)
+        return cls(function, name, float(direction), terminal)
+
+    def __call__(self, time: float, state: Any) -> float:
+        value = self.function(time, state)
+        with Arguments("events") as given:
+            return given.number(f"{self.name} at {time:.6g} s", value)

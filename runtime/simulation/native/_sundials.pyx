@@ -1,0 +1,245 @@
+# cython: language_level=3, boundscheck=False, wraparound=False
+"""Call `kt_integrate` with NumPy arrays, without the interpreter lock."""
+
+import numpy as np
+
+from cpython.exc cimport PyErr_CheckSignals
+from libc.stdint cimport uintptr_t
+from libc.stdlib cimport calloc, free
+from libc.string cimport memcpy
+
+cdef extern from "integrate.h" nogil:
+    ctypedef int (*kt_function)(const double *, const double *, const double *, double *)
+    ctypedef int (*kt_root)(double, const double *, double *, void *)
+    ctypedef int (*kt_interrupted)(void *)
+    ctypedef struct kt_spline:
+        int pieces
+        const double *breaks
+        const double *coefficients
+        int target[3]
+    ctypedef struct kt_event:
+        int signal
+        double level
+    ctypedef struct kt_problem:
+        kt_function rhs
+        kt_function jacobian
+        kt_function signals
+        kt_function margins
+        int state_count
+        int input_count
+        int signal_count
+        const double *constants
+        const double *inputs
+        int spline_count
+        const kt_spline *splines
+        long milestone_count
+        const double *milestones
+        int event_count
+        const kt_event *events
+        int root_count
+        kt_root roots
+        void *root_data
+        const int *directions
+        const int *terminal
+        int guard_count
+        const int *guards
+        const double *usual_margins
+        kt_interrupted interrupted
+        void *interrupted_data
+    ctypedef struct kt_options:
+        int method
+        const char *table
+        double rtol
+        const double *atol
+        double first_step
+        double max_step
+        long max_steps
+        int stop_at_outputs
+        int dense
+    ctypedef struct kt_statistics:
+        long steps
+        long evaluations
+        long jacobians
+        long factorisations
+        long error_test_failures
+        long order
+    ctypedef struct kt_table:
+        double *data
+        long rows
+        long capacity
+        int width
+    ctypedef struct kt_result:
+        kt_table output
+        kt_table events
+        kt_table dense
+        kt_statistics statistics
+        double time
+        double *state
+        int refused_status
+        int refused_guard
+        double refused_time
+        double *refused_state
+        int code
+    int kt_integrate(const kt_problem *, const kt_options *, const double *, const double *, long,
+                     int, kt_result *)
+    void kt_free(kt_result *)
+    const char *kt_version()
+
+OUTCOMES = (
+    "done", "event", "state", "too_many_steps", "too_accurate", "caller", "bad_table", "memory",
+    "failed",
+)
+METHODS = {"BDF": 0, "Adams": 1}
+RUNGE_KUTTA = 2
+
+
+def version():
+    """Return the version of the SUNDIALS library that is linked."""
+    return kt_version().decode()
+
+
+cdef class _Roots:
+    """The caller's root functions, and the exception that one of them raised."""
+
+    cdef list functions
+    cdef int state_count
+    cdef object error
+
+    def __init__(self, functions, state_count):
+        self.functions = list(functions)
+        self.state_count = state_count
+        self.error = None
+
+
+cdef int _call_roots(double time, const double *state, double *out, void *data) noexcept with gil:
+    cdef _Roots roots = <_Roots> data
+    try:
+        y = np.empty(roots.state_count)
+        for i in range(roots.state_count):
+            y[i] = state[i]
+        for i, function in enumerate(roots.functions):
+            out[i] = function(time, y)
+    except BaseException as error:
+        roots.error = error
+        return 1
+    return 0
+
+
+cdef int _interrupted(void *data) noexcept with gil:
+    """Raise what a signal has to raise, KeyboardInterrupt above all: only Python sees signals."""
+    cdef _Roots roots = <_Roots> data
+    try:
+        PyErr_CheckSignals()
+    except BaseException as error:
+        roots.error = error
+        return 1
+    return 0
+
+
+cdef _copy(const kt_table *table):
+    """Return a table as an array."""
+    array = np.empty((table.rows, table.width))
+    cdef double[:, ::1] view = array
+    if table.rows:
+        memcpy(&view[0, 0], table.data, table.rows * table.width * sizeof(double))
+    return array
+
+
+def integrate(
+    addresses, const double[::1] constants, const double[::1] inputs, splines,
+    const double[::1] milestones, const double[::1] state, const double[::1] times, *, method, double rtol,
+    const double[::1] atol, double first_step, double max_step, long max_steps,
+    bint every_step, bint stop_at_outputs, bint dense, int signal_count, events, roots,
+    const int[::1] directions, const int[::1] terminal, const int[::1] guards,
+    const double[::1] usual_margins,
+):
+    """Integrate; ``integrate.h`` explains the arguments, `kintrafo.simulation.solvers` uses the result."""
+    cdef kt_problem problem
+    cdef kt_options options
+    cdef kt_result result
+    cdef int outcome
+    cdef int n = state.shape[0]
+    cdef _Roots caller = _Roots(roots, n)
+    cdef const double[::1] breaks
+    cdef const double[:, ::1] coefficients
+    cdef kt_spline *spline_array = <kt_spline *> calloc(len(splines) + 1, sizeof(kt_spline))
+    cdef kt_event *event_array = <kt_event *> calloc(len(events) + 1, sizeof(kt_event))
+    table = b"" if method in METHODS else method.encode()
+    keep = []
+    try:
+        for i, (spline_breaks, spline_coefficients, targets) in enumerate(splines):
+            breaks, coefficients = spline_breaks, spline_coefficients
+            keep.append((spline_breaks, spline_coefficients))
+            spline_array[i].pieces = coefficients.shape[1]
+            spline_array[i].breaks = &breaks[0]
+            spline_array[i].coefficients = &coefficients[0, 0]
+            for k in range(3):
+                spline_array[i].target[k] = targets[k]
+        for i, (signal, level) in enumerate(events):
+            event_array[i].signal = signal
+            event_array[i].level = level
+        problem.rhs = <kt_function><uintptr_t> addresses[0]
+        problem.jacobian = <kt_function><uintptr_t> addresses[1]
+        problem.signals = <kt_function><uintptr_t> addresses[2]
+        problem.margins = <kt_function><uintptr_t> addresses[3]
+        problem.state_count = n
+        problem.input_count = inputs.shape[0]
+        problem.signal_count = signal_count
+        problem.constants = &constants[0]
+        problem.inputs = &inputs[0]
+        problem.spline_count = len(splines)
+        problem.splines = spline_array
+        problem.milestone_count = milestones.shape[0]
+        problem.milestones = &milestones[0] if milestones.shape[0] else NULL
+        problem.event_count = len(events)
+        problem.events = event_array
+        problem.root_count = len(caller.functions)
+        problem.roots = _call_roots
+        problem.root_data = <void *> caller
+        problem.directions = &directions[0]
+        problem.terminal = &terminal[0]
+        problem.guard_count = usual_margins.shape[0]
+        problem.guards = &guards[0]
+        problem.usual_margins = &usual_margins[0]
+        problem.interrupted = _interrupted
+        problem.interrupted_data = <void *> caller
+        options.method = METHODS.get(method, RUNGE_KUTTA)
+        options.table = table
+        options.rtol = rtol
+        options.atol = &atol[0]
+        options.first_step = first_step
+        options.max_step = max_step
+        options.max_steps = max_steps
+        options.stop_at_outputs = stop_at_outputs
+        options.dense = dense
+        with nogil:
+            outcome = kt_integrate(&problem, &options, &state[0], &times[0], times.shape[0],
+                                   every_step, &result)
+        try:
+            if caller.error is not None:
+                raise caller.error
+            return {
+                "outcome": OUTCOMES[outcome],
+                "output": _copy(&result.output),
+                "events": _copy(&result.events),
+                "dense": _copy(&result.dense),
+                "steps": result.statistics.steps,
+                "nfev": result.statistics.evaluations,
+                "njev": result.statistics.jacobians,
+                "nlu": result.statistics.factorisations,
+                "error_test_failures": result.statistics.error_test_failures,
+                "order": result.statistics.order,
+                "time": result.time,
+                "state": [result.state[i] for i in range(n)] if result.state != NULL else [],
+                "refused_status": result.refused_status,
+                "refused_guard": result.refused_guard,
+                "refused_time": result.refused_time,
+                "refused_state": [result.refused_state[i] for i in range(n)]
+                if result.refused_state != NULL else [],
+                "code": result.code,
+            }
+        finally:
+            kt_free(&result)
+    finally:
+        free(spline_array)
+        free(event_array)

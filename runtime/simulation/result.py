@@ -1,0 +1,170 @@
+"""What a simulation gives: states, signals, statistics; or an error with the result up to there."""
+
+from collections.abc import Callable, Iterator, Mapping
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import OptimizeResult
+
+from ..core.errors import KintrafoError
+from ..generated._support import ModelError
+from ..systems.system import System
+from .elements import bounds_of
+from .validity import Excursion, excursions
+
+Array = NDArray[np.float64]
+
+
+class SimulationError(KintrafoError, RuntimeError):
+    """A simulation that could not be finished.
+
+    Attributes
+    ----------
+    reason : str
+    time : float
+        Time at which it happened [s].
+    state : ndarray
+        State at which it happened.
+    partial : Simulation or None
+        The result up to there.
+    """
+
+    def __init__(
+        self, reason: str, time: float, state: Array, partial: "Simulation | None" = None
+    ) -> None:
+        self.reason = reason
+        self.time = time
+        self.state = state
+        self.partial = partial
+        super().__init__(reason, time, state, partial)
+
+    def __str__(self) -> str:
+        return f"at t = {self.time:.6g} s: {self.reason}"
+
+
+class Simulation(OptimizeResult):
+    """The result of `simulate`: the fields of SciPy's ``solve_ivp``, and the physical signals.
+
+    Attributes
+    ----------
+    t : ndarray, shape (n,)
+        Times [s].
+    y : ndarray, shape (number of state elements, n)
+        States; rows in the order of ``model.state_names``, SI units.
+    signals : Signals
+        Physical signals by name, each of shape (n,), SI units; see ``model.equations.SIGNALS``.
+        They are computed when one of them is first asked for.
+    inputs : ndarray, shape (n, number of inputs)
+    sol, t_events, y_events, nfev, njev, nlu, status, message, success
+        As in ``scipy.integrate.solve_ivp``.
+    steps : int
+        Steps taken.
+    error_test_failures, order : int
+        Steps that failed the error test, order of the last step; with SUNDIALS only.
+    solver : str
+        What integrated.
+    validity : tuple of Excursion
+        Where the motion leaves what the model describes, by its outputs: a strut beyond its ends, a
+        tyre that pulls. Empty where it does not. Not an item of the mapping.
+    """
+
+    t: Array
+    y: Array
+    signals: "Signals"
+    inputs: Array
+    sol: "DenseOutput | None"
+    t_events: list[Array] | None
+    y_events: list[Array] | None
+    nfev: int
+    njev: int
+    nlu: int
+    steps: int
+    error_test_failures: int
+    order: int
+    status: int
+    message: str
+    success: bool
+    solver: str
+
+    @property
+    def validity(self) -> tuple[Excursion, ...]:
+        """Where the motion leaves what the model describes, by its outputs."""
+        model = self.signals.model
+        return excursions(model, bounds_of(model), self.t, self.signals)
+
+
+class DenseOutput:
+    """The solution as a function of time, from the polynomials of the steps."""
+
+    def __init__(self, parts: list[tuple[float, float, Callable[[Array], Array]]]) -> None:
+        self._parts = parts
+        self._backward = parts[0][1] < parts[0][0]
+        self._ends = np.array([end for _, end, _ in parts])
+
+    def __call__(self, t: ArrayLike) -> Array:
+        """Return the state, shape (n,), or (n, number of times) for an array of times."""
+        times = np.atleast_1d(np.asarray(t, dtype=np.float64))
+        sign = -1.0 if self._backward else 1.0
+        which = np.searchsorted(sign * self._ends, sign * times, side="left")
+        which = np.clip(which, 0, len(self._parts) - 1)
+        values = np.empty((times.size, self._parts[0][2](times[:1]).shape[1]))
+        for index in np.unique(which):
+            chosen = which == index
+            values[chosen] = self._parts[index][2](times[chosen])
+        result: Array = values[0] if np.ndim(t) == 0 else values.T
+        return result
+
+
+class Signals(Mapping[str, Array]):
+    """The physical signals of a simulation by name, each of shape (number of outputs,), SI units.
+
+    There are many, and they take longer than an integration with few steps; so they are computed,
+    all at once, when one of them is first asked for.
+
+    Parameters
+    ----------
+    model : System
+    y : ndarray, shape (number of outputs, number of state elements)
+    inputs : ndarray, shape (number of outputs, number of inputs)
+    failed : bool
+        Whether the simulation ended on the edge of the model; the signals there are NaN then.
+    """
+
+    def __init__(self, model: System, y: Array, inputs: Array, *, failed: bool) -> None:
+        self._model, self._y, self._inputs, self._failed = model, y, inputs, failed
+
+    @property
+    def model(self) -> System:
+        """The model whose signals these are."""
+        return self._model
+
+    def __getitem__(self, name: str) -> Array:
+        """Return one signal."""
+        return self._values[name]
+
+    def __iter__(self) -> Iterator[str]:
+        """Iterate over the names, in order."""
+        return iter(self._model.signal_names)
+
+    def __len__(self) -> int:
+        """Return the number of signals."""
+        return len(self._model.signal_names)
+
+    def __repr__(self) -> str:
+        return f"<Signals {', '.join(self)}>"
+
+    @cached_property
+    def _values(self) -> dict[str, Array]:
+        if not self._failed:
+            return self._model.signals(self._y, self._inputs)
+        rows = [self._where_it_closes(*row) for row in zip(self._y, self._inputs, strict=True)]
+        return {name: np.array([row.get(name, np.nan) for row in rows]) for name in self}
+
+    def _where_it_closes(self, state: Array, inputs: Array) -> dict[str, float]:
+        """Return the signals of one output; none where the model refuses it."""
+        try:
+            values = self._model.signals(state, inputs)
+        except ModelError:
+            return {}
+        return {name: float(value) for name, value in values.items()}

@@ -1,0 +1,285 @@
+"""Inputs that vary with time: constants, samples, functions, brought into one form.
+
+Every varying input becomes a piecewise cubic, which the integrators evaluate where they are, with
+the derivatives that the model takes beside it (the velocity of a road, velocity and acceleration of
+a rack). Two things keep an integrator from missing what happens:
+
+- a segment ends, and the integration begins anew, where something that the model takes jumps;
+- no step passes over a time at which something that the model takes turns, or has a kink.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicHermiteSpline, CubicSpline, PPoly
+
+from ..core.arguments import Arguments
+from ..core.errors import InputError
+from ..core.suggestions import suggestion
+from ..systems.inputs import derived_inputs, may_jump, rates_of, what_moves
+from ..systems.system import System
+from .courses import Signal, course
+from .interpolation import Eased
+from .turning import turning_points
+
+Array = NDArray[np.float64]
+
+# Times that differ by less than this part of them are one to an integrator.
+_RESOLVED = 1e-13
+# A derivative jumps where the two sides differ by more than this part of its greatest value.
+_JUMP = 1e-6
+
+
+@dataclass(frozen=True)
+class Spline:
+    """One varying input.
+
+    Attributes
+    ----------
+    curve : PPoly
+        Piecewise cubic, of time [s].
+    targets : tuple of int
+        Positions in the array of inputs of the value and its two derivatives; -1 for none.
+    """
+
+    curve: PPoly
+    targets: tuple[int, int, int]
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A time over which nothing jumps that the model takes of its inputs.
+
+    Attributes
+    ----------
+    start, end : float
+        [s]
+    splines : tuple of Spline
+    milestones : ndarray
+        Times within that no step passes over, in the order in which they come [s].
+    """
+
+    start: float
+    end: float
+    splines: tuple[Spline, ...]
+    milestones: Array
+
+
+@dataclass(frozen=True)
+class TimeInputs:
+    """The inputs of a model over time.
+
+    Attributes
+    ----------
+    constant : ndarray
+        Values of those that do not vary.
+    segments : tuple of Segment
+        In the order of time; at their borders an input may jump.
+    variant : str
+        What ends the names of the functions that leave out what stands still; empty if nothing
+        does.
+    """
+
+    constant: Array
+    segments: tuple[Segment, ...]
+    variant: str
+
+    def at(self, time: float, segment: Segment) -> Array:
+        """Return the array of inputs at a time within a segment."""
+        values = self.constant.copy()
+        for spline in segment.splines:
+            for order, target in enumerate(spline.targets):
+                if target >= 0:
+                    values[target] = spline.curve(time, order)
+        return values
+
+    def table(self, times: Array, segment: Segment) -> Array:
+        """Return the inputs at many times of a segment, one row each."""
+        values = np.repeat(self.constant[None], times.size, axis=0)
+        for spline in segment.splines:
+            for order, target in enumerate(spline.targets):
+                if target >= 0:
+                    values[:, target] = spline.curve(times, order)
+        return values
+
+
+@dataclass
+class _Collected:
+    """What `time_inputs` gathers."""
+
+    constant: Array
+    curves: dict[str, list[PPoly]] = field(default_factory=dict)
+    borders: set[float] = field(default_factory=set)
+    milestones: list[Array] = field(default_factory=list)
+
+
+def time_inputs(
+    model: System,
+    signals: Mapping[str, Signal] | None,
+    t_span: tuple[float, float],
+    *,
+    held: Array | None = None,
+    max_step: float = np.inf,
+) -> TimeInputs:
+    """Check the inputs of a simulation and bring them into one form.
+
+    Parameters
+    ----------
+    model : System or Model
+    signals : mapping, optional
+        Input name to a number, to samples (`Samples`, or a pair of times and values), to a
+        piecewise cubic of SciPy, or to a function of time (see `fitting`); SI units.
+        Velocity and acceleration follow from a prescribed position by differentiation of
+        the curve.
+    t_span : tuple of float
+        First and last time of the simulation, which samples must cover [s].
+    held : ndarray, optional
+        Values of the inputs that are not given, zero by default.
+    max_step : float, optional
+        Greatest step of the integration, and between two calls of a function [s].
+
+    Returns
+    -------
+    TimeInputs
+    """
+    names = model.input_names
+    derived = derived_inputs(names)
+    with Arguments("inputs") as given:
+        given.mapping("inputs", {} if signals is None else signals, "input names, what they do")
+    collected = _Collected(np.zeros(len(names)) if held is None else held.copy())
+    for name, signal in (signals or {}).items():
+        if name not in names or name in derived:
+            raise InputError([_refusal(name, names, derived)], "inputs")
+        rates = len(rates_of(name, names))
+        found = course(name, signal, t_span, max_step=max_step, rates=rates)
+        if isinstance(found, float):
+            collected.constant[names.index(name)] = found
+        else:
+            _collect(collected, name, found, rates)
+    return TimeInputs(
+        collected.constant, _segments(collected, names, t_span), _variant(model, collected)
+    )
+
+
+def _variant(model: System, collected: _Collected) -> str:
+    """Return the ending of the shortest functions that have all that moves."""
+    names = model.input_names
+    moving = {rate for name in collected.curves for rate in rates_of(name, names)}
+    for variant, still in model.equations.HELD_VARIANTS.items():
+        if moving.isdisjoint(still):
+            return f"_{variant}"
+    return ""
+
+
+def _refusal(name: str, names: tuple[str, ...], derived: dict[str, str]) -> str:
+    if name in derived:
+        source = derived[name]
+        return (
+            f"{name!r} follows from {source!r}: give that alone, as samples or as a function of "
+            "time."
+        )
+    return f"{name!r} is not an input. {suggestion(name, [n for n in names if n not in derived])}"
+
+
+def _segments(
+    collected: _Collected, names: tuple[str, ...], t_span: tuple[float, float]
+) -> tuple[Segment, ...]:
+    """Cut the time where the integration begins anew, and give each part its splines."""
+    first, last = (float(t) for t in t_span)
+    backward = last < first
+    inside = (t for t in collected.borders if min(t_span) < t < max(t_span))
+    borders = [first, *sorted(inside, reverse=backward), last]
+    milestones = np.unique(np.concatenate([*collected.milestones, np.empty(0)]))
+    segments = []
+    for start, end in pairwise(borders):
+        middle = (start + end) / 2
+        splines = [
+            Spline(_covering(curves, middle), _targets(name, names))
+            for name, curves in collected.curves.items()
+        ]
+        near = _RESOLVED * max(abs(start), abs(end))
+        within = milestones[
+            (milestones > min(start, end) + near) & (milestones < max(start, end) - near)
+        ]
+        within = within[np.diff(within, prepend=-np.inf) > near]
+        segments.append(
+            Segment(start, end, tuple(splines), within[::-1].copy() if backward else within)
+        )
+    return tuple(segments)
+
+
+def _covering(curves: list[PPoly], time: float) -> PPoly:
+    return next(c for c in curves if c.x[0] <= time <= c.x[-1])
+
+
+def _targets(name: str, names: tuple[str, ...]) -> tuple[int, int, int]:
+    """Return where a value and its two derivatives go; -1 for what the model does not take."""
+    first, second, *_ = (*(names.index(rate) for rate in rates_of(name, names)), -1, -1)
+    return names.index(name), first, second
+
+
+# -- where they jump, and where they turn ---------------------------------------------------------
+
+
+def _collect(collected: _Collected, name: str, found: Sequence[PPoly], rates: int) -> None:
+    """Note the curves of an input: cut where something jumps, with the times at which it turns."""
+    for before, after in pairwise(found):
+        stays = before(before.x[-1]) == after(after.x[0])
+        _check_jump(name, float(after.x[0]), int(stays), rates)
+    parts: list[PPoly] = []
+    for curve in found:
+        smooth = _continuity(curve)
+        cuts = [_breaks(curve, order) for order in range(smooth + 1, rates + 1)]
+        for order, times in enumerate(cuts, smooth + 1):
+            if times.size:
+                _check_jump(name, float(times[0]), order, rates)
+        if not rates and smooth < 1:
+            collected.milestones.append(_breaks(curve, 1))
+        parts += _split(curve, np.unique(np.concatenate([*cuts, np.empty(0)])))
+    collected.curves[name] = parts
+    collected.borders.update(float(part.x[0]) for part in parts[1:])
+    collected.milestones += [turning_points(part, range(rates + 1)) for part in parts]
+
+
+def _check_jump(name: str, time: float, order: int, rates: int) -> None:
+    """Refuse the jump of a position, or of its velocity, where the model takes what is infinite."""
+    if may_jump(name) or order >= rates:
+        return
+    what, needs = (("", "velocity"), ("the velocity of ", "acceleration"))[order]
+    problem = (
+        f"{what}{name!r} jumps at t = {time:g} s: the {what_moves(name)} "
+        f"would need an infinite {needs} there. Give one value for each time, and a smooth way "
+        "between them."
+    )
+    raise InputError([problem], "inputs")
+
+
+def _continuity(curve: PPoly) -> int:
+    """Return up to which derivative a curve is continuous by its construction; -1 for none."""
+    if isinstance(curve, CubicSpline | Eased):
+        return 2
+    return 1 if isinstance(curve, CubicHermiteSpline) else -1
+
+
+def _breaks(curve: PPoly, order: int) -> Array:
+    """Return the times at which a derivative jumps."""
+    derivative = curve.derivative(order)
+    width = np.diff(curve.x)[:-1]
+    ends = np.zeros(width.size)
+    for row in derivative.c[:, :-1]:
+        ends = ends * width + row
+    begins = derivative.c[-1]
+    largest = max(np.abs(begins).max(), np.abs(ends).max(initial=0.0))
+    times: Array = curve.x[1:-1][np.abs(begins[1:] - ends) > _JUMP * largest]
+    return times
+
+
+def _split(curve: PPoly, times: Array) -> list[PPoly]:
+    """Return the parts of a curve between times that are among its breaks."""
+    ends = [0, *np.searchsorted(curve.x, times), curve.x.size - 1]
+    if len(ends) == 2:
+        return [curve]
+    return [PPoly(curve.c[:, a:b], curve.x[a : b + 1]) for a, b in pairwise(ends)]

@@ -1,0 +1,457 @@
+"""Integrate the equations of motion."""
+
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..core.arguments import Arguments, shown
+from ..core.errors import InputError
+from ..generated._support import ModelError
+from ..systems.state import inputs_of
+from ..systems.system import System
+from .courses import Signal
+from .dead_points import refuse
+from .elements import named_event
+from .events import Event, Events, events_of
+from .result import DenseOutput, Signals, Simulation, SimulationError
+from .signals import Segment, TimeInputs, time_inputs
+from .solvers import (
+    SCIPY_METHODS,
+    SUNDIALS_METHODS,
+    Options,
+    Piece,
+    native_available,
+    native_methods,
+    native_version,
+    solve_native,
+    solve_scipy,
+    why_not_native,
+)
+
+Array = NDArray[np.float64]
+Method = Literal[
+    "BDF", "Adams", "Verner", "DormandPrince", "Tsitouras", "Radau", "LSODA", "RK45", "DOP853"
+]
+Backend = Literal["auto", "sundials", "scipy"]
+
+_MOST_STEPS = 2**62
+_SMALLEST_RTOL = 100.0 * np.finfo(float).eps
+# Default tolerances. An undamped wheel hop of 25 mm loses half a per cent of it in 1,000 s by BDF
+# with these, and 22 % with the others; ``python -m benchmarks.amplitude`` measures it.
+_TOLERANCE = (1e-6, 1e-9)
+_TOLERANCE_OF_BDF = (1e-8, 1e-10)
+# So many steps of BDF are more than a thousand oscillations: its damping begins to show.
+_LONG = 200_000
+_told = False
+
+
+def simulate(
+    model: System,
+    t_span: tuple[float, float],
+    y0: ArrayLike,
+    *,
+    inputs: Mapping[str, Signal] | None = None,
+    method: Method = "BDF",
+    t_eval: ArrayLike | None = None,
+    rtol: float | None = None,
+    atol: ArrayLike | None = None,
+    max_step: float = np.inf,
+    first_step: float | None = None,
+    max_steps: int = 10_000_000,
+    dense_output: bool = False,
+    events: Event | Sequence[Event] | None = None,
+    stop_at_outputs: bool = False,
+    backend: Backend = "auto",
+) -> Simulation:
+    """Integrate the equations of motion of a suspension.
+
+    Parameters
+    ----------
+    model : System or Model
+    t_span : tuple of float
+        First and last time [s].
+    y0 : array_like
+        Initial state, see `model.state`, `state_at_height` and `equilibrium`.
+    inputs : mapping, optional
+        Inputs by name, SI units: numbers, samples ``(times, values)`` or `Samples`, piecewise
+        cubics of SciPy, or functions of time; see Notes. Others stay as they are in the state, if
+        it comes from `equilibrium` or `state_at_height`, or else zero.
+    method : str, optional
+        'BDF' (Gear's formulas) or 'Adams'; Runge-Kutta 'Verner' (8 stages, order 6),
+        'DormandPrince' or 'Tsitouras' (order 5); or SciPy's 'Radau', 'LSODA', 'RK45', 'DOP853'.
+        Implicit methods use the exact Jacobian.
+    t_eval : array_like, optional
+        Times of the output; every step by default. As in SciPy, the point of a terminal event is in
+        ``t_events`` and not in the output then.
+    rtol, atol : float, array_like, optional
+        Relative tolerance, and absolute tolerances: one, or one for each element of the state. By
+        default 1e-8 and 1e-10 for 'BDF', which damps what swings by a part of its error, and 1e-6
+        and 1e-9 for the other methods.
+    max_step, first_step : float, optional
+        [s]
+    max_steps : int, optional
+        More end with an error; ``numpy.inf`` for any number.
+    dense_output : bool, optional
+        Whether to keep the solution as a function of time, ``sol``.
+    events : str, SignalEvent, callable, or sequence of these, optional
+        'wheel_leaves_ground', 'wheel_touches_ground', 'strut_fully_extended',
+        'strut_reaches_bump_stop', 'strut_reaches_rebound_stop'; a signal and a level;
+        or a function of time and state with SciPy's attributes ``terminal`` and ``direction``.
+    stop_at_outputs : bool, optional
+        Whether to step onto every output time instead of interpolating. SUNDIALS only.
+    backend : str, optional
+        'sundials', 'scipy', or 'auto': SUNDIALS where it has the method and is built in.
+
+    Returns
+    -------
+    Simulation
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used.
+    SimulationError
+        If a loop cannot close on the way, or the solver gives up; says when, where and what to
+        try, and has the partial result.
+
+    Notes
+    -----
+    Between samples an input only rises or only falls, so it never leaves their range; other ways
+    are asked for by name, see `Samples`. At a time that is given twice it jumps, and the
+    integration begins anew. A function of time is called at least every millisecond and every
+    `max_step`, and followed to 1e-10 of its range; what is shorter than twice that may be missed,
+    and a function that jumps is refused. Velocity and acceleration of a prescribed position are
+    the derivatives of the curve through the samples, or of the spline that follows the function.
+    No step passes over a time at which an input, or a derivative of it that the model takes,
+    turns from rising to falling.
+
+    Without stops in its data, the strut may become longer than its greatest length, or very short.
+    The event 'strut_fully_extended' watches the former, a `SignalEvent` of ``strut_length`` the
+    latter.
+
+    Examples
+    --------
+    >>> from kintrafo import Model, simulate, state_at_height
+    >>> model = Model("reference_car")
+    >>> start = state_at_height(model, 0.325, spin_rate=93.0)
+    >>> result = simulate(model, (0.0, 1.0), start)
+    >>> result.success, bool(abs(result.signals["wheel_center_z"][-1] - 0.3) < 1e-6)
+    (True, True)
+    """
+    usual = _TOLERANCE_OF_BDF if method == "BDF" else _TOLERANCE
+    state, times, options = _checked(
+        model, t_span, y0, t_eval, Options(
+            method,
+            usual[0] if rtol is None else rtol,
+            usual[1] if atol is None else atol,
+            max_step, first_step, max_steps, dense_output, stop_at_outputs,
+        )
+    )  # fmt: skip
+    held = inputs_of(y0, model.names_of_states)
+    given = time_inputs(model, inputs, t_span, held=held, max_step=options.max_step)
+    watched = events_of(model, events, named_event)
+    solve = _choose_backend(model, backend, options)
+    return _Run(model, given, options, watched, times, solve).over(state)
+
+
+# -- arguments ----------------------------------------------------------------------------------
+
+
+def _checked(
+    model: System, t_span: Any, y0: Any, t_eval: Any, options: Options
+) -> tuple[Array, Array | None, Options]:
+    """Return the state, the times of the output and the options, or refuse them."""
+    with Arguments("simulate") as given:
+        given.kind("model", model, System, System.NEEDED)
+        given.among("method", options.method, SUNDIALS_METHODS | SCIPY_METHODS)
+        state = given.array("y0", y0, empty=True, finite=False)
+        span = given.array("t_span", t_span, "s", finite=False)
+        if not given.refused:
+            _check_state(given, model, state)
+            span_is_good = span.shape == (2,) and np.isfinite(span).all() and span[0] != span[1]
+            if not span_is_good:
+                given.refuse(f"t_span = {shown(t_span)}: two different finite times are needed.")
+            elif t_eval is not None:
+                t_eval = given.array("t_eval", t_eval, "s", empty=True, finite=False)
+                if not (given.refused or _in_order(t_eval, span)):
+                    given.refuse(f"t_eval must go from {span[0]:g} s to {span[1]:g} s, in order.")
+        options = _checked_options(given, options, state)
+    return state, t_eval, options
+
+
+def _check_state(given: Arguments, model: System, state: Array) -> None:
+    if state.shape != model.design_state.shape:
+        given.refuse(
+            f"y0 has shape {state.shape}; the state of {model.equations.NAME} has the elements "
+            f"{', '.join(model.state_names)}."
+        )
+    elif not np.isfinite(state).all():
+        bad = [n for n, v in zip(model.state_names, state, strict=True) if not np.isfinite(v)]
+        given.refuse(f"y0 is NaN or infinite in {', '.join(bad)}.")
+
+
+def _checked_options(given: Arguments, options: Options, state: Array) -> Options:
+    rtol = given.number("rtol", options.rtol, advice="Try 1e-6.")
+    if not given.refused and not _SMALLEST_RTOL <= rtol < 1.0:
+        given.refuse(
+            f"rtol = {rtol:g}: from {_SMALLEST_RTOL:.3g} (what double precision can do) to below "
+            "1. Try 1e-6."
+        )
+    atol = given.array("atol", options.atol)
+    if not given.refused and not (atol.shape in ((), state.shape) and (atol > 0.0).all()):
+        given.refuse(
+            f"atol = {shown(options.atol)}: one positive number, or one for each of the "
+            f"{state.size} elements of the state."
+        )
+    first = options.first_step
+    return replace(
+        options,
+        rtol=rtol,
+        atol=np.full(state.shape, atol) if atol.ndim == 0 else atol,
+        max_step=given.step("max_step", options.max_step, "s"),
+        first_step=None if first is None else given.number("first_step", first, "s", above=0.0),
+        max_steps=given.count("max_steps", options.max_steps, most=_MOST_STEPS),
+        dense_output=given.flag("dense_output", options.dense_output),
+        stop_at_outputs=given.flag("stop_at_outputs", options.stop_at_outputs),
+    )
+
+
+def _in_order(times: Array, t_span: Array) -> bool:
+    if times.ndim != 1 or times.size == 0 or not np.isfinite(times).all():
+        return False
+    sign = 1.0 if t_span[1] > t_span[0] else -1.0
+    inside = sign * times[0] >= sign * t_span[0] and sign * times[-1] <= sign * t_span[1]
+    return bool(inside and (sign * np.diff(times) > 0.0).all())
+
+
+def _choose_backend(model: System, backend: Backend, options: Options) -> Callable[..., Piece]:
+    """Return the solver for a method, and say once if it is not the one that was meant."""
+    # SUNDIALS has no vectors without elements: those of a model that is prescribed as a whole
+    method, compiled = options.method, bool(model.equations.ADDRESSES and model.state_names)
+    with Arguments("simulate") as given:
+        given.among("backend", backend, ("auto", "sundials", "scipy"))
+    if backend != "scipy" and method in native_methods() and compiled:
+        return solve_native
+    if backend == "sundials" or options.stop_at_outputs or method not in SCIPY_METHODS:
+        raise InputError([_missing(method, compiled=compiled)], "simulate")
+    if backend == "auto" and method in SUNDIALS_METHODS and compiled:
+        _tell_once()
+    return solve_scipy
+
+
+def _missing(method: str, *, compiled: bool) -> str:
+    if method not in SUNDIALS_METHODS:
+        return f"method {method!r} is one of SciPy; SUNDIALS has {', '.join(native_methods())}."
+    if not compiled:
+        return (
+            f"method {method!r} of SUNDIALS needs compiled equations, and these are functions over "
+            "NumPy arrays. Use a method of SciPy, which 'BDF' is too, without stop_at_outputs."
+        )
+    if not native_available():
+        return f"method {method!r} needs SUNDIALS. {why_not_native()}, or use 'BDF'."
+    return (
+        f"method {method!r} is not in the installed SUNDIALS {native_version()}, which has "
+        f"{', '.join(native_methods())}."
+    )
+
+
+def _tell_once() -> None:
+    global _told  # noqa: PLW0603 (told once in a process)
+    if not _told:
+        _told = True
+        warnings.warn(
+            f"{why_not_native()}. Until then SciPy integrates, with the same results but slower.",
+            RuntimeWarning,
+            stacklevel=4,
+        )
+
+
+def _among(some: Array, times: Array) -> NDArray[np.bool_]:
+    """Tell which of some times are among the times of the output, which are in order."""
+    known = times if times[-1] >= times[0] else times[::-1]
+    place = np.minimum(np.searchsorted(known, some), known.size - 1)
+    found: NDArray[np.bool_] = known[place] == some
+    return found
+
+
+# -- running ------------------------------------------------------------------------------------
+
+
+class _Run:
+    """Integrates segment after segment, and puts the pieces together."""
+
+    def __init__(
+        self,
+        model: System,
+        inputs: TimeInputs,
+        options: Options,
+        events: Events,
+        times: Array | None,
+        solve: Callable[..., Piece],
+    ) -> None:
+        self._model, self._inputs, self._options = model, inputs, options
+        self._events, self._times, self._solve = events, times, solve
+        self._pieces: list[tuple[Segment, Piece]] = []
+
+    def over(self, state: Array) -> Simulation:
+        """Integrate over all segments."""
+        for segment in self._inputs.segments:
+            if self._pieces and self._jumped_over(segment, state):
+                break
+            piece = self._solve(
+                self._model,
+                self._inputs,
+                segment,
+                state,
+                self._asked(segment),
+                every_step=self._times is None,
+                options=self._options,
+                events=self._events,
+            )
+            self._pieces.append((segment, piece))
+            if piece.outcome not in ("done", "event"):
+                self._fail(segment, piece)
+            state = piece.y[-1].copy()
+            if piece.outcome == "event":
+                break
+        return self._assembled()
+
+    def _jumped_over(self, segment: Segment, state: Array) -> bool:
+        """Note what signals jump across at the begin of a segment; tell if that is the end."""
+        before, piece = self._pieces[-1]
+        signals = [
+            self._model.signals(state, self._inputs.at(segment.start, part))
+            for part in (before, segment)
+        ]
+        terminal = False
+        for index, event in enumerate(self._events.signal):
+            low, high = (float(found[event.signal]) - event.level for found in signals)
+            if low * high < 0.0 and event.direction * (high - low) >= 0.0:
+                piece.events.append((index, segment.start, state))
+                terminal = terminal or bool(event.terminal)
+        if terminal:
+            piece.outcome = "event"
+        return terminal
+
+    def _asked(self, segment: Segment) -> Array:
+        """Return the output times of a segment; its own two ends come first and last."""
+        if self._times is None:
+            return np.array([segment.start, segment.end])
+        low, high = min(segment.start, segment.end), max(segment.start, segment.end)
+        inside = self._times[(self._times > low) & (self._times < high)]
+        return np.concatenate(([segment.start], inside, [segment.end]))
+
+    def _fail(self, segment: Segment, piece: Piece) -> None:
+        time, state = piece.reached_time, piece.reached_state
+        # what overflows on the way may leave a state that is none
+        refused = piece.refused_state
+        if piece.outcome == "state" and refused is not None and np.isfinite(refused).all():
+            time, state = piece.refused_time, refused
+        reason = self._reason(segment, piece, time, state)
+        raise SimulationError(reason, time, state, self._assembled(reason))
+
+    def _reason(self, segment: Segment, piece: Piece, time: float, state: Array) -> str:
+        options = self._options
+        if piece.outcome == "state":
+            try:
+                self._refuse(piece.refused_guard, state, self._inputs.at(time, segment))
+            except ModelError as error:
+                return (
+                    f"{error}. Try another initial state, smaller forces, or a simulation that "
+                    "ends earlier."
+                )
+        texts = {
+            # refused, and not at this state: at one that is not finite
+            "state": "the motion overflows double precision. Try another initial state, or smaller "
+            "forces.",
+            "too_many_steps": f"more than {options.max_steps} steps. Raise max_steps, or loosen "
+            f"rtol = {options.rtol:g}.",
+            "too_accurate": f"rtol = {options.rtol:g} and the given atol ask for more accuracy "
+            "than the arithmetic has. Loosen them.",
+            "bad_table": f"method {options.method!r} is not in SUNDIALS {native_version()}.",
+            "flat_event": "the function of an event stays at zero. Watch another level, or another "
+            "signal.",
+            "memory": "out of memory. Ask for fewer outputs with t_eval.",
+        }
+        failed = f"the solver gave up ({piece.detail}). Loosen rtol, or try another method."
+        return texts.get(piece.outcome, failed)
+
+    def _refuse(self, guard: int | None, state: Array, inputs: Array) -> None:
+        """Raise the error of the state at which the motion ends."""
+        if guard is not None:
+            refuse(self._model, guard, state, inputs)
+        self._model.evaluate("rhs", state, inputs)
+
+    # -- assembling -------------------------------------------------------------------------------
+
+    def _assembled(self, failure: str = "") -> Simulation:
+        rows = [self._rows(segment, piece) for segment, piece in self._pieces]
+        t = np.concatenate([r[0] for r in rows])
+        y = np.concatenate([r[1] for r in rows])
+        inputs = np.concatenate([r[2] for r in rows])
+        ended = self._pieces[-1][1].outcome == "event"
+        status = -1 if failure else int(ended)
+        message = failure or (
+            "A termination event occurred." if ended else "The end of the time was reached."
+        )
+        counts = self._counts()
+        if self._options.method == "BDF" and counts.get("steps", 0) > _LONG:
+            message += (
+                " BDF damps what swings a little at every step, and these are many: "
+                "method='Verner' keeps amplitudes better."
+            )
+        native = self._solve is solve_native
+        simulation = Simulation()
+        simulation.update(
+            t=t,
+            y=y.T,
+            inputs=inputs,
+            status=status,
+            message=message,
+            success=not failure,
+            signals=Signals(self._model, y, inputs, failed=bool(failure)),
+            sol=self._dense(),
+            solver=f"SUNDIALS {native_version()}" if native else "SciPy",
+            **self._crossings(),
+            **counts,
+        )
+        return simulation
+
+    def _rows(self, segment: Segment, piece: Piece) -> tuple[Array, Array, Array]:
+        """Return times, states and inputs that belong to the output."""
+        keep = np.ones(piece.t.size, dtype=bool)
+        if self._times is not None:
+            keep = _among(piece.t, self._times)
+        if self._pieces[0][0] is not segment:
+            keep[0] = False  # the border is the end of the segment before
+        t, y = piece.t[keep], piece.y[keep]
+        return t, y, self._inputs.table(t, segment)
+
+    def _dense(self) -> DenseOutput | None:
+        parts = [part for _, piece in self._pieces for part in piece.interpolants]
+        return DenseOutput(parts) if parts else None
+
+    def _crossings(self) -> dict[str, list[Array] | None]:
+        if not len(self._events):
+            return {"t_events": None, "y_events": None}
+        times: list[list[float]] = [[] for _ in self._events.order]
+        states: list[list[Array]] = [[] for _ in self._events.order]
+        for _, piece in self._pieces:
+            for index, time, state in piece.events:
+                times[self._events.order[index]].append(time)
+                states[self._events.order[index]].append(state)
+        return {
+            "t_events": [np.array(t) for t in times],
+            "y_events": [np.array(s).reshape(-1, self._model.design_state.size) for s in states],
+        }
+
+    def _counts(self) -> dict[str, Any]:
+        names = dict.fromkeys(name for _, piece in self._pieces for name in piece.counts)
+        total = {n: sum(p.counts.get(n, 0) for _, p in self._pieces) for n in names}
+        if "order" in total:
+            total["order"] = self._pieces[-1][1].counts["order"]
+        return {"nfev": 0, "njev": 0, "nlu": 0} | total

@@ -1,0 +1,415 @@
+"""The two solvers behind `simulate`: SUNDIALS in C, and SciPy.
+
+Both integrate one segment of time, in which the inputs are smooth, and return the same `Piece`.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import partial
+from importlib import import_module
+from math import factorial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+
+from ..generated._support import ModelError
+from ..systems.system import System
+from .dead_points import Approach, DeadPoint, meanings
+from .events import Events
+from .signals import Segment, TimeInputs
+from .watched import watched
+
+Array = NDArray[np.float64]
+
+# Method name to what it is called in SUNDIALS: a multistep family, or a Butcher table.
+SUNDIALS_METHODS = {
+    "BDF": "BDF",
+    "Adams": "Adams",
+    "Verner": "ARKODE_VERNER_8_5_6",
+    "DormandPrince": "ARKODE_DORMAND_PRINCE_7_4_5",
+    "Tsitouras": "ARKODE_TSITOURAS_7_4_5",
+}
+_FIRST_WITH_TSITOURAS = (7, 3)
+# What stands in for them without SUNDIALS; those without an equivalent need it.
+SCIPY_METHODS = {
+    "BDF": "BDF",
+    "DormandPrince": "RK45",
+    "Radau": "Radau",
+    "LSODA": "LSODA",
+    "RK45": "RK45",
+    "DOP853": "DOP853",
+}
+_IMPLICIT = ("BDF", "Radau", "LSODA")
+
+
+@dataclass(frozen=True)
+class Options:
+    """How to integrate; the names are those of SciPy."""
+
+    method: str
+    rtol: float
+    atol: Any
+    max_step: float
+    first_step: float | None
+    max_steps: int
+    dense_output: bool
+    stop_at_outputs: bool
+
+
+@dataclass
+class Piece:
+    """The integration of one segment.
+
+    Attributes
+    ----------
+    t, y
+        Output times, and states with one row each.
+    reached_time, reached_state
+        The end of the last step, which outputs need not show.
+    events
+        (index of the event, time, state), in the order of time.
+    outcome
+        'done', 'event', or what went wrong.
+    counts
+        Statistics by name.
+    interpolants
+        (first time, last time, function of time) of every step, if wanted.
+    refused_time, refused_state
+        Where the model refused a state.
+    refused_guard
+        The guard at whose dead point the motion ends; none if a state was refused for another
+        reason.
+    """
+
+    t: Array
+    y: Array
+    outcome: str
+    counts: dict[str, int]
+    reached_time: float
+    reached_state: Array
+    events: list[tuple[int, float, Array]] = field(default_factory=list)
+    interpolants: list[tuple[float, float, Callable[[Array], Array]]] = field(default_factory=list)
+    refused_time: float = 0.0
+    refused_state: Array | None = None
+    refused_guard: int | None = None
+    detail: str = ""
+
+
+_NOT_BUILT = (
+    "kintrafo was built without SUNDIALS. Install it (Debian: libsundials-dev; conda, Homebrew: "
+    "sundials) and build again"
+)
+
+
+def _load_native() -> tuple[Any, str]:
+    """Return the module that links SUNDIALS, or None and why there is none."""
+    try:
+        return import_module(f"{__package__}.native._sundials"), ""
+    except ModuleNotFoundError:  # SUNDIALS was not there when the project was built
+        return None, _NOT_BUILT
+    except ImportError as error:
+        return None, f"the module that links SUNDIALS cannot be loaded: {error}. Build it again"
+
+
+sundials, _why_not = _load_native()
+
+
+def why_not_native() -> str:
+    """Say why SUNDIALS is not linked, and what to do."""
+    return _why_not or _NOT_BUILT
+
+
+def native_available() -> bool:
+    """Tell whether SUNDIALS is linked."""
+    return sundials is not None
+
+
+def native_version() -> str:
+    """Return the version of SUNDIALS, or 'none'."""
+    return sundials.version() if native_available() else "none"
+
+
+def native_methods() -> tuple[str, ...]:
+    """Return the methods that the linked SUNDIALS has."""
+    if not native_available():
+        return ()
+    release = tuple(int(part) for part in native_version().split(".")[:2])
+    return tuple(
+        m for m in SUNDIALS_METHODS if m != "Tsitouras" or release >= _FIRST_WITH_TSITOURAS
+    )
+
+
+# What CVODE and ARKODE return, the arguments being checked, when an event's function stays at zero.
+_ILL_INPUT = -22
+# What both return when the step has become as small as it can be.
+_WHY = {
+    -3: "its steps became too small, since the error stays too large",
+    -4: "its steps became too small, since Newton's method does not converge",
+}
+
+
+# -- SUNDIALS -----------------------------------------------------------------------------------
+
+
+def solve_native(
+    model: System,
+    inputs: TimeInputs,
+    segment: Segment,
+    state: Array,
+    times: Array,
+    *,
+    every_step: bool,
+    options: Options,
+    events: Events,
+) -> Piece:
+    """Integrate a segment in C, from the first step to the last."""
+    equations = model.equations
+    names = (f"rhs{inputs.variant}", f"rhs_jacobian{inputs.variant}", "signals", "margins")
+    signals = model.signal_names
+    raw = sundials.integrate(
+        tuple(equations.ADDRESSES.get(name, 0) for name in names),  # signals may be none
+        model.constants,
+        inputs.constant,
+        [_contiguous(spline.curve, spline.targets) for spline in segment.splines],
+        segment.milestones,
+        np.ascontiguousarray(state),
+        np.ascontiguousarray(times),
+        method=SUNDIALS_METHODS[options.method],
+        rtol=options.rtol,
+        atol=options.atol,
+        first_step=options.first_step or 0.0,
+        max_step=0.0 if np.isinf(options.max_step) else options.max_step,
+        max_steps=options.max_steps,
+        every_step=every_step,
+        stop_at_outputs=options.stop_at_outputs,
+        dense=options.dense_output,
+        signal_count=len(signals),
+        events=[(signals.index(e.signal), e.level) for e in events.signal],
+        roots=events.functions,
+        directions=np.array([*events.directions, 0], dtype=np.int32),
+        terminal=np.array([*events.terminal, 0], dtype=np.int32),
+        guards=np.append(meanings(model.equations), np.int32(0)),
+        usual_margins=model.usual_margins,
+    )
+    counts = ("nfev", "njev", "nlu", "steps", "error_test_failures", "order")
+    output = raw["output"] if len(raw["output"]) else np.array([[segment.start, *state]])
+    return Piece(
+        t=output[:, 0],
+        y=output[:, 1:],
+        outcome="flat_event" if raw["code"] == _ILL_INPUT and len(events) else raw["outcome"],
+        counts={name: raw[name] for name in counts},
+        reached_time=raw["time"],
+        reached_state=np.array(raw["state"]),
+        events=[(int(row[0]), float(row[1]), row[2:]) for row in raw["events"]],
+        interpolants=[_taylor(row, state.size) for row in raw["dense"]],
+        refused_time=raw["refused_time"],
+        refused_state=np.array(raw["refused_state"]),
+        refused_guard=raw["refused_guard"] if raw["refused_guard"] >= 0 else None,
+        detail=_WHY.get(raw["code"], f"SUNDIALS {native_version()} returned {raw['code']}"),
+    )
+
+
+def _contiguous(curve: Any, targets: tuple[int, int, int]) -> tuple[Array, Array, Any]:
+    return np.ascontiguousarray(curve.x), np.ascontiguousarray(curve.c), targets
+
+
+@dataclass(frozen=True)
+class _Taylor:
+    """The polynomial of a step from its derivatives at its end, shape (order + 1, n)."""
+
+    end: float
+    terms: Array
+
+    def __call__(self, times: Array) -> Array:
+        powers = (times[:, None] - self.end) ** np.arange(len(self.terms))
+        values: Array = powers @ self.terms
+        return values
+
+
+def _taylor(row: Array, size: int) -> tuple[float, float, Callable[[Array], Array]]:
+    """Return the first and last time of a step, and its polynomial."""
+    start, end, order = float(row[0]), float(row[1]), int(row[2])
+    terms = row[3:].reshape(-1, size)[: order + 1]
+    return start, end, _Taylor(end, terms / np.array([[factorial(k)] for k in range(order + 1)]))
+
+
+# -- SciPy --------------------------------------------------------------------------------------
+
+
+class _TooManySteps(Exception):  # noqa: N818 (never leaves this module)
+    pass
+
+
+class _RightHandSide:
+    """The compiled functions as SciPy calls them."""
+
+    def __init__(
+        self, model: System, inputs: TimeInputs, segment: Segment, max_evaluations: float
+    ) -> None:
+        self._function = getattr(model.equations, f"rhs{inputs.variant}")
+        self._derivative = getattr(model.equations, f"rhs_jacobian{inputs.variant}")
+        self._model, self._inputs, self._segment = model, inputs, segment
+        self.evaluations = 0
+        self._most = max_evaluations
+        self.time, self.state = segment.start, model.design_state
+
+    def __call__(self, time: float, state: Array) -> Array:
+        self.time, self.state = time, state.copy()
+        self.evaluations += 1
+        if self.evaluations > self._most:
+            raise _TooManySteps
+        given = self._inputs.at(time, self._segment)
+        result: Array = self._function(state, given, self._model.constants)
+        return result
+
+    def jacobian(self, time: float, state: Array) -> Array:
+        """Return the exact derivative with respect to the state."""
+        self.time, self.state = time, state.copy()
+        given = self._inputs.at(time, self._segment)
+        result: Array = self._derivative(state, given, self._model.constants)
+        return result
+
+    def event(self, signal: str, level: float) -> Callable[[float, Array], float]:
+        """Return a signal's distance from a level as a function of time and state."""
+
+        def distance(time: float, state: Array) -> float:
+            given = self._inputs.at(time, self._segment)
+            return float(self._model.signal(signal, state, given)) - level
+
+        return distance
+
+
+def solve_scipy(
+    model: System,
+    inputs: TimeInputs,
+    segment: Segment,
+    state: Array,
+    times: Array,
+    *,
+    every_step: bool,
+    options: Options,
+    events: Events,
+) -> Piece:
+    """Integrate a segment with SciPy's ``solve_ivp``."""
+    # an explicit method evaluates at most twelve times a step, an implicit one fewer
+    function = _RightHandSide(model, inputs, segment, 12.0 * options.max_steps)
+    steps: list[tuple[float, Array]] = []
+    name = SCIPY_METHODS[options.method]
+    extra: dict[str, Any] = {"jac": function.jacobian} if name in _IMPLICIT else {}
+    approach = Approach(
+        model,
+        lambda time: inputs.at(time, segment),
+        1.0 if segment.end > segment.start else -1.0,
+    )
+    method = watched(name, approach, lambda: function.time, segment.milestones)
+    try:
+        result = solve_ivp(
+            function,
+            (segment.start, segment.end),
+            state,
+            method,
+            t_eval=None if every_step else times,
+            rtol=options.rtol,
+            atol=options.atol,
+            max_step=options.max_step,
+            first_step=options.first_step,
+            dense_output=options.dense_output,
+            events=[*_scipy_events(function, events), _recorder(steps)],
+            **extra,
+        )
+    except (DeadPoint, ModelError, _TooManySteps) as error:
+        outcome = "too_many_steps" if isinstance(error, _TooManySteps) else "state"
+        dead = error if isinstance(error, DeadPoint) else None
+        steps = steps or [(segment.start, state)]
+        return Piece(
+            t=np.array([time for time, _ in steps]),
+            y=np.array([y for _, y in steps]),
+            outcome=outcome,
+            counts={"nfev": function.evaluations},
+            reached_time=steps[-1][0],
+            reached_state=steps[-1][1],
+            refused_time=dead.time if dead else function.time,
+            refused_state=dead.state if dead else function.state,
+            refused_guard=dead.guard if dead else None,
+        )
+    piece = _piece_of(result, steps, events, options)
+    return _checked_outputs(piece, approach)
+
+
+def _checked_outputs(piece: Piece, approach: Approach) -> Piece:
+    """End a piece before the first output at which the model could not be evaluated."""
+    for place, (time, state) in enumerate(zip(piece.t, piece.y, strict=True)):
+        guard = approach.crossed(approach.margins(time, state))
+        if guard is not None:
+            piece.refused_time, piece.refused_state, piece.refused_guard = time, state, guard
+            piece.t, piece.y = piece.t[:place], piece.y[:place]
+            piece.outcome = "state"
+            break
+    return piece
+
+
+def _scipy_events(function: _RightHandSide, events: Events) -> list[Any]:
+    made: list[Any] = []
+    for index, direction in enumerate(events.directions):
+        if index < len(events.signal):
+            event = events.signal[index]
+            made.append(function.event(event.signal, event.level))
+        else:
+            # a copy, since SciPy reads direction and terminal as attributes of the function
+            made.append(partial(events.functions[index - len(events.signal)]))
+        made[-1].direction = direction
+        made[-1].terminal = events.terminal[index]
+    return made
+
+
+def _recorder(steps: list[tuple[float, Array]]) -> Callable[[float, Array], float]:
+    """Return an event that never happens, and notes every accepted step."""
+
+    def note(time: float, state: Array) -> float:
+        steps.append((time, state.copy()))
+        return 1.0
+
+    return note
+
+
+def _piece_of(
+    result: Any, steps: list[tuple[float, Array]], events: Events, options: Options
+) -> Piece:
+    outcomes = {0: "done", 1: "event", -1: "failed"}
+    crossings = [
+        (index, float(time), state)
+        for index in range(len(events))
+        for time, state in zip(result.t_events[index], result.y_events[index], strict=True)
+    ]
+    counts = {name: int(result[name]) for name in ("nfev", "njev", "nlu")}
+    interpolants: list[tuple[float, float, Callable[[Array], Array]]] = []
+    if options.dense_output:
+        interpolants = [
+            (float(a), float(b), _Transposed(part))
+            for a, b, part in zip(
+                result.sol.ts[:-1], result.sol.ts[1:], result.sol.interpolants, strict=True
+            )
+        ]
+    return Piece(
+        t=result.t,
+        y=result.y.T,
+        outcome=outcomes[result.status],
+        counts=counts | {"steps": len(steps) - 1},
+        reached_time=steps[-1][0],
+        reached_state=steps[-1][1],
+        events=sorted(crossings, key=lambda c: c[1]),
+        interpolants=interpolants,
+        detail=str(result.message),
+    )
+
+
+@dataclass(frozen=True)
+class _Transposed:
+    """A polynomial of SciPy with one row for each time."""
+
+    part: Callable[[Array], Array]
+
+    def __call__(self, times: Array) -> Array:
+        return self.part(times).T

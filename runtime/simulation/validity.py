@@ -1,0 +1,113 @@
+"""Where a motion leaves what a model describes.
+
+The equations go on there, and what they give has no meaning for the car.
+"""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..core.quantities import attributes, display_of
+from ..systems.system import System
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Bound:
+    """What a signal must not pass.
+
+    Attributes
+    ----------
+    signal : str
+    limit : float
+        SI units.
+    above : bool
+        Whether the signal must not be greater; else it must not be smaller.
+    words : str
+        What is the case beyond, ready for a sentence.
+    possible : bool
+        Whether the car can go there, and only the data end.
+    """
+
+    signal: str
+    limit: float
+    above: bool
+    words: str
+    possible: bool = False
+
+
+@dataclass(frozen=True)
+class Excursion:
+    """A bound that was passed.
+
+    Attributes
+    ----------
+    bound : Bound
+    unit : str
+        SI unit of the signal.
+    spans : tuple of (float, float)
+        First and last output of each time beyond [s].
+    worst : float
+        The value furthest beyond, SI units.
+    time : float
+        When that was [s].
+    """
+
+    bound: Bound
+    unit: str
+    spans: tuple[tuple[float, float], ...]
+    worst: float
+    time: float
+
+    def __str__(self) -> str:
+        shown = display_of(attributes(self.bound.signal, self.unit))
+        first, last = self.spans[0]
+        times = "once" if len(self.spans) == 1 else f"{len(self.spans)} times, first"
+        return (
+            f"{self.bound.words} ({self.bound.signal} = {self.worst * shown.factor:.4g} "
+            f"{shown.units} at {self.time:.4g} s, the limit is "
+            f"{self.bound.limit * shown.factor:.4g} {shown.units}): {times} from {first:.4g} s to "
+            f"{last:.4g} s"
+        )
+
+
+def excursions(
+    model: System, bounds: Iterable[Bound], times: Array, signals: Mapping[str, Array]
+) -> tuple[Excursion, ...]:
+    """Return what a motion passes, by its outputs.
+
+    Parameters
+    ----------
+    model : System or Model
+    bounds : iterable of Bound
+    times : ndarray, shape (n,)
+        [s]
+    signals : mapping
+        Name to array of shape (n,), SI units; NaN is not looked at.
+
+    Returns
+    -------
+    tuple of Excursion
+    """
+    found = []
+    for bound in bounds:
+        values = signals[bound.signal]
+        by = values - bound.limit if bound.above else bound.limit - values
+        beyond = by > 0.0
+        if beyond.any():
+            worst = int(np.nanargmax(by))
+            unit = model.equations.SIGNALS[bound.signal]["unit"]
+            spans = _spans(times, beyond)
+            found.append(Excursion(bound, unit, spans, float(values[worst]), float(times[worst])))
+    return tuple(found)
+
+
+def _spans(times: Array, beyond: NDArray[np.bool_]) -> tuple[tuple[float, float], ...]:
+    padded = np.concatenate(([False], beyond, [False]))
+    edges = np.flatnonzero(padded[1:] != padded[:-1])
+    return tuple(
+        (float(times[a]), float(times[b - 1])) for a, b in zip(edges[::2], edges[1::2], strict=True)
+    )

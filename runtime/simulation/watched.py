@@ -1,0 +1,150 @@
+"""SciPy's methods with steps that end before a dead point, and at milestones."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import BDF, DOP853, LSODA, RK45, OdeSolver, Radau
+
+from ..generated._support import ModelError
+from .dead_points import LAPSE, LEFT, SMALLEST_PART, Approach, DeadPoint
+
+Array = NDArray[np.float64]
+
+_METHODS = {"RK45": RK45, "DOP853": DOP853, "Radau": Radau, "BDF": BDF, "LSODA": LSODA}
+# Part of the whole time: a shorter step gains nothing. Steps grow tenfold at most, so that a first
+# one that is too short takes some tens of them.
+_NO_GAIN, _MOST_IDLE = 1e-20, 1000
+# As in ``native/integrate.c``: parts of the whole time and of the longest step.
+_SMALLEST_OF_TIME, _SMALLEST_OF_STEP = 1e-9, 1e-6
+_NEAR = 1e-3
+_MOST_STUCK = 8
+_SHORTER = 0.25
+_COUNTS = ("nfev", "njev", "nlu")
+
+
+@dataclass(frozen=True)
+class _Watch:
+    """What the steps of a method are watched with."""
+
+    approach: Approach
+    last_tried: Callable[[], float]
+    milestones: Array
+
+
+def watched(
+    name: str, approach: Approach, last_tried: Callable[[], float], milestones: Array
+) -> type[OdeSolver]:
+    """Return a method of SciPy whose steps are limited, and taken back, as those of SUNDIALS are.
+
+    Parameters
+    ----------
+    name : str
+        Of the method.
+    approach : Approach
+    last_tried : callable
+        Returns the time at which the right-hand side was evaluated last.
+    milestones : ndarray
+        Times that no step passes over, in the order of the integration [s].
+
+    Returns
+    -------
+    type
+        For ``solve_ivp``; its ``step`` raises `DeadPoint`, or `ModelError` where a state is refused
+        however short the step.
+    """
+    base: Any = _METHODS[name]
+    watch = _Watch(approach, last_tried, milestones)
+    made: type[OdeSolver] = type(f"Watched{name}", (_Steps, base), {"watch": watch})
+    return made
+
+
+class _Steps(OdeSolver):
+    """Steps that are limited and taken back; what takes them is the class behind it."""
+
+    watch: _Watch
+
+    def __init__(self, fun: Any, t0: float, y0: Array, t_bound: float, **options: Any) -> None:
+        self._given, self._end, self._options = fun, t_bound, options
+        self._goals = [*self.watch.milestones.tolist(), t_bound]
+        super().__init__(fun, t0, y0, t_bound, **options)
+        self._whole, self._longest, self._stuck, self._idled = abs(t_bound - t0), 0.0, 0, 0
+        self._look(_SMALLEST_OF_STEP * self._whole)
+
+    def step(self) -> str | None:
+        while True:
+            time, state = self.t, self.y
+            try:
+                message: str | None = self._limited()
+            except ModelError:
+                self._anew(time, state, abs(self.watch.last_tried() - time))
+                continue
+            if self.status == "failed":
+                return message
+            step = abs(self.t - time)
+            if self._idle(step):
+                self.status = "failed"
+                return "its steps became too small, since the error stays too large"
+            lapse = LAPSE * step
+            now, gained = self.watch.approach.look(self.t, self.y, lapse)
+            guard = self.watch.approach.doubt(now, gained, lapse, step)
+            if guard is None:
+                self._longest = max(self._longest, step)
+                self._limit(now, gained, lapse)
+                return message
+            if _SHORTER * step < self._smallest():
+                raise DeadPoint(guard, time, state)
+            self._anew(time, state, step)
+
+    def _idle(self, step: float) -> bool:
+        """Tell whether step after step gains nothing: near time zero nothing else ends them."""
+        self._idled = self._idled + 1 if step < _NO_GAIN * self._whole else 0
+        return self._idled > _MOST_IDLE
+
+    def _limited(self) -> str | None:
+        """Take a step that is no longer than what is trusted."""
+        while len(self._goals) > 1 and self.direction * (self._goals[0] - self.t) <= 0.0:
+            del self._goals[0]
+        stop = self.t + self.direction * self._trusted
+        inside = self.direction * (self._goals[0] - stop) > 0.0
+        self._bound(stop if inside else self._goals[0])
+        message: str | None = super().step()
+        self._bound(self._end)
+        if self.status == "finished" and self.direction * (self._end - self.t) > 0.0:
+            self.status = "running"
+        return message
+
+    def _bound(self, time: float) -> None:
+        self.t_bound = time
+        if isinstance(self, LSODA):  # it keeps the time that it must not pass in its workspace
+            held: Any = self
+            held._lsoda_solver._integrator.rwork[0] = time  # noqa: SLF001 (no other way)
+
+    def _anew(self, time: float, state: Array, step: float) -> None:
+        """Begin anew with a shorter step; raise what is being handled if it is too short."""
+        step *= _SHORTER
+        if step < self._smallest():
+            raise  # noqa: PLE0704 (called where an error is handled, or after the same check)
+        counts = {name: getattr(self, name) for name in _COUNTS}
+        options = self._options | {"first_step": step}
+        super().__init__(self._given, time, state, self._end, **options)
+        for name, count in counts.items():
+            setattr(self, name, getattr(self, name) + count)
+
+    def _smallest(self) -> float:
+        of_time = _SMALLEST_OF_TIME * self._whole
+        return min(of_time, _SMALLEST_OF_STEP * self._longest) if self._longest else of_time
+
+    def _look(self, lapse: float) -> None:
+        self._limit(*self.watch.approach.look(self.t, self.y, lapse), lapse)
+
+    def _limit(self, now: Array, gained: Array, lapse: float) -> None:
+        self._trusted, guard, over = self.watch.approach.longest_step(now, gained, lapse)
+        stuck = lapse < LAPSE * self._smallest() and self._trusted < _NEAR * self._longest
+        self._stuck = self._stuck + 1 if stuck else 0
+        over = over or self._stuck >= _MOST_STUCK or self._trusted < SMALLEST_PART * abs(self.t)
+        if guard is not None and over:
+            time = self.t + self.direction * LEFT * self._trusted
+            raise DeadPoint(guard, time, self.y)

@@ -1,0 +1,12 @@
+"""What an engineer asks of a suspension.
+
+`checkup`          a first look
+`characteristics`  kinematic characteristics over wheel travel and rack travel
+`sweep`            positions over wheel travel and rack travel
+`compare`          several suspensions beside each other
+`measurement`, `excitation`    roads, racks and forces from a file, and from formulas besides
+`scenario`         a motion that is described by data
+`recording`        a simulation as a labelled dataset
+`export`           datasets as files
+`paper`            what the paper shows of its suspension
+"""

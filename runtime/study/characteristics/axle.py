@@ -1,0 +1,94 @@
+"""Characteristics of the two wheels of a steered axle: the formulas.
+
+Steer angles are positive to the left [rad], as arrays over the positions of the rack.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...suspension.corner import Array
+
+# Wheels that are steered less than this roll straight ahead [rad].
+_STRAIGHT = 1e-9
+
+
+def ackermann_error(left: Array, right: Array, wheelbase: float, track: float) -> Array:
+    """Return how much more the outer wheel is steered than for rolling without slip [rad].
+
+    With the angles counted towards the inside of the turn, the outer wheel would have to stand at
+    ``atan(L / (L / tan inner + t))``.
+
+    Parameters
+    ----------
+    left, right : ndarray
+        Steer angles [rad].
+    wheelbase, track : float
+        L and t [m].
+
+    Returns
+    -------
+    ndarray
+        [rad]; zero for Ackermann steering, positive towards parallel steering.
+    """
+    inner, outer = _inner_and_outer(left, right)
+    return outer - _ideal_outer(inner, wheelbase, track)
+
+
+def ackermann(left: Array, right: Array, wheelbase: float, track: float) -> Array:
+    """Return the Ackermann percentage as a part of one [1].
+
+    One for wheels that roll without slip, zero for parallel ones: the difference of the two steer
+    angles over what it has to be. Not defined (NaN) straight ahead.
+    """
+    inner, outer = _inner_and_outer(left, right)
+    wanted = inner - _ideal_outer(inner, wheelbase, track)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        part = (inner - outer) / wanted
+    return np.where(_turning(left, right), part, np.nan)
+
+
+def turning_circle(left: Array, right: Array, wheelbase: float) -> Array:
+    """Return the diameter of the circle of the outer front wheel's centre [m].
+
+    The tyre's width and the body's overhang come in addition. Infinite straight ahead.
+    """
+    _, outer = _inner_and_outer(left, right)
+    with np.errstate(divide="ignore"):
+        diameter = 2.0 * wheelbase / np.abs(np.sin(outer))
+    return np.where(_turning(left, right), diameter, np.inf)
+
+
+def steering_ratio(left_gradient: Array, right_gradient: Array, travel_per_turn: float) -> Array:
+    """Return the derivative of the steering wheel's angle by the mean steer angle [1].
+
+    Parameters
+    ----------
+    left_gradient, right_gradient : ndarray
+        Derivatives of the steer angles by rack travel [rad/m].
+    travel_per_turn : float
+        Rack travel for one turn of the steering wheel [m].
+
+    Returns
+    -------
+    ndarray
+        Without sign; infinite where the rack does not steer.
+    """
+    mean = 0.5 * (left_gradient + right_gradient)
+    with np.errstate(divide="ignore"):
+        return 2.0 * np.pi / travel_per_turn / np.abs(mean)
+
+
+def _inner_and_outer(left: Array, right: Array) -> tuple[Array, Array]:
+    """Return the two angles, counted towards the inside of the turn."""
+    to_left = left + right > 0.0
+    return np.where(to_left, left, -right), np.where(to_left, right, -left)
+
+
+def _ideal_outer(inner: Array, wheelbase: float, track: float) -> Array:
+    # atan(L / (L / tan d + t)) without its pole straight ahead
+    across, along = np.sin(inner), np.cos(inner)
+    return np.arctan2(wheelbase * across, wheelbase * along + track * across)
+
+
+def _turning(left: Array, right: Array) -> NDArray[np.bool_]:
+    return np.abs(left + right) > 2.0 * _STRAIGHT

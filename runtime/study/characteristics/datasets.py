@@ -1,0 +1,167 @@
+"""Characteristics over wheel travel and over rack travel, as labelled arrays."""
+
+from collections.abc import Iterable
+
+import xarray as xr
+from numpy.typing import ArrayLike
+
+from ...core.arguments import Arguments
+from ...suspension.corner import Array, Corner
+from ...suspension.model import Model
+from ...suspension.positions import arm_angles, design_height
+from ..sweep import usual_rack, usual_travel
+from . import axle, catalogue
+from .catalogue import Quantity
+from .from_model import corner
+from .wheel import steer, steer_gradient
+
+_TRAVEL = Quantity(
+    "wheel_travel",
+    "m",
+    "wheel travel",
+    "height of the wheel centre above its design height",
+    "positive in bump",
+)
+_RACK = Quantity(
+    "rack_position",
+    "m",
+    "rack displacement",
+    "displacement of the rack along its axis from its middle position",
+    "positive along the rack's axis",
+)
+
+
+def travel(
+    model: Model, travel: ArrayLike | None = None, *, rack_position: float = 0.0
+) -> xr.Dataset:
+    """Return the characteristics over wheel travel, the rack held.
+
+    Parameters
+    ----------
+    model : Model
+    travel : array_like, shape (n,), optional
+        Heights of the wheel centre above its design height [m]; by default from -80 mm to 80 mm,
+        or as far as the suspension goes.
+    rack_position : float, optional
+        Displacement of the rack [m].
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``wheel_travel`` [m]. SI units; each variable carries ``units``, ``long_name``,
+        ``definition``, ``sign`` and the unit for people as ``display_units`` and
+        ``display_factor``. What needs data of the vehicle that are not given is left out.
+
+    Raises
+    ------
+    PositionError
+        If a travel is out of reach; the message states the range.
+    InputError
+        If a value is not finite.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> curves = travel(Model("reference_car"), [-0.05, 0.05])
+    >>> np.rad2deg(curves["camber"].values).round(4).tolist()
+    [1.3246, -0.9139]
+    >>> curves["motion_ratio"].attrs["definition"]
+    'compression of the spring per wheel travel; some programs print the inverse'
+    """
+    with Arguments("characteristics") as given:
+        given.kind("model", model, Model, Model.NEEDED)
+        rack_position = given.number("rack_position", rack_position, "m")
+        if travel is not None:
+            travel = given.array("travel", travel, "m", dimensions=[1])
+    travels = usual_travel(model, rack=rack_position) if travel is None else travel
+    angles = arm_angles(model, design_height(model) + travels, rack_position)
+    found = corner(model, angles, rack_position)
+    data = _evaluated(catalogue.CORNER + catalogue.TRAVEL, found)
+    return _dataset(data, _TRAVEL, travels, {_RACK: rack_position})
+
+
+def steering(model: Model, rack: ArrayLike | None = None, *, travel: float = 0.0) -> xr.Dataset:
+    """Return the characteristics over rack travel, the wheel centre held at its height.
+
+    Both wheels have the same height; the other side of the vehicle is the mirror image.
+
+    Parameters
+    ----------
+    model : Model
+    rack : array_like, shape (n,), optional
+        Displacements of the rack [m]; by default from -60 mm to 60 mm, or as far as the steering
+        goes.
+    travel : float, optional
+        Height of the wheel centre above its design height [m].
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``rack_position`` [m], otherwise as of `kintrafo.characteristics.travel`.
+
+    Raises
+    ------
+    PositionError
+        If a position is out of reach; the message states the range.
+    InputError
+        If a value is not finite.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> curves = steering(Model("reference_car"), [-0.04, 0.04])
+    >>> np.rad2deg(curves["steer_left"].values).round(3).tolist()
+    [18.174, -17.836]
+    """
+    with Arguments("characteristics") as given:
+        given.kind("model", model, Model, Model.NEEDED)
+        travel = given.number("travel", travel, "m")
+        if rack is not None:
+            rack = given.array("rack", rack, "m", dimensions=[1])
+    racks = usual_rack(model, travel=travel) if rack is None else rack
+    own = _at_height(model, travel, racks)
+    other = _at_height(Model(model.suspension.mirrored(), free_rack=model.free_rack), travel, racks)
+    data = _evaluated(catalogue.CORNER + catalogue.STEERING, own) | _both_sides(own, other)
+    return _dataset(data, _RACK, racks, {_TRAVEL: travel})
+
+
+def _at_height(model: Model, travel: float, racks: Array) -> Corner:
+    return corner(model, arm_angles(model, design_height(model) + travel, racks), racks)
+
+
+def _evaluated(quantities: Iterable[Quantity], found: Corner) -> dict[Quantity, Array]:
+    return {
+        quantity: quantity.formula(found)
+        for quantity in quantities
+        if quantity.formula is not None and quantity.known_to(found.vehicle)
+    }
+
+
+def _both_sides(own: Corner, other: Corner) -> dict[Quantity, Array]:
+    """Return what both wheels decide, as far as the vehicle is known."""
+    left, right = (own, other) if own.vehicle.side > 0.0 else (other, own)
+    angles = steer(left), steer(right)
+    values = {"steer_left": angles[0], "steer_right": angles[1]}
+    wheelbase, per_turn = own.vehicle.wheelbase, own.vehicle.travel_per_turn
+    if wheelbase is not None:
+        track = 2.0 * abs(float(own.design_center[1]))
+        values["ackermann_error"] = axle.ackermann_error(*angles, wheelbase, track)
+        values["ackermann"] = axle.ackermann(*angles, wheelbase, track)
+        values["turning_circle"] = axle.turning_circle(*angles, wheelbase)
+    if per_turn is not None:
+        gradients = steer_gradient(left), steer_gradient(right)
+        values["steering_ratio"] = axle.steering_ratio(*gradients, per_turn)
+    return {catalogue.AXLE[name]: array for name, array in values.items()}
+
+
+def _dataset(
+    data: dict[Quantity, Array], over: Quantity, along: Array, held: dict[Quantity, float]
+) -> xr.Dataset:
+    coordinates = {over.name: xr.Variable(over.name, along, over.attributes())}
+    for quantity, value in held.items():
+        coordinates[quantity.name] = xr.Variable((), float(value), quantity.attributes())
+    variables = {
+        quantity.name: xr.Variable(over.name, values, quantity.attributes())
+        for quantity, values in data.items()
+    }
+    return xr.Dataset(variables, coordinates, {"title": f"characteristics over {over.long_name}"})

@@ -1,0 +1,32 @@
+"""Data sets that come with the project."""
+
+from importlib import resources
+from importlib.resources.abc import Traversable
+from pathlib import Path
+
+from ...core.errors import InputError
+from ...core.files import told
+from ...core.suggestions import suggestion
+
+_ENDING = ".toml"
+
+
+def data_sets() -> dict[str, Traversable]:
+    """Return the files of the data sets, by their names in order."""
+    files = sorted(resources.files(__package__).iterdir(), key=lambda file: file.name)
+    return {f.name.removesuffix(_ENDING): f for f in files if f.name.endswith(_ENDING)}
+
+
+def find(path_or_name: str | Path) -> Path | Traversable:
+    """Return the packaged file of this name, or else the file at this path."""
+    packaged = data_sets()
+    if isinstance(path_or_name, str) and path_or_name in packaged:
+        return packaged[path_or_name]
+    path = Path(path_or_name)
+    with told(path, "cannot be read"):
+        found = path.exists()
+    if not found:
+        hint = suggestion(path.name, packaged)
+        problem = f"There is no such file. Give the path of a TOML file, or a packaged name. {hint}"
+        raise InputError([problem], str(path_or_name))
+    return path

@@ -1,0 +1,255 @@
+"""The hardpoints of a suspension: reading them, and what the geometry of any must fulfil."""
+
+from abc import abstractmethod
+from collections.abc import Iterable, Mapping
+from itertools import combinations
+from typing import Any, ClassVar, get_args
+
+import numpy as np
+from pydantic import Field
+
+from .section import Section
+from .units import LengthUnit, in_metres
+from .vectors import Vector, angle_between_lines, components, distance_from_line, unit_vector
+
+# Closer than this, two points that define a direction or a rod are taken for one, in m.
+SMALLEST_DISTANCE = 0.001
+# Points are farther apart than this and nearer to the origin than that, if the unit is right, in m.
+_SMALLEST_SUSPENSION = 0.01
+_LARGEST_COORDINATE = 20.0
+# Nearer to the vertical than this, the hinge axis has no upper side, in degrees.
+_SMALLEST_HINGE_ANGLE = 1.0
+# Nearer to the first axis of its universal joint than this, a link is not held, in degrees.
+_SMALLEST_CROSS_ANGLE = 1.0
+
+Pair = tuple[str, str]
+
+
+class Hardpoints(Section):
+    """The points that define a suspension, at the design position.
+
+    Any suspension has ``wheel_center``, ``tie_rod_outer`` and ``tie_rod_inner``. All points are in
+    chassis axes (ISO 8855: x forward, y left, z up), in the unit that `unit` names.
+
+    Attributes
+    ----------
+    STAND_INS : dict
+        Points that a file may leave out, and which other point then stands in.
+    CARRIERS : dict
+        Which moving body carries a point; the others are fixed to the chassis.
+    ARMS : dict
+        The bearings of each arm on the chassis, by the ball joint that it carries.
+    JOINTS : tuple of str
+        Moving points that belong into a table of positions, besides the wheel centre.
+    STEERING_AXIS : tuple of str
+        The lower and the upper point on the axis about which the wheel is steered.
+    AXIS_NAME : str
+        What this axis is called in messages.
+    """
+
+    STAND_INS: ClassVar[Mapping[str, str]] = {}
+    CARRIERS: ClassVar[Mapping[str, str]]
+    ARMS: ClassVar[Mapping[str, Pair]]
+    JOINTS: ClassVar[tuple[str, ...]]
+    STEERING_AXIS: ClassVar[Pair]
+    AXIS_NAME: ClassVar[str] = "steering axis"
+
+    unit: LengthUnit = Field(description='the unit of the hardpoints, "mm" or "m"')
+
+    # -- reading them ---------------------------------------------------------------------------
+
+    @classmethod
+    def unit_of_key(cls, key: str, table: Mapping[str, Any]) -> str:
+        """Return the unit of the points: the section's own `unit`."""
+        unit = str(table.get("unit"))
+        return unit if key != "unit" and unit in get_args(LengthUnit) else ""
+
+    def metres(self, name: str) -> Vector:
+        """Return the position of a hardpoint; that of its stand-in, if it is left out.
+
+        Parameters
+        ----------
+        name : str
+            The hardpoint's key.
+
+        Returns
+        -------
+        numpy.ndarray
+            Its coordinates in chassis axes, in m.
+        """
+        point = getattr(self, name)
+        if point is None:
+            return self.metres(self.STAND_INS[name])
+        return np.array([in_metres(value, self.unit) for value in point])
+
+    @classmethod
+    def names(cls) -> list[str]:
+        """Return the keys of the hardpoints that every file has."""
+        return [name for name in cls.model_fields if name not in ("unit", *cls.STAND_INS)]
+
+    def given(self) -> list[str]:
+        """Return the keys of all hardpoints that this file has."""
+        return [*self.names(), *self.given_optional()]
+
+    def given_optional(self) -> list[str]:
+        """Return the keys of the hardpoints that this file has, but could leave out."""
+        return [name for name in self.STAND_INS if getattr(self, name) is not None]
+
+    def parameters(self, *, optional: bool = False) -> dict[str, float]:
+        """Return the coordinates in m, such as ``wheel_center_x``; if asked, all of them."""
+        values: dict[str, float] = {}
+        for name in [*self.names(), *(self.STAND_INS if optional else ())]:
+            values |= components(name, self.metres(name))
+        return values
+
+    def distance(self, first: str, second: str) -> float:
+        """Return the distance of two hardpoints, given by their keys, in m."""
+        return float(np.linalg.norm(self.metres(second) - self.metres(first)))
+
+    def text(self, *names: str) -> str:
+        """Return hardpoints as they stand in the file, with their unit, for error messages."""
+        names = tuple(n if getattr(self, n) is not None else self.STAND_INS[n] for n in names)
+        points = [f"{name} = {list(getattr(self, name))} {self.unit}" for name in names]
+        return f"[hardpoints] {' and '.join(points)}"
+
+    @abstractmethod
+    def steering_axis(self) -> Vector | None:
+        """Return the unit vector upward along the axis of steering; None if it is not defined."""
+
+    # -- what they must fulfil ------------------------------------------------------------------
+
+    def unit_problems(self) -> list[str]:
+        """Find coordinates that suggest that the unit is wrong, which no other check survives.
+
+        Returns
+        -------
+        list of str
+            One text for each problem.
+        """
+        points = {name: self.metres(name) for name in self.given()}
+        far = [name for name, point in points.items() if np.abs(point).max() > _LARGEST_COORDINATE]
+        remedy = f'Correct the coordinates or `unit = "{self.unit}"`.'
+        if far:
+            limit = f"allowed is -{_LARGEST_COORDINATE:g} m to {_LARGEST_COORDINATE:g} m"
+            return [f"{self.text(*far)}: out of range, {limit}. {remedy}"]
+        size = max(self.distance(*pair) for pair in combinations(points, 2))
+        if size < _SMALLEST_SUSPENSION:
+            problem = (
+                f"[hardpoints] unit = {self.unit!r}: all points lie within {1000 * size:.3f} mm; a "
+                f"suspension measures at least {1000 * _SMALLEST_SUSPENSION:g} mm. {remedy}"
+            )
+            return [problem]
+        return []
+
+    @abstractmethod
+    def geometry_problems(self) -> list[str]:
+        """Say why the mechanism cannot move, or cannot be told from its mirror image.
+
+        Returns
+        -------
+        list of str
+            One text for each problem.
+        """
+
+    def coinciding(self, bodies: Mapping[str, Iterable[str]]) -> dict[Pair, str]:
+        """Return the pairs of points of one body that are too close, with the body's name."""
+        return {
+            pair: body
+            for body, names in bodies.items()
+            for pair in combinations(names, 2)
+            if self.distance(*pair) < SMALLEST_DISTANCE
+        }
+
+    def coincidence_problems(self, coinciding: Mapping[Pair, str]) -> list[str]:
+        """Say which points of one body must be farther apart."""
+        return [
+            f"{self.text(*pair)} are {1000 * self.distance(*pair):.3f} mm apart; two points of the "
+            f"{body} must be at least {1000 * SMALLEST_DISTANCE:g} mm apart. Move one of them."
+            for pair, body in coinciding.items()
+        ]
+
+    def hinge_problems(self, front: str, rear: str, tip: str) -> list[str]:
+        """Check the axis through two bearings, about which an arm swings its tip."""
+        at_front, at_rear = self.metres(front), self.metres(rear)
+        bearings = self.text(front, rear)
+        problems = []
+        lever = distance_from_line(self.metres(tip), at_front, at_rear)
+        if lever < SMALLEST_DISTANCE:
+            problems.append(
+                f"{self.text(tip)} lies {1000 * lever:.3f} mm from the hinge axis through "
+                f"{front} and {rear}; the arm needs at least {1000 * SMALLEST_DISTANCE:g} mm "
+                f"to move the wheel. Move {tip} outboard, or correct the bearings."
+            )
+        tilt = angle_between_lines(at_front - at_rear, np.array([0.0, 0.0, 1.0]))
+        if tilt < _SMALLEST_HINGE_ANGLE:
+            problems.append(
+                f"{bearings}: the hinge axis is {tilt:.3f} deg from the vertical; at least "
+                f"{_SMALLEST_HINGE_ANGLE:g} deg are needed for the arm to swing up and down. "
+                f"Move {front} forward or {rear} rearward."
+            )
+        elif at_front[0] <= at_rear[0]:
+            problems.append(
+                f"{bearings}: the front bearing must have the greater x (x points forward), which "
+                "fixes the sign of the arm's angle. Swap the two, or correct the sign of x."
+            )
+        return problems
+
+    def cross_problems(self, ends: Pair, link: str, axis: Vector, name: str) -> list[str]:
+        """Check that a link does not lie along the axis of its universal joint on the car's side.
+
+        Parameters
+        ----------
+        ends : tuple of str
+            The joint and the other end of the link.
+        link : str
+            What the link is called.
+        axis : numpy.ndarray
+            Direction of the joint's axis.
+        name : str
+            What this direction is called.
+        """
+        first, second = (self.metres(end) for end in ends)
+        angle = angle_between_lines(second - first, axis)
+        if angle >= _SMALLEST_CROSS_ANGLE:
+            return []
+        problem = (
+            f"{self.text(*ends)}: the {link} is {angle:.3f} deg from {name}; at least "
+            f"{_SMALLEST_CROSS_ANGLE:g} deg are needed for its universal joint to hold "
+            "it. Move one of the two points."
+        )
+        return [problem]
+
+    def steering_problems(self) -> list[str]:
+        """Check that the tie rod can turn the knuckle about the line of two points of it."""
+        low, high = self.STEERING_AXIS
+        direction = unit_vector(self.metres(high) - self.metres(low))
+        outer, foot = self.metres("tie_rod_outer"), self.metres(low)
+        arm = distance_from_line(outer, foot, self.metres(high))
+        if arm < SMALLEST_DISTANCE:
+            problem = (
+                f"{self.text('tie_rod_outer')} lies {1000 * arm:.3g} mm from the {self.AXIS_NAME} "
+                f"through {low} and {high}; the steering arm must be at least "
+                f"{1000 * SMALLEST_DISTANCE:g} mm long. Move tie_rod_outer off the axis."
+            )
+            return [problem]
+        inner = self.metres("tie_rod_inner")
+        beside = distance_from_line(inner, foot, self.metres(high))
+        if beside < SMALLEST_DISTANCE:
+            problem = (
+                f"{self.text('tie_rod_inner')} lies {1000 * beside:.3g} mm from the line through "
+                f"{low} and {high}, about which the knuckle turns, so that the tie rod does not "
+                f"hold it; at least {1000 * SMALLEST_DISTANCE:g} mm are needed. Move "
+                "tie_rod_inner off that line."
+            )
+            return [problem]
+        rod = unit_vector(inner - outer)
+        lever = abs(float(np.cross(outer - foot, rod) @ direction))
+        if lever < SMALLEST_DISTANCE:
+            problem = (
+                f"{self.text('tie_rod_outer', 'tie_rod_inner')}: the tie rod pulls with a lever of "
+                f"{1000 * lever:.3f} mm about the {self.AXIS_NAME}; at least "
+                f"{1000 * SMALLEST_DISTANCE:g} mm are needed, or the linkage is at its dead "
+                "centre. Move tie_rod_inner, so that the rod stands across the steering arm."
+            )
+            return [problem]
+        return []

@@ -1,0 +1,166 @@
+"""Turning pydantic's validation errors into sentences about sections and keys of an input file."""
+
+import reprlib
+from collections.abc import Mapping
+from itertools import chain
+from typing import Any, get_args
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
+from ...core.legible import short
+from ...core.suggestions import nearest, suggestion
+from .section import Range, Section
+
+_EXPECTATIONS = {
+    "finite_number": "must be a finite number. Enter the measured or estimated value.",
+    "float_type": "must be a number. Write digits without quotes, with a point for decimals.",
+    "bool_type": "must be true or false. Write it without quotes.",
+    "three_numbers": "must be three numbers. Write them as [x, y, z].",
+}
+
+
+def messages_of(error: ValidationError, model: type[Section], data: Mapping[str, Any]) -> list[str]:
+    """Describe every error of a validation in terms of the input file.
+
+    Parameters
+    ----------
+    error : pydantic.ValidationError
+        What the validation of `data` raised.
+    model : type of Section
+        The model of the whole file.
+    data : mapping
+        The file's content.
+
+    Returns
+    -------
+    list of str
+        One text for each problem, beginning with the section and the key.
+    """
+    details = error.errors(include_url=False)
+    # A misspelt key is reported once, not a second time as missing.
+    misspelt = {
+        _Place(detail["loc"], model, data).probably_meant()
+        for detail in details
+        if detail["type"] == "extra_forbidden"
+    }
+    return [
+        text
+        for detail in details
+        if detail["type"] != "missing" or detail["loc"] not in misspelt
+        for text in _texts(_Place(detail["loc"], model, data), detail)
+    ]
+
+
+class _Place:
+    """A place in the file: the section, the key and, for points, the component.
+
+    Parameters
+    ----------
+    location : tuple of (str or int)
+        Where pydantic found the error.
+    model : type of Section
+        The model of the whole file.
+    data : mapping
+        The file's content.
+    """
+
+    def __init__(
+        self, location: tuple[int | str, ...], model: type[Section], data: Mapping[str, Any]
+    ) -> None:
+        sections: list[str] = []
+        rest = list(location)
+        while rest and (below := subsection(model, rest[0])):
+            sections.append(str(rest.pop(0)))
+            model = below
+            inner = data.get(sections[-1])
+            data = inner if isinstance(inner, Mapping) else {}
+        self.sections = tuple(sections)
+        self.model = model
+        self.key = str(rest[0]) if rest else ""
+        self.title = f"[{'.'.join(sections)}]" if sections else ""
+        elements = (f", {_element(model, self.key, part)}" for part in rest[1:])
+        self.name = f"{self.title} {short(self.key)}{''.join(elements)}".strip()
+        self.unit = model.unit_of_key(self.key, data)
+
+    def probably_meant(self) -> tuple[str, ...]:
+        """Return the location of the known key that resembles this one most."""
+        return (*self.sections, nearest(self.key, self.model.model_fields))
+
+    def allowed(self) -> Range:
+        """Return the range of the key's value."""
+        field = self.model.model_fields[self.key]
+        optional = (getattr(kind, "__metadata__", ()) for kind in get_args(field.annotation))
+        metadata = chain(field.metadata, *optional)
+        return next(item for item in metadata if isinstance(item, Range))
+
+
+def subsection(model: type[Section], name: int | str) -> type[Section] | None:
+    """Return the model of a section's subsection, or None if `name` is a key."""
+    field = model.model_fields.get(str(name))
+    kinds = (field.annotation, *get_args(field.annotation)) if field else ()
+    sections = (kind for kind in kinds if isinstance(kind, type) and issubclass(kind, Section))
+    return next(sections, None)
+
+
+def _element(model: type[Section], key: str, index: int | str) -> str:
+    """Return the name of an element of a value: a point has x, y, z; a list has numbers."""
+    if not isinstance(index, int):
+        return index
+    open_ended = "..." in str(model.model_fields[key].annotation)
+    return f"element {index + 1}" if open_ended else "xyz"[index]
+
+
+def _texts(place: _Place, detail: ErrorDetails) -> list[str]:
+    """Say what is wrong at a place; only a whole section can have several problems."""
+    if detail["type"] == "problems":
+        return [f"{place.title} {problem}" for problem in detail["ctx"]["problems"]]
+    if detail["type"] == "extra_forbidden":
+        return [_unknown(place, detail["input"])]
+    if detail["type"] == "missing":
+        return [_missing(place)]
+    return [_wrong(place, detail)]
+
+
+def _wrong(place: _Place, detail: ErrorDetails) -> str:
+    """Say why a value cannot be used."""
+    value = f"{place.name} = {reprlib.repr(detail['input'])} {place.unit}".rstrip()
+    if not place.key:
+        return f"{value} must be a section. Write {place.title}, below it {_keys(place.model)}."
+    if detail["type"] in {"greater_than", "greater_than_equal", "less_than_equal"}:
+        allowed = place.allowed()
+        return (
+            f"{value} is out of range: allowed is {allowed.allowed.format(unit=place.unit)}. "
+            f"{allowed.remedy}"
+        )
+    if detail["type"] == "literal_error":
+        return f"{value} must be {detail['ctx']['expected']}. Choose one of them."
+    return f"{value} {_EXPECTATIONS.get(detail['type'], detail['msg'])}"
+
+
+def _unknown(place: _Place, value: Any) -> str:
+    """Say that a key or a section is unknown, and what was probably meant."""
+    if isinstance(value, Mapping):
+        subject = f"[{'.'.join([*place.sections, short(place.key)])}] is not a known section."
+    else:
+        subject = f"{place.name} is not a known key."
+    return f"{subject} {suggestion(place.key, place.model.model_fields)}"
+
+
+def _missing(place: _Place) -> str:
+    """Say what a missing key or section is for and how to add it."""
+    if not place.key:
+        return f"{place.title} is missing. Add this section, with {_keys(place.model)}."
+    meaning = place.model.model_fields[place.key].description
+    return f"{place.name} is missing: {meaning}. Add a line `{place.key} = ...`{_in(place.unit)}."
+
+
+def _in(unit: str) -> str:
+    """Return the unit as the end of a sentence; empty for no unit."""
+    return f", in {unit}" if unit else ""
+
+
+def _keys(model: type[Section]) -> str:
+    """List what a section needs."""
+    needed = [name for name, field in model.model_fields.items() if field.is_required()]
+    return f"at least {', '.join(needed)}"

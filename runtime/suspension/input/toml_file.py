@@ -1,0 +1,79 @@
+"""Reading a TOML file, with errors that say what to change and where."""
+
+import re
+import tomllib
+from importlib.resources.abc import Traversable
+from pathlib import Path
+from typing import Any
+
+from ...core.errors import InputError
+from ...core.files import reason
+from ...core.legible import short
+
+_DEEP = "Tables or lists stand in each other too deeply. No key of a suspension does."
+# A key of a hundred parts, in time linear in the length; tomllib's grows with the square of them.
+_TOO_DEEP = re.compile(r"""(?<![\w"'.-])(?:[\w"'-]++\s*+\.\s*+){100}""")
+
+
+def read_toml(file: Path | Traversable) -> dict[str, Any]:
+    """Read a TOML file.
+
+    Parameters
+    ----------
+    file : pathlib.Path or importlib.resources.abc.Traversable
+        The file: one on disk, or one that is part of a package.
+
+    Returns
+    -------
+    dict
+        The file's content.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, is not UTF-8 or is not valid TOML.
+    """
+    text = _text_of(file)
+    if _TOO_DEEP.search(text):
+        raise InputError([_DEEP], str(file))
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise InputError([_syntax_problem(str(error), text)], str(file)) from None
+    except RecursionError:
+        raise InputError([_DEEP], str(file)) from None
+    except ValueError:  # Python's limit of 4300 digits, which tomllib lets pass
+        problem = "A number has thousands of digits. Write it with an exponent, as 1.5e6."
+        raise InputError([problem], str(file)) from None
+
+
+def _text_of(file: Path | Traversable) -> str:
+    """Return the file's text, without the byte order mark that some Windows editors write."""
+    try:
+        content = file.read_bytes()
+    except OSError as error:
+        problem = f"The file cannot be read: {reason(error)}"
+        raise InputError([problem], str(file)) from None
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        problem = (
+            f"Line {line} has a character that is not UTF-8. Save the file with UTF-8 encoding."
+        )
+        raise InputError([problem], str(file)) from None
+
+
+def _syntax_problem(message: str, text: str) -> str:
+    """Say in which line the TOML parser gave up, and show that line."""
+    last = len(text.rstrip().split("\n"))
+    found = re.fullmatch(
+        r"(.*) \(at (?:line (\d+), column \d+|end of document)\)", message, re.DOTALL
+    )
+    reason = found[1] if found else message
+    number = int(found[2]) if found and found[2] else last
+    line = short(text.split("\n")[number - 1].strip())
+    return (
+        f"Line {number} `{line}` is not valid TOML: {reason}. "
+        "Write `key = value`, text in quotes, points as [x, y, z], decimals with a point."
+    )

@@ -1,0 +1,256 @@
+"""What no suspension of a car looks like: signs, units and points that people get wrong.
+
+Everything here can move, so that nothing of it is refused; `kintrafo check` tells it. A *problem*
+is what is almost surely a mistake, and the text says which; a *note* is what is unusual. Limits lie
+between what cars have and what the mistake makes of it, on a scale of factors half way: units that
+are mistaken differ by 1,000 or more.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from .input.vectors import angle_between_lines
+from .kinds import Suspension
+from .typical import typical_ranges
+
+# Where passenger cars have their wheel hop [Hz]: TRL Report SR12 UC, vehicles over discontinuities
+# of the road.
+USUAL_HOP = (10.0, 15.0)
+
+# Beyond the centre plane by more than this is on the other side of the car [m]. Racks with a
+# central take-off have their joints within some centimetres of that plane.
+_ACROSS = 0.1
+# A rack that is turned out of the tie rod moves it lengthwise by the cosine: by half at this [deg].
+_LARGEST_RACK_ANGLE = 60.0
+# A point so near to the origin was given in metres in a file in millimetres [m]: the points of a
+# car are within 3 m of its origin.
+_NEAR_ORIGIN = 0.003
+# How far the wheel centre is inboard of a ball joint, at most [m]: with brakes inboard, it is some
+# centimetres outboard.
+_INBOARD = 0.1
+# How far a wheel centre is below the bearings of its arm, at most [m]; more has a portal axle.
+_BELOW = 0.1
+# Caster and kingpin inclination are worth a word so many widths of their usual range beside it.
+_WIDTHS = 2.0
+# A wheel hops on its tyre at 10 to 15 Hz (`USUAL_HOP`). A rate in N/mm or masses in grams make 30
+# times less of it, by the root of 1,000; half way between, by factors, there are some 6 times.
+_APART = 5.6
+# The rate of a tyre is 5 to 20 times that of the spring, of racing cars as much as it; a spring in
+# N/mm makes 1,000 times more of it, a tyre in N/mm 1,000 times less.
+_TYRE_TO_SPRING = (0.05, 500.0)
+# Of the damping that would keep the wheel on its tyre from oscillating, dampers have 10 to 60 %.
+_DAMPING = (0.005, 20.0)
+# Nothing that rolls has more inertia than a hoop. In kg mm^2 an inertia is 1,000,000 times as much;
+# half way, by factors, leaves room for what is counted with a wheel.
+_HOOPS = 1e3
+
+
+@dataclass(frozen=True)
+class Plausibility:
+    """What is told of a file.
+
+    Attributes
+    ----------
+    problems, notes : tuple of str
+        Almost surely mistakes; and what is unusual.
+    """
+
+    problems: tuple[str, ...]
+    notes: tuple[str, ...]
+
+
+def plausibility(suspension: Suspension) -> Plausibility:
+    """Look for what people get wrong in hardpoint files.
+
+    Parameters
+    ----------
+    suspension : Suspension
+
+    Returns
+    -------
+    Plausibility
+
+    Examples
+    --------
+    >>> from kintrafo import Suspension
+    >>> car = Suspension.load("reference_car")
+    >>> plausibility(car)
+    Plausibility(problems=(), notes=())
+    >>> along = car.with_changes({"rack.axis": [1.0, 0.0, 0.0]})
+    >>> print(plausibility(along).problems[0].split(":")[0])
+    [rack] axis = [1.0, 0.0, 0.0]
+    """
+    problems = (
+        *_other_side(suspension),
+        *_swapped(suspension),
+        *_stray(suspension),
+        *_rack(suspension),
+        *_rates(suspension),
+        *_inertia(suspension),
+        *_hoop(suspension),
+    )
+    return Plausibility(problems, (*_wheel_place(suspension), *_steering_axis(suspension)))
+
+
+def _outboard(suspension: Suspension, name: str) -> float:
+    """Return how far a point is from the centre plane, on the side of the wheel [m]."""
+    return suspension.vehicle.sign * float(suspension.hardpoints.metres(name)[1])
+
+
+def _other_side(suspension: Suspension) -> Iterator[str]:
+    points = suspension.hardpoints
+    for name in points.given():
+        across = -_outboard(suspension, name)
+        if across > _ACROSS:
+            yield (
+                f"{points.text(name)} is {1e3 * across:.0f} mm beyond the centre plane, and the "
+                f"wheel is on the {suspension.vehicle.side}. Is the sign of y right?"
+            )
+
+
+def _swapped(suspension: Suspension) -> Iterator[str]:
+    points = suspension.hardpoints
+    outer, inner = (_outboard(suspension, f"tie_rod_{end}") for end in ("outer", "inner"))
+    if outer < inner:
+        yield (
+            f"{points.text('tie_rod_outer', 'tie_rod_inner')}: the tie rod's end at the knuckle is "
+            f"{1e3 * (inner - outer):.0f} mm inboard of that at the rack. Are the two swapped?"
+        )
+    for ball, bearings in points.ARMS.items():
+        hinge = min(_outboard(suspension, name) for name in bearings)
+        inboard = hinge - _outboard(suspension, ball)
+        if inboard > 0.0:
+            yield (
+                f"{points.text(ball, *bearings)}: {ball} is {1e3 * inboard:.0f} mm inboard of the "
+                "arm's bearings on the chassis. Are they swapped?"
+            )
+    low, high = points.STEERING_AXIS
+    drop = float(points.metres(low)[2] - points.metres(high)[2])
+    if drop > 0.0:
+        yield (
+            f"{points.text(low, high)}: {high} is {1e3 * drop:.0f} mm below {low}. z points up: is "
+            "its sign right?"
+        )
+
+
+def _stray(suspension: Suspension) -> Iterator[str]:
+    points = suspension.hardpoints
+    for name in points.given():
+        distance = float(np.linalg.norm(points.metres(name)))
+        if distance < _NEAR_ORIGIN and name != "wheel_center" and points.unit == "mm":
+            yield (
+                f"{points.text(name)} is {1e3 * distance:.3g} mm from the origin. Is it in metres? "
+                'The unit of all points is "mm".'
+            )
+
+
+def _rack(suspension: Suspension) -> Iterator[str]:
+    points, axis = suspension.hardpoints, suspension.rack.axis
+    rod = points.metres("tie_rod_outer") - points.metres("tie_rod_inner")
+    angle = angle_between_lines(np.array(axis), rod)
+    if angle > _LARGEST_RACK_ANGLE:
+        yield (
+            f"[rack] axis = {list(axis)}: the rack moves at {angle:.1f} deg to the tie rod, and so "
+            "hardly moves it. A rack lies across the car: [0.0, 1.0, 0.0], which moves to the left."
+        )
+
+
+def _rates(suspension: Suspension) -> Iterator[str]:
+    """Compare tyre and masses, the tyre with the spring, and the damper with both."""
+    values, bodies = suspension.parameters(), suspension.bodies
+    mass = bodies.wheel.mass_kg + sum(body.mass_kg for body in bodies.rigid().values())
+    tyre, spring, damper = (values[f"{part}_rate"] for part in ("tyre", "spring", "damper"))
+    if tyre == 0.0:
+        return
+    hop = float(np.sqrt(tyre / mass)) / (2.0 * np.pi)
+    low, high = USUAL_HOP
+    if not low / _APART <= hop <= high * _APART:
+        yield (
+            f"[tyre] rate_N_per_m = {tyre:g} N/m and {mass:g} kg of all bodies: the wheel would "
+            f"hop on its tyre at {hop:.3g} Hz, on cars it does at {low:g} to {high:g} Hz. Is the "
+            "rate in N/mm, or a mass in grams?"
+        )
+        return
+    least, most = _TYRE_TO_SPRING
+    if spring != 0.0 and not least <= tyre / spring <= most:
+        yield (
+            f"{suspension.rate_key('spring')} = {spring:g} N/m: the tyre's rate is "
+            f"{tyre / spring:.3g} times that, on cars it is 5 to 20 times as much. Is it in N/mm?"
+        )
+    least, most = _DAMPING
+    ratio = damper / (2.0 * float(np.sqrt(tyre * mass)))
+    if damper != 0.0 and not least <= ratio <= most:
+        yield (
+            f"{suspension.rate_key('damper')} = {damper:g} N s/m: the wheel on its tyre has a "
+            f"damping ratio of {ratio:.2g} by it, on cars some 0.1 to 0.6. Is it in N s/mm?"
+        )
+
+
+def _inertia(suspension: Suspension) -> Iterator[str]:
+    bodies, points = suspension.bodies, suspension.hardpoints
+    size = max(points.distance(name, "wheel_center") for name in points.given())
+    for name, body in bodies.rigid().items():
+        elements = body.elements()
+        if body.mass_kg > 0.0:
+            # the trace of the tensor is twice the polar moment about the centre of mass
+            polar = 0.5 * (elements["xx"] + elements["yy"] + elements["zz"])
+            gyration = float(np.sqrt(max(polar, 0.0) / body.mass_kg))
+            if gyration > size:
+                yield (
+                    f"[bodies.{name}] mass_kg = {body.mass_kg:g} kg and its inertia make a radius "
+                    f"of gyration of {gyration:.3g} m, and the suspension is {size:.2f} m large. "
+                    "Is the inertia in kg mm^2, or the mass wrong?"
+                )
+
+
+def _hoop(suspension: Suspension) -> Iterator[str]:
+    wheel, radius = suspension.bodies.wheel, suspension.tyre_radius()
+    hoop = wheel.mass_kg * (radius or np.inf) ** 2
+    if wheel.inertia_spin_kg_m2 > _HOOPS * hoop:
+        yield (
+            f"[bodies.wheel] inertia_spin_kg_m2 = {wheel.inertia_spin_kg_m2:g} kg m^2: a hoop of "
+            f"{wheel.mass_kg:g} kg and the tyre's radius of {radius:.3f} m has {hoop:.3g} kg m^2, "
+            "and no wheel has more. Is it in kg mm^2?"
+        )
+
+
+def _wheel_place(suspension: Suspension) -> Iterator[str]:
+    points = suspension.hardpoints
+    for ball, bearings in points.ARMS.items():
+        inboard = _outboard(suspension, ball) - _outboard(suspension, "wheel_center")
+        if inboard > _INBOARD:
+            yield (
+                f"{points.text('wheel_center', ball)}: the wheel centre is {1e3 * inboard:.0f} mm "
+                f"inboard of {ball}."
+            )
+        hinge = 0.5 * sum(float(points.metres(name)[2]) for name in bearings)
+        below = hinge - float(points.metres("wheel_center")[2])
+        if below > _BELOW and ball == points.STEERING_AXIS[0]:
+            yield (
+                f"{points.text('wheel_center')} is {1e3 * below:.0f} mm below the bearings of its "
+                "arm. z points up: is its sign right?"
+            )
+
+
+def _steering_axis(suspension: Suspension) -> Iterator[str]:
+    points = suspension.hardpoints
+    low, high = points.STEERING_AXIS
+    x, y, z = points.metres(high) - points.metres(low)
+    if z <= 0.0:
+        return
+    usual = typical_ranges(suspension.suspension)
+    for name, away, axis in (
+        ("caster", -x, "x"),
+        ("kingpin_inclination", -suspension.vehicle.sign * y, "y"),
+    ):
+        angle = float(np.degrees(np.arctan2(away, z)))
+        low_end, high_end = usual[name]["low"], usual[name]["high"]
+        beside = max(low_end - angle, angle - high_end)
+        if beside > _WIDTHS * (high_end - low_end):
+            yield (
+                f"{points.text(low, high)}: the {name.replace('_', ' ')} is {angle:.1f} deg; cars "
+                f"have {low_end:g} to {high_end:g} ({usual[name]['source']}). Is the sign of "
+                f"{axis} right?"
+            )

@@ -1,0 +1,53 @@
+"""Where the hardpoints are in a given position of the suspension."""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..core.arguments import Arguments
+from .model import Model
+
+Array = NDArray[np.float64]
+
+
+def hardpoints(model: Model, state: ArrayLike, inputs: ArrayLike | None = None) -> dict[str, Array]:
+    """Return the hardpoints in chassis axes.
+
+    Parameters
+    ----------
+    model : Model
+    state, inputs : array_like
+        One state or many, as in the compiled module.
+
+    Returns
+    -------
+    dict
+        Name to position [m], shape (..., 3). Points that the file leaves out are where those are
+        that stand in for them.
+
+    Examples
+    --------
+    >>> model = Model("reference_car")
+    >>> hardpoints(model, model.design_state)["tie_rod_inner"].round(12).tolist()
+    [-0.14, -0.31, 0.28]
+    """
+    with Arguments("hardpoints") as given:
+        given.kind("model", model, Model, Model.NEEDED)
+    points, bodies = model.suspension.hardpoints, model.equations.BODIES
+    design_centers = _centers_of_mass(model)
+    centers = model.evaluate("positions", state, inputs)
+    rotations = model.evaluate("orientations", state, inputs)
+    moved = {}
+    for point, body in points.CARRIERS.items():
+        index = bodies.index(body)
+        arm = points.metres(point) - design_centers[body]
+        moved[point] = centers[..., index, :] + rotations[..., index, :, :] @ arm
+    fixed = [p for p in (*points.names(), *points.STAND_INS) if p not in points.CARRIERS]
+    shape = centers.shape[:-2]
+    return moved | {point: np.broadcast_to(points.metres(point), (*shape, 3)) for point in fixed}
+
+
+def _centers_of_mass(model: Model) -> dict[str, Array]:
+    """Return the centres of mass of the rigid bodies at design [m], by the bodies' names."""
+    points = model.suspension.hardpoints
+    bodies = model.suspension.bodies.rigid()
+    return {name: body.centre_of_mass(points) for name, body in bodies.items()}

@@ -1,0 +1,349 @@
+"""How far the wheel travels: the arm angles that belong to the design position's assembly.
+
+From the design position the arm is swung either way until a loop cannot close or the wheel centre
+turns back. In between, the height of the wheel centre is a monotonic function of the arm angle, so
+that every height within reach has exactly one position. `swing` sees to it that no fold between two
+angles that are looked at is missed.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..core.arguments import Arguments
+from ..core.errors import KintrafoError
+from .model import Model
+from .swing import GOAL, UNRESOLVED, Seen, march, margins_stay, resolved
+
+Array = NDArray[np.float64]
+
+# Arm angles are looked at in steps of this size [rad], up to a right angle from design.
+_STEP = np.deg2rad(2.0)
+_STEPS = 45
+# By how much the reach ends before that [rad]. What has to be positive is then some 1e-13 m^2,
+# clear of its rounding, and the wheel is less than a nanometre from its last position.
+_CLEARANCE = 1e-12
+_CHUNK = 500  # racks that are looked at together, to bound the memory
+_PROBES = 9  # racks that show how much of the reach is of interest
+
+_RACK_STEP = 0.002  # in which the rack goes from its middle to where it is wanted [m]
+_MOST_RACK_STEPS = 1000
+
+_TURNS_BACK = -1
+_REASONS = {
+    _TURNS_BACK: "the wheel centre turns back there",
+    GOAL: "the arm has swung by a right angle",
+    UNRESOLVED: "positions beyond it cannot be told apart in double precision",
+}
+
+
+class PositionError(KintrafoError, ValueError):
+    """A position that the suspension cannot take."""
+
+
+@dataclass(frozen=True)
+class Range:
+    """Arm angles over which the wheel height changes monotonically, the design position inside.
+
+    Attributes
+    ----------
+    arm_angle : tuple of float
+        At the lowest and at the highest wheel position [rad].
+    height : tuple of float
+        Lowest and highest height of the wheel centre [m].
+    lower_limit, upper_limit : str
+        What ends the range.
+    """
+
+    arm_angle: tuple[float, float]
+    height: tuple[float, float]
+    lower_limit: str
+    upper_limit: str
+
+
+def travel_range(model: Model, rack_position: float = 0.0) -> Range:
+    """Return the travel that the wheel can make from the design position.
+
+    Parameters
+    ----------
+    model : Model
+    rack_position : float, optional
+        Displacement of the rack [m].
+
+    Returns
+    -------
+    Range
+        Its ends are the last positions before the limit, to 1e-12 rad of the arm angle.
+
+    Raises
+    ------
+    PositionError
+        If the rack cannot be there with the arm in its design position.
+
+    Examples
+    --------
+    >>> reach = travel_range(Model("reference_car"))
+    >>> [round(1e3 * height, 1) for height in reach.height]
+    [-65.6, 615.9]
+    """
+    with Arguments("travel_range") as given:
+        given.kind("model", model, Model, Model.NEEDED)
+        rack_position = given.number("rack_position", rack_position, "m")
+    racks = np.array([rack_position], dtype=np.float64)
+    low, low_limits = _ends(model, racks, +1.0)
+    high, high_limits = _ends(model, racks, -1.0)
+    heights, _ = height_and_slope(model, np.append(low, high), rack_position)
+    return Range(
+        (float(low[0]), float(high[0])),
+        (float(heights[0]), float(heights[1])),
+        _in_words(model, low_limits[0]),
+        _in_words(model, high_limits[0]),
+    )
+
+
+@dataclass(frozen=True)
+class Branch:
+    """Arm angles and wheel heights over the reach, for each of several rack positions.
+
+    Attributes
+    ----------
+    angle : ndarray, shape (racks, points)
+        Falling [rad]; repeated where the reach ends earlier.
+    height : ndarray, shape (racks, points)
+        Height of the wheel centre, rising [m].
+    """
+
+    angle: Array
+    height: Array
+
+
+def branch(
+    model: Model,
+    rack_positions: ArrayLike,
+    *,
+    covering: tuple[float, float] | None = None,
+    to_the_end: bool = False,
+) -> Branch:
+    """Tabulate the reach for each rack position.
+
+    Parameters
+    ----------
+    model : Model
+    rack_positions : array_like, shape (racks,)
+        Displacements of the rack [m].
+    covering : tuple of float, optional
+        Lowest and highest wheel height that are of interest [m]: of many racks, the rest is left
+        out as far as a few of them show where it begins. What the table covers must be seen from
+        its heights.
+    to_the_end : bool, optional
+        Whether to locate the ends of the reach, as `travel_range` does. Otherwise the table ends a
+        few degrees before them, where the height gets steep, and is made much faster.
+
+    Returns
+    -------
+    Branch
+
+    Raises
+    ------
+    PositionError
+        If the rack cannot be there with the arm in its design position.
+    """
+    racks = np.asarray(rack_positions, dtype=np.float64)
+    steps = _STEPS, _STEPS
+    if covering is not None and racks.size > _CHUNK:
+        steps = _steps_to(model, racks, covering)
+    chunks = [
+        _tabulate(model, racks[i : i + _CHUNK], steps, to_the_end=to_the_end)
+        for i in range(0, racks.size, _CHUNK)
+    ]
+    return Branch(
+        np.concatenate([chunk.angle for chunk in chunks]),
+        np.concatenate([chunk.height for chunk in chunks]),
+    )
+
+
+def _steps_to(model: Model, racks: Array, covering: tuple[float, float]) -> tuple[int, int]:
+    """Return how many steps from design, down and up, some of the racks need, and one more."""
+    some = np.quantile(racks, np.linspace(0.0, 1.0, _PROBES), method="nearest")
+    heights = _tabulate(model, some, (_STEPS, _STEPS), to_the_end=False).height
+    below = (heights[:, _STEPS::-1] > covering[0]).sum(axis=1).max()
+    above = (heights[:, _STEPS:] < covering[1]).sum(axis=1).max()
+    return min(int(below) + 1, _STEPS), min(int(above) + 1, _STEPS)
+
+
+def _tabulate(model: Model, racks: Array, steps: tuple[int, int], *, to_the_end: bool) -> Branch:
+    """Look at so many steps down and up from design."""
+    design = steps[0]
+    grid = model.design_state[0] - _STEP * np.arange(-steps[0], steps[1] + 1)
+    seen = _look(model, grid, racks[:, None])
+    _refuse_racks(model, racks, seen, design)
+    columns = np.arange(grid.size)
+    if to_the_end:
+        low, high = (_ends(model, racks, direction)[0] for direction in (+1.0, -1.0))
+        angles = np.clip(grid, high[:, None], low[:, None])
+        inside = (grid < low[:, None]) & (grid > high[:, None])
+        heights = np.where(
+            grid >= low[:, None],
+            height_and_slope(model, low, racks)[0][:, None],
+            height_and_slope(model, high, racks)[0][:, None],
+        )
+        return Branch(angles, np.where(inside, seen.height, heights))
+    fine = resolved(np.array(-_STEP), seen)
+    down = np.logical_and.accumulate(fine[:, :design][:, ::-1], axis=1).sum(axis=1)
+    up = np.logical_and.accumulate(fine[:, design:], axis=1).sum(axis=1)
+    inner = np.clip(columns, design - down[:, None], design + up[:, None])
+    return Branch(grid[inner], np.take_along_axis(seen.height, inner, axis=1))
+
+
+def at_rest(
+    model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0, *, arm_rate: float = 0.0
+) -> tuple[Array, Array]:
+    """Return states and inputs with everything at rest but, if wanted, the arm.
+
+    Parameters
+    ----------
+    model : Model
+    arm_angle, rack_position : array_like
+        [rad] and [m]; they are broadcast.
+    arm_rate : float, optional
+        Rate of the arm angle [rad/s].
+
+    Returns
+    -------
+    states, inputs : ndarray
+        For the compiled functions.
+    """
+    angles, racks = np.broadcast_arrays(np.asarray(arm_angle, float), rack_position)
+    names = model.state_names
+    states = np.broadcast_to(model.design_state, (*angles.shape, len(names))).copy()
+    inputs = np.zeros((*angles.shape, len(model.input_names)))
+    states[..., names.index(model.names.arm)] = angles
+    states[..., names.index(f"{model.names.arm}_rate")] = arm_rate
+    if model.free_rack:
+        states[..., names.index(model.names.rack)] = racks
+    else:
+        inputs[..., model.input_names.index("rack_position")] = racks
+    return states, inputs
+
+
+def height_and_slope(
+    model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0
+) -> tuple[Array, Array]:
+    """Return the height of the wheel centre and its exact derivative by the arm angle.
+
+    Parameters
+    ----------
+    model : Model
+    arm_angle, rack_position : array_like
+        [rad] and [m]; they are broadcast.
+
+    Returns
+    -------
+    height, slope : ndarray
+        [m] and [m/rad].
+    """
+    # velocities are linear in the rates: that at unit rate is the derivative
+    states, inputs = at_rest(model, arm_angle, rack_position, arm_rate=1.0)
+    signals = model.signals(states, inputs)
+    return signals["wheel_center_z"], signals["wheel_velocity"]
+
+
+def _ends(model: Model, racks: Array, direction: float) -> tuple[Array, list[int]]:
+    """Swing the arm as far as it goes, for each rack position.
+
+    Returns
+    -------
+    angle : ndarray, shape (racks,)
+        The last angle within reach [rad].
+    limits : list of int
+        What ends the reach, as in `_look`.
+    """
+    angles = model.design_state[0] + direction * _STEP * np.arange(_STEPS + 1)
+    seen = _look(model, angles, racks[:, None])
+    _refuse_racks(model, racks, seen, 0)
+    fine = np.logical_and.accumulate(resolved(np.array(direction * _STEP), seen), axis=1)
+    last = fine.sum(axis=1)
+    ends, limits = angles[last], np.where(seen.usable[:, 0], GOAL, seen.limit[:, 0])
+    rows = np.flatnonzero((last < _STEPS) & seen.usable[:, 0])
+    goals = np.full(rows.size, angles[-1])
+    ends[rows], limits[rows] = march(
+        lambda places, which: _look(model, places, racks[rows[which], None]),
+        ends[rows],
+        goals,
+        _STEP,
+    )
+    # not past the design position, where a wheel that turns back at once has its end
+    clear = direction * (ends - angles[0]) > _CLEARANCE
+    return np.where(clear & (limits != GOAL), ends - direction * _CLEARANCE, ends), limits.tolist()
+
+
+def _look(model: Model, angles: Array, racks: Array) -> Seen:
+    """Return whether the loops close and the wheel rises as the arm does.
+
+    The limit of what is not usable is the index of a margin, or `_TURNS_BACK`; behind the margins
+    of the equations stand those of the lengths that the file allows.
+    """
+    states, inputs = at_rest(model, angles, racks, arm_rate=1.0)
+    margins = _margins(model, states, inputs)
+    # a NaN behind a failed guard must not pass
+    closes = (margins > 0.0).all(axis=-1)
+    heights, slopes = np.zeros(closes.shape), np.zeros(closes.shape)
+    signals = model.signals(states[closes], inputs[closes])
+    heights[closes], slopes[closes] = signals["wheel_center_z"], signals["wheel_velocity"]
+    allowed = model.suspension.allowed_lengths()
+    left = np.ones((*closes.shape, len(allowed)))
+    for column, (name, limit, _) in enumerate(allowed):
+        left[closes, column] = np.sign(limit) * signals[name] - limit
+    margins = np.concatenate([margins, left], axis=-1)
+    failed = ~(margins > 0.0)
+    fine = ~failed.any(axis=-1)
+    # the arm's angle falls as the wheel rises (Eq. 6)
+    limits = np.where(fine, _TURNS_BACK, failed.argmax(axis=-1))
+    return Seen(fine & (slopes < 0.0), limits, heights, slopes, margins)
+
+
+def _margins(model: Model, states: Array, inputs: Array) -> Array:
+    """Return what must be positive at a position."""
+    margins = model.evaluate("margins", states, inputs)
+    # what guards an angle that no position depends on, as the azimuth of a vertical shaft
+    acting = {guard for guards in model.equations.ACTING_GUARDS.values() for guard in guards}
+    margins[..., [guard not in acting for guard in range(margins.shape[-1])]] = 1.0
+    return margins
+
+
+def _in_words(model: Model, limit: int) -> str:
+    if limit < 0:
+        return _REASONS[limit]
+    closing: list[str] = [meaning for _, meaning in model.equations.GUARDS]
+    return [*closing, *(one.meaning for one in model.suspension.allowed_lengths())][limit]
+
+
+def _refuse_racks(model: Model, racks: Array, seen: Seen, column: int) -> None:
+    """Refuse racks that cannot get where they are with the arm in its design position."""
+    closes = (seen.margins[:, column] > 0.0).all(axis=-1)
+    first, limit = -1, -1
+    if not closes.all():
+        first = int(np.flatnonzero(~closes)[0])
+        limit = int(seen.limit[first, column])
+    else:
+        for side in (racks.argmin(), racks.argmax()):
+            way = _way(float(racks[side]))
+            margins = _margins(model, *at_rest(model, model.design_state[0], way))
+            blocked = ~margins_stay(margins)
+            if blocked.any():
+                place = int(blocked.argmax())
+                first, limit = int(side), int(margins[place : place + 2].min(axis=0).argmin())
+    if first < 0:
+        return
+    message = (
+        f"the rack cannot be at {racks[first] * 1e3:g} mm with the control arm in its design "
+        f"position: {_in_words(model, limit)}. Choose a smaller displacement."
+    )
+    raise PositionError(message)
+
+
+def _way(rack: float) -> Array:
+    """Return places from the middle of the rack to where it is wanted."""
+    count = min(2 + int(abs(rack) / _RACK_STEP), _MOST_RACK_STEPS)
+    return np.linspace(0.0, rack, 1 + count)

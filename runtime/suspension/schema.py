@@ -1,0 +1,222 @@
+"""The input file's JSON Schema, for editors, and its reference page.
+
+``python -m kintrafo.suspension.schema SCHEMA PAGE`` writes both.
+"""
+
+import json
+import sys
+from collections.abc import Container, Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+from pydantic.json_schema import models_json_schema
+
+from .base import KIND
+from .input.bodies import RigidBody
+from .input.section import Section
+from .input.units import unit_of
+from .kinds import KINDS
+from .starter import DEFAULT
+
+_LIMITS = {
+    "ge": "minimum",
+    "gt": "exclusiveMinimum",
+    "le": "maximum",
+    "lt": "exclusiveMaximum",
+}
+
+_HEAD = """\
+# The input file
+
+A suspension is a TOML file. The name of a key ends in its unit; `[hardpoints]` has one `unit` for
+all of its points. Points are `[x, y, z]` in chassis axes of ISO 8855 (x forward, y left, z up), at
+the design position. What a file says is checked as a whole: every problem is reported at once, with
+the value, the unit, what is allowed and what to do.
+
+`kintrafo new FILE` writes an annotated file to begin with. The line `suspension = "..."` above the
+first section names the kind; what only one kind has is in its own part below.
+
+Editors that know JSON Schema complete keys, show their meaning and underline what is not allowed.
+`kintrafo schema kintrafo.schema.json` writes
+[the schema](../runtime/suspension/data/suspension.schema.json) beside your files; a first line
+
+```toml
+#:schema ./kintrafo.schema.json
+```
+
+says so to editors with a TOML language server, such as Even Better TOML for Visual Studio Code.
+Whether the points make a mechanism that can be assembled is not in the schema: that is what
+`kintrafo check FILE` says. The schema and this page are written by `make format-page`.
+"""
+
+_EVERY_BODY = """\
+### Every body
+
+Except for the wheel, which is round and has keys of its own. The inertia is the tensor about the
+centre of mass, in chassis axes; `xy` is the element of the matrix, minus the product of inertia.
+"""
+
+_TABLE_HEAD = "| key | unit | allowed | left out | meaning |\n|---|---|---|---|---|"
+
+
+def schema() -> dict[str, Any]:
+    """Return the JSON Schema of the input file.
+
+    Returns
+    -------
+    dict
+        Every key with its description, its unit as ``x-unit`` and its range. The kind that the
+        file names decides which sections there are.
+    """
+    _, made = models_json_schema([(kind, "validation") for kind in KINDS.values()])
+    sections = {name: _with_units(section) for name, section in made["$defs"].items()}
+    kinds = {"description": "the kind of suspension", "enum": list(KINDS), "default": DEFAULT}
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "suspension",
+        "type": "object",
+        "properties": {KIND: kinds},
+        "allOf": [{"if": _names(name), "then": _reference(name)} for name in KINDS],
+        "$defs": sections,
+    }
+
+
+def _names(kind: str) -> dict[str, Any]:
+    """Return the schema of a file that names a kind; the default may be left out."""
+    required = [] if kind == DEFAULT else [KIND]
+    return {"properties": {KIND: {"const": kind}}, "required": required}
+
+
+def _reference(kind: str) -> dict[str, str]:
+    return {"$ref": f"#/$defs/{KINDS[kind].__name__}"}
+
+
+def _with_units(made: dict[str, Any]) -> dict[str, Any]:
+    """Return the schema of a section as we publish it, from that of pydantic."""
+    section: dict[str, Any] = _in_json_schema(made)
+    for key, entry in section["properties"].items():
+        entry.pop("title", None)
+        unit = unit_of(key)
+        if unit:
+            entry["x-unit"] = unit
+    return section
+
+
+def _in_json_schema(part: Any) -> Any:
+    """Return a schema with pydantic's names of limits in those of JSON Schema."""
+    if isinstance(part, dict):
+        return {_LIMITS.get(key, key): _in_json_schema(value) for key, value in part.items()}
+    return [_in_json_schema(item) for item in part] if isinstance(part, list) else part
+
+
+def schema_text() -> str:
+    """Return the schema as it is published."""
+    return json.dumps(schema(), indent=2, ensure_ascii=False) + "\n"
+
+
+def page_text() -> str:
+    """Return the reference page: what every kind has, then what each has of its own."""
+    sections, shared = schema()["$defs"], _shared()
+    first, *_ = KINDS.values()
+    parts = [_HEAD, "## Every suspension\n"]
+    parts += _described(sections, first, [name for name in first.model_fields if name in shared])
+    parts.append(_EVERY_BODY)
+    parts += _table(_with_units(RigidBody.model_json_schema()))
+    for name, kind in KINDS.items():
+        own = [section for section in kind.model_fields if section not in shared]
+        parts.append(f'## {_capital(kind.TITLE)}\n\n`{KIND} = "{name}"`{kind.PAGE}\n')
+        parts += _described(sections, kind, own)
+    return "\n".join(parts).rstrip() + "\n"
+
+
+def _shared() -> set[str]:
+    """Return the names of the sections that are the same for every kind."""
+    first, *others = (
+        {name: _model_of(kind, name) for name in kind.model_fields} for kind in KINDS.values()
+    )
+    return {name for name, model in first.items() if all(o.get(name) is model for o in others)}
+
+
+def _described(
+    sections: dict[str, Any], model: type[Section], names: Iterable[str], prefix: str = ""
+) -> Iterator[str]:
+    """Describe sections in a section, each with a table of its keys."""
+    required = sections[model.__name__].get("required", [])
+    for name in names:
+        inner = _model_of(model, name)
+        if inner is None:
+            continue
+        title = f"{prefix}{name}"
+        optional = "" if name in required else " (optional)"
+        is_body = issubclass(inner, RigidBody)
+        also = ", with the keys of every body" if is_body else ""
+        meaning = _capital(model.model_fields[name].description)
+        yield f"### [{title}]{optional}\n\n{meaning}{also}.\n"
+        yield from _table(sections[inner.__name__], RigidBody.model_fields if is_body else ())
+        yield from _described(sections, inner, inner.model_fields, f"{title}.")
+
+
+def _table(section: dict[str, Any], known: Container[str] = ()) -> Iterator[str]:
+    """Return the table of a section's values, without those that are described elsewhere."""
+    rows = list(_rows(section, known))
+    if rows:
+        yield _TABLE_HEAD
+        yield "\n".join(rows) + "\n"
+
+
+def _model_of(model: type[Section], name: str) -> type[Section] | None:
+    """Return the section that a key holds, or may hold; None if it holds a value."""
+    annotation = model.model_fields[name].annotation
+    kinds = (annotation, *getattr(annotation, "__args__", ()))
+    return next((k for k in kinds if isinstance(k, type) and issubclass(k, Section)), None)
+
+
+def _rows(section: dict[str, Any], known: Container[str]) -> Iterator[str]:
+    required = section.get("required", [])
+    for key, entry in section["properties"].items():
+        if _is_section(entry) or key in known:
+            continue
+        unit = entry.get("x-unit", "")
+        left_out = "refused" if key in required else _default(entry)
+        yield f"| `{key}` | {unit} | {_allowed(entry)} | {left_out} | {entry['description']} |"
+
+
+def _is_section(entry: dict[str, Any]) -> bool:
+    return any("$ref" in option for option in (entry, *entry.get("anyOf", ())))
+
+
+def _default(entry: dict[str, Any]) -> str:
+    value = entry.get("default")
+    return "-" if value is None else json.dumps(value)
+
+
+def _allowed(entry: dict[str, Any]) -> str:
+    """Return the range of a value in words."""
+    options = [entry, *entry.get("anyOf", ())]
+    for option in options:
+        choices = [option["const"]] if "const" in option else option.get("enum", ())
+        if choices:
+            return " or ".join(f'`"{value}"`' for value in choices)
+        if option.get("type") == "boolean":
+            return "true or false"
+        if option.get("type") == "array":
+            return "three numbers" if option.get("maxItems") else "numbers"
+        if "exclusiveMinimum" in option:
+            return f"more than {option['exclusiveMinimum']:g}" + _at_most(option)
+        if "minimum" in option:
+            low = f"{option['minimum']:g}"
+            return f"{low} to {option['maximum']:g}" if "maximum" in option else f"{low} or more"
+    return "a number"
+
+
+def _at_most(option: dict[str, Any]) -> str:
+    return f", at most {option['maximum']:g}" if "maximum" in option else ""
+
+
+def _capital(text: str | None) -> str:
+    return (text or "")[:1].upper() + (text or "")[1:]
+
+
+if __name__ == "__main__":
+    Path(sys.argv[1]).write_text(schema_text(), encoding="utf-8", newline="\n")
+    Path(sys.argv[2]).write_text(page_text(), encoding="utf-8", newline="\n")

@@ -1,0 +1,90 @@
+"""The first file of a new project: an annotated copy of a packaged data set."""
+
+from importlib import resources
+from pathlib import Path
+
+from ..core.errors import InputError
+from ..core.files import refuse, replacing
+from ..core.suggestions import suggestion
+from .data import data_sets
+
+_ENDING = ".toml"
+
+DEFAULT = "macpherson"
+"""The kind of a file that does not say it."""
+
+# Sections and keys that a first file has, and that the data sets keep in a comment.
+_SECTIONS = ("# [bump_stop]", "# [rebound_stop]")
+_KEYS = ("# lifts_off = ", "# length_min_mm = ", "# length_max_mm = ")
+
+
+def kinds() -> tuple[str, ...]:
+    """Return the names of the kinds of suspension, without loading any; the default first.
+
+    Examples
+    --------
+    >>> kinds()
+    ('macpherson', 'double_wishbone')
+    """
+    files = resources.files(__package__).joinpath("kinds").iterdir()
+    names = sorted(f.name.removesuffix(".py") for f in files if f.name.endswith(".py"))
+    return DEFAULT, *(name for name in names if name not in (DEFAULT, "__init__"))
+
+
+def packaged() -> tuple[str, ...]:
+    """Return the names of the data sets that come with kintrafo.
+
+    Examples
+    --------
+    >>> "reference_car" in packaged()
+    True
+    """
+    return tuple(data_sets())
+
+
+def write_starter(
+    path: str | Path, *, template: str = "reference_car", force: bool = False
+) -> Path:
+    """Write an input file to begin with: all keys, with units, signs and comments.
+
+    Parameters
+    ----------
+    path : str or pathlib.Path
+        A name that ends in ``.toml``.
+    template : str, optional
+        Name of the packaged data set that is copied.
+    force : bool, optional
+        Whether a file that somebody else wrote or changed is replaced, see `kintrafo.core.files`.
+
+    Returns
+    -------
+    pathlib.Path
+
+    Raises
+    ------
+    InputError
+        If there is a file already, or the name cannot be used.
+    """
+    if template not in packaged():
+        problem = (
+            f"no data set {template!r} comes with kintrafo. {suggestion(template, packaged())}"
+        )
+        raise InputError([problem], "template")
+    refuse([path], force=force, endings=[_ENDING])
+    text = _with_limits(data_sets()[template].read_text(encoding="utf-8"))
+    with replacing(path, force=force) as temporary:
+        temporary.write_text(text, encoding="utf-8", newline="\n")
+    return Path(path)
+
+
+def _with_limits(text: str) -> str:
+    """Switch on what keeps a motion within what a suspension can do, where a data set has it.
+
+    The packaged data are those of the paper, without it.
+    """
+    lines, within = [], False
+    for line in text.splitlines():
+        within = line.startswith(_SECTIONS) or (within and line.startswith("# "))
+        on = within or line.startswith(_KEYS)
+        lines.append(line.removeprefix("# ") if on else line)
+    return "\n".join(lines) + "\n"

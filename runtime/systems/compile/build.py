@@ -1,0 +1,185 @@
+"""From a declaration to a compiled module."""
+
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+from typing import TYPE_CHECKING, Literal
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError
+from ...core.optional import require
+from ...core.suggestions import suggestion
+from .cache import appearing, cache_folder, damage, fingerprint, seal
+from .compiler import Compiler, CompilerError, find_compiler
+from .declaration import model_of, telling
+from .loader import load, refuse_damaged
+
+if TYPE_CHECKING:
+    from ...generator.mechanism import Mechanism, Model
+    from ...generator.outputs import GeneratedModel
+
+Backend = Literal["auto", "c", "numpy"]
+Report = Callable[[str], None]
+
+_REMEDY = "Install a C compiler (on Debian: apt-get install gcc libc6-dev), or name one in CC"
+_told = False
+
+
+def compile_mechanism(
+    declared: "Model | Mechanism | str | Path",
+    *,
+    name: str | None = None,
+    backend: Backend = "auto",
+    folder: str | Path | None = None,
+    progress: Report | None = None,
+) -> ModuleType:
+    """Derive the equations of a mechanism and return them as a compiled module.
+
+    What was compiled before is taken from a cache, as long as declaration, generator and compiler
+    are the same. What was damaged there is found before it is loaded, told as a warning, and made
+    again.
+
+    Parameters
+    ----------
+    declared : Model, Mechanism, str or Path
+        A declaration, see `kintrafo.generator`, or a Python file with one at its top level. Of a
+        mechanism alone, a model with all bodies massive and the first independent coordinates is
+        made from which every loop closes in closed form.
+    name : str, optional
+        Which model or mechanism, where the file has several.
+    backend : {'auto', 'c', 'numpy'}, optional
+        'c': compiled by the C compiler of this machine, which ``CC`` and ``CFLAGS`` may name.
+        'numpy': the same program over NumPy arrays, slower. 'auto': C where there is a compiler.
+    folder : str or Path, optional
+        Where compiled mechanisms are kept; by default what the environment variable
+        ``KINTRAFO_CACHE`` names, or else the user's cache folder.
+    progress : callable, optional
+        Called with what is being done, in a few words.
+
+    Returns
+    -------
+    module
+        With the interface of those of `kintrafo.generated`: functions over arrays of states, names,
+        units and meanings. `kintrafo.System` puts numbers to it.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be run or an argument is not known; if the folder cannot be written, or
+        what is in it cannot be loaded.
+    MechanismError
+        If the declaration contradicts itself, or a loop does not close in closed form.
+    CompilerError
+        If the compiler fails.
+    MissingPackageError
+        If the packages of the extra "generator" are not installed.
+
+    Examples
+    --------
+    >>> import kintrafo
+    >>> from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
+    >>> four_bar = kintrafo.compile(FOUR_BAR)
+    >>> four_bar.MOBILITY, list(four_bar.STATE)
+    (1, ['crank_angle', 'crank_angle_rate'])
+    """
+    with Arguments("compile") as given:
+        given.among("backend", backend, ("auto", "c", "numpy"))
+        given.function("progress", progress)
+        if folder is not None:
+            given.path("folder", folder)
+    require_generator()
+    from ...generator.outputs import generate
+
+    model = model_of(declared, name)
+    compiler = _compiler(backend)
+    built_by = " ".join((*compiler.command, compiler.version)) if compiler else "numpy"
+    # the declaration is made of nested records, whose text says everything
+    key = fingerprint(repr(model), built_by=built_by)
+    target = (cache_folder() if folder is None else Path(folder)) / f"{model.name}-{key}"
+    problem = damage(target)
+    if problem and target.exists():
+        _tell_of_damage(target, problem)
+    if problem:
+        report = progress or (lambda _: None)
+        with appearing(target) as temporary:
+            report("deriving the equations")
+            with telling(model):
+                derived = generate(model)
+            report("compiling" if compiler else "writing the functions")
+            build(derived, temporary, compiler, name=target.name)
+        refuse_damaged(target)
+    return load(target)
+
+
+def require_generator() -> None:
+    """See that the packages are there that deriving equations needs.
+
+    Raises
+    ------
+    MissingPackageError
+        With the command that installs them.
+    """
+    for package in ("sympy", "networkx"):
+        require(package, purpose="Deriving equations", extra="generator")
+
+
+def _compiler(backend: Backend) -> Compiler | None:
+    """Return the compiler to use; None for NumPy."""
+    if backend not in ("auto", "c", "numpy"):
+        problem = f"backend {backend!r} is not known. {suggestion(backend, ['auto', 'c', 'numpy'])}"
+        raise InputError([problem], "compile")
+    if backend == "numpy":
+        return None
+    compiler = find_compiler()
+    if compiler is None and backend == "c":
+        message = f'there is no C compiler. {_REMEDY}; or use backend="numpy".'
+        raise CompilerError(message)
+    if compiler is None:
+        _tell_once()
+    return compiler
+
+
+def _tell_of_damage(target: Path, problem: str) -> None:
+    message = f"{target}: {problem}. What was compiled before is damaged, and is made again."
+    warnings.warn(message, RuntimeWarning, stacklevel=3)
+
+
+def _tell_once() -> None:
+    global _told  # noqa: PLW0603 (told once in a process)
+    if not _told:
+        _told = True
+        warnings.warn(
+            "there is no C compiler; NumPy evaluates the equations instead, with the same results "
+            f"but slower. {_REMEDY}.",
+            RuntimeWarning,
+            stacklevel=4,
+        )
+
+
+def build(
+    derived: "GeneratedModel", folder: Path, compiler: Compiler | None, *, name: str | None = None
+) -> None:
+    """Write the package of a derived model into a folder, and compile it.
+
+    Parameters
+    ----------
+    derived : GeneratedModel
+        From `kintrafo.generator.outputs.generate`.
+    folder : Path
+        An empty folder; `kintrafo.systems.compile.loader.load` makes a module of it.
+    compiler : Compiler or None
+        None: functions over NumPy arrays instead of C.
+    name : str, optional
+        What the folder will be called; by default what it is called now.
+    """
+    from ...generator.emit.files import own_files
+
+    library = f"lib{derived.model.name}.so" if compiler else None
+    texts = own_files(derived, library)
+    for file, text in texts.items():
+        (folder / file).write_text(text, encoding="utf-8", newline="\n")
+    if compiler and library:
+        sources = [folder / file for file in texts if file.endswith(".c")]
+        compiler.build(sources, folder / library)
+    seal(folder, name or folder.name)

@@ -1,0 +1,74 @@
+"""Which coordinates of a user's mechanism can be independent."""
+
+from typing import TYPE_CHECKING
+
+from ...core.arguments import Arguments
+from .build import require_generator
+from .declaration import given_by, telling
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from ...generator.mechanism import Mechanism, Model
+    from ...generator.proposal import Proposal
+
+
+def proposals(
+    declared: "Model | Mechanism | str | Path",
+    *,
+    name: str | None = None,
+    seconds: float | None = None,
+) -> "Iterator[Proposal]":
+    """Find the sets of joints whose coordinates can be independent, the preferred one first.
+
+    Sets of reported angles and slides are tried, as many at a time as there are degrees of freedom,
+    joints on the ground before others. Those from which every loop closes in closed form come
+    first, and behind them those that need an iteration (`Model.allow_iteration`). A trial takes
+    milliseconds and compiles nothing; where there are many sets, take the first few.
+
+    Parameters
+    ----------
+    declared : Model, Mechanism, str or Path
+        A declaration, or a Python file with one at its top level. What a model prescribes stays
+        prescribed; its own choice of independent joints does not count.
+    name : str, optional
+        Which model or mechanism, where the file has several.
+    seconds : float, optional
+        Each of the two searches, without and with iteration, ends after this time [s]; left out,
+        when all sets have been tried.
+
+    Returns
+    -------
+    iterator of Proposal
+        Each with ``independent``, the names of the joints, and ``iterates``; tried one by one, as
+        they are asked for.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be run.
+    MechanismError
+        If the declaration contradicts itself.
+    MissingPackageError
+        If the packages of the extra "generator" are not installed.
+
+    Examples
+    --------
+    >>> import kintrafo
+    >>> from kintrafo.generator.mechanisms.slider_crank import SLIDER_CRANK
+    >>> next(kintrafo.proposals(SLIDER_CRANK))
+    Proposal(independent=('A',), iterates=False)
+    """
+    with Arguments("proposals") as given:
+        if seconds is not None:
+            seconds = given.step("seconds", seconds, "s")
+    require_generator()
+    return _tried(given_by(declared, name), seconds)
+
+
+def _tried(given: "Model | Mechanism", seconds: float | None) -> "Iterator[Proposal]":
+    from ...generator.proposal import proposals as found
+
+    with telling():
+        yield from found(given, seconds)

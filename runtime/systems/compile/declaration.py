@@ -1,0 +1,189 @@
+"""What a person wrote: a file with a declaration, a mechanism, or a model of one."""
+
+import sys
+import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+from ...core.arguments import Arguments, shown
+from ...core.errors import InputError, KintrafoError
+from ...core.files import told
+from ...core.suggestions import suggestion
+
+if TYPE_CHECKING:
+    from ...generator.mechanism import Mechanism, Model
+
+
+class MechanismError(KintrafoError, ValueError):
+    """A mechanism whose declaration contradicts itself, or whose loops do not close."""
+
+
+@contextmanager
+def telling(model: "Model | None" = None) -> Iterator[None]:
+    """Turn the generator's refusals into errors of this package.
+
+    Parameters
+    ----------
+    model : Model, optional
+        What is being derived: where a loop does not close, the error names other choices of
+        independent coordinates.
+    """
+    from ...generator.declared import DeclarationError
+    from ...generator.proposal import advice
+    from ...generator.topology import TopologyError
+    from ...generator.transformer import NoClosedFormError
+
+    try:
+        yield
+    except NoClosedFormError as error:
+        more = advice(model) if model else ""
+        message = f"{str(error).removesuffix('.')}. {more}" if more else str(error)
+        raise MechanismError(message) from error
+    except (DeclarationError, TopologyError) as error:
+        raise MechanismError(str(error)) from error
+
+
+def model_of(declared: "Model | Mechanism | str | Path", name: str | None = None) -> "Model":
+    """Return the model that is meant.
+
+    Parameters
+    ----------
+    declared : Model, Mechanism, str or Path
+        A model; a mechanism, of which a model with proposed coordinates is made; or a Python file
+        with one of these.
+    name : str, optional
+        Which one, where a file has several.
+
+    Returns
+    -------
+    Model
+
+    Raises
+    ------
+    InputError
+        If the file cannot be run, or does not say what is meant.
+    MechanismError
+        If the declaration contradicts itself.
+    """
+    from ...generator.mechanism import Mechanism
+    from ...generator.proposal import model_of as proposed
+
+    given = given_by(declared, name)
+    if isinstance(given, Mechanism):
+        with telling():
+            return proposed(given)
+    return given
+
+
+def given_by(declared: "Model | Mechanism | str | Path", name: str | None) -> "Model | Mechanism":
+    """Return what was declared, the file having been run if it is one.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be run, or does not say what is meant.
+    MechanismError
+        If the declaration contradicts itself.
+    """
+    from ...generator.mechanism import Mechanism, Model
+
+    with Arguments("compile") as checked:
+        if name is not None:
+            checked.kind("name", name, str, "the name of a model or a mechanism is needed")
+    given: Any = declared
+    if isinstance(declared, str | Path):
+        with telling():
+            given = _chosen(_run(Path(declared)), str(declared), name)
+    if isinstance(given, Model | Mechanism):
+        return given
+    problem = (
+        "a Model, a Mechanism (kintrafo.generator.mechanism) or the path of a Python file with one "
+        f"is needed, not {shown(declared)}."
+    )
+    raise InputError([problem], "compile")
+
+
+def _run(path: Path) -> ModuleType:
+    """Run a file and return what it defines."""
+    from ...generator.declared import DeclarationError
+
+    try:
+        with told(path, "cannot be read"):
+            source = path.read_text(encoding="utf-8")
+    except UnicodeDecodeError as error:
+        problem = f"is no text in UTF-8 (byte {error.start}). Give a Python file."
+        raise InputError([problem], str(path)) from error
+    module = ModuleType(path.stem)
+    module.__file__ = str(path)
+    try:
+        with _neighbours(path.parent.resolve()):
+            exec(compile(source, str(path), "exec"), vars(module))
+    except SyntaxError as error:
+        problem = f"Line {error.lineno}: {error.msg}: {(error.text or '').strip()}"
+        raise InputError([problem], str(path)) from error
+    except SystemExit as error:
+        problem = (
+            f"{_where(error, path)}: the file ends the program before its declaration is read. "
+            'Put what only a script should do below if __name__ == "__main__":'
+        )
+        raise InputError([problem], str(path)) from error
+    except DeclarationError as error:
+        problems = [f"{_line(error, path)}{error.name}: {problem}" for problem in error.problems]
+        raise InputError(problems, str(path)) from error
+    except Exception as error:
+        raise InputError([_where(error, path)], str(path)) from error
+    return module
+
+
+@contextmanager
+def _neighbours(folder: Path) -> Iterator[None]:
+    """Let a file import those beside it, as it can when it is run by itself.
+
+    They are forgotten afterwards: who has changed one of them means what it says now.
+    """
+    known = set(sys.modules)
+    sys.path.insert(0, str(folder))
+    try:
+        yield
+    finally:
+        sys.path.remove(str(folder))
+        for name in sys.modules.keys() - known:
+            file = getattr(sys.modules[name], "__file__", None)
+            if file and folder in Path(file).resolve().parents:
+                del sys.modules[name]
+
+
+def _where(error: BaseException, path: Path) -> str:
+    """Say where in a file an error occurred, and what it says."""
+    return f"{_line(error, path)}{type(error).__name__}: {error}"
+
+
+def _line(error: BaseException, path: Path) -> str:
+    """Return the line of a file at which an error occurred, maybe deep in what the line calls."""
+    lines = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == str(path)]
+    return f"Line {lines[-1]}: " if lines else ""
+
+
+def _chosen(module: ModuleType, path: str, name: str | None) -> "Model | Mechanism":
+    """Return the model of a file or, where it has none, the mechanism."""
+    from ...generator.mechanism import Mechanism, Model
+
+    defined = [v for v in vars(module).values() if isinstance(v, Model | Mechanism)]
+    listed = [m for v in vars(module).values() if isinstance(v, tuple | list) for m in v]
+    defined += [m for m in listed if isinstance(m, Model | Mechanism)]
+    models = [m for m in defined if isinstance(m, Model)]
+    found: dict[str, Model | Mechanism] = {m.name: m for m in models or defined}
+    if name is not None and name in found:
+        return found[name]
+    if name is not None:
+        raise InputError([f"{name!r} is not defined. {suggestion(name, found)}"], path)
+    if not found:
+        problem = "defines no Model and no Mechanism. Assign one to a name at its top level."
+        raise InputError([problem], path)
+    if len(found) > 1:
+        problem = f"defines {', '.join(found)}. Say which one is meant: --model {next(iter(found))}"
+        raise InputError([problem], path)
+    return next(iter(found.values()))

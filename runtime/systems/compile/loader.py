@@ -1,0 +1,129 @@
+"""A folder of the cache as a Python module."""
+
+import sys
+from importlib import import_module
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+from threading import RLock
+from types import ModuleType
+from typing import Any
+
+from ...core.errors import InputError
+from ...core.folders import VARIABLE
+from .cache import damage
+
+_lock = RLock()
+
+
+class _Source(SourceFileLoader):
+    """Runs a file as it is: compiled bytes of an earlier time are neither read nor written."""
+
+    def path_stats(self, path: Any) -> Any:
+        """Tell that no date is known, without which there are no compiled bytes."""
+        raise OSError(path)
+
+
+def load(folder: Path) -> ModuleType:
+    """Return the module of a compiled mechanism.
+
+    Parameters
+    ----------
+    folder : Path
+        The package of one model, as `kintrafo.compile` leaves it: named by model and fingerprint.
+
+    Returns
+    -------
+    module
+        As those of `kintrafo.generated`.
+
+    Raises
+    ------
+    InputError
+        If the system does not load it.
+    """
+    model, _, key = folder.name.rpartition("-")
+    package = f"kintrafo_{model}_{key}"
+    files = {
+        package: folder / "__init__.py",
+        f"{package}._{model}": folder / f"_{model}.py",
+        f"{package}.{model}": folder / f"{model}.py",
+    }
+    with _lock:  # one module for all threads
+        if any(name not in sys.modules for name in files):
+            _run(files, folder)
+        return sys.modules[f"{package}.{model}"]
+
+
+def _run(files: dict[str, Path], folder: Path) -> None:
+    """Run the files of a package in their order; none of them is known if one fails."""
+    try:
+        for name, path in files.items():
+            _run_file(name, path)
+    except OSError as error:
+        _forget(files)
+        problem = (
+            f'cannot be loaded: {error}. Name another folder in {VARIABLE}, or use backend="numpy".'
+        )
+        raise InputError([problem], str(folder)) from error
+    except BaseException:
+        _forget(files)
+        raise
+
+
+def _run_file(name: str, path: Path) -> None:
+    package, _, short = name.partition(".")
+    inside = None if short else [str(path.parent)]
+    loader = _Source(name, str(path))
+    spec = spec_from_file_location(name, path, loader=loader, submodule_search_locations=inside)
+    assert spec is not None
+    module = module_from_spec(spec)
+    sys.modules[name] = module
+    loader.exec_module(module)
+    if short:
+        setattr(sys.modules[package], short, module)
+
+
+def _forget(names: dict[str, Path]) -> None:
+    for name in names:
+        sys.modules.pop(name, None)
+
+
+def refuse_damaged(folder: Path) -> None:
+    """Refuse a compiled mechanism that is not as it was made.
+
+    Parameters
+    ----------
+    folder : Path
+        As of `load`.
+
+    Raises
+    ------
+    InputError
+    """
+    problem = damage(folder)
+    if problem:
+        text = f"{problem}: what was compiled is damaged. Compile the mechanism again."
+        raise InputError([text], str(folder))
+
+
+def find(name: str, file: str) -> ModuleType:
+    """Return a module of equations by what another process knows of it: for unpickling.
+
+    Parameters
+    ----------
+    name : str
+        ``__name__`` of the module.
+    file : str
+        ``__file__`` of the module.
+
+    Raises
+    ------
+    InputError
+        If what was compiled is damaged.
+    """
+    if name.startswith("kintrafo."):
+        return import_module(name)
+    if name not in sys.modules:
+        refuse_damaged(Path(file).parent)
+    return load(Path(file).parent)

@@ -1,0 +1,236 @@
+"""Equations linearised about a state: matrices, modes, frequency response.
+
+With ``x = state - state_0``, ``u = inputs - inputs_0`` and ``y = signals - signals_0``,
+
+    x' = A x + B u + rate_0,        y = C x + D u,
+
+where ``rate_0`` is the time derivative of the state at the point itself. At an equilibrium, or in
+steady motion with nothing but the spin angle changing, it plays no part, and the eigenvalues of A
+are those of the motion. About any other state the matrices are exact as well, but describe the
+motion only as long as the state stays near: the modes are those of frozen coefficients.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..core.arguments import Arguments
+from ..core.errors import InputError
+from .inputs import rates_of
+from .modes import Mode, eigenvalues_of, mode_of_states, modes_of
+from .state import inputs_of
+from .system import System
+
+if TYPE_CHECKING:
+    from scipy.signal import StateSpace
+
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+# A rate, relative to the forces' own accelerations, below which a state counts as steady.
+_STEADY = 1e-6
+# Its square must not overflow [Hz].
+_GREATEST_FREQUENCY = 1e100
+
+
+@dataclass(frozen=True)
+class Linearisation:
+    """Linear equations of motion about a state.
+
+    Attributes
+    ----------
+    state, inputs, outputs : ndarray
+        The point: state, inputs and the chosen signals there.
+    rate : ndarray, shape (states,)
+        Time derivative of the state at the point; see `steady`.
+    A : ndarray, shape (states, states)
+    B : ndarray, shape (states, inputs)
+    C : ndarray, shape (outputs, states)
+    D : ndarray, shape (outputs, inputs)
+        Derivatives of rate and outputs by state and inputs, exact; SI units.
+    state_names, input_names, output_names : tuple of str
+    state_units, input_units, output_units : tuple of str
+    """
+
+    state: Array
+    inputs: Array
+    outputs: Array
+    rate: Array
+    A: Array
+    B: Array
+    C: Array
+    D: Array
+    state_names: tuple[str, ...]
+    input_names: tuple[str, ...]
+    output_names: tuple[str, ...]
+    state_units: tuple[str, ...]
+    input_units: tuple[str, ...]
+    output_units: tuple[str, ...]
+
+    @property
+    def steady(self) -> bool:
+        """Whether nothing changes at the point but what no equation depends on.
+
+        That is the angle of a spinning wheel: it looks the same at every angle.
+        """
+        changing = self.A.any(axis=0)
+        # the size of what has to cancel: a state off by 1e-6 rad or m, or so
+        scale = max(1.0, float(np.abs(self.A[changing]).max()))
+        return bool(np.abs(self.rate[changing]).max() <= _STEADY * scale)
+
+    @property
+    def eigenvalues(self) -> Complex:
+        """Eigenvalues of A [1/s], those with the largest imaginary part first."""
+        return eigenvalues_of(self.A)
+
+    @property
+    def modes(self) -> tuple[Mode, ...]:
+        """The modes: one for each conjugate pair and for each real eigenvalue."""
+        return modes_of(self.A, self.state_names)
+
+    @property
+    def wheel_hop(self) -> Mode:
+        """The mode of the first coordinate, which of a suspension is the angle of its arm.
+
+        It is the pair of eigenvalues in which this coordinate and its rate take part most (see
+        `mode_of_states`): wheel and knuckle between spring and tyre. The two zeros of the spin have
+        no part of the arm: a wheel may stand at any angle, and roll at any speed.
+        """
+        names = self.state_names
+        return mode_of_states(self.A, names, (names[0], names[len(names) // 2]))
+
+    def state_space(self) -> "StateSpace":
+        """Return the matrices as SciPy's ``StateSpace``."""
+        from scipy.signal import StateSpace  # noqa: PLC0415 (slow to import)
+
+        return StateSpace(self.A, self.B, self.C, self.D)
+
+    def frequency_response(
+        self, frequency: ArrayLike, source: str = "road_height"
+    ) -> dict[str, Complex]:
+        """Return how the outputs follow a small harmonic input.
+
+        Parameters
+        ----------
+        frequency : array_like
+            [Hz].
+        source : str, optional
+            An input. Where the model takes the rates of it as inputs of their own (the position of
+            a prescribed rack, with its velocity and acceleration), they move along.
+
+        Returns
+        -------
+        dict
+            Output name to complex amplitude over that of the input, in the units of the two.
+
+        Raises
+        ------
+        InputError
+            If there is no such input, or an eigenvalue lies on one of the frequencies.
+        """
+        with Arguments("frequency response") as given:
+            frequencies = given.array("frequency", frequency, "Hz", empty=True)
+            given.among("source", source, self.input_names)
+            if np.abs(frequencies).max(initial=0.0) > _GREATEST_FREQUENCY:
+                given.refuse(
+                    f"frequency: {_GREATEST_FREQUENCY:g} Hz at most, in size, are possible."
+                )
+        s = (2j * np.pi * frequencies[..., None]).astype(np.complex128)
+        column = self._harmonic(source, s)
+        moved = s[..., None] * np.eye(len(self.A)) - self.A
+        try:
+            states = np.linalg.solve(moved, (column @ self.B.T)[..., None])[..., 0]
+        except np.linalg.LinAlgError as error:
+            problem = (
+                "frequency: an undamped mode lies on one of the frequencies (0 Hz: the wheel's "
+                "spin), where the response is infinite. Leave that frequency out."
+            )
+            raise InputError([problem], "frequency response") from error
+        response = states @ self.C.T + column @ self.D.T
+        return {name: response[..., i] for i, name in enumerate(self.output_names)}
+
+    def _harmonic(self, source: str, s: Complex) -> Complex:
+        """Return the amplitudes of all inputs while one of them moves with amplitude one."""
+        column = np.zeros((*s.shape[:-1], len(self.input_names)), dtype=np.complex128)
+        column[..., self.input_names.index(source)] = 1.0
+        for order, rate in enumerate(rates_of(source, self.input_names), 1):
+            column[..., self.input_names.index(rate)] = s[..., 0] ** order
+        return column
+
+
+def linearise(
+    model: "System",
+    state: ArrayLike,
+    inputs: ArrayLike | None = None,
+    *,
+    outputs: Sequence[str] | None = None,
+) -> Linearisation:
+    """Linearise the equations of motion about a state.
+
+    Parameters
+    ----------
+    model : System or Model
+    state, inputs : array_like
+        One state, and inputs: by default those that belong to the state, or zeros. A state of
+        rest is found by `kintrafo.equilibrium`; any other is allowed, see `Linearisation.steady`.
+    outputs : sequence of str, optional
+        Signals to take as outputs, all by default.
+
+    Returns
+    -------
+    Linearisation
+        Matrices from the compiled exact derivatives.
+
+    Raises
+    ------
+    InputError
+        If an output is not known, or more than one state is given.
+
+    Examples
+    --------
+    >>> from kintrafo import Model, equilibrium
+    >>> model = Model("reference_car")
+    >>> linear = linearise(model, equilibrium(model), outputs=["tyre_force"])
+    >>> linear.steady, linear.wheel_hop.text
+    (True, '12.35 Hz, damping ratio 0.233')
+    """
+    with Arguments("linearise") as checked:
+        checked.kind("model", model, System, System.NEEDED)
+        if not checked.refused:
+            held = inputs_of(state, model.names_of_states)
+            inputs = held if inputs is None else inputs
+            given = checked.array(
+                "inputs", model.inputs() if inputs is None else inputs, dimensions=[1],
+                last=len(model.input_names), empty=True,
+            )  # fmt: skip
+            point = checked.array("state", state, dimensions=[1], last=len(model.state_names))
+            outputs = model.signal_names if outputs is None else outputs
+            names = checked.names("outputs", outputs, model.signal_names)
+    rows = [model.signal_names.index(name) for name in names]
+    described = model.equations
+
+    def evaluated(function: str, *shape: int) -> Array:
+        """Return a result, empty where the mechanism has no inputs or no signals."""
+        return model.evaluate(function, point, given) if all(shape) else np.empty(shape)
+
+    signals, states, entries = map(len, (model.signal_names, model.state_names, model.input_names))
+    return Linearisation(
+        state=point,
+        inputs=given,
+        outputs=evaluated("signals", signals)[rows],
+        rate=model.evaluate("rhs", point, given),
+        A=model.evaluate("rhs_jacobian", point, given),
+        B=evaluated("rhs_input_jacobian", states, entries),
+        C=evaluated("signals_jacobian", signals, states)[rows],
+        D=evaluated("signals_input_jacobian", signals, entries)[rows],
+        state_names=model.state_names,
+        input_names=model.input_names,
+        output_names=names,
+        state_units=tuple(entry["unit"] for entry in described.STATE.values()),
+        input_units=tuple(entry["unit"] for entry in described.INPUTS.values()),
+        output_units=tuple(described.SIGNALS[name]["unit"] for name in names),
+    )

@@ -1,0 +1,100 @@
+"""States that know the inputs they belong to."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..core.errors import InputError
+
+Array = NDArray[np.float64]
+
+
+class Names(NamedTuple):
+    """What the numbers of a state and of its inputs are.
+
+    Attributes
+    ----------
+    state, inputs : tuple of str
+        As ``model.state_names`` and ``model.input_names``.
+    """
+
+    state: tuple[str, ...]
+    inputs: tuple[str, ...]
+
+
+class State(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
+    """An array of a state's elements, with the inputs under which the state was found.
+
+    Rest is rest only on its own road and with its rack where it was. Whatever takes a state and
+    inputs takes these where none are given: ``signals``, ``evaluate``, `kintrafo.linearise`, and
+    for the inputs that it is not told of, `kintrafo.simulate`. Copies, and sums such as
+    ``state + small``, keep them; an array made of several states has none, and inputs are zero
+    then as everywhere. A model with other coordinates or inputs refuses it.
+
+    Attributes
+    ----------
+    inputs : ndarray or None
+        In the order of ``model.input_names``.
+    names : Names or None
+        Of the model that the state is one of.
+
+    Examples
+    --------
+    >>> import kintrafo
+    >>> model = kintrafo.Model("reference_car")
+    >>> rest = kintrafo.equilibrium(model, wheel_load=3000.0)
+    >>> abs(float(model.signal("wheel_acceleration", rest))) < 1e-6
+    True
+    >>> rest.inputs.shape
+    (5,)
+    """
+
+    inputs: Array | None
+    names: Names | None
+
+    @classmethod
+    def of(cls, elements: ArrayLike, inputs: ArrayLike, names: Names) -> "State":
+        """Return a state with its inputs."""
+        state = np.array(elements, dtype=np.float64).view(cls)
+        state.inputs = np.array(inputs, dtype=np.float64)
+        state.names = names
+        return state
+
+    def __array_finalize__(self, source: Any) -> None:
+        same = source is not None and source.shape == self.shape
+        self.inputs = getattr(source, "inputs", None) if same else None
+        self.names = getattr(source, "names", None) if same else None
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        if self.names is None:
+            return np.array, (np.asarray(self),)
+        return State.of, (np.asarray(self), self.inputs, self.names)
+
+
+def inputs_of(state: Any, names: Names) -> Array | None:
+    """Return the inputs that belong to a state, if it knows them.
+
+    Parameters
+    ----------
+    state : array_like
+    names : Names
+        Of the model that is to take it.
+
+    Raises
+    ------
+    InputError
+        The state is one of a model with other coordinates or inputs.
+    """
+    if not isinstance(state, State) or state.names is None:
+        return None
+    if state.names != names:
+        there, here = (
+            f"({', '.join(n.state)}) and ({', '.join(n.inputs)})" for n in (state.names, names)
+        )
+        problem = (
+            f"the state has the coordinates and inputs {there}, this model {here}. Make it with "
+            "this model, or give its numbers as a plain array."
+        )
+        raise InputError([problem], "state")
+    return state.inputs

@@ -1,0 +1,250 @@
+"""Compiled equations of motion together with one set of parameters."""
+
+from collections.abc import Mapping
+from functools import cache, cached_property
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..core.arguments import Arguments, shown
+from .compile.loader import find
+from .modes import eigenvalues_of
+from .state import Names, inputs_of
+
+Array = NDArray[np.float64]
+
+
+class System:
+    """The compiled equations of one mechanism, with the values of its parameters.
+
+    Parameters
+    ----------
+    equations : module
+        One of `kintrafo.generated`, or what `kintrafo.compile` returns.
+    parameters : mapping, optional
+        Values by name, SI units, instead of the declared defaults.
+
+    Attributes
+    ----------
+    equations : module
+        The compiled module.
+    parameters : dict
+        Value of every parameter, SI units.
+    constants : ndarray
+        What the compiled functions take for these parameters.
+    design_state : ndarray
+        State at the design position, at rest.
+
+    Examples
+    --------
+    >>> from kintrafo.generated import four_bar
+    >>> system = System(four_bar, {"crank_mass": 2.0})
+    >>> system.state_names
+    ('crank_angle', 'crank_angle_rate')
+    """
+
+    NEEDED = 'a kintrafo.Model, such as Model("reference_car"), or a kintrafo.System is needed'
+
+    def __init__(
+        self, equations: ModuleType, parameters: Mapping[str, float] | None = None
+    ) -> None:
+        with Arguments("System") as given:
+            if not (isinstance(equations, ModuleType) and hasattr(equations, "PARAMETERS")):
+                given.refuse(
+                    f"equations = {shown(equations)}: a module of kintrafo.generated, or what "
+                    "kintrafo.compile returns, is needed. A suspension is a kintrafo.Model."
+                )
+            given.mapping("parameters", {} if parameters is None else parameters, "names, values")
+        self.equations = equations
+        self.parameters = _filled(equations, parameters or {})
+        self.constants: Array = equations.prepare(self.parameters)
+        self.design_state: Array = equations.design_state(self.parameters)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # modules cannot be pickled, but found again
+        where = self.equations.__name__, self.equations.__file__
+        return _found_again, (*where, self.parameters)
+
+    def __repr__(self) -> str:
+        return f"<System {self.equations.NAME}>"
+
+    @cached_property
+    def usual_margins(self) -> Array:
+        """The margins of the guards at the design position: the size of the numbers in them."""
+        margins = self.evaluate("margins", self.design_state)
+        usual: Array = np.where(np.isfinite(margins), np.abs(margins), 0.0)
+        return usual
+
+    # -- names ----------------------------------------------------------------------------------
+
+    @property
+    def state_names(self) -> tuple[str, ...]:
+        """Names of the state's elements, in order."""
+        return tuple(self.equations.STATE)
+
+    @property
+    def input_names(self) -> tuple[str, ...]:
+        """Names of the inputs, in order."""
+        return tuple(self.equations.INPUTS)
+
+    @cached_property
+    def names_of_states(self) -> Names:
+        """Names of what a `State` of this system is made of."""
+        return Names(self.state_names, self.input_names)
+
+    @property
+    def signal_names(self) -> tuple[str, ...]:
+        """Names of the physical signals, in order."""
+        return tuple(self.equations.SIGNALS)
+
+    # -- building arrays --------------------------------------------------------------------------
+
+    def state(self, **values: float) -> Array:
+        """Return a state, at the design position and at rest where nothing is given.
+
+        Parameters
+        ----------
+        **values : float
+            Elements of the state by name, SI units: ``beta1`` [rad], ``beta5_rate`` [rad/s], ...
+
+        Returns
+        -------
+        ndarray, shape (number of state elements,)
+        """
+        state = self.design_state.copy()
+        _assign(state, self.state_names, values, "state")
+        return state
+
+    def inputs(self, values: Mapping[str, float] | None = None) -> Array:
+        """Return the array of inputs, zero where nothing is given.
+
+        Parameters
+        ----------
+        values : mapping, optional
+            Inputs by name, SI units.
+
+        Returns
+        -------
+        ndarray, shape (number of inputs,)
+        """
+        array = np.zeros(len(self.input_names))
+        _assign(array, self.input_names, {} if values is None else values, "inputs")
+        return array
+
+    # -- evaluation -------------------------------------------------------------------------------
+
+    def evaluate(self, function: str, state: ArrayLike, inputs: ArrayLike | None = None) -> Array:
+        """Evaluate a compiled function with the constants of this suspension.
+
+        Parameters
+        ----------
+        function : str
+            Name of a function of `equations`.
+        state, inputs : array_like
+            One or many, as in the compiled module. Without inputs those that belong to the state
+            (see `State`), or zeros.
+
+        Returns
+        -------
+        ndarray
+            Shape of the result behind the leading dimensions.
+        """
+        with Arguments(f"{self.equations.NAME}.{function}") as given:
+            given.among("function", function, _functions(self.equations))
+            rows = given.array("state", state, last=len(self.state_names), empty=True, finite=False)
+            held = inputs_of(state, self.names_of_states)
+            columns = held if inputs is None else inputs
+            if columns is not None:
+                columns = given.array(
+                    "inputs", columns, last=len(self.input_names), empty=True, finite=False
+                )
+                _check_leading(given, rows, columns)
+        result: Array = getattr(self.equations, function)(rows, columns, self.constants)
+        return result
+
+    def signals(self, state: ArrayLike, inputs: ArrayLike | None = None) -> dict[str, Array]:
+        """Return all physical signals by name, in SI units.
+
+        Parameters
+        ----------
+        state, inputs : array_like
+            One or many, as for `evaluate`.
+
+        Returns
+        -------
+        dict
+            Name to array over the leading dimensions; see ``equations.SIGNALS`` for units, signs.
+        """
+        if not self.signal_names:
+            return {}
+        values = self.evaluate("signals", state, inputs)
+        return {name: values[..., i] for i, name in enumerate(self.signal_names)}
+
+    def signal(self, name: str, state: ArrayLike, inputs: ArrayLike | None = None) -> Array:
+        """Return one physical signal."""
+        with Arguments("signals") as given:
+            given.among("signal", name, self.signal_names)
+        return self.signals(state, inputs)[name]
+
+    def eigenvalues(
+        self, state: ArrayLike, inputs: ArrayLike | None = None
+    ) -> NDArray[np.complex128]:
+        """Return the eigenvalues of the equations linearised at a state, inputs held.
+
+        Parameters
+        ----------
+        state, inputs : array_like
+            One state.
+
+        Returns
+        -------
+        ndarray of complex
+            Eigenvalues of the exact Jacobian of the right-hand side [1/s], those with the largest
+            imaginary part first. `kintrafo.linearise` has the modes that belong to them.
+        """
+        return eigenvalues_of(self.evaluate("rhs_jacobian", state, inputs))
+
+
+@cache
+def _functions(equations: ModuleType) -> tuple[str, ...]:
+    """Return the names of the functions of states and inputs."""
+    return tuple(name for name, made in vars(equations).items() if hasattr(made, "labels"))
+
+
+def _found_again(name: str, file: str, parameters: Mapping[str, float]) -> System:
+    return System(find(name, file), parameters)
+
+
+def _filled(equations: ModuleType, values: Mapping[str, float]) -> dict[str, float]:
+    """Return values for all parameters, the defaults where nothing is given."""
+    known = {name: entry["default"] for name, entry in equations.PARAMETERS.items()}
+    units = {name: entry["unit"] for name, entry in equations.PARAMETERS.items()}
+    with Arguments(equations.NAME) as given:
+        checked = {
+            given.among("parameter", name, known): given.number(
+                f"parameter {shown(name)}",
+                value,
+                units.get(name, ""),
+            )
+            for name, value in values.items()
+        }
+    return known | checked
+
+
+def _assign(array: Array, names: tuple[str, ...], values: Mapping[str, Any], what: str) -> None:
+    with Arguments(what) as given:
+        for name, value in given.mapping(what, values, "names and values").items():
+            number = given.number(f"{what} {shown(name)}", value)
+            array[names.index(given.among("element", name, names))] = number
+
+
+def _check_leading(given: Arguments, state: Array, inputs: Array) -> None:
+    try:
+        np.broadcast_shapes(state.shape[:-1], inputs.shape[:-1])
+    except ValueError:
+        given.refuse(
+            f"state and inputs have the shapes {state.shape} and {inputs.shape}: their leading "
+            "dimensions must go together."
+        )
