@@ -14,9 +14,9 @@ import typer
 from kintrafo import Simulation, System, simulate
 from kintrafo.figures import BLUE, ORANGE, STYLE
 from kintrafo.generated import front_axle as equations
-from kintrafo.generator.mechanism import Model
+from kintrafo.generator import Model
+from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import front_axle, macpherson
-from kintrafo.generator.outputs import generate
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 from rich.console import Console

@@ -22,9 +22,9 @@ import numpy as np
 import typer
 from kintrafo import System, simulate
 from kintrafo.figures import BLUE, STYLE
-from kintrafo.generator.mechanism import Model
+from kintrafo.generator import Model
+from kintrafo.generator.equations.outputs import GeneratedModel, generate
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
-from kintrafo.generator.outputs import GeneratedModel, generate
 from kintrafo.own.build import build
 from kintrafo.own.compiler import Compiler, find_compiler
 from kintrafo.own.loader import load

@@ -21,8 +21,8 @@ What a declaration is made of can be imported from here.
 """
 
 from . import memory  # noqa: F401 (before SymPy is imported)
-from .declared import DeclarationError
-from .forces import (
+from .declare.declared import DeclarationError
+from .declare.forces import (
     AlongLine,
     AlongTelescope,
     ForceElement,
@@ -31,11 +31,12 @@ from .forces import (
     TwistOfHinges,
     Weight,
 )
-from .geometry import FORWARD, UP, Direction, Line, Point
-from .joints import Cylindrical, Prismatic, Revolute, Spherical, Universal
-from .laws import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
-from .mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
-from .parameters import direction, point, rigid_body, rotor
+from .declare.geometry import FORWARD, UP, Direction, Line, Point
+from .declare.joints import Cylindrical, Prismatic, Revolute, Spherical, Universal
+from .declare.laws import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
+from .declare.mechanism import Body, Mechanism, Parameter, RelativeCoordinate
+from .declare.model import Model
+from .declare.parameters import direction, point, rigid_body, rotor
 
 __all__ = [
     "FORWARD",

@@ -15,25 +15,24 @@ import own_loops
 import own_mechanisms
 import pytest
 import sympy as sp
-from kintrafo.generator.actions import PlaceIdle
-from kintrafo.generator.composition import combined, copy
-from kintrafo.generator.design import _angle, design_coordinates
-from kintrafo.generator.dynamics import Dynamics
-from kintrafo.generator.joints import Revolute
-from kintrafo.generator.mechanism import Model
+from kintrafo.generator import Model, Revolute
+from kintrafo.generator.closed_forms import CATALOGUE
+from kintrafo.generator.declare.composition import combined, copy
+from kintrafo.generator.equations.design import _angle, design_coordinates
+from kintrafo.generator.equations.dynamics import Dynamics
+from kintrafo.generator.equations.parts import Parts
+from kintrafo.generator.loops.actions import PlaceIdle
 from kintrafo.generator.mechanisms import MODELS, chains, multi_link
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
-from kintrafo.generator.parts import Parts
+from kintrafo.generator.planning.plan import Plan
 from kintrafo.generator.program import ConstantStage, Function, Program, Step, ancestors
-from kintrafo.generator.solutions import CATALOGUE
-from kintrafo.generator.transformer import Plan
 from symbolic import python
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from kintrafo.generator.iteration import Block
-    from kintrafo.generator.mechanism import Mechanism
+    from kintrafo.generator import Mechanism
+    from kintrafo.generator.program.newton import Block
 
 DIGITS = 40
 COPIES = "a_", "b_"

@@ -8,13 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 from kintrafo.generated import excavator, excavator_lifting
-from kintrafo.generator.actions import SolveStroke
-from kintrafo.generator.forces import AlongLine, ForceElement, Weight
-from kintrafo.generator.geometry import Point
-from kintrafo.generator.laws import Actuator
+from kintrafo.generator import Actuator, AlongLine, ForceElement, Point, Weight
+from kintrafo.generator.equations.outputs import generate
+from kintrafo.generator.loops.actions import SolveStroke
 from kintrafo.generator.mechanisms.excavator import EXCAVATOR, LIFTING, MODELS
-from kintrafo.generator.outputs import generate
-from kintrafo.generator.transformer import Plan
+from kintrafo.generator.planning.plan import Plan
 from own_models import Built
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq

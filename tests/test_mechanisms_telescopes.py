@@ -14,20 +14,30 @@ from typing import TYPE_CHECKING, Any
 import mpmath
 import numpy as np
 import pytest
-from kintrafo.generator.actions import PlaceTelescope, SolveHinge, SolveSlide, SolveStroke
-from kintrafo.generator.geometry import Direction
-from kintrafo.generator.joints import Prismatic, Revolute, Spherical, Universal
-from kintrafo.generator.mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
+from kintrafo.generator import (
+    Body,
+    Direction,
+    Mechanism,
+    Model,
+    Parameter,
+    Prismatic,
+    RelativeCoordinate,
+    Revolute,
+    Spherical,
+    Universal,
+)
+from kintrafo.generator.equations.outputs import generate
+from kintrafo.generator.loops.actions import PlaceTelescope, SolveHinge, SolveSlide, SolveStroke
+from kintrafo.generator.loops.errors import NoClosedFormError
 from kintrafo.generator.mechanisms.planar import flat, hinge, inertia, places
 from kintrafo.generator.mechanisms.slider_crank import MODELS as SLIDER_CRANKS
-from kintrafo.generator.outputs import generate
-from kintrafo.generator.transformer import NoClosedFormError, Plan
+from kintrafo.generator.planning.plan import Plan
 from mpmath import mpf
 from own_models import Built, needs_gcc, own
 from symbolic import constants_of, python
 
 if TYPE_CHECKING:
-    from kintrafo.generator.joints import Joint
+    from kintrafo.generator.declare.joints import Joint
 
 EPSILON = 2.0**-52
 BOOM, BASE = (

@@ -8,15 +8,29 @@ import networkx as nx
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kintrafo.generator.actions import SolveHinge, SolveSlide, SolveTelescope, SolveTurn
-from kintrafo.generator.declared import DeclarationError
-from kintrafo.generator.geometry import FORWARD, Direction, Line, Point
-from kintrafo.generator.joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
-from kintrafo.generator.mechanism import Body, Mechanism, Model, RelativeCoordinate
+from kintrafo.generator import (
+    FORWARD,
+    Body,
+    Cylindrical,
+    DeclarationError,
+    Direction,
+    Line,
+    Mechanism,
+    Model,
+    Point,
+    Prismatic,
+    RelativeCoordinate,
+    Revolute,
+    Spherical,
+    Universal,
+)
+from kintrafo.generator.declare.joints import Joint
+from kintrafo.generator.loops.actions import SolveHinge, SolveSlide, SolveTelescope, SolveTurn
+from kintrafo.generator.loops.errors import NoClosedFormError, TopologyError
+from kintrafo.generator.loops.graph import Cycle, Topology
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
-from kintrafo.generator.topology import Cycle, Topology, TopologyError
-from kintrafo.generator.transformer import NoClosedFormError, Plan
+from kintrafo.generator.planning.plan import Plan
 
 MODEL = MODELS[0]
 PAPER = MODELS[:2]  # the paper's suspension, its rack prescribed and free

@@ -12,13 +12,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ..composition import combined, copy
-from ..forces import ForceElement, TwistOfHinges
-from ..geometry import FORWARD, Direction, Line, Point
-from ..joints import Revolute, Spherical, Universal
-from ..laws import LinearSpring
-from ..mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
-from ..parameters import direction, point, rigid_body
+from ..declare.composition import combined, copy
+from ..declare.forces import ForceElement, TwistOfHinges
+from ..declare.geometry import FORWARD, Direction, Line, Point
+from ..declare.joints import Revolute, Spherical, Universal
+from ..declare.laws import LinearSpring
+from ..declare.mechanism import Body, Mechanism, Parameter, RelativeCoordinate
+from ..declare.model import Model
+from ..declare.parameters import direction, point, rigid_body
 from . import macpherson
 
 BAR_BUSH = Point("bar_bush")

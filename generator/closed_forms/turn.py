@@ -1,0 +1,135 @@
+"""A body held by a rod: its turn about a line that is known."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ..kinematics.extent import extent_squared
+from ..kinematics.motion import OnLine, Placed, PointMotion
+from ..program.vectors import ZERO, Twist, Vector
+from .arm import Arm, Fit, Reach, fit_rod
+from .lines import line_alpha, line_omega, once, place_rod, projector
+from .offset_turn import solve_offset_turn
+
+if TYPE_CHECKING:
+    from ..declare.geometry import Point
+    from ..kinematics.kinematics import Kinematics
+    from ..loops.actions import SolveTurn
+
+
+def solve_turn(kin: Kinematics, action: SolveTurn) -> None:
+    """Turn a body about its known line until a rod fits (Eqs. 13 to 16).
+
+    The equation ``a1 cos + a2 sin = a3`` of the paper is that of `arm`, about a line between two
+    points that both move.
+    """
+    if action.body in kin.off_line:
+        solve_offset_turn(kin, action)
+        return
+    record = kin.on_line[action.body]
+    base = _Base.of(kin, action.body, record)
+    line = kin.unit(
+        f"{action.body}_line_design", kin.design(record.end) - kin.design(record.anchor)
+    )
+    extent = extent_squared(kin, action)
+    arm = Arm.of(kin, action.body, line, base.point, action.end, extent)
+    rod_anchor = kin.point_motion(action.anchor_body, action.anchor)
+    reach = _reach(kin, action.body, record, base, arm, rod_anchor)
+    fit = fit_rod(kin, action, arm, record.direction, reach)
+    placed = Placed(
+        action.body,
+        origin=base.motion.position,
+        axes=fit.axes,
+        design_origin=kin.design(base.point),
+        design_axes=arm.design_axes,
+        local={base.point: ZERO, action.end: arm.local},
+        carrier=(base.carrier, kin.local(kin.placed[base.carrier], base.point)),
+    )
+    _turn_motion(kin, placed, record, base, arm.local, fit, rod_anchor)
+    kin.placed[action.body] = placed
+    place_rod(kin, action, rod_anchor, fit.rod.length)
+
+
+@dataclass(frozen=True)
+class _Base:
+    """The point of the line that is fixed in the body, and where it lies along the line."""
+
+    point: Point
+    motion: PointMotion
+    carrier: str
+    from_anchor: sp.Expr
+
+    @classmethod
+    def of(cls, kin: Kinematics, body: str, record: OnLine) -> _Base:
+        """Return the anchor of the line, or its end if the body holds only that."""
+        if any(record.anchor == j.center for j in kin.mechanism.joints_of(body)):
+            return cls(record.anchor, record.anchor_motion, record.anchor_body, sp.Integer(0))
+        return cls(record.end, record.end_motion, record.end_body, record.length)
+
+
+def _reach(
+    kin: Kinematics,
+    body: str,
+    record: OnLine,
+    base: _Base,
+    arm: Arm,
+    rod_anchor: PointMotion,
+) -> Reach:
+    """Return the rod's anchor as seen from the line.
+
+    From the span and not from its direction, so that nothing waits for the root of the length.
+    """
+    program = kin.program
+    e = program.vector(f"{body}_reach", rod_anchor.position - record.anchor_motion.position)
+    on_span = program.define(f"{body}_reach_on_span", e.dot(record.span))
+    part = program.define(f"{body}_reach_part", on_span * record.inverse_squared)
+    along = program.define(f"{body}_reach_along", on_span * record.inverse_length)
+    return Reach(
+        program.define(f"{body}_reach_axial", along - (arm.along + base.from_anchor)),
+        program.vector(f"{body}_reach_across", e - record.span * part),
+        program.vector(f"{body}_reach_normal", record.direction.cross(e)),
+    )
+
+
+def _turn_motion(
+    kin: Kinematics,
+    placed: Placed,
+    record: OnLine,
+    base_point: _Base,
+    arm: Vector,
+    fit: Fit,
+    rod_anchor: PointMotion,
+) -> None:
+    """Velocities and bias: the line turns with its points, the rod keeps its length."""
+    body, program = placed.body, kin.program
+    to_body = projector(kin, placed)
+    gap, hold = fit.gap, fit.hold
+    rod_rate = ZERO
+    names = dict.fromkeys([*base_point.motion.motion, *record.relative.motion, *rod_anchor.motion])
+    for k in names:
+        base = to_body(f"velocity_{k}", base_point.motion.motion.get(k, ZERO))
+        across = line_omega(record, to_body(f"swing_{k}", record.relative.motion.get(k, ZERO)))
+        across = program.vector(f"{body}_omega_{k}", across, "123")
+        anchor = to_body(f"rod_anchor_{k}", rod_anchor.motion.get(k, ZERO))
+        slip = base - anchor + across.cross(arm)
+        turn = program.define(f"{body}_turn_{k}", gap.dot(slip) * hold)
+        omega = Vector(turn, across.y, across.z)
+        placed.motion[k] = Twist(omega, base)
+        rod_rate += (base - anchor + omega.cross(arm)) * kin.rate(k)
+
+    def bias() -> Twist:
+        rate = program.vector(f"{body}_rod_rate", rod_rate, "123")
+        omega = kin.total(placed).angular
+        base = to_body("acceleration", base_point.motion.bias)
+        anchor = to_body("rod_anchor_bias", rod_anchor.bias)
+        alpha = line_alpha(kin, record, omega, to_body("swing_bias", record.relative.bias))
+        alpha = program.vector(f"{body}_alpha", alpha, "123")
+        whirl = program.vector(f"{body}_whirl", omega.cross(arm), "123")
+        pull = base - anchor + omega.cross(whirl) + alpha.cross(arm)
+        turn = program.define(f"{body}_turn_bias", (gap.dot(pull) + rate.dot(rate)) * hold)
+        return Twist(Vector(turn, alpha.y, alpha.z), base)
+
+    placed.bias = once(bias)

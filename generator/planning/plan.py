@@ -1,0 +1,5 @@
+"""The plan of a model."""
+
+from ..loops.planner import Plan
+
+__all__ = ["Plan"]
