@@ -21,6 +21,7 @@ What a declaration is made of can be imported from here.
 """
 
 from . import memory  # noqa: F401 (before SymPy is imported)
+from .declare.assembly import Body, Parameter, RelativeCoordinate
 from .declare.declared import DeclarationError
 from .declare.forces import (
     AlongLine,
@@ -34,7 +35,7 @@ from .declare.forces import (
 from .declare.geometry import FORWARD, UP, Direction, Line, Point
 from .declare.joints import Cylindrical, Prismatic, Revolute, Spherical, Universal
 from .declare.laws import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
-from .declare.mechanism import Body, Mechanism, Parameter, RelativeCoordinate
+from .declare.mechanism import Mechanism
 from .declare.model import Model
 from .declare.parameters import direction, point, rigid_body, rotor
 

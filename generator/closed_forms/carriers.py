@@ -10,8 +10,8 @@ from ..loops.actions import HeldByRod, SolveCarrier
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from ..declare.assembly import Body
     from ..declare.geometry import Point
-    from ..declare.mechanism import Body
     from ..loops.graph import Cycle
     from ..loops.known import Settled
 

@@ -17,11 +17,11 @@ from .names import name_problems, text_problems
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
+    from .assembly import Assembly
     from .joints import Joint
-    from .mechanism import Mechanism
 
 
-def check_mechanism(mechanism: Mechanism) -> None:
+def check_mechanism(mechanism: Assembly) -> None:
     """Raise `DeclarationError` if a mechanism has names or numbers that cannot be."""
     problems = [
         *_repeated_problems(mechanism),
@@ -37,7 +37,7 @@ def check_mechanism(mechanism: Mechanism) -> None:
         raise DeclarationError(mechanism.name, problems)
 
 
-def _repeated_problems(mechanism: Mechanism) -> list[str]:
+def _repeated_problems(mechanism: Assembly) -> list[str]:
     """Find what there must be once: names of a kind, numbers of bodies, elements."""
     problems = [] if mechanism.bodies else ["there are no bodies; the first one is the ground"]
     forces = mechanism.forces
@@ -58,7 +58,7 @@ def _repeated_problems(mechanism: Mechanism) -> list[str]:
     return problems
 
 
-def _joint_problems(mechanism: Mechanism) -> list[str]:
+def _joint_problems(mechanism: Assembly) -> list[str]:
     bodies, problems = [b.name for b in mechanism.bodies], []
     for joint in mechanism.joints:
         problems += unknown(f"joint {joint.name!r}: body", joint.bodies, bodies)
@@ -69,7 +69,7 @@ def _joint_problems(mechanism: Mechanism) -> list[str]:
     return problems
 
 
-def _coordinate_problems(mechanism: Mechanism) -> list[str]:
+def _coordinate_problems(mechanism: Assembly) -> list[str]:
     joints, problems = {j.name: j.coordinates for j in mechanism.joints}, []
     balls = {j.name for j in mechanism.joints if isinstance(j, Spherical)}
     for coordinate in mechanism.coordinates:
@@ -85,7 +85,7 @@ def _coordinate_problems(mechanism: Mechanism) -> list[str]:
     return problems
 
 
-def _force_problems(mechanism: Mechanism) -> list[str]:
+def _force_problems(mechanism: Assembly) -> list[str]:
     joints = [j.name for j in mechanism.joints]
     bodies = [b.name for b in mechanism.bodies]
     problems = []
@@ -105,7 +105,7 @@ def _force_problems(mechanism: Mechanism) -> list[str]:
     return problems
 
 
-def _element_problems(mechanism: Mechanism, element: ForceElement) -> list[str]:
+def _element_problems(mechanism: Assembly, element: ForceElement) -> list[str]:
     what, path = f"ForceElement {element.name!r}", element.path
     telescopic = isinstance(path, AlongTelescope)
     if isinstance(path, AlongTelescope):
@@ -128,7 +128,7 @@ def _element_problems(mechanism: Mechanism, element: ForceElement) -> list[str]:
 
 
 def _of_kind(
-    mechanism: Mechanism, what: str, names: Iterable[str], wanted: type[Joint]
+    mechanism: Assembly, what: str, names: Iterable[str], wanted: type[Joint]
 ) -> list[str]:
     """Find joints that an element cannot act along."""
     joints = {j.name: j for j in mechanism.joints}
@@ -147,7 +147,7 @@ def _of_kind(
     return problems
 
 
-def _geometry_problems(mechanism: Mechanism) -> list[str]:
+def _geometry_problems(mechanism: Assembly) -> list[str]:
     """Find names that mean two things: a point is in a plane or not, and it is no direction."""
     meant: dict[str, set[str]] = {}
     for part in parts(mechanism):

@@ -36,11 +36,12 @@ from .forces import (
 from .geometry import Direction, Line, Point
 from .joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
 from .laws import Stop
-from .mechanism import Body, Mechanism, Parameter, RelativeCoordinate
+from .mechanism import Mechanism
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Mapping
 
+    from .assembly import Body, Parameter, RelativeCoordinate
     from .forces import Force
     from .laws import Law
 

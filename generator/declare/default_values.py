@@ -18,13 +18,13 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from ..program.vectors import Vector
-    from .mechanism import Mechanism
+    from .assembly import Assembly
 
 # What rounding may leave of a length or an angle that is none, relative to what it comes from.
 _ROUNDING = 1e-9
 
 
-def value_problems(mechanism: Mechanism) -> list[str]:
+def value_problems(mechanism: Assembly) -> list[str]:
     """Find defaults out of their ranges, impossible inertia, and lines without a direction.
 
     Of what parameters are missing for nothing is said; that is found when they are read.
@@ -34,7 +34,7 @@ def value_problems(mechanism: Mechanism) -> list[str]:
     return problems + (list(_lost_directions(mechanism)) or _angle_problems(mechanism))
 
 
-def _lost_directions(mechanism: Mechanism) -> Iterator[str]:
+def _lost_directions(mechanism: Assembly) -> Iterator[str]:
     """Find points that coincide where a line is between them, and directions of length zero."""
     value = AtDefaults(mechanism)
     told: set[str] = set()
@@ -68,7 +68,7 @@ def _size(value: AtDefaults, *places: Vector) -> float:
     return max(float(np.linalg.norm(list(map(value, place)))) for place in places)
 
 
-def _angle_problems(mechanism: Mechanism) -> list[str]:
+def _angle_problems(mechanism: Assembly) -> list[str]:
     """Find hinges whose angle counts from, or to, what lies along the hinge."""
     value, problems = AtDefaults(mechanism), []
     for joint in mechanism.joints:

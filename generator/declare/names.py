@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from .forces import ForceElement, LinearTyre
 
 if TYPE_CHECKING:
-    from .mechanism import Mechanism
+    from .assembly import Assembly
 
 # What the emitted C and Python call their own, and the words of both languages.
 _C_WORDS = """
@@ -57,7 +57,7 @@ _ENDS_OF_COMMENTS = ("*/", '"""', "\\", "\n", "\r")
 _COUNTED = ("count",)  # an enumeration ends with the number of its elements
 
 
-def name_problems(mechanism: Mechanism) -> list[str]:
+def name_problems(mechanism: Assembly) -> list[str]:
     """Find names that code cannot have: reserved words, one name for two things."""
     coordinates = [c.name for c in mechanism.coordinates]
     kinds = {
@@ -96,7 +96,7 @@ def _reserved(kind: str, name: str) -> list[str]:
     return []
 
 
-def text_problems(mechanism: Mechanism) -> list[str]:
+def text_problems(mechanism: Assembly) -> list[str]:
     """Find units and meanings that comments and docstrings cannot have."""
     entries = [
         *((f"parameter {p.name!r}", (p.unit, p.meaning)) for p in mechanism.parameters),

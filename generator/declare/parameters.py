@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ..program.vectors import ELEMENTS
+from .assembly import Parameter
 from .declared import Name, Number, checked
-from .mechanism import Parameter
 
 Three = tuple[Number, Number, Number]
 

@@ -18,12 +18,12 @@ from .forces import ForceElement
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from .mechanism import Mechanism
+    from .assembly import Assembly
 
 _NOT_NEGATIVE = Bounds(least=0.0)
 
 
-def described(mechanism: Mechanism) -> dict[str, dict[str, float | str]]:
+def described(mechanism: Assembly) -> dict[str, dict[str, float | str]]:
     """Return unit, meaning and bounds of every parameter, as generated modules have them.
 
     Returns
@@ -47,13 +47,13 @@ def described(mechanism: Mechanism) -> dict[str, dict[str, float | str]]:
     return found
 
 
-def _read(mechanism: Mechanism, name: str) -> str:
+def _read(mechanism: Assembly, name: str) -> str:
     """Return the parameter that a name stands for; nothing where it is an expression in several."""
     meant = mechanism.derived.get(name, sp.Symbol(name))
     return str(meant) if meant.is_Symbol else ""
 
 
-def _bounds(mechanism: Mechanism) -> Iterator[tuple[str, Bounds]]:
+def _bounds(mechanism: Assembly) -> Iterator[tuple[str, Bounds]]:
     for body in mechanism.bodies:
         yield f"{body.name}_mass", _NOT_NEGATIVE
         for element in (*ELEMENTS[:3], "spin", "diametral"):

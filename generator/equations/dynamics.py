@@ -35,8 +35,8 @@ from ..program.functions import IsPositive, Positive
 from ..program.vectors import ELEMENTS, SymmetricTensor, Twist, Vector
 
 if TYPE_CHECKING:
+    from ..declare.assembly import Body
     from ..declare.laws import Law
-    from ..declare.mechanism import Body
     from .parts import Parts
 
 NONE = sp.Integer(0)

@@ -21,7 +21,7 @@ from .motion import IDENTITY, Axes, OffLine, OnLine, Placed, PointMotion, from_a
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator
 
-    from ..declare.mechanism import Body, RelativeCoordinate
+    from ..declare.assembly import Body, RelativeCoordinate
     from ..loops.actions import Action
     from ..loops.planner import Plan
     from ..program.program import Program

@@ -10,9 +10,10 @@ from __future__ import annotations
 
 import sympy as sp
 
+from ..declare.assembly import Body, Parameter, RelativeCoordinate
 from ..declare.forces import AlongLine, ForceElement, JointForce
 from ..declare.laws import LinearSpring
-from ..declare.mechanism import Body, Mechanism, Parameter, RelativeCoordinate
+from ..declare.mechanism import Mechanism
 from ..declare.model import Model
 from .planar import flat, hinge, inertia, places
 

@@ -13,10 +13,11 @@ from __future__ import annotations
 
 from itertools import pairwise
 
+from ..declare.assembly import Body, Parameter, RelativeCoordinate
 from ..declare.forces import JointForce, Weight
 from ..declare.geometry import Direction, Line, Point
 from ..declare.joints import Revolute
-from ..declare.mechanism import Body, Mechanism, Parameter, RelativeCoordinate
+from ..declare.mechanism import Mechanism
 from ..declare.model import Model
 from ..declare.parameters import direction, point, rigid_body
 

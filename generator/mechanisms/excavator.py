@@ -15,10 +15,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ..declare.assembly import Body, Parameter, RelativeCoordinate
 from ..declare.forces import JointForce, Weight
 from ..declare.geometry import Direction
 from ..declare.joints import Prismatic
-from ..declare.mechanism import Body, Mechanism, Parameter, RelativeCoordinate
+from ..declare.mechanism import Mechanism
 from ..declare.model import Model
 from .planar import flat, hinge, inertia, places
 

@@ -7,9 +7,10 @@ crank of 0.1 m, turns all the way round. There is no gravity in its plane.
 
 from __future__ import annotations
 
+from ..declare.assembly import Body, Parameter, RelativeCoordinate
 from ..declare.forces import AlongLine, ForceElement, JointForce
 from ..declare.laws import LinearDamper, LinearSpring
-from ..declare.mechanism import Body, Mechanism, Parameter, RelativeCoordinate
+from ..declare.mechanism import Mechanism
 from ..declare.model import Model
 from .planar import flat, hinge, inertia, places
 

@@ -8,8 +8,9 @@ pass.
 
 from __future__ import annotations
 
+from ..declare.assembly import Body, Parameter, RelativeCoordinate
 from ..declare.forces import JointForce, Weight
-from ..declare.mechanism import Body, Mechanism, Parameter, RelativeCoordinate
+from ..declare.mechanism import Mechanism
 from ..declare.model import Model
 from .planar import flat, hinge, inertia
 

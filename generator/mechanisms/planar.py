@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
+from ..declare.assembly import Parameter
 from ..declare.geometry import UP, Direction, Line, Point
 from ..declare.joints import Revolute
-from ..declare.mechanism import Parameter
 from ..program.vectors import UNIT_Y
 
 if TYPE_CHECKING:

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import math
 
+from ..declare.assembly import Body, Parameter, RelativeCoordinate
 from ..declare.forces import JointForce
 from ..declare.geometry import FORWARD
 from ..declare.joints import Prismatic
-from ..declare.mechanism import Body, Mechanism, Parameter, RelativeCoordinate
+from ..declare.mechanism import Mechanism
 from ..declare.model import Model
 from .planar import flat, hinge, inertia, places
 
