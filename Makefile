@@ -1,6 +1,6 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
-.PHONY: drawings help setup generate build run test test-elsewhere fuzz package lint types format baseline clean \
+.PHONY: drawings help setup generate build run test test-elsewhere fuzz package lint tree types format baseline clean \
 	benchmark benchmark-andrews benchmark-bits benchmark-growth benchmark-loops benchmark-page benchmark-peers benchmark-speed format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
@@ -41,19 +41,22 @@ test-elsewhere: build ## Run the tests of numbers as another processor would com
 fuzz: build ## Try every door for long; a table of what came of it (ARGS="--rounds 100")
 	@PYTHONPATH=tests $(PYTHON) -m fuzz $(ARGS)
 
-lint: .venv/.ready ## Check style
+lint: .venv/.ready tree ## Check style, and who imports whom
 	@.venv/bin/ruff check .
 	@.venv/bin/ruff format --check .
+	@PYTHONPATH=build/types .venv/bin/lint-imports --no-cache
 
 format: .venv/.ready ## Rewrite the sources in the project's style
 	@.venv/bin/ruff check --fix-only --quiet .
 	@.venv/bin/ruff format --quiet .
 
-# mypy follows folders, not the mapping of the three of them onto one package
-types: .venv/.ready ## Check types
+# mypy and import-linter follow folders, not the mapping of the three of them onto one package
+tree:
 	@mkdir -p build/types/kintrafo
 	@for item in runtime/*; do ln -sfn "../../../$$item" build/types/kintrafo/; done
 	@ln -sfn ../../../generator ../../../generated build/types/kintrafo/
+
+types: .venv/.ready tree ## Check types
 	@MYPYPATH=build/types .venv/bin/mypy -p kintrafo
 
 benchmark: build ## Gear against Runge-Kutta: tables and plots in out/benchmark/

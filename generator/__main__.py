@@ -13,8 +13,8 @@ from ..cli.exits import guarded, standing_streams
 from .backends.files import project_files, shared_files
 from .backends.report.markdown import block_diagram, bodies_of, joint_rows, mobility_line, path_rows
 from .equations.outputs import generate
-from .loops.planner import Plan
 from .mechanisms import MODELS
+from .planning.plan import Plan
 
 if TYPE_CHECKING:
     from .loops.graph import Topology

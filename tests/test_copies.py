@@ -16,12 +16,12 @@ import own_mechanisms
 import pytest
 import sympy as sp
 from kintrafo.generator import Model, Revolute
-from kintrafo.generator.closed_forms import CATALOGUE
+from kintrafo.generator.closed_forms.catalogue import STEPS
+from kintrafo.generator.closed_forms.idle import PlaceIdle
 from kintrafo.generator.declare.composition import combined, copy
 from kintrafo.generator.equations.design import _angle, design_coordinates
 from kintrafo.generator.equations.dynamics import Dynamics
 from kintrafo.generator.equations.parts import Parts
-from kintrafo.generator.loops.actions import PlaceIdle
 from kintrafo.generator.mechanisms import MODELS, chains, multi_link
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.generator.planning.plan import Plan
@@ -197,8 +197,8 @@ def test_a_copy_and_an_image_move_as_the_original_does(name: str) -> None:
 
 
 def test_the_sample_has_every_step_of_the_catalogue() -> None:
-    found = {type(action) for name in SAMPLE for action in Plan.of(EVERY[name]).actions}
-    assert found >= CATALOGUE.keys() - {PlaceIdle}  # this one is in no model but test_struts'
+    found = {type(action) for name in SAMPLE for action in Plan.of(EVERY[name]).steps}
+    assert found >= STEPS - {PlaceIdle}  # this one is in no model but test_struts'
 
 
 def test_a_step_does_not_take_the_name_of_a_parameter_of_a_copy() -> None:

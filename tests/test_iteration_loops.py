@@ -17,9 +17,9 @@ import own_loops
 import pytest
 from kintrafo.generated._support import ClosureError
 from kintrafo.generator.backends.report.markdown import markdown
-from kintrafo.generator.closed_forms.coupling import MOST_UNKNOWNS, obstacle
+from kintrafo.generator.closed_forms.coupled_loops import MOST_UNKNOWNS, CoupledLoops, obstacle
+from kintrafo.generator.closed_forms.tree import JointOfTree
 from kintrafo.generator.equations.outputs import GeneratedModel, generate
-from kintrafo.generator.loops.actions import JointOfTree, SolveTogether
 from kintrafo.generator.loops.errors import NoClosedFormError
 from kintrafo.generator.loops.graph import Topology
 from kintrafo.generator.loops.mobility import Mobility
@@ -393,7 +393,7 @@ def test_a_dead_point_at_design_is_refused() -> None:
 def test_too_many_unknowns_are_refused() -> None:
     mechanism = SEVEN_HINGES.mechanism
     branch = JointOfTree(mechanism.joint("hinge_1"), "one", "two")
-    action = SolveTogether("two", (branch,) * (MOST_UNKNOWNS + 1), (), ())
+    action = CoupledLoops("two", (branch,) * (MOST_UNKNOWNS + 1), (), ())
     told = obstacle(action, Mobility(Topology(mechanism), ("hinge_0",)))
     assert told == f"{MOST_UNKNOWNS + 1} unknowns are more than the {MOST_UNKNOWNS} of an iteration"
 

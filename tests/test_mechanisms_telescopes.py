@@ -26,8 +26,10 @@ from kintrafo.generator import (
     Spherical,
     Universal,
 )
+from kintrafo.generator.closed_forms.prismatic import PrismaticByLength
+from kintrafo.generator.closed_forms.revolute import RevoluteByLength
+from kintrafo.generator.closed_forms.rpr import RPR, PlaceTelescope
 from kintrafo.generator.equations.outputs import generate
-from kintrafo.generator.loops.actions import PlaceTelescope, SolveHinge, SolveSlide, SolveStroke
 from kintrafo.generator.loops.errors import NoClosedFormError
 from kintrafo.generator.mechanisms.planar import flat, hinge, inertia, places
 from kintrafo.generator.mechanisms.slider_crank import MODELS as SLIDER_CRANKS
@@ -316,15 +318,15 @@ def test_any_order_of_declaration(driven: str) -> None:
             flipped = {name for name, flip in zip(free, flips, strict=True) if flip}
             joints = tuple(reversed_joint(j) if j.name in flipped else j for j in order)
             plan = Plan.of(replace(model, mechanism=replace(model.mechanism, joints=joints)))
-            kinds = [type(action) for action in plan.actions if type(action) in ANSWERS[driven]]
+            kinds = [type(action) for action in plan.steps if type(action) in ANSWERS[driven]]
             assert kinds == ANSWERS[driven]
 
 
 ANSWERS: dict[str, list[type]] = {
-    "pivot": [SolveStroke],
-    "bore": [SolveHinge, PlaceTelescope],
-    "A": [SolveSlide],
-    "guide": [SolveHinge],
+    "pivot": [RPR],
+    "bore": [RevoluteByLength, PlaceTelescope],
+    "A": [PrismaticByLength],
+    "guide": [RevoluteByLength],
 }
 
 

@@ -31,13 +31,13 @@ from ..kinematics.extent import extent_squared, require
 from ..program.floors import BRANCH, DIRECTION, LENGTH, ROOT
 from ..program.functions import SignOf
 from ..program.vectors import ZERO, Vector
-from .rod import Rod
 
 if TYPE_CHECKING:
     from ..declare.geometry import Point
+    from ..kinematics.extent import Spanning
     from ..kinematics.kinematics import Kinematics
     from ..kinematics.motion import Axes
-    from ..loops.actions import SolveHinge, SolveTurn
+    from .leg import Leg, Rod
 
 
 @dataclass(frozen=True)
@@ -113,19 +113,17 @@ class Fit:
     rod: Rod
 
 
-def fit_rod(
-    kin: Kinematics, action: SolveTurn | SolveHinge, arm: Arm, line: Vector, reach: Reach
-) -> Fit:
-    """Turn an arm about a line until the rod of an action fits."""
-    program, body, rho = kin.program, action.body, arm.radius
-    rod = Rod.of(kin, action)
-    loop, extent = kin.loop_of(action), extent_squared(kin, action)
-    _require_reach(kin, action, arm, extent)
-    branch = _branch(kin, action, arm, rod, extent)
+def fit_rod(kin: Kinematics, step: Spanning, leg: Leg, arm: Arm, line: Vector, reach: Reach) -> Fit:
+    """Turn an arm about a line until a leg fits, in the loop that a step closes."""
+    program, body, rho = kin.program, leg.body, arm.radius
+    rod = leg.rod_of(kin, step)
+    loop, extent = kin.loop_of(step), extent_squared(kin, step)
+    _require_reach(kin, leg, arm, extent)
+    branch = _branch(kin, leg, arm, rod, extent)
     squared = program.guarded(
         f"{body}_reach_squared",
         reach.across.dot(reach.across),
-        f"{loop}: point {action.anchor.name} lies on the line of {body}, whose rotation is "
+        f"{loop}: point {leg.anchor.name} lies on the line of {body}, whose rotation is "
         "undetermined",
         "m^2",
         DIRECTION * extent,
@@ -157,11 +155,9 @@ def fit_rod(
     return Fit(axes, gap, hold, rod)
 
 
-def _require_reach(
-    kin: Kinematics, action: SolveTurn | SolveHinge, arm: Arm, extent: sp.Expr
-) -> None:
+def _require_reach(kin: Kinematics, leg: Leg, arm: Arm, extent: sp.Expr) -> None:
     """Have `prepare` see that the rod's anchor is beside the line."""
-    program, body, anchor = kin.program, action.body, action.anchor
+    program, body, anchor = kin.program, leg.body, leg.anchor
     line = arm.design_axes[0]
     way = program.vector(f"{body}_reach_design", kin.design(anchor) - arm.base)
     across = program.vector(
@@ -175,16 +171,14 @@ def _require_reach(
         LENGTH * sp.sqrt(extent),
         "m",
         f"at the design position, {anchor.name} is on the line about which {body} turns, so that "
-        f"{action.rod} does not hold it",
+        f"{leg.rod} does not hold it",
         f"move {anchor.name} away from that line",
     )
 
 
-def _branch(
-    kin: Kinematics, action: SolveTurn | SolveHinge, arm: Arm, rod: Rod, extent: sp.Expr
-) -> sp.Expr:
+def _branch(kin: Kinematics, leg: Leg, arm: Arm, rod: Rod, extent: sp.Expr) -> sp.Expr:
     """Return on which side of the arm the rod is at the design position."""
-    program, body = kin.program, action.body
+    program, body = kin.program, leg.body
     height = program.define(f"{body}_rod_height_design", rod.design.dot(arm.design_axes[2]))
     require(
         kin,
@@ -192,8 +186,8 @@ def _branch(
         height,
         BRANCH * sp.sqrt(extent),
         "m",
-        f"at the design position the {rod.name} is at its dead point: it, {action.end.name} and "
+        f"at the design position the {rod.name} is at its dead point: it, {leg.end.name} and "
         f"the line about which {body} turns are in one plane",
-        f"choose a design position where {action.anchor.name} is beside that plane",
+        f"choose a design position where {leg.anchor.name} is beside that plane",
     )
     return program.define(f"{body}_branch", SignOf(height))

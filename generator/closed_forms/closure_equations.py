@@ -33,9 +33,9 @@ from ..program.vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Vector
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
-    from ..loops.actions import CutJoint, SolveTogether
     from ..program.function import Block, Estimate
     from ..program.program import Program
+    from .tree import CutJoint, Tree
 
 Geometry = dict[str, Vector]
 """What the equations read, by name: constants of the design position, and poses of placed bodies.
@@ -240,7 +240,7 @@ class Position:
         In the order of the cuts and rods.
     """
 
-    action: SolveTogether
+    tree: Tree
     frames: dict[str, Frame]
     screws: list[Screw]
     equations: list[_Equation]
@@ -250,7 +250,7 @@ class Position:
         return [
             [
                 self._element(equation, place)
-                for place, branch in enumerate(self.action.tree)
+                for place, branch in enumerate(self.tree.tree)
                 if not branch.driven
             ]
             for equation in self.equations
@@ -266,18 +266,18 @@ class Position:
 
     def carriers(self, body: str) -> list[int]:
         """Return the places of the joints that carry a body, from the body inward."""
-        children = self.action.bodies
+        children = self.tree.bodies
         found = []
         while body in children:
             found.append(children.index(body))
-            body = self.action.tree[found[-1]].parent
+            body = self.tree.tree[found[-1]].parent
         return found
 
 
 def position(
     program: Program,
     label: str,
-    action: SolveTogether,
+    tree: Tree,
     geometry: Geometry,
     unknowns: Sequence[sp.Expr],
 ) -> Position:
@@ -289,9 +289,9 @@ def position(
         Begins the names of the steps.
     """
     size, rest = geometry["size"].x, iter(unknowns)
-    frames = {body: _base(geometry, body) for body in bases(action)}
+    frames = {body: _base(geometry, body) for body in bases(tree)}
     screws = []
-    for branch in action.tree:
+    for branch in tree.tree:
         x = geometry[f"{branch.joint.name}_given"].x if branch.driven else next(rest)
         name, parent = f"{label}{branch.child}", frames[branch.parent]
         local = geometry[f"{branch.joint.name}_axis"]
@@ -306,25 +306,25 @@ def position(
             frames[branch.child] = Frame(axes, origin, start)
         screws.append(Screw(axis, origin, isinstance(branch.joint, Prismatic), size))
     equations = []
-    for cut in action.cuts:
-        plane = frames[action.base_of(cut.joint.first)]
+    for cut in tree.cuts:
+        plane = frames[tree.base_of(cut.joint.first)]
         equations += _at_cut(program, label, cut, geometry, frames, plane)
-    for held in action.rods:
+    for held in tree.rods:
         one, two = frames[held.anchor_body], frames[held.body]
         p1 = program.vector(f"{label}{held.rod}_anchor", one.at(geometry[f"{held.rod}_anchor"]))
         p2 = program.vector(f"{label}{held.rod}_end", two.at(geometry[f"{held.rod}_end"]))
         gap = program.vector(f"{label}{held.rod}_gap", p2 - p1)
         squared, scale = geometry[f"{held.rod}_squared"].x, geometry[f"{held.rod}_scale"].x
         equations.append(_Distance(held.anchor_body, held.body, gap, p1, p2, squared, scale))
-    return Position(action, frames, screws, equations)
+    return Position(tree, frames, screws, equations)
 
 
-def bases(action: SolveTogether) -> list[str]:
+def bases(tree: Tree) -> list[str]:
     """Return the placed bodies that a tree or what closes its loops starts from."""
-    touched = [branch.parent for branch in action.tree]
-    touched += [body for cut in action.cuts for body in cut.joint.bodies]
-    touched += [body for held in action.rods for body in (held.anchor_body, held.body)]
-    return [body for body in dict.fromkeys(touched) if body not in action.bodies]
+    touched = [branch.parent for branch in tree.tree]
+    touched += [body for cut in tree.cuts for body in cut.joint.bodies]
+    touched += [body for held in tree.rods for body in (held.anchor_body, held.body)]
+    return [body for body in dict.fromkeys(touched) if body not in tree.bodies]
 
 
 def _base(geometry: Geometry, body: str) -> Frame:
@@ -396,12 +396,12 @@ _SQUARE_IN_PLANE = {Revolute.kind: [], Prismatic.kind: [("axis", "side")]}
 
 def block(
     program: Program,
-    action: SolveTogether,
+    tree: Tree,
     geometry: Geometry,
     driven: Iterable[tuple[sp.Symbol, sp.Expr, bool]],
 ) -> Block:
     """Return the iteration that finds the unknowns (`Derivation`)."""
-    name = f"loops_through_{action.body}"
+    name = f"loops_through_{tree.body}"
     if name in program.constants.blocks:
         return program.constants.blocks[name]
     derivation = Derivation(program, driven, geometry["size"].x)
@@ -414,11 +414,9 @@ def block(
         own.section("position of this iteration")
         x = [
             own.define(f"{branch.joint.name}_estimate", base + step)
-            for branch, base, step in zip(
-                action.unknowns, estimate.base, estimate.step, strict=True
-            )
+            for branch, base, step in zip(tree.unknowns, estimate.base, estimate.step, strict=True)
         ]
-        now = position(own, "", action, here, x)
+        now = position(own, "", tree, here, x)
         own.section("what is left of the equations")
         left = [
             own.define(f"misfit_{i}", equation.misfit())
@@ -426,15 +424,15 @@ def block(
         ]
         apart = [
             value**2 if isinstance(branch.joint, Prismatic) else 2 - 2 * sp.cos(value)
-            for branch, value in zip(action.unknowns, x, strict=True)
+            for branch, value in zip(tree.unknowns, x, strict=True)
         ]
         return Found(x, left, now.jacobian(), sp.Add(*apart))
 
     found = derivation.block(
         name,
-        f"the coordinates of {action.joint_names}, with which {action.closing_names} close",
-        [f"{branch.joint.name}_coordinate" for branch in action.unknowns],
-        action.equations,
+        f"the coordinates of {tree.joint_names}, with which {tree.closing_names} close",
+        [f"{branch.joint.name}_coordinate" for branch in tree.unknowns],
+        tree.equations,
         derive,
     )
     program.constants.blocks[name] = found

@@ -1,67 +1,92 @@
-"""A shaft turned by its universal joint."""
+"""A shaft turned by its universal joint.
+
+Orientation of a shaft of known direction n from the cross of its universal joint.
+
+The second axis b of the cross is fixed in the shaft and perpendicular to n and to the first
+axis f. Both ``f x n`` and its opposite are that: two poses of the shaft, half a turn about its
+line apart. Branch: b = unit(f x n) at the design position, and so everywhere, since the two
+could change places only where f x n vanishes. Singular set: the shaft along the first axis.
+
+The body axes are (n, b, n x b). Since b stays perpendicular to f,
+``(omega - omega_parent) . (b x f) = 0``, and in body axes b x f = (f . (n x b), 0, -f . n).
+
+That the shaft is declared along the line of the rod, n, is one of the `assumptions`.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
 
 import sympy as sp
 
+from ..declare.joints import Joint, Universal
 from ..kinematics.extent import require
-from ..kinematics.motion import Axes, OnLine, Placed, from_axes, to_axes
-from ..loops.actions import SolveTelescope
+from ..kinematics.motion import Axes, BodyMotion, OnLine, from_axes
+from ..loops.forms import Follower
 from ..program.floors import DIRECTION, LENGTH
 from ..program.vectors import ZERO, Twist, Vector
 from .lines import line_alpha, line_omega, once, projector
 
 if TYPE_CHECKING:
+    from typing import Self
+
     from ..kinematics.kinematics import Kinematics
-    from ..loops.actions import PlaceByCross, PlaceIdle
+    from ..loops.known import Coordinate, Known
 
 
-def place_by_cross(kin: Kinematics, action: PlaceByCross) -> None:
-    """Orientation of a shaft of known direction n from the cross of its universal joint.
+@dataclass(frozen=True)
+class PlaceByCross(Follower):
+    """A shaft of known direction is turned by the cross of its universal joint."""
 
-    The second axis b of the cross is fixed in the shaft and perpendicular to n and to the first
-    axis f. Both ``f x n`` and its opposite are that: two poses of the shaft, half a turn about its
-    line apart. Branch: b = unit(f x n) at the design position, and so everywhere, since the two
-    could change places only where f x n vanishes. Singular set: the shaft along the first axis.
+    joint: Universal
+    parent: str
+    child: str
 
-    The body axes are (n, b, n x b). Since b stays perpendicular to f,
-    ``(omega - omega_parent) . (b x f) = 0``, and in body axes b x f = (f . (n x b), 0, -f . n).
+    rank: ClassVar[int] = 1
 
-    That the shaft is declared along the line of the rod, n, is one of the `assumptions`.
-    """
-    joint, parent = action.joint, kin.placed[action.parent]
-    _place(
-        kin,
-        action.child,
-        parent,
-        kin.local_direction(parent, joint.first_axis),
-        kin.design_direction(joint.first_axis),
-        f"the shaft {action.child} lies along the first axis of universal joint {joint.name}",
-    )
+    @classmethod
+    def follow(cls, known: Known, joint: Joint, parent: str, child: str) -> Self | None:
+        """Return the step for a shaft whose line is known."""
+        if isinstance(joint, Universal) and child == joint.second and child in known.on_line:
+            return cls(joint, parent, child)
+        return None
+
+    @property
+    def about(self) -> str:
+        """The shaft."""
+        return self.child
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"{self.child}: cross of the universal joint"
+
+    def accept(self, known: Known) -> set[Coordinate]:
+        """Record the shaft."""
+        known.place(self.child)
+        return set()
+
+    def carry_out(self, kin: Kinematics) -> None:
+        """Turn the shaft about its line."""
+        joint, parent = self.joint, kin.placed[self.parent]
+        turn_on_cross(
+            kin,
+            self.child,
+            parent,
+            kin.local_direction(parent, joint.first_axis),
+            kin.design_direction(joint.first_axis),
+            f"the shaft {self.child} lies along the first axis of universal joint {joint.name}",
+        )
 
 
-def place_idle(kin: Kinematics, action: PlaceIdle) -> None:
-    """Orientation of a link of known line whose turn about that line nothing holds.
-
-    It has no mass, so its turn is nobody's business. It gets that of a cross at its first end, with
-    an axis across the line at the design position.
-    """
-    body, record = action.body, _line(kin, action.body)
-    parent = kin.placed[record.anchor_body]
-    n = kin.unit(f"{body}_line_design", kin.design(record.end) - kin.design(record.anchor))
-    axis, _ = kin.across(body, n)
-    local = kin.program.vector(f"{body}_idle", to_axes(parent.design_axes, axis), "123")
-    meaning = (
-        f"the turn of {body} about its own line, which nothing holds, is not defined: the line has "
-        f"turned by 90 degrees as seen from {record.anchor_body}"
-    )
-    _place(kin, body, parent, local, axis, meaning)
-
-
-def _place(
-    kin: Kinematics, body: str, parent: Placed, local_axis: Vector, at_design: Vector, meaning: str
+def turn_on_cross(
+    kin: Kinematics,
+    body: str,
+    parent: BodyMotion,
+    local_axis: Vector,
+    at_design: Vector,
+    meaning: str,
 ) -> None:
     """Record pose, velocities and bias of a shaft, given the first axis of its cross.
 
@@ -72,7 +97,7 @@ def _place(
     meaning
         What it means that the shaft lies along that axis.
     """
-    program, record = kin.program, _line(kin, body)
+    program, record = kin.program, line_from_own_end(kin, body)
     axis = program.vector(f"{body}_first_axis", from_axes(parent.axes, local_axis))
     n = record.direction
     cross = program.vector(f"{body}_cross", axis.cross(n))
@@ -80,7 +105,7 @@ def _place(
     lever = program.define(f"{body}_lever", sp.sqrt(squared))
     second = program.vector(f"{body}_second_axis", cross * (1 / lever))
     axes: Axes = (n, second, program.vector(f"{body}_third_axis", n.cross(second)))
-    placed = Placed(
+    placed = BodyMotion(
         body,
         origin=record.anchor_motion.position,
         axes=axes,
@@ -96,11 +121,11 @@ def _place(
     kin.placed[body] = placed
 
 
-def _line(kin: Kinematics, body: str) -> OnLine:
+def line_from_own_end(kin: Kinematics, body: str) -> OnLine:
     """Return the line of a link, from a point of the link on."""
     record = kin.on_line[body]
-    far = [a.end_link for a in kin.plan.actions if isinstance(a, SolveTelescope)]
-    return record.reversed() if body in far else record
+    own = [joint.center for joint in kin.mechanism.joints_of(body)]
+    return record if record.anchor in own else record.reversed()
 
 
 def _cross_design_axes(
@@ -124,9 +149,9 @@ def _cross_design_axes(
 
 def _cross_motion(
     kin: Kinematics,
-    parent: Placed,
+    parent: BodyMotion,
     record: OnLine,
-    placed: Placed,
+    placed: BodyMotion,
     lever: sp.Expr,
     tilt: sp.Expr,
 ) -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..kinematics.extent import extent_squared, require
-from ..kinematics.motion import OnLine, Placed, PointMotion, to_axes
+from ..kinematics.motion import BodyMotion, OnLine, PointMotion, to_axes
 from ..program.floors import DIRECTION, LENGTH
 from ..program.vectors import ZERO, Twist, Vector
 
@@ -15,15 +15,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from ..declare.geometry import Point
+    from ..kinematics.extent import Spanning
     from ..kinematics.kinematics import Kinematics
-    from ..loops.actions import (
-        HeldByRod,
-        SolveHinge,
-        SolveSlide,
-        SolveStrut,
-        SolveTelescope,
-        SolveTurn,
-    )
+    from .leg import Leg
 
 
 def line_between(
@@ -70,24 +64,36 @@ def line_between(
     )
 
 
-def line_of_ends(kin: Kinematics, action: SolveTelescope | SolveStrut, what: str) -> OnLine:
+def line_of_ends(
+    kin: Kinematics,
+    step: Spanning,
+    name: str,
+    ends: tuple[tuple[str, Point], tuple[str, Point]],
+    what: str,
+) -> OnLine:
     """Append the line between the two placed ends of what can change its length.
 
     Parameters
     ----------
+    step
+        In whose loop it is.
+    name
+        Ends the names of the steps.
+    ends
+        Body and point at either end.
     what
         What has these ends, for the message that they coincide.
     """
-    name = action.joint.name
-    anchor = kin.point_motion(action.anchor_body, action.anchor)
-    end = kin.point_motion(action.end_body, action.end)
+    (anchor_body, anchor_point), (end_body, end_point) = ends
+    anchor = kin.point_motion(anchor_body, anchor_point)
+    end = kin.point_motion(end_body, end_point)
     span = kin.program.vector(f"span_{name}", end.minus(anchor).position)
-    extent = extent_squared(kin, action)
-    require_length(kin, name, (action.anchor, action.end), what, extent)
+    extent = extent_squared(kin, step)
+    require_length(kin, name, (anchor_point, end_point), what, extent)
     squared = kin.program.guarded(
         f"length_squared_{name}",
         span.dot(span),
-        f"{kin.loop_of(action)}: the ends {action.anchor.name} and {action.end.name} of {what} "
+        f"{kin.loop_of(step)}: the ends {anchor_point.name} and {end_point.name} of {what} "
         "coincide",
         "m^2",
         DIRECTION * extent,
@@ -95,9 +101,9 @@ def line_of_ends(kin: Kinematics, action: SolveTelescope | SolveStrut, what: str
     return line_between(
         kin,
         name,
-        (action.anchor, action.end),
+        (anchor_point, end_point),
         (anchor, end),
-        (action.anchor_body, action.end_body),
+        (anchor_body, end_body),
         span,
         kin.program.define(f"length_{name}", sp.sqrt(squared)),
         squared,
@@ -121,26 +127,19 @@ def require_length(
     )
 
 
-def place_rod(
-    kin: Kinematics,
-    action: SolveTurn | SolveHinge | SolveSlide | HeldByRod,
-    rod_anchor: PointMotion,
-    length: sp.Expr,
-    *,
-    rigid: bool = True,
-) -> None:
-    """Record the line of a rod from its anchor to the body that it holds; a strut is not rigid."""
-    end = kin.point_motion(action.body, action.end)
-    span = kin.program.vector(f"span_{action.rod}", end.position - rod_anchor.position)
-    kin.on_line[action.rod] = line_between(
+def place_rod(kin: Kinematics, leg: Leg, rod_anchor: PointMotion, length: sp.Expr) -> None:
+    """Record the line of a leg from its anchor to the body that it holds."""
+    end = kin.point_motion(leg.body, leg.end)
+    span = kin.program.vector(f"span_{leg.rod}", end.position - rod_anchor.position)
+    kin.on_line[leg.rod] = line_between(
         kin,
-        action.rod,
-        (action.anchor, action.end),
+        leg.rod,
+        (leg.anchor, leg.end),
         (rod_anchor, end),
-        (action.anchor_body, action.body),
+        (leg.anchor_body, leg.body),
         span,
         length,
-        rigid=rigid,
+        rigid=leg.rigid,
     )
 
 
@@ -166,7 +165,7 @@ def line_alpha(kin: Kinematics, record: OnLine, omega: Vector, swing: Vector) ->
     )
 
 
-def projector(kin: Kinematics, placed: Placed) -> Callable[[str, Vector], Vector]:
+def projector(kin: Kinematics, placed: BodyMotion) -> Callable[[str, Vector], Vector]:
     """Return a function that appends the body components of a work vector."""
 
     def to_body(label: str, v: Vector) -> Vector:

@@ -7,18 +7,19 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..kinematics.extent import extent_squared, require
-from ..kinematics.motion import Axes, OffLine, OnLine, Placed, PointMotion
+from ..kinematics.motion import Axes, BodyMotion, OffLine, OnLine, PointMotion
 from ..program.floors import BRANCH, NORMAL, ROOT
 from ..program.functions import SignOf
 from ..program.vectors import ZERO, Twist, Vector
 from .lines import once, place_rod, projector
 
 if TYPE_CHECKING:
+    from ..kinematics.extent import Spanning
     from ..kinematics.kinematics import Kinematics
-    from ..loops.actions import SolveTurn
+    from .leg import Leg
 
 
-def solve_offset_turn(kin: Kinematics, action: SolveTurn) -> None:
+def solve_offset_turn(kin: Kinematics, step: Spanning, leg: Leg) -> None:
     r"""Find the orientation of a body from three of its points, two of them by distance.
 
     Let B be the known point of the body and C the anchor of the telescope, S = B - C. The axis of
@@ -48,11 +49,11 @@ def solve_offset_turn(kin: Kinematics, action: SolveTurn) -> None:
     and the turn omega1 follows from ``(D - E) . (v_D - v_E) = 0``, whose factor is c |N|^2 / h.
     With offset zero this is `turn`, at a higher price.
     """
-    record = kin.off_line[action.body]
-    rod_anchor = kin.point_motion(action.anchor_body, action.anchor)
-    turn = _OffsetTurn(kin, action, record, rod_anchor)
-    kin.placed[action.body] = turn.placed
-    place_rod(kin, action, rod_anchor, turn.rod_length)
+    record = kin.off_line[leg.body]
+    rod_anchor = leg.anchor_motion(kin)
+    turn = _OffsetTurn(kin, step, leg, record, rod_anchor)
+    kin.placed[leg.body] = turn.placed
+    place_rod(kin, leg, rod_anchor, turn.rod_length)
     _aim(kin, record, turn.placed)
 
 
@@ -60,11 +61,16 @@ class _OffsetTurn:
     """The solution for one body, from its dimensions to its bias acceleration."""
 
     def __init__(
-        self, kin: Kinematics, action: SolveTurn, record: OffLine, rod_anchor: PointMotion
+        self,
+        kin: Kinematics,
+        step: Spanning,
+        leg: Leg,
+        record: OffLine,
+        rod_anchor: PointMotion,
     ) -> None:
         self.kin, self.program = kin, kin.program
-        self.action, self.record, self.rod_anchor = action, record, rod_anchor
-        self.body = action.body
+        self.step, self.leg, self.record, self.rod_anchor = step, leg, record, rod_anchor
+        self.body = leg.body
         self._dimensions()
         self._position()
         self._motion()
@@ -72,22 +78,20 @@ class _OffsetTurn:
     def _dimensions(self) -> None:
         """Constants of the body, from the design position."""
         kin, program, body = self.kin, self.program, self.body
-        telescope, e1 = self.record.action, self.record.axis
+        telescope, e1 = self.record.ends, self.record.axis
         self.base = telescope.end
-        base, end, anchor = (
-            kin.design(p) for p in (self.base, self.action.end, self.action.anchor)
-        )
+        base, end, anchor = (kin.design(p) for p in (self.base, self.leg.end, self.leg.anchor))
         arm = program.vector(f"{body}_arm_design", end - base)
         along = program.define(f"{body}_arm_along", arm.dot(e1))
         across = program.vector(f"{body}_arm_across", arm - e1 * along)
         radius = program.define(f"{body}_arm_radius", sp.sqrt(across.dot(across)))
         e2 = program.vector(f"{body}_arm_unit", across * (1 / radius))
         e3 = program.vector(f"{body}_normal_design", e1.cross(e2))
-        rod = program.vector(f"{self.action.rod}_design", end - anchor)
-        self.rod_length = program.define(f"{self.action.rod}_length", sp.sqrt(rod.dot(rod)))
-        kin.rod_lengths[self.action.rod] = self.rod_length
+        rod = program.vector(f"{self.leg.rod}_design", end - anchor)
+        self.rod_length = program.define(f"{self.leg.rod}_length", sp.sqrt(rod.dot(rod)))
+        kin.rod_lengths[self.leg.rod] = self.rod_length
         span = kin.design(self.base) - kin.design(telescope.anchor)
-        self.extent = extent_squared(kin, self.action)
+        self.extent = extent_squared(kin, self.step)
         self._require(arm, span, anchor - base)
         self.branch = program.define(f"{body}_branch", SignOf(arm.dot(span.cross(anchor - base))))
         self.arm = Vector(along, radius, ZERO.z)
@@ -102,12 +106,12 @@ class _OffsetTurn:
 
     def _require(self, arm: Vector, span: Vector, reach: Vector) -> None:
         """Have `prepare` see that the design position is away from all singular sets."""
-        kin, body, action = self.kin, self.body, self.action
+        kin, body, leg = self.kin, self.body, self.leg
         size = sp.sqrt(self.extent)
-        line = f"the line of {self.base.name} and {self.record.action.anchor.name}"
+        line = f"the line of {self.base.name} and {self.record.ends.anchor.name}"
         for name, point, way in (
-            ("arm", action.end, arm),
-            ("reach", action.anchor, reach),
+            ("arm", leg.end, arm),
+            ("reach", leg.anchor, reach),
         ):
             normal = self.program.vector(f"{body}_{name}_across_span", span.cross(way))
             require(
@@ -126,9 +130,9 @@ class _OffsetTurn:
             arm.dot(normal) / sp.sqrt(normal.dot(normal)),
             BRANCH * size,
             "m",
-            f"at the design position the rod {action.rod} is at its dead point: it and {line} are "
+            f"at the design position the rod {leg.rod} is at its dead point: it and {line} are "
             "in one plane",
-            f"choose a design position where {action.anchor.name} is beside that plane",
+            f"choose a design position where {leg.anchor.name} is beside that plane",
         )
 
     def _position(self) -> None:
@@ -139,7 +143,7 @@ class _OffsetTurn:
         self.normal_squared = program.guarded(
             f"{body}_reach_squared",
             normal.dot(normal),
-            f"{self.kin.loop_of(self.action)}: point {self.action.anchor.name} lies on the line of "
+            f"{self.kin.loop_of(self.step)}: point {self.leg.anchor.name} lies on the line of "
             f"{body}, whose rotation is undetermined",
             "m^4",
             NORMAL * self.extent**2,
@@ -162,7 +166,7 @@ class _OffsetTurn:
         room = program.guarded(
             f"{body}_closure",
             self.arm_squared - u * along_span - v * needed,
-            f"{self.kin.loop_of(self.action)} cannot close: the rod {self.action.rod} cannot reach "
+            f"{self.kin.loop_of(self.step)} cannot close: the rod {self.leg.rod} cannot reach "
             f"{body}, beyond its dead point",
             "m^2",
             ROOT * self.extent,
@@ -171,7 +175,7 @@ class _OffsetTurn:
             f"{body}_share_of_normal", self.branch * sp.sqrt(room * inverse)
         )
         arm = program.vector(f"{body}_arm_now", record.span * u + w * v + normal * self.height)
-        self.placed = Placed(
+        self.placed = BodyMotion(
             body,
             origin=record.end_motion.position,
             axes=self._axes(arm, along_span),
@@ -179,8 +183,8 @@ class _OffsetTurn:
             design_axes=self.design_axes,
             local={
                 self.base: ZERO,
-                self.action.end: self.arm,
-                record.action.axis_point: Vector(record.lead, ZERO.y, ZERO.z) - self.offset,
+                self.leg.end: self.arm,
+                record.ends.axis_point: Vector(record.lead, ZERO.y, ZERO.z) - self.offset,
             },
             carrier=self._carrier(),
         )
@@ -195,7 +199,7 @@ class _OffsetTurn:
         squared = program.guarded(
             f"{body}_plane_squared",
             third_local.dot(third_local),
-            f"point {self.action.end.name} lies on the line of {body}",
+            f"point {self.leg.end.name} lies on the line of {body}",
             "m^4",
             NORMAL * self.extent**2,
         )
@@ -214,7 +218,7 @@ class _OffsetTurn:
         return axes[0], axes[1], program.vector(f"{body}_axis_3", axes[0].cross(axes[1]))
 
     def _carrier(self) -> tuple[str, Vector]:
-        carrier = self.record.action.end_body
+        carrier = self.record.ends.end_body
         return carrier, self.kin.local(self.kin.placed[carrier], self.base)
 
     def _to_body(self, v: Vector) -> Vector:
@@ -278,17 +282,17 @@ class _OffsetTurn:
         return self.program.vector(f"{self.body}_across_bias", across, "123")
 
 
-def _aim(kin: Kinematics, record: OffLine, placed: Placed) -> None:
+def _aim(kin: Kinematics, record: OffLine, placed: BodyMotion) -> None:
     """Give the telescope the direction that its body has found."""
-    action = record.action
-    end = kin.point_motion(placed.body, action.axis_point)
-    inverse = kin.program.define(f"inverse_length_{action.joint.name}", 1 / record.length)
+    ends = record.ends
+    end = kin.point_motion(placed.body, ends.axis_point)
+    inverse = kin.program.define(f"inverse_length_{ends.joint.name}", 1 / record.length)
     line = OnLine(
-        action.anchor,
-        action.axis_point,
+        ends.anchor,
+        ends.axis_point,
         record.anchor_motion,
         end,
-        action.anchor_body,
+        ends.anchor_body,
         placed.body,
         placed.axes[0],
         record.length,
@@ -298,5 +302,5 @@ def _aim(kin: Kinematics, record: OffLine, placed: Placed) -> None:
         placed.axes[0] * record.length,
         inverse**2,
     )
-    kin.on_line[action.anchor_link] = line
-    kin.telescopes[action.joint.name] = line
+    kin.on_line[ends.anchor_link] = line
+    kin.telescopes[ends.joint.name] = line

@@ -1,56 +1,122 @@
-"""A body held by a rod: its turn about a line that is known."""
+"""A body held by a rod: its turn about a line that is known (Eqs. 13 to 16 of the paper).
+
+The equation ``a1 cos + a2 sin = a3`` of the paper is that of `arm`, about a line between two points
+that both move. Where a telescope misses the known point of the body, `offset_turn` takes over.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import sympy as sp
 
 from ..kinematics.extent import extent_squared
-from ..kinematics.motion import OnLine, Placed, PointMotion
+from ..kinematics.motion import BodyMotion, OnLine, PointMotion, RodEnds
+from ..loops.forms import ClosedForm
 from ..program.vectors import ZERO, Twist, Vector
 from .arm import Arm, Fit, Reach, fit_rod
 from .lines import line_alpha, line_omega, once, place_rod, projector
 from .offset_turn import solve_offset_turn
+from .rigid_rod import RigidRod
+from .telescope import Telescope
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from typing import Self
+
     from ..declare.geometry import Point
     from ..kinematics.kinematics import Kinematics
-    from ..loops.actions import SolveTurn
+    from ..kinematics.step import Ends
+    from ..loops.cut import CutLoop
+    from ..loops.forms import Closing
+    from ..loops.known import Coordinate, Known
 
 
-def solve_turn(kin: Kinematics, action: SolveTurn) -> None:
-    """Turn a body about its known line until a rod fits (Eqs. 13 to 16).
+@dataclass(frozen=True)
+class TurnByLength(ClosedForm):
+    """A body known up to a rotation about a line is held by a rod: its rotation follows."""
 
-    The equation ``a1 cos + a2 sin = a3`` of the paper is that of `arm`, about a line between two
-    points that both move.
-    """
-    if action.body in kin.off_line:
-        solve_offset_turn(kin, action)
-        return
-    record = kin.on_line[action.body]
-    base = _Base.of(kin, action.body, record)
-    line = kin.unit(
-        f"{action.body}_line_design", kin.design(record.end) - kin.design(record.anchor)
-    )
-    extent = extent_squared(kin, action)
-    arm = Arm.of(kin, action.body, line, base.point, action.end, extent)
-    rod_anchor = kin.point_motion(action.anchor_body, action.anchor)
-    reach = _reach(kin, action.body, record, base, arm, rod_anchor)
-    fit = fit_rod(kin, action, arm, record.direction, reach)
-    placed = Placed(
-        action.body,
-        origin=base.motion.position,
-        axes=fit.axes,
-        design_origin=kin.design(base.point),
-        design_axes=arm.design_axes,
-        local={base.point: ZERO, action.end: arm.local},
-        carrier=(base.carrier, kin.local(kin.placed[base.carrier], base.point)),
-    )
-    _turn_motion(kin, placed, record, base, arm.local, fit, rod_anchor)
-    kin.placed[action.body] = placed
-    place_rod(kin, action, rod_anchor, fit.rod.length)
+    leg: RigidRod
+
+    rank: ClassVar[int] = 4
+
+    @classmethod
+    def match(cls, known: Known, cut: CutLoop) -> Self | None:
+        """Return the turn of a body on a line that a rod from a placed point holds."""
+        leg = RigidRod.match(known, cut)
+        if leg is None or leg.anchor_body not in known.placed or leg.body not in known.on_line:
+            return None
+        return cls(leg)
+
+    @property
+    def about(self) -> str:
+        """The body that is held."""
+        return self.leg.body
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"transformer: {self.leg.body} held by {self.leg.rod}"
+
+    @property
+    def points(self) -> tuple[Point, ...]:
+        """The ends of the rod."""
+        return self.leg.points
+
+    def accept(self, known: Known) -> set[Coordinate]:
+        """Record the body, and the telescopes that it aims."""
+        body, rod = self.leg.body, self.leg.rod
+        known.place(body)
+        known.on_line.add(rod)
+        found = [s for s in known.steps if isinstance(s, Telescope) and s.ends.misses_end]
+        aimed = [s.aim(known) for s in found if s.ends.end_link == body]
+        joints = [joint for joints in aimed for joint in joints]
+        joints += known.mechanism.joints_of(rod)
+        joints += filter(known.joins, known.mechanism.joints_of(body))
+        return known.add_all(joints)
+
+    def lines(self) -> Iterator[Ends]:
+        """Yield the rod, along its line."""
+        yield self.leg.rod, self.leg.anchor, self.leg.end
+
+    def words(self, closing: Closing | None) -> tuple[str, str]:
+        """Return the closure equation and its solution."""
+        del closing
+        return f"{self.leg.ends} = length of {self.leg.measure}", (
+            f"a cos x + b sin x = c for the turn of {self.leg.body} about its line, branch as at "
+            "design"
+        )
+
+    def carry_out(self, kin: Kinematics) -> None:
+        """Turn the body about its known line until the rod fits."""
+        leg = self.leg
+        kin.turned[leg.body] = RodEnds(leg.body, leg.rod, leg.end, leg.anchor, leg.anchor_body)
+        if leg.body in kin.off_line:
+            solve_offset_turn(kin, self, leg)
+            return
+        record = kin.on_line[leg.body]
+        base = _Base.of(kin, leg.body, record)
+        line = kin.unit(
+            f"{leg.body}_line_design", kin.design(record.end) - kin.design(record.anchor)
+        )
+        extent = extent_squared(kin, self)
+        arm = Arm.of(kin, leg.body, line, base.point, leg.end, extent)
+        rod_anchor = leg.anchor_motion(kin)
+        reach = _reach(kin, leg.body, record, base, arm, rod_anchor)
+        fit = fit_rod(kin, self, leg, arm, record.direction, reach)
+        placed = BodyMotion(
+            leg.body,
+            origin=base.motion.position,
+            axes=fit.axes,
+            design_origin=kin.design(base.point),
+            design_axes=arm.design_axes,
+            local={base.point: ZERO, leg.end: arm.local},
+            carrier=(base.carrier, kin.local(kin.placed[base.carrier], base.point)),
+        )
+        _turn_motion(kin, placed, record, base, arm.local, fit, rod_anchor)
+        kin.placed[leg.body] = placed
+        place_rod(kin, leg, rod_anchor, fit.rod.length)
 
 
 @dataclass(frozen=True)
@@ -96,7 +162,7 @@ def _reach(
 
 def _turn_motion(
     kin: Kinematics,
-    placed: Placed,
+    placed: BodyMotion,
     record: OnLine,
     base_point: _Base,
     arm: Vector,

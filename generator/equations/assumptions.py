@@ -17,17 +17,15 @@ import sympy as sp
 from ..declare.declared import DeclarationError
 from ..declare.evaluation import AtDefaults
 from ..declare.joints import Prismatic, Revolute, Universal
-from ..loops.actions import HeldByRod, SolveHinge, SolveSlide, SolveStrut, SolveTelescope, SolveTurn
 from ..program.conditions import Assumption
 from ..program.floors import ROUNDING
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Sequence
 
     from ..declare.geometry import Line, Point
     from ..declare.mechanism import Mechanism
     from ..declare.model import Model
-    from ..loops.actions import Action
     from ..loops.graph import Cycle
     from ..loops.planner import Plan
     from ..program.program import Program
@@ -84,7 +82,7 @@ def _assumptions(plan: Plan) -> Iterator[Assumption]:
     for transformer in plan.transformers:
         if transformer.cycle.planar:
             yield from _of_plane(transformer.cycle)
-    lines = {rod: ends for action in plan.actions for rod, ends in _lines(action)}
+    lines = {link: ends for step in plan.steps for link, *ends in step.lines()}
     for joint in plan.topology.mechanism.joints:
         if isinstance(joint, Universal) and joint.second in lines:
             yield from _of_shaft(joint, lines[joint.second])
@@ -136,19 +134,7 @@ def _into_plane(guide: Prismatic) -> str:
 # -- shafts ---------------------------------------------------------------------------------------
 
 
-def _lines(action: Action) -> Iterator[tuple[str, tuple[Point, Point]]]:
-    """Yield the links whose line an action finds, with the two points on it."""
-    if isinstance(action, SolveTelescope):
-        yield action.anchor_link, (action.anchor, action.axis_point)
-    elif isinstance(action, SolveStrut):
-        yield action.near, (action.anchor, action.end)
-    elif isinstance(action, SolveTurn | SolveHinge | SolveSlide | HeldByRod):
-        yield action.rod, (action.anchor, action.end)
-    for held in getattr(action, "rods", ()):
-        yield from _lines(held)
-
-
-def _of_shaft(joint: Universal, ends: tuple[Point, Point]) -> Iterator[Assumption]:
+def _of_shaft(joint: Universal, ends: Sequence[Point]) -> Iterator[Assumption]:
     """Yield what keeps the shaft of a cross on the line of its rod."""
     first, second = ends
     length = _norm(second.position - first.position)

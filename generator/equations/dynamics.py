@@ -29,7 +29,7 @@ from ..declare.geometry import UP, Direction
 from ..declare.joints import Revolute
 from ..declare.laws import Stretch
 from ..kinematics.hinge_angles import angle_of, positive_axis_at_design, turning_rates
-from ..kinematics.motion import Placed, to_axes
+from ..kinematics.motion import BodyMotion, to_axes
 from ..program.floors import DIRECTION, POSITIVE
 from ..program.functions import IsPositive, Positive
 from ..program.vectors import ELEMENTS, SymmetricTensor, Twist, Vector
@@ -73,7 +73,7 @@ class Rotor:
 
     coordinate: str
     body: Body
-    carrier: Placed
+    carrier: BodyMotion
     axis: Vector
     inertia: sp.Expr
 
@@ -156,7 +156,7 @@ class Dynamics:
             sp.Symbol(f"{body.name}_inertia_diametral"),
         )
 
-    def _chassis_axes(self, placed: Placed) -> tuple[Vector, Vector, Vector]:
+    def _chassis_axes(self, placed: BodyMotion) -> tuple[Vector, Vector, Vector]:
         """Return the body axes at the design position, in chassis axes."""
         names, part = ("first", "second", "third"), self.kin.of(placed.body)
         x, y, z = (
@@ -177,7 +177,7 @@ class Dynamics:
         own.tensor += SymmetricTensor.transverse(across, axis)
         self.rotors.append(Rotor(coordinate, body, carrier, axis, spin))
 
-    def _bearing_axis(self, joint: Revolute, carrier: Placed) -> Vector:
+    def _bearing_axis(self, joint: Revolute, carrier: BodyMotion) -> Vector:
         """Return the axis about which the angle of a rotor's hinge is positive, on its carrier.
 
         The axis of the rotor is the same line, but may point the other way.
@@ -212,7 +212,7 @@ class Dynamics:
     def _is_rotor(self, name: str) -> bool:
         return any(rotor.body.name == name for rotor in self.rotors)
 
-    def _add_body(self, placed: Placed, inertia: Inertia) -> None:
+    def _add_body(self, placed: BodyMotion, inertia: Inertia) -> None:
         body = placed.body
         columns = [k for k in self.names if k in placed.motion]
         angular: dict[str, Vector] = {}
@@ -243,13 +243,13 @@ class Dynamics:
         else:
             self._add_full_bias(placed, inertia, columns)
 
-    def _add_single_bias(self, placed: Placed, k: str, angular: Vector) -> None:
+    def _add_single_bias(self, placed: BodyMotion, k: str, angular: Vector) -> None:
         """B = momentum . (d twist/dq) q'^2; the convective part vanishes identically."""
         bias, twist = placed.bias(), placed.motion[k]
         linear = bias.linear - twist.angular.cross(twist.linear)
         self._bias[k] += angular.dot(bias.angular) + self._momentum[placed.body, k].dot(linear)
 
-    def _add_full_bias(self, placed: Placed, inertia: Inertia, columns: list[str]) -> None:
+    def _add_full_bias(self, placed: BodyMotion, inertia: Inertia, columns: list[str]) -> None:
         """Newton-Euler at the bias acceleration, projected on each column."""
         body, program = placed.body, self.program
         bias, omega = placed.bias(), self.kin.total(placed).angular
@@ -298,7 +298,7 @@ class Dynamics:
             elif isinstance(force, JointForce):
                 self._add_joint_force(force)
 
-    def up_in(self, placed: Placed) -> Vector:
+    def up_in(self, placed: BodyMotion) -> Vector:
         """Return the upward unit vector in body axes."""
         up = to_axes(placed.axes, self.kin.of(placed.body).design_direction(UP))
         return self.program.vector(f"{placed.body}_up", up, "123")
@@ -413,7 +413,7 @@ class Dynamics:
         )
 
     def _tyre_load(
-        self, force: LinearTyre, carrier: Placed, center: Vector, deflection: sp.Expr
+        self, force: LinearTyre, carrier: BodyMotion, center: Vector, deflection: sp.Expr
     ) -> sp.Expr:
         """Return the load of a tyre of some deflection: spring, damper, contact."""
         program, prefix = self.program, self.kin.mechanism.prefix(force)
@@ -435,7 +435,7 @@ class Dynamics:
             load += sp.Symbol(force.lifts_off) * (pressed - load)
         return load
 
-    def wheel_velocity(self, carrier: Placed, center: Vector, k: str) -> Vector:
+    def wheel_velocity(self, carrier: BodyMotion, center: Vector, k: str) -> Vector:
         """Return the velocity of the wheel centre per unit rate, in the carrier's axes."""
         twist = carrier.motion[k]
         return self.program.vector(

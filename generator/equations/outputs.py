@@ -11,8 +11,8 @@ from ..declare.checks import check_symbols
 from ..declare.declared import DeclarationError
 from ..declare.forces import ForceElement, JointForce, LinearTyre
 from ..declare.laws import Actuator
-from ..kinematics.motion import IDENTITY, Placed, from_axes
-from ..loops.planner import Plan
+from ..kinematics.motion import IDENTITY, BodyMotion, from_axes
+from ..planning.plan import Plan
 from ..program.constants import ConstantStage
 from ..program.functions import SignOf
 from ..program.program import Program
@@ -414,14 +414,14 @@ class _Builder:
             6,
         )
 
-    def _center(self, placed: Placed) -> Vector:
+    def _center(self, placed: BodyMotion) -> Vector:
         """Return the centre of mass in chassis axes."""
         local = self.kin.local(placed, self.mechanism.body(placed.body).center)
         work = placed.origin + from_axes(placed.axes, local)
         part = self.kin.of(placed.body)
         return part.to_chassis(work) + part.work_origin
 
-    def _orientation(self, placed: Placed) -> dict[str, sp.Expr]:
+    def _orientation(self, placed: BodyMotion) -> dict[str, sp.Expr]:
         if placed.axes is IDENTITY:
             return {f"R{a}{b}": sp.Integer(int(a == b)) for a in AXES for b in AXES}
         part = self.kin.of(placed.body)
@@ -511,7 +511,7 @@ class _Builder:
         )
 
     def _add_wheel_angles(
-        self, tyre: LinearTyre, carrier: Placed, results: dict[str, sp.Expr]
+        self, tyre: LinearTyre, carrier: BodyMotion, results: dict[str, sp.Expr]
     ) -> None:
         prefix = self.mechanism.prefix(tyre)
         axis = from_axes(carrier.axes, self.kin.local_direction(carrier, tyre.spin))

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import networkx as nx
 
 from ..kinematics.kinematics import Kinematics
-from ..kinematics.motion import OnLine, Placed, PointMotion
+from ..kinematics.motion import BodyMotion, OnLine, PointMotion
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -32,8 +32,12 @@ class Parts:
 
     Parameters
     ----------
-    program, plan, held
-        As those of `Kinematics`.
+    program
+        Receives the steps.
+    plan
+        What to solve, in which order.
+    held
+        Prescribed joints that stand still in this variant.
 
     Attributes
     ----------
@@ -46,7 +50,7 @@ class Parts:
     def __init__(self, program: Program, plan: Plan, held: Iterable[str] = ()) -> None:
         held = tuple(held)
         common, groups = independent_groups(plan)
-        self.parts = [Kinematics(program, plan, held, common | group) for group in groups]
+        self.parts = [_moved(program, plan, common | group, held) for group in groups]
         self._owners = {
             body: part for part, group in zip(self.parts, groups, strict=True) for body in group
         }
@@ -56,7 +60,7 @@ class Parts:
         self.moving, self.independent, self.rotors = first.moving, first.independent, first.rotors
         self.alone, self.pace, self.pace_of = first.alone, first.pace, first.pace_of
         self.true_rate, self.coordinate_of = first.true_rate, first.coordinate_of
-        self.placed: dict[str, Placed] = {}
+        self.placed: dict[str, BodyMotion] = {}
         self.telescopes: dict[str, OnLine] = {}
         self.slides: dict[str, sp.Expr] = {}
         for part in self.parts:
@@ -72,19 +76,19 @@ class Parts:
         """Return the part of a joint."""
         return next((self._owners[b] for b in joint.bodies if b in self._owners), self.parts[0])
 
-    def local(self, placed: Placed, point: Point) -> Vector:
+    def local(self, placed: BodyMotion, point: Point) -> Vector:
         """Return the constant body coordinates of a point."""
         return self.of(placed.body).local(placed, point)
 
-    def local_direction(self, placed: Placed, direction: Direction) -> Vector:
+    def local_direction(self, placed: BodyMotion, direction: Direction) -> Vector:
         """Return the constant body components of a direction fixed in a body."""
         return self.of(placed.body).local_direction(placed, direction)
 
-    def total(self, placed: Placed) -> Twist:
+    def total(self, placed: BodyMotion) -> Twist:
         """Return the twist at the rates at which biases are computed."""
         return self.of(placed.body).total(placed)
 
-    def point_bias(self, placed: Placed, local: Vector) -> Vector:
+    def point_bias(self, placed: BodyMotion, local: Vector) -> Vector:
         """Return the bias acceleration of a point of a body, in body axes."""
         return self.of(placed.body).point_bias(placed, local)
 
@@ -101,6 +105,21 @@ class Parts:
             part = next(iter(owners), self.parts[0])
             one, other = (part.point_motion(body, point) for body, point in ends)
         return other.minus(one)
+
+
+def _moved(program: Program, plan: Plan, bodies: set[str], held: Iterable[str]) -> Kinematics:
+    """Carry out the steps of a plan that are about some bodies.
+
+    What else takes part in them is of this part too, since nothing closes between two parts.
+    """
+    steps = [step for step in plan.steps if step.about in bodies]
+    ground = plan.model.mechanism.ground
+    origin = next((point for step in steps if (point := step.origin_on(ground))), None)
+    kin = Kinematics(program, plan.model, plan.loops, bodies, origin, held)
+    for step in steps:
+        program.section(step.title)
+        step.carry_out(kin)
+    return kin
 
 
 def _in_chassis_axes(part: Kinematics, body: str, point: Point) -> PointMotion:

@@ -17,8 +17,15 @@ import sympy as sp
 from ..declare.geometry import Point
 from ..declare.joints import Cylindrical, Joint, Prismatic, Revolute, Universal
 from ..kinematics.hinge_angles import angle_of, is_first_axis, positive_axis_at_design, turn_between
-from ..kinematics.motion import IDENTITY, Axes, Placed, from_axes, to_axes
-from ..loops.actions import PlaceByPin, SolveHinge, SolveSlide, SolveTelescope, SolveTurn
+from ..kinematics.motion import (
+    IDENTITY,
+    Axes,
+    BodyMotion,
+    RodEnds,
+    TelescopeEnds,
+    from_axes,
+    to_axes,
+)
 from ..program.floors import DIRECTION
 from ..program.vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Vector
 
@@ -138,18 +145,18 @@ class RelativeCoordinates:
         seen = self._in_first_body(self.kin.placed[joint.first], direction)
         return self.program.vector(f"shaft_{joint.name}", seen)
 
-    def _in_first_body(self, parent: Placed, work: Vector) -> Vector:
+    def _in_first_body(self, parent: BodyMotion, work: Vector) -> Vector:
         """Return components along the chassis axes as the first body carries them with it."""
         if parent.axes is IDENTITY:
             return self.kin.to_chassis(work)
         return from_axes(self._chassis_axes(parent), to_axes(parent.axes, work))
 
-    def _chassis_axes(self, placed: Placed) -> Axes:
+    def _chassis_axes(self, placed: BodyMotion) -> Axes:
         """Return the body axes at the design position, in chassis axes."""
         x, y, z = (self.kin.to_chassis(axis) for axis in placed.design_axes)
         return x, y, z
 
-    def _from_first_body(self, parent: Placed, name: str, v: Vector) -> Vector:
+    def _from_first_body(self, parent: BodyMotion, name: str, v: Vector) -> Vector:
         if parent.axes is not IDENTITY:
             v = from_axes(parent.axes, to_axes(self._chassis_axes(parent), v))
             return self.program.vector(name, v)
@@ -165,7 +172,7 @@ class RelativeCoordinates:
             f"angle_{joint.name}", sp.atan2(-marker.dot(shaft.x), marker.dot(shaft.z))
         )
 
-    def from_axis(self, placed: Placed, joint: Cylindrical, point: Point) -> Vector:
+    def from_axis(self, placed: BodyMotion, joint: Cylindrical, point: Point) -> Vector:
         """Return a point of a telescope's second body from where the axis passes through it."""
         assert isinstance(joint.axis.through, Point)
         return self.kin.local(placed, point) - self.kin.local(placed, joint.axis.through)
@@ -338,23 +345,18 @@ class _Closure:
         """
         if self.kin.is_driven(joint):
             return given - self.kin.coordinates[self.kin.coordinate_of(joint)]
-        action = self._action_at(joint)
-        if action is None or (isinstance(joint, Revolute) and joint.angle_to is not None):
+        meeting = self.kin.meetings.get(joint.name)
+        if meeting is None or (isinstance(joint, Revolute) and joint.angle_to is not None):
             return self._placed_residual(joint, given)
-        parent, sense = self.kin.placed[action.parent], 1 if joint.second == action.body else -1
-        if isinstance(action, PlaceByPin):
-            target = self.kin.point_motion(action.pin_body, action.pin).position
-            point = action.pin
-        else:
-            target = self.kin.point_motion(action.anchor_body, action.anchor).position
-            point = action.end
-        local = self.kin.local(parent, point)
+        parent, sense = self.kin.placed[meeting.parent], 1 if joint.second == meeting.body else -1
+        target = self.kin.point_motion(meeting.target_body, meeting.target).position
+        local = self.kin.local(parent, meeting.point)
         moved = self._moved(joint, parent, local, sense * given)
         gap = parent.origin + from_axes(parent.axes, moved) - target
         gap = self.program.vector(f"given_gap_{joint.name}", gap)
-        if isinstance(action, PlaceByPin):
-            return gap.dot(self.kin.placed[action.body].axes[2])
-        return sp.sqrt(gap.dot(gap)) - self.kin.rod_lengths[action.rod]
+        if meeting.rod is None:
+            return gap.dot(self.kin.placed[meeting.body].axes[2])
+        return sp.sqrt(gap.dot(gap)) - self.kin.rod_lengths[meeting.rod]
 
     def _placed_residual(self, joint: Revolute | Prismatic, given: sp.Symbol) -> sp.Expr:
         """Return how far a given coordinate is from that of the poses; of an angle, the sine."""
@@ -371,13 +373,8 @@ class _Closure:
         way = to_axes(first.axes, second.origin - first.origin) - start
         return self.kin.local_direction(first, joint.direction).dot(way)
 
-    def _action_at(self, joint: Joint) -> PlaceByPin | SolveHinge | SolveSlide | None:
-        kinds = PlaceByPin | SolveHinge | SolveSlide
-        found = (a for a in self.kin.plan.actions if isinstance(a, kinds) and a.joint == joint)
-        return next(found, None)
-
     def _moved(
-        self, joint: Revolute | Prismatic, parent: Placed, local: Vector, given: sp.Expr
+        self, joint: Revolute | Prismatic, parent: BodyMotion, local: Vector, given: sp.Expr
     ) -> Vector:
         """Return where a joint's coordinate takes a point of its second body, in parent axes."""
         if isinstance(joint, Prismatic):
@@ -442,7 +439,7 @@ class _Closure:
         turn = self._turn_of_rod(joint.second)
         shafts = (j for j in self.mechanism.joints_of(joint.second) if isinstance(j, Cylindrical))
         telescope = next(shafts, None)
-        if turn is not None and any(t.end_link == turn.body for t in self._telescopes()):
+        if turn is not None and any(t.end_link == turn.body for t in self.kin.spans.values()):
             span = self._rod_span(turn)
         elif telescope is not None:
             span = self._telescope_span(telescope)
@@ -451,24 +448,18 @@ class _Closure:
         length = self.program.define(f"given_length_{joint.name}", sp.sqrt(span.dot(span)))
         return self.program.vector(f"given_shaft_{joint.name}", span * (1 / length))
 
-    def _turn_of_rod(self, rod: str) -> SolveTurn | None:
-        turns = [a for a in self.kin.plan.actions if isinstance(a, SolveTurn) and a.rod == rod]
-        return turns[0] if turns else None
+    def _turn_of_rod(self, rod: str) -> RodEnds | None:
+        return next((ends for ends in self.kin.turned.values() if ends.rod == rod), None)
 
     def _rod_residual(self, joint: Cylindrical) -> sp.Expr:
         """Eq. 13: the distance of the rod's ends along the chain, less the length of the rod."""
-        turn = next(
-            a for a in self.kin.plan.actions if isinstance(a, SolveTurn) and a.body == joint.second
-        )
+        turn = self.kin.turned[joint.second]
         span = self._rod_span(turn)
         return sp.sqrt(span.dot(span)) - self.kin.rod_lengths[turn.rod]
 
-    def _telescopes(self) -> list[SolveTelescope]:
-        return [a for a in self.kin.plan.actions if isinstance(a, SolveTelescope)]
-
-    def _rod_span(self, turn: SolveTurn) -> Vector:
+    def _rod_span(self, turn: RodEnds) -> Vector:
         """Return the vector from the rod's anchor to its end, by explicit rotations (Eq. 17)."""
-        telescope = next(a for a in self._telescopes() if a.end_link == turn.body)
+        telescope = next(t for t in self.kin.spans.values() if t.end_link == turn.body)
         end = self._by_chain(telescope, turn.end, self._last)
         anchor = self._from_driven(
             f"given_{turn.anchor.name}",
@@ -477,7 +468,7 @@ class _Closure:
         return self.program.vector(f"given_{turn.rod}", end - anchor)
 
     def _by_chain(
-        self, telescope: SolveTelescope, point: Point, copy: Callable[[str, str], sp.Symbol]
+        self, telescope: TelescopeEnds, point: Point, copy: Callable[[str, str], sp.Symbol]
     ) -> Vector:
         """Return where the chain through a telescope puts a point of its second body."""
         joint = telescope.joint
@@ -494,14 +485,14 @@ class _Closure:
         )
         return center + from_center
 
-    def _offset_telescope(self, joint: Joint) -> SolveTelescope | None:
+    def _offset_telescope(self, joint: Joint) -> TelescopeEnds | None:
         """Return the telescope whose axis misses its end, if the joint is part of it."""
-        for action in self._telescopes():
-            if action.misses_end and joint in (action.joint, self.relative.holder(action.joint)):
-                return action
+        for ends in self.kin.spans.values():
+            if ends.misses_end and joint in (ends.joint, self.relative.holder(ends.joint)):
+                return ends
         return None
 
-    def _gap_at_end(self, telescope: SolveTelescope) -> Vector:
+    def _gap_at_end(self, telescope: TelescopeEnds) -> Vector:
         """Return how far the chain through a telescope ends from the point it should reach."""
         end = self._from_driven(
             f"given_{telescope.end.name}",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from ..declare.joints import Revolute
 from ..program.conditions import Condition
@@ -11,20 +11,27 @@ from ..program.floors import FAR
 if TYPE_CHECKING:
     import sympy as sp
 
-    from ..loops.actions import Action, HeldByRod, PinnedTelescope
+    from ..declare.geometry import Point
     from .kinematics import Kinematics
 
 
-def extent_squared(kin: Kinematics, action: Action | HeldByRod | PinnedTelescope) -> sp.Expr:
-    """Append the square of the extent of the loop that an action solves, a constant [m^2].
+class Spanning(Protocol):
+    """What has points: a step of a plan, or a leg."""
 
-    Of an action that solves none, it is that of all joints.
+    @property
+    def points(self) -> tuple[Point, ...]:
+        """The points between which it reaches."""
+
+
+def extent_squared(kin: Kinematics, step: Spanning) -> sp.Expr:
+    """Append the square of the extent of the loop that a step closes, a constant [m^2].
+
+    Of a step that closes none, it is that of all joints.
     """
-    transformer = next((t for t in kin.plan.transformers if t.action == action), None)
-    joints = transformer.cycle.joints if transformer else kin.mechanism.joints
-    label = f"loop_{transformer.number}" if transformer else "mechanism"
-    found = [getattr(action, name, None) for name in ("anchor", "end", "axis_point")]
-    found += [joint.center for joint in joints]
+    loop = kin.closed_by(step)
+    joints = loop.joints if loop else kin.mechanism.joints
+    label = f"loop_{loop.number}" if loop else "mechanism"
+    found = [*step.points, *(joint.center for joint in joints)]
     found += [joint.axis.through for joint in joints if isinstance(joint, Revolute)]
     first, *others = (kin.design(point) for point in dict.fromkeys(found) if point is not None)
     ways = (point - first for point in others)

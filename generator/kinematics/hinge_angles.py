@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ..loops.actions import PlaceByJoint, PlaceByPin, SolveHinge
+from ..declare.joints import Revolute
 from ..program.functions import SignOf
 from ..program.vectors import UNIT_X, ZERO, Vector
-from .motion import Placed, from_axes, to_axes
+from .motion import BodyMotion, from_axes, to_axes
 
 if TYPE_CHECKING:
-    from ..declare.joints import Revolute
+    from collections.abc import Iterator
+
     from ..program.program import Program
     from .kinematics import Kinematics
 
@@ -99,13 +100,19 @@ def turning_rates(kin: Kinematics, joint: Revolute) -> dict[str, sp.Expr]:
 
 def is_first_axis(kin: Kinematics, joint: Revolute) -> bool:
     """Tell whether a hinge placed its second body, so that it is the first of the body's axes."""
-    kinds = PlaceByPin | SolveHinge
-    turned = [a.body for a in kin.plan.actions if isinstance(a, kinds) and a.joint == joint]
-    followed = any(isinstance(a, PlaceByJoint) and a.joint == joint for a in kin.plan.actions)
-    return followed or (turned == [joint.second] and joint.angle_to is None)
+    return kin.placed[joint.second].hinge == joint.name
 
 
-def _axis_on(kin: Kinematics, joint: Revolute, placed: Placed) -> Vector:
+def driven_coordinates(kin: Kinematics) -> Iterator[tuple[sp.Symbol, sp.Expr, bool]]:
+    """Yield symbol, value at design, and whether it is an angle, of each driven coordinate."""
+    for joint in (j for j in kin.driven if j.second in kin.bodies):
+        start = sp.Integer(0)
+        if isinstance(joint, Revolute) and joint.angle_to is not None:
+            start = HingeDesign.of(kin, joint).angle(kin.program, joint.name)
+        yield kin.coordinates[kin.coordinate_of(joint)], start, isinstance(joint, Revolute)
+
+
+def _axis_on(kin: Kinematics, joint: Revolute, placed: BodyMotion) -> Vector:
     """Return the axis of a hinge in the axes of one of its bodies."""
     if placed.body == joint.second and is_first_axis(kin, joint):
         return UNIT_X
@@ -136,7 +143,7 @@ def turn_between(kin: Kinematics, joint: Revolute) -> tuple[sp.Expr, sp.Expr]:
     return n.dot(swept) * half, agreement * half
 
 
-def _carried(kin: Kinematics, placed: Placed, name: str, design: Vector) -> Vector:
+def _carried(kin: Kinematics, placed: BodyMotion, name: str, design: Vector) -> Vector:
     """Return where a body has carried a direction from the design position."""
     local = kin.program.vector(f"{name}_on_{placed.body}", to_axes(placed.design_axes, design))
     return from_axes(placed.axes, local)

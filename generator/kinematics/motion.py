@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
+from ..declare.geometry import Point
 from ..program.vectors import NO_TWIST, UNIT_X, UNIT_Y, UNIT_Z, ZERO, Twist, Vector
 
 if TYPE_CHECKING:
@@ -17,8 +18,7 @@ if TYPE_CHECKING:
 
     import sympy as sp
 
-    from ..declare.geometry import Point
-    from ..loops.actions import SolveTelescope
+    from ..declare.joints import Cylindrical
 
 Axes = tuple[Vector, Vector, Vector]
 IDENTITY: Axes = (UNIT_X, UNIT_Y, UNIT_Z)
@@ -37,7 +37,7 @@ def from_axes(axes: Axes, v: Vector) -> Vector:
 
 
 @dataclass
-class Placed:
+class BodyMotion:
     """A body whose pose is known.
 
     Attributes
@@ -53,6 +53,8 @@ class Placed:
     carrier
         Neighbour that shares the origin, with its own coordinates of that point: a point mass
         there may be counted with either body.
+    hinge
+        The hinge whose axis is the first of the body axes, if one placed the body.
     """
 
     body: str
@@ -63,6 +65,7 @@ class Placed:
     local: dict[Point, Vector] = field(default_factory=dict)
     motion: dict[str, Twist] = field(default_factory=dict)
     carrier: tuple[str, Vector] | None = None
+    hinge: str | None = None
     bias: Callable[[], Twist] = lambda: NO_TWIST
 
 
@@ -135,13 +138,71 @@ class OnLine:
 
 
 @dataclass(frozen=True)
+class RodEnds:
+    """A rod of constant length from an anchor to a point of a body, which it keeps from turning."""
+
+    body: str
+    rod: str
+    end: Point
+    anchor: Point
+    anchor_body: str
+
+
+@dataclass(frozen=True)
+class TelescopeEnds:
+    """A telescope between two points of placed bodies: its axis passes through the first one."""
+
+    joint: Cylindrical
+    anchor: Point
+    anchor_body: str
+    anchor_link: str
+    end: Point
+    end_body: str
+    end_link: str
+
+    @property
+    def axis_point(self) -> Point:
+        """The point of the end's link that the axis passes through."""
+        assert isinstance(self.joint.axis.through, Point)
+        return self.joint.axis.through
+
+    @property
+    def misses_end(self) -> bool:
+        """Whether the axis passes beside the end point."""
+        return self.axis_point != self.end
+
+
+@dataclass(frozen=True)
+class Meeting:
+    """What the coordinate of a hinge or guide was solved for.
+
+    Attributes
+    ----------
+    parent, body
+        The placed body, and the one that the joint carries.
+    point, target, target_body
+        A point of the body, and the point of a placed body that it meets, or that it is as far
+        from as a rod is long.
+    rod
+        That rod; None: the points meet.
+    """
+
+    parent: str
+    body: str
+    point: Point
+    target: Point
+    target_body: str
+    rod: str | None = None
+
+
+@dataclass(frozen=True)
 class OffLine:
     """A link of a telescope whose axis misses the link's known point: its turn is still open.
 
     Attributes
     ----------
-    action
-        What was solved: the telescope with the names of its points and bodies.
+    ends
+        The telescope with the names of its points and bodies.
     axis, offset
         At the design position: unit vector of the axis from anchor to end, and what leads from
         the axis to the end, across it (constants, work axes).
@@ -157,7 +218,7 @@ class OffLine:
         Rate of the length per unit rate of each coordinate.
     """
 
-    action: SolveTelescope
+    ends: TelescopeEnds
     anchor_motion: PointMotion
     end_motion: PointMotion
     axis: Vector

@@ -6,8 +6,11 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from ..declare.joints import Joint
     from ..declare.mechanism import Mechanism
+    from ..kinematics.step import Step
     from .graph import Cycle, Topology
 
 Coordinate = tuple[str, str]
@@ -15,7 +18,7 @@ Coordinate = tuple[str, str]
 
 
 @dataclass
-class Settled:
+class Known:
     """Bodies that have their place, and relative coordinates that are given or solved.
 
     Attributes
@@ -24,15 +27,21 @@ class Settled:
         Bodies whose pose is known.
     on_line
         Bodies of which a line is known, free to turn about it.
-    known
+    coordinates
         Relative coordinates that are given or solved.
+    steps
+        What made all this known, in order.
+    guided
+        Steps that wait for one of the two bodies of a joint to be placed, by its name.
     """
 
     mechanism: Mechanism
     topology: Topology
     placed: set[str] = field(default_factory=set)
     on_line: set[str] = field(default_factory=set)
-    known: set[Coordinate] = field(default_factory=set)
+    coordinates: set[Coordinate] = field(default_factory=set)
+    steps: list[Step] = field(default_factory=list)
+    guided: dict[str, Step] = field(default_factory=dict)
 
     @property
     def bodies(self) -> set[str]:
@@ -41,7 +50,7 @@ class Settled:
 
     def knows(self, joint: Joint, coordinate: str) -> bool:
         """Tell whether a relative coordinate is given or already solved."""
-        return (joint.name, coordinate) in self.known
+        return (joint.name, coordinate) in self.coordinates
 
     def unknowns_of(self, joint: Joint) -> int:
         """Return how many relative coordinates of a joint are unknown."""
@@ -55,8 +64,22 @@ class Settled:
         """Tell whether a joint connects two bodies that are placed or on a line."""
         return self.bodies.issuperset(joint.bodies)
 
+    def place(self, body: str) -> None:
+        """Record a body as placed."""
+        self.placed.add(body)
+        self.on_line.discard(body)
+
     def add(self, coordinates: set[Coordinate]) -> set[Coordinate]:
         """Record coordinates as known, and return those that were not."""
-        new = coordinates - self.known
-        self.known |= new
+        new = coordinates - self.coordinates
+        self.coordinates |= new
         return new
+
+    def add_all(self, joints: Iterable[Joint]) -> set[Coordinate]:
+        """Record all coordinates of some joints as known, and return those that were not."""
+        return self.add(coordinates_of(joints))
+
+
+def coordinates_of(joints: Iterable[Joint]) -> set[Coordinate]:
+    """Return all relative coordinates of some joints."""
+    return {(joint.name, c) for joint in joints for c in joint.coordinates}

@@ -2,59 +2,37 @@
 
 A transformer is one loop of the minimal cycle basis, cut at its *characteristic pair of joints*
 (Hiller & Woernle, 1988): the pair whose own coordinates, taken together, are the most numerous, so
-that the fewest closure equations remain. The pairs and the closed forms that they lead to are found
-by `pairs`, what each makes known is said in `acceptance`. Everything here is structure; the algebra
-is in `solutions`.
+that the fewest closure equations remain. The pairs are found by `cut`; which closed form a loop has
+is for the forms to say, of which the planner is handed a catalogue (`forms`). Everything here is
+structure.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from itertools import permutations
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar, Self
 
-from ..closed_forms.carriers import held_together
-from ..closed_forms.coupling import coupled
 from ..declare.joints import Joint, Prismatic, Revolute, Spherical, Universal
 from ..declare.model import DRIVABLE
-from .acceptance import accept
-from .actions import (
-    Action,
-    CutJoint,
-    HeldByRod,
-    PlaceByCross,
-    PlaceByGuide,
-    PlaceByJoint,
-    PlaceByPin,
-    PlaceIdle,
-    PlaceTelescope,
-    Solution,
-    SolveCarrier,
-    SolveHinge,
-    SolveSlide,
-    SolveStrut,
-    SolveTogether,
-    Strut,
-)
+from ..kinematics.kinematics import Loop
+from .cut import PairCandidate, pair_candidates, views
 from .errors import NoClosedFormError
 from .graph import Cycle, MinimalBasis, Topology
-from .known import Settled
-from .pairs import PairCandidate, closed_form, pair_candidates
+from .known import Known, coordinates_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from ..closed_forms.coupling import Coupling
     from ..declare.mechanism import Mechanism
     from ..declare.model import Model
+    from ..kinematics.step import Step
+    from .forms import Attempt, Catalogue, ClosedForm, Closing, Iteration, PlannedStep, Solution
     from .known import Coordinate
 
 
 _Offer = tuple[Cycle, list[Cycle]]
 """A cycle of the basis, with the others that could have been taken."""
-
-Closing = CutJoint | HeldByRod
-"""What closes a loop that is solved by iteration."""
 
 
 @dataclass(frozen=True)
@@ -83,7 +61,7 @@ class Transformer:
     unknowns: int
     candidates: tuple[PairCandidate, ...]
     pair: PairCandidate | None
-    action: Solution
+    step: Solution
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
     rivals: tuple[tuple[Cycle, int], ...]
@@ -92,22 +70,18 @@ class Transformer:
 
 def _one_for_each(closing: Sequence[Closing], cycles: Sequence[Cycle]) -> tuple[Closing, ...]:
     """Return for each of some loops something else that closes it."""
-
-    def closes(end: Closing, cycle: Cycle) -> bool:
-        if isinstance(end, CutJoint):
-            return end.joint in cycle.joints
-        return set(end.links) <= set(cycle.bodies)
-
     return next(
-        ends for ends in permutations(closing, len(cycles)) if all(map(closes, ends, cycles))
+        ends
+        for ends in permutations(closing, len(cycles))
+        if all(end.closes(cycle) for end, cycle in zip(ends, cycles, strict=True))
     )
 
 
 def _pair_at(closing: Closing, candidates: Sequence[PairCandidate]) -> PairCandidate | None:
     """Return the two joints at the ends of a rod that closes a loop."""
-    if isinstance(closing, CutJoint):
+    links = set(closing.between)
+    if not links:
         return None
-    links = set(closing.links)
     return next(p for p in candidates if all(links & set(j.bodies) for j in p.joints))
 
 
@@ -117,34 +91,46 @@ class Plan:
 
     Attributes
     ----------
+    catalogue
+        What it tries; a class of plans has one.
     transformers
         The loops in the order in which they are solved.
-    actions
-        Everything the kinematics has to do, in order.
     """
+
+    catalogue: ClassVar[Catalogue]
 
     model: Model
     topology: Topology
     transformers: list[Transformer] = field(default_factory=list)
-    actions: list[Action] = field(default_factory=list)
-    _settled: Settled = field(init=False, repr=False)
+    _known: Known = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        self._settled = Settled(self._mechanism, self.topology)
+        self._known = Known(self._mechanism, self.topology)
 
     @classmethod
-    def of(cls, model: Model) -> Plan:
+    def of(cls, model: Model) -> Self:
         """Analyse a model: choose the basis, the pairs and the order."""
         plan = cls(model, Topology(model.mechanism))
-        plan._settled.placed.add(plan._mechanism.ground)
-        for name in plan._driven:
-            joint = plan._mechanism.joint(name)
-            plan._settled.known.update((name, c) for c in joint.coordinates)
+        plan._known.placed.add(plan._mechanism.ground)
+        plan._known.add_all(map(plan._mechanism.joint, plan._driven))
         plan._place_neighbours()
         plan._solve_loops()
-        plan._place_idle()
+        plan._place_leftovers()
         plan._check_complete()
         return plan
+
+    @property
+    def steps(self) -> list[Step]:
+        """Everything the kinematics has to do, in order."""
+        return self._known.steps
+
+    @property
+    def loops(self) -> dict[object, Loop]:
+        """The loop that a step closes, the first one of several, by the step."""
+        found: dict[object, Loop] = {}
+        for t in self.transformers:
+            found.setdefault(t.step, Loop(t.number, t.cycle.bodies, t.cycle.joints))
+        return found
 
     def _solve_loops(self) -> None:
         """Choose a minimal cycle basis, and solve each loop as soon as it can be solved.
@@ -155,7 +141,7 @@ class Plan:
         basis = MinimalBasis(self.topology)
         waiting: list[_Offer] = []
         while (options := basis.options()) or waiting:
-            options.sort(key=self._settled.unknowns)  # stable: ties keep the figure's order
+            options.sort(key=self._known.unknowns)  # stable: ties keep the figure's order
             offers = [(c, [o for o in options if o is not c]) for c in options]
             solved = next((offer for offer in (*waiting, *offers) if self._solve(*offer)), None)
             if solved is None and not offers:
@@ -176,12 +162,12 @@ class Plan:
     def _mechanism(self) -> Mechanism:
         return self.model.mechanism
 
-    def is_pinned(self, body: str) -> bool:
-        """Tell whether a rod is placed by its pins; others are free to turn about their line."""
-        pinned = {a.body for a in self.actions if isinstance(a, PlaceByPin)}
-        return body in pinned | {a.near for a in self.actions if isinstance(a, PlaceTelescope)}
-
     # -- placing bodies -------------------------------------------------------------------------
+
+    def _accept(self, step: PlannedStep) -> set[Coordinate]:
+        """Append a step, and record what follows from it."""
+        self._known.steps.append(step)
+        return step.accept(self._known)
 
     def _place_neighbours(self) -> None:
         """Place every body that follows from a placed one without a closure equation."""
@@ -189,64 +175,37 @@ class Plan:
         while progress:
             progress = False
             for joint in self._mechanism.joints:
-                action = self._follow(joint)
-                if action is not None:
-                    self.actions.append(action)
-                    self._settled.placed.add(action.child)
-                    self._settled.on_line.discard(action.child)
+                step = self._follow(joint)
+                if step is not None:
+                    self._accept(step)
                     progress = True
 
-    def _follow(self, joint: Joint) -> PlaceByJoint | PlaceByCross | PlaceByGuide | None:
-        placed = [b in self._settled.placed for b in joint.bodies]
+    def _follow(self, joint: Joint) -> PlannedStep | None:
+        """Return the step that places a body beside a placed one by a joint, if there is one."""
+        placed = [b in self._known.placed for b in joint.bodies]
         if placed[0] == placed[1]:
             return None
         parent, child = joint.bodies if placed[0] else reversed(joint.bodies)
-        if (
-            isinstance(joint, Universal)
-            and child == joint.second
-            and child in self._settled.on_line
-        ):
-            return PlaceByCross(joint, parent, child)
-        strut = self._strut_at(joint)
-        if strut is not None:
-            return PlaceByGuide(strut) if child == strut.far else None
-        if isinstance(joint, Revolute | Prismatic) and self._settled.unknowns_of(joint) == 0:
-            if child != joint.second:
-                message = (
-                    f"joint {joint.name!r}: declare {parent!r} first and {child!r} second, "
-                    "since its coordinate drives the second body"
-                )
-                raise NoClosedFormError(message)
-            return PlaceByJoint(joint, parent, child)
-        return None
+        tried = (f.follow(self._known, joint, parent, child) for f in self.catalogue.followers)
+        return next((step for step in tried if step), None)
 
-    def _strut_at(self, joint: Joint) -> Strut | None:
-        """Return the strut whose guide a joint is, if its line is known."""
-        struts = [a for a in self.actions if isinstance(a, SolveStrut)]
-        held = [a.telescope for a in self.actions if isinstance(a, SolveHinge | SolveSlide)]
-        known = [*struts, *(strut for strut in held if isinstance(strut, Strut))]
-        return next((strut for strut in known if strut.joint == joint), None)
-
-    def _place_idle(self) -> None:
-        """Place the links without mass that nothing keeps from turning about their line."""
-        for body in self._mechanism.idle_links:
-            if body in self._settled.on_line and body not in self.model.massive:
-                self.actions.append(PlaceIdle(body))
-                self._settled.on_line.discard(body)
-                self._settled.placed.add(body)
+    def _place_leftovers(self) -> None:
+        for kind in self.catalogue.leftovers:
+            for step in kind.left(self._known, self.model.massive):
+                self._accept(step)
 
     # -- solving a loop -------------------------------------------------------------------------
 
     def _solve(self, cycle: Cycle, rivals: list[Cycle]) -> bool:
         """Solve a loop if its equation is in the catalogue and all that it reads is known."""
-        candidates = pair_candidates(self._settled, cycle)
+        candidates = pair_candidates(self._known, cycle)
         for pair in candidates:
-            action = closed_form(self._settled, cycle, pair)
-            if action is None:
+            step = self._closed_form(cycle, pair)
+            if step is None:
                 continue
-            unknowns = self._settled.unknowns(cycle)
-            before = self._coordinates(cycle) & self._settled.known
-            after = accept(self._settled, self.actions, action)
+            unknowns = self._known.unknowns(cycle)
+            before = coordinates_of(cycle.joints) & self._known.coordinates
+            after = self._accept(step)
             self.transformers.append(
                 Transformer(
                     number=len(self.transformers) + 1,
@@ -254,7 +213,7 @@ class Plan:
                     unknowns=unknowns,
                     candidates=tuple(candidates),
                     pair=pair,
-                    action=action,
+                    step=step,
                     inputs=self._labels(before),
                     outputs=self._labels(after),
                     rivals=tuple((c, self._unknowns_before(c, after)) for c in rivals),
@@ -264,9 +223,11 @@ class Plan:
             return True
         return False
 
-    @staticmethod
-    def _coordinates(cycle: Cycle) -> set[Coordinate]:
-        return {(j.name, c) for j in cycle.joints for c in j.coordinates}
+    def _closed_form(self, cycle: Cycle, pair: PairCandidate) -> ClosedForm | None:
+        """Return the solution of a loop cut at a pair, if its equation is in the catalogue."""
+        forms = [form for form in self.catalogue.closed if pair.equations in form.equations]
+        tried = (form.match(self._known, cut) for cut in views(cycle, pair) for form in forms)
+        return next((step for step in tried if step), None)
 
     # -- loops without a closed form ------------------------------------------------------------
 
@@ -276,35 +237,30 @@ class Plan:
         A body that rods hold together, or else the fewest loops of hinges and guides.
         """
         cycles = [cycle for cycle, _ in waiting]
-        action: SolveCarrier | SolveTogether | None
-        action, closed = held_together(self._settled, cycles)
-        coupling = None if action else coupled(self._settled, self._driven, cycles)
-        if coupling is not None:
-            closed = list(coupling.cycles)
-            action = None if coupling.obstacle else coupling.action
-        if action is None or not self.model.allow_iteration:
-            cycle = (closed or cycles)[0]
-            message = self._refusal(cycle, pair_candidates(self._settled, cycle))
-            if action is None:
+        tried = (f.attempt(self._known, self._driven, cycles) for f in self.catalogue.iterations)
+        attempt = next((a for a in tried if a), None)
+        if attempt is None or attempt.obstacle or not self.model.allow_iteration:
+            cycle = (attempt.cycles if attempt else cycles)[0]
+            message = self._refusal(cycle, pair_candidates(self._known, cycle))
+            if attempt is None or attempt.obstacle:
                 message += self._miscounted()
-            message += self._remedy(action, coupling)
-            raise NoClosedFormError(message, len(self.transformers))
-        solved = [offer for offer in waiting if offer[0] in closed]
-        self._solve_together(action, solved)
+            raise NoClosedFormError(message + self._remedy(attempt), len(self.transformers))
+        solved = [offer for offer in waiting if offer[0] in attempt.cycles]
+        self._solve_together(attempt.action, solved)
         self._place_neighbours()
         return [offer for offer in waiting if offer not in solved]
 
-    def _solve_together(self, action: SolveCarrier | SolveTogether, offers: list[_Offer]) -> None:
+    def _solve_together(self, action: Iteration, offers: list[_Offer]) -> None:
         """Record the loops that one iteration solves: a transformer for each of them."""
         cycles = [cycle for cycle, _ in offers]
-        candidates = [pair_candidates(self._settled, cycle) for cycle in cycles]
+        candidates = [pair_candidates(self._known, cycle) for cycle in cycles]
         closing = _one_for_each(action.closing, cycles)
-        unknowns = [self._settled.unknowns(cycle) for cycle in cycles]
-        given = [self._coordinates(cycle) & self._settled.known for cycle in cycles]
-        found = accept(self._settled, self.actions, action)
+        unknowns = [self._known.unknowns(cycle) for cycle in cycles]
+        given = [coordinates_of(cycle.joints) & self._known.coordinates for cycle in cycles]
+        found = self._accept(action)
         left = set(found)
         for i, (cycle, rivals) in enumerate(offers):
-            own = self._coordinates(cycle) & left
+            own = coordinates_of(cycle.joints) & left
             left -= own
             self.transformers.append(
                 Transformer(
@@ -314,7 +270,7 @@ class Plan:
                     candidates=tuple(candidates[i]),
                     pair=_pair_at(closing[i], candidates[i]),
                     closing=closing[i],
-                    action=action,
+                    step=action,
                     inputs=self._labels(given[i]),
                     outputs=self._labels(own),
                     rivals=tuple((c, self._unknowns_before(c, found)) for c in rivals),
@@ -322,8 +278,7 @@ class Plan:
             )
 
     def _unknowns_before(self, cycle: Cycle, solved: set[Coordinate]) -> int:
-        own = {(j.name, c) for j in cycle.joints for c in j.coordinates}
-        return self._settled.unknowns(cycle) + len(own & solved)
+        return self._known.unknowns(cycle) + len(coordinates_of(cycle.joints) & solved)
 
     def _labels(self, coordinates: set[Coordinate]) -> tuple[str, ...]:
         """Return coordinates by name; those of a ball joint together, as its orientation."""
@@ -342,12 +297,12 @@ class Plan:
         loop = " - ".join(cycle.bodies)
         tried = "; ".join(
             f"{p.joints[0].name}/{p.joints[1].name} leaves {p.equations} equation(s) in "
-            f"{self._settled.unknowns(cycle) - p.eliminated} unknown(s)"
+            f"{self._known.unknowns(cycle) - p.eliminated} unknown(s)"
             for p in candidates
         )
         return (
             f"the loop {loop} (joints {', '.join(j.name for j in cycle.joints)}) has no closed "
-            f"form in the catalogue. {self._settled.unknowns(cycle)} of its coordinates are "
+            f"form in the catalogue. {self._known.unknowns(cycle)} of its coordinates are "
             "unknown. "
             f"Pairs tried: {tried or 'none, since no two of its joints keep a point in common'}."
         )
@@ -371,33 +326,20 @@ class Plan:
         )
 
     @staticmethod
-    def _remedy(action: SolveCarrier | SolveTogether | None, coupling: Coupling | None) -> str:
+    def _remedy(attempt: Attempt | None) -> str:
         """Say whether an iteration would solve what has no closed form."""
-        if isinstance(action, SolveCarrier):
-            problem = (
-                f" {action.body} is held by {action.rod_names} together: {len(action.rods)} "
-                "equations remain in as many unknowns."
-            )
-        elif coupling is not None:
-            together = coupling.action
-            problem = (
-                f" Closed at {together.closing_names}, {len(coupling.cycles)} loop(s) leave "
-                f"{together.equations} equations for the {len(together.unknowns)} unknown "
-                f"coordinates of {together.joint_names}"
-            )
-            problem += f", but {coupling.obstacle}." if coupling.obstacle else "."
-        else:
+        if attempt is None:
             return ""
-        if action is None:
-            return problem
+        if attempt.obstacle:
+            return f" {attempt.problem}, but {attempt.obstacle}."
         return (
-            f"{problem} Newton's method solves them, for these loops alone, if the model is "
-            "declared with allow_iteration=True."
+            f" {attempt.problem}. Newton's method solves them, for these loops alone, if the model "
+            "is declared with allow_iteration=True."
         )
 
     def _check_complete(self) -> None:
         """See that every body has a pose; say what holds the first one that has none."""
-        placed = self._settled.placed
+        placed = self._known.placed
         missing = [b.name for b in self._mechanism.bodies if b.name not in placed]
         if missing:
             remedy = next(r for j in self._mechanism.joints if (r := self._leading_to(j)))
@@ -409,12 +351,12 @@ class Plan:
 
     def _leading_to(self, joint: Joint) -> str:
         """Say what would determine the body at the far side of a joint; empty: not this joint."""
-        here, there = sorted(joint.bodies, key=self._settled.placed.__contains__, reverse=True)
-        if here not in self._settled.placed or there in self._settled.placed:
+        here, there = sorted(joint.bodies, key=self._known.placed.__contains__, reverse=True)
+        if here not in self._known.placed or there in self._known.placed:
             return ""
         if isinstance(joint, Revolute | Prismatic):
             return f"declare joint {joint.name!r} independent or prescribed"
-        if isinstance(joint, Universal) and there == joint.first and there in self._settled.on_line:
+        if isinstance(joint, Universal) and there == joint.first and there in self._known.on_line:
             return (
                 f"declare {here!r} first and {there!r} second in the cross {joint.name!r}, with "
                 f"the shaft along the rod {there!r}"

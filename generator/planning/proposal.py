@@ -19,7 +19,7 @@ from ..declare.joints import Prismatic, Revolute
 from ..declare.model import Model
 from ..loops.errors import NoClosedFormError
 from ..loops.graph import Topology
-from ..loops.planner import Plan
+from .plan import Plan
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

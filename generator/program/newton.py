@@ -4,7 +4,7 @@ A *block* is a function of its own that follows a solution: from the design posi
 zero, to the coordinates of a call. What it repeats is straight-line code, written by the same
 printers as everything else: residuals g and their Jacobian J at one estimate, for one position of
 the driven coordinates, with all that is placed before the loops (`Block.once`). Around it is one
-loop that all blocks share, with a bounded number of iterations (``emit/templates/follow.*``).
+loop that all blocks share, with a bounded number of iterations (``backends/*/templates/follow.*``).
 
 *The way* goes straight from the coordinates of the design position to those of the call, in stages.
 Where a hinge is further than a full turn from its design position, a turn alone is followed first;
@@ -22,7 +22,7 @@ ends: a dead point.
 
 After `ITERATIONS`, or where a branch ends, the block says that it is lost (`LOST`) and returns what
 it has, which is finite. Behind it, straight-line code evaluates the residuals again; its guard
-refuses what does not fulfil them, and what is lost (`solutions.inverse`).
+refuses what does not fulfil them, and what is lost (`closed_forms.inverse`).
 
 Derivatives: a block returns the adjugate and the determinant of its Jacobian J as well. Behind it,
 one more correction ``x - J^-1 g(x, v)`` is written out, in which only g depends on the arguments v.

@@ -5,19 +5,7 @@ from __future__ import annotations
 from itertools import zip_longest
 from typing import TYPE_CHECKING
 
-from ...loops.actions import (
-    CutJoint,
-    HeldByRod,
-    SolveCarrier,
-    SolveHinge,
-    SolveSlide,
-    SolveStroke,
-    SolveStrut,
-    SolveTelescope,
-    SolveTogether,
-)
 from ...program.floors import ROUNDING
-from ...program.newton import ITERATIONS
 from ...program.writing import OPERATIONS, write
 from ..words import iteration_note, mechanism_hash
 
@@ -88,72 +76,6 @@ def mobility_line(topology: Topology) -> str:
     return f"f = 6 x {moving} - ({' + '.join(closed)}){extra} = {topology.mobility}"
 
 
-def equation(transformer: Transformer) -> tuple[str, str]:
-    """Return the closure equation of a transformer and its solution, in words and symbols."""
-    action = transformer.action
-    if isinstance(action, SolveTelescope):
-        ends = f"|{action.end.name} - {action.anchor.name}|"
-        joint = action.joint
-        return (
-            f"{ends} = {joint.length_at_zero_slide} - {joint.name}.slide",
-            "explicit: the length is the root of a sum of squares",
-        )
-    if isinstance(action, SolveStrut):
-        ends = f"|{action.end.name} - {action.anchor.name}|"
-        return (
-            f"{ends} = length of {action.links} at {action.joint.name}.slide",
-            "explicit: the length is the root of a sum of squares",
-        )
-    if isinstance(action, SolveStroke):
-        ends = f"|{action.end.name} - {action.anchor.name}|"
-        return (
-            f"{ends} = length of {action.near} and {action.far} at {action.joint.name}.slide",
-            "explicit: the way along the guide is the root of a difference of squares",
-        )
-    if isinstance(action, SolveCarrier | SolveTogether):
-        return _iterated_equation(action, transformer.closing)
-    rod = action.rod
-    if isinstance(action, SolveHinge | SolveSlide) and action.telescope is not None:
-        rod = f"{action.telescope.links} at {action.telescope.joint.name}.slide"
-    if isinstance(action, SolveSlide):
-        return (
-            f"|{action.end.name} - {action.anchor.name}| = length of {rod}",
-            f"quadratic in the slide of {action.joint.name}, branch as at design",
-        )
-    return (
-        f"|{action.end.name} - {action.anchor.name}| = length of {rod}",
-        (
-            "a cos x + b sin x = c for the turn of "
-            f"{action.body} about its line, branch as at design"
-        ),
-    )
-
-
-def _iterated_equation(
-    action: SolveCarrier | SolveTogether, closing: CutJoint | HeldByRod | None
-) -> tuple[str, str]:
-    """Return what closes a loop that is solved by iteration, and how it is solved."""
-    if isinstance(closing, HeldByRod):
-        links = " and ".join(closing.links)
-        closure = f"|{closing.end.name} - {closing.anchor.name}| = length of {links}"
-    else:
-        assert closing is not None
-        joint = closing.joint
-        closure = (
-            f"{joint.first} and {joint.second} have {joint.common} in common at {joint.name}: "
-            f"{closing.equations} equations"
-        )
-    unknown = (
-        f"pose of {action.body}"
-        if isinstance(action, SolveCarrier)
-        else f"{len(action.unknowns)} coordinates of {action.joint_names}"
-    )
-    return closure, (
-        f"no closed form: {action.equations} equations for the {unknown}, by Newton's method, "
-        f"at most {ITERATIONS} iterations"
-    )
-
-
 def _cut(transformer: Transformer) -> str:
     """Return where a loop is cut."""
     if transformer.pair is None:
@@ -168,7 +90,7 @@ def _cut(transformer: Transformer) -> str:
 
 def block_diagram(topology: Topology, transformer: Transformer) -> str:
     """Draw a transformer as a block with its inputs and outputs."""
-    closure, solution = equation(transformer)
+    closure, solution = transformer.step.words(transformer.closing)
     inside = [
         f"transformer {transformer.number}",
         f"loop      {bodies_of(topology, transformer.cycle)} (length {transformer.cycle.length})",
