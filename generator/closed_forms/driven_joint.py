@@ -113,8 +113,9 @@ def _place_revolute(kin: Kinematics, joint: Revolute, parent_name: str, child: s
     for k, twist in parent.motion.items():
         velocity = twist.linear + twist.angular.cross(frame.origin)
         placed.motion[k] = kin.define_twist(child, k, Twist(turn(twist.angular), turn(velocity)))
-    if coordinate in kin.moving:
-        placed.motion[coordinate] = Twist(UNIT_X, ZERO)
+    if coordinate in kin.moving:  # where a closed form reads the angle, it moves the parent too
+        carried = placed.motion.get(coordinate, NO_TWIST)
+        placed.motion[coordinate] = carried + Twist(UNIT_X, ZERO)
 
     def bias() -> Twist:
         if coordinate in kin.rotors and kin.pace_of(parent) != 1:

@@ -32,7 +32,7 @@ class Known:
     steps
         What made all this known, in order.
     guided
-        Steps that wait for one of the two bodies of a joint to be placed, by its name.
+        By the name of a joint, the step that alone may place a body by it.
     """
 
     mechanism: Mechanism
