@@ -13,6 +13,7 @@ import mpmath
 import numpy as np
 import own_loops
 import own_mechanisms
+import own_yokes
 import pytest
 import sympy as sp
 from kintrafo.generator import Model, Revolute
@@ -52,6 +53,8 @@ EVERY = {
         own_loops.ROCKERS,
         own_loops.FIVE_BAR,
         own_loops.DRIVEN_GUIDE,
+        own_loops.FOUR_BAR_AT_ITS_KNEE,
+        own_yokes.SCOTCH_YOKE,
     )
 }
 NOT_MIRRORED = ("rockers",)
@@ -69,6 +72,8 @@ SAMPLE = (
     "inverted_crank",
     "control_arm_multi_link",
     "plate_on_a_pin",
+    "knee_bar",
+    "scotch_yoke",
 )
 """Mechanisms with every step of the catalogue; all of them are tried by the fuzzer."""
 
