@@ -2,7 +2,7 @@
 
 These are the quantities of sections 4.1 to 4.3 of the paper. They are derived from the joints, not
 from the closed forms: `residuals` and `absolute_jacobian` follow the chain of joints with explicit
-rotations, and so check what `solutions` solved.
+rotations, and so check what `closed_forms` solved.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Vectors of three symbolic components.
 
 A `Vector` does not know the axes it is written in. By convention, positions are in the *work axes*
-(ground-fixed, see `kinematics.WorkAxes`), and twists are in the axes of the body they belong to.
+(ground-fixed, see `kinematics.Kinematics`), and twists are in the axes of the body they belong to.
 """
 
 from __future__ import annotations
