@@ -13,9 +13,9 @@ import numpy as np
 import typer
 from kintrafo import Simulation, System, simulate
 from kintrafo.generated import front_axle as equations
-from kintrafo.generator.mechanism import Model
+from kintrafo.generator import Model
+from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import front_axle, macpherson
-from kintrafo.generator.outputs import generate
 from kintrafo.plots.figures import BLUE, ORANGE, STYLE
 from matplotlib import rc_context
 from matplotlib.figure import Figure

@@ -21,9 +21,9 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 from kintrafo import System, simulate
-from kintrafo.generator.mechanism import Model
+from kintrafo.generator import Model
+from kintrafo.generator.equations.outputs import GeneratedModel, generate
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
-from kintrafo.generator.outputs import GeneratedModel, generate
 from kintrafo.plots.figures import BLUE, STYLE
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.compiler import Compiler, find_compiler

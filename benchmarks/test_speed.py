@@ -12,8 +12,8 @@ import kintrafo
 import numpy as np
 import pytest
 from kintrafo import Model, characteristics, simulate, state_at_height
+from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import MODELS, chains, multi_link
-from kintrafo.generator.outputs import generate
 from kintrafo.study.paper import DURATION, SPIN_RATE, START_HEIGHT
 
 NAMES = [model.name for model in MODELS]

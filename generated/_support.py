@@ -195,7 +195,8 @@ class CompiledModel:
         value = float(abs(constants[self.constant_names.index(name)]))
         if not least:
             return f"{meaning}: it is off by {_amount_off(value, unit)}; {remedy}"
-        needed = float(constants[self.constant_names.index(least)])
+        known = least in self.constant_names
+        needed = float(constants[self.constant_names.index(least)] if known else least)
         return (
             f"{meaning}: {_amount_off(value, unit)}, and more than {_amount_off(needed, unit)} "
             f"is needed; {remedy}"

@@ -1,28 +1,31 @@
 """Derive the equations of motion of mechanisms with kinematic loops, and emit them as C.
 
-The rooms, in the order in which a mechanism passes through them:
+The floors, the lowest first; a file imports only what stands on a lower one (`make lint`):
 
-``mechanism``, ``joints``, ``geometry``, ``forces``, ``laws``, ``parameters``
-    what a person declares (``declared`` checks each part, ``checks`` the whole);
-``topology``
-    mobility, joint graph, shortest paths, minimal cycle basis;
-``transformer``
-    which loop is cut at which pair of joints, and in which order the loops are solved;
-``solutions``
-    the catalogue of closed forms;
-``kinematics``, ``dynamics``, ``outputs``
-    the straight-line program from the coordinates to accelerations and everything else;
 ``program``
-    named steps, stages, derivatives, common subexpressions, operation counts;
-``emit``
-    printers: C, Cython, the derivation report.
+    the straight-line program: steps, constants, derivatives, what is shared, operation counts;
+``declare``, and ``mechanisms`` that come with the project
+    what a person declares, each part checked where it is written, and the whole;
+``kinematics``
+    bodies in motion: poses, twists, bias accelerations;
+``loops``
+    joint graph, minimal cycle basis, mobility, and the order in which the loops are solved;
+``closed_forms``
+    the catalogue, a file for each form with all that there is to say about it;
+``planning``
+    the planner with that catalogue in its hands, and proposals of coordinates;
+``equations``
+    dynamics, and the functions that are emitted;
+``backends``
+    printers, a folder for each: C, Cython, NumPy, Python, the derivation report.
 
 What a declaration is made of can be imported from here.
 """
 
 from . import memory  # noqa: F401 (before SymPy is imported)
-from .declared import DeclarationError
-from .forces import (
+from .declare.assembly import Body, Parameter, RelativeCoordinate
+from .declare.declared import DeclarationError
+from .declare.forces import (
     AlongLine,
     AlongTelescope,
     ForceElement,
@@ -31,11 +34,12 @@ from .forces import (
     TwistOfHinges,
     Weight,
 )
-from .geometry import FORWARD, UP, Direction, Line, Point
-from .joints import Cylindrical, Prismatic, Revolute, Spherical, Universal
-from .laws import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
-from .mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
-from .parameters import direction, point, rigid_body, rotor
+from .declare.geometry import FORWARD, UP, Direction, Line, Point
+from .declare.joints import Cylindrical, Prismatic, Revolute, Spherical, Universal
+from .declare.laws import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
+from .declare.mechanism import Mechanism
+from .declare.model import Model
+from .declare.parameters import direction, point, rigid_body, rotor
 
 __all__ = [
     "FORWARD",

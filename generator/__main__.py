@@ -10,15 +10,14 @@ from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
 from ..cli.exits import guarded, standing_streams
-from .emit.files import project_files
-from .emit.python import shared_files
-from .emit.report import block_diagram, bodies_of, joint_rows, mobility_line, path_rows
+from .backends.files import project_files, shared_files
+from .backends.report.markdown import block_diagram, bodies_of, joint_rows, mobility_line, path_rows
+from .equations.outputs import generate
 from .mechanisms import MODELS
-from .outputs import generate
-from .transformer import Plan
+from .planning.plan import Plan
 
 if TYPE_CHECKING:
-    from .topology import Topology
+    from .loops.graph import Topology
 
 app = typer.Typer(help=__doc__, no_args_is_help=True, add_completion=False)
 console = Console(width=None if sys.stdout.isatty() else 110)
@@ -74,7 +73,7 @@ def topology(
     plan = Plan.of(MODELS[0])
     show_topology(plan)
     if picture is not None:
-        from .emit.graph import draw  # noqa: PLC0415 (matplotlib is slow to import)
+        from .backends.report.picture import draw  # noqa: PLC0415 (matplotlib is slow to import)
 
         draw(plan, picture, force=force)
         console.print(f"joint graph written to {picture}")

@@ -4,8 +4,8 @@ from collections.abc import Callable
 from functools import cache
 
 import pytest
+from kintrafo.generator.equations.outputs import GeneratedModel, generate
 from kintrafo.generator.mechanisms import MODELS
-from kintrafo.generator.outputs import GeneratedModel, generate
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

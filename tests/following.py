@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import own_loops
-from kintrafo.generator.joints import Prismatic, Revolute, Universal
+from kintrafo.generator import Prismatic, Revolute, Universal
 from kintrafo.generator.mechanisms.chains import AXES, PLACES, SEVEN_HINGES
 from kintrafo.generator.mechanisms.multi_link import MODELS
 from oracle.constraints import perpendiculars
@@ -25,8 +25,8 @@ from scipy.spatial.transform import Rotation
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
-    from kintrafo.generator.joints import Joint
-    from kintrafo.generator.mechanism import Model
+    from kintrafo.generator import Model
+    from kintrafo.generator.declare.joints import Joint
     from oracle.constraints import Array
 
     Random = np.random.Generator

@@ -23,8 +23,8 @@ from own_mechanisms import (
 )
 
 if TYPE_CHECKING:
-    from kintrafo.generator.joints import Joint
-    from kintrafo.generator.mechanism import Model
+    from kintrafo.generator import Model
+    from kintrafo.generator.declare.joints import Joint
 
 BODIES = ["ground", "one", "two", "three", "four", "five", "six"]
 

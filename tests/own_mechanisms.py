@@ -9,15 +9,35 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from kintrafo.generator.forces import AlongLine, ForceElement, JointForce, Weight
-from kintrafo.generator.geometry import FORWARD, Direction, Line, Point
-from kintrafo.generator.joints import Joint, Prismatic, Revolute, Spherical, Universal
-from kintrafo.generator.laws import LinearDamper, LinearSpring
-from kintrafo.generator.mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
-from kintrafo.generator.parameters import direction, point, rotor
+from kintrafo.generator import (
+    FORWARD,
+    AlongLine,
+    Body,
+    Direction,
+    ForceElement,
+    JointForce,
+    Line,
+    LinearDamper,
+    LinearSpring,
+    Mechanism,
+    Model,
+    Parameter,
+    Point,
+    Prismatic,
+    RelativeCoordinate,
+    Revolute,
+    Spherical,
+    Universal,
+    Weight,
+    direction,
+    point,
+    rotor,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
+
+    from kintrafo.generator.declare.joints import Joint
 
 Place = tuple[float, float, float]
 

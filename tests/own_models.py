@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from pathlib import Path
     from types import ModuleType
 
-    from kintrafo.generator.mechanism import Model
-    from kintrafo.generator.outputs import GeneratedModel
+    from kintrafo.generator import Model
+    from kintrafo.generator.equations.outputs import GeneratedModel
     from oracle.constraints import Array
 
 # Emitted code gives no warning.

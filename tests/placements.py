@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import sympy as sp
-from kintrafo.generator.emit import arrays
-from kintrafo.generator.emit.c import blocks_of
-from kintrafo.generator.parts import Parts
-from kintrafo.generator.placement import from_axes, to_axes
+from kintrafo.generator.backends.numpy import printer as arrays
+from kintrafo.generator.backends.words import blocks_of
+from kintrafo.generator.equations.parts import Parts
+from kintrafo.generator.kinematics.motion import from_axes, to_axes
+from kintrafo.generator.planning.plan import Plan
 from kintrafo.generator.program import ConstantStage, Program
-from kintrafo.generator.transformer import Plan
-from kintrafo.generator.vectors import UNIT_X, UNIT_Y, UNIT_Z
+from kintrafo.generator.program.vectors import UNIT_X, UNIT_Y, UNIT_Z
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from kintrafo.generator.mechanism import Model
+    from kintrafo.generator import Model
     from kintrafo.generator.program import Function
     from oracle.constraints import Array
 

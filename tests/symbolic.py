@@ -17,9 +17,9 @@ from sympy.printing.pycode import MpmathPrinter
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from kintrafo.generator.iteration import Block
-    from kintrafo.generator.outputs import GeneratedModel
+    from kintrafo.generator.equations.outputs import GeneratedModel
     from kintrafo.generator.program import Function
+    from kintrafo.generator.program.newton import Block
 
 UNIT = mpmath.mpf(2) ** -53
 """Relative error of one operation in double precision."""

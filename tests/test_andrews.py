@@ -21,8 +21,8 @@ import numpy as np
 import pytest
 import sympy as sp
 from kintrafo.generated import andrews as compiled
+from kintrafo.generator.equations.outputs import GeneratedModel
 from kintrafo.generator.mechanisms import andrews
-from kintrafo.generator.outputs import GeneratedModel
 from mpmath import mpf
 from scipy.integrate import solve_ivp
 from symbolic import python

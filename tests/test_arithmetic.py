@@ -12,7 +12,8 @@ import sympy as sp
 from c_text import count, tokens
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from kintrafo.generator.arithmetic import NUMPY, Guarded, IsPositive, Positive, SignOf, write
+from kintrafo.generator.program.functions import Guarded, IsPositive, Positive, SignOf
+from kintrafo.generator.program.writing import NUMPY, write
 
 SYMBOLS = sp.symbols("x y z")
 VALUES = dict(zip(SYMBOLS, (1.37, -0.58, 2.91), strict=True))

@@ -13,14 +13,30 @@ from typing import Any
 import numpy as np
 import pytest
 from kintrafo.generated._support import ParameterError
-from kintrafo.generator.checks import DeclarationError
-from kintrafo.generator.forces import Weight
-from kintrafo.generator.geometry import FORWARD, UP, Direction, Line, Point
-from kintrafo.generator.joints import Joint, Prismatic, Revolute, Universal
-from kintrafo.generator.mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
-from kintrafo.generator.outputs import generate
-from kintrafo.generator.parameters import direction, point, rigid_body, rotor
-from kintrafo.generator.vectors import Vector
+from kintrafo.generator import (
+    FORWARD,
+    UP,
+    Body,
+    DeclarationError,
+    Direction,
+    Line,
+    Mechanism,
+    Model,
+    Parameter,
+    Point,
+    Prismatic,
+    RelativeCoordinate,
+    Revolute,
+    Universal,
+    Weight,
+    direction,
+    point,
+    rigid_body,
+    rotor,
+)
+from kintrafo.generator.declare.joints import Joint
+from kintrafo.generator.equations.outputs import generate
+from kintrafo.generator.program.vectors import Vector
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.compiler import find_compiler
 from kintrafo.systems.compile.loader import load

@@ -14,9 +14,9 @@ import cache_stress
 import kintrafo
 import numpy as np
 import pytest
-from kintrafo.generator import outputs
+from kintrafo.generator.equations import outputs
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
-from kintrafo.generator.proposal import model_of
+from kintrafo.generator.planning.proposal import model_of
 from kintrafo.systems.compile import build as own_build
 from kintrafo.systems.compile.cache import _MARK, _MARKED, appearing, damage, seal
 from kintrafo.systems.compile.compiler import Compiler, find_compiler

@@ -17,8 +17,8 @@ import numpy as np
 import pytest
 from kintrafo.generated import double_wishbone, macpherson
 from kintrafo.generated._support import ClosureError
+from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import MODELS as SHIPPED
-from kintrafo.generator.outputs import generate
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.loader import load
 from mpmath import mpf

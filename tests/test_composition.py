@@ -12,23 +12,41 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 import sympy as sp
-from kintrafo.generator.checks import DeclarationError
-from kintrafo.generator.composition import combined, copy
-from kintrafo.generator.forces import AlongLine, ForceElement, JointForce, TwistOfHinges, Weight
-from kintrafo.generator.geometry import Direction, Line, Point
-from kintrafo.generator.joints import Revolute
-from kintrafo.generator.laws import Actuator, Friction, LinearDamper, LinearSpring, Stop
-from kintrafo.generator.mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
+from kintrafo.generator import (
+    Actuator,
+    AlongLine,
+    Body,
+    DeclarationError,
+    Direction,
+    ForceElement,
+    Friction,
+    JointForce,
+    Line,
+    LinearDamper,
+    LinearSpring,
+    Mechanism,
+    Model,
+    Parameter,
+    Point,
+    RelativeCoordinate,
+    Revolute,
+    Stop,
+    TwistOfHinges,
+    Weight,
+    direction,
+    point,
+    rigid_body,
+)
+from kintrafo.generator.declare.composition import combined, copy
+from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import double_wishbone, four_bar, macpherson, slider_crank
-from kintrafo.generator.outputs import generate
-from kintrafo.generator.parameters import direction, point, rigid_body
 from oracle.maximal import Motion, Oracle
 from oracle.reference import completed, general_parameters
 from own_models import Built, shipped
 from symbolic import constants_of, python
 
 if TYPE_CHECKING:
-    from kintrafo.generator.outputs import GeneratedModel
+    from kintrafo.generator.equations.outputs import GeneratedModel
     from oracle.constraints import Array
 
 IMAGE = np.diag([1.0, -1.0, 1.0])

@@ -13,27 +13,27 @@ import mpmath
 import numpy as np
 import own_loops
 import own_mechanisms
+import own_yokes
 import pytest
 import sympy as sp
-from kintrafo.generator.actions import PlaceIdle
-from kintrafo.generator.composition import combined, copy
-from kintrafo.generator.design import _angle, design_coordinates
-from kintrafo.generator.dynamics import Dynamics
-from kintrafo.generator.joints import Revolute
-from kintrafo.generator.mechanism import Model
+from kintrafo.generator import Model, Revolute
+from kintrafo.generator.closed_forms.catalogue import STEPS
+from kintrafo.generator.closed_forms.idle import PlaceIdle
+from kintrafo.generator.declare.composition import combined, copy
+from kintrafo.generator.equations.design import _angle, design_coordinates
+from kintrafo.generator.equations.dynamics import Dynamics
+from kintrafo.generator.equations.parts import Parts
 from kintrafo.generator.mechanisms import MODELS, chains, multi_link
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
-from kintrafo.generator.parts import Parts
+from kintrafo.generator.planning.plan import Plan
 from kintrafo.generator.program import ConstantStage, Function, Program, Step, ancestors
-from kintrafo.generator.solutions import CATALOGUE
-from kintrafo.generator.transformer import Plan
 from symbolic import python
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from kintrafo.generator.iteration import Block
-    from kintrafo.generator.mechanism import Mechanism
+    from kintrafo.generator import Mechanism
+    from kintrafo.generator.program.newton import Block
 
 DIGITS = 40
 COPIES = "a_", "b_"
@@ -53,6 +53,8 @@ EVERY = {
         own_loops.ROCKERS,
         own_loops.FIVE_BAR,
         own_loops.DRIVEN_GUIDE,
+        own_loops.FOUR_BAR_AT_ITS_KNEE,
+        own_yokes.SCOTCH_YOKE,
     )
 }
 NOT_MIRRORED = ("rockers",)
@@ -70,6 +72,8 @@ SAMPLE = (
     "inverted_crank",
     "control_arm_multi_link",
     "plate_on_a_pin",
+    "knee_bar",
+    "scotch_yoke",
 )
 """Mechanisms with every step of the catalogue; all of them are tried by the fuzzer."""
 
@@ -198,8 +202,8 @@ def test_a_copy_and_an_image_move_as_the_original_does(name: str) -> None:
 
 
 def test_the_sample_has_every_step_of_the_catalogue() -> None:
-    found = {type(action) for name in SAMPLE for action in Plan.of(EVERY[name]).actions}
-    assert found >= CATALOGUE.keys() - {PlaceIdle}  # this one is in no model but test_struts'
+    found = {type(action) for name in SAMPLE for action in Plan.of(EVERY[name]).steps}
+    assert found >= STEPS - {PlaceIdle}  # this one is in no model but test_struts'
 
 
 def test_a_step_does_not_take_the_name_of_a_parameter_of_a_copy() -> None:

@@ -9,6 +9,7 @@ from kintrafo.cli import app
 from kintrafo.generator import (
     Body,
     Cylindrical,
+    DeclarationError,
     Direction,
     JointForce,
     Line,
@@ -25,8 +26,7 @@ from kintrafo.generator import (
     rigid_body,
     rotor,
 )
-from kintrafo.generator.checks import DeclarationError
-from kintrafo.generator.default_values import value_problems
+from kintrafo.generator.declare.default_values import value_problems
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.generator.mechanisms.multi_link import MODELS as MULTI_LINKS
 from typer.testing import CliRunner

@@ -23,6 +23,7 @@ from kintrafo.generator import (
     AlongTelescope,
     Body,
     DamperTable,
+    DeclarationError,
     Direction,
     ForceElement,
     Friction,
@@ -39,18 +40,17 @@ from kintrafo.generator import (
     Stop,
     TwistOfHinges,
     Weight,
+    backends,
     direction,
-    emit,
     point,
     rigid_body,
 )
-from kintrafo.generator.declared import DeclarationError
+from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms.double_wishbone import DOUBLE_WISHBONE
 from kintrafo.generator.mechanisms.double_wishbone import MODELS as WISHBONES
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.generator.mechanisms.four_bar import MODELS as FOUR_BARS
 from kintrafo.generator.mechanisms.planar import flat
-from kintrafo.generator.outputs import generate
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.loader import load
 from own_models import needs_gcc, own
@@ -631,7 +631,7 @@ def test_words_of_c_and_python_can_be_parameters(tmp_path):
 
 
 def test_macros_of_the_emitted_code_are_reserved():
-    folder = Path(emit.__file__).parent
+    folder = Path(backends.__file__).parent
     printers, templates = (
         "".join(p.read_text(encoding="utf-8") for p in sorted(folder.rglob(f"*{suffix}")))
         for suffix in (".py", ".in")

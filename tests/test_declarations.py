@@ -3,19 +3,23 @@
 from dataclasses import replace
 
 import pytest
-from kintrafo.generator.checks import DeclarationError
-from kintrafo.generator.forces import (
+from kintrafo.generator import (
+    Actuator,
     AlongLine,
     AlongTelescope,
+    Body,
+    DeclarationError,
     ForceElement,
     JointForce,
+    LinearDamper,
+    LinearSpring,
     LinearTyre,
+    Parameter,
+    RelativeCoordinate,
     Weight,
 )
-from kintrafo.generator.laws import Actuator, LinearDamper, LinearSpring
-from kintrafo.generator.mechanism import Body, Parameter, RelativeCoordinate
+from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import four_bar, macpherson
-from kintrafo.generator.outputs import generate
 from symbolic import constants_of, python
 
 MODEL, FREE, GENERAL = macpherson.MODELS

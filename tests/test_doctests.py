@@ -17,8 +17,8 @@ MODULES = sorted(
 )
 # the three folders are one package, but only the first of them is on its path
 MODULES += sorted(
-    f"kintrafo.generator.{path.stem}"
-    for path in (ROOT / "generator").glob("*.py")
+    ".".join(("kintrafo", *path.relative_to(ROOT).with_suffix("").parts))
+    for path in (ROOT / "generator").rglob("*.py")
     if not path.stem.startswith("__")
 )
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from c_text import EMITTED, FOLDER, count, functions, header, sources
 from cases import MODELS, car_parameters, random_instants
-from kintrafo.generator.outputs import GeneratedModel
+from kintrafo.generator.equations.outputs import GeneratedModel
 from oracle.newton import Mechanism
 from symbolic import Rounded, python
 

@@ -8,13 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 from kintrafo.generated import excavator, excavator_lifting
-from kintrafo.generator.actions import SolveStroke
-from kintrafo.generator.forces import AlongLine, ForceElement, Weight
-from kintrafo.generator.geometry import Point
-from kintrafo.generator.laws import Actuator
+from kintrafo.generator import Actuator, AlongLine, ForceElement, Point, Weight
+from kintrafo.generator.closed_forms.rpr import RPR
+from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms.excavator import EXCAVATOR, LIFTING, MODELS
-from kintrafo.generator.outputs import generate
-from kintrafo.generator.transformer import Plan
+from kintrafo.generator.planning.plan import Plan
 from own_models import Built
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
@@ -247,8 +245,8 @@ def test_angles_as_coordinates_give_the_same_motion() -> None:
     hinges = ("boom_hinge", "arm_hinge", "bucket_hinge")
     model = replace(MODELS[0], name="by_angles", mechanism=mechanism, independent=hinges)
     derived = generate(model)
-    strokes = [a for a in derived.plan.actions if isinstance(a, SolveStroke)]
-    assert [a.joint.name for a in strokes] == [f"{c}_bore" for c in CYLINDERS]
+    strokes = [a for a in derived.plan.steps if isinstance(a, RPR)]
+    assert [a.telescope.joint.name for a in strokes] == [f"{c}_bore" for c in CYLINDERS]
     names = list(excavator.RELATIVE_COORDINATES)
     rows = [names.index(f"{c}_angle") for c in CYLINDERS]
     constants = constants_of(derived, DIGGING.parameters)

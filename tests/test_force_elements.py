@@ -5,14 +5,12 @@ import dataclasses
 import mpmath
 import numpy as np
 import pytest
-from kintrafo.generator.dynamics import Dynamics
-from kintrafo.generator.forces import AlongLine, ForceElement
-from kintrafo.generator.laws import LinearDamper, LinearSpring
-from kintrafo.generator.mechanism import Parameter
+from kintrafo.generator import AlongLine, ForceElement, LinearDamper, LinearSpring, Parameter
+from kintrafo.generator.equations.dynamics import Dynamics
+from kintrafo.generator.equations.parts import Parts
 from kintrafo.generator.mechanisms import macpherson
-from kintrafo.generator.parts import Parts
+from kintrafo.generator.planning.plan import Plan
 from kintrafo.generator.program import ConstantStage, Program
-from kintrafo.generator.transformer import Plan
 from oracle.reference import perturbed_parameters
 from symbolic import python
 from sympy import Symbol

@@ -17,12 +17,12 @@ import pytest
 import sympy as sp
 from kintrafo import System, simulate
 from kintrafo.generated import front_axle, macpherson
-from kintrafo.generator.dynamics import Dynamics
+from kintrafo.generator.equations.dynamics import Dynamics
+from kintrafo.generator.equations.outputs import generate
+from kintrafo.generator.equations.parts import Parts
 from kintrafo.generator.mechanisms import front_axle as declaration
-from kintrafo.generator.outputs import generate
-from kintrafo.generator.parts import Parts
+from kintrafo.generator.planning.plan import Plan
 from kintrafo.generator.program import ConstantStage, Program
-from kintrafo.generator.transformer import Plan
 from oracle.maximal import Motion, Oracle
 from oracle.reference import perturbed_parameters
 from scipy.integrate import solve_ivp
@@ -32,7 +32,7 @@ from symbolic import python
 from benchmarks.front_axle import COUNTED, WITH, WITHOUT, rates, wheel_rate
 
 if TYPE_CHECKING:
-    from kintrafo.generator.mechanism import Model
+    from kintrafo.generator import Model
     from oracle.constraints import Array
 
 SIDES = ("right", "left")

@@ -9,10 +9,9 @@ from pathlib import Path
 
 import pytest
 from kintrafo import generated
-from kintrafo.generator.emit.files import project_files
-from kintrafo.generator.emit.python import shared_files
+from kintrafo.generator.backends.files import project_files, shared_files
+from kintrafo.generator.equations.outputs import GeneratedModel
 from kintrafo.generator.mechanisms import MODELS
-from kintrafo.generator.outputs import GeneratedModel
 
 COMMITTED = Path(generated.__file__).parent
 
@@ -57,9 +56,9 @@ def test_files_are_those_committed(files: dict[str, bytes]) -> None:
 IN_ANOTHER_ORDER = """
 import sys
 from pathlib import Path
-from kintrafo.generator.emit.files import project_files
+from kintrafo.generator.backends.files import project_files
 from kintrafo.generator.mechanisms import MODELS
-from kintrafo.generator.outputs import generate
+from kintrafo.generator.equations.outputs import generate
 
 for model in reversed(MODELS):
     for name, text in project_files(generate(model)).items():

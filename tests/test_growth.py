@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from kintrafo.generator.emit.arrays import ArraysPrinter
+from kintrafo.generator.backends.numpy.printer import ArraysPrinter
+from kintrafo.generator.equations.outputs import GeneratedModel, generate
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
-from kintrafo.generator.outputs import GeneratedModel, generate
-from kintrafo.generator.transformer import Plan
+from kintrafo.generator.planning.plan import Plan
 from own_models import Built, needs_gcc, own
 
 ROOT = Path(__file__).parents[1]

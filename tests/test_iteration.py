@@ -20,15 +20,14 @@ import pytest
 import sympy as sp
 from kintrafo.generated import double_wishbone
 from kintrafo.generated._support import ClosureError, ModelError
-from kintrafo.generator.emit.report import markdown
-from kintrafo.generator.geometry import Direction, Line, Point
-from kintrafo.generator.iteration import ITERATIONS, adjugate
-from kintrafo.generator.joints import Revolute
-from kintrafo.generator.mechanism import RelativeCoordinate
+from kintrafo.generator import Direction, Line, Point, RelativeCoordinate, Revolute
+from kintrafo.generator.backends.report.markdown import markdown
+from kintrafo.generator.equations.outputs import GeneratedModel, generate
+from kintrafo.generator.loops.errors import NoClosedFormError
 from kintrafo.generator.mechanisms.multi_link import CONTROL_ARM, FIVE_LINK, MODELS
-from kintrafo.generator.outputs import GeneratedModel, generate
+from kintrafo.generator.planning.plan import Plan
 from kintrafo.generator.program import ConstantStage, Program
-from kintrafo.generator.transformer import NoClosedFormError, Plan
+from kintrafo.generator.program.newton import ITERATIONS, adjugate
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.compiler import FLAGS, Compiler
 from kintrafo.systems.compile.loader import load
@@ -42,7 +41,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from pathlib import Path
 
-    from kintrafo.generator.mechanism import Mechanism
+    from kintrafo.generator import Mechanism
     from oracle.constraints import Array
 
 ARM, FIVE, STRUT = MODELS

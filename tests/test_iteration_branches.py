@@ -17,7 +17,7 @@ from placements import Placements
 from scipy.spatial.transform import Rotation
 
 if TYPE_CHECKING:
-    from kintrafo.generator.mechanism import Model
+    from kintrafo.generator import Model
     from oracle.constraints import Array
 
 

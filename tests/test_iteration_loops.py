@@ -16,14 +16,15 @@ import numpy as np
 import own_loops
 import pytest
 from kintrafo.generated._support import ClosureError
-from kintrafo.generator.actions import JointOfTree, SolveTogether
-from kintrafo.generator.coupling import MOST_UNKNOWNS, obstacle
-from kintrafo.generator.emit.report import markdown
+from kintrafo.generator.backends.report.markdown import markdown
+from kintrafo.generator.closed_forms.coupled_loops import MOST_UNKNOWNS, CoupledLoops, obstacle
+from kintrafo.generator.closed_forms.tree import JointOfTree
+from kintrafo.generator.equations.outputs import GeneratedModel, generate
+from kintrafo.generator.loops.errors import NoClosedFormError
+from kintrafo.generator.loops.graph import Topology
+from kintrafo.generator.loops.mobility import Mobility
 from kintrafo.generator.mechanisms.chains import AXES, BRICARD, PLACES, SEVEN_HINGES
-from kintrafo.generator.mobility import Mobility
-from kintrafo.generator.outputs import GeneratedModel, generate
-from kintrafo.generator.topology import Topology
-from kintrafo.generator.transformer import NoClosedFormError, Plan
+from kintrafo.generator.planning.plan import Plan
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.compiler import FLAGS, Compiler
 from kintrafo.systems.compile.loader import load
@@ -37,7 +38,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from kintrafo.generator.mechanism import Model
+    from kintrafo.generator import Model
     from oracle.constraints import Array
 
 MODELS = {
@@ -392,7 +393,7 @@ def test_a_dead_point_at_design_is_refused() -> None:
 def test_too_many_unknowns_are_refused() -> None:
     mechanism = SEVEN_HINGES.mechanism
     branch = JointOfTree(mechanism.joint("hinge_1"), "one", "two")
-    action = SolveTogether("two", (branch,) * (MOST_UNKNOWNS + 1), (), ())
+    action = CoupledLoops("two", (branch,) * (MOST_UNKNOWNS + 1), (), ())
     told = obstacle(action, Mobility(Topology(mechanism), ("hinge_0",)))
     assert told == f"{MOST_UNKNOWNS + 1} unknowns are more than the {MOST_UNKNOWNS} of an iteration"
 

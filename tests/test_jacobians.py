@@ -12,7 +12,7 @@ import mpmath
 import numpy as np
 import pytest
 from cases import MODELS, At, Instant, car_parameters, is_prescribed, random_instants
-from kintrafo.generator.outputs import GeneratedModel
+from kintrafo.generator.equations.outputs import GeneratedModel
 from oracle.constraints import BODIES, Array
 from oracle.multipliers import reduced_equations, solve_twist
 from oracle.newton import Mechanism

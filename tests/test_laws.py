@@ -7,16 +7,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kintrafo.generator.laws import (
-    Actuator,
-    DamperTable,
-    Friction,
-    Law,
-    LinearDamper,
-    LinearSpring,
-    Stop,
-    Stretch,
-)
+from kintrafo.generator import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
+from kintrafo.generator.declare.laws import Law, Stretch
 from kintrafo.generator.program import ConstantStage, Function, Program
 from oracle import laws as oracle
 from oracle.reference import completed, reference_parameters, set_damper_curve

@@ -15,12 +15,10 @@ import mpmath
 import numpy as np
 import own_mechanisms
 import pytest
-from kintrafo.generator.forces import AlongLine
-from kintrafo.generator.geometry import FORWARD
-from kintrafo.generator.mechanism import Model, RelativeCoordinate
+from kintrafo.generator import FORWARD, AlongLine, Model, RelativeCoordinate
+from kintrafo.generator.equations.outputs import GeneratedModel, generate
 from kintrafo.generator.mechanisms import MODELS as SHIPPED
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
-from kintrafo.generator.outputs import GeneratedModel, generate
 from oracle.constraints import Array
 from oracle.maximal import Jet, Motion, Oracle
 from oracle.reference import completed, general_parameters

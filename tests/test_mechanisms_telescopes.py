@@ -14,20 +14,32 @@ from typing import TYPE_CHECKING, Any
 import mpmath
 import numpy as np
 import pytest
-from kintrafo.generator.actions import PlaceTelescope, SolveHinge, SolveSlide, SolveStroke
-from kintrafo.generator.geometry import Direction
-from kintrafo.generator.joints import Prismatic, Revolute, Spherical, Universal
-from kintrafo.generator.mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
+from kintrafo.generator import (
+    Body,
+    Direction,
+    Mechanism,
+    Model,
+    Parameter,
+    Prismatic,
+    RelativeCoordinate,
+    Revolute,
+    Spherical,
+    Universal,
+)
+from kintrafo.generator.closed_forms.prismatic import PrismaticByLength
+from kintrafo.generator.closed_forms.revolute import RevoluteByLength
+from kintrafo.generator.closed_forms.rpr import RPR, PlaceTelescope
+from kintrafo.generator.equations.outputs import generate
+from kintrafo.generator.loops.errors import NoClosedFormError
 from kintrafo.generator.mechanisms.planar import flat, hinge, inertia, places
 from kintrafo.generator.mechanisms.slider_crank import MODELS as SLIDER_CRANKS
-from kintrafo.generator.outputs import generate
-from kintrafo.generator.transformer import NoClosedFormError, Plan
+from kintrafo.generator.planning.plan import Plan
 from mpmath import mpf
 from own_models import Built, needs_gcc, own
 from symbolic import constants_of, python
 
 if TYPE_CHECKING:
-    from kintrafo.generator.joints import Joint
+    from kintrafo.generator.declare.joints import Joint
 
 EPSILON = 2.0**-52
 BOOM, BASE = (
@@ -306,15 +318,15 @@ def test_any_order_of_declaration(driven: str) -> None:
             flipped = {name for name, flip in zip(free, flips, strict=True) if flip}
             joints = tuple(reversed_joint(j) if j.name in flipped else j for j in order)
             plan = Plan.of(replace(model, mechanism=replace(model.mechanism, joints=joints)))
-            kinds = [type(action) for action in plan.actions if type(action) in ANSWERS[driven]]
+            kinds = [type(action) for action in plan.steps if type(action) in ANSWERS[driven]]
             assert kinds == ANSWERS[driven]
 
 
 ANSWERS: dict[str, list[type]] = {
-    "pivot": [SolveStroke],
-    "bore": [SolveHinge, PlaceTelescope],
-    "A": [SolveSlide],
-    "guide": [SolveHinge],
+    "pivot": [RPR],
+    "bore": [RevoluteByLength, PlaceTelescope],
+    "A": [PrismaticByLength],
+    "guide": [RevoluteByLength],
 }
 
 

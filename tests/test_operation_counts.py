@@ -11,10 +11,10 @@ from pathlib import Path
 
 import pytest
 from c_text import EMITTED, count, functions, functions_of
-from kintrafo.generator.emit.files import own_files
+from kintrafo.generator.backends.files import own_files
+from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import multi_link
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
-from kintrafo.generator.outputs import generate
 
 BASELINE = Path(__file__).with_name("operation_counts.json")
 KINDS = ("add", "multiply", "divide", "root", "trigonometric")

@@ -22,7 +22,7 @@ from kintrafo.generator.mechanisms.andrews import MODELS as ANDREWS
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.generator.mechanisms.four_bar import MODELS as FOUR_BAR_MODELS
 from kintrafo.generator.mechanisms.slider_crank import SLIDER_CRANK
-from kintrafo.generator.proposal import Proposal, model_of, proposals
+from kintrafo.generator.planning.proposal import Proposal, model_of, proposals
 from kintrafo.systems.compile import build as own_build
 from kintrafo.systems.compile.cache import cache_folder
 from kintrafo.systems.compile.compiler import find_compiler
@@ -476,5 +476,5 @@ def test_which_of_several_models(tmp_path):
 
 
 def test_declarations_can_be_imported_from_one_place():
-    assert Mechanism.__module__ == "kintrafo.generator.mechanism"
-    assert Model.__module__ == "kintrafo.generator.mechanism"
+    assert Mechanism.__module__ == "kintrafo.generator.declare.mechanism"
+    assert Model.__module__ == "kintrafo.generator.declare.model"

@@ -5,8 +5,9 @@ from collections.abc import Mapping
 import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kintrafo.generator.arithmetic import Guarded, write
 from kintrafo.generator.program import ConstantStage, Function, Program
+from kintrafo.generator.program.functions import Guarded
+from kintrafo.generator.program.writing import write
 
 A, B = sp.symbols("a b")  # parameters
 X, Y = sp.symbols("x y")  # variables

@@ -14,9 +14,9 @@ import mpmath
 import numpy as np
 import pytest
 from cases import MODELS, Instant, car_parameters, counted_by, random_instants
-from kintrafo.generator.mechanism import Model, Parameter
+from kintrafo.generator import Model, Parameter
+from kintrafo.generator.equations.outputs import GeneratedModel, generate
 from kintrafo.generator.mechanisms import MODELS as DECLARED
-from kintrafo.generator.outputs import GeneratedModel, generate
 from oracle.constraints import WHEEL, Array
 from oracle.newton import Mechanism
 from oracle.reference import INERTIA_ELEMENTS, Parameters, inertia

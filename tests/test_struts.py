@@ -8,12 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 from kintrafo.generated._support import ClosureError
-from kintrafo.generator.checks import DeclarationError
-from kintrafo.generator.forces import AlongLine
-from kintrafo.generator.geometry import Line, Point
-from kintrafo.generator.joints import Cylindrical
-from kintrafo.generator.mechanism import Parameter
-from kintrafo.generator.outputs import generate
+from kintrafo.generator import AlongLine, Cylindrical, DeclarationError, Line, Parameter, Point
+from kintrafo.generator.equations.outputs import generate
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.loader import load
 from own_mechanisms import ball, cross, spatial_four_bar, turret
@@ -22,7 +18,7 @@ from own_models import Built
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from kintrafo.generator.mechanism import Model
+    from kintrafo.generator import Model
 
 
 def over_arrays(model: Model, folder: Path) -> Built:

@@ -8,15 +8,32 @@ import networkx as nx
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kintrafo.generator.actions import SolveHinge, SolveSlide, SolveTelescope, SolveTurn
-from kintrafo.generator.declared import DeclarationError
-from kintrafo.generator.geometry import FORWARD, Direction, Line, Point
-from kintrafo.generator.joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
-from kintrafo.generator.mechanism import Body, Mechanism, Model, RelativeCoordinate
+from kintrafo.generator import (
+    FORWARD,
+    Body,
+    Cylindrical,
+    DeclarationError,
+    Direction,
+    Line,
+    Mechanism,
+    Model,
+    Point,
+    Prismatic,
+    RelativeCoordinate,
+    Revolute,
+    Spherical,
+    Universal,
+)
+from kintrafo.generator.closed_forms.prismatic import PrismaticByLength
+from kintrafo.generator.closed_forms.revolute import RevoluteByLength
+from kintrafo.generator.closed_forms.telescope import Telescope
+from kintrafo.generator.closed_forms.turn import TurnByLength
+from kintrafo.generator.declare.joints import Joint
+from kintrafo.generator.loops.errors import NoClosedFormError, TopologyError
+from kintrafo.generator.loops.graph import Cycle, Topology
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
-from kintrafo.generator.topology import Cycle, Topology, TopologyError
-from kintrafo.generator.transformer import NoClosedFormError, Plan
+from kintrafo.generator.planning.plan import Plan
 
 MODEL = MODELS[0]
 PAPER = MODELS[:2]  # the paper's suspension, its rack prescribed and free
@@ -133,12 +150,12 @@ def test_blocks_hand_on_what_they_solve(plan: Plan) -> None:
 @pytest.mark.parametrize(
     ("name", "mobility", "loops", "solutions"),
     [
-        ("macpherson_general", 3, 0, [SolveTelescope, SolveTurn]),
-        ("double_wishbone", 3, 0, [SolveHinge, SolveTurn]),
-        ("four_bar", 1, 1, [SolveHinge]),
-        ("slider_crank", 1, 1, [SolveSlide]),
-        ("andrews", 1, 3, [SolveHinge, SolveHinge, SolveHinge]),
-        ("excavator", 3, 4, [SolveHinge] * 4),
+        ("macpherson_general", 3, 0, [Telescope, TurnByLength]),
+        ("double_wishbone", 3, 0, [RevoluteByLength, TurnByLength]),
+        ("four_bar", 1, 1, [RevoluteByLength]),
+        ("slider_crank", 1, 1, [PrismaticByLength]),
+        ("andrews", 1, 3, [RevoluteByLength, RevoluteByLength, RevoluteByLength]),
+        ("excavator", 3, 4, [RevoluteByLength] * 4),
     ],
 )
 def test_loops_are_found_and_solved(
@@ -148,7 +165,7 @@ def test_loops_are_found_and_solved(
     plan = Plan.of(BY_NAME[name])
     assert plan.topology.mobility == mobility
     assert plan.topology.planar_loop_count == loops
-    assert [type(t.action) for t in plan.transformers] == solutions
+    assert [type(t.step) for t in plan.transformers] == solutions
     assert all(t.pair.equations == 1 for t in plan.transformers)
 
 

@@ -3,9 +3,9 @@
 import time
 
 from kintrafo.generated import macpherson
-from kintrafo.generator.emit.files import project_files
+from kintrafo.generator.backends.files import project_files
+from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms.macpherson import MODELS
-from kintrafo.generator.outputs import generate
 
 from .case import REPOSITORY, Array, parameters
 from .compiled import Source

@@ -10,9 +10,11 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..forces import AlongLine, ForceElement, JointForce
-from ..laws import LinearSpring
-from ..mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
+from ..declare.assembly import Body, Parameter, RelativeCoordinate
+from ..declare.forces import AlongLine, ForceElement, JointForce
+from ..declare.laws import LinearSpring
+from ..declare.mechanism import Mechanism
+from ..declare.model import Model
 from .planar import flat, hinge, inertia, places
 
 _DIGITS = 40  # so that defaults are rounded once, on every machine alike

@@ -13,11 +13,13 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from ..forces import JointForce, Weight
-from ..geometry import Direction, Line, Point
-from ..joints import Revolute
-from ..mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
-from ..parameters import direction, point, rigid_body
+from ..declare.assembly import Body, Parameter, RelativeCoordinate
+from ..declare.forces import JointForce, Weight
+from ..declare.geometry import Direction, Line, Point
+from ..declare.joints import Revolute
+from ..declare.mechanism import Mechanism
+from ..declare.model import Model
+from ..declare.parameters import direction, point, rigid_body
 
 Place = tuple[float, float, float]
 

@@ -7,12 +7,14 @@ are this project's own: a front right corner, ISO 8855 axes, ground at z = 0.
 
 from __future__ import annotations
 
-from ..forces import AlongLine, ForceElement, JointForce, LinearTyre, Weight
-from ..geometry import UP, Direction, Line, Point
-from ..joints import Prismatic, Revolute, Spherical, Universal
-from ..laws import Actuator, LinearDamper, LinearSpring
-from ..mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
-from ..parameters import direction, point, rigid_body, rotor
+from ..declare.assembly import Body, Parameter, RelativeCoordinate
+from ..declare.forces import AlongLine, ForceElement, JointForce, LinearTyre, Weight
+from ..declare.geometry import UP, Direction, Line, Point
+from ..declare.joints import Prismatic, Revolute, Spherical, Universal
+from ..declare.laws import Actuator, LinearDamper, LinearSpring
+from ..declare.mechanism import Mechanism
+from ..declare.model import Model
+from ..declare.parameters import direction, point, rigid_body, rotor
 from .suspension import INPUTS
 
 LOWER_FRONT, LOWER_REAR = Point("lower_arm_front"), Point("lower_arm_rear")

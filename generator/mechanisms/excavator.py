@@ -15,14 +15,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..forces import JointForce, Weight
-from ..geometry import Direction
-from ..joints import Prismatic
-from ..mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
+from ..declare.assembly import Body, Parameter, RelativeCoordinate
+from ..declare.forces import JointForce, Weight
+from ..declare.geometry import Direction
+from ..declare.joints import Prismatic
+from ..declare.mechanism import Mechanism
+from ..declare.model import Model
 from .planar import flat, hinge, inertia, places
 
 if TYPE_CHECKING:
-    from ..joints import Joint
+    from ..declare.joints import Joint
 
 _PLACES = {
     "boom_foot": ((0.2, 1.9), "hinge of the boom on the chassis"),

@@ -7,9 +7,11 @@ crank of 0.1 m, turns all the way round. There is no gravity in its plane.
 
 from __future__ import annotations
 
-from ..forces import AlongLine, ForceElement, JointForce
-from ..laws import LinearDamper, LinearSpring
-from ..mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
+from ..declare.assembly import Body, Parameter, RelativeCoordinate
+from ..declare.forces import AlongLine, ForceElement, JointForce
+from ..declare.laws import LinearDamper, LinearSpring
+from ..declare.mechanism import Mechanism
+from ..declare.model import Model
 from .planar import flat, hinge, inertia, places
 
 # At the start the crank points along y: 0.1 m up from the origin.

@@ -11,15 +11,20 @@ arm held by a rod.
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
-from ..composition import combined, copy
-from ..forces import ForceElement, TwistOfHinges
-from ..geometry import FORWARD, Direction, Line, Point
-from ..joints import Revolute, Spherical, Universal
-from ..laws import LinearSpring
-from ..mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
-from ..parameters import direction, point, rigid_body
+from ..declare.assembly import Body, Parameter, RelativeCoordinate
+from ..declare.composition import combined, copy
+from ..declare.forces import ForceElement, TwistOfHinges
+from ..declare.geometry import FORWARD, Direction, Line, Point
+from ..declare.joints import Revolute, Spherical, Universal
+from ..declare.laws import LinearSpring
+from ..declare.model import Model
+from ..declare.parameters import direction, point, rigid_body
 from . import macpherson
+
+if TYPE_CHECKING:
+    from ..declare.mechanism import Mechanism
 
 BAR_BUSH = Point("bar_bush")
 LINK_TOP, LINK_FOOT = Point("link_top"), Point("link_foot")

@@ -6,12 +6,14 @@ values are this project's reference car (front right, ISO 8855 axes, ground at z
 
 from __future__ import annotations
 
-from ..forces import AlongLine, AlongTelescope, ForceElement, JointForce, LinearTyre, Weight
-from ..geometry import FORWARD, UP, Direction, Line, Point
-from ..joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
-from ..laws import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
-from ..mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
-from ..parameters import direction, point, rigid_body, rotor
+from ..declare.assembly import Body, Parameter, RelativeCoordinate
+from ..declare.forces import AlongLine, AlongTelescope, ForceElement, JointForce, LinearTyre, Weight
+from ..declare.geometry import FORWARD, UP, Direction, Line, Point
+from ..declare.joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
+from ..declare.laws import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
+from ..declare.mechanism import Mechanism
+from ..declare.model import Model
+from ..declare.parameters import direction, point, rigid_body, rotor
 from .suspension import INPUTS as SUSPENSION_INPUTS
 
 A = Point("arm_front")

@@ -12,12 +12,14 @@ project, whose code is all free of iteration.
 
 from __future__ import annotations
 
-from ..forces import AlongLine, ForceElement, JointForce, LinearTyre, Weight
-from ..geometry import UP, Direction, Line, Point
-from ..joints import Joint, Prismatic, Revolute, Spherical, Universal
-from ..laws import LinearDamper, LinearSpring
-from ..mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
-from ..parameters import direction, point, rigid_body, rotor
+from ..declare.assembly import Body, Parameter, RelativeCoordinate
+from ..declare.forces import AlongLine, ForceElement, JointForce, LinearTyre, Weight
+from ..declare.geometry import UP, Direction, Line, Point
+from ..declare.joints import Joint, Prismatic, Revolute, Spherical, Universal
+from ..declare.laws import LinearDamper, LinearSpring
+from ..declare.mechanism import Mechanism
+from ..declare.model import Model
+from ..declare.parameters import direction, point, rigid_body, rotor
 from .suspension import INPUTS
 
 Place = tuple[float, float, float]

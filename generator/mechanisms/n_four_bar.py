@@ -8,8 +8,10 @@ pass.
 
 from __future__ import annotations
 
-from ..forces import JointForce, Weight
-from ..mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
+from ..declare.assembly import Body, Parameter, RelativeCoordinate
+from ..declare.forces import JointForce, Weight
+from ..declare.mechanism import Mechanism
+from ..declare.model import Model
 from .planar import flat, hinge, inertia
 
 

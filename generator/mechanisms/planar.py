@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
-from ..geometry import UP, Direction, Line, Point
-from ..joints import Revolute
-from ..mechanism import Parameter
-from ..vectors import UNIT_Y
+from ..declare.assembly import Parameter
+from ..declare.geometry import UP, Direction, Line, Point
+from ..declare.joints import Revolute
+from ..program.vectors import UNIT_Y
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

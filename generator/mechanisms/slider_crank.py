@@ -8,10 +8,12 @@ from __future__ import annotations
 
 import math
 
-from ..forces import JointForce
-from ..geometry import FORWARD
-from ..joints import Prismatic
-from ..mechanism import Body, Mechanism, Model, Parameter, RelativeCoordinate
+from ..declare.assembly import Body, Parameter, RelativeCoordinate
+from ..declare.forces import JointForce
+from ..declare.geometry import FORWARD
+from ..declare.joints import Prismatic
+from ..declare.mechanism import Mechanism
+from ..declare.model import Model
 from .planar import flat, hinge, inertia, places
 
 # A crank of 40 mm and a rod of 0.15 m, at the start with the crank along y.

@@ -10,7 +10,7 @@ from ..core.errors import InputError
 Array = NDArray[np.float64]
 
 
-class Names(NamedTuple):
+class StateNames(NamedTuple):
     """What the numbers of a state and of its inputs are.
 
     Attributes
@@ -36,7 +36,7 @@ class State(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
     ----------
     inputs : ndarray or None
         In the order of ``model.input_names``.
-    names : Names or None
+    names : StateNames or None
         Of the model that the state is one of.
 
     Examples
@@ -51,10 +51,10 @@ class State(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
     """
 
     inputs: Array | None
-    names: Names | None
+    names: StateNames | None
 
     @classmethod
-    def of(cls, elements: ArrayLike, inputs: ArrayLike, names: Names) -> "State":
+    def of(cls, elements: ArrayLike, inputs: ArrayLike, names: StateNames) -> "State":
         """Return a state with its inputs."""
         state = np.array(elements, dtype=np.float64).view(cls)
         state.inputs = np.array(inputs, dtype=np.float64)
@@ -72,13 +72,13 @@ class State(np.ndarray[tuple[int, ...], np.dtype[np.float64]]):
         return State.of, (np.asarray(self), self.inputs, self.names)
 
 
-def inputs_of(state: Any, names: Names) -> Array | None:
+def inputs_of(state: Any, names: StateNames) -> Array | None:
     """Return the inputs that belong to a state, if it knows them.
 
     Parameters
     ----------
     state : array_like
-    names : Names
+    names : StateNames
         Of the model that is to take it.
 
     Raises

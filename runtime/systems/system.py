@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..core.arguments import Arguments, shown
 from .compile.loader import find
 from .modes import eigenvalues_of
-from .state import Names, inputs_of
+from .state import StateNames, inputs_of
 
 Array = NDArray[np.float64]
 
@@ -81,22 +81,22 @@ class System:
 
     @property
     def state_names(self) -> tuple[str, ...]:
-        """Names of the state's elements, in order."""
+        """StateNames of the state's elements, in order."""
         return tuple(self.equations.STATE)
 
     @property
     def input_names(self) -> tuple[str, ...]:
-        """Names of the inputs, in order."""
+        """StateNames of the inputs, in order."""
         return tuple(self.equations.INPUTS)
 
     @cached_property
-    def names_of_states(self) -> Names:
-        """Names of what a `State` of this system is made of."""
-        return Names(self.state_names, self.input_names)
+    def names_of_states(self) -> StateNames:
+        """StateNames of what a `State` of this system is made of."""
+        return StateNames(self.state_names, self.input_names)
 
     @property
     def signal_names(self) -> tuple[str, ...]:
-        """Names of the physical signals, in order."""
+        """StateNames of the physical signals, in order."""
         return tuple(self.equations.SIGNALS)
 
     # -- building arrays --------------------------------------------------------------------------

@@ -24,22 +24,24 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from kintrafo.generator.forces import (
+from kintrafo.generator import (
+    Actuator,
     AlongLine,
     AlongTelescope,
-    ForceElement,
-    JointForce,
-    LinearTyre,
-    Weight,
-)
-from kintrafo.generator.joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
-from kintrafo.generator.laws import (
-    Actuator,
+    Cylindrical,
     DamperTable,
+    ForceElement,
     Friction,
+    JointForce,
     LinearDamper,
     LinearSpring,
+    LinearTyre,
+    Prismatic,
+    Revolute,
+    Spherical,
     Stop,
+    Universal,
+    Weight,
 )
 
 from oracle.constraints import Array, perpendiculars, skew, unit
@@ -47,10 +49,10 @@ from oracle.constraints import Array, perpendiculars, skew, unit
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from kintrafo.generator.forces import Force
-    from kintrafo.generator.geometry import Direction, Line, Point
-    from kintrafo.generator.laws import Law
-    from kintrafo.generator.mechanism import Body, Model
+    from kintrafo.generator import Body, Direction, Line, Model, Point
+    from kintrafo.generator.declare.forces import Force
+    from kintrafo.generator.declare.joints import Joint
+    from kintrafo.generator.declare.laws import Law
 
 UP = np.array([0.0, 0.0, 1.0])
 

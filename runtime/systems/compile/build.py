@@ -16,8 +16,8 @@ from .declaration import model_of, telling
 from .loader import load, refuse_damaged
 
 if TYPE_CHECKING:
-    from ...generator.mechanism import Mechanism, Model
-    from ...generator.outputs import GeneratedModel
+    from ...generator import Mechanism, Model
+    from ...generator.equations.outputs import GeneratedModel
 
 Backend = Literal["auto", "c", "numpy"]
 Report = Callable[[str], None]
@@ -89,7 +89,7 @@ def compile_mechanism(
         if folder is not None:
             given.path("folder", folder)
     require_generator()
-    from ...generator.outputs import generate
+    from ...generator.equations.outputs import generate
 
     model = model_of(declared, name)
     compiler = _compiler(backend)
@@ -165,7 +165,7 @@ def build(
     Parameters
     ----------
     derived : GeneratedModel
-        From `kintrafo.generator.outputs.generate`.
+        From `kintrafo.generator.equations.outputs.generate`.
     folder : Path
         An empty folder; `kintrafo.systems.compile.loader.load` makes a module of it.
     compiler : Compiler or None
@@ -173,7 +173,7 @@ def build(
     name : str, optional
         What the folder will be called; by default what it is called now.
     """
-    from ...generator.emit.files import own_files
+    from ...generator.backends.files import own_files
 
     library = f"lib{derived.model.name}.so" if compiler else None
     texts = own_files(derived, library)

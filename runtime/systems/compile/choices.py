@@ -10,8 +10,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from ...generator.mechanism import Mechanism, Model
-    from ...generator.proposal import Proposal
+    from ...generator import Mechanism, Model
+    from ...generator.planning.proposal import Proposal
 
 
 def proposals(
@@ -68,7 +68,7 @@ def proposals(
 
 
 def _tried(given: "Model | Mechanism", seconds: float | None) -> "Iterator[Proposal]":
-    from ...generator.proposal import proposals as found
+    from ...generator.planning.proposal import proposals as found
 
     with telling():
         yield from found(given, seconds)

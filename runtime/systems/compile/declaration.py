@@ -14,7 +14,7 @@ from ...core.files import told
 from ...core.suggestions import suggestion
 
 if TYPE_CHECKING:
-    from ...generator.mechanism import Mechanism, Model
+    from ...generator import Mechanism, Model
 
 
 class MechanismError(KintrafoError, ValueError):
@@ -31,10 +31,9 @@ def telling(model: "Model | None" = None) -> Iterator[None]:
         What is being derived: where a loop does not close, the error names other choices of
         independent coordinates.
     """
-    from ...generator.declared import DeclarationError
-    from ...generator.proposal import advice
-    from ...generator.topology import TopologyError
-    from ...generator.transformer import NoClosedFormError
+    from ...generator import DeclarationError
+    from ...generator.loops.errors import NoClosedFormError, TopologyError
+    from ...generator.planning.proposal import advice
 
     try:
         yield
@@ -68,8 +67,8 @@ def model_of(declared: "Model | Mechanism | str | Path", name: str | None = None
     MechanismError
         If the declaration contradicts itself.
     """
-    from ...generator.mechanism import Mechanism
-    from ...generator.proposal import model_of as proposed
+    from ...generator import Mechanism
+    from ...generator.planning.proposal import model_of as proposed
 
     given = given_by(declared, name)
     if isinstance(given, Mechanism):
@@ -88,7 +87,7 @@ def given_by(declared: "Model | Mechanism | str | Path", name: str | None) -> "M
     MechanismError
         If the declaration contradicts itself.
     """
-    from ...generator.mechanism import Mechanism, Model
+    from ...generator import Mechanism, Model
 
     with Arguments("compile") as checked:
         if name is not None:
@@ -100,7 +99,7 @@ def given_by(declared: "Model | Mechanism | str | Path", name: str | None) -> "M
     if isinstance(given, Model | Mechanism):
         return given
     problem = (
-        "a Model, a Mechanism (kintrafo.generator.mechanism) or the path of a Python file with one "
+        "a Model, a Mechanism (kintrafo.generator) or the path of a Python file with one "
         f"is needed, not {shown(declared)}."
     )
     raise InputError([problem], "compile")
@@ -108,7 +107,7 @@ def given_by(declared: "Model | Mechanism | str | Path", name: str | None) -> "M
 
 def _run(path: Path) -> ModuleType:
     """Run a file and return what it defines."""
-    from ...generator.declared import DeclarationError
+    from ...generator import DeclarationError
 
     try:
         with told(path, "cannot be read"):
@@ -169,7 +168,7 @@ def _line(error: BaseException, path: Path) -> str:
 
 def _chosen(module: ModuleType, path: str, name: str | None) -> "Model | Mechanism":
     """Return the model of a file or, where it has none, the mechanism."""
-    from ...generator.mechanism import Mechanism, Model
+    from ...generator import Mechanism, Model
 
     defined = [v for v in vars(module).values() if isinstance(v, Model | Mechanism)]
     listed = [m for v in vars(module).values() if isinstance(v, tuple | list) for m in v]

@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, Any
 
 import kintrafo
 import numpy as np
-from kintrafo.generator import outputs
+from kintrafo.generator.equations import outputs
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
-from kintrafo.generator.proposal import model_of
+from kintrafo.generator.planning.proposal import model_of
 from kintrafo.systems.compile.cache import damage
 from kintrafo.systems.compile.compiler import Compiler
 

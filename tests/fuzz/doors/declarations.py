@@ -17,10 +17,10 @@ from pathlib import Path
 import numpy as np
 import test_copies
 from kintrafo.core.errors import KintrafoError
-from kintrafo.generator.declared import DeclarationError
+from kintrafo.generator import DeclarationError
+from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import double_wishbone, four_bar, slider_crank
-from kintrafo.generator.outputs import generate
-from kintrafo.generator.transformer import Plan
+from kintrafo.generator.planning.plan import Plan
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.declaration import given_by, telling
 from kintrafo.systems.compile.loader import load

@@ -1,0 +1,1 @@
+"""What prints a derived model: a folder for each target."""

@@ -1,0 +1,1 @@
+"""C99: header and sources."""

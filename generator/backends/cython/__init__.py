@@ -1,0 +1,1 @@
+"""What links the C code to Python by Cython."""

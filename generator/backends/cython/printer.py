@@ -1,0 +1,42 @@
+"""Print what links the C code of a model to Python, where it is built with this project."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..templates import template
+from ..words import reads_given
+
+if TYPE_CHECKING:
+    from ...equations.outputs import GeneratedModel
+    from ...program.function import Function
+
+
+class CythonPrinter:
+    """Prints the addresses of the C functions of one model."""
+
+    def __init__(self, model: GeneratedModel) -> None:
+        self.name = model.model.name
+        self._functions = model.functions.values()
+
+    def addresses(self) -> str:
+        """Return the text of the ``.pyx`` file."""
+        prepare = f"    int {self.name}_prepare(const double *parameters, double *constants)"
+        names = ["prepare", *(f.name for f in self._functions)]
+        return template("cython", "addresses.pyx").substitute(
+            name=self.name,
+            declarations="\n".join([prepare, *map(self._declaration, self._functions)]),
+            addresses="\n".join(f'    "{n}": <uintptr_t> &{self.name}_{n},' for n in names),
+        )
+
+    def addresses_stub(self) -> str:
+        """Return the text of the ``.pyi`` file beside it."""
+        return template("cython", "addresses.pyi").template
+
+    def _declaration(self, function: Function) -> str:
+        given = ", const double *given" if reads_given(function) else ""
+        return (
+            f"    int {self.name}_{function.name}(\n"
+            f"        const double *constants, const double *state, const double *inputs{given},\n"
+            "        double *out)"
+        )

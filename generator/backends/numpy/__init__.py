@@ -1,0 +1,1 @@
+"""Python over NumPy arrays, for where there is no compiler."""

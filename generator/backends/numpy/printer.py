@@ -1,0 +1,157 @@
+"""Print a model over NumPy arrays, for where there is no compiler: the steps of the C code.
+
+Sums and products are put together in the same order as in C, so that the two agree to the last
+digits of the library's sines and cosines.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ...program.floors import ROUNDING
+from ...program.newton import LIMITS
+from ...program.writing import NUMPY, write
+from ..templates import template
+from ..words import blocks_of, reads_given
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    import sympy as sp
+
+    from ...equations.outputs import GeneratedModel
+    from ...program.function import Block, Function
+
+
+class ArraysPrinter:
+    """Prints the functions of one model as Python over arrays."""
+
+    def __init__(self, model: GeneratedModel) -> None:
+        self.model = model
+
+    def source(self) -> str:
+        """Return the text of the file that stands in for the addresses of the C functions."""
+        names = ["prepare", *self.model.functions]
+        return template("numpy", "arrays.py").substitute(
+            name=self.model.model.name,
+            rounding=ROUNDING,
+            functions="\n\n\n".join(
+                [
+                    *printed_blocks(blocks_of(self.model.functions.values())),
+                    self._prepare(),
+                    *map(self._body, self.model.functions.values()),
+                ]
+            ),
+            table="\n".join(f'    "{name}": {name},' for name in names),
+        )
+
+    def _prepare(self) -> str:
+        loads = loaded("parameters", [e.name for e in self.model.parameters], self.model.prepare)
+        tests = [
+            *(
+                f"not abs({a.quantity}) > ROUNDING{'' if a.scale == 1 else f' * {a.scale}'}"
+                for a in self.model.assumptions
+            ),
+            *(
+                f"not abs({c.quantity}) <= {write(c.least, NUMPY).text}"
+                for c in self.model.conditions
+            ),
+        ]
+        holds = [f"{place}: {test}" for place, test in enumerate(tests)]
+        return definition(self.model.prepare, "parameters", loads, holds)
+
+    def _body(self, function: Function) -> str:
+        loads = [
+            *loaded("constants", self.model.prepare.labels, function),
+            *loaded("state", [e.name for e in self.model.state], function),
+            *loaded("inputs", [e.name for e in self.model.inputs], function),
+        ]
+        arguments = "constants, state, inputs"
+        if reads_given(function):
+            arguments += ", given"
+            names = [f"given_{e.name}" for e in self.model.relative]
+            loads += loaded("given", names, function)
+        holds = [
+            f"{place}: {guard.quantity} > {write(guard.floor, NUMPY).text}"
+            for place, guard in enumerate(self.model.guards)
+            if guard in function.guards
+        ]
+        return definition(function, arguments, loads, holds)
+
+
+def definition(
+    function: Function, arguments: str, loads: Sequence[str], holds: Sequence[str] = ()
+) -> str:
+    """Return a function: what it reads, its steps, its results and what its guards say."""
+    steps, results = _written(function)
+    lines = [
+        f"def {function.name}({arguments}):",
+        *(f"    {line}" for line in (*loads, *steps)),
+        "    results = (",
+        *(f"        {result}," for result in results),
+        "    )",
+        f"    return results, {{{', '.join(holds)}}}",
+    ]
+    return "\n".join(lines)
+
+
+def printed_blocks(blocks: Sequence[Block]) -> list[str]:
+    """Return what follows loops, and the equations of each."""
+    if not blocks:
+        return []
+    return [template("numpy", "follow.py").substitute(LIMITS).strip(), *map(_block, blocks)]
+
+
+def _block(block: Block) -> str:
+    """Return one iteration, and the call that repeats it."""
+    steps, results = _written(block.once)
+    read = {s.name for s in block.once.free_symbols}
+    kinds = {
+        "given": block.constants,
+        "now": [d.now for d in block.driven],
+        "base": block.estimate.base,
+        "step": block.estimate.step,
+        "held": [s for line in block.estimate.held for s in line],
+    }
+    loads = [
+        f"{s} = {array}[{i}]"
+        for array, symbols in kinds.items()
+        for i, s in enumerate(symbols)
+        if s.name in read
+    ]
+    along = [f"({d.now}_start, {d.now}_end, {d.now}_unit)" for d in block.driven]
+    names = [name for d in along for name in d.strip("()").split(", ")]
+    lines = [
+        f"def {block.name}_once({', '.join(kinds)}):",
+        *(f"    {line}" for line in (*loads, *steps)),
+        "    return (",
+        *(f"        {value}," for value in results),
+        "    )",
+        "",
+        "",
+        f"def {block.name}({', '.join([*map(str, block.constants), *names])}):",
+        f'    """Find {block.doc}."""',
+        f"    turns = {[d.turns for d in block.driven]}",
+        f"    given = [{', '.join(map(str, block.constants))}]",
+        f"    along = [{', '.join(along)}]",
+        f"    once, elements = {block.name}_once, {len(block.elements)}",
+        f"    return follow_turns(once, {len(block.unknowns)}, elements, turns, given, along)",
+    ]
+    return "\n".join(lines)
+
+
+def loaded(array: str, names: Iterable[str], function: Function) -> list[str]:
+    """Return the lines that give the elements of an array, as far as they are read, their names."""
+    read = {s.name for s in function.free_symbols}
+    return [f"{n} = {array}[..., {i}]" for i, n in enumerate(names) if n in read]
+
+
+def _written(function: Function) -> tuple[list[str], list[str]]:
+    """Write steps and results in the order of operations that the C code has."""
+    ready: dict[sp.Symbol, int] = {}
+    steps = []
+    for step in function.steps:
+        written = write(step.expression, NUMPY, ready)
+        ready[step.symbol] = written.ready
+        steps.append(f"{step.symbol} = {written.text}")
+    return steps, [write(result, NUMPY, ready).text for result in function.results]

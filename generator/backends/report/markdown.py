@@ -1,0 +1,265 @@
+"""The derivation report: what was found, chosen and solved, with operation counts (Markdown)."""
+
+from __future__ import annotations
+
+from itertools import zip_longest
+from typing import TYPE_CHECKING
+
+from ...program.floors import ROUNDING
+from ...program.writing import OPERATIONS, write
+from ..words import iteration_note, mechanism_hash
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from ...equations.outputs import GeneratedModel
+    from ...loops.graph import Cycle, Topology
+    from ...loops.planner import Transformer
+
+
+def table(header: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> str:
+    """Return an aligned Markdown table."""
+    widths = [max(len(row[i]) for row in (header, *rows)) for i in range(len(header))]
+
+    def line(cells: tuple[str, ...]) -> str:
+        padded = (c.ljust(w) for c, w in zip(cells, widths, strict=True))
+        return "| " + " | ".join(padded) + " |"
+
+    rule = "|" + "|".join("-" * (w + 2) for w in widths) + "|"
+    return "\n".join([line(header), rule, *(line(row) for row in rows)])
+
+
+def bodies_of(topology: Topology, cycle: Cycle) -> str:
+    """Return a cycle as the numbers and names of its bodies."""
+    named = (f"{topology.mechanism.body(b).number} {b}" for b in cycle.bodies)
+    return " - ".join(named)
+
+
+def joint_rows(topology: Topology) -> list[tuple[str, ...]]:
+    """Return the rows of the joint table (Table 1)."""
+    mechanism = topology.mechanism
+    return [
+        (
+            j.name,
+            j.kind,
+            f"{mechanism.body(j.first).number} {j.first}",
+            f"{mechanism.body(j.second).number} {j.second}",
+            str(j.freedoms),
+            j.common,
+        )
+        for j in mechanism.joints
+    ]
+
+
+def path_rows(topology: Topology) -> list[tuple[str, ...]]:
+    """Return the rows of the table of shortest paths (Table 2), ties included."""
+    bodies = topology.mechanism.bodies
+    rows = []
+    for start in bodies:
+        cells = [f"**{start.number}**"]
+        for end in bodies:
+            paths = topology.shortest_paths(start.name, end.name) if start != end else []
+            numbers = (
+                "".join(str(topology.mechanism.body(b).number) for b in path) for path in paths
+            )
+            cells.append(" or ".join(numbers) or "")
+        rows.append(tuple(cells))
+    return rows
+
+
+def mobility_line(topology: Topology) -> str:
+    """Return Eq. 1 with the numbers of the mechanism."""
+    moving = len(topology.mechanism.bodies) - 1
+    closed = [str(6 - j.freedoms) for j in topology.mechanism.joints]
+    planar = topology.planar_loop_count
+    extra = f" + 3 x {planar} planar loops" if planar else ""
+    return f"f = 6 x {moving} - ({' + '.join(closed)}){extra} = {topology.mobility}"
+
+
+def _cut(transformer: Transformer) -> str:
+    """Return where a loop is cut."""
+    if transformer.pair is None:
+        return "pair      none: solved together with others, in the unknowns of all"
+    a, b = transformer.pair.joints
+    return (
+        f"pair      {a.name} ({a.kind}) and {b.name} ({b.kind}): "
+        f"{transformer.pair.eliminated} of {transformer.unknowns} unknowns eliminated, "
+        f"{transformer.pair.equations} equation left"
+    )
+
+
+def block_diagram(topology: Topology, transformer: Transformer) -> str:
+    """Draw a transformer as a block with its inputs and outputs."""
+    closure, solution = transformer.step.words(transformer.closing)
+    inside = [
+        f"transformer {transformer.number}",
+        f"loop      {bodies_of(topology, transformer.cycle)} (length {transformer.cycle.length})",
+        _cut(transformer),
+        f"equation  {closure}",
+        f"solution  {solution}",
+    ]
+    width = max(map(len, inside))
+    left = max(map(len, transformer.inputs), default=0)
+    rows = list(zip_longest(inside, transformer.inputs, transformer.outputs, fillvalue=""))
+    lines = [f"{'':{left}}     +-{'-' * width}-+"]
+    for text, entering, leaving in rows:
+        arrow_in, arrow_out = ("-->" if entering else ""), (f"--> {leaving}" if leaving else "")
+        lines.append(f"{entering:{left}} {arrow_in:3} | {text:{width}} | {arrow_out}".rstrip())
+    lines.append(f"{'':{left}}     +-{'-' * width}-+")
+    return "\n".join(lines)
+
+
+def mermaid(topology: Topology) -> str:
+    """Return the joint graph as a Mermaid diagram, which forges draw as a picture."""
+    bodies = [f'    {b.name}(["{b.number} {b.name}"])' for b in topology.mechanism.bodies]
+    joints = [
+        f'    {j.first} ---|"{j.name}: {j.kind}, {j.freedoms}"| {j.second}'
+        for j in topology.mechanism.joints
+    ]
+    return "\n".join(["graph LR", *bodies, *joints])
+
+
+def preference(topology: Topology, transformer: Transformer) -> str:
+    """Say why a loop was taken before others of the same length."""
+    if not transformer.rivals:
+        return "It is the only shortest cycle that extends the basis."
+    others = "; ".join(
+        f"{bodies_of(topology, cycle)} would leave {unknowns}"
+        for cycle, unknowns in transformer.rivals
+    )
+    if transformer.unknowns == min(unknowns for _, unknowns in transformer.rivals):
+        return (
+            f"No cycle of the same length has fewer than {transformer.unknowns} unknown relative "
+            f"coordinates at this point; of those with as many it is the first by the numbers of "
+            f"its bodies: {others}."
+        )
+    return (
+        f"Preferred over cycles of the same length because only {transformer.unknowns} of its "
+        f"relative coordinates are unknown at this point: {others}."
+    )
+
+
+def markdown(model: GeneratedModel) -> str:
+    """Return the whole report."""
+    topology = model.plan.topology
+    sections = [
+        f"# {model.model.title}",
+        (
+            "Generated by kintrafo; do not edit: `make generate` writes it anew. "
+            f"Mechanism `{mechanism_hash(model)}`."
+        ),
+        *filter(None, [iteration_note(model)]),
+        "## Bodies and joints",
+        table(
+            ("joint", "type", "first body", "second body", "freedoms", "leaves in common"),
+            joint_rows(topology),
+        ),
+        f"Mobility (Grübler, Eq. 1): {mobility_line(topology)}.",
+        (
+            f"Independent loops: {len(topology.mechanism.joints)} - "
+            f"({len(topology.mechanism.bodies)} - 1) = {topology.loop_count}."
+        ),
+        "Joint graph: bodies, joints, and on each joint its number of freedoms (Figure 2).",
+        f"```mermaid\n{mermaid(topology)}\n```",
+        "## Shortest paths in the joint graph",
+        (
+            "An edge is as long as its joint has freedoms. Where several paths are equally short, "
+            "all are listed."
+        ),
+        table(("", *(str(b.number) for b in topology.mechanism.bodies)), path_rows(topology)),
+        "## Cycles",
+        (
+            f"Horton's construction gives {len(topology.horton_candidates())} simple cycles with "
+            f"repetitions, {len(topology.candidate_cycles)} distinct ones:"
+        ),
+        table(
+            ("bodies", "length"),
+            [(bodies_of(topology, c), str(c.length)) for c in topology.candidate_cycles],
+        ),
+        "## Kinematic transformers",
+        *_transformer_sections(model),
+        "## Functions",
+        _counts(model),
+        "A leading sign counts as an addition; guards are comparisons and do not count.",
+        "## Validity",
+        "Each function reports, by a status bit, which of these has left its range:",
+        table(
+            ("quantity", "floor", "unit", "meaning when it is not over the floor"),
+            [(f"`{g.name}`", f"`{write(g.floor).text}`", g.unit, g.meaning) for g in model.guards],
+        ),
+        *_assumptions(model),
+    ]
+    return "\n\n".join(sections) + "\n"
+
+
+def _transformer_sections(model: GeneratedModel) -> list[str]:
+    topology = model.plan.topology
+    sections = []
+    for transformer in model.plan.transformers:
+        pairs = [
+            (
+                f"{p.joints[0].name}, {p.joints[1].name}",
+                str(p.eliminated),
+                str(p.equations),
+                "chosen" if p == transformer.pair else "",
+            )
+            for p in transformer.candidates
+        ]
+        sections += [
+            f"### Transformer {transformer.number}",
+            f"```text\n{block_diagram(topology, transformer)}\n```",
+            preference(topology, transformer),
+            table(
+                ("pair with a common distance", "unknowns eliminated", "equations left", ""), pairs
+            ),
+        ]
+    return sections
+
+
+def _assumptions(model: GeneratedModel) -> list[str]:
+    return [*_zeros(model), *_conditions(model)]
+
+
+def _conditions(model: GeneratedModel) -> list[str]:
+    if not model.conditions:
+        return []
+    return [
+        "Parameters are refused for which one of these is not more than its least amount:",
+        table(
+            ("quantity", "least", "unit", "meaning when it is less"),
+            [
+                (f"`{c.quantity}`", f"`{write(c.least).text}`", c.unit, c.meaning)
+                for c in model.conditions
+            ],
+        ),
+    ]
+
+
+def _zeros(model: GeneratedModel) -> list[str]:
+    if not model.assumptions:
+        return []
+    return [
+        (
+            "Parameters are refused for which one of these is not zero (an angle by its sine; to "
+            f"{ROUNDING}, of a distance relative to a length):"
+        ),
+        table(
+            ("quantity", "unit", "meaning when it is not zero"),
+            [(f"`{a.quantity}`", a.unit, a.meaning) for a in model.assumptions],
+        ),
+    ]
+
+
+def _counts(model: GeneratedModel) -> str:
+    rows = []
+    for function in (model.prepare, *model.functions.values()):
+        counts = function.operations()
+        rows.append(
+            (
+                f"`{function.name}`",
+                " x ".join(map(str, function.shape)),
+                str(counts.total()),
+                *(str(counts[name]) for name in OPERATIONS),
+            )
+        )
+    return table(("function", "results", "operations", *OPERATIONS), rows)

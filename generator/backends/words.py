@@ -1,0 +1,67 @@
+"""What several back ends say of a model: its hash, its counts, its iterations."""
+
+from __future__ import annotations
+
+import hashlib
+from typing import TYPE_CHECKING
+
+from ..program.newton import ITERATIONS, LIMITS
+from ..program.writing import OPERATIONS
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from ..equations.outputs import GeneratedModel
+    from ..program.function import Block, Function
+
+GENERATOR_VERSION = "0.1.0"
+
+
+def count_line(function: Function) -> str:
+    """Describe the operations of a function in one line."""
+    counts = function.operations()
+    parts = ", ".join(f"{counts[name]} {name}" for name in OPERATIONS if counts[name])
+    line = f"{counts.total()} operations ({parts or 'none'})"
+    iterating = "; iterates: " + ", ".join(block.name for block in function.blocks)
+    return line + iterating if function.blocks else line
+
+
+def iteration_note(model: GeneratedModel) -> str:
+    """Say which loops of a model are solved by iteration; nothing where all have a closed form."""
+    blocks = blocks_of(model.functions.values())
+    if not blocks:
+        return ""
+    found = "; ".join(block.doc for block in blocks)
+    return (
+        f"This model is not free of iteration. Newton's method finds {found}: in stages from the "
+        f"design position on, in at most {ITERATIONS} iterations, until a correction is below "
+        f"{LIMITS['CONVERGED']}. A status bit says where that fails. Operations are counted for "
+        "one iteration."
+    )
+
+
+def blocks_of(functions: Iterable[Function]) -> list[Block]:
+    """Return the iterations of some functions, each once, and behind those that it calls."""
+    found: dict[str, Block] = {}
+    for block in (b for f in functions for b in f.blocks):
+        found |= {inner.name: inner for inner in blocks_of([block.once])} | {block.name: block}
+    return list(found.values())
+
+
+def mechanism_hash(model: GeneratedModel) -> str:
+    """Return a hash of everything that the emitted arithmetic depends on."""
+    digest = hashlib.sha256()
+    blocks = blocks_of(model.functions.values())
+    once = (block.once for block in blocks)
+    for function in (model.prepare, *once, *model.functions.values()):
+        digest.update(function.name.encode())
+        for step, written in zip(function.steps, function.written.steps, strict=True):
+            digest.update(f"{step.symbol}={written.text};".encode())
+        for written in function.written.results:
+            digest.update(f"{written.text};".encode())
+    return digest.hexdigest()[:16]
+
+
+def reads_given(function: Function) -> bool:
+    """Tell whether a function takes relative coordinates as an argument of their own."""
+    return any(s.name.startswith("given_") for s in function.free_symbols)

@@ -1,0 +1,193 @@
+"""The kernel of the closed forms with a rod: an arm turns about a line until the rod fits.
+
+Let n be the direction of the line, F the foot on it of the rod's joint D, rho = |FD|, E the other
+end of the rod of length l, and w = E - F with parts w_n along n and w_p across it. The unit vector
+t from F to D is perpendicular to n, and ``|D - E| = l`` becomes
+
+    t . w_p = k,    k = (rho^2 + |w_p|^2 + w_n^2 - l^2) / (2 rho),
+
+which is ``a cos + b sin = c`` without a reference for the angle. Its solutions:
+
+    t = (k w_p + s sqrt(|w_p|^2 - k^2) n x w_p) / |w_p|^2,    s = +1 or -1.
+
+Branch: s is the sign of (D - E) . (n x t) at the design position. Valid while ``|w_p|^2 > k^2``;
+the edge is the dead point where rod, D and the line are in one plane. Singular: E on the line.
+With D on the line, rho = 0, the arm has no direction and the rod holds nothing; rho is a constant,
+and `prepare` refuses parameters for which it vanishes (t is not finite then).
+
+The body axes are (n, t, n x t). In them D - E = (-w_n, rho - k, s sqrt(|w_p|^2 - k^2)), so the
+turning rate follows from ``(D - E) . (v_D - v_E) = l l'`` with one division. The right side is zero
+but for a telescope of known slide, which is a rod of known variable length (`rod`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ..kinematics.extent import extent_squared, require
+from ..program.floors import BRANCH, DIRECTION, LENGTH, ROOT
+from ..program.functions import SignOf
+from ..program.vectors import ZERO, Vector
+
+if TYPE_CHECKING:
+    from ..declare.geometry import Point
+    from ..kinematics.extent import Spanning
+    from ..kinematics.kinematics import Kinematics
+    from ..kinematics.motion import Axes
+    from .leg import Leg, Rod
+
+
+@dataclass(frozen=True)
+class Arm:
+    """What turns about the line, from the design position (constants).
+
+    Attributes
+    ----------
+    along, radius
+        Coordinates of the point D from the base: along the line, and across it.
+    design_axes
+        Line, direction to D across it, normal to both; in work axes.
+    base
+        The point on the line from which D is seen, at the design position.
+    """
+
+    along: sp.Expr
+    radius: sp.Expr
+    design_axes: Axes
+    base: Vector
+
+    @classmethod
+    def of(
+        cls,
+        kin: Kinematics,
+        body: str,
+        line: Vector,
+        base: Point,
+        end: Point,
+        extent: sp.Expr,
+    ) -> Arm:
+        """Return the arm of a body from a base on its line, whose design direction is given."""
+        program = kin.program
+        arm = program.vector(f"{body}_arm_design", kin.design(end) - kin.design(base))
+        along = program.define(f"{body}_arm_along", arm.dot(line))
+        across = program.vector(f"{body}_arm_across", arm - line * along)
+        radius = program.define(f"{body}_arm_radius", sp.sqrt(across.dot(across)))
+        require(
+            kin,
+            f"{body}_arm_radius",
+            radius,
+            LENGTH * sp.sqrt(extent),
+            "m",
+            f"at the design position, {end.name} is on the line about which {body} turns",
+            f"move {end.name} away from that line",
+        )
+        t = program.vector(f"{body}_arm_unit", across * (1 / radius))
+        normal = program.vector(f"{body}_normal_design", line.cross(t))
+        return cls(along, radius, (line, t, normal), kin.design(base))
+
+    @property
+    def local(self) -> Vector:
+        """The point D in body axes."""
+        return Vector(self.along, self.radius, ZERO.z)
+
+
+@dataclass(frozen=True)
+class Reach:
+    """From the foot of the arm to the rod's anchor: w_n, w_p and n x w_p."""
+
+    axial: sp.Expr
+    across: Vector
+    normal: Vector
+
+
+@dataclass(frozen=True)
+class Fit:
+    """The solution: body axes, D - E in them, the factor of the turning rate, and the rod."""
+
+    axes: Axes
+    gap: Vector
+    hold: sp.Expr
+    rod: Rod
+
+
+def fit_rod(kin: Kinematics, step: Spanning, leg: Leg, arm: Arm, line: Vector, reach: Reach) -> Fit:
+    """Turn an arm about a line until a leg fits, in the loop that a step closes."""
+    program, body, rho = kin.program, leg.body, arm.radius
+    rod = leg.rod_of(kin, step)
+    loop, extent = kin.loop_of(step), extent_squared(kin, step)
+    _require_reach(kin, leg, arm, extent)
+    branch = _branch(kin, leg, arm, rod, extent)
+    squared = program.guarded(
+        f"{body}_reach_squared",
+        reach.across.dot(reach.across),
+        f"{loop}: point {leg.anchor.name} lies on the line of {body}, whose rotation is "
+        "undetermined",
+        "m^2",
+        DIRECTION * extent,
+    )
+    k = program.define(
+        f"{body}_reach_needed",
+        (squared + reach.axial**2 + (rho**2 - rod.squared)) * (1 / (2 * rho)),
+    )
+    room = program.guarded(
+        f"{body}_closure",
+        squared - k**2,
+        f"{loop} cannot close: the {rod.name} cannot reach {body}, beyond its dead point",
+        "m^2",
+        ROOT * extent,
+    )
+    root = program.define(f"{body}_closure_root", sp.sqrt(room))
+    inverse = program.define(f"{body}_reach_inverse", 1 / squared)
+    signed = program.define(f"{body}_reach_inverse_signed", branch * inverse)
+    cosine = program.define(f"{body}_turn_cosine", k * inverse)
+    sine = program.define(f"{body}_turn_sine", root * signed)
+    axes: Axes = (
+        line,
+        program.vector(f"{body}_arm", reach.across * cosine + reach.normal * sine),
+        program.vector(f"{body}_normal", reach.normal * cosine - reach.across * sine),
+    )
+    height = program.define(f"{body}_rod_height", branch * root)
+    gap = program.vector(f"{body}_rod", Vector(-reach.axial, rho - k, height), "123")
+    hold = program.define(f"{body}_hold", -branch / (rho * root))
+    return Fit(axes, gap, hold, rod)
+
+
+def _require_reach(kin: Kinematics, leg: Leg, arm: Arm, extent: sp.Expr) -> None:
+    """Have `prepare` see that the rod's anchor is beside the line."""
+    program, body, anchor = kin.program, leg.body, leg.anchor
+    line = arm.design_axes[0]
+    way = program.vector(f"{body}_reach_design", kin.design(anchor) - arm.base)
+    across = program.vector(
+        f"{body}_reach_design_across",
+        way - line * program.define(f"{body}_reach_design_along", way.dot(line)),
+    )
+    require(
+        kin,
+        f"{body}_reach_design",
+        sp.sqrt(across.dot(across)),
+        LENGTH * sp.sqrt(extent),
+        "m",
+        f"at the design position, {anchor.name} is on the line about which {body} turns, so that "
+        f"{leg.rod} does not hold it",
+        f"move {anchor.name} away from that line",
+    )
+
+
+def _branch(kin: Kinematics, leg: Leg, arm: Arm, rod: Rod, extent: sp.Expr) -> sp.Expr:
+    """Return on which side of the arm the rod is at the design position."""
+    program, body = kin.program, leg.body
+    height = program.define(f"{body}_rod_height_design", rod.design.dot(arm.design_axes[2]))
+    require(
+        kin,
+        f"{body}_rod_height_design",
+        height,
+        BRANCH * sp.sqrt(extent),
+        "m",
+        f"at the design position the {rod.name} is at its dead point: it, {leg.end.name} and "
+        f"the line about which {body} turns are in one plane",
+        f"choose a design position where {leg.anchor.name} is beside that plane",
+    )
+    return program.define(f"{body}_branch", SignOf(height))

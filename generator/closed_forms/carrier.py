@@ -1,0 +1,407 @@
+"""A body that only rods hold, all together: a wheel carrier on several links. No closed form.
+
+The equations, and the iteration that solves them from the design position on, are those of
+`carrier_equations`. Here is what surrounds them, in straight-line code.
+
+*Position.* What the iteration has found is corrected once more. That changes nothing but the last
+digits, and carries all derivatives: by the implicit function theorem they are ``-J^-1 g_v``.
+
+*Velocities and accelerations* fulfil ``J x = b``, b being what the starts of the rods do; they are
+solved with what the iteration knows of J^-1 (`inverse`, where the guard is as well).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+import sympy as sp
+
+from ..declare.joints import Joint, Prismatic, Spherical
+from ..kinematics.hinge_angles import driven_coordinates
+from ..kinematics.motion import BodyMotion, PointMotion, from_axes
+from ..loops.errors import NoClosedFormError
+from ..loops.forms import Attempt, Iteration
+from ..program.function import LOST
+from ..program.newton import ITERATIONS, Matrix, named
+from ..program.vectors import ZERO, Twist, Vector
+from .carrier_equations import Pose, RodEquation, block, rotation, split, turned
+from .guided_pair import GuidedPair
+from .inverse import Inverse, guarded_factor
+from .lines import once, place_rod, projector
+from .rigid_rod import RigidRod
+from .ups import Strut, is_strut
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterator, Sequence
+    from typing import Self
+
+    from ..declare.assembly import Body
+    from ..declare.geometry import Point
+    from ..kinematics.kinematics import Kinematics
+    from ..kinematics.step import Ends
+    from ..loops.forms import Closing
+    from ..loops.graph import Cycle
+    from ..loops.known import Coordinate, Known
+    from .leg import Leg, Rod
+
+# A rod is one equation; the pose of a body about a known point has three unknowns, else six.
+_RODS_ABOUT_A_POINT = 3
+_RODS_WITHOUT_A_POINT = 6
+
+
+@dataclass(frozen=True)
+class CarrierOnRods(Iteration):
+    """A body that only rods hold, all together: its pose follows by iteration.
+
+    Attributes
+    ----------
+    pin
+        A ball joint at a placed body, and that body: then three rods hold the orientation. Without
+        it six rods hold position and orientation.
+    """
+
+    body: str
+    rods: tuple[Leg, ...]
+    pin: tuple[Point, str] | None = None
+
+    rank: ClassVar[int] = 1
+
+    @classmethod
+    def attempt(
+        cls, known: Known, driven: Collection[str], waiting: Sequence[Cycle]
+    ) -> Attempt | None:
+        """Return the first body that rods hold together, with the loops that they close."""
+        del driven
+        for body in known.mechanism.bodies:
+            step = cls._at(known, body)
+            if step is None:
+                continue
+            links = {link for rod in step.rods for link in rod.links}
+            inside = {step.body} | links | known.placed
+            closed = [cycle for cycle in waiting if inside.issuperset(cycle.bodies)]
+            if len(closed) == len(step.rods) - (step.pin is None):
+                problem = (
+                    f"{step.body} is held by {step.rod_names} together: {len(step.rods)} "
+                    "equations remain in as many unknowns"
+                )
+                return Attempt(step, tuple(closed), problem)
+        return None
+
+    @classmethod
+    def _at(cls, known: Known, body: Body) -> Self | None:
+        """Return the step for a body that three rods and a point hold, or six rods."""
+        if body.name in known.bodies:
+            return None
+        joints = known.mechanism.joints_of(body.name)
+        rods = [rod for joint in joints if (rod := _rod(known, body, joint))]
+        bases = [
+            j for j in joints if isinstance(j, Spherical) and j.other(body.name) in known.placed
+        ]
+        if len(bases) == 1 and len(rods) == _RODS_ABOUT_A_POINT:
+            (base,) = bases
+            return cls(body.name, tuple(rods), (base.at, base.other(body.name)))
+        if not bases and len(rods) == _RODS_WITHOUT_A_POINT:
+            return cls(body.name, tuple(rods))
+        return None
+
+    @property
+    def about(self) -> str:
+        """The body."""
+        return self.body
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"transformers with iteration: {self.body} held by {len(self.rods)} rods"
+
+    @property
+    def closing(self) -> Sequence[Closing]:
+        """What closes the loops."""
+        return self.rods
+
+    @property
+    def rod_names(self) -> str:
+        """The rods, for messages."""
+        return ", ".join(rod.rod for rod in self.rods)
+
+    def accept(self, known: Known) -> set[Coordinate]:
+        """Record the body, and the rods: each on its line."""
+        known.placed.add(self.body)
+        known.on_line |= {rod.rod for rod in self.rods}
+        links = [link for rod in self.rods for link in rod.links]
+        at_rods = [j for link in links for j in known.mechanism.joints_of(link)]
+        at_body = filter(known.joins, known.mechanism.joints_of(self.body))
+        return known.add_all([*at_rods, *at_body])
+
+    def lines(self) -> Iterator[Ends]:
+        """Yield the rods, each along its line."""
+        yield from ((rod.rod, rod.anchor, rod.end) for rod in self.rods)
+
+    def words(self, closing: Closing | None) -> tuple[str, str]:
+        """Return the closure equation of a loop and its solution."""
+        assert closing is not None
+        return closing.closure, (
+            f"no closed form: {len(self.rods)} equations for the pose of {self.body}, by Newton's "
+            f"method, at most {ITERATIONS} iterations"
+        )
+
+    def carry_out(self, kin: Kinematics) -> None:
+        """Find the pose of the body, and its motion."""
+        held = _Held.of(kin, self)
+        _place(kin, held, _corrected(kin, held))
+        for rod in held.rods:
+            place_rod(kin, rod.entry, rod.anchor, rod.rod.length)
+
+
+# -- structure ------------------------------------------------------------------------------------
+
+
+def _rod(known: Known, body: Body, joint: Joint) -> Leg | None:
+    """Return the rod that holds a body at a joint, if its other end is at a placed body."""
+    end, rod = joint.center, joint.other(body.name)
+    far, guide, other = None, None, _beyond(known, joint, rod)
+    if isinstance(other, Prismatic) and known.unknowns_of(other) == 0:
+        guide, far, rod = other, rod, other.other(rod)
+        other = _beyond(known, guide, rod)
+    anchor = other.center if other else None
+    if other is None or end is None or anchor is None:
+        return None
+    if {rod, far} & known.bodies or other.other(rod) not in known.placed:
+        return None
+    if guide is None or far is None:
+        return RigidRod(body.name, rod, end, anchor, other.other(rod))
+    pair = GuidedPair(guide, rod, anchor, other.other(rod), far, end, body.name)
+    return Strut.of(pair) if is_strut(pair, other, joint) and guide.first == rod else None
+
+
+def _beyond(known: Known, joint: Joint, link: str) -> Joint | None:
+    """Return the other joint of a link that has two."""
+    others = [j for j in known.mechanism.joints_of(link) if j != joint]
+    return others[0] if len(others) == 1 else None
+
+
+# -- the body and its rods ------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Held:
+    """The body and what holds it.
+
+    Attributes
+    ----------
+    base
+        Motion of the known point; None if there is none.
+    origin
+        Origin of the body axes at design: the known point, or else the end of the first rod.
+    size
+        The length c of the equations: root mean square of the ways from there to the rods.
+    rods
+        In the order of the step.
+    """
+
+    step: CarrierOnRods
+    base: PointMotion | None
+    origin: Vector
+    size: sp.Expr
+    rods: list[_RodAtBody]
+
+    @classmethod
+    def of(cls, kin: Kinematics, step: CarrierOnRods) -> _Held:
+        """Describe what an step is about."""
+        program, body = kin.program, step.body
+        if step.pin is None:
+            base, origin = None, kin.design(step.rods[0].end)
+            start = origin
+        else:
+            point, parent = step.pin
+            base, origin = kin.point_motion(parent, point), kin.design(point)
+            start = base.position
+        ends = [
+            program.vector(f"{body}_{entry.end.name}", kin.design(entry.end) - origin, "123")
+            for entry in step.rods
+        ]
+        squares = sum((end.dot(end) for end in ends), sp.Integer(0))
+        size = program.define(f"{body}_size", sp.sqrt(squares / len(ends)))
+        rods = [
+            _RodAtBody.of(kin, entry, end, start, size, pinned=base is not None)
+            for entry, end in zip(step.rods, ends, strict=True)
+        ]
+        if all(program.constants.contains(c) for rod in rods for c in rod.equation.moving):
+            message = (
+                f"{body}, held by {step.rod_names}, cannot move: all that holds it stands still. "
+                "Declare it as a part of the ground"
+            )
+            raise NoClosedFormError(message)
+        return cls(step, base, origin, size, rods)
+
+    def scaled(self, values: Sequence[sp.Expr]) -> list[sp.Expr]:
+        """Return values of the rods, times the factors s of their equations."""
+        return [v * rod.equation.scale for v, rod in zip(values, self.rods, strict=True)]
+
+
+@dataclass(frozen=True)
+class _RodAtBody:
+    """A rod: its length, the motion of where it starts, and its equation."""
+
+    entry: Leg
+    rod: Rod
+    anchor: PointMotion
+    equation: RodEquation
+
+    @classmethod
+    def of(
+        cls,
+        kin: Kinematics,
+        entry: Leg,
+        end: Vector,
+        start: Vector,
+        size: sp.Expr,
+        *,
+        pinned: bool,
+    ) -> _RodAtBody:
+        """Describe a rod that ends at a point of the body; positions are from a start."""
+        program, rod = kin.program, entry.rod_of(kin, entry)
+        anchor = entry.anchor_motion(kin)
+        length = program.define(f"{entry.rod}_length_design", sp.sqrt(rod.design.dot(rod.design)))
+        equation = RodEquation(
+            program.vector(f"{entry.rod}_start", anchor.position - start),
+            end,
+            program.define(f"{entry.rod}_length_squared", rod.squared),
+            program.define(f"{entry.rod}_scale", 1 / (length * size)),
+            None if pinned else size,
+        )
+        return cls(entry, rod, anchor, equation)
+
+
+@dataclass(frozen=True)
+class _Solved:
+    """The pose, the ways along the rods from their starts to their ends, J and its inverse."""
+
+    pose: Pose
+    gaps: list[Vector]
+    rows: Matrix
+    inverse: Inverse
+
+
+# -- position -------------------------------------------------------------------------------------
+
+
+def _found(kin: Kinematics, held: _Held) -> dict[str, sp.Expr]:
+    """Append the call of the iteration, and return its results."""
+    body, rods = held.step.body, {rod.entry.rod: rod.equation for rod in held.rods}
+    iteration = block(kin.program, body, rods, held.size, driven_coordinates(kin))
+    return kin.program.iterated(f"{body}_found", iteration)
+
+
+def _corrected(kin: Kinematics, held: _Held) -> _Solved:
+    """Correct what the iteration has found, and return the pose with its linear equations."""
+    program, body, count = kin.program, held.step.body, len(held.rods)
+    found = _found(kin, held)
+    u, sigma = split(list(found.values())[:count])
+    axes = rotation(program, f"{body}_found", u)
+    start = Pose(axes, program.vector(f"{body}_found_shift", sigma * held.size))
+    left = [
+        program.define(f"{rod.entry.rod}_misfit", rod.equation.misfit(rod.equation.gap(start)))
+        for rod in held.rods
+    ]
+    places = range(1, count + 1)
+    adjugate = [[found[f"inverse_{i}{j}"] for j in places] for i in places]
+    factor = guarded_factor(
+        kin,
+        body,
+        found["determinant"],
+        left,
+        found[LOST],
+        f"the loops of {body} through {held.step.rod_names} cannot close, or an iteration has "
+        f"not found how in {{iterations}} steps on the way from the design position: the rods "
+        f"cannot reach {body}, or they have no hold on it",
+    )
+    inverse = Inverse(adjugate, factor)
+    step = [
+        program.define(f"{body}_correction_{i}", value)
+        for i, value in enumerate(inverse.step(left), 1)
+    ]
+    turn, way = split(step)
+    names = (f"{body}_forward", f"{body}_side", f"{body}_top")
+    moved = start.shift + from_axes(axes, way * held.size)
+    pose = Pose(program.axes(names, turned(axes, turn)), program.vector(f"{body}_shift", moved))
+    gaps = [
+        program.vector(f"{rod.entry.rod}_gap", rod.equation.gap(pose), "123") for rod in held.rods
+    ]
+    rows = [rod.equation.row(gap) for rod, gap in zip(held.rods, gaps, strict=True)]
+    return _Solved(pose, gaps, named(program, f"{body}_row", rows), inverse)
+
+
+# -- motion ---------------------------------------------------------------------------------------
+
+
+def _place(kin: Kinematics, held: _Held, solved: _Solved) -> None:
+    """Record pose, velocities and bias."""
+    step, program, pose = held.step, kin.program, solved.pose
+    placed = BodyMotion(
+        step.body,
+        origin=held.base.position
+        if held.base
+        else program.vector(f"{step.body}_origin", held.origin + pose.shift),
+        axes=pose.axes,
+        design_origin=held.origin,
+        local={rod.entry.end: rod.equation.end for rod in held.rods},
+    )
+    if step.pin is not None:
+        point, parent = step.pin
+        placed.local[point] = ZERO
+        placed.carrier = parent, kin.local(kin.placed[parent], point)
+    _add_motion(kin, held, solved, placed)
+    kin.placed[step.body] = placed
+
+
+def _add_motion(kin: Kinematics, held: _Held, solved: _Solved, placed: BodyMotion) -> None:
+    """Add velocities and bias: every rod keeps its length, or has that of a known slide."""
+    body, to_body = placed.body, projector(kin, placed)
+    rates = [ZERO for _ in held.rods]  # of the ends of the rods, as seen from where they start
+
+    def solve(name: str, slips: Sequence[sp.Expr]) -> list[sp.Expr]:
+        return solved.inverse.solve(kin, name, solved.rows, held.scaled(slips))
+
+    def twist_of(x: Sequence[sp.Expr], base: Vector) -> Twist:
+        """Return a twist (or a bias) from the solution, and from the base where that is known."""
+        turn, way = split(x)
+        return Twist(turn, base if held.base else way * held.size)
+
+    for k in _coordinates(held):
+        base = to_body(f"velocity_{k}", held.base.motion.get(k, ZERO)) if held.base else ZERO
+        starts = [
+            to_body(f"{rod.entry.rod}_start_{k}", rod.anchor.motion.get(k, ZERO))
+            for rod in held.rods
+        ]
+        growths = [rod.rod.stretch.get(k, sp.Integer(0)) for rod in held.rods]
+        slips = [
+            growth - gap.dot(base - start)
+            for growth, gap, start in zip(growths, solved.gaps, starts, strict=True)
+        ]
+        twist = twist_of(solve(f"{body}_{k}", slips), base)
+        placed.motion[k] = now = kin.define_twist(body, k, twist)
+        for i, (rod, start) in enumerate(zip(held.rods, starts, strict=True)):
+            rates[i] += (now.linear - start + now.angular.cross(rod.equation.end)) * kin.rate(k)
+
+    def bias() -> Twist:
+        omega = kin.total(placed).angular
+        base = to_body("acceleration", held.base.bias) if held.base else ZERO
+        slips = []
+        for rod, gap, rate in zip(held.rods, solved.gaps, rates, strict=True):
+            now = kin.program.vector(f"{rod.entry.rod}_rate", rate, "123")
+            start = to_body(f"{rod.entry.rod}_start_bias", rod.anchor.bias)
+            pull = base - start + omega.cross(omega.cross(rod.equation.end))
+            slips.append(rod.rod.stretch_bias - gap.dot(pull) - now.dot(now))
+        return kin.define_bias(body, twist_of(solve(f"{body}_bias", slips), base))
+
+    placed.bias = once(bias)
+
+
+def _coordinates(held: _Held) -> list[str]:
+    """Return the coordinates that move the body."""
+    motions = [held.base.motion] if held.base else []
+    motions += [rod.anchor.motion for rod in held.rods]
+    names = [*motions, *(rod.rod.stretch for rod in held.rods)]
+    return list(dict.fromkeys(name for moved in names for name in moved))

@@ -1,0 +1,178 @@
+"""The equations of a body that only rods hold, all together, and the iteration that solves them.
+
+The pose of the body has n unknowns: three of its orientation, where it also hangs at a point of
+known motion, or all six; and n rods hold it. With A_i where rod i starts, r_i the point of the body
+where it ends, seen from the origin of the body axes, and gap_i the way from A_i to that point,
+
+    g_i = (gap_i^2 - l_i^2) s_i / 2 = 0,    s_i = 1 / (l_i c),
+
+l_i at the design position and c being lengths of the mechanism, so that g has no unit. Three such
+equations lead to a polynomial of degree 8, six to one of degree 40.
+
+In body axes a small turn theta of the body, and a small shift c sigma, change g_i by
+
+    (r_i x gap_i) s_i . theta  +  gap_i c s_i . sigma:
+
+these are the rows of J. The same matrix gives velocities and accelerations (`carrier`).
+
+The attitude is given by Rodrigues' parameters u, relative to the design position and rational:
+``R = 1 + 2 (u~ + u~ u~) / (1 + u^2)``. A turn theta in body axes is composed with it by
+``(u + w + u x w) / (1 - u . w)``, where w = theta / 2 for the small ones of an iteration.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ..kinematics.motion import Axes, from_axes, to_axes
+from ..program.newton import Derivation, Found
+from ..program.vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Vector
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+
+    from ..program.function import Block, Estimate
+    from ..program.program import Program
+
+
+@dataclass(frozen=True)
+class Pose:
+    """Body axes, and how far their origin has come from the base, in work axes."""
+
+    axes: Axes
+    shift: Vector
+
+
+@dataclass(frozen=True)
+class RodEquation:
+    """The equation of one rod.
+
+    Attributes
+    ----------
+    anchor
+        A_i, from the base: the known point or, without one, where the origin of the body axes is
+        at the design position (work axes).
+    end
+        r_i (body axes).
+    squared, scale
+        l_i^2 and s_i.
+    size
+        c, where the body has no known point: the equation then has six unknowns.
+    """
+
+    anchor: Vector
+    end: Vector
+    squared: sp.Expr
+    scale: sp.Expr
+    size: sp.Expr | None
+
+    @property
+    def moving(self) -> list[sp.Expr]:
+        """What may move of it."""
+        return [*self.anchor, self.squared]
+
+    def gap(self, pose: Pose) -> Vector:
+        """Return the way from the start of the rod to its end, in body axes."""
+        return self.end - to_axes(pose.axes, self.anchor - pose.shift)
+
+    def misfit(self, gap: Vector) -> sp.Expr:
+        """Return g_i."""
+        return (gap.dot(gap) - self.squared) * (self.scale / 2)
+
+    def row(self, gap: Vector) -> list[sp.Expr]:
+        """Return the row of J."""
+        turn = self.end.cross(gap) * self.scale
+        return [*turn] if self.size is None else [*turn, *(gap * (self.scale * self.size))]
+
+
+def rotation(program: Program, name: str, u: Vector) -> Axes:
+    """Append the body axes of Rodrigues' parameters."""
+    half = program.define(f"{name}_half", 2 / (1 + u.dot(u)))
+    v = program.vector(f"{name}_scaled", u * half, "123")
+    columns = (
+        e + v.cross(e) + u * v.dot(e) - e * v.dot(u)  # v~ u~ e = u (v . e) - e (v . u)
+        for e in (UNIT_X, UNIT_Y, UNIT_Z)
+    )
+    return program.axes((f"{name}_x", f"{name}_y", f"{name}_z"), columns)
+
+
+def turned(axes: Axes, turn: Vector) -> Axes:
+    """Return axes after a turn so small that its square vanishes; it is given along the axes."""
+    x, y, z = axes
+    return (
+        x + y * turn.z - z * turn.y,
+        y + z * turn.x - x * turn.z,
+        z + x * turn.y - y * turn.x,
+    )
+
+
+def split(values: Sequence[sp.Expr]) -> tuple[Vector, Vector]:
+    """Return turn and shift from three values or six."""
+    return Vector(*values[:3]), Vector(*values[3:]) if values[3:] else ZERO
+
+
+def block(
+    program: Program,
+    body: str,
+    rods: Mapping[str, RodEquation],
+    size: sp.Expr,
+    driven: Iterable[tuple[sp.Symbol, sp.Expr, bool]],
+) -> Block:
+    """Return the iteration that finds the pose of a body held by some rods (`Derivation`).
+
+    Parameters
+    ----------
+    rods
+        The equation of every rod, by its name.
+    size
+        The length c of the equations.
+    """
+    name = f"pose_of_{body}"
+    if name in program.constants.blocks:
+        return program.constants.blocks[name]
+    derivation = Derivation(program, driven, size)
+    pinned = all(rod.size is None for rod in rods.values())
+
+    def derive(own: Program, estimate: Estimate) -> Found:
+        own.section("what is placed before, at this stage")
+        equations = [
+            replace(
+                rod,
+                anchor=Vector(*derivation.repeated(rod.anchor)),
+                squared=derivation.repeated([rod.squared])[0],
+            )
+            for rod in rods.values()
+        ]
+        own.section("pose of this iteration")
+        (u, sigma), (turn, way) = split(estimate.base), split(estimate.step)
+        before = rotation(own, "before", u)
+        u = own.vector("turn", _composed(own, u, turn))
+        axes = rotation(own, "body", u)
+        sigma = own.vector("shift", sigma + from_axes(before, way))
+        pose = Pose(axes, own.vector("moved", sigma * size))
+        own.section("what the rods leave of their lengths")
+        gaps = [own.vector(f"gap_{i}", e.gap(pose), "123") for i, e in enumerate(equations, 1)]
+        left = [
+            own.define(f"misfit_{i}", e.misfit(gap))
+            for i, (e, gap) in enumerate(zip(equations, gaps, strict=True), 1)
+        ]
+        rows = [e.row(gap) for e, gap in zip(equations, gaps, strict=True)]
+        return Found([*u, *([] if pinned else sigma)], left, rows, u.dot(u) + sigma.dot(sigma))
+
+    unknowns = [f"{kind}_{a}" for kind in ("turn", "shift")[: 1 if pinned else 2] for a in "xyz"]
+    found = derivation.block(
+        name, f"the pose of {body}, held by {', '.join(rods)}", unknowns, len(rods), derive
+    )
+    program.constants.blocks[name] = found
+    return found
+
+
+def _composed(program: Program, u: Vector, turn: Vector) -> Vector:
+    """Return the parameters of a rotation, followed by a turn in its own axes."""
+    w = program.vector("half_turn", turn * sp.Rational(1, 2), "123")
+    below = program.define("composed", 1 / (1 - u.dot(w)))
+    composed: Vector = (u + w + u.cross(w)) * below
+    return composed

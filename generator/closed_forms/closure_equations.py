@@ -1,0 +1,439 @@
+"""Closure equations of a tree of hinges and guides, and the iteration that solves them.
+
+The bodies of a tree are carried by hinges and guides of unknown coordinates x, from bodies that are
+placed. All is written in work axes. What the coordinates do to a body is a displacement from its
+design position (`Frame`), composed from joint to joint along the tree, so that the geometry of the
+equations is that of the design position: axes, points, lengths.
+
+Every joint that closes a loop gives what it leaves in common, every rod its length:
+
+    Meeting     d . (p2 - p1) / c = 0                 hinge, cross, ball joint (in a plane too)
+    Guided      d1 . (p2 - p1) / c = 0                guide: across it; d1 turns with the first body
+    Square      a1 . b2 = 0                           hinge, cross, guide: directions stay square
+    Distance    (|p2 - p1|^2 - l^2) / (2 l c) = 0     rod
+
+c is a length of the mechanism, in which slides are counted as well, so that neither equations nor
+unknowns have a unit. The rate of an equation is linear in the motions of its two bodies. With the
+screw of a joint as that motion it is an element of the Jacobian J, and with what placed bodies do
+it is the right side of the equations for velocities (`together`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ..declare.joints import Prismatic, Revolute, Spherical, Universal
+from ..kinematics.motion import IDENTITY, Axes, from_axes
+from ..program.newton import Derivation, Found, Matrix
+from ..program.vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Vector
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+
+    from ..program.function import Block, Estimate
+    from ..program.program import Program
+    from .tree import CutJoint, Tree
+
+Geometry = dict[str, Vector]
+"""What the equations read, by name: constants of the design position, and poses of placed bodies.
+
+Of a scalar, the first component.
+"""
+
+
+# -- motion ---------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Frame:
+    """The displacement of a body from its design position, in work axes.
+
+    Attributes
+    ----------
+    axes
+        Where it has turned the work axes.
+    origin, start
+        A point of the body, now and at the design position.
+    """
+
+    axes: Axes = IDENTITY
+    origin: Vector = ZERO
+    start: Vector = ZERO
+
+    def at(self, point: Vector) -> Vector:
+        """Return where a point of the body is, which is given at the design position."""
+        return self.origin + from_axes(self.axes, point - self.start)
+
+    def along(self, direction: Vector) -> Vector:
+        """Return where a direction of the body points."""
+        return from_axes(self.axes, direction)
+
+
+@dataclass(frozen=True)
+class Moving:
+    """Velocities of a body, and accelerations where they are asked for, in work axes."""
+
+    at: Vector = ZERO
+    omega: Vector = ZERO
+    velocity: Vector = ZERO
+    alpha: Vector = ZERO
+    acceleration: Vector = ZERO
+
+    def velocity_of(self, point: Vector) -> Vector:
+        """Return the velocity of what of the body is at a point."""
+        return self.velocity + self.omega.cross(point - self.at)
+
+    def acceleration_of(self, point: Vector) -> Vector:
+        """Return the acceleration of what of the body is at a point."""
+        arm = point - self.at
+        centripetal = self.omega.cross(self.omega.cross(arm))
+        return self.acceleration + self.alpha.cross(arm) + centripetal
+
+
+STILL = Moving()
+
+
+@dataclass(frozen=True)
+class Screw:
+    """What a unit rate of a coordinate does to all that the joint carries."""
+
+    axis: Vector
+    through: Vector
+    slides: bool
+    size: sp.Expr
+
+    def at_rate(self, rate: sp.Expr) -> tuple[Vector, Vector]:
+        """Return angular velocity and velocity of what is carried, at its origin."""
+        if self.slides:
+            return ZERO, self.axis * (self.size * rate)
+        return self.axis * rate, ZERO
+
+    def moving(self) -> Moving:
+        """Return the motion for a unit rate."""
+        return Moving(self.through, *self.at_rate(sp.Integer(1)))
+
+
+# -- equations ------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Equation:
+    """A closure equation at some position: the two bodies that it is about."""
+
+    first: str
+    second: str
+
+    def misfit(self) -> sp.Expr:
+        """Return what the position leaves of the equation."""
+        raise NotImplementedError
+
+    def rate(self, one: Moving, two: Moving) -> sp.Expr:
+        """Return how fast the misfit changes with the motions of both bodies."""
+        raise NotImplementedError
+
+    def acceleration(self, one: Moving, two: Moving) -> sp.Expr:
+        """Return the second derivative of the misfit, where misfit and rate are zero."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class _Meeting(_Equation):
+    """Two points meet, along a direction; ``scale`` is 1 / c."""
+
+    p1: Vector
+    p2: Vector
+    along: Vector
+    scale: sp.Expr
+
+    def misfit(self) -> sp.Expr:
+        return self.along.dot(self.p2 - self.p1) * self.scale
+
+    def rate(self, one: Moving, two: Moving) -> sp.Expr:
+        return self.along.dot(two.velocity_of(self.p2) - one.velocity_of(self.p1)) * self.scale
+
+    def acceleration(self, one: Moving, two: Moving) -> sp.Expr:
+        pull = two.acceleration_of(self.p2) - one.acceleration_of(self.p1)
+        return self.along.dot(pull) * self.scale
+
+
+class _Guided(_Meeting):
+    """A point stays on the guide of another body, along a direction of that body across it.
+
+    The direction turns with the first body, and the second one slides as that sees it.
+    """
+
+    def rate(self, one: Moving, two: Moving) -> sp.Expr:
+        return self.along.dot(self._slip(one, two)) * self.scale
+
+    def acceleration(self, one: Moving, two: Moving) -> sp.Expr:
+        pull = two.acceleration_of(self.p2) - one.acceleration_of(self.p2)
+        coriolis = one.omega.cross(self._slip(one, two)) * 2
+        return self.along.dot(pull - coriolis) * self.scale
+
+    def _slip(self, one: Moving, two: Moving) -> Vector:
+        """Return the velocity of the point as the first body sees it."""
+        return two.velocity_of(self.p2) - one.velocity_of(self.p2)
+
+
+@dataclass(frozen=True)
+class _Square(_Equation):
+    """A direction of the first body stays square to one of the second."""
+
+    a1: Vector
+    b2: Vector
+
+    def misfit(self) -> sp.Expr:
+        return self.a1.dot(self.b2)
+
+    def rate(self, one: Moving, two: Moving) -> sp.Expr:
+        return (two.omega - one.omega).dot(self.b2.cross(self.a1))
+
+    def acceleration(self, one: Moving, two: Moving) -> sp.Expr:
+        a_rate, b_rate = one.omega.cross(self.a1), two.omega.cross(self.b2)
+        changing = b_rate.cross(self.a1) + self.b2.cross(a_rate)
+        relative = (two.omega - one.omega).dot(changing)
+        return relative + (two.alpha - one.alpha).dot(self.b2.cross(self.a1))
+
+
+@dataclass(frozen=True)
+class _Distance(_Equation):
+    """A rod keeps its length l; ``scale`` is 1 / (l c)."""
+
+    gap: Vector
+    p1: Vector
+    p2: Vector
+    squared: sp.Expr
+    scale: sp.Expr
+
+    def misfit(self) -> sp.Expr:
+        return (self.gap.dot(self.gap) - self.squared) * (self.scale / 2)
+
+    def rate(self, one: Moving, two: Moving) -> sp.Expr:
+        return self.gap.dot(self._rate(one, two)) * self.scale
+
+    def acceleration(self, one: Moving, two: Moving) -> sp.Expr:
+        rate = self._rate(one, two)
+        pull = two.acceleration_of(self.p2) - one.acceleration_of(self.p1)
+        return (self.gap.dot(pull) + rate.dot(rate)) * self.scale
+
+    def _rate(self, one: Moving, two: Moving) -> Vector:
+        return two.velocity_of(self.p2) - one.velocity_of(self.p1)
+
+
+# -- a position -----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Position:
+    """Where some values of the unknowns put the tree.
+
+    Attributes
+    ----------
+    frames
+        Of every body of the tree, and of the placed ones that it touches.
+    screws
+        Of every joint of the tree, in its order.
+    equations
+        In the order of the cuts and rods.
+    """
+
+    tree: Tree
+    frames: dict[str, Frame]
+    screws: list[Screw]
+    equations: list[_Equation]
+
+    def jacobian(self) -> Matrix:
+        """Return how the misfits change with the unknowns."""
+        return [
+            [
+                self._element(equation, place)
+                for place, branch in enumerate(self.tree.tree)
+                if not branch.driven
+            ]
+            for equation in self.equations
+        ]
+
+    def _element(self, equation: _Equation, place: int) -> sp.Expr:
+        """Return an element of J: zero where both bodies are carried alike, or neither is."""
+        one, two = (place in self.carriers(b) for b in (equation.first, equation.second))
+        if one == two:
+            return sp.Integer(0)
+        screw = self.screws[place].moving()
+        return equation.rate(screw, STILL) if one else equation.rate(STILL, screw)
+
+    def carriers(self, body: str) -> list[int]:
+        """Return the places of the joints that carry a body, from the body inward."""
+        children = self.tree.bodies
+        found = []
+        while body in children:
+            found.append(children.index(body))
+            body = self.tree.tree[found[-1]].parent
+        return found
+
+
+def position(
+    program: Program,
+    label: str,
+    tree: Tree,
+    geometry: Geometry,
+    unknowns: Sequence[sp.Expr],
+) -> Position:
+    """Append the position for some values of the unknowns.
+
+    Parameters
+    ----------
+    label
+        Begins the names of the steps.
+    """
+    size, rest = geometry["size"].x, iter(unknowns)
+    frames = {body: _base(geometry, body) for body in bases(tree)}
+    screws = []
+    for branch in tree.tree:
+        x = geometry[f"{branch.joint.name}_given"].x if branch.driven else next(rest)
+        name, parent = f"{label}{branch.child}", frames[branch.parent]
+        local = geometry[f"{branch.joint.name}_axis"]
+        axis = program.vector(f"{name}_axis", parent.along(local))
+        if isinstance(branch.joint, Prismatic):
+            origin = program.vector(f"{name}_origin", parent.origin + axis * (x * size))
+            frames[branch.child] = Frame(parent.axes, origin, parent.start)
+        else:
+            start = geometry[f"{branch.joint.name}_at"]
+            origin = program.vector(f"{name}_origin", parent.at(start))
+            axes = _turned(program, name, parent.axes, axis, local, x)
+            frames[branch.child] = Frame(axes, origin, start)
+        screws.append(Screw(axis, origin, isinstance(branch.joint, Prismatic), size))
+    equations = []
+    for cut in tree.cuts:
+        plane = frames[tree.base_of(cut.joint.first)]
+        equations += _at_cut(program, label, cut, geometry, frames, plane)
+    for held in tree.rods:
+        one, two = frames[held.anchor_body], frames[held.body]
+        p1 = program.vector(f"{label}{held.rod}_anchor", one.at(geometry[f"{held.rod}_anchor"]))
+        p2 = program.vector(f"{label}{held.rod}_end", two.at(geometry[f"{held.rod}_end"]))
+        gap = program.vector(f"{label}{held.rod}_gap", p2 - p1)
+        squared, scale = geometry[f"{held.rod}_squared"].x, geometry[f"{held.rod}_scale"].x
+        equations.append(_Distance(held.anchor_body, held.body, gap, p1, p2, squared, scale))
+    return Position(tree, frames, screws, equations)
+
+
+def bases(tree: Tree) -> list[str]:
+    """Return the placed bodies that a tree or what closes its loops starts from."""
+    touched = [branch.parent for branch in tree.tree]
+    touched += [body for cut in tree.cuts for body in cut.joint.bodies]
+    touched += [body for held in tree.rods for body in (held.anchor_body, held.body)]
+    return [body for body in dict.fromkeys(touched) if body not in tree.bodies]
+
+
+def _base(geometry: Geometry, body: str) -> Frame:
+    """Return the frame of a placed body."""
+    x, y, z = (geometry[f"{body}_{axis}"] for axis in "xyz")
+    return Frame((x, y, z), geometry[f"{body}_origin"], geometry[f"{body}_start"])
+
+
+def _turned(
+    program: Program, name: str, axes: Axes, axis: Vector, local: Vector, angle: sp.Expr
+) -> Axes:
+    """Append axes after a turn about an axis, whose components along them are given as well."""
+    cosine = program.define(f"{name}_cos", sp.cos(angle))
+    sine = program.define(f"{name}_sin", sp.sin(angle))
+    kept = program.vector(f"{name}_kept", axis * (1 - cosine))
+    columns = (
+        r * cosine + axis.cross(r) * sine + kept * share
+        for r, share in zip(axes, local, strict=True)
+    )
+    return program.axes((f"{name}_x", f"{name}_y", f"{name}_z"), columns)
+
+
+def _at_cut(
+    program: Program,
+    label: str,
+    cut: CutJoint,
+    geometry: Geometry,
+    frames: Mapping[str, Frame],
+    plane: Frame,
+) -> list[_Equation]:
+    """Return the equations of a joint that closes a loop; a plane is that of a placed body."""
+    name, bodies = cut.joint.name, cut.joint.bodies
+    scale, at = geometry["scale"].x, geometry[f"{name}_at"]
+    one, two = (frames[body] for body in bodies)
+    p1 = program.vector(f"{label}{name}_p1", one.at(at))
+    p2 = program.vector(f"{label}{name}_p2", two.at(at))
+
+    def carried(frame: Frame, what: str, number: int) -> Vector:
+        direction = frame.along(geometry[f"{name}_{what}"])
+        return program.vector(f"{label}{name}_{what}_{number}", direction)
+
+    square = _SQUARE_IN_PLANE if cut.planar else _SQUARE
+    equations: list[_Equation] = [
+        _Square(*bodies, carried(one, a, 1), carried(two, b, 2)) for a, b in square[cut.joint.kind]
+    ]
+    if isinstance(cut.joint, Prismatic):
+        across = ("side",) if cut.planar else ("side", "top")
+        ways = (carried(one, what, 1) for what in across)
+        return [*equations, *(_Guided(*bodies, p1, p2, way, scale) for way in ways)]
+    directions = [carried(plane, what, 0) for what in ("side", "top")] if cut.planar else _WORK
+    return [*equations, *(_Meeting(*bodies, p1, p2, way, scale) for way in directions)]
+
+
+_WORK: Axes = (UNIT_X, UNIT_Y, UNIT_Z)
+
+# Which directions of the two bodies stay square, by their names in the geometry.
+_ACROSS = [("axis", "side"), ("axis", "top")]
+_SQUARE = {
+    Revolute.kind: _ACROSS,
+    Prismatic.kind: [*_ACROSS, ("side", "top")],
+    Universal.kind: [("axis", "side")],
+    Spherical.kind: [],
+}
+_SQUARE_IN_PLANE = {Revolute.kind: [], Prismatic.kind: [("axis", "side")]}
+
+
+# -- the iteration --------------------------------------------------------------------------------
+
+
+def block(
+    program: Program,
+    tree: Tree,
+    geometry: Geometry,
+    driven: Iterable[tuple[sp.Symbol, sp.Expr, bool]],
+) -> Block:
+    """Return the iteration that finds the unknowns (`Derivation`)."""
+    name = f"loops_through_{tree.body}"
+    if name in program.constants.blocks:
+        return program.constants.blocks[name]
+    derivation = Derivation(program, driven, geometry["size"].x)
+
+    def derive(own: Program, estimate: Estimate) -> Found:
+        own.section("what is placed before, at this stage")
+        components = [c for vector in geometry.values() for c in vector]
+        staged = iter(derivation.repeated(components))
+        here = {n: Vector(next(staged), next(staged), next(staged)) for n in geometry}
+        own.section("position of this iteration")
+        x = [
+            own.define(f"{branch.joint.name}_estimate", base + step)
+            for branch, base, step in zip(tree.unknowns, estimate.base, estimate.step, strict=True)
+        ]
+        now = position(own, "", tree, here, x)
+        own.section("what is left of the equations")
+        left = [
+            own.define(f"misfit_{i}", equation.misfit())
+            for i, equation in enumerate(now.equations, 1)
+        ]
+        apart = [
+            value**2 if isinstance(branch.joint, Prismatic) else 2 - 2 * sp.cos(value)
+            for branch, value in zip(tree.unknowns, x, strict=True)
+        ]
+        return Found(x, left, now.jacobian(), sp.Add(*apart))
+
+    found = derivation.block(
+        name,
+        f"the coordinates of {tree.joint_names}, with which {tree.closing_names} close",
+        [f"{branch.joint.name}_coordinate" for branch in tree.unknowns],
+        tree.equations,
+        derive,
+    )
+    program.constants.blocks[name] = found
+    return found

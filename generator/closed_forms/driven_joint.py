@@ -1,0 +1,232 @@
+"""A body on a hinge or a guide whose coordinate is known."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+import sympy as sp
+
+from ..declare.geometry import FORWARD, UP
+from ..declare.joints import Joint, Prismatic, Revolute
+from ..kinematics.hinge_angles import HingeDesign
+from ..kinematics.motion import Axes, BodyMotion, from_axes, to_axes
+from ..loops.errors import NoClosedFormError
+from ..loops.forms import Follower
+from ..program.vectors import NO_TWIST, UNIT_X, UNIT_Z, ZERO, Twist, Vector
+
+if TYPE_CHECKING:
+    from typing import Self
+
+    from ..declare.geometry import Point
+    from ..kinematics.kinematics import Kinematics
+    from ..loops.known import Coordinate, Known
+
+
+@dataclass(frozen=True)
+class PlaceByJoint(Follower):
+    """A body follows from its placed neighbour, because the joint's coordinate is known."""
+
+    joint: Revolute | Prismatic
+    parent: str
+    child: str
+
+    rank: ClassVar[int] = 3
+
+    @classmethod
+    def follow(cls, known: Known, joint: Joint, parent: str, child: str) -> Self | None:
+        """Return the step for a driven hinge or guide, unless something else waits for it."""
+        if not isinstance(joint, Revolute | Prismatic) or joint.name in known.guided:
+            return None
+        if known.unknowns_of(joint) > 0:
+            return None
+        if child != joint.second:
+            message = (
+                f"joint {joint.name!r}: declare {parent!r} first and {child!r} second, "
+                "since its coordinate drives the second body"
+            )
+            raise NoClosedFormError(message)
+        return cls(joint, parent, child)
+
+    @property
+    def about(self) -> str:
+        """The body that the joint carries."""
+        return self.child
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"{self.child}: {self.joint.kind} joint"
+
+    def accept(self, known: Known) -> set[Coordinate]:
+        """Record the body."""
+        known.place(self.child)
+        return set()
+
+    def carry_out(self, kin: Kinematics) -> None:
+        """Place the body from its parent."""
+        if isinstance(self.joint, Revolute):
+            _place_revolute(kin, self.joint, self.parent, self.child)
+        else:
+            _place_prismatic(kin, self.joint, self.parent, self.child)
+
+
+@dataclass(frozen=True)
+class _HingeFrame:
+    """Axes and origin of a hinge: on the parent at angle zero, and on the child at design."""
+
+    parent_axes: Axes
+    origin: Vector
+    design_origin: Vector
+    design_axes: Axes
+    local: dict[Point, Vector]
+
+
+def _place_revolute(kin: Kinematics, joint: Revolute, parent_name: str, child: str) -> None:
+    parent = kin.placed[parent_name]
+    coordinate = kin.coordinate_of(joint)
+    angle = kin.coordinates[coordinate]
+    frame = _revolute_frame(kin, joint, parent, child)
+    cosine = kin.program.define(f"cos_{angle}", sp.cos(angle))
+    sine = kin.program.define(f"sin_{angle}", sp.sin(angle))
+
+    def turn(v: Vector) -> Vector:
+        """From the parent's body axes to the child's."""
+        x, y, z = to_axes(frame.parent_axes, v)
+        return Vector(x, cosine * y + sine * z, cosine * z - sine * y)
+
+    x, y, z = (from_axes(parent.axes, axis) for axis in frame.parent_axes)
+    axes = (x, y * cosine + z * sine, z * cosine - y * sine)
+    placed = BodyMotion(
+        child,
+        origin=kin.program.vector(
+            f"{child}_origin", parent.origin + from_axes(parent.axes, frame.origin)
+        ),
+        axes=kin.program.axes((f"{child}_axis", f"{child}_side", f"{child}_top"), axes),
+        design_origin=frame.design_origin,
+        design_axes=frame.design_axes,
+        local=frame.local,
+        carrier=(parent_name, frame.origin),
+        hinge=joint.name,
+    )
+    for k, twist in parent.motion.items():
+        velocity = twist.linear + twist.angular.cross(frame.origin)
+        placed.motion[k] = kin.define_twist(child, k, Twist(turn(twist.angular), turn(velocity)))
+    if coordinate in kin.moving:  # where a closed form reads the angle, it moves the parent too
+        carried = placed.motion.get(coordinate, NO_TWIST)
+        placed.motion[coordinate] = carried + Twist(UNIT_X, ZERO)
+
+    def bias() -> Twist:
+        if coordinate in kin.rotors and kin.pace_of(parent) != 1:
+            message = f"the bias of rotor {child!r} is not available at a unit rate"
+            raise ValueError(message)
+        carried = parent.bias()
+        omega = turn(kin.total(parent).angular)
+        spin = UNIT_X * (kin.rate(coordinate) if coordinate in kin.moving else 0)
+        angular = turn(carried.angular) + omega.cross(spin) + UNIT_X * kin.acceleration(coordinate)
+        linear = turn(kin.point_bias(parent, frame.origin))
+        return kin.define_bias(child, Twist(angular, linear))
+
+    placed.bias = bias
+    kin.placed[child] = placed
+
+
+def _revolute_frame(
+    kin: Kinematics, joint: Revolute, parent: BodyMotion, child: str
+) -> _HingeFrame:
+    """Return the axes of a hinge on both of its bodies."""
+    through = kin.design(joint.axis.through)
+    if joint is kin.work_hinge:
+        assert joint.angle_to is not None
+        point = kin.design(joint.angle_to)
+        axis, z_parent = UNIT_X, UNIT_Z
+        origin = Vector(point.x, through.y, through.z)
+        arm = kin.program.vector(f"{child}_arm", point - origin)
+        radius = kin.program.define(f"{child}_radius", sp.sqrt(arm.y**2 + arm.z**2))
+        z_child = kin.program.vector(f"{child}_top_design", arm * (1 / radius))
+        local = {joint.angle_to: Vector(ZERO.x, ZERO.y, radius)}
+    elif joint.angle_to is not None:
+        design = HingeDesign.of(kin, joint)
+        axis, z_parent, z_child = design.axis, design.zero, design.mark
+        origin = kin.program.vector(f"{child}_foot", through + axis * design.along)
+        local = {joint.angle_to: Vector(ZERO.x, ZERO.y, design.radius)}
+    else:
+        axis = kin.unit(f"{child}_axis_design", kin.to_work(joint.axis.vector))
+        z_parent = _beside(kin, joint, child, axis)
+        origin, z_child = through, z_parent
+        local = {joint.axis.through: ZERO}
+    design_axes = (
+        axis,
+        kin.program.vector(f"{child}_side_design", z_child.cross(axis)),
+        z_child,
+    )
+    start = (axis, kin.program.vector(f"{child}_side_zero", z_parent.cross(axis)), z_parent)
+    parent_axes = kin.program.axes(
+        (f"{child}_axis_on_parent", f"{child}_side_on_parent", f"{child}_top_on_parent"),
+        (to_axes(parent.design_axes, v) for v in start),
+        "123",
+    )
+    on_parent = kin.program.vector(
+        f"{child}_origin_on_parent",
+        to_axes(parent.design_axes, origin - parent.design_origin),
+        "123",
+    )
+    return _HingeFrame(parent_axes, on_parent, origin, design_axes, local)
+
+
+def _beside(kin: Kinematics, joint: Revolute, child: str, axis: Vector) -> Vector:
+    """Return any unit vector across a hinge whose angle counts from the design position.
+
+    A chassis axis where that makes the shortest equations; it is far enough from the hinge
+    with the default parameters, and no more is asked of it. Otherwise one without a singular
+    direction of the hinge.
+    """
+    n = [kin.at_defaults(component) for component in joint.axis.vector]
+    size = math.hypot(*n)
+    if all(component.is_number for component in joint.axis.vector):
+        reference = FORWARD if abs(n[0]) <= abs(n[2]) else UP
+    elif abs(n[2]) < size / 2:
+        reference = UP
+    else:
+        return kin.across(child, axis)[1]
+    v = kin.design_direction(reference)
+    return kin.unit(f"{child}_top_design", v - axis * v.dot(axis))
+
+
+def _place_prismatic(kin: Kinematics, joint: Prismatic, parent_name: str, child: str) -> None:
+    parent = kin.placed[parent_name]
+    coordinate = kin.coordinate_of(joint)
+    slide = kin.coordinates[coordinate]
+    direction = kin.local_direction(parent, joint.direction)
+    start = parent.design_origin
+    offset = direction * slide
+    placed = BodyMotion(
+        child,
+        origin=kin.program.vector(
+            f"{child}_origin", parent.origin + from_axes(parent.axes, offset)
+        ),
+        axes=parent.axes,
+        design_origin=start,
+        design_axes=parent.design_axes,
+    )
+    for k, twist in parent.motion.items():
+        velocity = twist.linear + twist.angular.cross(offset)
+        placed.motion[k] = kin.define_twist(child, k, Twist(twist.angular, velocity))
+    if coordinate in kin.moving:  # that of a strut turns its first link as well
+        carried = placed.motion.get(coordinate, NO_TWIST)
+        placed.motion[coordinate] = carried + Twist(ZERO, direction)
+
+    def bias() -> Twist:
+        carried = parent.bias()
+        omega = kin.total(parent).angular
+        speed = direction * (kin.rate(coordinate) if coordinate in kin.moving else 0)
+        linear = (
+            kin.point_bias(parent, offset)
+            + omega.cross(speed) * 2
+            + direction * kin.acceleration(coordinate)
+        )
+        return kin.define_bias(child, Twist(carried.angular, linear))
+
+    placed.bias = bias
+    kin.placed[child] = placed

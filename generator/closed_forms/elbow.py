@@ -1,0 +1,357 @@
+r"""Two links in a plane with a hinge of known angle between them, as a leg: a driven elbow.
+
+A four-bar linkage that is driven at the pin of its coupler has one: crank and coupler keep the
+crank's bearing and the rocker's pin at a distance that their angle gives. The rocker then is a body
+on a hinge that a leg of known variable length holds (`revolute`).
+
+The *first link* is that of the first body of the known hinge, *u* leads from its own end E to the
+hinge, and *v* from there to the end F of the second link. With q the angle from the design
+position, R(q) the turn about the direction n of the hinges, and C = u . v and S = n . (v x u) from
+the parts across n at the design position,
+
+    l^2 = |u|^2 + |v|^2 + 2 (u_n v_n + C cos q + S sin q),
+    l l' = (S cos q - C sin q) q',    (l l')' = (S cos q - C sin q) q'' - (C cos q + S sin q) q'^2.
+
+Nothing is to be chosen. Singular set: the two ends meet, l = 0 across n.
+
+When the loop has closed, the first link follows: s = u + R v is known in its axes (n, t, n x t),
+t along u, and so is F - E in space; with w the part of F - E across n,
+
+    t = (s_2 w - s_3 n x w) / (s_2^2 + s_3^2).
+
+``v_F - v_E = omega x s + (n x R v) q'`` along n x s gives its turn, and once more its acceleration.
+The second link follows from the first one by its hinge, whose angle is known.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ..declare.joints import Revolute
+from ..kinematics.extent import extent_squared, require
+from ..kinematics.hinge_angles import HingeDesign, positive_axis_at_design
+from ..kinematics.motion import Axes, BodyMotion, PointMotion, from_axes, to_axes
+from ..loops.forms import PlannedStep
+from ..program.floors import DIRECTION, LENGTH
+from ..program.functions import SignOf
+from ..program.vectors import UNIT_X, ZERO, Twist, Vector
+from .hinge import Hinge, report_angle
+from .leg import Leg, Rod
+from .lines import once, projector
+
+if TYPE_CHECKING:
+    from typing import Self
+
+    from ..declare.geometry import Point
+    from ..declare.joints import Joint
+    from ..kinematics.kinematics import Kinematics
+    from ..loops.cut import CutLoop
+    from ..loops.known import Coordinate, Known
+
+
+@dataclass(frozen=True)
+class TwoLinks:
+    """The two links, from the end of the first one to that of the second one.
+
+    Attributes
+    ----------
+    joint
+        The hinge between them.
+    hinge, base, start
+        Of the end of the first link: the hinge, the body at the other side of it, and the point.
+    far_hinge, target, end
+        The same of the second link.
+    """
+
+    joint: Revolute
+    hinge: Revolute
+    base: str
+    start: Point
+    far_hinge: Revolute
+    target: str
+    end: Point
+
+    @property
+    def first(self) -> str:
+        """The first link."""
+        return self.joint.first
+
+    @property
+    def middle(self) -> Point:
+        """The point of the hinge between them."""
+        return self.joint.axis.through
+
+
+@dataclass(frozen=True)
+class Elbow(Leg):
+    """Two links with a hinge of known angle, as a leg."""
+
+    pair: TwoLinks
+
+    @classmethod
+    def match(cls, known: Known, cut: CutLoop) -> Self | None:
+        """Return the two links that one arc of a loop is, if their hinge is driven."""
+        if len(cut.joints) != 1 or known.placed.intersection(cut.bodies):
+            return None
+        joint, (near, far) = cut.joints[0], cut.bodies
+        one = known.topology.joint_between(cut.others[0], near)
+        other = known.topology.joint_between(cut.others[-1], far)
+        if not (isinstance(joint, Revolute) and known.unknowns_of(joint) == 0):
+            return None
+        if not (isinstance(one, Revolute) and isinstance(other, Revolute)):
+            return None
+        at_anchor = one, cut.others[0], cut.anchor
+        at_end = other, cut.others[-1], cut.end
+        ends = (*at_anchor, *at_end) if joint.first == near else (*at_end, *at_anchor)
+        pair = TwoLinks(joint, *ends)
+        return cls(cut.others[-1], near, cut.end, cut.anchor, cut.others[0], pair)
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """Both links, from the anchor to the end."""
+        joint = self.pair.joint
+        return self.rod, joint.other(self.rod)
+
+    @property
+    def pinned(self) -> bool:
+        """Its links are placed by their pins."""
+        return True
+
+    @property
+    def measure(self) -> str:
+        """What its length is, for the report."""
+        return f"{' and '.join(self.links)} at {self.pair.joint.name}.angle"
+
+    def hold(self, known: Known, joint: Joint) -> set[Coordinate]:
+        """Record the joint that it drives, and its own."""
+        place = PlaceElbow(self.pair)
+        known.steps.append(place)
+        return known.add_all([joint]) | place.accept(known)
+
+    def stretched(self, kin: Kinematics, design: Vector, extent: sp.Expr) -> Rod:
+        """Append its length, of known angle."""
+        program, name = kin.program, self.rod
+        bend = _Bend.of(kin, self.pair)
+        reach = _dot_across(bend.u, bend.v, bend.axis)
+        along = design.dot(design) - 2 * reach
+        near = program.define(f"{name}_bend", reach * bend.cosine + bend.skew * bend.sine)
+        squared = program.guarded(
+            f"{name}_length_squared",
+            program.define(f"{name}_links_squared", along) + 2 * near,
+            f"the ends {self.anchor.name} and {self.end.name} of {' and '.join(self.links)} meet",
+            "m^2",
+            DIRECTION * extent,
+        )
+        require(
+            kin,
+            f"{name}_length_design",
+            sp.sqrt(design.dot(design)),
+            LENGTH * sp.sqrt(extent),
+            "m",
+            f"at the design position, the ends {self.anchor.name} and {self.end.name} of "
+            f"{' and '.join(self.links)} coincide",
+            "move one of the two",
+        )
+        coordinate = kin.coordinate_of(self.pair.joint)
+        stretch, bias = {}, sp.Integer(0)
+        if coordinate in kin.moving:
+            slope = bend.skew * bend.cosine - reach * bend.sine
+            slope = program.define(f"{name}_stretch", slope)
+            stretch[coordinate] = slope
+            bias = slope * kin.acceleration(coordinate) - near * kin.rate(coordinate) ** 2
+        length = program.define(f"{name}_length_now", sp.sqrt(squared))
+        return Rod(f"pair of {' and '.join(self.links)}", design, length, squared, stretch, bias)
+
+
+@dataclass(frozen=True)
+class PlaceElbow(PlannedStep):
+    """The first of two links with a hinge of known angle, both ends on placed bodies."""
+
+    pair: TwoLinks
+
+    @property
+    def about(self) -> str:
+        """The first link."""
+        return self.pair.first
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"{self.pair.first}: bent at {self.pair.joint.name}"
+
+    def accept(self, known: Known) -> set[Coordinate]:
+        """Record the link and the hinges at both ends; the second link follows by its own."""
+        known.place(self.pair.first)
+        known.guided[self.pair.far_hinge.name] = self  # no way to the second link, though known
+        return known.add_all([self.pair.hinge, self.pair.far_hinge])
+
+    def carry_out(self, kin: Kinematics) -> None:
+        """Turn the first link until the end of the second one is where it has to be."""
+        program, pair, body = kin.program, self.pair, self.pair.first
+        extent = extent_squared(kin, self)
+        hinge = Hinge.of(kin, body, pair.hinge, pair.base, pair.middle, extent)
+        end, n = kin.point_motion(pair.target, pair.end), hinge.axis
+        bend = _Bend.of(kin, pair)
+        reach = _Reach.of(kin, bend, hinge)
+        way = program.vector(f"{body}_way", end.position - hinge.origin.position)
+        across = program.vector(f"{body}_way_across", way - n * way.dot(n))
+        s = reach.end
+        squared = program.guarded(
+            f"{body}_reach_squared",
+            s.y**2 + s.z**2,
+            f"the ends {pair.start.name} and {pair.end.name} of {pair.first} and "
+            f"{pair.joint.second} meet",
+            "m^2",
+            DIRECTION * extent,
+        )
+        inverse = program.define(f"{body}_reach_inverse", 1 / squared)
+        t = program.vector(f"{body}_arm", (across * s.y - n.cross(across) * s.z) * inverse)
+        axes: Axes = (n, t, program.vector(f"{body}_normal", n.cross(t)))
+        _place(kin, pair, hinge, axes, end, reach, inverse)
+        report_angle(kin, hinge, axes)
+
+
+@dataclass(frozen=True)
+class _Bend:
+    """The bend of two links (work axes, constants but for sine and cosine).
+
+    Attributes
+    ----------
+    axis
+        About which the known angle is positive, at design.
+    u, v
+        From the end of the first link to the hinge, and on to the end of the second one, at design.
+    skew
+        S.
+    """
+
+    axis: Vector
+    u: Vector
+    v: Vector
+    skew: sp.Expr
+    cosine: sp.Expr
+    sine: sp.Expr
+
+    @classmethod
+    def of(cls, kin: Kinematics, pair: TwoLinks) -> _Bend:
+        """Describe the bend."""
+        program, joint = kin.program, pair.joint
+        n = positive_axis_at_design(kin, joint)
+        u = program.vector(
+            f"{joint.name}_first_way", kin.design(pair.middle) - kin.design(pair.start)
+        )
+        v = program.vector(
+            f"{joint.name}_second_way", kin.design(pair.end) - kin.design(pair.middle)
+        )
+        angle = kin.coordinates[kin.coordinate_of(joint)]
+        if joint.angle_to is not None:
+            start = HingeDesign.of(kin, joint).angle(program, joint.name)
+            angle = program.define(f"{joint.name}_bent", angle - start)
+        return cls(
+            n,
+            u,
+            v,
+            program.define(f"{joint.name}_skew", n.dot(v.cross(u))),
+            program.define(f"cos_{joint.name}_bend", sp.cos(angle)),
+            program.define(f"sin_{joint.name}_bend", sp.sin(angle)),
+        )
+
+
+@dataclass(frozen=True)
+class _Reach:
+    """The end of the second link as the first one sees it, in the axes of that.
+
+    Attributes
+    ----------
+    end
+        s.
+    swing, curl
+        Its first and second derivative by the angle: n x R v, and less R v across n.
+    """
+
+    end: Vector
+    swing: Vector
+    curl: Vector
+
+    @classmethod
+    def of(cls, kin: Kinematics, bend: _Bend, hinge: Hinge) -> _Reach:
+        """Append what the first link sees."""
+        program, body, axes = kin.program, hinge.body, hinge.arm.design_axes
+        v = program.vector(f"{body}_second_link", to_axes(axes, bend.v), "123")
+        sense = program.define(f"{body}_bend_sense", SignOf(bend.axis.dot(axes[0])))
+        sine = program.define(f"{body}_bend_sine", sense * bend.sine)
+        y, z = v.y * bend.cosine - v.z * sine, v.y * sine + v.z * bend.cosine
+        y, z = program.define(f"{body}_bent_2", y), program.define(f"{body}_bent_3", z)
+        end = Vector(hinge.arm.along + v.x, hinge.arm.radius + y, z)
+        return cls(
+            program.vector(f"{body}_end", end, "123"),
+            program.vector(f"{body}_swing", Vector(ZERO.x, -sense * z, sense * y), "123"),
+            Vector(ZERO.x, -y, -z),
+        )
+
+
+def _dot_across(one: Vector, two: Vector, axis: Vector) -> sp.Expr:
+    """Return the scalar product of the parts of two vectors across an axis."""
+    return one.dot(two) - one.dot(axis) * two.dot(axis)
+
+
+def _place(
+    kin: Kinematics,
+    pair: TwoLinks,
+    hinge: Hinge,
+    axes: Axes,
+    end: PointMotion,
+    reach: _Reach,
+    inverse: sp.Expr,
+) -> None:
+    """Record pose, velocities and bias of the first link."""
+    program, body, parent, s = kin.program, hinge.body, hinge.parent, reach.end
+    placed = BodyMotion(
+        body,
+        origin=hinge.origin.position,
+        axes=axes,
+        design_origin=kin.design(hinge.through),
+        design_axes=hinge.arm.design_axes,
+        local={hinge.through: ZERO, hinge.point: hinge.arm.local},
+        carrier=(parent.body, kin.local(parent, hinge.through)),
+        hinge=hinge.first_axis_of,
+    )
+    to_body, coordinate = projector(kin, placed), kin.coordinate_of(pair.joint)
+    moves = coordinate in kin.moving
+    grip = Vector(ZERO.x, -s.z, s.y)  # n x s
+
+    def carried(label: str, v: Vector) -> Vector:
+        return to_body(label, from_axes(parent.axes, v))
+
+    own = [coordinate] if moves else []
+    for k in dict.fromkeys([*hinge.origin.motion, *parent.motion, *end.motion, *own]):
+        base = to_body(f"velocity_{k}", hinge.origin.motion.get(k, ZERO))
+        swing = carried(f"carried_{k}", parent.motion[k].angular) if k in parent.motion else ZERO
+        target = to_body(f"target_{k}", end.motion.get(k, ZERO))
+        bending = reach.swing if k == coordinate else ZERO
+        slip = target - base - swing.cross(s) - bending
+        turn = program.define(f"{body}_turn_{k}", grip.dot(slip) * inverse)
+        placed.motion[k] = Twist(
+            program.vector(f"{body}_omega_{k}", swing + UNIT_X * turn, "123"), base
+        )
+
+    def bias() -> Twist:
+        omega = kin.total(placed).angular
+        parent_omega = carried("carried_now", kin.total(parent).angular)
+        base = to_body("acceleration", hinge.origin.bias)
+        target = to_body("target_bias", end.bias)
+        spin = Vector(omega.x - parent_omega.x, ZERO.y, ZERO.z)
+        alpha = carried("carried_bias", parent.bias().angular) + parent_omega.cross(spin)
+        alpha = program.vector(f"{body}_alpha_carried", alpha, "123")
+        rate = kin.rate(coordinate) if moves else sp.Integer(0)
+        pull = target - base - omega.cross(omega.cross(s)) - alpha.cross(s)
+        pull -= omega.cross(reach.swing * rate) * 2 + reach.swing * kin.acceleration(coordinate)
+        pull -= reach.curl * rate**2
+        turn = program.define(f"{body}_turn_bias", grip.dot(pull) * inverse)
+        return kin.define_bias(body, Twist(alpha + UNIT_X * turn, base))
+
+    placed.bias = once(bias)
+    kin.placed[body] = placed

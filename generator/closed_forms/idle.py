@@ -1,0 +1,63 @@
+"""A link whose turn about its line nothing holds.
+
+It has no mass, so its turn is nobody's business. It gets that of a cross at its first end, with an
+axis across the line at the design position.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ..kinematics.motion import to_axes
+from ..loops.forms import Leftover
+from .cross import line_from_own_end, turn_on_cross
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterator
+    from typing import Self
+
+    from ..kinematics.kinematics import Kinematics
+    from ..loops.known import Coordinate, Known
+
+
+@dataclass(frozen=True)
+class PlaceIdle(Leftover):
+    """A link of known line, without mass, that may turn about that line: it gets some turn."""
+
+    body: str
+
+    @classmethod
+    def left(cls, known: Known, massive: Collection[str]) -> Iterator[Self]:
+        """Yield the links without mass that nothing keeps from turning about their line."""
+        for body in known.mechanism.idle_links:
+            if body in known.on_line and body not in massive:
+                yield cls(body)
+
+    @property
+    def about(self) -> str:
+        """The link."""
+        return self.body
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"{self.body}: idle turn about its line"
+
+    def accept(self, known: Known) -> set[Coordinate]:
+        """Record the link."""
+        known.place(self.body)
+        return set()
+
+    def carry_out(self, kin: Kinematics) -> None:
+        """Turn the link about its line, somehow."""
+        body, record = self.body, line_from_own_end(kin, self.body)
+        parent = kin.placed[record.anchor_body]
+        n = kin.unit(f"{body}_line_design", kin.design(record.end) - kin.design(record.anchor))
+        axis, _ = kin.across(body, n)
+        local = kin.program.vector(f"{body}_idle", to_axes(parent.design_axes, axis), "123")
+        meaning = (
+            f"the turn of {body} about its own line, which nothing holds, is not defined: the line "
+            f"has turned by 90 degrees as seen from {record.anchor_body}"
+        )
+        turn_on_cross(kin, body, parent, local, axis, meaning)

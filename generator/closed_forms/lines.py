@@ -1,0 +1,186 @@
+"""What the closed forms share: lines between points of known motion, and bodies about them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ..kinematics.extent import extent_squared, require
+from ..kinematics.motion import BodyMotion, OnLine, PointMotion, to_axes
+from ..program.floors import DIRECTION, LENGTH
+from ..program.vectors import ZERO, Twist, Vector
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from ..declare.geometry import Point
+    from ..kinematics.extent import Spanning
+    from ..kinematics.kinematics import Kinematics
+    from .leg import Leg
+
+
+def line_between(
+    kin: Kinematics,
+    name: str,
+    points: tuple[Point, Point],
+    motions: tuple[PointMotion, PointMotion],
+    bodies: tuple[str, str],
+    span: Vector,
+    length: sp.Expr,
+    squared: sp.Expr | None = None,
+    *,
+    rigid: bool = False,
+) -> OnLine:
+    """Describe the line between two points of known motion.
+
+    Given the square of the length, the reciprocals come from that: a division that need not wait
+    for the root.
+    """
+    if squared is None:
+        inverse = kin.program.define(f"inverse_length_{name}", 1 / length)
+        inverse_squared = kin.program.define(f"inverse_length_squared_{name}", inverse**2)
+    else:
+        inverse_squared = kin.program.define(f"inverse_length_squared_{name}", 1 / squared)
+        inverse = kin.program.define(f"inverse_length_{name}", length * inverse_squared)
+    direction = kin.program.vector(f"direction_{name}", span * inverse)
+    relative = motions[1].minus(motions[0])
+    motion = {
+        k: kin.program.define(f"d_length_{name}_{k}", direction.dot(v))
+        for k, v in relative.motion.items()
+        if not rigid
+    }
+    return OnLine(
+        *points,
+        *motions,
+        *bodies,
+        direction,
+        length,
+        inverse,
+        relative,
+        motion,
+        span,
+        inverse_squared,
+    )
+
+
+def line_of_ends(
+    kin: Kinematics,
+    step: Spanning,
+    name: str,
+    ends: tuple[tuple[str, Point], tuple[str, Point]],
+    what: str,
+) -> OnLine:
+    """Append the line between the two placed ends of what can change its length.
+
+    Parameters
+    ----------
+    step
+        In whose loop it is.
+    name
+        Ends the names of the steps.
+    ends
+        Body and point at either end.
+    what
+        What has these ends, for the message that they coincide.
+    """
+    (anchor_body, anchor_point), (end_body, end_point) = ends
+    anchor = kin.point_motion(anchor_body, anchor_point)
+    end = kin.point_motion(end_body, end_point)
+    span = kin.program.vector(f"span_{name}", end.minus(anchor).position)
+    extent = extent_squared(kin, step)
+    require_length(kin, name, (anchor_point, end_point), what, extent)
+    squared = kin.program.guarded(
+        f"length_squared_{name}",
+        span.dot(span),
+        f"{kin.loop_of(step)}: the ends {anchor_point.name} and {end_point.name} of {what} "
+        "coincide",
+        "m^2",
+        DIRECTION * extent,
+    )
+    return line_between(
+        kin,
+        name,
+        (anchor_point, end_point),
+        (anchor, end),
+        (anchor_body, end_body),
+        span,
+        kin.program.define(f"length_{name}", sp.sqrt(squared)),
+        squared,
+    )
+
+
+def require_length(
+    kin: Kinematics, name: str, ends: tuple[Point, Point], what: str, extent: sp.Expr
+) -> None:
+    """Have `prepare` see that two points are apart at the design position."""
+    first, second = ends
+    span = kin.program.vector(f"{name}_span_design", kin.design(second) - kin.design(first))
+    require(
+        kin,
+        f"{name}_length_design",
+        sp.sqrt(span.dot(span)),
+        LENGTH * sp.sqrt(extent),
+        "m",
+        f"at the design position, the ends {first.name} and {second.name} of {what} coincide",
+        "move one of the two",
+    )
+
+
+def place_rod(kin: Kinematics, leg: Leg, rod_anchor: PointMotion, length: sp.Expr) -> None:
+    """Record the line of a leg from its anchor to the body that it holds."""
+    end = kin.point_motion(leg.body, leg.end)
+    span = kin.program.vector(f"span_{leg.rod}", end.position - rod_anchor.position)
+    kin.on_line[leg.rod] = line_between(
+        kin,
+        leg.rod,
+        (leg.anchor, leg.end),
+        (rod_anchor, end),
+        (leg.anchor_body, leg.body),
+        span,
+        length,
+        rigid=leg.rigid,
+    )
+
+
+def line_omega(record: OnLine, swing: Vector) -> Vector:
+    """Return the angular velocity of a line across itself, in body axes (line first).
+
+    From ``d(span)/dt = length' n + length (omega x n)``.
+    """
+    return Vector(ZERO.x, -swing.z * record.inverse_length, swing.y * record.inverse_length)
+
+
+def line_alpha(kin: Kinematics, record: OnLine, omega: Vector, swing: Vector) -> Vector:
+    """Return the angular bias acceleration of a line across itself, in body axes (line first).
+
+    The second derivative of ``span = length n``, in its two components across the line.
+    """
+    rates = (motion * kin.rate(k) for k, motion in record.length_motion.items())
+    twice = 2 * sum(rates, sp.Integer(0))
+    return Vector(
+        ZERO.x,
+        omega.x * omega.z - (swing.z + twice * omega.y) * record.inverse_length,
+        (swing.y - twice * omega.z) * record.inverse_length - omega.x * omega.y,
+    )
+
+
+def projector(kin: Kinematics, placed: BodyMotion) -> Callable[[str, Vector], Vector]:
+    """Return a function that appends the body components of a work vector."""
+
+    def to_body(label: str, v: Vector) -> Vector:
+        return kin.program.vector(f"{placed.body}_{label}", to_axes(placed.axes, v), "123")
+
+    return to_body
+
+
+def once(compute: Callable[[], Twist]) -> Callable[[], Twist]:
+    """Compute a bias on first use only: many functions never need it."""
+    cache: list[Twist] = []
+
+    def bias() -> Twist:
+        if not cache:
+            cache.append(compute())
+        return cache[0]
+
+    return bias

@@ -1,0 +1,186 @@
+r"""A body on a guide, held by a leg.
+
+Move a body along its guide until a rod fits: two ball joints and a guide; slider-crank.
+
+Let d be the direction of the guide, D_0 the rod's joint at zero slide, E the other end of the
+rod of length l, and w = E - D_0. Then ``|D_0 + x d - E| = l`` is a quadratic in the slide x:
+
+    x = d . w + s sqrt(l^2 - |w - (d . w) d|^2),    s = +1 or -1.
+
+Branch: s is the sign of d . (D - E) at the design position. Valid while the root is real; the
+edge is the dead point where the rod stands across the guide. The rate follows from
+``(D - E) . (v_D - v_E) = l l'``, whose factor is (D - E) . d = s sqrt(...) and whose right side
+is zero but for a telescope of known slide (`leg`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+import sympy as sp
+
+from ..declare.joints import Prismatic
+from ..kinematics.extent import extent_squared, require
+from ..kinematics.motion import BodyMotion, Meeting, from_axes
+from ..loops.forms import ClosedForm
+from ..program.floors import BRANCH, ROOT
+from ..program.functions import SignOf
+from ..program.vectors import ZERO, Twist
+from .leg import held_on
+from .lines import once, place_rod, projector
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from typing import Self
+
+    from ..declare.geometry import Point
+    from ..kinematics.kinematics import Kinematics
+    from ..kinematics.step import Ends
+    from ..loops.cut import CutLoop
+    from ..loops.forms import Closing
+    from ..loops.known import Coordinate, Known
+    from .leg import Leg, Rod
+
+
+@dataclass(frozen=True)
+class PrismaticByLength(ClosedForm):
+    """A body on a guide of a placed body is held by a leg: its slide follows."""
+
+    joint: Prismatic
+    parent: str
+    leg: Leg
+
+    rank: ClassVar[int] = 6
+
+    @classmethod
+    def match(cls, known: Known, cut: CutLoop) -> Self | None:
+        """Return the slide of a body that a leg holds from a placed one."""
+        held = held_on(known, cut)
+        if held is None:
+            return None
+        joint, parent, leg = held
+        return cls(joint, parent, leg) if isinstance(joint, Prismatic) else None
+
+    @property
+    def about(self) -> str:
+        """The body that is held."""
+        return self.leg.body
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"transformer: {self.leg.body} held by {self.leg.rod}"
+
+    @property
+    def points(self) -> tuple[Point, ...]:
+        """The ends of the leg."""
+        return self.leg.points
+
+    def accept(self, known: Known) -> set[Coordinate]:
+        """Record the body that the leg drives, and the leg."""
+        known.placed.add(self.leg.body)
+        return self.leg.hold(known, self.joint)
+
+    def lines(self) -> Iterator[Ends]:
+        """Yield the rod, along its line."""
+        yield self.leg.rod, self.leg.anchor, self.leg.end
+
+    def words(self, closing: Closing | None) -> tuple[str, str]:
+        """Return the closure equation and its solution."""
+        del closing
+        return f"{self.leg.ends} = length of {self.leg.measure}", (
+            f"quadratic in the slide of {self.joint.name}, branch as at design"
+        )
+
+    def carry_out(self, kin: Kinematics) -> None:
+        """Move the body along its guide until the leg fits."""
+        leg = self.leg
+        kin.meetings.setdefault(
+            self.joint.name,
+            Meeting(self.parent, leg.body, leg.end, leg.anchor, leg.anchor_body, leg.rod),
+        )
+        program, body, joint = kin.program, leg.body, self.joint
+        parent = kin.placed[self.parent]
+        local = kin.local_direction(parent, joint.direction)
+        d = program.vector(f"{body}_guide", from_axes(parent.axes, local))
+        anchor = leg.anchor_motion(kin)
+        rod = leg.rod_of(kin, self)
+        extent = extent_squared(kin, self)
+        branch = self._branch(kin, rod, extent)
+        start = program.vector(
+            f"{body}_start", parent.origin + from_axes(parent.axes, kin.local(parent, leg.end))
+        )
+        w = program.vector(f"{body}_reach", anchor.position - start)
+        along = program.define(f"{body}_reach_along", w.dot(d))
+        across = program.vector(f"{body}_reach_across", w - d * along)
+        room = program.guarded(
+            f"{body}_closure",
+            rod.squared - across.dot(across),
+            f"{kin.loop_of(self)} cannot close: the {rod.name} is too short to reach the guide "
+            f"of {body}",
+            "m^2",
+            ROOT * extent,
+        )
+        root = program.define(f"{body}_closure_root", sp.sqrt(room))
+        slide = program.define(f"{body}_slide", along + branch * root)
+        sense = 1 if joint.second == body else -1
+        kin.slides[joint.name] = sense * slide
+        offset = local * slide
+        placed = BodyMotion(
+            body,
+            origin=program.vector(f"{body}_origin", parent.origin + from_axes(parent.axes, offset)),
+            axes=parent.axes,
+            design_origin=parent.design_origin,
+            design_axes=parent.design_axes,
+        )
+        kin.placed[body] = placed
+        to_body = projector(kin, placed)
+        arm = kin.local(placed, leg.end)
+        gap = program.vector(f"{body}_rod", to_body("rod_now", d * (branch * root) - across), "123")
+        hold = program.define(f"{body}_hold", -branch / root)
+        rate = ZERO
+        for k in dict.fromkeys([*parent.motion, *anchor.motion, *rod.stretch]):
+            carried = parent.motion.get(k, Twist(ZERO, ZERO))
+            base = carried.linear + carried.angular.cross(offset)
+            target = to_body(f"target_{k}", anchor.motion.get(k, ZERO))
+            slip = base - target + carried.angular.cross(arm)
+            fitted = gap.dot(slip) - rod.stretch.get(k, sp.Integer(0))
+            speed = program.define(f"{body}_speed_{k}", fitted * hold)
+            twist = kin.define_twist(body, k, Twist(carried.angular, base + local * speed))
+            placed.motion[k] = twist
+            rate += (twist.linear - target + carried.angular.cross(arm)) * kin.rate(k)
+
+        def bias() -> Twist:
+            now = program.vector(f"{body}_rod_rate", rate, "123")
+            carried, omega = parent.bias(), kin.total(parent).angular
+            pace = kin.total(placed).linear - (
+                kin.total(parent).linear + omega.cross(offset)
+            )  # of the slide
+            base = kin.point_bias(parent, offset) + omega.cross(pace) * 2
+            target = to_body("target_bias", anchor.bias)
+            pull = base - target + carried.angular.cross(arm) + omega.cross(omega.cross(arm))
+            fitted = gap.dot(pull) + now.dot(now) - rod.stretch_bias
+            speed = program.define(f"{body}_speed_bias", fitted * hold)
+            return kin.define_bias(body, Twist(carried.angular, base + local * speed))
+
+        placed.bias = once(bias)
+        if not leg.pinned:
+            place_rod(kin, leg, anchor, rod.length)
+
+    def _branch(self, kin: Kinematics, rod: Rod, extent: sp.Expr) -> sp.Expr:
+        """Return on which side of its foot on the guide the leg is at the design position."""
+        leg, body = self.leg, self.leg.body
+        along = rod.design.dot(kin.design_direction(self.joint.direction))
+        drawn = kin.program.define(f"{body}_rod_along_design", along)
+        require(
+            kin,
+            f"{body}_rod_along_design",
+            drawn,
+            BRANCH * sp.sqrt(extent),
+            "m",
+            f"at the design position the {rod.name} is at its dead point: it stands across the "
+            f"guide of {body}",
+            f"move {leg.anchor.name} or {leg.end.name} along the guide",
+        )
+        return kin.program.define(f"{body}_branch", SignOf(drawn))

@@ -1,0 +1,92 @@
+"""A leg of one link: a rod of constant length."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+import sympy as sp
+
+from ..declare.joints import Joint, Revolute
+from ..kinematics.extent import require
+from ..loops.known import coordinates_of
+from ..program.floors import LENGTH
+from .leg import Leg, Rod
+from .pin import PlaceByPin
+
+if TYPE_CHECKING:
+    from typing import Self
+
+    from ..kinematics.kinematics import Kinematics
+    from ..loops.cut import CutLoop
+    from ..loops.known import Coordinate, Known
+    from ..program.vectors import Vector
+
+
+@dataclass(frozen=True)
+class RigidRod(Leg):
+    """A link between two points.
+
+    Attributes
+    ----------
+    hinge
+        In a plane, the hinge of the link at its anchor, by which it is placed.
+    """
+
+    hinge: Revolute | None = None
+
+    rigid: ClassVar[bool] = True
+
+    @classmethod
+    def match(cls, known: Known, cut: CutLoop) -> Self | None:
+        """Return the link that one arc of a loop is."""
+        if len(cut.bodies) != 1:
+            return None
+        rod, anchor_body = cut.bodies[0], cut.others[0]
+        joint = known.topology.joint_between(anchor_body, rod)
+        hinge = joint if isinstance(joint, Revolute) else None
+        return cls(cut.others[-1], rod, cut.end, cut.anchor, anchor_body, hinge)
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """The link."""
+        return (self.rod,)
+
+    @property
+    def pinned(self) -> bool:
+        """Whether it is placed by its pins; others are free to turn about their line."""
+        return self.hinge is not None
+
+    def hold(self, known: Known, joint: Joint) -> set[Coordinate]:
+        """Record the body that it drives, and the rod: placed by its hinge, or on its line."""
+        at_rod = known.mechanism.joints_of(self.rod)
+        self.settle(known)
+        if self.pinned:
+            return known.add_all(filter(known.joins, [joint, *at_rod]))
+        # its turn about the line is still open
+        return known.add(coordinates_of([joint]) - coordinates_of(at_rod))
+
+    def settle(self, known: Known) -> None:
+        """Record that both of its ends are placed."""
+        if self.hinge is None:
+            known.on_line.add(self.rod)
+            return
+        pin = PlaceByPin(self.rod, self.hinge, self.anchor_body, self.end, self.body)
+        known.steps.append(pin)
+        known.placed.add(self.rod)
+
+    def stretched(self, kin: Kinematics, design: Vector, extent: sp.Expr) -> Rod:
+        """Append its length, a constant."""
+        length = kin.program.define(f"{self.rod}_length", sp.sqrt(design.dot(design)))
+        first, second = self.anchor, self.end
+        require(
+            kin,
+            f"{self.rod}_length",
+            length,
+            LENGTH * sp.sqrt(extent),
+            "m",
+            f"at the design position, the ends {first.name} and {second.name} of {self.rod} "
+            "coincide",
+            "move one of the two",
+        )
+        return Rod(f"rod {self.rod}", design, length, length**2)

@@ -1,0 +1,411 @@
+r"""A telescope in a plane between two placed pins: barrel and piston rod of a cylinder.
+
+Two links on a common guide are pinned to bodies that are placed, at A and at D; the dyad of hinge,
+guide and hinge. With S the part of D - A across the hinges, n the direction of the hinges, d that
+of the guide, e the constant offset of D from the guide through A, u the way along the guide, and h
+the constant part of D - A along n,
+
+    S = u d + e n x d,    d = (u S - e n x S) / |S|^2,    |S|^2 = u^2 + e^2.
+
+Slide unknown: ``u = s sqrt(|S|^2 - e^2)``, s = +1 or -1, and the slide is u less its value at the
+design position. Branch: s is the sign of u at the design position. Valid while ``|S| > |e|``; at
+the edge the pins stand across the guide. Slide known: u is known, and the loop has closed before:
+the telescope then is a leg. That d is across n is one of the `assumptions`.
+
+Both links have the body axes (n, d, n x d), in which D - A = (h, u, e). The third component of
+``v_D - v_A`` has no part of u', so that it gives the turn: u omega1 = (v_D - v_A - omega_parent x
+(D - A))_3, and once more for the accelerations, with the Coriolis term 2 u' omega1.
+
+A telescope whose slide x is known is a rod of known variable length. With (h, c, e) the way from
+pin to pin at the design position, along n, along d and along n x d,
+
+    l^2 = (c + x)^2 + e^2 + h^2,    l l' = (c + x) x',    (l l')' = x'^2 + (c + x) x''.
+
+Where the guide lies along the line of the pins, e = h = 0 and c is the length. Valid while c + x
+has the sign that it has at the design position. Pins at different places along the hinges (h not
+zero) need a guide of their own direction.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+import sympy as sp
+
+from ..declare.joints import Revolute
+from ..kinematics.extent import extent_squared, require
+from ..kinematics.motion import Axes, BodyMotion, PointMotion, from_axes, to_axes
+from ..loops.forms import ClosedForm, PlannedStep
+from ..program.floors import BRANCH, DIRECTION, LENGTH, ROOT
+from ..program.functions import Positive, SignOf
+from ..program.vectors import UNIT_X, ZERO, Twist, Vector
+from .guided_pair import GuidedPair
+from .leg import Leg, Rod
+from .lines import once, projector
+
+if TYPE_CHECKING:
+    from typing import Self
+
+    from ..declare.geometry import Point
+    from ..declare.joints import Joint
+    from ..kinematics.extent import Spanning
+    from ..kinematics.kinematics import Kinematics
+    from ..loops.cut import CutLoop
+    from ..loops.forms import Closing
+    from ..loops.known import Coordinate, Known
+
+
+@dataclass(frozen=True)
+class RPR(ClosedForm):
+    """Two placed pins are the ends of a telescope in a plane: slide and direction follow."""
+
+    telescope: GuidedPair
+
+    rank: ClassVar[int] = 2
+
+    @classmethod
+    def match(cls, known: Known, cut: CutLoop) -> Self | None:
+        """Return the telescope that one arc of a loop is, both pins on placed bodies."""
+        telescope = _pinned(known, cut)
+        placed = {cut.others[0], cut.others[-1]} <= known.placed
+        if telescope is None or not placed or known.unknowns_of(telescope.joint) == 0:
+            return None
+        return cls(telescope)
+
+    @property
+    def about(self) -> str:
+        """The link at the anchor."""
+        return self.telescope.near
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"transformer: telescope of {self.telescope.links}"
+
+    @property
+    def points(self) -> tuple[Point, ...]:
+        """The two pins."""
+        return self.telescope.points
+
+    def accept(self, known: Known) -> set[Coordinate]:
+        """Record the two links, and the joints at them."""
+        return _accept(known, self.telescope)
+
+    def words(self, closing: Closing | None) -> tuple[str, str]:
+        """Return the closure equation and its solution."""
+        del closing
+        telescope = self.telescope
+        return (
+            f"{telescope.line} = length of {telescope.links} at {telescope.joint.name}.slide",
+            "explicit: the way along the guide is the root of a difference of squares",
+        )
+
+    def carry_out(self, kin: Kinematics) -> None:
+        """Find slide and direction of a telescope between two placed pins."""
+        telescope = self.telescope
+        program, near, joint = kin.program, telescope.near, telescope.joint
+        pins = _Pins.of(kin, self, telescope)
+        _, c, e = pins.guide.start
+        extent = extent_squared(kin, self)
+        squared = program.guarded(
+            f"{near}_extension_squared",
+            pins.across.dot(pins.across) - e**2,
+            f"{kin.loop_of(self)} cannot close: the pins {telescope.anchor.name} and "
+            f"{telescope.end.name} come nearer to each other than the guide of {telescope.links} "
+            "allows",
+            "m^2",
+            # the square of the distance of the pins is more by e^2: their direction counts as well
+            ROOT * extent + Positive(DIRECTION * extent - e**2),
+        )
+        extension = program.define(f"{near}_extension", pins.guide.branch * sp.sqrt(squared))
+        slide = telescope.sense * (extension - c)
+        kin.slides[joint.name] = program.define(f"slide_{joint.name}", slide)
+        _place(kin, pins, extension)
+
+
+@dataclass(frozen=True)
+class PlaceTelescope(PlannedStep):
+    """Two placed pins are the ends of a telescope of known slide: its direction follows."""
+
+    telescope: GuidedPair
+
+    @property
+    def about(self) -> str:
+        """The link at the anchor."""
+        return self.telescope.near
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"{self.telescope.links}: telescope"
+
+    @property
+    def points(self) -> tuple[Point, ...]:
+        """The two pins."""
+        return self.telescope.points
+
+    def accept(self, known: Known) -> set[Coordinate]:
+        """Record the two links, and the joints at them."""
+        return _accept(known, self.telescope)
+
+    def carry_out(self, kin: Kinematics) -> None:
+        """Find the direction of the telescope."""
+        pins = _Pins.of(kin, self, self.telescope)
+        _place(kin, pins, pins.guide.known_extension(kin, extent_squared(kin, self)))
+
+
+@dataclass(frozen=True)
+class PinnedTelescope(Leg):
+    """A telescope in a plane whose slide is known, as a leg."""
+
+    telescope: GuidedPair
+
+    @classmethod
+    def match(cls, known: Known, cut: CutLoop) -> Self | None:
+        """Return the telescope that one arc of a loop is."""
+        pair = _pinned(known, cut)
+        if pair is None or known.unknowns_of(pair.joint) > 0:
+            return None
+        return cls(pair.end_body, pair.near, pair.end, pair.anchor, pair.anchor_body, pair)
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """Both links."""
+        return self.telescope.near, self.telescope.far
+
+    @property
+    def pinned(self) -> bool:
+        """Its links are placed by their pins."""
+        return True
+
+    @property
+    def measure(self) -> str:
+        """What its length is, for the report."""
+        return f"{self.telescope.links} at {self.telescope.joint.name}.slide"
+
+    def hold(self, known: Known, joint: Joint) -> set[Coordinate]:
+        """Record the joint that it drives, and its own."""
+        place = PlaceTelescope(self.telescope)
+        known.steps.append(place)
+        return known.add_all([joint]) | place.accept(known)
+
+    def stretched(self, kin: Kinematics, design: Vector, extent: sp.Expr) -> Rod:
+        """Append its length, of known slide."""
+        telescope, near = self.telescope, self.rod
+        guide = _Guide.of(kin, telescope, extent)
+        extension = guide.known_extension(kin, extent)
+        beside = guide.start.x**2 + guide.start.z**2
+        squared = kin.program.define(f"{near}_length_squared", extension**2 + beside)
+        coordinate = kin.coordinate_of(telescope.joint)
+        stretch, bias = {}, sp.Integer(0)
+        if coordinate in kin.moving:
+            stretch[coordinate] = telescope.sense * extension
+            given = telescope.sense * kin.acceleration(coordinate)
+            bias = kin.rate(coordinate) ** 2 + extension * given
+        name = f"telescope of {telescope.links}"
+        return Rod(name, design, sp.sqrt(squared), squared, stretch, bias)
+
+
+# -- structure ------------------------------------------------------------------------------------
+
+
+def _pinned(known: Known, cut: CutLoop) -> GuidedPair | None:
+    """Return the telescope in a plane that one arc of a loop is: a hinge at either end."""
+    pair = GuidedPair.match(cut)
+    if pair is None:
+        return None
+    hinges = pair.joints_at_ends(known.mechanism.joints)
+    if not all(isinstance(hinge, Revolute) for hinge in hinges):
+        return None
+    return None if {pair.near, pair.far} & known.placed else pair
+
+
+def _accept(known: Known, telescope: GuidedPair) -> set[Coordinate]:
+    """Record the two links of a telescope, and the joints at them."""
+    known.placed |= {telescope.near, telescope.far}
+    ends = telescope.joints_at_ends(known.mechanism.joints)
+    return known.add_all([telescope.joint, *ends])
+
+
+def _hinges(kin: Kinematics, telescope: GuidedPair) -> tuple[Revolute, Revolute]:
+    """Return the hinges at both ends."""
+    near, far = telescope.joints_at_ends(kin.mechanism.joints)
+    assert isinstance(near, Revolute)
+    assert isinstance(far, Revolute)
+    return near, far
+
+
+# -- algebra --------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Guide:
+    """The guide of a telescope in a plane, from the design position (constants).
+
+    Attributes
+    ----------
+    axes
+        Axes of both links: hinge n, guide d, and n x d; in work axes.
+    start
+        The way from pin to pin along these axes, (h, c, e).
+    branch
+        Sign of c.
+    """
+
+    telescope: GuidedPair
+    axes: Axes
+    start: Vector
+    branch: sp.Expr
+
+    @classmethod
+    def of(cls, kin: Kinematics, telescope: GuidedPair, extent: sp.Expr) -> _Guide:
+        """Describe the guide of a telescope."""
+        program, near = kin.program, telescope.near
+        n = kin.unit(f"{near}_hinge_design", kin.to_work(_hinges(kin, telescope)[0].axis.vector))
+        span = kin.design(telescope.end) - kin.design(telescope.anchor)
+        span = program.vector(f"{near}_span_design", span)
+        if telescope.along_ends:
+            branch = telescope.forward
+            sign = sp.Integer(1 if branch else -1)
+            length = program.define(f"{near}_length_design", sp.sqrt(span.dot(span)))
+            d = program.vector(f"{near}_guide_design", span * (sign / length))
+            start = Vector(ZERO.x, sign * length, ZERO.z)
+        else:
+            d = kin.design_direction(telescope.joint.direction)
+            side = program.vector(f"{near}_side_design", n.cross(d))
+            along = (span.dot(axis) for axis in (n, d, side))
+            start = program.vector(f"{near}_start", Vector(*along), "123")
+            require(
+                kin,
+                f"{near}_along_design",
+                start.y,
+                BRANCH * sp.sqrt(extent),
+                "m",
+                f"at the design position, the pins {telescope.anchor.name} and "
+                f"{telescope.end.name} stand across the guide of {telescope.links}",
+                "move one of the two along the guide",
+            )
+            sign = program.define(f"{near}_branch", SignOf(start.y))
+        side = program.vector(f"{near}_side_design", n.cross(d))
+        return cls(telescope, (n, d, side), start, sign)
+
+    def known_extension(self, kin: Kinematics, extent: sp.Expr) -> sp.Expr:
+        """Return c + x of a telescope of known slide x."""
+        telescope = self.telescope
+        slide = kin.coordinates[kin.coordinate_of(telescope.joint)]
+        drawn = kin.program.guarded(
+            f"{telescope.near}_extension",
+            self.branch * (self.start.y + telescope.sense * slide),
+            f"the telescope of {telescope.links} is drawn in until its pins "
+            f"{telescope.anchor.name} and {telescope.end.name} meet, or pass each other",
+            "m",
+            LENGTH * sp.sqrt(extent),
+        )
+        return self.branch * drawn
+
+
+@dataclass(frozen=True)
+class _Pins:
+    """The pins of a telescope and what lies between them.
+
+    Attributes
+    ----------
+    axis
+        Direction of the hinges, in work axes.
+    across
+        From pin to pin, across the hinges.
+    """
+
+    telescope: GuidedPair
+    guide: _Guide
+    anchor: PointMotion
+    end: PointMotion
+    axis: Vector
+    across: Vector
+
+    @classmethod
+    def of(cls, kin: Kinematics, step: Spanning, telescope: GuidedPair) -> _Pins:
+        """Describe the pins of a telescope, in the loop that a step closes."""
+        program, near = kin.program, telescope.near
+        guide = _Guide.of(kin, telescope, extent_squared(kin, step))
+        parent = kin.placed[telescope.anchor_body]
+        on_parent = to_axes(parent.design_axes, guide.axes[0])
+        on_parent = program.vector(f"{near}_hinge_on_parent", on_parent, "123")
+        axis = program.vector(f"{near}_hinge", from_axes(parent.axes, on_parent))
+        anchor = kin.point_motion(telescope.anchor_body, telescope.anchor)
+        end = kin.point_motion(telescope.end_body, telescope.end)
+        span = end.position - anchor.position - axis * guide.start.x
+        return cls(telescope, guide, anchor, end, axis, program.vector(f"{near}_span", span))
+
+
+def _place(kin: Kinematics, pins: _Pins, extension: sp.Expr) -> None:
+    """Place both links, given the way along the guide."""
+    program, telescope, start = kin.program, pins.telescope, pins.guide.start
+    near, arm = telescope.near, Vector(start.x, extension, start.z)
+    axes = _axes(kin, pins, extension)
+    parent, carrier = kin.placed[telescope.anchor_body], kin.placed[telescope.end_body]
+    link = BodyMotion(
+        near,
+        origin=pins.anchor.position,
+        axes=axes,
+        design_origin=kin.design(telescope.anchor),
+        design_axes=pins.guide.axes,
+        local={telescope.anchor: ZERO},
+        carrier=(parent.body, kin.local(parent, telescope.anchor)),
+    )
+    other = BodyMotion(
+        telescope.far,
+        origin=pins.end.position,
+        axes=axes,
+        design_origin=kin.design(telescope.end),
+        design_axes=pins.guide.axes,
+        local={telescope.end: ZERO},
+        carrier=(carrier.body, kin.local(carrier, telescope.end)),
+    )
+    to_body = projector(kin, link)
+    hold = program.define(f"{near}_hold", -1 / extension)
+    growth = sp.Integer(0)  # of the extension
+
+    def carried(label: str, v: Vector) -> Vector:
+        return to_body(label, from_axes(parent.axes, v))
+
+    for k in dict.fromkeys([*pins.anchor.motion, *parent.motion, *pins.end.motion]):
+        base = to_body(f"velocity_{k}", pins.anchor.motion.get(k, ZERO))
+        swing = carried(f"carried_{k}", parent.motion[k].angular) if k in parent.motion else ZERO
+        target = to_body(f"target_{k}", pins.end.motion.get(k, ZERO))
+        turn = program.define(f"{near}_turn_{k}", (base - target + swing.cross(arm)).z * hold)
+        omega = program.vector(f"{near}_omega_{k}", swing + UNIT_X * turn, "123")
+        link.motion[k], other.motion[k] = Twist(omega, base), Twist(omega, target)
+        growth += (target - base - omega.cross(arm)).y * kin.rate(k)
+
+    def bias() -> Twist:
+        omega = kin.total(link).angular
+        parent_omega = carried("carried_now", kin.total(parent).angular)
+        base = to_body("acceleration", pins.anchor.bias)
+        target = to_body("target_bias", pins.end.bias)
+        spin = Vector(omega.x - parent_omega.x, ZERO.y, ZERO.z)
+        alpha = carried("carried_bias", parent.bias().angular) + parent_omega.cross(spin)
+        alpha = program.vector(f"{near}_alpha_carried", alpha, "123")
+        whirl = program.vector(f"{near}_whirl", omega.cross(arm), "123")
+        pull = base - target + omega.cross(whirl) + alpha.cross(arm)
+        coriolis = 2 * omega.x * program.define(f"{near}_growth", growth)
+        turn = program.define(f"{near}_turn_bias", (pull.z + coriolis) * hold)
+        return kin.define_bias(near, Twist(alpha + UNIT_X * turn, base))
+
+    link.bias = once(bias)
+    other.bias = once(lambda: Twist(link.bias().angular, to_body("target_bias", pins.end.bias)))
+    kin.placed[near], kin.placed[telescope.far] = link, other
+
+
+def _axes(kin: Kinematics, pins: _Pins, extension: sp.Expr) -> Axes:
+    """Return the axes of both links: hinge, guide, and across both."""
+    program, near, offset = kin.program, pins.telescope.near, pins.guide.start.z
+    if offset == 0:
+        along = pins.across * program.define(f"{near}_extension_inverse", 1 / extension)
+    else:
+        inverse = program.define(f"{near}_span_inverse_squared", 1 / (extension**2 + offset**2))
+        along = pins.across * extension - pins.axis.cross(pins.across) * offset
+        along *= inverse
+    d = program.vector(f"{near}_guide", along)
+    return pins.axis, d, program.vector(f"{near}_side", pins.axis.cross(d))

@@ -1,0 +1,129 @@
+"""Loops of hinges and guides as a tree that carries the bodies, and what closes its loops."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ..declare.geometry import Direction
+    from ..declare.joints import Joint, Prismatic, Revolute
+    from ..loops.graph import Cycle
+    from .rigid_rod import RigidRod
+
+
+@dataclass(frozen=True)
+class JointOfTree:
+    """A hinge or guide, from a body that is nearer to what is placed.
+
+    Attributes
+    ----------
+    driven
+        Whether its coordinate is given; of others it is an unknown.
+    """
+
+    joint: Revolute | Prismatic
+    parent: str
+    child: str
+    driven: bool = False
+
+    @property
+    def sense(self) -> int:
+        """Return 1 if the coordinate is that of the child as seen from the parent, else -1."""
+        return 1 if self.joint.second == self.child else -1
+
+
+@dataclass(frozen=True)
+class CutJoint:
+    """A joint at which a loop is cut: what it leaves in common makes the closure equations.
+
+    Attributes
+    ----------
+    normal
+        Of a loop that moves in a plane: the direction of its hinges. It closes with three equations
+        less the freedoms, a loop in space with six.
+    """
+
+    joint: Joint
+    normal: Direction | None = None
+
+    @property
+    def planar(self) -> bool:
+        """Whether the loop moves in a plane."""
+        return self.normal is not None
+
+    @property
+    def equations(self) -> int:
+        """Number of closure equations."""
+        return (3 if self.planar else 6) - self.joint.freedoms
+
+    @property
+    def between(self) -> tuple[str, ...]:
+        """No links: a joint closes the loop."""
+        return ()
+
+    @property
+    def closure(self) -> str:
+        """What the two bodies have in common, for the report."""
+        joint = self.joint
+        return (
+            f"{joint.first} and {joint.second} have {joint.common} in common at {joint.name}: "
+            f"{self.equations} equations"
+        )
+
+    def closes(self, cycle: Cycle) -> bool:
+        """Tell whether it could close a loop."""
+        return self.joint in cycle.joints
+
+
+@dataclass(frozen=True)
+class Tree:
+    """Loops of hinges and guides that close together.
+
+    Attributes
+    ----------
+    body
+        The first body that is placed.
+    tree
+        What carries the bodies, in the order from placed ones outward; their coordinates are the
+        unknowns, but for those that are driven.
+    cuts, rods
+        Joints and rods that close a loop each. A rod is one equation.
+    """
+
+    body: str
+    tree: tuple[JointOfTree, ...]
+    cuts: tuple[CutJoint, ...]
+    rods: tuple[RigidRod, ...]
+
+    @property
+    def bodies(self) -> list[str]:
+        """The bodies that are placed, rods apart."""
+        return [branch.child for branch in self.tree]
+
+    @property
+    def unknowns(self) -> list[JointOfTree]:
+        """The joints of the tree whose coordinates are unknown."""
+        return [branch for branch in self.tree if not branch.driven]
+
+    def base_of(self, body: str) -> str:
+        """Return the placed body at which the way from a body through the tree ends."""
+        parents = {branch.child: branch.parent for branch in self.tree}
+        while body in parents:
+            body = parents[body]
+        return body
+
+    @property
+    def equations(self) -> int:
+        """Number of closure equations."""
+        return sum(cut.equations for cut in self.cuts) + len(self.rods)
+
+    @property
+    def joint_names(self) -> str:
+        """The joints of the unknown coordinates, for messages."""
+        return ", ".join(branch.joint.name for branch in self.unknowns)
+
+    @property
+    def closing_names(self) -> str:
+        """The joints and rods that close the loops, for messages."""
+        return ", ".join([*(c.joint.name for c in self.cuts), *(held.rod for held in self.rods)])

@@ -1,0 +1,201 @@
+"""A body held by a rod: its turn about a line that is known (Eqs. 13 to 16 of the paper).
+
+The equation ``a1 cos + a2 sin = a3`` of the paper is that of `arm`, about a line between two points
+that both move. Where a telescope misses the known point of the body, `offset_turn` takes over.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+import sympy as sp
+
+from ..kinematics.extent import extent_squared
+from ..kinematics.motion import BodyMotion, OnLine, PointMotion, RodEnds
+from ..loops.forms import ClosedForm
+from ..program.vectors import ZERO, Twist, Vector
+from .arm import Arm, Fit, Reach, fit_rod
+from .lines import line_alpha, line_omega, once, place_rod, projector
+from .offset_turn import solve_offset_turn
+from .rigid_rod import RigidRod
+from .telescope import Telescope
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from typing import Self
+
+    from ..declare.geometry import Point
+    from ..kinematics.kinematics import Kinematics
+    from ..kinematics.step import Ends
+    from ..loops.cut import CutLoop
+    from ..loops.forms import Closing
+    from ..loops.known import Coordinate, Known
+
+
+@dataclass(frozen=True)
+class TurnByLength(ClosedForm):
+    """A body known up to a rotation about a line is held by a rod: its rotation follows."""
+
+    leg: RigidRod
+
+    rank: ClassVar[int] = 4
+
+    @classmethod
+    def match(cls, known: Known, cut: CutLoop) -> Self | None:
+        """Return the turn of a body on a line that a rod from a placed point holds."""
+        leg = RigidRod.match(known, cut)
+        if leg is None or leg.anchor_body not in known.placed or leg.body not in known.on_line:
+            return None
+        return cls(leg)
+
+    @property
+    def about(self) -> str:
+        """The body that is held."""
+        return self.leg.body
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"transformer: {self.leg.body} held by {self.leg.rod}"
+
+    @property
+    def points(self) -> tuple[Point, ...]:
+        """The ends of the rod."""
+        return self.leg.points
+
+    def accept(self, known: Known) -> set[Coordinate]:
+        """Record the body, and the telescopes that it aims."""
+        body, rod = self.leg.body, self.leg.rod
+        known.place(body)
+        known.on_line.add(rod)
+        found = [s for s in known.steps if isinstance(s, Telescope) and s.ends.misses_end]
+        aimed = [s.aim(known) for s in found if s.ends.end_link == body]
+        joints = [joint for joints in aimed for joint in joints]
+        joints += known.mechanism.joints_of(rod)
+        joints += filter(known.joins, known.mechanism.joints_of(body))
+        return known.add_all(joints)
+
+    def lines(self) -> Iterator[Ends]:
+        """Yield the rod, along its line."""
+        yield self.leg.rod, self.leg.anchor, self.leg.end
+
+    def words(self, closing: Closing | None) -> tuple[str, str]:
+        """Return the closure equation and its solution."""
+        del closing
+        return f"{self.leg.ends} = length of {self.leg.measure}", (
+            f"a cos x + b sin x = c for the turn of {self.leg.body} about its line, branch as at "
+            "design"
+        )
+
+    def carry_out(self, kin: Kinematics) -> None:
+        """Turn the body about its known line until the rod fits."""
+        leg = self.leg
+        kin.turned[leg.body] = RodEnds(leg.body, leg.rod, leg.end, leg.anchor, leg.anchor_body)
+        if leg.body in kin.off_line:
+            solve_offset_turn(kin, self, leg)
+            return
+        record = kin.on_line[leg.body]
+        base = _Base.of(kin, leg.body, record)
+        line = kin.unit(
+            f"{leg.body}_line_design", kin.design(record.end) - kin.design(record.anchor)
+        )
+        extent = extent_squared(kin, self)
+        arm = Arm.of(kin, leg.body, line, base.point, leg.end, extent)
+        rod_anchor = leg.anchor_motion(kin)
+        reach = _reach(kin, leg.body, record, base, arm, rod_anchor)
+        fit = fit_rod(kin, self, leg, arm, record.direction, reach)
+        placed = BodyMotion(
+            leg.body,
+            origin=base.motion.position,
+            axes=fit.axes,
+            design_origin=kin.design(base.point),
+            design_axes=arm.design_axes,
+            local={base.point: ZERO, leg.end: arm.local},
+            carrier=(base.carrier, kin.local(kin.placed[base.carrier], base.point)),
+        )
+        _turn_motion(kin, placed, record, base, arm.local, fit, rod_anchor)
+        kin.placed[leg.body] = placed
+        place_rod(kin, leg, rod_anchor, fit.rod.length)
+
+
+@dataclass(frozen=True)
+class _Base:
+    """The point of the line that is fixed in the body, and where it lies along the line."""
+
+    point: Point
+    motion: PointMotion
+    carrier: str
+    from_anchor: sp.Expr
+
+    @classmethod
+    def of(cls, kin: Kinematics, body: str, record: OnLine) -> _Base:
+        """Return the anchor of the line, or its end if the body holds only that."""
+        if any(record.anchor == j.center for j in kin.mechanism.joints_of(body)):
+            return cls(record.anchor, record.anchor_motion, record.anchor_body, sp.Integer(0))
+        return cls(record.end, record.end_motion, record.end_body, record.length)
+
+
+def _reach(
+    kin: Kinematics,
+    body: str,
+    record: OnLine,
+    base: _Base,
+    arm: Arm,
+    rod_anchor: PointMotion,
+) -> Reach:
+    """Return the rod's anchor as seen from the line.
+
+    From the span and not from its direction, so that nothing waits for the root of the length.
+    """
+    program = kin.program
+    e = program.vector(f"{body}_reach", rod_anchor.position - record.anchor_motion.position)
+    on_span = program.define(f"{body}_reach_on_span", e.dot(record.span))
+    part = program.define(f"{body}_reach_part", on_span * record.inverse_squared)
+    along = program.define(f"{body}_reach_along", on_span * record.inverse_length)
+    return Reach(
+        program.define(f"{body}_reach_axial", along - (arm.along + base.from_anchor)),
+        program.vector(f"{body}_reach_across", e - record.span * part),
+        program.vector(f"{body}_reach_normal", record.direction.cross(e)),
+    )
+
+
+def _turn_motion(
+    kin: Kinematics,
+    placed: BodyMotion,
+    record: OnLine,
+    base_point: _Base,
+    arm: Vector,
+    fit: Fit,
+    rod_anchor: PointMotion,
+) -> None:
+    """Velocities and bias: the line turns with its points, the rod keeps its length."""
+    body, program = placed.body, kin.program
+    to_body = projector(kin, placed)
+    gap, hold = fit.gap, fit.hold
+    rod_rate = ZERO
+    names = dict.fromkeys([*base_point.motion.motion, *record.relative.motion, *rod_anchor.motion])
+    for k in names:
+        base = to_body(f"velocity_{k}", base_point.motion.motion.get(k, ZERO))
+        across = line_omega(record, to_body(f"swing_{k}", record.relative.motion.get(k, ZERO)))
+        across = program.vector(f"{body}_omega_{k}", across, "123")
+        anchor = to_body(f"rod_anchor_{k}", rod_anchor.motion.get(k, ZERO))
+        slip = base - anchor + across.cross(arm)
+        turn = program.define(f"{body}_turn_{k}", gap.dot(slip) * hold)
+        omega = Vector(turn, across.y, across.z)
+        placed.motion[k] = Twist(omega, base)
+        rod_rate += (base - anchor + omega.cross(arm)) * kin.rate(k)
+
+    def bias() -> Twist:
+        rate = program.vector(f"{body}_rod_rate", rod_rate, "123")
+        omega = kin.total(placed).angular
+        base = to_body("acceleration", base_point.motion.bias)
+        anchor = to_body("rod_anchor_bias", rod_anchor.bias)
+        alpha = line_alpha(kin, record, omega, to_body("swing_bias", record.relative.bias))
+        alpha = program.vector(f"{body}_alpha", alpha, "123")
+        whirl = program.vector(f"{body}_whirl", omega.cross(arm), "123")
+        pull = base - anchor + omega.cross(whirl) + alpha.cross(arm)
+        turn = program.define(f"{body}_turn_bias", (gap.dot(pull) + rate.dot(rate)) * hold)
+        return Twist(Vector(turn, alpha.y, alpha.z), base)
+
+    placed.bias = once(bias)

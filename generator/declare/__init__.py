@@ -1,0 +1,1 @@
+"""What a person declares: bodies, joints, forces, laws, and models made of them."""

@@ -1,0 +1,295 @@
+"""What a person declares is checked where it is written: types, names and numbers.
+
+`declared` is for the dataclasses of a declaration, `checked` for functions that make parts of one.
+Arguments are validated by pydantic against their annotations, so that a field says everything about
+itself in one place. All that does not fit is told in one `DeclarationError`: the name of the thing,
+the value and what to write instead. Lists do where tuples are meant, and every kind of real number
+does for a float.
+
+What depends on several fields, or on other parts of the declaration, is looked at in `checks`.
+"""
+
+from __future__ import annotations
+
+import inspect
+import math
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, fields, is_dataclass
+from functools import wraps
+from numbers import Complex, Real
+from typing import Annotated, Any, SupportsFloat, TypeVar, cast, get_type_hints
+
+import numpy as np
+from pydantic import AfterValidator, BeforeValidator, Field, ValidationError, validate_call
+from pydantic_core import PydanticCustomError
+
+from ...core.errors import KintrafoError
+from ...core.suggestions import suggestion
+
+Declared = TypeVar("Declared", bound=type)
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+_MOST_SHOWN = 90  # characters of a value
+
+
+class DeclarationError(KintrafoError, ValueError):
+    """A declaration that contradicts itself, with everything that is wrong with it.
+
+    Parameters
+    ----------
+    name
+        What was declared.
+    problems
+        One text for each: what is wrong, and what to do.
+    """
+
+    def __init__(self, name: str, problems: Sequence[str]) -> None:
+        self.name, self.problems = name, tuple(problems)
+        # the base class gets the arguments unchanged: pickling hands them to __init__ again
+        super().__init__(name, self.problems)
+
+    def __str__(self) -> str:
+        """Return the name on top and one line for each problem."""
+        return "\n".join([f"{self.name}:", *(f"  - {problem}" for problem in self.problems)])
+
+
+# -- what fields can be ---------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """The range of the parameter that a field names.
+
+    Attributes
+    ----------
+    least
+        The smallest value.
+    above
+        What the value must be more than.
+    most
+        The greatest value.
+    of_length
+        Whether the range is that of a length, so that an angle has none.
+    """
+
+    least: float | None = None
+    above: float | None = None
+    most: float | None = None
+    of_length: bool = False
+
+
+def _identifier(name: str) -> str:
+    if re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name):
+        return name
+    message = "cannot be written in C; use letters, digits and underscores, a letter first"
+    raise PydanticCustomError("declared", message)
+
+
+def _real(value: object) -> float:
+    """Take whatever is a real number, of whichever library."""
+    whole_array = isinstance(value, np.ndarray) and value.ndim > 0
+    imaginary = isinstance(value, Complex) and not isinstance(value, Real)
+    number = math.nan
+    if isinstance(value, SupportsFloat) and not whole_array and not imaginary:
+        try:
+            number = float(value)
+        except (TypeError, ValueError, OverflowError):  # a symbol, a signalling NaN, 10**400
+            number = math.nan
+    if not math.isfinite(number):
+        raise PydanticCustomError("declared", "is no finite real number; give one, in SI units")
+    return number
+
+
+Name = Annotated[str, AfterValidator(_identifier)]
+"""A name that code can have."""
+
+Amount = Annotated[Name, Bounds(least=0.0)]
+"""Name of a parameter that is not negative."""
+
+MoreThanZero = Annotated[Name, Bounds(above=0.0)]
+"""Name of a parameter that is more than zero."""
+
+Length = Annotated[Name, Bounds(least=0.0, of_length=True)]
+"""Name of a parameter that is a length, and not negative, unless what it belongs to turns."""
+
+Share = Annotated[Name, Bounds(least=0.0, most=1.0)]
+"""Name of a parameter between 0 and 1."""
+
+Number = Annotated[float, BeforeValidator(_real)]
+"""A finite real number."""
+
+Count = Annotated[int, Field(ge=1)]
+"""How many there are of something: at least one."""
+
+Numeral = Annotated[int, Field(ge=0)]
+"""The number of something in a figure."""
+
+
+# -- the check ------------------------------------------------------------------------------------
+
+
+def declared(cls: Declared) -> Declared:
+    """Let a dataclass check what it is given."""
+    # ruff's advice to assign is for what has no types: mypy does not let a method be replaced
+    setattr(cls, "__init__", _checked(vars(cls)["__init__"], cls.__name__, cls))  # noqa: B010
+    return cls
+
+
+def checked(function: Function) -> Function:
+    """Let a function check what it is given."""
+    return cast("Function", _checked(function, function.__name__, function))
+
+
+def _checked(function: Callable[..., Any], name: str, annotated: Any) -> Callable[..., Any]:
+    hints = get_type_hints(annotated, include_extras=True)
+    signature = inspect.signature(function)
+    known = {k: v for k, v in hints.items() if k in signature.parameters}
+    function.__annotations__ = known
+    valid = validate_call(config={"strict": True, "arbitrary_types_allowed": True})(function)
+    names = list(signature.parameters)
+
+    @wraps(function)
+    def call(*given: Any, **named: Any) -> Any:
+        values = [_with_tuples(value) for value in given]
+        keywords = {key: _with_tuples(value) for key, value in named.items()}
+        try:
+            return valid(*values, **keywords)
+        except ValidationError as error:
+            arguments = dict(zip(names, values, strict=False)) | keywords
+            problems = _problems(error, names, arguments)
+            raise DeclarationError(_title(name, arguments.get("name")), problems) from None
+
+    call.__annotations__ = known
+    return call
+
+
+def _with_tuples(value: Any) -> Any:
+    """Return a value with tuples in the place of lists and of what makes one item after another."""
+    if isinstance(value, list | tuple | Iterator) and not hasattr(value, "_fields"):
+        return tuple(_with_tuples(item) for item in value)
+    if isinstance(value, Mapping):
+        return {key: _with_tuples(item) for key, item in value.items()}
+    return value
+
+
+def _title(what: str, name: object) -> str:
+    return f"{what} {name!r}" if isinstance(name, str) else what
+
+
+# -- the words ------------------------------------------------------------------------------------
+
+
+def _problems(error: ValidationError, names: list[str], given: Mapping[str, Any]) -> list[str]:
+    """Say what is wrong, place by place: of a choice of types all are named at once."""
+    places: dict[str, tuple[Any, list[Any]]] = {}
+    for detail in error.errors(include_url=False):
+        first, *rest = detail["loc"]
+        field = names[first] if isinstance(first, int) and first < len(names) else str(first)
+        place, value = _place(field, rest, given)
+        places.setdefault(place, (value, []))[1].append(detail)
+    fields = [name for name in names if name != "self"]
+    return [_problem(place, value, found, fields) for place, (value, found) in places.items()]
+
+
+def _place(field: str, rest: Sequence[int | str], given: Mapping[str, Any]) -> tuple[str, Any]:
+    """Return where something is, and what is there; names of types are no places."""
+    place: str = field
+    value: Any = given.get(field)
+    for key in rest:
+        inside = isinstance(value, tuple) and isinstance(key, int) and key < len(value)
+        if not inside and not (isinstance(value, Mapping) and key in value):
+            break
+        place, value = f"{place}[{key!r}]", value[key]
+    return place, value
+
+
+def _problem(place: str, value: Any, found: list[Any], fields: list[str]) -> str:
+    detail, kind = found[0], found[0]["type"]
+    if kind == "unexpected_keyword_argument":
+        return f"{place} is none of its fields. {suggestion(place, fields)}"
+    if kind == "unexpected_positional_argument":
+        return f"{_shown(detail['input'])} is one argument too many; its fields are {_list(fields)}"
+    if kind == "multiple_argument_values":
+        return f"{place} is given twice"
+    if kind.startswith("missing"):
+        return f"{place} is {_shown(value)}, too few" if value else f"{place} is missing"
+    if kind == "declared":
+        return f"{place} {value!r} {detail['msg']}"
+    wanted = list(dict.fromkeys(map(_wanted, found)))
+    return f"{place} is {_shown(value)}; {_either(wanted)} is needed{_advice(value, wanted)}"
+
+
+_WANTED = {
+    "string_type": "a text",
+    "int_type": "a whole number",
+    "bool_type": "True or False",
+    "tuple_type": "a tuple",
+    "mapping_type": "a dictionary",
+    "dict_type": "a dictionary",
+    "too_long": "a shorter tuple",
+    "none_required": "None",
+}
+
+
+def _wanted(detail: Any) -> str:
+    """Say what would have been right."""
+    context = detail.get("ctx", {})
+    if detail["type"] == "literal_error":
+        return str(context["expected"])
+    if detail["type"] == "greater_than_equal":
+        return f"{context['ge']} or more"
+    name = context.get("class_name", context.get("class"))
+    if name:
+        return f"{'an' if name[0] in 'AEIOU' else 'a'} {name}"
+    return _WANTED.get(detail["type"], str(detail["msg"]))
+
+
+def _advice(value: Any, wanted: list[str]) -> str:
+    """Say how to write what was probably meant."""
+    kind, text = type(value).__name__, isinstance(value, str)
+    cases = (
+        (isinstance(value, type), f"write {getattr(value, '__name__', '')}(...)"),
+        (
+            "a Parameter" in wanted and isinstance(value, tuple),
+            "they are several, so write a star before what makes them, *point(...)",
+        ),
+        ("a tuple" in wanted and text, f"write a tuple of names, ({value!r},)"),
+        ("a tuple" in wanted, f"write it in brackets with a comma behind, ({_shown(value)},)"),
+        (wanted == ["a Line"], "write Line(point, direction) or Line(point, point)"),
+        ("a Point" in wanted and text, f"write Point({value!r})"),
+        ("a Direction" in wanted and text, f"write Direction({value!r})"),
+        (wanted == ["a text"] and hasattr(value, "name"), f"write {getattr(value, 'name', '')!r}"),
+        (
+            "a ForceElement" in wanted and hasattr(value, "force"),
+            f"a law acts in an element, ForceElement(name=..., path=..., laws=({kind}(...),))",
+        ),
+    )
+    return next((f": {advice}" for fits, advice in cases if fits), "")
+
+
+def _shown(value: object) -> str:
+    text = repr(value)
+    return text if len(text) <= _MOST_SHOWN else f"{text[:_MOST_SHOWN]}..."
+
+
+def _either(words: Sequence[str]) -> str:
+    return " or ".join(filter(None, (", ".join(words[:-1]), words[-1])))
+
+
+def _list(words: Sequence[str]) -> str:
+    return ", ".join(words)
+
+
+# -- what is inside -------------------------------------------------------------------------------
+
+
+def parts(value: object) -> Iterator[Any]:
+    """Yield every dataclass within a declaration, itself first."""
+    if isinstance(value, tuple):
+        for item in value:
+            yield from parts(item)
+    elif is_dataclass(value):
+        yield value
+        for entry in fields(value):
+            yield from parts(getattr(value, entry.name))

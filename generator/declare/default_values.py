@@ -1,0 +1,90 @@
+"""Defaults that no mechanism could have: out of range, of no body, or without a direction."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...core.physical import inertia_of_no_body, out_of_range
+from .declared import parts
+from .evaluation import AtDefaults
+from .forces import AlongLine
+from .geometry import Direction, Line, Point
+from .joints import Revolute
+from .ranges import described
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from ..program.vectors import Vector
+    from .assembly import Assembly
+
+# What rounding may leave of a length or an angle that is none, relative to what it comes from.
+_ROUNDING = 1e-9
+
+
+def value_problems(mechanism: Assembly) -> list[str]:
+    """Find defaults out of their ranges, impossible inertia, and lines without a direction.
+
+    Of what parameters are missing for nothing is said; that is found when they are read.
+    """
+    values = {p.name: p.default for p in mechanism.parameters}
+    problems = out_of_range(values, described(mechanism)) or inertia_of_no_body(values)
+    return problems + (list(_lost_directions(mechanism)) or _angle_problems(mechanism))
+
+
+def _lost_directions(mechanism: Assembly) -> Iterator[str]:
+    """Find points that coincide where a line is between them, and directions of length zero."""
+    value = AtDefaults(mechanism)
+    told: set[str] = set()
+    for part in parts(mechanism):
+        if isinstance(part, AlongLine):
+            ends = part.first[1], part.second[1]
+            what, vector = _between(*ends), ends[1].position - ends[0].position
+            size = _size(value, *(end.position for end in ends))
+        elif isinstance(part, Line) and isinstance(part.towards, Point):
+            what, vector = _between(part.through, part.towards), part.vector
+            size = _size(value, part.through.position, part.towards.position)
+        elif isinstance(part, Direction):
+            what, vector = f"direction {part.name!r} has no length", part.components
+            size = (
+                1.0 if part.between is None else _size(value, *(p.position for p in part.between))
+            )
+        else:
+            continue
+        # a comparison with NaN is false: parameters that are missing are told elsewhere
+        if what not in told and np.linalg.norm(list(map(value, vector))) <= 1e-12 * size:
+            told.add(what)
+            yield f"{what} at the design position; check the defaults of its parameters"
+
+
+def _between(one: Point, other: Point) -> str:
+    return f"the points {one.name!r} and {other.name!r}, between which a line is declared, coincide"
+
+
+def _size(value: AtDefaults, *places: Vector) -> float:
+    """Return how far from the origin some places are: what their distance is compared with."""
+    return max(float(np.linalg.norm(list(map(value, place)))) for place in places)
+
+
+def _angle_problems(mechanism: Assembly) -> list[str]:
+    """Find hinges whose angle counts from, or to, what lies along the hinge."""
+    value, problems = AtDefaults(mechanism), []
+    for joint in mechanism.joints:
+        if not isinstance(joint, Revolute) or joint.angle_to is None:
+            continue
+        axis = np.array([value(c) for c in joint.axis.vector])
+        to = joint.angle_to.position - joint.axis.through.position
+        for what, name, along in (
+            ("angle_from", joint.angle_from.name, joint.angle_from.components),
+            ("angle_to", joint.angle_to.name, to),
+        ):
+            other = np.array([value(c) for c in along])
+            if np.linalg.norm(np.cross(axis, other)) <= _ROUNDING * np.linalg.norm(axis):
+                problems.append(
+                    f"joint {joint.name!r}: {what}, which is {name}, lies along the hinge, so that "
+                    "its angle has no beginning or no end; take one beside the hinge, or leave "
+                    "angle_to out, and the angle counts from the design position"
+                )
+    return problems

@@ -1,0 +1,24 @@
+"""The value of an expression in parameters with their defaults."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+if TYPE_CHECKING:
+    from .assembly import Assembly
+
+
+class AtDefaults:
+    """The default parameters of a mechanism, to be put into expressions."""
+
+    def __init__(self, mechanism: Assembly) -> None:
+        self._derived = {sp.Symbol(n): value for n, value in mechanism.derived.items()}
+        self._values = {sp.Symbol(p.name): sp.Float(p.default) for p in mechanism.parameters}
+
+    def __call__(self, expression: sp.Expr) -> float:
+        """Return the value; NaN if there is none, or if the expression reads no parameter."""
+        value = expression.xreplace(self._derived).xreplace(self._values)
+        return float(value) if value.is_real and value.is_number else math.nan

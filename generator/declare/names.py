@@ -1,0 +1,136 @@
+"""Names and texts of a declaration that the emitted C and Python could not have.
+
+That a name is an identifier is checked where it is given (`declared.Name`).
+"""
+
+from __future__ import annotations
+
+import keyword
+from typing import TYPE_CHECKING
+
+from .forces import ForceElement, LinearTyre
+
+if TYPE_CHECKING:
+    from .assembly import Assembly
+
+# What the emitted C and Python call their own, and the words of both languages.
+_C_WORDS = """
+auto break case char const continue default do double else enum extern float for goto if inline int
+long register restrict return short signed sizeof static struct switch typedef union unsigned void
+volatile while
+"""
+# macros of <math.h>, also those of compilers that are not strict
+_MACROS = """
+NAN INFINITY HUGE_VAL HUGE_VALF HUGE_VALL MAXFLOAT FP_NAN FP_INFINITE FP_ZERO FP_SUBNORMAL FP_NORMAL
+FP_FAST_FMA FP_FAST_FMAF FP_FAST_FMAL FP_ILOGB0 FP_ILOGBNAN MATH_ERRNO MATH_ERREXCEPT
+math_errhandling DOMAIN SING OVERFLOW UNDERFLOW PLOSS TLOSS M_E M_LOG2E M_LOG10E M_LN2 M_LN10 M_PI
+M_PI_2 M_PI_4 M_1_PI M_2_PI M_2_SQRTPI M_SQRT2 M_SQRT1_2 linux unix
+"""
+_OWN_WORDS = """
+sqrt sin cos asin atan2 copysign isfinite fabs abs at_least not_finite
+parameters constants state inputs given out status i np design_state prepare found results
+follow follow_turns square fmax GUARD_FLOOR ROUNDING ITERATIONS CONVERGED STALLED LONGEST TURNED
+CLOSE SHORTEST CLOSED FULL_TURN UNKNOWNS ELEMENTS DRIVEN ADDRESSES
+"""
+_WORDS = frozenset(
+    [
+        *_C_WORDS.split(),
+        *_MACROS.split(),
+        *_OWN_WORDS.split(),
+        *keyword.kwlist,
+        "bool",
+        "true",
+        "false",
+        "asm",
+        "typeof",
+        "thread_local",
+        "nullptr",
+        "constexpr",
+        "alignas",
+        "alignof",
+        "static_assert",
+    ]
+)
+# arguments of the residuals, and functions that iterate
+_BEGINNINGS = ("given_", "loops_through_", "pose_of_")
+_ENDS_OF_COMMENTS = ("*/", '"""', "\\", "\n", "\r")
+_COUNTED = ("count",)  # an enumeration ends with the number of its elements
+
+
+def name_problems(mechanism: Assembly) -> list[str]:
+    """Find names that code cannot have: reserved words, one name for two things."""
+    coordinates = [c.name for c in mechanism.coordinates]
+    kinds = {
+        "body": [b.name for b in mechanism.bodies],
+        "joint": [j.name for j in mechanism.joints],
+        "parameter": [p.name for p in mechanism.parameters],
+        "coordinate": coordinates,
+        "input": list(mechanism.inputs),
+        "force": [f.name for f in mechanism.forces if isinstance(f, ForceElement | LinearTyre)],
+    }
+    # what the code reads by its own name; other names have something before or behind them
+    read_alone = ("parameter", "coordinate", "input")
+    problems = [p for kind in read_alone for n in kinds[kind] for p in _reserved(kind, n)]
+    for kind, names in kinds.items():
+        if kind != "joint":  # of joints there is no enumeration
+            problems += _differ_in_case_only(kind, names)
+    owners: dict[str, str] = {}
+    rates = [f"{name}_rate" for name in coordinates]
+    read = {k: kinds[k] for k in ("parameter", "coordinate", "input")} | {"rate": rates}
+    read["derived"] = list(mechanism.derived)
+    for kind, names in read.items():
+        for name in dict.fromkeys(names):
+            if name in owners:
+                problems.append(
+                    f"{name!r} is the name of a {owners[name]} and of {_article(kind)}; "
+                    f"rename the {owners[name]}"
+                )
+            owners.setdefault(name, kind)
+    return problems
+
+
+def _reserved(kind: str, name: str) -> list[str]:
+    """Find out whether a name is one that the code has for something else."""
+    if name in _WORDS or name.lower() in _COUNTED or name.startswith(_BEGINNINGS):
+        return [f"{kind} {name!r} has a name that the generated code needs; choose another one"]
+    return []
+
+
+def text_problems(mechanism: Assembly) -> list[str]:
+    """Find units and meanings that comments and docstrings cannot have."""
+    entries = [
+        *((f"parameter {p.name!r}", (p.unit, p.meaning)) for p in mechanism.parameters),
+        *((f"coordinate {c.name!r}", (c.unit, c.meaning)) for c in mechanism.coordinates),
+        *((f"input {name!r}", texts) for name, texts in mechanism.inputs.items()),
+    ]
+    problems = unwritable("title of the mechanism", mechanism.title)
+    return problems + [p for what, texts in entries for t in texts for p in unwritable(what, t)]
+
+
+def unwritable(what: str, text: str) -> list[str]:
+    """Find out whether a text would end the comment or the docstring that it stands in."""
+    if any(end in text for end in _ENDS_OF_COMMENTS):
+        allowed = 'write one line without */, """ and backslashes'
+        return [f"{what}: the text {text!r} cannot stand in a comment of the code; {allowed}"]
+    return []
+
+
+def _differ_in_case_only(kind: str, names: list[str]) -> list[str]:
+    alike: dict[str, str] = {}
+    problems = []
+    for name in names:
+        other = alike.setdefault(name.lower(), name)
+        if other != name:
+            problems.append(
+                f"{kind} {name!r} differs from {other!r} in capital letters only; rename one, "
+                "since the enumerations in C have capital letters"
+            )
+    return problems
+
+
+def _article(kind: str) -> str:
+    return {
+        "rate": "the rate of a coordinate",
+        "input": "an input",
+        "derived": "a parameter of a copy",
+    }.get(kind, f"a {kind}")

@@ -1,0 +1,572 @@
+"""Equations of motion ``M q'' + B = Q`` (Eq. 3 of the paper), as program steps.
+
+Inertia stays in body axes, where it is constant. Three rules shorten the equations without changing
+the model:
+
+* a point mass at the origin that a body shares with its neighbour is counted with the neighbour;
+* the mass and the transverse inertia of a rotor are counted with its carrier, so that only the
+  momentum about the spin axis remains;
+* for a body moved by a single coordinate, ``twist . (twist x* momentum)`` vanishes identically.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ..declare.forces import (
+    AlongLine,
+    AlongTelescope,
+    ForceElement,
+    JointForce,
+    LinearTyre,
+    TwistOfHinges,
+    Weight,
+)
+from ..declare.geometry import UP, Direction
+from ..declare.joints import Revolute
+from ..declare.laws import Stretch
+from ..kinematics.hinge_angles import angle_of, positive_axis_at_design, turning_rates
+from ..kinematics.motion import BodyMotion, to_axes
+from ..program.floors import DIRECTION, POSITIVE
+from ..program.functions import IsPositive, Positive
+from ..program.vectors import ELEMENTS, SymmetricTensor, Twist, Vector
+
+if TYPE_CHECKING:
+    from ..declare.assembly import Body
+    from ..declare.laws import Law
+    from .parts import Parts
+
+NONE = sp.Integer(0)
+
+
+@dataclass
+class Inertia:
+    """Mass, first moment and inertia tensor about the body's origin, in body axes."""
+
+    mass: sp.Expr
+    moment: Vector
+    tensor: SymmetricTensor
+
+    @classmethod
+    def none(cls) -> Inertia:
+        """Return the inertia of a massless body."""
+        return cls(NONE, Vector.of(0, 0, 0), SymmetricTensor.zero())
+
+    def add_point(self, mass: sp.Expr, at: Vector) -> None:
+        """Add a point mass."""
+        self.mass += mass
+        self.moment += at * mass
+        self.tensor += SymmetricTensor.of_point_mass(mass, at)
+
+    def linear_momentum(self, twist: Twist) -> Vector:
+        """Return ``m v + omega x mc``."""
+        momentum: Vector = twist.linear * self.mass + twist.angular.cross(self.moment)
+        return momentum
+
+
+@dataclass(frozen=True)
+class Rotor:
+    """What remains of a body of revolution once its carrier has taken over the rest."""
+
+    coordinate: str
+    body: Body
+    carrier: BodyMotion
+    axis: Vector
+    inertia: sp.Expr
+
+
+class Dynamics:
+    """Mass matrix, bias and generalised forces of a model, and its forward dynamics.
+
+    Attributes
+    ----------
+    accelerations
+        q'' by coordinate name.
+    signals
+        What the force elements show, by name.
+    """
+
+    def __init__(self, kin: Parts) -> None:
+        self.kin = kin
+        self.program = kin.program
+        self.names = kin.independent
+        self.inertia: dict[str, Inertia] = {}
+        self.rotors: list[Rotor] = []
+        self.signals: dict[str, sp.Expr] = {}
+        self.program.section("inertia")
+        self._gather_inertia()
+        self._matrix: dict[tuple[str, str], sp.Expr] = {}
+        self._bias: dict[str, sp.Expr] = dict.fromkeys(self.names, NONE)
+        self._force: dict[str, sp.Expr] = dict.fromkeys(self.names, NONE)
+        self._momentum: dict[tuple[str, str], Vector] = {}
+        self._add_bodies()
+        self._add_forces()
+        self.accelerations = self._solve()
+
+    # -- inertia --------------------------------------------------------------------------------
+
+    def _gather_inertia(self) -> None:
+        """Sum up inertia from the last placed body to the first, moving what can be moved."""
+        for name in reversed(self.kin.placed):
+            self.inertia.setdefault(name, Inertia.none())
+        massive = [self.kin.mechanism.body(b) for b in self.kin.model.massive]
+        rotors = {body.name: k for k, body in self.kin.rotors.items()}
+        for body in massive:
+            if body.name in rotors:
+                self._fold_rotor(rotors[body.name], body)
+            else:
+                self._add_rigid(body)
+        for name in reversed(self.kin.placed):
+            placed, inertia = self.kin.placed[name], self.inertia[name]
+            if placed.carrier is not None and inertia.mass != 0:
+                carrier, at = placed.carrier
+                self.inertia[carrier].add_point(inertia.mass, at)
+                inertia.mass = NONE
+        for name, inertia in self.inertia.items():
+            self._name_inertia(name, inertia)
+
+    def _add_rigid(self, body: Body) -> None:
+        """Add a body given by mass, centre and tensor in chassis axes at the design position."""
+        placed = self.kin.placed[body.name]
+        mass = sp.Symbol(f"{body.name}_mass")
+        com = self.kin.local(placed, body.center)
+        own = self.inertia[body.name]
+        own.add_point(mass, com)
+        own.tensor += self._own_tensor(body).in_axes(self._chassis_axes(placed))
+
+    def _own_tensor(self, body: Body) -> SymmetricTensor:
+        if body.rotor_axis is None:
+            return SymmetricTensor(*(sp.Symbol(f"{body.name}_inertia_{e}") for e in ELEMENTS))
+        spin, across = self._rotor_moments(body)
+        part = self.kin.of(body.name)
+        axis = part.to_chassis(part.design_direction(body.rotor_axis))
+        axis = self.program.vector(f"{body.name}_rotor_axis", axis)
+        tensor = SymmetricTensor.transverse(across, axis)
+        x, y, z = axis
+        spinning = SymmetricTensor(x * x, y * y, z * z, x * y, x * z, y * z)
+        return tensor + SymmetricTensor(*(spin * element for element in spinning))
+
+    @staticmethod
+    def _rotor_moments(body: Body) -> tuple[sp.Symbol, sp.Symbol]:
+        return (
+            sp.Symbol(f"{body.name}_inertia_spin"),
+            sp.Symbol(f"{body.name}_inertia_diametral"),
+        )
+
+    def _chassis_axes(self, placed: BodyMotion) -> tuple[Vector, Vector, Vector]:
+        """Return the body axes at the design position, in chassis axes."""
+        names, part = ("first", "second", "third"), self.kin.of(placed.body)
+        x, y, z = (
+            self.program.vector(f"{placed.body}_{name}_in_chassis", part.to_chassis(axis))
+            for name, axis in zip(names, placed.design_axes, strict=True)
+        )
+        return x, y, z
+
+    def _fold_rotor(self, coordinate: str, body: Body) -> None:
+        """Give the carrier all but the momentum of a rotor about its own axis."""
+        joint = self.kin.mechanism.joints_of(body.name)[0]
+        carrier = self.kin.placed[joint.other(body.name)]
+        spin, across = self._rotor_moments(body)
+        assert isinstance(joint, Revolute)
+        axis = self._bearing_axis(joint, carrier)
+        own = self.inertia[carrier.body]
+        own.add_point(sp.Symbol(f"{body.name}_mass"), self.kin.local(carrier, body.center))
+        own.tensor += SymmetricTensor.transverse(across, axis)
+        self.rotors.append(Rotor(coordinate, body, carrier, axis, spin))
+
+    def _bearing_axis(self, joint: Revolute, carrier: BodyMotion) -> Vector:
+        """Return the axis about which the angle of a rotor's hinge is positive, on its carrier.
+
+        The axis of the rotor is the same line, but may point the other way.
+        """
+        if isinstance(joint.axis.towards, Direction) and joint.angle_to is None:
+            return self.kin.local_direction(carrier, joint.axis.towards)
+        positive = positive_axis_at_design(self.kin.of(carrier.body), joint)
+        n = to_axes(carrier.design_axes, positive)
+        return self.program.vector(f"{joint.name}_axis_on_{carrier.body}", n, "123")
+
+    def _name_inertia(self, name: str, inertia: Inertia) -> None:
+        inertia.mass = self.program.define(f"{name}_carried_mass", inertia.mass)
+        inertia.moment = self.program.vector(f"{name}_first_moment", inertia.moment, "123")
+        inertia.tensor = SymmetricTensor(
+            *(
+                self.program.define(f"{name}_carried_inertia_{e}", v)
+                for e, v in zip(ELEMENTS, inertia.tensor, strict=True)
+            )
+        )
+
+    # -- bodies ---------------------------------------------------------------------------------
+
+    def _add_bodies(self) -> None:
+        for name, placed in self.kin.placed.items():
+            if placed.motion and not self._is_rotor(name):
+                self.program.section(f"dynamics: {name}")
+                self._add_body(placed, self.inertia[name])
+        for rotor in self.rotors:
+            self.program.section(f"dynamics: spin of {rotor.body.name}")
+            self._add_rotor(rotor)
+
+    def _is_rotor(self, name: str) -> bool:
+        return any(rotor.body.name == name for rotor in self.rotors)
+
+    def _add_body(self, placed: BodyMotion, inertia: Inertia) -> None:
+        body = placed.body
+        columns = [k for k in self.names if k in placed.motion]
+        angular: dict[str, Vector] = {}
+        offset: dict[str, Vector] = {}
+        for k in columns:
+            twist = placed.motion[k]
+            self._momentum[body, k] = self.program.vector(
+                f"{body}_momentum_{k}", inertia.linear_momentum(twist), "123"
+            )
+            offset[k] = self.program.vector(
+                f"{body}_offset_momentum_{k}", inertia.moment.cross(twist.linear), "123"
+            )
+            angular[k] = self.program.vector(
+                f"{body}_spin_momentum_{k}", inertia.tensor @ twist.angular + offset[k], "123"
+            )
+        for i, k in enumerate(columns):
+            for other in columns[i:]:
+                # v . (omega x mc) of the one column is omega . (mc x v) of the other
+                one, two = placed.motion[k], placed.motion[other]
+                if k == other:
+                    energy = one.angular.dot(angular[k] + offset[k])
+                else:
+                    energy = one.angular.dot(angular[other]) + two.angular.dot(offset[k])
+                energy += inertia.mass * one.linear.dot(two.linear)
+                self._matrix[k, other] = self._matrix.get((k, other), NONE) + energy
+        if len(columns) == 1 and columns[0] in self.kin.alone:
+            self._add_single_bias(placed, columns[0], angular[columns[0]])
+        else:
+            self._add_full_bias(placed, inertia, columns)
+
+    def _add_single_bias(self, placed: BodyMotion, k: str, angular: Vector) -> None:
+        """B = momentum . (d twist/dq) q'^2; the convective part vanishes identically."""
+        bias, twist = placed.bias(), placed.motion[k]
+        linear = bias.linear - twist.angular.cross(twist.linear)
+        self._bias[k] += angular.dot(bias.angular) + self._momentum[placed.body, k].dot(linear)
+
+    def _add_full_bias(self, placed: BodyMotion, inertia: Inertia, columns: list[str]) -> None:
+        """Newton-Euler at the bias acceleration, projected on each column."""
+        body, program = placed.body, self.program
+        bias, omega = placed.bias(), self.kin.total(placed).angular
+        whirl = program.vector(f"{body}_whirl_moment", omega.cross(inertia.moment), "123")
+        spin = program.vector(f"{body}_spin_now", inertia.tensor @ omega, "123")
+        force = program.vector(
+            f"{body}_inertia_force",
+            bias.linear * inertia.mass + bias.angular.cross(inertia.moment) + omega.cross(whirl),
+            "123",
+        )
+        couple = program.vector(
+            f"{body}_inertia_couple",
+            inertia.tensor @ bias.angular + omega.cross(spin) + inertia.moment.cross(bias.linear),
+            "123",
+        )
+        for k in columns:
+            twist = placed.motion[k]
+            self._bias[k] += twist.angular.dot(couple) + twist.linear.dot(force)
+
+    def _add_rotor(self, rotor: Rotor) -> None:
+        """Gyroscopic part of a rotor on its carrier; the rest is in `_solve` and `full`."""
+        if self.kin.pace_of(rotor.carrier) != 1:
+            return  # axis x omega is perpendicular to omega, the only direction of motion
+        omega = self.kin.total(rotor.carrier).angular
+        spin = self.kin.true_rate(rotor.coordinate) + rotor.axis.dot(omega)
+        momentum = self.program.define(f"{rotor.body.name}_spin_momentum", rotor.inertia * spin)
+        swing = omega.cross(rotor.axis)
+        couple = self.program.vector(f"{rotor.body.name}_gyroscopic", swing * momentum, "123")
+        for k in self._carried(rotor):
+            self._bias[k] += rotor.carrier.motion[k].angular.dot(couple)
+
+    def _carried(self, rotor: Rotor) -> list[str]:
+        return [k for k in self.names if k in rotor.carrier.motion]
+
+    # -- forces ---------------------------------------------------------------------------------
+
+    def _add_forces(self) -> None:
+        for force in self.kin.mechanism.forces:
+            self.program.section(f"forces: {type(force).__name__}")
+            if isinstance(force, Weight):
+                self._add_weight(force)
+            elif isinstance(force, ForceElement):
+                self._add_element(force)
+            elif isinstance(force, LinearTyre):
+                self._add_tyre(force)
+            elif isinstance(force, JointForce):
+                self._add_joint_force(force)
+
+    def up_in(self, placed: BodyMotion) -> Vector:
+        """Return the upward unit vector in body axes."""
+        up = to_axes(placed.axes, self.kin.of(placed.body).design_direction(UP))
+        return self.program.vector(f"{placed.body}_up", up, "123")
+
+    def _add_weight(self, force: Weight) -> None:
+        gravity = sp.Symbol(force.gravity)
+        for (body, k), momentum in self._momentum.items():
+            up = self.up_in(self.kin.placed[body])
+            self._force[k] -= gravity * up.dot(momentum)
+
+    def _add_element(self, element: ForceElement) -> None:
+        """Sum up the laws of an element; what pushes its ends apart does work on its length."""
+        name, program = element.name, self.program
+        length, motion = self._path_of(element)
+        rates = [m * self.kin.true_rate(k) for k, m in motion.items()]
+        velocity = program.define(f"{name}_velocity", sum(rates, NONE))
+        slide = None
+        if isinstance(element.path, AlongTelescope):
+            slide = self.kin.slides[element.path.joint]
+        stretch = Stretch(program, name, length, velocity, slide)
+        names = ("angle", "angular_velocity") if element.turns else ("length", "velocity")
+        values = zip(names, (length, velocity), strict=True)
+        self.signals |= {f"{name}_{what}": value for what, value in values}
+        total = NONE
+        for signal, laws in self._by_signal(element).items():
+            shown = self.kin.mechanism.signal_name(element, signal)
+            own = sum((law.force(stretch) for law in laws), NONE)
+            self.signals[shown] = program.define(shown, own)
+            total += self.signals[shown]
+        total = program.define(f"{name}_total_force", total)
+        for k in self.names:
+            if k in motion:
+                self._force[k] += total * motion[k]
+
+    @staticmethod
+    def _by_signal(element: ForceElement) -> dict[str, list[Law]]:
+        groups: dict[str, list[Law]] = {}
+        for law in element.laws:
+            groups.setdefault(element.signal(law), []).append(law)
+        return groups
+
+    def _path_of(self, element: ForceElement) -> tuple[sp.Expr, dict[str, sp.Expr]]:
+        """Return the length of an element's path, and its rate per unit rate of each coordinate."""
+        if isinstance(element.path, AlongTelescope):
+            line = self.kin.telescopes[element.path.joint]
+            return line.length, line.length_motion
+        if isinstance(element.path, TwistOfHinges):
+            return self._twist_of(element.path)
+        program, name = self.program, element.name
+        relative = self.kin.relative_motion(element.path.first, element.path.second)
+        span = program.vector(f"{name}_span", relative.position)
+        squared = program.guarded(
+            f"{name}_length_squared",
+            span.dot(span),
+            f"the ends of {name} coincide",
+            "m^2",
+            DIRECTION * self._extent_squared(name, element.path),
+        )
+        length = program.define(f"{name}_length", sp.sqrt(squared))
+        direction = program.vector(f"{name}_direction", span * (1 / length))
+        motion = {
+            k: program.define(f"d_{name}_length_{k}", direction.dot(v))
+            for k, v in relative.motion.items()
+        }
+        return length, motion
+
+    def _extent_squared(self, name: str, path: AlongLine) -> sp.Expr:
+        """Return the square of the extent of two points at the design position."""
+        places = (self.kin.of(body).design(point) for body, point in (path.first, path.second))
+        return self.program.define(f"{name}_extent_squared", sum((p.dot(p) for p in places), NONE))
+
+    def _twist_of(self, path: TwistOfHinges) -> tuple[sp.Expr, dict[str, sp.Expr]]:
+        """Return the angle between two hinges, and its rate per unit rate of each coordinate."""
+        twist, motion = NONE, dict.fromkeys(self.kin.moving, NONE)
+        for sense, name in ((-1, path.first), (1, path.second)):
+            joint = self.kin.mechanism.joint(name)
+            assert isinstance(joint, Revolute)
+            part = self.kin.of_joint(joint)
+            twist += sense * angle_of(part, joint)
+            for k, rate in turning_rates(part, joint).items():
+                motion[k] += sense * rate
+        return twist, {k: rate for k, rate in motion.items() if rate != 0}
+
+    def _add_tyre(self, force: LinearTyre) -> None:
+        program, carrier = self.program, self.kin.placed[force.carrier]
+        prefix = self.kin.mechanism.prefix(force)
+        center = self.kin.local(carrier, force.center)
+        up = self.up_in(carrier)
+        axis = self.kin.local_direction(carrier, force.spin)
+        lean = program.define(f"{prefix}wheel_axis_up", axis.dot(up))
+        part = self.kin.of(carrier.body)
+        height_of_origin = carrier.origin.dot(part.design_direction(UP)) + part.work_origin.z
+        height = program.define(f"{prefix}wheel_height", height_of_origin + center.dot(up))
+        pull = program.vector(f"{prefix}tyre_pull", up - axis * lean, "123")
+        # not 1 - lean^2: of a wheel that lies flat, rounding would leave something positive
+        squared = program.guarded(
+            f"{prefix}cos_camber_squared",
+            pull.dot(pull),
+            "the wheel lies flat on the road",
+            "1",
+            DIRECTION,
+        )
+        deflection = sp.Symbol(force.free_height) + sp.Symbol(force.road) - height
+        load = self._tyre_load(force, carrier, center, deflection)
+        load = program.define(f"{prefix}tyre_load", load / squared)
+        for k in self.names:
+            if k in carrier.motion:
+                velocity = self.wheel_velocity(carrier, center, k)
+                self._force[k] += load * pull.dot(velocity)
+        self.signals[f"{prefix}tyre_force"] = program.define(
+            f"{prefix}tyre_force", load * sp.sqrt(squared)
+        )
+
+    def _tyre_load(
+        self, force: LinearTyre, carrier: BodyMotion, center: Vector, deflection: sp.Expr
+    ) -> sp.Expr:
+        """Return the load of a tyre of some deflection: spring, damper, contact."""
+        program, prefix = self.program, self.kin.mechanism.prefix(force)
+        load = sp.Symbol(force.rate) * deflection
+        if force.damper is not None:
+            up = self.up_in(carrier)
+            rise = sum(
+                (
+                    up.dot(self.wheel_velocity(carrier, center, k)) * self.kin.true_rate(k)
+                    for k in carrier.motion
+                ),
+                NONE,
+            )
+            load += sp.Symbol(force.damper) * (sp.Symbol(str(force.road_velocity)) - rise)
+        if force.lifts_off is not None:
+            deflection = program.define(f"{prefix}tyre_deflection", deflection)
+            load = program.define(f"{prefix}tyre_bonded_load", load)
+            pressed = IsPositive(deflection) * Positive(load)
+            load += sp.Symbol(force.lifts_off) * (pressed - load)
+        return load
+
+    def wheel_velocity(self, carrier: BodyMotion, center: Vector, k: str) -> Vector:
+        """Return the velocity of the wheel centre per unit rate, in the carrier's axes."""
+        twist = carrier.motion[k]
+        return self.program.vector(
+            f"{carrier.body}_wheel_velocity_{k}",
+            twist.linear + twist.angular.cross(center),
+            "123",
+        )
+
+    def _add_joint_force(self, force: JointForce) -> None:
+        if force.joint in self.kin.model.independent:
+            joint = self.kin.mechanism.joint(force.joint)
+            self._force[self.kin.coordinate_of(joint)] += sp.Symbol(force.input)
+
+    # -- equations ------------------------------------------------------------------------------
+
+    def _carried_matrix(self, k: str, other: str) -> sp.Expr:
+        pair = (k, other) if (k, other) in self._matrix else (other, k)
+        return self._matrix.get(pair, NONE)
+
+    def _solve(self) -> dict[str, sp.Expr]:
+        """Forward dynamics: rotors are eliminated first, the rest is a small symmetric system.
+
+        The spin equation ``inertia (axis . omega' + spin') = torque`` leaves only the torque's
+        reaction in the others: what a rotor adds to M and B there cancels when its coordinate is
+        eliminated.
+        """
+        program = self.program
+        program.section("equations of motion")
+        spins = {rotor.coordinate for rotor in self.rotors}
+        rest = [k for k in self.names if k not in spins]
+        for k in rest:
+            self._bias[k] = program.define(f"bias_of_{k}", self._bias[k])
+            self._force[k] = program.define(f"force_of_{k}", self._force[k])
+        matrix = {
+            (k, other): program.define(f"mass_{k}_{other}", self._carried_matrix(k, other))
+            for i, k in enumerate(rest)
+            for other in rest[i:]
+        }
+        right = {k: program.define(f"net_{k}", self._net(k)) for k in rest}
+        solution = self._cholesky(rest, matrix, right)
+        for rotor in self.rotors:
+            solution[rotor.coordinate] = program.define(
+                f"{rotor.coordinate}_acceleration",
+                self._force[rotor.coordinate] / rotor.inertia - self._spin_bias(rotor, solution),
+            )
+        return {k: solution[k] for k in self.names}
+
+    def _net(self, k: str) -> sp.Expr:
+        """Return force less bias; a torque on a rotor's bearing acts back on its carrier."""
+        back = sum(
+            (self._rotor_share(r, k) * self._force[r.coordinate] for r in self._driven_on(k)), NONE
+        )
+        return self._force[k] - self._bias[k] * self.kin.pace(k) ** 2 - back
+
+    def _driven_on(self, k: str) -> list[Rotor]:
+        """Return the rotors with a torque on their bearing whose carrier a coordinate moves."""
+        rotors = [r for r in self.rotors if self._force[r.coordinate] != 0]
+        return [r for r in rotors if k in self._carried(r)]
+
+    def _spin_bias(self, rotor: Rotor, accelerations: dict[str, sp.Expr]) -> sp.Expr:
+        """Return the rate of ``axis . omega`` of the carrier."""
+        carrier = rotor.carrier
+        total = rotor.axis.dot(carrier.bias().angular) * self.kin.pace_of(carrier) ** 2
+        for k in self._carried(rotor):
+            total += self._rotor_share(rotor, k) * accelerations.get(k, NONE)
+        return total
+
+    def _rotor_share(self, rotor: Rotor, k: str) -> sp.Expr:
+        return self.program.define(
+            f"{rotor.body.name}_share_{k}", rotor.axis.dot(rotor.carrier.motion[k].angular)
+        )
+
+    def _cholesky(
+        self,
+        names: list[str],
+        matrix: dict[tuple[str, str], sp.Expr],
+        right: dict[str, sp.Expr],
+    ) -> dict[str, sp.Expr]:
+        """Solve the symmetric system by L D L^T, unrolled."""
+        program = self.program
+        work, right = dict(matrix), dict(right)
+        inverse: dict[str, sp.Expr] = {}
+        for i, k in enumerate(names):
+            pivot = program.guarded(
+                f"pivot_{k}",
+                work[k, k],
+                f"the mass matrix is not positive definite at {k}",
+                "kg m^2 or kg",
+                POSITIVE,
+            )
+            inverse[k] = program.define(f"inverse_pivot_{k}", 1 / pivot)
+            for j, row in enumerate(names[i + 1 :], i + 1):
+                factor = program.define(f"factor_{row}_{k}", work[k, row] * inverse[k])
+                for column in names[j:]:
+                    work[row, column] = program.define(
+                        f"reduced_{row}_{column}_{k}", work[row, column] - factor * work[k, column]
+                    )
+                right[row] = program.define(f"reduced_{row}_{k}", right[row] - factor * right[k])
+        solution: dict[str, sp.Expr] = {}
+        for i, k in reversed(list(enumerate(names))):
+            known = sum((work[k, c] * solution[c] for c in names[i + 1 :]), NONE)
+            solution[k] = program.define(f"{k}_acceleration", (right[k] - known) * inverse[k])
+        return solution
+
+    # -- M, B and Q as the paper writes them ----------------------------------------------------
+
+    def full_mass_matrix(self) -> list[list[sp.Expr]]:
+        """Return M of all independent coordinates, rotors included."""
+        self.program.section("mass matrix")
+        matrix = [[self._carried_matrix(k, other) for other in self.names] for k in self.names]
+        for rotor in self.rotors:
+            share = self._rotor_row(rotor)
+            for i, k in enumerate(self.names):
+                for j, other in enumerate(self.names):
+                    matrix[i][j] += rotor.inertia * share[k] * share[other]
+        return matrix
+
+    def _rotor_row(self, rotor: Rotor) -> dict[str, sp.Expr]:
+        share = {k: self._rotor_share(rotor, k) for k in self._carried(rotor)}
+        share[rotor.coordinate] = sp.Integer(1)
+        return {k: share.get(k, NONE) for k in self.names}
+
+    def full_bias(self) -> list[sp.Expr]:
+        """Return B of all independent coordinates, rotors included."""
+        bias = {k: self._bias[k] * self.kin.pace(k) ** 2 for k in self.names}
+        for rotor in self.rotors:
+            rate = self._spin_bias(rotor, {})
+            for k, share in self._rotor_row(rotor).items():
+                bias[k] += rotor.inertia * share * rate
+        return [bias[k] for k in self.names]
+
+    def full_forces(self) -> list[sp.Expr]:
+        """Return Q of all independent coordinates."""
+        return [self._force[k] for k in self.names]

@@ -1,0 +1,575 @@
+"""The functions that a generated model offers, and the arrays that they read and write."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ..declare.checks import check_symbols
+from ..declare.declared import DeclarationError
+from ..declare.forces import ForceElement, JointForce, LinearTyre
+from ..declare.laws import Actuator
+from ..kinematics.motion import IDENTITY, BodyMotion, from_axes
+from ..planning.plan import Plan
+from ..program.constants import ConstantStage
+from ..program.functions import SignOf
+from ..program.program import Program
+from ..program.vectors import ZERO, Vector
+from .assumptions import define_assumptions, find_assumptions
+from .dynamics import Dynamics
+from .parts import Parts
+from .relative import RelativeCoordinates
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from ..declare.laws import Law
+    from ..declare.mechanism import Mechanism
+    from ..declare.model import Model
+    from ..program.conditions import Assumption, Condition
+    from ..program.function import Function
+    from ..program.steps import Guard
+
+AXES = ("x", "y", "z")
+
+DERIVATIVES = "derivatives"
+"""Part of the emitted code that holds derivatives by state and inputs, as long as all the rest."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One element of an array: its name, unit and meaning."""
+
+    name: str
+    unit: str
+    meaning: str
+
+
+@dataclass
+class GeneratedModel:
+    """Everything that the emitters need.
+
+    Attributes
+    ----------
+    state, inputs, parameters
+        What the functions read, in order.
+    relative
+        The relative coordinates, in order.
+    functions
+        The emitted functions by name; `prepare` computes the constants that the others read.
+    guards
+        All guards of the model; the bit of a guard in a status word is its position here.
+    assumptions, conditions
+        What the constants of a parameter set must fulfil: which must be zero, which must not.
+    moving_bodies, massive_bodies
+        Names in the order of the arrays of poses and of Jacobians.
+    signals
+        The elements of the ``signals`` function.
+    """
+
+    model: Model
+    plan: Plan
+    state: tuple[Entry, ...]
+    inputs: tuple[Entry, ...]
+    parameters: tuple[Entry, ...]
+    relative: tuple[Entry, ...]
+    functions: dict[str, Function]
+    prepare: Function
+    guards: tuple[Guard, ...]
+    assumptions: tuple[Assumption, ...]
+    conditions: tuple[Condition, ...]
+    moving_bodies: tuple[str, ...]
+    massive_bodies: tuple[str, ...]
+    signals: tuple[Entry, ...]
+    held_inputs: dict[str, tuple[str, ...]] = field(default_factory=dict)
+
+
+def generate(model: Model) -> GeneratedModel:
+    """Derive a model and all of its functions."""
+    return _Builder(model).build()
+
+
+class _Builder:
+    """Collects the functions of one model from one program."""
+
+    def __init__(self, model: Model) -> None:
+        self.model = model
+        self.mechanism: Mechanism = model.mechanism
+        self.plan = Plan.of(model)
+        self.assumed = find_assumptions(self.plan)
+        self.constants = ConstantStage(
+            tuple(sp.Symbol(p.name) for p in self.mechanism.parameters),
+            self._varying_names(),
+            derived={sp.Symbol(n): value for n, value in self.mechanism.derived.items()},
+        )
+        self.program = Program(self.constants)
+        self.kin = Parts(self.program, self.plan)
+        self._check_masses()
+        self.dynamics = Dynamics(self.kin)
+        self.relative = {part: RelativeCoordinates(part) for part in self.kin.parts}
+        self.functions: dict[str, Function] = {}
+        self.signals: list[Entry] = []
+        self.moving = tuple(b.name for b in self.mechanism.bodies[1:])
+        self.massive = tuple(b for b in self.moving if b in model.massive)
+
+    def _check_masses(self) -> None:
+        """See that every independent coordinate moves some mass: else it has no acceleration."""
+        moved = {k for body in self.model.massive for k in self.kin.placed[body].motion}
+        idle = [
+            f"independent joint {joint!r} moves no body of massive; name one there that it moves"
+            for joint, k in zip(self.model.independent, self.kin.independent, strict=True)
+            if k not in moved
+        ]
+        if idle:
+            raise DeclarationError(self.model.name, idle)
+
+    def build(self) -> GeneratedModel:
+        self._add_dynamics(self.dynamics, "")
+        for variant, joints in self.model.held.items():
+            held = Dynamics(Parts(Program(self.constants), self.plan, joints))
+            self._add_right_hand_side(held, f"_{variant}")
+        self._add_relative()
+        self._add_poses()
+        self._add_signals()
+        guards = self._acting_guards()
+        margins = self.program.function(
+            "margins",
+            "Quantities that are positive where the model is valid; where one is not, those "
+            "behind it mean nothing.",
+            {g.name: g.margin for g in guards},
+        )
+        self.functions["margins"] = replace(margins, guards=())  # it reports, and does not refuse
+        assumed = define_assumptions(self.program, self.assumed)
+        prepare = self.constants.function(self.functions.values(), assumed)
+        self._check_symbols(prepare)
+        return GeneratedModel(
+            model=self.model,
+            plan=self.plan,
+            state=self._state_entries(),
+            inputs=tuple(Entry(n, *self.mechanism.inputs[n]) for n in self._input_names()),
+            parameters=tuple(Entry(p.name, p.unit, p.meaning) for p in self.mechanism.parameters),
+            relative=tuple(Entry(c.name, c.unit, c.meaning) for c in self.mechanism.coordinates),
+            functions=self.functions,
+            prepare=prepare,
+            guards=guards,
+            assumptions=assumed,
+            conditions=tuple(self.constants.conditions.values()),
+            moving_bodies=self.moving,
+            massive_bodies=self.massive,
+            signals=tuple(self.signals),
+            held_inputs={v: self._rate_inputs(j) for v, j in self.model.held.items()},
+        )
+
+    def _check_symbols(self, prepare: Function) -> None:
+        """See that the equations read nothing but what is declared."""
+        check_symbols(
+            self.mechanism.name,
+            {s.name for s in prepare.free_symbols},
+            [p.name for p in self.mechanism.parameters],
+        )
+        varying = {s.name for f in self.functions.values() for s in f.free_symbols}
+        varying -= set(prepare.labels)
+        given = {f"given_{c.name}" for c in self.mechanism.coordinates}
+        states = {e.name for e in self._state_entries()}
+        check_symbols(
+            self.model.name,
+            varying - given - states - set(self._input_names()),
+            [p.name for p in self.mechanism.parameters],
+        )
+
+    def _varying_names(self) -> frozenset[str]:
+        """Return the names of states, inputs and given coordinates."""
+        coordinates = self.mechanism.coordinates
+        states = [c.name for c in coordinates if c.joint in self.model.independent]
+        rates = [f"{name}_rate" for name in states]
+        given = [f"given_{c.name}" for c in coordinates]
+        return frozenset([*states, *rates, *given, *self.mechanism.inputs])
+
+    # -- arrays ---------------------------------------------------------------------------------
+
+    def _state_entries(self) -> tuple[Entry, ...]:
+        entries = {c.name: c for c in self.mechanism.coordinates}
+        positions = [entries[k] for k in self.kin.independent]
+        return (
+            *(Entry(c.name, c.unit, c.meaning) for c in positions),
+            *(Entry(f"{c.name}_rate", f"{c.unit}/s", f"rate of {c.name}") for c in positions),
+        )
+
+    def _input_names(self) -> list[str]:
+        names = []
+        for name in self.model.prescribed.values():
+            names += [f"{name}_position", f"{name}_velocity", f"{name}_acceleration"]
+        for force in self.mechanism.forces:
+            if isinstance(force, LinearTyre):
+                names.append(force.road)
+                names += [force.road_velocity] if force.road_velocity else []
+            elif isinstance(force, ForceElement):
+                names += [law.input for law in force.laws if isinstance(law, Actuator)]
+            elif isinstance(force, JointForce) and force.joint in self.model.independent:
+                names.append(force.input)
+        return list(dict.fromkeys(names))  # two tyres may be on one road
+
+    def _rate_inputs(self, joints: Iterable[str]) -> tuple[str, ...]:
+        names = [self.model.prescribed[j] for j in joints]
+        return tuple(f"{n}_{kind}" for n in names for kind in ("velocity", "acceleration"))
+
+    def _acting_guards(self) -> tuple[Guard, ...]:
+        """Return the guards of all functions; variants have the same ones under the same names."""
+        acting = {g.name for f in self.functions.values() for g in f.guards}
+        return tuple(g for g in self.program.guards.values() if g.name in acting)
+
+    def _state_symbols(self) -> list[sp.Symbol]:
+        names = self.kin.independent
+        return [sp.Symbol(n) for n in (*names, *(f"{n}_rate" for n in names))]
+
+    def _add(self, name: str, doc: str, results: dict[str, sp.Expr], *shape: int) -> None:
+        self.functions[name] = self.program.function(name, doc, results, shape or None)
+
+    # -- dynamics -------------------------------------------------------------------------------
+
+    def _add_dynamics(self, dynamics: Dynamics, suffix: str) -> None:
+        self._add_right_hand_side(dynamics, suffix)
+        names = self.kin.independent
+        n = len(names)
+        matrix = dynamics.full_mass_matrix()
+        self._add(
+            "mass_matrix",
+            "Mass matrix M(q) of Eq. 3, row-major.",
+            {
+                f"M[{k},{other}]": matrix[i][j]
+                for i, k in enumerate(names)
+                for j, other in enumerate(names)
+            },
+            n,
+            n,
+        )
+        self._add(
+            "bias",
+            "Vector B(q, q') of Eq. 3: inertia terms without accelerations.",
+            dict(zip((f"B[{k}]" for k in names), dynamics.full_bias(), strict=True)),
+        )
+        self._add(
+            "forces",
+            "Generalised applied forces Q(q, q') of Eq. 3.",
+            dict(zip((f"Q[{k}]" for k in names), dynamics.full_forces(), strict=True)),
+        )
+
+    def _add_right_hand_side(self, dynamics: Dynamics, suffix: str) -> None:
+        names, program = self.kin.independent, dynamics.program
+        rates = {f"d({k})/dt": sp.Symbol(f"{k}_rate") for k in names}
+        rates |= {f"d({k}_rate)/dt": dynamics.accelerations[k] for k in names}
+        what = "" if not suffix else f" with {suffix[1:].replace('_', ' ')}"
+        rhs, jacobian = f"rhs{suffix}", f"rhs_jacobian{suffix}"
+        self.functions[rhs] = program.function(rhs, f"Time derivative of the state{what}.", rates)
+        self._add_derivatives(
+            dynamics.program, jacobian, f"of {rhs}", rates.values(), list(rates), "state"
+        )
+        if not suffix:
+            self._add_derivatives(
+                program, "rhs_input_jacobian", "of rhs", rates.values(), list(rates), "inputs"
+            )
+
+    def _add_derivatives(
+        self,
+        program: Program,
+        name: str,
+        what: str,
+        values: Iterable[sp.Expr],
+        labels: Sequence[str],
+        by: str,
+    ) -> None:
+        """Add the exact derivatives of some results with respect to the state or the inputs."""
+        program.section(f"derivatives {what}")
+        values = list(values)
+        symbols = (
+            self._state_symbols() if by == "state" else [sp.Symbol(n) for n in self._input_names()]
+        )
+        columns = {s: program.tangents(s, values, str(s)) for s in symbols}
+        entries = {
+            f"{label} by {symbol}": column[row]
+            for row, label in enumerate(labels)
+            for symbol, column in columns.items()
+        }
+        doc = f"Exact derivative {what} with respect to the {by}, row-major."
+        function = program.function(name, doc, entries, (len(values), len(symbols)))
+        self.functions[name] = replace(function, part=DERIVATIVES)
+
+    # -- relative kinematics ----------------------------------------------------------------------
+
+    def _add_relative(self) -> None:
+        values = self._in_order([relative.values for relative in self.relative.values()])
+        names = self.kin.independent
+        self._add("relative_coordinates", "Relative joint coordinates beta (Figure 3).", values)
+        columns = [self.program.tangents(sp.Symbol(k), values.values(), f"by_{k}") for k in names]
+        self._add(
+            "relative_jacobian",
+            "Relative Jacobian, d(beta)/dq at fixed inputs, row-major.",
+            {
+                f"{beta} by {k}": columns[j][i]
+                for i, beta in enumerate(values)
+                for j, k in enumerate(names)
+            },
+            len(values),
+            len(names),
+        )
+        self._add(
+            "residuals",
+            "Closure residuals g(beta, q) of Eqs. 4 to 13 for given beta.",
+            {f"g_{name}": left for name, left in self._residuals().items()},
+        )
+        if all(self.relative[self.kin.of(body)].reaches(body) for body in self.massive):
+            self._add_absolute(list(values))
+        self._add_global()
+
+    def _residuals(self) -> dict[str, sp.Expr]:
+        return self._in_order([relative.residuals() for relative in self.relative.values()])
+
+    def _in_order(self, parts: Iterable[dict[str, sp.Expr]]) -> dict[str, sp.Expr]:
+        """Return what the parts have for each relative coordinate, in the order of the report."""
+        found = {name: value for part in parts for name, value in part.items()}
+        return {c.name: found[c.name] for c in self.mechanism.coordinates}
+
+    def _add_absolute(self, betas: list[str]) -> None:
+        results = {}
+        for body in self.massive:
+            columns = self.relative[self.kin.of(body)].absolute_jacobian(body)
+            for row, label in enumerate(self._twist_labels(body)):
+                for beta in betas:
+                    angular, linear = columns.get(beta, (ZERO, ZERO))
+                    results[f"{label} by {beta}"] = [*angular, *linear][row]
+        self._add(
+            "absolute_jacobian",
+            "Absolute Jacobian, twists of the massive bodies per relative rate, row-major.",
+            results,
+            6 * len(self.massive),
+            len(betas),
+        )
+
+    @staticmethod
+    def _twist_labels(body: str) -> list[str]:
+        return [f"{body} omega_{a}" for a in AXES] + [f"{body} velocity_{a}" for a in AXES]
+
+    def _add_global(self) -> None:
+        names = self.kin.independent
+        results = {}
+        for body in self.massive:
+            columns = {k: self._chassis_twist(body, k) for k in names}
+            for row, label in enumerate(self._twist_labels(body)):
+                for k in names:
+                    results[f"{label} by {k}"] = columns[k][row]
+        self._add(
+            "global_jacobian",
+            "Global Jacobian, twists of the massive bodies per rate of q, row-major.",
+            results,
+            6 * len(self.massive),
+            len(names),
+        )
+
+    def _chassis_twist(self, body: str, coordinate: str) -> list[sp.Expr]:
+        """Return (omega, velocity of the centre of mass) per unit rate, in chassis axes."""
+        placed = self.kin.placed[body]
+        if coordinate not in placed.motion:
+            return [sp.Integer(0)] * 6
+        twist = placed.motion[coordinate]
+        center = self.kin.local(placed, self.mechanism.body(body).center)
+        velocity = twist.linear + twist.angular.cross(center)
+        parts = (from_axes(placed.axes, v) for v in (twist.angular, velocity))
+        return [c for part in parts for c in self.kin.of(body).to_chassis(part)]
+
+    # -- poses ----------------------------------------------------------------------------------
+
+    def _add_poses(self) -> None:
+        self.program.section("poses")
+        positions: dict[str, sp.Expr] = {}
+        orientations: dict[str, sp.Expr] = {}
+        velocities: dict[str, sp.Expr] = {}
+        for body in self.moving:
+            placed = self.kin.placed[body]
+            for axis, value in zip(AXES, self._center(placed), strict=True):
+                positions[f"{body} {axis}"] = value
+            for label, value in self._orientation(placed).items():
+                orientations[f"{body} {label}"] = value
+            labels = self._twist_labels(body)
+            velocities |= dict(zip(labels, self._velocity(body), strict=True))
+        count = len(self.moving)
+        self._add(
+            "positions", "Centres of mass of the moving bodies, chassis axes.", positions, count, 3
+        )
+        self._add(
+            "orientations",
+            "Rotation matrices of the moving bodies from their design orientation, chassis axes.",
+            orientations,
+            count,
+            3,
+            3,
+        )
+        self._add(
+            "velocities",
+            "Angular velocity, then velocity of the centre of mass, of the "
+            "moving bodies, chassis axes.",
+            velocities,
+            count,
+            6,
+        )
+
+    def _center(self, placed: BodyMotion) -> Vector:
+        """Return the centre of mass in chassis axes."""
+        local = self.kin.local(placed, self.mechanism.body(placed.body).center)
+        work = placed.origin + from_axes(placed.axes, local)
+        part = self.kin.of(placed.body)
+        return part.to_chassis(work) + part.work_origin
+
+    def _orientation(self, placed: BodyMotion) -> dict[str, sp.Expr]:
+        if placed.axes is IDENTITY:
+            return {f"R{a}{b}": sp.Integer(int(a == b)) for a in AXES for b in AXES}
+        part = self.kin.of(placed.body)
+        now = [part.to_chassis(axis) for axis in placed.axes]
+        design = [part.to_chassis(axis) for axis in placed.design_axes]
+        return {
+            f"R{a}{b}": sum(
+                (getattr(n, a) * getattr(d, b) for n, d in zip(now, design, strict=True)),
+                sp.Integer(0),
+            )
+            for a in AXES
+            for b in AXES
+        }
+
+    def _velocity(self, body: str) -> list[sp.Expr]:
+        total: list[sp.Expr] = [sp.Integer(0)] * 6
+        for coordinate in self.kin.placed[body].motion:
+            rate = self.kin.true_rate(coordinate)
+            column = self._chassis_twist(body, coordinate)
+            total = [t + rate * c for t, c in zip(total, column, strict=True)]
+        return total
+
+    # -- signals --------------------------------------------------------------------------------
+
+    def _add_signals(self) -> None:
+        self.program.section("signals")
+        results: dict[str, sp.Expr] = {}
+        for force in self.mechanism.forces:
+            if isinstance(force, LinearTyre):
+                self._add_wheel_signals(force, results)
+            elif isinstance(force, ForceElement):
+                self._add_element_signals(force, results)
+        if not results:
+            return
+        self._add("signals", "Physical signals, see the enumeration of signals.", results)
+        for by, name in (("state", "signals_jacobian"), ("inputs", "signals_input_jacobian")):
+            self._add_derivatives(
+                self.program, name, "of the signals", results.values(), list(results), by
+            )
+
+    def _signal(
+        self, results: dict[str, sp.Expr], name: str, value: sp.Expr, unit: str, meaning: str
+    ) -> None:
+        self.signals.append(Entry(name, unit, meaning))
+        results[name] = value
+
+    def _add_wheel_signals(self, tyre: LinearTyre, results: dict[str, sp.Expr]) -> None:
+        prefix = self.mechanism.prefix(tyre)
+        carrier = self.kin.placed[tyre.carrier]
+        center = self.kin.local(carrier, tyre.center)
+        up = self.dynamics.up_in(carrier)
+        work = carrier.origin + from_axes(carrier.axes, center)
+        part = self.kin.of(carrier.body)
+        position = part.to_chassis(work) + part.work_origin
+        for axis, value in zip(AXES, position, strict=True):
+            self._signal(
+                results, f"{prefix}wheel_center_{axis}", value, "m", f"wheel centre, {axis}"
+            )
+        velocity = acceleration = sp.Integer(0)
+        for k in carrier.motion:
+            share = up.dot(self.dynamics.wheel_velocity(carrier, center, k))
+            velocity += share * self.kin.true_rate(k)
+            acceleration += share * self.dynamics.accelerations.get(k, sp.Integer(0))
+        own = up.dot(self.kin.point_bias(carrier, center))
+        acceleration += own * self.kin.pace_of(carrier) ** 2
+        self._signal(
+            results,
+            f"{prefix}wheel_velocity",
+            velocity,
+            "m/s",
+            "vertical velocity of the wheel centre, positive up",
+        )
+        self._signal(
+            results,
+            f"{prefix}wheel_acceleration",
+            acceleration,
+            "m/s^2",
+            "vertical acceleration of the wheel centre, positive up",
+        )
+        self._add_wheel_angles(tyre, carrier, results)
+        self._signal(
+            results,
+            f"{prefix}tyre_force",
+            self.dynamics.signals[f"{prefix}tyre_force"],
+            "N",
+            "tyre force in the wheel plane, positive in compression",
+        )
+
+    def _add_wheel_angles(
+        self, tyre: LinearTyre, carrier: BodyMotion, results: dict[str, sp.Expr]
+    ) -> None:
+        prefix = self.mechanism.prefix(tyre)
+        axis = from_axes(carrier.axes, self.kin.local_direction(carrier, tyre.spin))
+        part = self.kin.of(carrier.body)
+        a = self.program.vector(f"{prefix}spin_axis_now", part.to_chassis(axis))
+        side = self.program.define(f"{prefix}wheel_side", SignOf(tyre.center.position.y))
+        self._signal(
+            results,
+            f"{prefix}camber",
+            sp.atan2(-side * a.z, a.y),
+            "rad",
+            "camber, positive with the top of the wheel outboard",
+        )
+        self._signal(
+            results, f"{prefix}toe", sp.atan2(side * a.x, a.y), "rad", "toe angle, positive toe-in"
+        )
+        self._signal(
+            results,
+            f"{prefix}steer",
+            sp.atan2(-a.x, a.y),
+            "rad",
+            "steer angle, positive to the left",
+        )
+
+    def _add_element_signals(self, element: ForceElement, results: dict[str, sp.Expr]) -> None:
+        described = self._described_turning(element) if element.turns else self._described(element)
+        for signal, (unit, meaning) in described.items():
+            self._signal(results, signal, self.dynamics.signals[signal], unit, meaning)
+
+    def _described(self, element: ForceElement) -> dict[str, tuple[str, str]]:
+        """Return unit and meaning of each signal of an element that acts along a line."""
+        name = element.name
+        return {
+            f"{name}_length": ("m", f"length of the {name}"),
+            f"{name}_velocity": ("m/s", f"rate of the {name}'s length, positive in rebound"),
+        } | {
+            self._shown(element, law): (
+                "N",
+                f"{law.meaning}, positive when it pushes the ends apart",
+            )
+            for law in element.laws
+            if not isinstance(law, Actuator)
+        }
+
+    def _described_turning(self, element: ForceElement) -> dict[str, tuple[str, str]]:
+        """Return unit and meaning of each signal of an element that acts on an angle."""
+        name = element.name
+        return {
+            f"{name}_angle": ("rad", f"twist of the {name}"),
+            f"{name}_angular_velocity": ("rad/s", f"rate of the {name}'s twist"),
+        } | {
+            self._shown(element, law): (
+                "N m",
+                f"{law.meaning.replace('force', 'moment')}, positive when it increases the twist",
+            )
+            for law in element.laws
+            if not isinstance(law, Actuator)
+        }
+
+    def _shown(self, element: ForceElement, law: Law) -> str:
+        return self.mechanism.signal_name(element, element.signal(law))

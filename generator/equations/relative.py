@@ -1,0 +1,514 @@
+"""Relative joint coordinates: their values, the closure residuals, the absolute Jacobian.
+
+These are the quantities of sections 4.1 to 4.3 of the paper. They are derived from the joints, not
+from the closed forms: `residuals` and `absolute_jacobian` follow the chain of joints with explicit
+rotations, and so check what `closed_forms` solved.
+"""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import networkx as nx
+import sympy as sp
+
+from ..declare.geometry import Point
+from ..declare.joints import Cylindrical, Joint, Prismatic, Revolute, Universal
+from ..kinematics.hinge_angles import angle_of, is_first_axis, positive_axis_at_design, turn_between
+from ..kinematics.motion import (
+    IDENTITY,
+    Axes,
+    BodyMotion,
+    RodEnds,
+    TelescopeEnds,
+    from_axes,
+    to_axes,
+)
+from ..program.floors import DIRECTION
+from ..program.vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Vector
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from ..declare.assembly import RelativeCoordinate
+    from ..kinematics.kinematics import Kinematics
+
+
+@dataclass(frozen=True)
+class _Shaft:
+    """A shaft seen from its universal joint, in the z-x sequence: x' and z' beside the line."""
+
+    elevation: sp.Expr
+    azimuth: sp.Expr
+    x: Vector
+    z: Vector
+    up: Vector
+
+
+@dataclass(frozen=True)
+class _Screw:
+    """How a unit rate of one relative coordinate moves what follows in the chain (work axes)."""
+
+    coordinate: str
+    angular: Vector
+    through: Vector
+    linear: Vector
+
+
+def rotate_x(angle: sp.Expr, v: Vector) -> Vector:
+    """Return a vector turned about x."""
+    c, s = sp.cos(angle), sp.sin(angle)
+    return Vector(v.x, c * v.y - s * v.z, s * v.y + c * v.z)
+
+
+def rotate_y(angle: sp.Expr, v: Vector) -> Vector:
+    """Return a vector turned about y."""
+    c, s = sp.cos(angle), sp.sin(angle)
+    return Vector(c * v.x + s * v.z, v.y, c * v.z - s * v.x)
+
+
+def rotate_z(angle: sp.Expr, v: Vector) -> Vector:
+    """Return a vector turned about z."""
+    c, s = sp.cos(angle), sp.sin(angle)
+    return Vector(c * v.x - s * v.y, s * v.x + c * v.y, v.z)
+
+
+class RelativeCoordinates:
+    """The relative coordinates that a mechanism reports.
+
+    Attributes
+    ----------
+    values
+        Coordinate name to expression, in the order of the report.
+    """
+
+    def __init__(self, kin: Kinematics) -> None:
+        self.kin = kin
+        self.program = kin.program
+        self.mechanism = kin.mechanism
+        self._shafts: dict[str, _Shaft] = {}
+        self.program.section("relative coordinates")
+        self.values = {c.name: self._value(c) for c in kin.reported}
+
+    # -- values ---------------------------------------------------------------------------------
+
+    def _value(self, coordinate: RelativeCoordinate) -> sp.Expr:
+        joint = self.mechanism.joint(coordinate.joint)
+        if isinstance(joint, Revolute | Prismatic):
+            return self._hinge_or_guide(joint)
+        if isinstance(joint, Universal):
+            shaft = self._shaft(joint)
+            return shaft.elevation if coordinate.kind == "elevation" else shaft.azimuth
+        if isinstance(joint, Cylindrical) and coordinate.kind == "slide":
+            return self.kin.slides[joint.name]
+        assert isinstance(joint, Cylindrical)
+        return self._telescope_angle(joint)
+
+    def _hinge_or_guide(self, joint: Revolute | Prismatic) -> sp.Expr:
+        """Return the coordinate of a joint that is driven, solved, or between placed bodies."""
+        if self.kin.is_driven(joint):
+            return self.kin.coordinates[self.kin.coordinate_of(joint)]
+        if isinstance(joint, Prismatic):
+            return self.kin.slides[joint.name]
+        return angle_of(self.kin, joint)
+
+    def _shaft(self, joint: Universal) -> _Shaft:
+        """Angles of a shaft relative to the first body of its universal joint."""
+        if joint.name in self._shafts:
+            return self._shafts[joint.name]
+        program, name = self.program, joint.name
+        parent = self.kin.placed[joint.first]
+        n = self.shaft_direction(joint)
+        squared = program.guarded(
+            f"shaft_level_squared_{name}",
+            n.x**2 + n.y**2,
+            f"the shaft at universal joint {name} is vertical: its azimuth is undefined",
+            "1",
+            DIRECTION,
+        )
+        level = program.define(f"shaft_level_{name}", sp.sqrt(squared))
+        x = Vector(n.y / level, -n.x / level, ZERO.z)
+        self._shafts[name] = _Shaft(
+            elevation=program.define(f"elevation_{name}", sp.atan2(n.z, level)),
+            azimuth=program.define(f"azimuth_{name}", sp.atan2(-n.x, n.y)),
+            x=self._from_first_body(parent, f"shaft_x_{name}", x),
+            z=self._from_first_body(parent, f"shaft_z_{name}", x.cross(n)),
+            up=self._from_first_body(parent, f"shaft_up_{name}", UNIT_Z),
+        )
+        return self._shafts[name]
+
+    def shaft_direction(self, joint: Universal) -> Vector:
+        """Return the unit vector of a shaft along the chassis axes that the first body carries."""
+        direction = self.kin.on_line[joint.second].direction
+        seen = self._in_first_body(self.kin.placed[joint.first], direction)
+        return self.program.vector(f"shaft_{joint.name}", seen)
+
+    def _in_first_body(self, parent: BodyMotion, work: Vector) -> Vector:
+        """Return components along the chassis axes as the first body carries them with it."""
+        if parent.axes is IDENTITY:
+            return self.kin.to_chassis(work)
+        return from_axes(self._chassis_axes(parent), to_axes(parent.axes, work))
+
+    def _chassis_axes(self, placed: BodyMotion) -> Axes:
+        """Return the body axes at the design position, in chassis axes."""
+        x, y, z = (self.kin.to_chassis(axis) for axis in placed.design_axes)
+        return x, y, z
+
+    def _from_first_body(self, parent: BodyMotion, name: str, v: Vector) -> Vector:
+        if parent.axes is not IDENTITY:
+            v = from_axes(parent.axes, to_axes(self._chassis_axes(parent), v))
+            return self.program.vector(name, v)
+        return self.program.vector(name, self.kin.to_work(v))
+
+    def _telescope_angle(self, joint: Cylindrical) -> sp.Expr:
+        """Rotation of the second body about the axis, from the z' axis of the shaft."""
+        shaft = self._shaft(self.holder(joint))
+        placed = self.kin.placed[joint.second]
+        local = self.from_axis(placed, joint, joint.angle_to)
+        marker = self.program.vector(f"marker_{joint.name}", from_axes(placed.axes, local))
+        return self.program.define(
+            f"angle_{joint.name}", sp.atan2(-marker.dot(shaft.x), marker.dot(shaft.z))
+        )
+
+    def from_axis(self, placed: BodyMotion, joint: Cylindrical, point: Point) -> Vector:
+        """Return a point of a telescope's second body from where the axis passes through it."""
+        assert isinstance(joint.axis.through, Point)
+        return self.kin.local(placed, point) - self.kin.local(placed, joint.axis.through)
+
+    def holder(self, joint: Cylindrical) -> Universal:
+        """Return the universal joint that carries the first body of a telescope."""
+        center = joint.axis.towards
+        universal = (
+            self.mechanism.universal_at(joint.first, center) if isinstance(center, Point) else None
+        )
+        if universal is None:
+            message = (
+                f"the angle of joint {joint.name!r} is reported from the frame of a universal "
+                f"joint at {joint.first!r}, which has none"
+            )
+            raise ValueError(message)
+        return universal
+
+    # -- absolute Jacobian ------------------------------------------------------------------------
+
+    def absolute_jacobian(self, body: str) -> dict[str, tuple[Vector, Vector]]:
+        """Return angular velocity and velocity of the centre of mass per relative rate.
+
+        Parameters
+        ----------
+        body
+            Name of a moving body.
+
+        Returns
+        -------
+        dict
+            Coordinate name to (angular, linear), in chassis axes. Where the report has several
+            copies of a coordinate, the first one is used.
+        """
+        placed = self.kin.placed[body]
+        center = self.kin.position(placed, self.mechanism.body(body).center)
+        columns = {}
+        for screw in self._chain(body):
+            linear = screw.linear + screw.angular.cross(center - screw.through)
+            columns[screw.coordinate] = (
+                self.kin.to_chassis(screw.angular),
+                self.kin.to_chassis(linear),
+            )
+        return columns
+
+    def reaches(self, body: str) -> bool:
+        """Tell whether joints with reported coordinates lead from the ground to a body."""
+        graph = self._reported_joints()
+        ends = self.mechanism.ground, body
+        return all(end in graph for end in ends) and nx.has_path(graph, *ends)
+
+    def _reported_joints(self) -> nx.DiGraph:
+        graph = nx.DiGraph()
+        for joint in self.mechanism.joints:
+            if all(self.reported(joint.name, c) for c in joint.coordinates):
+                graph.add_edge(joint.first, joint.second, joint=joint)
+        return graph
+
+    def _chain(self, body: str) -> list[_Screw]:
+        """Return the screws from the ground to a body, along joints with reported coordinates."""
+        graph = self._reported_joints()
+        path = nx.shortest_path(graph, self.mechanism.ground, body)
+        joints = [graph.edges[a, b]["joint"] for a, b in itertools.pairwise(path)]
+        screws = [screw for joint in joints for screw in self._screws(joint)]
+        if isinstance(joints[-1], Universal):
+            screws = [self._on_cross(body, screw) for screw in screws]
+        return screws
+
+    def reported(self, joint: str, kind: str) -> str | None:
+        """Return the first name under which a joint's coordinate is reported."""
+        names = [c.name for c in self.mechanism.coordinates if (c.joint, c.kind) == (joint, kind)]
+        return names[0] if names else None
+
+    def _screws(self, joint: Joint) -> list[_Screw]:
+        names = {c: self.reported(joint.name, c) or "" for c in joint.coordinates}
+        if isinstance(joint, Revolute):
+            return [self._screw_of_hinge(joint, names["angle"])]
+        if isinstance(joint, Prismatic):
+            parent = self.kin.placed[joint.first]
+            direction = from_axes(parent.axes, self.kin.local_direction(parent, joint.direction))
+            return [_Screw(names["slide"], ZERO, ZERO, direction)]
+        if isinstance(joint, Universal):
+            shaft = self._shaft(joint)
+            center = self.kin.on_line[joint.second].anchor_motion.position
+            return [
+                _Screw(names["azimuth"], shaft.up, center, ZERO),
+                _Screw(names["elevation"], shaft.x, center, ZERO),
+            ]
+        assert isinstance(joint, Cylindrical)
+        line = self.kin.telescopes[joint.name]
+        through = line.anchor_motion.position
+        return [
+            _Screw(names["slide"], ZERO, ZERO, -line.direction),
+            _Screw(names["angle"], -line.direction, through, ZERO),
+        ]
+
+    def _screw_of_hinge(self, joint: Revolute, name: str) -> _Screw:
+        """Return the screw of a hinge; where it placed its second body, that has it as its axis."""
+        kin, first, second = self.kin, self.kin.placed[joint.first], self.kin.placed[joint.second]
+        if is_first_axis(kin, joint):
+            return _Screw(name, second.axes[0], second.origin, ZERO)
+        n = positive_axis_at_design(kin, joint)
+        axis = from_axes(first.axes, to_axes(first.design_axes, n))
+        return _Screw(name, axis, kin.position(first, joint.axis.through), ZERO)
+
+    def _on_cross(self, body: str, screw: _Screw) -> _Screw:
+        """Let a shaft turn about itself as its cross demands, not as the z-x sequence does."""
+        n, second, third = self.kin.placed[body].axes
+        joint = next(j for j in self.mechanism.joints_of(body) if isinstance(j, Universal))
+        parent = self.kin.placed[joint.first]
+        axis = from_axes(parent.axes, self.kin.local_direction(parent, joint.first_axis))
+        if screw.angular.is_zero:
+            return screw
+        hinge = second.cross(axis)
+        across = screw.angular - n * screw.angular.dot(n)
+        turn = -across.dot(hinge) / axis.dot(third)
+        return _Screw(screw.coordinate, across + n * turn, screw.through, screw.linear)
+
+    # -- residuals --------------------------------------------------------------------------------
+
+    def residuals(self) -> dict[str, sp.Expr]:
+        """Return g(beta, q): one residual for each relative coordinate (Eqs. 4 to 13), by its name.
+
+        The coordinates are inputs of their own, named ``given_<coordinate>``.
+        """
+        self.program.section("closure residuals")
+        closure = _Closure(self)
+        return {c.name: closure.residual(c) for c in self.kin.reported}
+
+
+# Which component of the closure at the end of an offset telescope stands for which coordinate.
+_AXIS_OF_CLOSURE = {"azimuth": "x", "slide": "y", "elevation": "z"}
+
+
+class _Closure:
+    """The closure equations in terms of given relative coordinates."""
+
+    def __init__(self, relative: RelativeCoordinates) -> None:
+        self.relative = relative
+        self.kin = relative.kin
+        self.program = relative.program
+        self.mechanism = relative.mechanism
+
+    def residual(self, coordinate: RelativeCoordinate) -> sp.Expr:
+        """Return what the given coordinate leaves of its own equation."""
+        first = self.relative.reported(coordinate.joint, coordinate.kind)
+        given = self._given(coordinate.name)
+        if first is not None and first != coordinate.name:
+            return given - self._given(first)
+        joint = self.mechanism.joint(coordinate.joint)
+        if isinstance(joint, Revolute | Prismatic):
+            return self._solved_residual(joint, given)
+        offset = self._offset_telescope(joint)
+        if offset is not None and coordinate.kind in _AXIS_OF_CLOSURE:
+            gap = self._gap_at_end(offset)
+            return dict(zip("xyz", gap, strict=True))[_AXIS_OF_CLOSURE[coordinate.kind]]
+        if isinstance(joint, Universal):
+            return self._shaft_residual(joint, coordinate.kind, given)
+        assert isinstance(joint, Cylindrical)
+        if coordinate.kind == "slide":
+            span = self._telescope_span(joint)
+            length = sp.sqrt(span.dot(span))
+            return length - (sp.Symbol(joint.length_at_zero_slide) - given)
+        return self._rod_residual(joint)
+
+    def _solved_residual(self, joint: Revolute | Prismatic, given: sp.Symbol) -> sp.Expr:
+        """Return the closure that a hinge or guide was solved for, at a given coordinate.
+
+        The length of the rod for one that a rod holds, the meeting at the pin for a rod's own.
+        """
+        if self.kin.is_driven(joint):
+            return given - self.kin.coordinates[self.kin.coordinate_of(joint)]
+        meeting = self.kin.meetings.get(joint.name)
+        if meeting is None or (isinstance(joint, Revolute) and joint.angle_to is not None):
+            return self._placed_residual(joint, given)
+        parent, sense = self.kin.placed[meeting.parent], 1 if joint.second == meeting.body else -1
+        target = self.kin.point_motion(meeting.target_body, meeting.target).position
+        local = self.kin.local(parent, meeting.point)
+        moved = self._moved(joint, parent, local, sense * given)
+        gap = parent.origin + from_axes(parent.axes, moved) - target
+        gap = self.program.vector(f"given_gap_{joint.name}", gap)
+        if meeting.rod is None:
+            return gap.dot(self.kin.placed[meeting.body].axes[2])
+        return sp.sqrt(gap.dot(gap)) - self.kin.rod_lengths[meeting.rod]
+
+    def _placed_residual(self, joint: Revolute | Prismatic, given: sp.Symbol) -> sp.Expr:
+        """Return how far a given coordinate is from that of the poses; of an angle, the sine."""
+        if isinstance(joint, Prismatic):
+            return given - self._slide_between(joint)
+        sine, cosine = turn_between(self.kin, joint)
+        return cosine * sp.sin(given) - sine * sp.cos(given)
+
+    def _slide_between(self, joint: Prismatic) -> sp.Expr:
+        """Return how far the second body of a guide has come along it, as the first one sees it."""
+        first, second = (self.kin.placed[body] for body in joint.bodies)
+        start = to_axes(first.design_axes, second.design_origin - first.design_origin)
+        start = self.program.vector(f"{joint.name}_start", start, "123")
+        way = to_axes(first.axes, second.origin - first.origin) - start
+        return self.kin.local_direction(first, joint.direction).dot(way)
+
+    def _moved(
+        self, joint: Revolute | Prismatic, parent: BodyMotion, local: Vector, given: sp.Expr
+    ) -> Vector:
+        """Return where a joint's coordinate takes a point of its second body, in parent axes."""
+        if isinstance(joint, Prismatic):
+            slid: Vector = local + self.kin.local_direction(parent, joint.direction) * given
+            return slid
+        through = self.kin.local(parent, joint.axis.through)
+        axis = self.kin.unit(f"{joint.name}_axis_design", self.kin.to_work(joint.axis.vector))
+        n = to_axes(parent.design_axes, axis)
+        arm = local - through
+        along = n * n.dot(arm)
+        across = (arm - along) * sp.cos(given) + n.cross(arm) * sp.sin(given)
+        turned: Vector = through + along + across
+        return turned
+
+    def _shaft_residual(self, joint: Universal, kind: str, given: sp.Symbol) -> sp.Expr:
+        """Eqs. 7 and 8: the angles of a shaft against its direction."""
+        n = self._shaft_direction(joint)
+        if kind == "elevation":
+            return sp.sin(given) - n.z
+        level = self.program.define(f"given_level_{joint.name}", sp.sqrt(n.x**2 + n.y**2))
+        return n.x / level + sp.sin(given)
+
+    def _given(self, name: str) -> sp.Symbol:
+        return sp.Symbol(f"given_{name}")
+
+    def _first(self, joint: str, kind: str) -> sp.Symbol:
+        """Return the first copy of a coordinate: the one of the transformer that finds it."""
+        return self._given(self._copies(joint, kind)[0])
+
+    def _last(self, joint: str, kind: str) -> sp.Symbol:
+        """Return the last copy of a coordinate: the one that the later transformers read."""
+        return self._given(self._copies(joint, kind)[-1])
+
+    def _copies(self, joint: str, kind: str) -> list[str]:
+        return [c.name for c in self.mechanism.coordinates if (c.joint, c.kind) == (joint, kind)]
+
+    def _driven(self) -> dict[sp.Symbol, sp.Expr]:
+        """Return what stands in for the driven coordinates: their given copies."""
+        replaced = {}
+        for coordinate in self.mechanism.coordinates:
+            joint = self.mechanism.joint(coordinate.joint)
+            if self.kin.is_driven(joint):
+                symbol = self.kin.coordinates[self.kin.coordinate_of(joint)]
+                replaced[symbol] = self._given(coordinate.name)
+        return replaced
+
+    def _from_driven(self, name: str, work: Vector) -> Vector:
+        """Return a work vector as a function of the given coordinates, in chassis axes."""
+        given = Vector(*self.program.substitute(self._driven(), work, "given"))
+        return self.program.vector(name, self.kin.to_chassis(given))
+
+    def _telescope_span(self, joint: Cylindrical) -> Vector:
+        line = self.kin.telescopes[joint.name]
+        return self._from_driven(f"given_span_{joint.name}", line.relative.position)
+
+    def _shaft_direction(self, joint: Universal) -> Vector:
+        """Return the unit vector of a shaft, from what holds its far end.
+
+        That is a chain with a telescope, in terms of given coordinates; where there is none, the
+        poses say where the far end is.
+        """
+        turn = self._turn_of_rod(joint.second)
+        shafts = (j for j in self.mechanism.joints_of(joint.second) if isinstance(j, Cylindrical))
+        telescope = next(shafts, None)
+        if turn is not None and any(t.end_link == turn.body for t in self.kin.spans.values()):
+            span = self._rod_span(turn)
+        elif telescope is not None:
+            span = self._telescope_span(telescope)
+        else:
+            return self.relative.shaft_direction(joint)
+        length = self.program.define(f"given_length_{joint.name}", sp.sqrt(span.dot(span)))
+        return self.program.vector(f"given_shaft_{joint.name}", span * (1 / length))
+
+    def _turn_of_rod(self, rod: str) -> RodEnds | None:
+        return next((ends for ends in self.kin.turned.values() if ends.rod == rod), None)
+
+    def _rod_residual(self, joint: Cylindrical) -> sp.Expr:
+        """Eq. 13: the distance of the rod's ends along the chain, less the length of the rod."""
+        turn = self.kin.turned[joint.second]
+        span = self._rod_span(turn)
+        return sp.sqrt(span.dot(span)) - self.kin.rod_lengths[turn.rod]
+
+    def _rod_span(self, turn: RodEnds) -> Vector:
+        """Return the vector from the rod's anchor to its end, by explicit rotations (Eq. 17)."""
+        telescope = next(t for t in self.kin.spans.values() if t.end_link == turn.body)
+        end = self._by_chain(telescope, turn.end, self._last)
+        anchor = self._from_driven(
+            f"given_{turn.anchor.name}",
+            self.kin.point_motion(turn.anchor_body, turn.anchor).position,
+        )
+        return self.program.vector(f"given_{turn.rod}", end - anchor)
+
+    def _by_chain(
+        self, telescope: TelescopeEnds, point: Point, copy: Callable[[str, str], sp.Symbol]
+    ) -> Vector:
+        """Return where the chain through a telescope puts a point of its second body."""
+        joint = telescope.joint
+        holder = self.relative.holder(joint)
+        length = sp.Symbol(joint.length_at_zero_slide) - copy(joint.name, "slide")
+        local = self._in_marker_axes(joint, point)
+        swung = rotate_y(-copy(joint.name, "angle"), local) + UNIT_Y * length
+        swung = self.program.vector(f"given_{point.name}_in_shaft", swung)
+        lifted = rotate_x(copy(holder.name, "elevation"), swung)
+        lifted = self.program.vector(f"given_{point.name}_lifted", lifted)
+        from_center = rotate_z(copy(holder.name, "azimuth"), lifted)
+        center = self._from_driven(
+            f"given_{holder.at.name}", self.kin.point_motion(holder.first, holder.at).position
+        )
+        return center + from_center
+
+    def _offset_telescope(self, joint: Joint) -> TelescopeEnds | None:
+        """Return the telescope whose axis misses its end, if the joint is part of it."""
+        for ends in self.kin.spans.values():
+            if ends.misses_end and joint in (ends.joint, self.relative.holder(ends.joint)):
+                return ends
+        return None
+
+    def _gap_at_end(self, telescope: TelescopeEnds) -> Vector:
+        """Return how far the chain through a telescope ends from the point it should reach."""
+        end = self._from_driven(
+            f"given_{telescope.end.name}",
+            self.kin.point_motion(telescope.end_body, telescope.end).position,
+        )
+        gap = self._by_chain(telescope, telescope.end, self._first) - end
+        return self.program.vector(f"given_gap_{telescope.end.name}", gap)
+
+    def _in_marker_axes(self, joint: Cylindrical, point: Point) -> Vector:
+        """Return a point's body coordinates along (x'', line, marker): those of zero angle."""
+        placed = self.kin.placed[joint.second]
+        local = self.relative.from_axis(placed, joint, point)
+        mark = self.relative.from_axis(placed, joint, joint.angle_to)
+        across = self.program.define(f"{placed.body}_marker", sp.sqrt(mark.y**2 + mark.z**2))
+        z = Vector(ZERO.x, mark.y / across, mark.z / across)
+        return self.program.vector(
+            f"{placed.body}_{point.name}_by_marker",
+            Vector(local.dot(UNIT_X.cross(z)), local.x, local.dot(z)),
+        )

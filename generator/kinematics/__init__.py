@@ -1,0 +1,1 @@
+"""Bodies in motion: poses, twists, bias accelerations."""

@@ -1,0 +1,233 @@
+"""What is known of a body while a mechanism is being solved.
+
+Positions are in the work axes, twists in body axes. *Motion* is velocity per unit rate of one
+coordinate, so it is a column of a Jacobian; *bias* is the acceleration that remains when the
+accelerations of the independent coordinates are zero.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+from ..declare.geometry import Point
+from ..program.vectors import NO_TWIST, UNIT_X, UNIT_Y, UNIT_Z, ZERO, Twist, Vector
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import sympy as sp
+
+    from ..declare.joints import Cylindrical
+
+Axes = tuple[Vector, Vector, Vector]
+IDENTITY: Axes = (UNIT_X, UNIT_Y, UNIT_Z)
+
+
+def to_axes(axes: Axes, v: Vector) -> Vector:
+    """Return the components of a work vector along some axes."""
+    return Vector(*(v.dot(axis) for axis in axes))
+
+
+def from_axes(axes: Axes, v: Vector) -> Vector:
+    """Return the work components of a vector given along some axes."""
+    x, y, z = axes
+    work: Vector = x * v.x + y * v.y + z * v.z
+    return work
+
+
+@dataclass
+class BodyMotion:
+    """A body whose pose is known.
+
+    Attributes
+    ----------
+    origin, axes
+        Origin of the body axes and their directions.
+    design_origin, design_axes
+        The same at the design position (constants).
+    local
+        Body coordinates of points that are known by construction, with their exact zeros.
+    motion
+        Twist per unit rate of each coordinate that moves the body.
+    carrier
+        Neighbour that shares the origin, with its own coordinates of that point: a point mass
+        there may be counted with either body.
+    hinge
+        The hinge whose axis is the first of the body axes, if one placed the body.
+    """
+
+    body: str
+    origin: Vector = ZERO
+    axes: Axes = IDENTITY
+    design_origin: Vector = ZERO
+    design_axes: Axes = IDENTITY
+    local: dict[Point, Vector] = field(default_factory=dict)
+    motion: dict[str, Twist] = field(default_factory=dict)
+    carrier: tuple[str, Vector] | None = None
+    hinge: str | None = None
+    bias: Callable[[], Twist] = lambda: NO_TWIST
+
+
+@dataclass(frozen=True)
+class PointMotion:
+    """Position, velocity per unit rate, and bias acceleration of a point, in work axes."""
+
+    position: Vector
+    motion: dict[str, Vector]
+    bias: Vector
+
+    def minus(self, other: PointMotion) -> PointMotion:
+        """Return the motion relative to another point."""
+        names = list(dict.fromkeys([*self.motion, *other.motion]))
+        return PointMotion(
+            self.position - other.position,
+            {k: self.motion.get(k, ZERO) - other.motion.get(k, ZERO) for k in names},
+            self.bias - other.bias,
+        )
+
+
+@dataclass(frozen=True)
+class OnLine:
+    """A body (or a telescope of two) with a known line, free to turn about it.
+
+    Attributes
+    ----------
+    anchor, end
+        The two points of the line, which runs from anchor to end.
+    direction
+        Unit vector along it.
+    length, inverse_length
+        Distance of the points.
+    relative
+        Motion of the end relative to the anchor.
+    length_motion
+        Rate of the length per unit rate of each coordinate.
+    span, inverse_squared
+        From anchor to end, and the inverse of its square.
+    """
+
+    anchor: Point
+    end: Point
+    anchor_motion: PointMotion
+    end_motion: PointMotion
+    anchor_body: str
+    end_body: str
+    direction: Vector
+    length: sp.Expr
+    inverse_length: sp.Expr
+    relative: PointMotion
+    length_motion: dict[str, sp.Expr]
+    span: Vector
+    inverse_squared: sp.Expr
+
+    def reversed(self) -> OnLine:
+        """Return the same line, from its end to its anchor."""
+        return replace(
+            self,
+            anchor=self.end,
+            end=self.anchor,
+            anchor_motion=self.end_motion,
+            end_motion=self.anchor_motion,
+            anchor_body=self.end_body,
+            end_body=self.anchor_body,
+            direction=-self.direction,
+            relative=self.anchor_motion.minus(self.end_motion),
+            span=-self.span,
+        )
+
+
+@dataclass(frozen=True)
+class RodEnds:
+    """A rod of constant length from an anchor to a point of a body, which it keeps from turning."""
+
+    body: str
+    rod: str
+    end: Point
+    anchor: Point
+    anchor_body: str
+
+
+@dataclass(frozen=True)
+class TelescopeEnds:
+    """A telescope between two points of placed bodies: its axis passes through the first one."""
+
+    joint: Cylindrical
+    anchor: Point
+    anchor_body: str
+    anchor_link: str
+    end: Point
+    end_body: str
+    end_link: str
+
+    @property
+    def axis_point(self) -> Point:
+        """The point of the end's link that the axis passes through."""
+        assert isinstance(self.joint.axis.through, Point)
+        return self.joint.axis.through
+
+    @property
+    def misses_end(self) -> bool:
+        """Whether the axis passes beside the end point."""
+        return self.axis_point != self.end
+
+
+@dataclass(frozen=True)
+class Meeting:
+    """What the coordinate of a hinge or guide was solved for.
+
+    Attributes
+    ----------
+    parent, body
+        The placed body, and the one that the joint carries.
+    point, target, target_body
+        A point of the body, and the point of a placed body that it meets, or that it is as far
+        from as a rod is long.
+    rod
+        That rod; None: the points meet.
+    """
+
+    parent: str
+    body: str
+    point: Point
+    target: Point
+    target_body: str
+    rod: str | None = None
+
+
+@dataclass(frozen=True)
+class OffLine:
+    """A link of a telescope whose axis misses the link's known point: its turn is still open.
+
+    Attributes
+    ----------
+    ends
+        The telescope with the names of its points and bodies.
+    axis, offset
+        At the design position: unit vector of the axis from anchor to end, and what leads from
+        the axis to the end, across it (constants, work axes).
+    span, span_squared
+        From anchor to end, and the square of that distance.
+    reach, inverse_reach
+        Part of the span along the axis.
+    length
+        Length of the telescope: the reach and the constant `lead`.
+    relative
+        Motion of the end relative to the anchor.
+    length_motion
+        Rate of the length per unit rate of each coordinate.
+    """
+
+    ends: TelescopeEnds
+    anchor_motion: PointMotion
+    end_motion: PointMotion
+    axis: Vector
+    offset: Vector
+    span: Vector
+    span_squared: sp.Expr
+    reach: sp.Expr
+    inverse_reach: sp.Expr
+    length: sp.Expr
+    lead: sp.Expr
+    relative: PointMotion
+    length_motion: dict[str, sp.Expr]

@@ -1,0 +1,48 @@
+"""A step of a plan: it places a body, or finds its line."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from ..declare.geometry import Point
+    from .kinematics import Kinematics
+
+
+Ends = tuple[str, "Point", "Point"]
+"""A link with two points of its line."""
+
+
+class Step(ABC):
+    """What the kinematics of a mechanism is made of, in order."""
+
+    @property
+    @abstractmethod
+    def about(self) -> str:
+        """The body that it places, or whose line it finds; one of several."""
+
+    @property
+    @abstractmethod
+    def title(self) -> str:
+        """What the derivation calls it."""
+
+    @property
+    def points(self) -> tuple[Point, ...]:
+        """The points between which it reaches, beside those of the joints of its loop."""
+        return ()
+
+    @abstractmethod
+    def carry_out(self, kin: Kinematics) -> None:
+        """Append poses, velocities and biases."""
+
+    def origin_on(self, ground: str) -> Point | None:
+        """Return the point of the ground at which positions are best counted, if there is one."""
+        del ground
+        return None
+
+    def lines(self) -> Iterator[Ends]:
+        """Yield the links whose line it finds, each with two points of the line."""
+        yield from ()

@@ -1,0 +1,280 @@
+"""Mobility, joint graph, shortest paths and cycles of a mechanism (sections 2 and 4 of the paper).
+
+Vertices of the joint graph are bodies; edges are joints, and the length of an edge is the number of
+freedoms of its joint. All results are computed from the declaration.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import networkx as nx
+
+from .errors import TopologyError
+from .planes import Planes
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from ..declare.geometry import Direction
+    from ..declare.joints import Joint
+    from ..declare.mechanism import Mechanism
+
+
+@dataclass(frozen=True)
+class Cycle:
+    """A simple cycle of the joint graph.
+
+    Attributes
+    ----------
+    joints
+        The joints, in the order in which the cycle passes them.
+    bodies
+        ``bodies[i]`` lies between ``joints[i - 1]`` and ``joints[i]``.
+    length
+        Sum of the freedoms of the joints.
+    normal
+        The direction of the hinges of a loop that moves in a plane; of others, none.
+    """
+
+    joints: tuple[Joint, ...]
+    bodies: tuple[str, ...]
+    length: int
+    normal: Direction | None
+
+    @property
+    def planar(self) -> bool:
+        """Whether the loop moves in a plane: hinges along each other, guides across them."""
+        return self.normal is not None
+
+    @property
+    def key(self) -> frozenset[str]:
+        """The set of joint names: a simple cycle is given by its edges."""
+        return frozenset(j.name for j in self.joints)
+
+
+@dataclass(frozen=True)
+class Topology:
+    """The joint graph of a mechanism and what follows from it."""
+
+    mechanism: Mechanism
+
+    def __post_init__(self) -> None:
+        names = [b.name for b in self.mechanism.bodies]
+        unreached = set(names) - set(nx.node_connected_component(self.graph, names[0]))
+        if unreached:
+            message = f"no joint path leads from the ground to {', '.join(sorted(unreached))}"
+            raise TopologyError(message)
+
+    @cached_property
+    def graph(self) -> nx.Graph:
+        """The joint graph; edges carry ``joint`` and ``length``."""
+        graph = nx.Graph()
+        graph.add_nodes_from(b.name for b in self.mechanism.bodies)
+        for joint in self.mechanism.joints:
+            if graph.has_edge(*joint.bodies):
+                message = (
+                    f"bodies {joint.first!r} and {joint.second!r} have two joints between them"
+                )
+                raise TopologyError(message)
+            graph.add_edge(*joint.bodies, joint=joint, length=joint.freedoms)
+        return graph
+
+    def joint_between(self, first: str, second: str) -> Joint:
+        """Return the joint that connects two bodies."""
+        joint: Joint = self.graph.edges[first, second]["joint"]
+        return joint
+
+    # -- counting -------------------------------------------------------------------------------
+
+    @property
+    def mobility(self) -> int:
+        """Degrees of freedom by the Grübler-Kutzbach criterion (Eq. 1).
+
+        A planar loop closes with three equations; the spatial count of six would take its mechanism
+        for over-constrained.
+        """
+        moving = len(self.mechanism.bodies) - 1
+        spatial = 6 * moving - sum(6 - j.freedoms for j in self.mechanism.joints)
+        return spatial + 3 * self.planar_loop_count
+
+    @cached_property
+    def planar_loop_count(self) -> int:
+        """Number of loops of a minimal basis that move in a plane."""
+        basis, count = MinimalBasis(self), 0
+        while options := basis.options():
+            basis.choose(options[0])
+            count += options[0].planar
+        return count
+
+    @property
+    def loop_count(self) -> int:
+        """Number of independent loops (section 4)."""
+        return len(self.mechanism.joints) - (len(self.mechanism.bodies) - 1)
+
+    # -- paths ----------------------------------------------------------------------------------
+
+    def shortest_paths(self, start: str, end: str) -> list[tuple[str, ...]]:
+        """Return all shortest paths between two bodies, as sequences of bodies, in a fixed order.
+
+        The paper's Table 2 shows one of them where several have the same length.
+        """
+        return self._paths_from(start).to(end)
+
+    def _paths_from(self, start: str) -> _ShortestPaths:
+        """Return the shortest paths from a body; one search serves all that ask for them."""
+        if start not in self._searches:
+            self._searches[start] = _ShortestPaths(self.graph, start, self._numbers)
+        return self._searches[start]
+
+    @cached_property
+    def _searches(self) -> dict[str, _ShortestPaths]:
+        return {}
+
+    @cached_property
+    def _numbers(self) -> dict[str, int]:
+        """The number of each body, by its name."""
+        return {b.name: b.number for b in self.mechanism.bodies}
+
+    def path_length(self, path: Sequence[str]) -> int:
+        """Return the sum of the joint freedoms along a path."""
+        return sum(self.joint_between(a, b).freedoms for a, b in pairwise(path))
+
+    def _path_numbers(self, path: Sequence[str]) -> tuple[int, ...]:
+        return tuple(self._numbers[b] for b in path)
+
+    # -- cycles ---------------------------------------------------------------------------------
+
+    @cached_property
+    def candidate_cycles(self) -> list[Cycle]:
+        """Distinct simple cycles by Horton's construction, shortest first.
+
+        Every vertex is joined with both ends of every edge by shortest paths; what is degenerate
+        (the two paths share a body or contain the edge) or repeated is left out.
+        """
+        found: dict[frozenset[str], Cycle] = {}
+        for cycle in self.horton_candidates():
+            found.setdefault(cycle.key, cycle)
+        return sorted(found.values(), key=lambda c: (c.length, self._cycle_numbers(c)))
+
+    def horton_candidates(self) -> list[Cycle]:
+        """Return every simple cycle that a pair of vertex and edge gives, with repetitions."""
+        cycles = []
+        for vertex in self.graph.nodes:
+            paths = self._paths_from(vertex)
+            for joint in self.mechanism.joints:
+                if paths.all_part_alike(*joint.bodies):
+                    continue
+                for there in paths.to(joint.first):
+                    for back in paths.to(joint.second):
+                        round_trip = (*there, *reversed(back[1:]))
+                        if len(set(round_trip)) == len(round_trip) > 2:
+                            cycles.append(self.cycle(round_trip))
+        return cycles
+
+    def cycle(self, bodies: Sequence[str]) -> Cycle:
+        """Return the cycle through some bodies, beginning at the one of the lowest number."""
+        numbers = self._path_numbers(bodies)
+        start = numbers.index(min(numbers))
+        turned = [*bodies[start:], *bodies[:start]]
+        joints = tuple(self.joint_between(a, b) for a, b in pairwise([*turned, turned[0]]))
+        length = sum(j.freedoms for j in joints)
+        return Cycle(joints, tuple(turned), length, self._planes.normal(joints))
+
+    @cached_property
+    def _planes(self) -> Planes:
+        return Planes(self.mechanism)
+
+    def _cycle_numbers(self, cycle: Cycle) -> tuple[int, ...]:
+        return tuple(sorted(self._numbers[b] for b in cycle.bodies))
+
+    def independent(self, cycles: Sequence[Cycle]) -> bool:
+        """Tell whether no cycle is a sum of others (edges modulo two)."""
+        span = CycleSpan(self)
+        return all(span.add(cycle) for cycle in cycles)
+
+    def minimal_next(self, chosen: Sequence[Cycle]) -> list[Cycle]:
+        """Return the shortest cycles that extend a basis.
+
+        Taking any one of them until `loop_count` are chosen gives a minimal cycle basis (the
+        independent sets of cycles are a matroid, so the greedy choice is optimal).
+        """
+        return MinimalBasis(self, chosen).options()
+
+
+class _ShortestPaths:
+    """All shortest paths of a joint graph from one body."""
+
+    def __init__(self, graph: nx.Graph, start: str, numbers: Mapping[str, int]) -> None:
+        self.start = start
+        self._numbers = numbers
+        self._before, _ = nx.dijkstra_predecessor_and_distance(graph, start, weight="length")
+        self._paths: dict[str, list[tuple[str, ...]]] = {start: [(start,)]}
+
+    def to(self, end: str) -> list[tuple[str, ...]]:
+        """Return the paths to a body, in the order of the bodies' numbers."""
+        if end not in self._paths:
+            found = [(*path, end) for body in self._before[end] for path in self.to(body)]
+            found.sort(key=lambda path: [self._numbers[b] for b in path])
+            self._paths[end] = found
+        return self._paths[end]
+
+    def all_part_alike(self, one: str, other: str) -> bool:
+        """Tell whether all paths to two bodies go to the same neighbour of the start first."""
+        if self.start in (one, other):
+            return False
+        return len({path[1] for body in (one, other) for path in self.to(body)}) == 1
+
+
+class CycleSpan:
+    """The cycles that are sums of some cycles (edges modulo two), as a matrix in echelon form.
+
+    A cycle is a number with a bit for each of its joints.
+    """
+
+    def __init__(self, topology: Topology) -> None:
+        self._bits = {j.name: 1 << i for i, j in enumerate(topology.mechanism.joints)}
+        self._rows: dict[int, int] = {}  # by the place of their highest bit
+
+    def contains(self, cycle: Cycle) -> bool:
+        """Tell whether a cycle is a sum of those that were added."""
+        return self._rest(cycle) == 0
+
+    def add(self, cycle: Cycle) -> bool:
+        """Add a cycle; tell whether it was not contained before."""
+        rest = self._rest(cycle)
+        if rest:
+            self._rows[rest.bit_length()] = rest
+        return rest != 0
+
+    def _rest(self, cycle: Cycle) -> int:
+        """Return what is left of a cycle when all that is contained has been taken away."""
+        rest = sum(self._bits[joint.name] for joint in cycle.joints)
+        while rest.bit_length() in self._rows:
+            rest ^= self._rows[rest.bit_length()]
+        return rest
+
+
+class MinimalBasis:
+    """A minimal cycle basis in the making: what is chosen, and what can be chosen next.
+
+    A cycle that is a sum of chosen ones remains so, and is not looked at again.
+    """
+
+    def __init__(self, topology: Topology, chosen: Sequence[Cycle] = ()) -> None:
+        self._span = CycleSpan(topology)
+        self._open = list(topology.candidate_cycles)
+        for cycle in chosen:
+            self._span.add(cycle)
+
+    def options(self) -> list[Cycle]:
+        """Return the shortest cycles that extend the basis; none if it is complete."""
+        self._open = [c for c in self._open if not self._span.contains(c)]
+        return [c for c in self._open if c.length == self._open[0].length]
+
+    def choose(self, cycle: Cycle) -> None:
+        """Take a cycle into the basis."""
+        self._span.add(cycle)

@@ -1,0 +1,85 @@
+"""What is known of a mechanism while the order of solution is being found."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from ..declare.joints import Joint
+    from ..declare.mechanism import Mechanism
+    from ..kinematics.step import Step
+    from .graph import Cycle, Topology
+
+Coordinate = tuple[str, str]
+"""A relative coordinate: its joint, and which of the joint's."""
+
+
+@dataclass
+class Known:
+    """Bodies that have their place, and relative coordinates that are given or solved.
+
+    Attributes
+    ----------
+    placed
+        Bodies whose pose is known.
+    on_line
+        Bodies of which a line is known, free to turn about it.
+    coordinates
+        Relative coordinates that are given or solved.
+    steps
+        What made all this known, in order.
+    guided
+        By the name of a joint, the step that alone may place a body by it.
+    """
+
+    mechanism: Mechanism
+    topology: Topology
+    placed: set[str] = field(default_factory=set)
+    on_line: set[str] = field(default_factory=set)
+    coordinates: set[Coordinate] = field(default_factory=set)
+    steps: list[Step] = field(default_factory=list)
+    guided: dict[str, Step] = field(default_factory=dict)
+
+    @property
+    def bodies(self) -> set[str]:
+        """Bodies that are placed, or on a line."""
+        return self.placed | self.on_line
+
+    def knows(self, joint: Joint, coordinate: str) -> bool:
+        """Tell whether a relative coordinate is given or already solved."""
+        return (joint.name, coordinate) in self.coordinates
+
+    def unknowns_of(self, joint: Joint) -> int:
+        """Return how many relative coordinates of a joint are unknown."""
+        return sum(not self.knows(joint, c) for c in joint.coordinates)
+
+    def unknowns(self, cycle: Cycle) -> int:
+        """Return how many relative coordinates of a loop are unknown."""
+        return sum(self.unknowns_of(joint) for joint in cycle.joints)
+
+    def joins(self, joint: Joint) -> bool:
+        """Tell whether a joint connects two bodies that are placed or on a line."""
+        return self.bodies.issuperset(joint.bodies)
+
+    def place(self, body: str) -> None:
+        """Record a body as placed."""
+        self.placed.add(body)
+        self.on_line.discard(body)
+
+    def add(self, coordinates: set[Coordinate]) -> set[Coordinate]:
+        """Record coordinates as known, and return those that were not."""
+        new = coordinates - self.coordinates
+        self.coordinates |= new
+        return new
+
+    def add_all(self, joints: Iterable[Joint]) -> set[Coordinate]:
+        """Record all coordinates of some joints as known, and return those that were not."""
+        return self.add(coordinates_of(joints))
+
+
+def coordinates_of(joints: Iterable[Joint]) -> set[Coordinate]:
+    """Return all relative coordinates of some joints."""
+    return {(joint.name, c) for joint in joints for c in joint.coordinates}

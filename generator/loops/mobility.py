@@ -1,0 +1,178 @@
+"""What can move at the design position: the closure equations of all loops, in numbers.
+
+Counting freedoms takes every mechanism for a general one. Bricard's chain has six hinges, so six
+equations for six angles, and moves all the same, because its axes lie in a special way. Numbers
+tell: at the design position, with the default parameters, the rates of all relative coordinates
+fulfil ``L rates = 0``, where each column of L is the screw of a coordinate, in each loop that the
+coordinate takes part in (Davies, 1981).
+
+The generator asks this only where it is about to iterate; a closed form needs no numbers.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import networkx as nx
+import numpy as np
+
+from ..declare.evaluation import AtDefaults
+from ..declare.joints import Cylindrical, Prismatic, Revolute, Spherical, Universal
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterable
+
+    from numpy.typing import NDArray
+
+    from ..declare.joints import Joint
+    from ..declare.mechanism import Mechanism
+    from ..program.vectors import Vector
+    from .graph import Topology
+    from .known import Coordinate
+
+    Array = NDArray[np.float64]
+
+# Of the largest singular value: below it a direction of motion is taken for exact. Dimensions are
+# declared with six digits and more where a special geometry is meant.
+_TOLERANCE = 1e-7
+
+
+class Mobility:
+    """The instantaneous mobility of a mechanism at its design position.
+
+    Parameters
+    ----------
+    topology
+        Of the mechanism; its default parameters are used.
+    driven
+        Names of the joints whose coordinates are independent or prescribed.
+    """
+
+    def __init__(self, topology: Topology, driven: Collection[str]) -> None:
+        self._topology = topology
+        joints = topology.mechanism.joints
+        self._coordinates = [(j.name, c) for j in joints for c in j.coordinates]
+        self._driven = np.array([name in driven for name, _ in self._coordinates])
+
+    @property
+    def is_known(self) -> bool:
+        """Whether all parameters of the joints are declared, so that there are numbers."""
+        value = AtDefaults(self._topology.mechanism)
+        vectors = (v for joint in self._topology.mechanism.joints for v in _vectors(joint))
+        return all(math.isfinite(value(component)) for v in vectors for component in v)
+
+    def driven_move(self) -> bool:
+        """Tell whether every driven coordinate can move, whatever the others do."""
+        return _rank(self._closure) == _rank(self._closure[:, ~self._driven])
+
+    def determines(self, coordinates: Iterable[Coordinate]) -> bool:
+        """Tell whether some coordinates stand still when all driven ones do."""
+        free = _null_space(self._closure[:, ~self._driven])
+        names = [
+            c for c, is_driven in zip(self._coordinates, self._driven, strict=True) if not is_driven
+        ]
+        rows = [names.index(c) for c in coordinates]
+        return bool(np.abs(free[rows]).max(initial=0.0) < _TOLERANCE)
+
+    @cached_property
+    def _closure(self) -> Array:
+        """L: six rows for each independent loop, a column for each relative coordinate."""
+        mechanism, graph = self._topology.mechanism, self._topology.graph
+        screws = _Screws(mechanism)
+        rows = []
+        for bodies in nx.cycle_basis(graph):
+            block = {j.name: np.zeros((6, j.freedoms)) for j in mechanism.joints}
+            for here, there in pairwise([*bodies, bodies[0]]):
+                joint = self._topology.joint_between(here, there)
+                sense = 1.0 if here == joint.first else -1.0
+                block[joint.name] = sense * screws.of(joint)
+            rows.append(np.hstack(list(block.values())))
+        return np.vstack([np.zeros((0, len(self._coordinates))), *rows])
+
+
+class _Screws:
+    """Angular velocity and velocity at the origin for unit rates of relative coordinates.
+
+    Lengths are in units of the size of the mechanism, so that both parts weigh alike.
+    """
+
+    def __init__(self, mechanism: Mechanism) -> None:
+        self._value = AtDefaults(mechanism)
+        points = [_reference(joint) for joint in mechanism.joints]
+        places = np.array([self._number(p) for p in points if p is not None])
+        self._middle = places.mean(axis=0) if len(places) else np.zeros(3)
+        spread = (
+            np.sqrt(np.mean(np.sum((places - self._middle) ** 2, axis=1))) if len(places) else 1
+        )
+        self._size = spread or 1.0
+
+    def of(self, joint: Joint) -> Array:
+        """Return a column for each coordinate of a joint."""
+        return np.transpose(
+            [self._slide(a) if slides else self._turn(a, joint) for slides, a in self._axes(joint)]
+        )
+
+    def _axes(self, joint: Joint) -> list[tuple[bool, Array]]:
+        """Return what the coordinates of a joint go along, and whether they slide."""
+        if isinstance(joint, Revolute):
+            return [(False, self._unit(joint.axis.vector))]
+        if isinstance(joint, Prismatic):
+            return [(True, self._unit(joint.direction.components))]
+        if isinstance(joint, Cylindrical):
+            axis = self._unit(joint.axis.vector)
+            return [(True, axis), (False, axis)]
+        if isinstance(joint, Universal):
+            first = self._unit(joint.first_axis.components)
+            second = np.cross(first, self._unit(joint.shaft.vector))
+            return [(False, first), (False, second / np.linalg.norm(second))]
+        assert isinstance(joint, Spherical)
+        return [(False, axis) for axis in np.eye(3)]
+
+    def _turn(self, axis: Array, joint: Joint) -> Array:
+        point = _reference(joint)
+        assert point is not None
+        place = (self._number(point) - self._middle) / self._size
+        return np.concatenate((axis, np.cross(place, axis)))
+
+    def _slide(self, axis: Array) -> Array:
+        return np.concatenate((np.zeros(3), axis))
+
+    def _unit(self, vector: Vector) -> Array:
+        number = self._number(vector)
+        return number / np.linalg.norm(number)
+
+    def _number(self, vector: Vector) -> Array:
+        return np.array([self._value(component) for component in vector])
+
+
+def _reference(joint: Joint) -> Vector | None:
+    """Return the position of a point of a joint's axes at design."""
+    if isinstance(joint, Revolute | Cylindrical):
+        return joint.axis.through.position
+    return None if joint.center is None else joint.center.position
+
+
+def _vectors(joint: Joint) -> list[Vector]:
+    """Return everything about a joint that has components."""
+    if isinstance(joint, Prismatic):
+        return [joint.direction.components]
+    if isinstance(joint, Revolute | Cylindrical):
+        return [joint.axis.through.position, joint.axis.vector]
+    if isinstance(joint, Universal):
+        return [joint.at.position, joint.shaft.vector, joint.first_axis.components]
+    assert isinstance(joint, Spherical)
+    return [joint.at.position]
+
+
+def _rank(matrix: Array) -> int:
+    sizes = np.linalg.svd(matrix, compute_uv=False)
+    return int(np.sum(sizes > _TOLERANCE * sizes.max(initial=0.0)))
+
+
+def _null_space(matrix: Array) -> Array:
+    """Return an orthonormal basis of what a matrix maps to zero, as columns."""
+    _, _, right = np.linalg.svd(matrix, full_matrices=True)
+    return right[_rank(matrix) :].T

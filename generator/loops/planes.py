@@ -1,0 +1,74 @@
+"""Which loops move in a plane: hinges along each other, guides across them.
+
+A declaration may say so, by one direction that all hinges have. Where it does not (each hinge a
+line through two points, or along a direction of its own), the default parameters decide; that it
+stays so is one of the `assumptions`.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..declare.evaluation import AtDefaults
+from ..declare.geometry import Direction
+from ..declare.joints import Prismatic, Revolute
+from ..program.floors import ROUNDING
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from ..declare.geometry import Line
+    from ..declare.joints import Joint
+    from ..declare.mechanism import Mechanism
+    from ..program.vectors import Vector
+
+    Array = NDArray[Any]
+
+
+class Planes:
+    """Finds the plane of a loop of a mechanism."""
+
+    def __init__(self, mechanism: Mechanism) -> None:
+        self._at_defaults = AtDefaults(mechanism)
+        self._unit = cache(self._unit_vector)
+
+    def normal(self, joints: Sequence[Joint]) -> Direction | None:
+        """Return the direction of the hinges of a loop that moves in a plane; of others, none.
+
+        Of hinges along one declared direction the loop is in a plane even where a guide leaves it:
+        then the declaration contradicts itself, which the `assumptions` say.
+        """
+        hinges = [j for j in joints if isinstance(j, Revolute)]
+        guides = [j for j in joints if isinstance(j, Prismatic)]
+        if not hinges or len(hinges) + len(guides) < len(joints):
+            return None
+        first = hinges[0].axis
+        if isinstance(first.towards, Direction) and len({j.axis.towards for j in hinges}) == 1:
+            return first.towards
+        return self._by_numbers(hinges, guides)
+
+    def _by_numbers(
+        self, hinges: Sequence[Revolute], guides: Sequence[Prismatic]
+    ) -> Direction | None:
+        n = self._unit(hinges[0].axis.vector)
+        off = [np.linalg.norm(np.cross(n, self._unit(j.axis.vector))) for j in hinges[1:]]
+        off += [np.abs(n @ self._unit(j.direction.components)) for j in guides]
+        in_plane = all(amount <= float(ROUNDING) for amount in off)  # not so if one is NaN
+        return _direction(hinges[0].name, hinges[0].axis) if in_plane else None
+
+    def _unit_vector(self, vector: Vector) -> Array:
+        v = np.array([self._at_defaults(component) for component in vector])
+        size = np.linalg.norm(v)
+        return v / size if size > 0.0 else np.full(3, np.nan)
+
+
+def _direction(name: str, line: Line) -> Direction:
+    """Return the direction of a line."""
+    if isinstance(line.towards, Direction):
+        return line.towards
+    return Direction(f"{name}_line", between=(line.through, line.towards))

@@ -1,0 +1,240 @@
+"""Which coordinates of a mechanism can be independent: proposals, and why there is none.
+
+The mobility says how many there are, but for the turns of links about their own line. Sets of so
+many reported coordinates are tried by planning the solution of all loops, joints on the ground
+before others: their coordinates are what drives, and what a person sees. A trial takes
+milliseconds, but there may be very many.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import combinations, islice
+from math import comb
+from time import monotonic
+from typing import TYPE_CHECKING
+
+from ..declare.forces import JointForce
+from ..declare.joints import Prismatic, Revolute
+from ..declare.model import Model
+from ..loops.errors import NoClosedFormError
+from ..loops.graph import Topology
+from .plan import Plan
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from ..declare.mechanism import Mechanism
+
+_SECONDS_TO_FIND = 20.0  # a mechanism with so many choices has one that its author would name
+_SECONDS_TO_ADVISE = 3.0
+_CHOICES_SHOWN = 3
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """Joints whose coordinates can be independent.
+
+    Attributes
+    ----------
+    independent
+        Names of the joints.
+    iterates
+        Whether a loop is left to an iteration, which `Model.allow_iteration` must permit.
+    """
+
+    independent: tuple[str, ...]
+    iterates: bool = False
+
+
+def model_of(mechanism: Mechanism) -> Model:
+    """Return a model of a mechanism with the first proposed coordinates, all bodies massive.
+
+    Parameters
+    ----------
+    mechanism
+        A mechanism without a prescribed motion.
+
+    Raises
+    ------
+    NoClosedFormError
+        If there is no such set of coordinates.
+    """
+    search = Search(_bare(mechanism))
+    closed = next(search.closed(_SECONDS_TO_FIND), None)
+    if closed is None:
+        raise NoClosedFormError(search.refusal())
+    return search.model(closed.independent)
+
+
+def proposals(declared: Mechanism | Model, seconds: float | None = None) -> Iterator[Proposal]:
+    """Yield sets of joints whose coordinates can be independent, in the order of preference.
+
+    Those from which every loop closes in closed form come first. Of a model, what it prescribes
+    stays prescribed. Each of the two searches ends after some time, if it is given.
+    """
+    search = Search(declared if isinstance(declared, Model) else _bare(declared))
+    closed = set()
+    for proposal in search.closed(seconds):
+        closed.add(proposal.independent)
+        yield proposal
+    yield from (p for p in search.iterated(seconds) if p.independent not in closed)
+
+
+def advice(refused: Model) -> str:
+    """Name other choices of independent coordinates for a model whose loops do not close.
+
+    Returns
+    -------
+    str
+        A sentence, or nothing.
+    """
+    search = Search(refused)
+    if search.impossible:
+        return ""
+    closed = list(islice(search.closed(_SECONDS_TO_ADVISE), _CHOICES_SHOWN))
+    if closed:
+        return f"Every loop has a closed form with {_either(closed)}."
+    if not refused.allow_iteration:
+        return search.summary()
+    iterated = list(islice(search.iterated(_SECONDS_TO_ADVISE), _CHOICES_SHOWN))
+    return f"Every loop closes with {_either(iterated)}." if iterated else search.summary()
+
+
+class Search:
+    """Trials of all sets of reported coordinates that could be independent.
+
+    Parameters
+    ----------
+    model
+        What it says of independent coordinates does not count.
+    """
+
+    def __init__(self, model: Model) -> None:
+        self._model = model
+        mechanism = model.mechanism
+        self.mobility = Topology(mechanism).mobility - len(mechanism.idle_links)
+        self.count = self.mobility - len(model.prescribed)
+        self.candidates = [n for n in _candidates(mechanism) if n not in model.prescribed]
+        forces = [f.joint for f in mechanism.forces if isinstance(f, JointForce)]
+        self._pushed = {name for name in forces if name not in model.prescribed}
+        self._tried = 0
+        self._nearest: tuple[tuple[str, ...], NoClosedFormError] | None = None
+
+    @property
+    def impossible(self) -> str:
+        """Why there is nothing to try; empty: there is."""
+        mechanism, reported = self._model.mechanism, ", ".join(self.candidates) or "none"
+        what = f"mechanism {mechanism.name!r} with mobility {self.mobility}"
+        if self.count < 0 or self.mobility <= 0:
+            return (
+                f"{what}: counting the freedoms of its joints leaves nothing to move. If special "
+                "dimensions let it move all the same, declare a Model that says which joints are "
+                "independent"
+            )
+        if len(self.candidates) < self.count:
+            return (
+                f"{what}: {self.count} coordinate(s) must be independent; of hinges and guides it "
+                f"reports {reported}. Report more of them (RelativeCoordinate), or declare a Model "
+                "with prescribed joints"
+            )
+        if not self._pushed <= set(self.candidates) or len(self._pushed) > self.count:
+            return (
+                f"{what}: JointForce acts along {', '.join(sorted(self._pushed))}, but "
+                f"{self.count} of {reported} must be independent. Report these joints, or let "
+                "Actuators in ForceElements push between points instead"
+            )
+        return ""
+
+    def closed(self, seconds: float | None = None) -> Iterator[Proposal]:
+        """Yield what closes in closed form; stop after some time, if it is given."""
+        yield from map(Proposal, self._closing(seconds, allow_iteration=False))
+
+    def iterated(self, seconds: float | None = None) -> Iterator[Proposal]:
+        """Yield what closes where iteration is allowed; stop after some time, if it is given."""
+        for independent in self._closing(seconds, allow_iteration=True):
+            yield Proposal(independent, iterates=True)
+
+    def model(self, independent: tuple[str, ...], *, allow_iteration: bool = False) -> Model:
+        """Return the model with some independent joints."""
+        return replace(self._model, independent=independent, allow_iteration=allow_iteration)
+
+    def refusal(self) -> str:
+        """Say why nothing was found, by the trial that came nearest, and what would help."""
+        if self.impossible:
+            return self.impossible
+        name = self._model.mechanism.name
+        text = f"mechanism {name!r} with mobility {self.mobility}. {self.summary()}"
+        iterated = next(self.iterated(_SECONDS_TO_FIND), None)
+        if iterated is not None:
+            text += (
+                " With iteration it does: declare a Model with "
+                f"independent={iterated.independent} and allow_iteration=True."
+            )
+        if self._nearest is not None:
+            independent, refusal = self._nearest
+            text += f" Nearest came independent={independent}: {refusal}"
+        return (
+            f"{text.removesuffix('.')}. Otherwise report more coordinates, or declare a Model "
+            "with the independent and the prescribed joints that you mean"
+        )
+
+    def summary(self) -> str:
+        """Say that nothing was found, and among how many sets."""
+        every = comb(len(self.candidates) - len(self._pushed), self.count - len(self._pushed))
+        limit = "" if self._tried >= every else f"the first {self._tried} of "
+        return (
+            f"From no {self.count} of the reported angles and slides "
+            f"({', '.join(self.candidates)}; {limit}{every} set(s) tried) does every loop close in "
+            "closed form."
+        )
+
+    def _closing(
+        self, seconds: float | None, *, allow_iteration: bool
+    ) -> Iterator[tuple[str, ...]]:
+        end = None if seconds is None else monotonic() + seconds
+        sets = [] if self.impossible else combinations(self.candidates, self.count)
+        tried = 0
+        for independent in sets:
+            if not self._pushed <= set(independent):
+                continue
+            if end is not None and monotonic() > end:
+                return
+            tried += 1
+            self._tried = max(self._tried, tried)
+            try:
+                Plan.of(self.model(independent, allow_iteration=allow_iteration))
+            except NoClosedFormError as refusal:
+                self._note(independent, refusal)
+            else:
+                yield independent
+
+    def _note(self, independent: tuple[str, ...], refusal: NoClosedFormError) -> None:
+        """Keep the trial in which the most loops were solved before one was refused."""
+        if self._nearest is None or refusal.solved > self._nearest[1].solved:
+            self._nearest = independent, refusal
+
+
+def _either(choices: Iterable[Proposal]) -> str:
+    return " or ".join(f"independent={choice.independent}" for choice in choices)
+
+
+def _bare(mechanism: Mechanism) -> Model:
+    """Return a model of a mechanism in which everything is independent that could be."""
+    return Model(
+        name=mechanism.name,
+        title=mechanism.title,
+        mechanism=mechanism,
+        independent=_candidates(mechanism),
+        massive=tuple(body.name for body in mechanism.bodies[1:]),
+    )
+
+
+def _candidates(mechanism: Mechanism) -> tuple[str, ...]:
+    """Return the joints with one reported coordinate, those on the ground first."""
+    reported = {c.joint for c in mechanism.coordinates}
+    joints = [
+        j for j in mechanism.joints if isinstance(j, Revolute | Prismatic) and j.name in reported
+    ]
+    joints.sort(key=lambda joint: mechanism.ground not in joint.bodies)  # stable
+    return tuple(joint.name for joint in joints)

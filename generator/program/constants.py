@@ -1,0 +1,136 @@
+"""The stage of a parameter set: steps that depend on parameters only."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from .function import Block, Function
+from .functions import SignOf
+from .steps import Step, ancestors, first_free
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from .conditions import Assumption, Condition
+
+
+@dataclass
+class ConstantStage:
+    """Steps that depend on parameters only, shared by all programs of a model.
+
+    Attributes
+    ----------
+    parameters
+        Symbols that are fixed for one parameter set.
+    reserved
+        Names that no step may have: those of states and inputs.
+    derived
+        What stands for other symbols that the equations name like parameters.
+    steps
+        The steps, in order.
+    blocks
+        The iterations of all programs, by their names.
+    conditions
+        Constants that must not vanish.
+    """
+
+    parameters: tuple[sp.Symbol, ...]
+    reserved: frozenset[str] = frozenset()
+    derived: Mapping[sp.Symbol, sp.Expr] = field(default_factory=dict)
+    steps: dict[sp.Symbol, Step] = field(default_factory=dict)
+    blocks: dict[str, Block] = field(default_factory=dict)
+    conditions: dict[sp.Expr, Condition] = field(default_factory=dict)
+    _known: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
+    _varying: set[str] = field(default_factory=set)  # names of steps of the programs
+    _collected: int = 0
+
+    def contains(self, expression: sp.Expr) -> bool:
+        """Tell whether an expression depends on parameters only."""
+        return all(s in self.steps or s in self._given for s in expression.free_symbols)
+
+    @cached_property
+    def _given(self) -> frozenset[sp.Symbol]:
+        return frozenset(self.parameters)
+
+    def insert_derived(self, expression: sp.Expr) -> sp.Expr:
+        """Write an expression without derived symbols."""
+        if self.derived.keys().isdisjoint(expression.free_symbols):
+            return expression
+        return expression.xreplace(self.derived)
+
+    def has(self, name: str) -> bool:
+        """Tell whether a name is that of a constant, a parameter, a state or an input.
+
+        Parameters of a copy count, since they are replaced wherever their names are read.
+        """
+        symbol = sp.Symbol(name)
+        known = (self.steps, self._given, self.derived)
+        return any(symbol in names for names in known) or name in self.reserved
+
+    def note(self, name: str) -> None:
+        """Keep the name of a program's step from being used for a constant."""
+        self._varying.add(name)
+
+    def define(self, name: str, expression: sp.Expr, section: str) -> sp.Expr:
+        """Append a step and return its symbol, or that of the same step defined before.
+
+        The symbol has a number behind its name where something else has that name already.
+        """
+        form = self._form(expression)
+        if form in self._known:
+            return self._known[form]
+        negative = SignOf(-form.args[0]) if isinstance(form, SignOf) else -form
+        if negative in self._known:
+            return -self._known[negative]
+        symbol = first_free(name, lambda n: self.has(n) or n in self._varying)
+        self.steps[symbol] = Step(symbol, expression, section)
+        self._known[form] = symbol
+        return symbol
+
+    def _form(self, expression: sp.Expr) -> sp.Expr:
+        """Return the form by which a step is found again.
+
+        What a mirror image has alike, up to the sign, is often written with its brackets and signs
+        in other places; where there are copies, steps are compared when multiplied out.
+        """
+        return sp.expand(expression) if self.derived else expression
+
+    def collect(self, expression: sp.Expr) -> sp.Expr:
+        """Return a name for a constant part of an equation."""
+        if expression.is_Atom or (-expression).is_Symbol:
+            return expression
+        if expression.could_extract_minus_sign():
+            return -self.collect(-expression)
+        if self._form(expression) not in self._known:
+            self._collected += 1
+        return self.define(
+            f"constant_{self._collected}", expression, "constants collected from the equations"
+        )
+
+    def function(
+        self, functions: Iterable[Function], assumptions: Iterable[Assumption] = ()
+    ) -> Function:
+        """Return the parameter stage: all constants that some functions read or that are checked.
+
+        What must be zero, or must not, is computed like any constant, so that an error can say by
+        how much it is off.
+        """
+        used = set().union(*(f.free_symbols for f in functions))
+        used = used.union(*(a.quantity.free_symbols | a.scale.free_symbols for a in assumptions))
+        kept = self.conditions.values()
+        used = used.union(*(c.quantity.free_symbols | c.least.free_symbols for c in kept))
+        results = [s for s in (*self.parameters, *self.steps) if s in used]
+        needed = ancestors(self.steps, results)
+        return Function(
+            "prepare",
+            "Constants of one parameter set.",
+            tuple(step for step in self.steps.values() if step.symbol in needed),
+            tuple(results),
+            tuple(map(str, results)),
+            (len(results),),
+            (),
+        )

@@ -1,0 +1,82 @@
+"""Functions of a step that SymPy does not have: guards, choices, and what iterations return."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+
+class Guarded(sp.Function):  # type: ignore[misc]  # SymPy has no types
+    """The first argument where it is over its floor, the second; that floor where it is not.
+
+    It stands where a closed form has a root or a divisor that vanishes when a loop cannot close.
+    The arithmetic stays free of branches and of NaN; the status word says that the guard acted.
+    """
+
+    nargs = 2
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """Differentiate as the identity: where the guard acts, the result is discarded anyway."""
+        return sp.Integer(int(argindex == 1))
+
+
+class SignOf(sp.Function):  # type: ignore[misc]  # SymPy has no types
+    """Plus one or minus one, the sign of the argument. Used for constants only (branch choice)."""
+
+    nargs = 1
+
+
+class Positive(sp.Function):  # type: ignore[misc]
+    """The argument where it is positive, zero elsewhere."""
+
+    nargs = 1
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """Differentiate: one where the argument is positive, zero elsewhere."""
+        del argindex
+        return IsPositive(self.args[0])
+
+
+class IsPositive(sp.Function):  # type: ignore[misc]
+    """One where the argument is positive, zero elsewhere."""
+
+    nargs = 1
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """Differentiate: zero, but for the jump, which no derivative can show."""
+        del argindex
+        return sp.Integer(0)
+
+
+class Iterated(sp.Function):  # type: ignore[misc]
+    """All results of an iteration (`iteration.Block`) together, as one value.
+
+    The first argument is the name of the block, the others are what it is given.
+
+    Its derivative is zero by definition: what follows the iteration corrects its result once more,
+    in straight-line code, and the derivative of that correction is the exact one.
+    """
+
+    def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
+        del s
+        return sp.Integer(0)
+
+
+class Component(sp.Function):  # type: ignore[misc]
+    """One result of an iteration, by its place; the derivative is zero by definition."""
+
+    nargs = 2
+
+    def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
+        del s
+        return sp.Integer(0)
+
+
+class Frozen(sp.Function):  # type: ignore[misc]
+    """The argument itself, with a derivative of zero: an estimate that is corrected afterwards."""
+
+    nargs = 1
+
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """Differentiate: zero by definition."""
+        del argindex
+        return sp.Integer(0)

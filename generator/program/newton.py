@@ -1,0 +1,291 @@
+"""Newton's method as a block of an otherwise straight-line program, for what has no closed form.
+
+A *block* is a function of its own that follows a solution: from the design position, where it is
+zero, to the coordinates of a call. What it repeats is straight-line code, written by the same
+printers as everything else: residuals g and their Jacobian J at one estimate, for one position of
+the driven coordinates, with all that is placed before the loops (`Block.once`). Around it is one
+loop that all blocks share, with a bounded number of iterations (``backends/*/templates/follow.*``).
+
+*The way* goes straight from the coordinates of the design position to those of the call, in stages.
+Where a hinge is further than a full turn from its design position, a turn alone is followed first;
+if it leads back to the design position, whole turns are left out. So what a block finds depends on
+its arguments only, is continuous wherever it is found, and is on the branch on which the mechanism
+moves along this way.
+
+*A stage* is accepted where Newton's method converges from the tangent (the way of the stage before,
+continued), and where J has changed by less than half of itself since the stage before, ``|J0^-1 J -
+1| <= 1/2`` (of more equations than unknowns: J0^-1 is the pseudoinverse). J cannot become singular
+in between then, so that no other branch meets this one; and where J differs from one matrix by less
+than that, g has one root, so that there is no other one to go to. Both are free of scales. A stage
+that is not accepted is tried again, shorter. Where stages become as short as nothing, the branch
+ends: a dead point.
+
+After `ITERATIONS`, or where a branch ends, the block says that it is lost (`LOST`) and returns what
+it has, which is finite. Behind it, straight-line code evaluates the residuals again; its guard
+refuses what does not fulfil them, and what is lost (`closed_forms.inverse`).
+
+Derivatives: a block returns the adjugate and the determinant of its Jacobian J as well. Behind it,
+one more correction ``x - J^-1 g(x, v)`` is written out, in which only g depends on the arguments v.
+It changes nothing but the last digits, and its derivative is ``-J^-1 g_v``: that of the implicit
+function theorem. So derivatives of the results of a block are zero by definition (`Iterated`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from .function import Block, Driven, Estimate
+from .functions import Guarded, IsPositive
+from .program import Program
+from .steps import ancestors
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Sequence
+
+
+ITERATIONS = 400
+"""Most iterations of a block. Within the travel of a suspension it takes five to seven."""
+
+LIMITS = {
+    "ITERATIONS": str(ITERATIONS),
+    "CONVERGED": "1.0e-13",
+    "STALLED": "1.0e-6",
+    "LONGEST": "0.5",
+    "TURNED": "0.5",
+    "CLOSE": "0.1",
+    "SHORTEST": "1.0e-9",
+    "CLOSED": "1.0e-6",
+}
+"""Numbers of `follow`: what each is, is said where they are printed."""
+
+Matrix = list[list[sp.Expr]]
+
+
+@dataclass(frozen=True)
+class Found:
+    """What one iteration finds.
+
+    Attributes
+    ----------
+    unknowns
+        The estimate.
+    misfits
+        What it leaves of the equations.
+    rows
+        J.
+    apart
+        The square of how far the estimate is from the design position; whole turns do not count.
+    """
+
+    unknowns: Sequence[sp.Expr]
+    misfits: Sequence[sp.Expr]
+    rows: Matrix
+    apart: sp.Expr
+
+
+class Derivation:
+    """The program of one iteration, with all that is placed before the loops at that stage.
+
+    Parameters
+    ----------
+    around
+        The program that the block is called from.
+    driven
+        Of every coordinate that moves anything: the symbol, the value at design, and whether it is
+        an angle.
+    unit
+        What of a slide is as much as a radian.
+    """
+
+    def __init__(
+        self,
+        around: Program,
+        driven: Iterable[tuple[sp.Symbol, sp.Expr, bool]],
+        unit: sp.Expr,
+    ) -> None:
+        self._around = around
+        self.program = Program(around.constants)
+        self._driven = {
+            end: Driven(
+                self._own(f"{end}_now"), start, end, sp.Integer(1) if turns else unit, turns
+            )
+            for end, start, turns in driven
+        }
+        self._copies: dict[sp.Symbol, sp.Expr] = {end: d.now for end, d in self._driven.items()}
+        self._needed: set[sp.Symbol] = set()
+
+    def _own(self, name: str) -> sp.Symbol:
+        """Return a symbol that no constant has, or will have."""
+        constants, symbol = self._around.constants, sp.Symbol(name)
+        while constants.has(symbol.name):
+            symbol = sp.Symbol(f"{symbol}_")
+        constants.note(symbol.name)
+        return symbol
+
+    def repeated(self, values: Iterable[sp.Expr]) -> list[sp.Expr]:
+        """Append what values of the program around are at this stage."""
+        values, steps = list(values), self._around.steps
+        needed = ancestors(steps, values) - self._needed
+        for step in [s for s in steps.values() if s.symbol in needed]:
+            copy = self.program.define(str(step.symbol), step.expression.xreplace(self._copies))
+            if copy != step.symbol:
+                self._copies[step.symbol] = copy
+        self._needed |= needed
+        return [value.xreplace(self._copies) for value in values]
+
+    def block(
+        self,
+        name: str,
+        doc: str,
+        unknowns: Sequence[str],
+        equations: int,
+        derive: Callable[[Program, Estimate], Found],
+    ) -> Block:
+        """Derive the block.
+
+        Parameters
+        ----------
+        derive
+            Writes the equations at an estimate into the program.
+        """
+        program, count = self.program, len(unknowns)
+        estimate = Estimate(
+            tuple(self._own(f"{name}_from") for name in unknowns),
+            tuple(self._own(f"{name}_step") for name in unknowns),
+            tuple(
+                tuple(self._own(f"held_{i}{j}") for j in range(1, equations + 1))
+                for i in range(1, count + 1)
+            ),
+        )
+        found = derive(program, estimate)
+        program.section("how the equations change with the unknowns, and the correction")
+        rows = named(program, "row", found.rows)
+        inverse, scale = inverted(program, rows)
+        correction = [-c / scale for c in times(inverse, found.misfits)]
+        program.section("how much that has changed since the stage before")
+        outputs = dict(zip(unknowns, found.unknowns, strict=True))
+        places = [f"inverse_{i}{j}" for i in range(1, count + 1) for j in range(1, equations + 1)]
+        outputs |= dict(zip(places, (e for line in inverse for e in line), strict=True))
+        outputs |= {"determinant": scale, "apart": found.apart}
+        outputs |= {f"correction_{u}": c for u, c in zip(unknowns, correction, strict=True)}
+        outputs["changed"] = self._changed(estimate.held, rows)
+        once = program.function(name, doc, outputs)
+        read = once.free_symbols
+        constants = program.constants
+        return Block(
+            name,
+            doc,
+            tuple(unknowns),
+            equations,
+            tuple(s for s in (*constants.parameters, *constants.steps) if s in read),
+            tuple(d for d in self._driven.values() if d.now in read),
+            estimate,
+            once,
+        )
+
+    def _changed(self, held: Sequence[Sequence[sp.Symbol]], rows: Matrix) -> sp.Expr:
+        """Return the square of ``|J0^-1 J - 1|``, and more where what is placed before is not."""
+        columns = [list(column) for column in zip(*rows, strict=True)]
+        squares = []
+        for i, line in enumerate(held):
+            for j, column in enumerate(columns):
+                kept = _dot(line, column) - (1 if i == j else 0)
+                squares.append(self.program.define(f"kept_{i + 1}{j + 1}", kept) ** 2)
+        margins = {
+            sp.Add(guarded.args[0], -guarded.args[1])
+            for step in self.program.steps.values()
+            for guarded in step.expression.atoms(Guarded)
+        }
+        failing = [1 - IsPositive(margin) for margin in sorted(margins, key=str)]
+        return sp.Add(*squares, *failing)
+
+
+# -- linear equations -----------------------------------------------------------------------------
+
+
+def inverted(program: Program, rows: Matrix) -> tuple[Matrix, sp.Expr]:
+    """Append the adjugate and the determinant of J, or those of J^T J, the former times J^T."""
+    if len(rows) == len(rows[0]):
+        return adjugate(program, rows)
+    columns = [list(column) for column in zip(*rows, strict=True)]
+    normal = [[_dot(a, b) for b in columns] for a in columns]
+    inverse, scale = adjugate(program, named(program, "normal", normal))
+    product = [[_dot(line, row) for row in rows] for line in inverse]
+    return named(program, "inverse", product), scale
+
+
+def _dot(one: Iterable[sp.Expr], two: Iterable[sp.Expr]) -> sp.Expr:
+    return sum((a * b for a, b in zip(one, two, strict=True)), sp.Integer(0))
+
+
+def adjugate(program: Program, matrix: Matrix) -> tuple[Matrix, sp.Expr]:
+    """Append the adjugate of a matrix and its determinant: no pivots, and no division.
+
+    With the adjugate, a singular matrix needs no case of its own. A cofactor is a sum over products
+    of a minor of the rows above and one of the rows below (Laplace): a thousand operations for six
+    rows, some thirty for three.
+    """
+    size = len(matrix)
+    columns = tuple(range(size))
+    above = _minors(program, "upper", matrix)
+    below = _minors(program, "lower", matrix[::-1])
+    result: Matrix = [[sp.Integer(0)] * size for _ in columns]
+    for row in range(size):
+        for column in columns:
+            rest = [c for c in columns if c != column]
+            terms = []
+            for chosen in combinations(rest, row):
+                others = tuple(c for c in rest if c not in chosen)
+                sign = _sign([*chosen, column, *others]) * _reversal(len(others))
+                terms.append(sign * above[row][chosen] * below[size - 1 - row][others])
+            cofactor = sp.Add(*terms)
+            result[column][row] = program.define(f"adjugate_{column + 1}{row + 1}", cofactor)
+    return result, program.define(
+        "determinant", sum((matrix[0][c] * result[c][0] for c in columns), sp.Integer(0))
+    )
+
+
+def named(program: Program, name: str, matrix: Matrix) -> Matrix:
+    """Append the elements of a matrix."""
+    return [
+        [program.define(f"{name}_{i}{j}", entry) for j, entry in enumerate(row, 1)]
+        for i, row in enumerate(matrix, 1)
+    ]
+
+
+def _minors(program: Program, name: str, matrix: Matrix) -> list[dict[tuple[int, ...], sp.Expr]]:
+    """Append all minors of the first rows of a matrix: by number of rows, then by columns."""
+    size = len(matrix)
+    minors: list[dict[tuple[int, ...], sp.Expr]] = [{(): sp.Integer(1)}]
+    for count in range(1, size + 1):
+        last, before = matrix[count - 1], minors[-1]
+        minors.append({})
+        for columns in combinations(range(size), count):
+            terms = [
+                (-1) ** (count - 1 - place)
+                * last[column]
+                * before[columns[:place] + columns[place + 1 :]]
+                for place, column in enumerate(columns)
+            ]
+            label = "".join(str(c + 1) for c in columns)
+            minors[-1][columns] = program.define(f"{name}_{label}", sp.Add(*terms))
+    return minors
+
+
+def _sign(order: Sequence[int]) -> int:
+    """Return the sign of a permutation."""
+    return -1 if sum(a > b for a, b in combinations(order, 2)) % 2 else 1
+
+
+def _reversal(count: int) -> int:
+    """Return the sign of turning round some rows."""
+    return _sign(range(count)[::-1])
+
+
+def times(matrix: Matrix, vector: Sequence[sp.Expr]) -> list[sp.Expr]:
+    """Return the product of a matrix and a vector."""
+    return [sum((a * b for a, b in zip(row, vector, strict=True)), sp.Integer(0)) for row in matrix]

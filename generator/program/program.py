@@ -1,0 +1,239 @@
+"""The straight-line program: named steps, no branch, and no iteration but where one is allowed.
+
+A *step* is a name and a small expression in earlier names. Everything the generator derives is a
+step of one `Program`; an emitted `Function` is the part of the program that its results need.
+
+Two stages are told apart by what a step depends on, not by who wrote it: steps (and parts of
+steps) that depend on parameters only are *constants*, computed once per parameter set; all others
+belong to the right-hand side.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from itertools import count
+from typing import TYPE_CHECKING, Any
+
+import sympy as sp
+
+from .derivatives import chain_rule
+from .floors import SMALLEST
+from .function import Block, Function
+from .functions import Component, Guarded, Iterated
+from .sharing import drop_dead, share
+from .steps import Guard, Step, ancestors, first_free
+from .vectors import Vector
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+
+    from .constants import ConstantStage
+
+
+@dataclass
+class Program:
+    """The steps of one variant of a model, and the means to extend, differentiate, prune them.
+
+    Parameters
+    ----------
+    constants
+        Where steps go that depend on parameters only.
+    """
+
+    constants: ConstantStage
+    steps: dict[sp.Symbol, Step] = field(default_factory=dict)
+    guards: dict[sp.Symbol, Guard] = field(default_factory=dict)
+    _section: str = ""
+    _known: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
+
+    def section(self, title: str) -> None:
+        """Name the part of the derivation that the next steps belong to."""
+        self._section = title
+
+    def define(self, name: str, expression: Any) -> sp.Expr:
+        """Append a step and return its symbol.
+
+        Numbers, symbols and their negatives are returned as they are, and an expression that is
+        already a step is not repeated, so that zeros and shared values disappear on the way. The
+        symbol has a number behind its name where something else has that name already.
+        """
+        expression = self.constants.insert_derived(sp.sympify(expression))
+        if expression.is_Atom or (-expression).is_Symbol:
+            return expression
+        if self.constants.contains(expression):
+            return self.constants.define(name, expression, self._section)
+        if expression in self._known:
+            return self._known[expression]
+        if -expression in self._known:
+            return -self._known[-expression]
+        symbol = first_free(name, self._has)
+        self.constants.note(symbol.name)
+        self.steps[symbol] = Step(symbol, expression, self._section)
+        self._known[expression] = symbol
+        return symbol
+
+    def _has(self, name: str) -> bool:
+        return sp.Symbol(name) in self.steps or self.constants.has(name)
+
+    def vector(self, name: str, vector: Vector, suffixes: str = "xyz") -> Vector:
+        """Append a step for each component of a vector."""
+        return Vector(
+            *(self.define(f"{name}_{s}", c) for s, c in zip(suffixes, vector, strict=True))
+        )
+
+    def axes(
+        self, names: tuple[str, str, str], vectors: Iterable[Vector], suffixes: str = "xyz"
+    ) -> tuple[Vector, Vector, Vector]:
+        """Append a step for each component of three vectors."""
+        x, y, z = (self.vector(n, v, suffixes) for n, v in zip(names, vectors, strict=True))
+        return x, y, z
+
+    def guarded(
+        self, name: str, expression: Any, meaning: str, unit: str, floor: Any = SMALLEST
+    ) -> sp.Expr:
+        """Append a step whose value must be over a floor, and return its guarded form.
+
+        Constants are not guarded: the parameter stage checks them all at once.
+
+        Parameters
+        ----------
+        name, meaning, unit
+            Of the quantity, and what it means that it is not over the floor.
+        expression
+            The quantity.
+        floor
+            In parameters and constants, or a number; see `conditioning`.
+        """
+        symbol = self.define(name, expression)
+        if self.constants.contains(symbol):
+            return symbol
+        if symbol not in self.guards:
+            least = self.define(f"{name}_floor", floor)
+            self.guards[symbol] = Guard(symbol, name, meaning, unit, least)
+        return Guarded(symbol, self.guards[symbol].floor)
+
+    def iterated(self, name: str, block: Block) -> dict[str, sp.Expr]:
+        """Append the call of a block that iterates, and return its results by name."""
+        results = self.define(name, Iterated(block.symbol, *block.given))
+        return {
+            label: self.define(f"{name}_{label}", Component(results, place))
+            for place, label in enumerate(block.results)
+        }
+
+    # -- differentiation ------------------------------------------------------------------------
+
+    def tangents(self, along: sp.Symbol, targets: Iterable[sp.Expr], label: str) -> list[sp.Expr]:
+        """Differentiate expressions along one symbol, step by step (forward mode).
+
+        Parameters
+        ----------
+        along
+            The symbol to differentiate by.
+        targets
+            Expressions in the names of the program.
+        label
+            Ends the names of the new steps: ``name__label``.
+
+        Raises
+        ------
+        ValueError
+            If the symbol is a parameter: the constant stage is not differentiated.
+        """
+        if self.constants.contains(along):
+            message = f"{along} is a parameter; only what varies in time is differentiated by"
+            raise ValueError(message)
+        targets = list(targets)
+        needed = ancestors(self.steps, targets)
+        tangent: dict[sp.Symbol, sp.Expr] = {along: sp.Integer(1)}
+        for step in [s for s in self.steps.values() if s.symbol in needed]:
+            derivative = chain_rule(step.expression, tangent, step.symbol)
+            if derivative != 0:
+                tangent[step.symbol] = self.define(f"{step.symbol}__{label}", derivative)
+        return [chain_rule(target, tangent) for target in targets]
+
+    def substitute(
+        self, replacements: Mapping[sp.Symbol, sp.Expr], targets: Iterable[sp.Expr], label: str
+    ) -> list[sp.Expr]:
+        """Repeat the steps of some expressions with other symbols in place of given ones.
+
+        Parameters
+        ----------
+        replacements
+            Symbols of the program and what stands in for them.
+        targets
+            Expressions in the names of the program.
+        label
+            Ends the names of the new steps: ``name__label``.
+        """
+        targets = list(targets)
+        needed = ancestors(self.steps, targets)
+        replaced = dict(replacements)
+        for step in [s for s in self.steps.values() if s.symbol in needed]:
+            if step.symbol in self.guards and step.expression.free_symbols & replaced.keys():
+                guard = self.guards[step.symbol]
+                new = self.guarded(
+                    f"{step.symbol}__{label}",
+                    step.expression.xreplace(replaced),
+                    guard.meaning,
+                    guard.unit,
+                    guard.floor,
+                ).args[0]
+            else:
+                new = self.define(f"{step.symbol}__{label}", step.expression.xreplace(replaced))
+            if new != step.symbol:
+                replaced[step.symbol] = new
+        return [target.xreplace(replaced) for target in targets]
+
+    # -- pruning --------------------------------------------------------------------------------
+
+    def function(
+        self,
+        name: str,
+        doc: str,
+        results: Mapping[str, sp.Expr],
+        shape: Sequence[int] | None = None,
+    ) -> Function:
+        """Prune the program to some results and share their common subexpressions."""
+        written = (self.constants.insert_derived(sp.sympify(e)) for e in results.values())
+        expressions = [self._hoist(e) for e in written]
+        needed = ancestors(self.steps, expressions)
+        steps = [
+            Step(s.symbol, self._hoist(s.expression), s.section)
+            for s in self.steps.values()
+            if s.symbol in needed
+        ]
+        steps, expressions = drop_dead(steps, expressions)
+        names = (sp.Symbol(f"shared_{i}") for i in count(1) if not self._has(f"shared_{i}"))
+        steps, expressions = share(steps, expressions, names)
+        acting = set().union(*(e.atoms(Guarded) for e in [s.expression for s in steps]), set())
+        acting |= set().union(*(e.atoms(Guarded) for e in expressions), set())
+        quantities = {g.args[0] for g in acting}
+        guards = tuple(g for q, g in self.guards.items() if q in quantities)
+        called = {s.expression.args[0].name for s in steps if isinstance(s.expression, Iterated)}
+        return Function(
+            name,
+            doc,
+            tuple(steps),
+            tuple(expressions),
+            tuple(results),
+            tuple(shape) if shape is not None else (len(expressions),),
+            guards,
+            blocks=tuple(block for n, block in self.constants.blocks.items() if n in called),
+        )
+
+    # -- constants ------------------------------------------------------------------------------
+
+    def _hoist(self, expression: sp.Expr) -> sp.Expr:
+        """Move the parts that depend on parameters only into the constant stage."""
+        if expression.is_Atom:
+            return expression
+        if self.constants.contains(expression):
+            return self.constants.collect(expression)
+        arguments = [self._hoist(a) for a in expression.args]
+        if isinstance(expression, sp.Add | sp.Mul):
+            constant = [a for a in arguments if self.constants.contains(a) and a not in (-1, 1)]
+            if len(constant) > 1:
+                rest = [a for a in arguments if a not in constant]
+                group = self.constants.collect(expression.func(*constant))
+                return expression.func(group, *rest)
+        return expression.func(*arguments)

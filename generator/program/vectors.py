@@ -1,0 +1,158 @@
+"""Vectors of three symbolic components.
+
+A `Vector` does not know the axes it is written in. By convention, positions are in the *work axes*
+(ground-fixed, see `kinematics.Kinematics`), and twists are in the axes of the body they belong to.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import sympy as sp
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+
+@dataclass(frozen=True)
+class Vector:
+    """Three components along some right-handed axes."""
+
+    x: sp.Expr
+    y: sp.Expr
+    z: sp.Expr
+
+    @classmethod
+    def of(cls, x: Any, y: Any, z: Any) -> Vector:
+        """Build a vector from numbers or expressions."""
+        return cls(sp.sympify(x), sp.sympify(y), sp.sympify(z))
+
+    def __iter__(self) -> Iterator[sp.Expr]:
+        return iter((self.x, self.y, self.z))
+
+    def __add__(self, other: Vector) -> Vector:
+        return Vector(self.x + other.x, self.y + other.y, self.z + other.z)
+
+    def __sub__(self, other: Vector) -> Vector:
+        return Vector(self.x - other.x, self.y - other.y, self.z - other.z)
+
+    def __neg__(self) -> Vector:
+        return Vector(-self.x, -self.y, -self.z)
+
+    def __mul__(self, factor: Any) -> Vector:
+        return Vector(self.x * factor, self.y * factor, self.z * factor)
+
+    def dot(self, other: Vector) -> sp.Expr:
+        """Return the scalar product."""
+        return self.x * other.x + self.y * other.y + self.z * other.z
+
+    def cross(self, other: Vector) -> Vector:
+        """Return the vector product ``self x other``."""
+        return Vector(
+            self.y * other.z - self.z * other.y,
+            self.z * other.x - self.x * other.z,
+            self.x * other.y - self.y * other.x,
+        )
+
+    @property
+    def is_zero(self) -> bool:
+        """Tell whether all components are literally zero."""
+        return all(component == 0 for component in self)
+
+
+ZERO = Vector.of(0, 0, 0)
+UNIT_X = Vector.of(1, 0, 0)
+UNIT_Y = Vector.of(0, 1, 0)
+UNIT_Z = Vector.of(0, 0, 1)
+
+
+@dataclass(frozen=True)
+class Twist:
+    """Angular velocity and velocity of the body's origin, both in body axes.
+
+    The same pair also holds accelerations: angular acceleration and the *inertial* acceleration of
+    the origin, again written in body axes.
+    """
+
+    angular: Vector
+    linear: Vector
+
+    def __add__(self, other: Twist) -> Twist:
+        return Twist(self.angular + other.angular, self.linear + other.linear)
+
+    def __mul__(self, factor: Any) -> Twist:
+        return Twist(self.angular * factor, self.linear * factor)
+
+    @property
+    def is_zero(self) -> bool:
+        """Tell whether the body does not move at all."""
+        return self.angular.is_zero and self.linear.is_zero
+
+
+NO_TWIST = Twist(ZERO, ZERO)
+
+
+# Elements of a symmetric tensor, in the order of `SymmetricTensor`.
+ELEMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
+
+
+@dataclass(frozen=True)
+class SymmetricTensor:
+    """A symmetric 3 x 3 tensor, such as an inertia, in some axes."""
+
+    xx: sp.Expr
+    yy: sp.Expr
+    zz: sp.Expr
+    xy: sp.Expr
+    xz: sp.Expr
+    yz: sp.Expr
+
+    @classmethod
+    def zero(cls) -> SymmetricTensor:
+        """Return the null tensor."""
+        return cls(*([sp.Integer(0)] * 6))
+
+    @classmethod
+    def of_point_mass(cls, mass: sp.Expr, at: Vector) -> SymmetricTensor:
+        """Return ``mass (|at|^2 1 - at at^T)``, the inertia of a point mass about the origin."""
+        x, y, z = at
+        return cls(
+            mass * (y * y + z * z),
+            mass * (x * x + z * z),
+            mass * (x * x + y * y),
+            -mass * x * y,
+            -mass * x * z,
+            -mass * y * z,
+        )
+
+    @classmethod
+    def transverse(cls, moment: sp.Expr, axis: Vector) -> SymmetricTensor:
+        """Return ``moment (1 - axis axis^T)`` for a unit axis."""
+        return cls.of_point_mass(moment, axis)
+
+    def __iter__(self) -> Iterator[sp.Expr]:
+        return iter((self.xx, self.yy, self.zz, self.xy, self.xz, self.yz))
+
+    def __add__(self, other: SymmetricTensor) -> SymmetricTensor:
+        return SymmetricTensor(*(a + b for a, b in zip(self, other, strict=True)))
+
+    def __matmul__(self, v: Vector) -> Vector:
+        return Vector(
+            self.xx * v.x + self.xy * v.y + self.xz * v.z,
+            self.xy * v.x + self.yy * v.y + self.yz * v.z,
+            self.xz * v.x + self.yz * v.y + self.zz * v.z,
+        )
+
+    def in_axes(self, axes: tuple[Vector, Vector, Vector]) -> SymmetricTensor:
+        """Return the components along other unit axes, given in the present ones."""
+        x, y, z = axes
+        along_x, along_y, along_z = (self @ axis for axis in axes)
+        return SymmetricTensor(
+            x.dot(along_x),
+            y.dot(along_y),
+            z.dot(along_z),
+            x.dot(along_y),
+            x.dot(along_z),
+            y.dot(along_z),
+        )

@@ -1,0 +1,48 @@
+"""Compare a model with the oracle in maximal coordinates, over random states."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from kintrafo.generator.equations.outputs import generate
+from kintrafo.systems.compile.build import build
+from kintrafo.systems.compile.loader import load
+from own_models import Built
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from kintrafo.generator import Model
+
+
+def check_with_the_oracle(model: Model, folder: Path, reach: float, count: int = 10) -> Built:
+    """See that loops close, that rates keep them closed, and that accelerations are the oracle's.
+
+    Parameters
+    ----------
+    reach
+        How far from the design position the independent coordinates are taken.
+    """
+    target = folder / f"{model.name}-arrays"
+    target.mkdir()
+    build(generate(model), target, None)
+    built = Built.of(model, load(target))
+    names = list(built.module.INPUTS)
+    random = np.random.default_rng(0)
+    for _ in range(count):
+        away = random.uniform(-reach, reach, built.size)
+        state = np.concatenate((built.design + away, random.uniform(-3.0, 3.0, built.size)))
+        inputs = random.uniform(-1.0, 1.0, len(names))
+        inputs[[name.endswith("_position") for name in names]] *= reach
+        motion = built.motion(state, inputs)
+        closure = built.oracle.closure(motion)
+        np.testing.assert_allclose(closure.value, 0.0, atol=1e-14)
+        np.testing.assert_allclose(closure.rate, 0.0, atol=1e-12)
+        named = built.named(inputs)
+        given = {joint: named[f"{name}_acceleration"] for joint, name in model.prescribed.items()}
+        expected = built.oracle.reduced(motion, named, given).accelerations
+        found = built("rhs", state, inputs)[built.size :]
+        scale = np.abs(expected).max()
+        np.testing.assert_allclose(found, expected, rtol=1e-10, atol=1e-10 * scale)
+    return built

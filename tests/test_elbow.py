@@ -1,0 +1,126 @@
+"""Two links with a driven hinge between them, as a leg: a four-bar driven at its coupler's pin."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+import own_loops
+import pytest
+from kintrafo.generated._support import ClosureError
+from kintrafo.generator import Model, Point
+from kintrafo.generator.closed_forms.elbow import Elbow, PlaceElbow
+from kintrafo.generator.closed_forms.prismatic import PrismaticByLength
+from kintrafo.generator.closed_forms.revolute import RevoluteByLength
+from kintrafo.generator.mechanisms.slider_crank import MODELS as SLIDER_CRANKS
+from kintrafo.generator.planning.plan import Plan
+from oracle_check import check_with_the_oracle
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+KNEE = replace(
+    own_loops.FOUR_BAR_AT_ITS_KNEE, allow_iteration=False, massive=("crank", "coupler", "rocker")
+)
+
+
+def other_way_round(model: Model) -> Model:
+    """Declare the driven hinge from the coupler to the crank, which the coupler then carries."""
+    knee = model.mechanism.joint("knee")
+    turned = replace(knee, first=knee.second, second=knee.first)
+    joints = tuple(turned if j == knee else j for j in model.mechanism.joints)
+    return replace(model, name="turned_knee", mechanism=replace(model.mechanism, joints=joints))
+
+
+def driven_slider() -> Model:
+    """Push the piston of a slider-crank by the hinge between crank and rod."""
+    (model,) = SLIDER_CRANKS
+    mechanism = replace(model.mechanism, forces=(), inputs={})
+    return replace(model, name="knee_slider", mechanism=mechanism, independent=("B",))
+
+
+def counted_to_a_point() -> Model:
+    """Count the angle of the driven hinge from a direction of the crank to the rocker's pin."""
+    knee = KNEE.mechanism.joint("knee")
+    counted = replace(knee, angle_to=Point("knuckle_at"))
+    joints = tuple(counted if j == knee else j for j in KNEE.mechanism.joints)
+    return replace(KNEE, name="counted_knee", mechanism=replace(KNEE.mechanism, joints=joints))
+
+
+RATES = (("position", "rad"), ("velocity", "rad/s"), ("acceleration", "rad/s^2"))
+
+
+@pytest.mark.parametrize(
+    ("model", "form"),
+    [
+        (KNEE, RevoluteByLength),
+        (other_way_round(KNEE), RevoluteByLength),
+        (counted_to_a_point(), RevoluteByLength),
+        (driven_slider(), PrismaticByLength),
+    ],
+    ids=lambda value: getattr(value, "name", ""),
+)
+def test_it_moves_as_the_oracle_says(model: Model, form: type, tmp_path: Path) -> None:
+    plan = Plan.of(model)
+    (transformer,) = plan.transformers
+    assert isinstance(transformer.step, form)
+    assert isinstance(transformer.step.leg, Elbow)
+    assert PlaceElbow in map(type, plan.steps)
+    built = check_with_the_oracle(model, tmp_path, 0.3)
+    names = list(built.module.RELATIVE_COORDINATES)
+    for angle in built.design[0] + np.linspace(-0.3, 0.3, 7):
+        state = np.array([angle, 0.4])
+        given = built("relative_coordinates", state)
+        assert len(given) == len(names)
+        inputs = np.zeros(len(built.module.INPUTS))
+        np.testing.assert_allclose(built.residuals(given, state, inputs), 0.0, atol=1e-14)
+
+
+def test_a_driven_elbow_may_hang_at_moving_bodies(tmp_path: Path) -> None:
+    """A five-bar, two coordinates: its left crank, and the pin between the two couplers."""
+    bars = own_loops.planar(
+        "five_bar_at_its_pin",
+        [
+            ("left", "ground", "leftcrank", (0.0, 0.0)),
+            ("left_pin", "leftcrank", "leftrod", (0.02, 0.15)),
+            ("pin", "leftrod", "rightrod", (0.2, 0.3)),
+            ("right_pin", "rightrod", "rightcrank", (0.42, 0.16)),
+            ("right", "ground", "rightcrank", (0.4, 0.0)),
+        ],
+        ("left", "pin"),
+        ("leftrod", (0.1, 0.25)),
+    )
+    moving = ("leftcrank", "leftrod", "rightrod", "rightcrank")
+    bars = replace(bars, allow_iteration=False, massive=moving)
+    assert PlaceElbow in map(type, Plan.of(bars).steps)
+    check_with_the_oracle(bars, tmp_path, 0.2)
+    inputs = {
+        **bars.mechanism.inputs,
+        **{f"pin_{k}": (unit, f"{k} of the pin") for k, unit in RATES},
+    }
+    given = replace(
+        bars,
+        name="five_bar_with_a_given_pin",
+        mechanism=replace(bars.mechanism, inputs=inputs),
+        independent=("left",),
+        prescribed={"pin": "pin"},
+    )
+    check_with_the_oracle(given, tmp_path, 0.2)
+
+
+def test_links_that_cannot_reach_are_refused(tmp_path: Path) -> None:
+    far = own_loops.planar(
+        "far_knee",
+        [
+            ("crank_hinge", "ground", "crank", (0.0, 0.0)),
+            ("knee", "crank", "coupler", (0.0, 0.12)),
+            ("knuckle", "coupler", "rocker", (0.3, 0.25)),
+            ("rocker_hinge", "rocker", "ground", (0.55, 0.2)),
+        ],
+        ("knee",),
+        ("coupler", (0.15, 0.3)),
+    )
+    built = check_with_the_oracle(replace(far, allow_iteration=False), tmp_path, 0.1, count=1)
+    with pytest.raises(ClosureError, match="pair of crank and coupler cannot reach rocker"):
+        built("rhs", np.array([-2.0, 0.0]))

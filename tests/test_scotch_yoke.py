@@ -1,0 +1,53 @@
+"""A pin in a slot: the Scotch yoke, on the ground and on a body that moves."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+from kintrafo.generator.closed_forms.scotch_yoke import ScotchYoke
+from kintrafo.generator.planning.plan import Plan
+from oracle_check import check_with_the_oracle
+from own_yokes import yoke
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from kintrafo.generator import Model
+
+
+CASES = (
+    yoke("scotch_yoke"),
+    yoke("turned_yoke", turned=True),
+    yoke("carried_yoke", carried=True),
+)
+
+
+@pytest.mark.parametrize("model", CASES, ids=lambda model: model.name)
+def test_it_moves_as_the_oracle_says_all_around(model: Model, tmp_path: Path) -> None:
+    (transformer,) = Plan.of(model).transformers
+    assert type(transformer.step) is ScotchYoke
+    built = check_with_the_oracle(model, tmp_path, np.pi)
+    for angle in np.linspace(-np.pi, np.pi, 7):
+        state = np.concatenate((np.full(built.size, angle), np.zeros(built.size)))
+        given = built("relative_coordinates", state)
+        residuals = built.residuals(given, state, np.zeros(len(built.module.INPUTS)))
+        np.testing.assert_allclose(residuals, 0.0, atol=1e-14)
+
+
+def test_a_crank_that_is_driven_by_what_is_given_drives_it_too(tmp_path: Path) -> None:
+    model = yoke("given_yoke", carried=True)
+    rates = (("position", "rad"), ("velocity", "rad/s"), ("acceleration", "rad/s^2"))
+    inputs = {**model.mechanism.inputs, **{f"turn_{k}": (u, k) for k, u in rates}}
+    mechanism = replace(model.mechanism, inputs=inputs)
+    given = replace(model, mechanism=mechanism, independent=("A",), prescribed={"F": "turn"})
+    check_with_the_oracle(given, tmp_path, 1.0)
+
+
+def test_a_slot_along_the_guide_is_refused(tmp_path: Path) -> None:
+    built = check_with_the_oracle(CASES[0], tmp_path, 1.0, count=1)
+    along = {**built.parameters, "slot_x": 1.0, "slot_y": 0.2}
+    with pytest.raises(ValueError, match="the slot slot of yoke is along its guide guide"):
+        built.module.prepare(along)
