@@ -18,17 +18,14 @@ import pytest
 from kintrafo.generated import double_wishbone, macpherson
 from kintrafo.generated._support import ClosureError
 from kintrafo.generator.mechanisms import MODELS as SHIPPED
-from kintrafo.generator.outputs import generate
-from kintrafo.own.build import build
-from kintrafo.own.loader import load
 from mpmath import mpf
 from own_mechanisms import moving_slider_crank, spatial_four_bar
-from own_models import Built
+from own_models import Built, own
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
-    from pathlib import Path
 
+    from kintrafo.generator.mechanism import Model
     from oracle.constraints import Array
 
 BY_NAME = {model.name: model for model in SHIPPED}
@@ -148,14 +145,6 @@ class Loop:
         return float(max(abs(mpf(f) - e) for f, e in zip(found, expected, strict=True)))
 
 
-def over_arrays(model: object, folder: Path, changes: Mapping[str, float] | None = None) -> Built:
-    """Return a model over NumPy arrays."""
-    target = folder / f"{model.name}-arrays"
-    target.mkdir()
-    build(generate(model), target, None)
-    return Built.of(model, load(target), changes)
-
-
 def other_branch(loop: Loop) -> mpf:
     """Return the second root of the design position."""
     guesses = [mpmath.pi * i / 12 - 3 for i in range(24)]
@@ -254,12 +243,16 @@ def upper_arm(built: Built) -> Loop:
     )
 
 
+def compiled(model: Model) -> Built:
+    """Return a model with its default parameters."""
+    return Built.of(model, own(model))
+
+
 @pytest.fixture(scope="session")
-def loop(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Loop]:
+def loop() -> Callable[[str], Loop]:
     """Return a loop by its name."""
 
     def find(name: str) -> Loop:
-        folder = tmp_path_factory.mktemp(name.replace(" ", "_"))
         if name == "upper arm":
             return upper_arm(Built.of(BY_NAME["double_wishbone"], double_wishbone))
         if name.startswith("knuckle"):
@@ -268,9 +261,9 @@ def loop(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Loop]:
             shipped = "double_wishbone" if wishbone else "macpherson"
             return knuckle(Built.of(BY_NAME[shipped], module), wishbone=wishbone)
         if name.startswith("slider"):
-            built = over_arrays(moving_slider_crank("slider_in_space"), folder)
+            built = compiled(moving_slider_crank("slider_in_space"))
             return _on_the_other_side(slider, built, "slider") if "other" in name else slider(built)
-        built = over_arrays(spatial_four_bar("rocker_in_space"), folder)
+        built = compiled(spatial_four_bar("rocker_in_space"))
         return _on_the_other_side(rocker, built, "rocker") if "other" in name else rocker(built)
 
     return cache(find)

@@ -11,11 +11,13 @@ import re
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import product
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import kintrafo
 import mpmath
 import numpy as np
+import own_models
 import pytest
 import sympy as sp
 from kintrafo.generated import double_wishbone
@@ -29,10 +31,7 @@ from kintrafo.generator.mechanisms.multi_link import CONTROL_ARM, FIVE_LINK, MOD
 from kintrafo.generator.outputs import GeneratedModel, generate
 from kintrafo.generator.program import ConstantStage, Program
 from kintrafo.generator.transformer import NoClosedFormError, Plan
-from kintrafo.own.build import build
-from kintrafo.own.compiler import FLAGS, Compiler
-from kintrafo.own.loader import load
-from own_models import STRICT, Built, needs_gcc
+from own_models import Built, needs_gcc, own
 from scipy.integrate import solve_ivp
 from scipy.optimize import root
 from scipy.spatial.transform import Rotation
@@ -40,12 +39,12 @@ from symbolic import constants_of, python
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
-    from pathlib import Path
 
     from kintrafo.generator.mechanism import Mechanism
     from oracle.constraints import Array
 
 ARM, FIVE, STRUT = MODELS
+BY_NAME = {model.name: model for model in MODELS}
 RODS = {
     ARM.name: ("upper_link", "camber_link", "toe_link"),
     FIVE.name: ("upper_link", "camber_link", "toe_link", "front_link", "lower_link", "push_rod"),
@@ -57,23 +56,13 @@ TRAVEL = {ARM.name: 0.35, FIVE.name: 0.5, STRUT.name: 0.08}
 
 @pytest.fixture(scope="session")
 def derive() -> Callable[[str], GeneratedModel]:
-    return cache(lambda name: generate(next(m for m in MODELS if m.name == name)))
+    return lambda name: own_models.derive(BY_NAME[name])
 
 
 @pytest.fixture(scope="session")
-def built(
-    derive: Callable[[str], GeneratedModel], tmp_path_factory: pytest.TempPathFactory
-) -> Callable[[str], Built]:
-    """Return a model over NumPy arrays, which takes no compiler's time."""
-
-    def find(name: str) -> Built:
-        derived = derive(name)
-        folder = tmp_path_factory.mktemp(name) / f"{name}-arrays"
-        folder.mkdir()
-        build(derived, folder, None)
-        return Built.of(derived.model, load(folder))
-
-    return cache(find)
+def built() -> Callable[[str], Built]:
+    """Return a compiled model."""
+    return cache(lambda name: Built.of(BY_NAME[name], own(BY_NAME[name])))
 
 
 def states(built: Built, count: int, seed: int = 0) -> tuple[Array, Array]:
@@ -409,17 +398,9 @@ def test_what_is_not_finite_is_refused(built: Callable[[str], Built]) -> None:
 
 
 @needs_gcc
-def test_c_computes_what_numpy_computes(
-    built: Callable[[str], Built],
-    derive: Callable[[str], GeneratedModel],
-    tmp_path: Path,
-) -> None:
-    arrays = built(ARM.name)
-    folder = tmp_path / f"{ARM.name}-c"
-    folder.mkdir()
-    # compiled without optimisation, which takes a third of the time
-    build(derive(ARM.name), folder, Compiler(("gcc", *FLAGS, *STRICT, "-O0"), "of the tests"))
-    compiled = replace(arrays, module=load(folder))
+def test_c_computes_what_numpy_computes(built: Callable[[str], Built]) -> None:
+    compiled = built(ARM.name)
+    arrays = replace(compiled, module=own(ARM, arrays=True))
     state, inputs = states(arrays, 200)
     for function in ("rhs", "rhs_jacobian", "positions", "signals", "margins"):
         found, expected = compiled(function, state, inputs), arrays(function, state, inputs)
@@ -427,15 +408,20 @@ def test_c_computes_what_numpy_computes(
         atol = 1e-12 * np.abs(expected).max(axis=0)
         assert (np.abs(found - expected) <= atol).all(), function
     state[:, 0] += np.linspace(-1.5, 1.5, len(state))
-    for one, given in zip(state, inputs, strict=True):
-        outcomes = []
+    closed, expected = (
+        (model("margins", state, inputs) > 0.0).all(axis=1) for model in (compiled, arrays)
+    )
+    assert (closed == expected).all()
+    assert min(np.sum(closed), np.sum(~closed)) > 20
+    # both refuse by their margins
+    for one, given, closes in zip(state[::20], inputs[::20], closed[::20], strict=True):
         for model in (arrays, compiled):
-            try:
-                outcomes.append(model("positions", one, given))
-            except ClosureError as error:
-                outcomes.append(tuple(error.margins))
-        assert type(outcomes[0]) is type(outcomes[1])
-    text = (folder / f"{ARM.name}.c").read_text()
+            if closes:
+                model("positions", one, given)
+            else:
+                with pytest.raises(ClosureError, match="loops of carrier"):
+                    model("positions", one, given)
+    text = Path(compiled.module.__file__).with_name(f"{ARM.name}.c").read_text()
     assert text.count("for (int i = 0; i < ITERATIONS; ++i)") == 1  # whatever the loops are
     assert f"#define ITERATIONS {ITERATIONS}\n" in text
     rest = kintrafo.System(compiled.module).state()

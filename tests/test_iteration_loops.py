@@ -9,11 +9,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import mpmath
 import numpy as np
 import own_loops
+import own_models
 import pytest
 from kintrafo.generated._support import ClosureError
 from kintrafo.generator.actions import JointOfTree, SolveTogether
@@ -21,23 +23,19 @@ from kintrafo.generator.coupling import MOST_UNKNOWNS, obstacle
 from kintrafo.generator.emit.report import markdown
 from kintrafo.generator.mechanisms.chains import AXES, BRICARD, PLACES, SEVEN_HINGES
 from kintrafo.generator.mobility import Mobility
-from kintrafo.generator.outputs import GeneratedModel, generate
 from kintrafo.generator.topology import Topology
 from kintrafo.generator.transformer import NoClosedFormError, Plan
-from kintrafo.own.build import build
-from kintrafo.own.compiler import FLAGS, Compiler
-from kintrafo.own.loader import load
 from own_mechanisms import askew, heading
-from own_models import STRICT, Built, needs_gcc
+from own_models import Built, needs_gcc, own
 from scipy.optimize import root
 from scipy.spatial.transform import Rotation
 from symbolic import constants_of, python
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from pathlib import Path
 
     from kintrafo.generator.mechanism import Model
+    from kintrafo.generator.outputs import GeneratedModel
     from oracle.constraints import Array
 
 MODELS = {
@@ -72,23 +70,13 @@ SPANS = {
 
 @pytest.fixture(scope="session")
 def derive() -> Callable[[Model], GeneratedModel]:
-    derived = cache(lambda name: generate(MODELS[name]))
-    return lambda model: derived(model.name)
+    return own_models.derive
 
 
 @pytest.fixture(scope="session")
-def built(
-    derive: Callable[[Model], GeneratedModel], tmp_path_factory: pytest.TempPathFactory
-) -> Callable[[Model], Built]:
-    """Return a model over NumPy arrays, which takes no compiler's time."""
-
-    def find(model: Model) -> Built:
-        folder = tmp_path_factory.mktemp(model.name) / f"{model.name}-arrays"
-        folder.mkdir()
-        build(derive(model), folder, None)
-        return Built.of(model, load(folder))
-
-    found = cache(lambda name: find(MODELS[name]))
+def built() -> Callable[[Model], Built]:
+    """Return a compiled model."""
+    found = cache(lambda name: Built.of(MODELS[name], own(MODELS[name])))
     return lambda model: found(model.name)
 
 
@@ -309,18 +297,10 @@ def test_a_chain_that_moves_by_its_dimensions_alone_is_refused_with_others(
 
 
 @needs_gcc
-def test_c_computes_what_numpy_computes(
-    built: Callable[[Model], Built],
-    derive: Callable[[Model], GeneratedModel],
-    tmp_path: Path,
-) -> None:
+def test_c_computes_what_numpy_computes(built: Callable[[Model], Built]) -> None:
     model = own_loops.BENNETT
-    arrays = built(model)
-    folder = tmp_path / f"{model.name}-c"
-    folder.mkdir()
-    # compiled without optimisation, which takes a third of the time
-    build(derive(model), folder, Compiler(("gcc", *FLAGS, *STRICT, "-O0"), "of the tests"))
-    compiled = replace(arrays, module=load(folder))
+    compiled = built(model)
+    arrays = replace(compiled, module=own(model, arrays=True))
     state = states(arrays, 100)
     state[:, 0] = np.linspace(-15.0, 15.0, 100)  # two turns and a part of one, either way
     for function in ("rhs", "rhs_jacobian", "positions", "margins"):
@@ -328,7 +308,7 @@ def test_c_computes_what_numpy_computes(
         # the last digits of sines and cosines differ, and with them when an iteration ends
         atol = 1e-11 * np.abs(expected).max(axis=0)
         assert (np.abs(found - expected) <= atol).all(), function
-    text = (folder / f"{model.name}.c").read_text()
+    text = Path(compiled.module.__file__).with_name(f"{model.name}.c").read_text()
     assert text.count("for (int i = 0; i < ITERATIONS; ++i)") == 1
 
 

@@ -8,12 +8,12 @@ point the rounding of any method grows without bound (`test_mechanisms_branches`
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import mpmath
 import numpy as np
 import own_mechanisms
+import own_models
 import pytest
 from kintrafo.generator.forces import AlongLine
 from kintrafo.generator.geometry import FORWARD
@@ -76,17 +76,12 @@ class At:
 
 @pytest.fixture(scope="session")
 def derive() -> Derived:
-    return cache(lambda name: generate(MODELS[name]))
+    return lambda name: own_models.derive(MODELS[name])
 
 
 @pytest.fixture(scope="session")
-def module(derive: Derived, tmp_path_factory: pytest.TempPathFactory) -> Modules:
-    def find(name: str) -> Any:
-        if name in OWN:
-            return own(derive(name), tmp_path_factory.mktemp(name))
-        return shipped(MODELS[name])
-
-    return cache(find)
+def module() -> Modules:
+    return cache(lambda name: (own if name in OWN else shipped)(MODELS[name]))
 
 
 def cases(*seeds: int, names: Iterable[str] = MODELS) -> pytest.MarkDecorator:
@@ -99,7 +94,16 @@ def cases(*seeds: int, names: Iterable[str] = MODELS) -> pytest.MarkDecorator:
 
 
 def places(name: str, seed: int, found: Any) -> list[At]:
-    """Return a geometry of a model at random states."""
+    """Return a geometry of a model at random states, searched for once."""
+    if (name, seed) not in _PLACES:
+        _PLACES[name, seed] = _places(name, seed, found)
+    return _PLACES[name, seed]
+
+
+_PLACES: dict[tuple[str, int], list[At]] = {}
+
+
+def _places(name: str, seed: int, found: Any) -> list[At]:
     rng = np.random.default_rng([seed, *name.encode()])
     built = geometry(MODELS[name], found, rng) if seed else Built.of(MODELS[name], found)
     return [random_place(built, rng) for _ in range(STATES)]
@@ -441,14 +445,14 @@ def four_bar(name: str, **changes: Any) -> Model:
 
 
 @needs_gcc
-def test_a_hardpoint_may_be_carried_by_two_bodies(tmp_path: Path) -> None:
+def test_a_hardpoint_may_be_carried_by_two_bodies() -> None:
     # the seat of the second spring is where the centre of the coupler is, but on the rocker
     mechanism = MODELS["four_bar"].mechanism
     coupler, rocker = mechanism.body("coupler"), mechanism.body("rocker")
     ends = ("ground", mechanism.body("ground").center), (rocker.name, coupler.center)
     spring = replace(mechanism.elements[0], name="second", path=AlongLine(*ends))
     model = four_bar("two_springs", forces=(*mechanism.forces, spring))
-    built = Built.of(model, own(generate(model), tmp_path))
+    built = Built.of(model, own(model))
     state, inputs = np.array([0.4, 1.0]), np.zeros(1)
     length = built.oracle.length(built.motion(state, inputs), spring).value[0]
     signals = dict(zip(built.module.SIGNALS, built("signals", state, inputs), strict=True))
