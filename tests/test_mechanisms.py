@@ -7,7 +7,7 @@ point the rounding of any method grows without bound (`test_mechanisms_branches`
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, cached_property
 from typing import Any
 
 import mpmath
@@ -22,7 +22,7 @@ from kintrafo.generator.mechanisms import MODELS as SHIPPED
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.generator.outputs import GeneratedModel, generate
 from oracle.constraints import Array
-from oracle.maximal import Jet, Motion, Oracle
+from oracle.maximal import Jet, Motion, Oracle, Reduced
 from oracle.reference import completed, general_parameters
 from own_models import Built, needs_gcc, own, shipped
 from scipy.integrate import solve_ivp
@@ -69,6 +69,16 @@ class At:
         named = self.built.named(self.inputs)
         prescribed = self.built.model.prescribed
         return {joint: named[f"{name}_acceleration"] for joint, name in prescribed.items()}
+
+    def reduced(self, **given: float) -> Reduced:
+        """Solve the equations of motion with the oracle, some accelerations given otherwise."""
+        named = self.built.named(self.inputs)
+        return self.built.oracle.reduced(self.motion, named, self.given | given)
+
+    @cached_property
+    def solved(self) -> Reduced:
+        """What several tests compare with."""
+        return self.reduced()
 
 
 # -- models, geometries, states -------------------------------------------------------------------
@@ -319,9 +329,9 @@ def test_state_jacobian_of_the_right_hand_side_is_exact(
 # -- dynamics --------------------------------------------------------------------------------------
 
 
-def reduced(at: At, **given: float) -> Any:
+def reduced(at: At, **given: float) -> Reduced:
     """Solve the equations of motion with the oracle."""
-    return at.built.oracle.reduced(at.motion, at.built.named(at.inputs), at.given | given)
+    return at.reduced(**given) if given else at.solved
 
 
 @cases(*SEEDS)
