@@ -1,10 +1,10 @@
 """Options and fixtures of all tests."""
 
 from collections.abc import Callable
-from functools import cache
 
+import own_models
 import pytest
-from kintrafo.generator.equations.outputs import GeneratedModel, generate
+from kintrafo.generator.equations.outputs import GeneratedModel
 from kintrafo.generator.mechanisms import MODELS
 
 
@@ -16,20 +16,43 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )
 
 
+def pytest_sessionstart(session: pytest.Session) -> None:
+    """Remove what tests compiled long ago, before workers start."""
+    if not hasattr(session.config, "workerinput"):
+        own_models.forget()
+
+
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what holds numbers against an oracle: the last bits of those depend on the processor."""
+    """Say what a test shares with others, and whether it compares with an oracle."""
+    for item in items:
+        item.add_marker(pytest.mark.xdist_group(_shared(item)))
+        if _compares(item):
+            item.add_marker("numbers")
+
+
+def _shared(item: pytest.Item) -> str:
+    """Let one worker run what shares a model that is derived, or the fixtures of a file.
+
+    Of all that tests make for each other, deriving takes longest, and cannot be handed to another
+    process: what is derived is large, and SymPy computes what it reads again.
+    """
+    derived = "derived" in getattr(item, "fixturenames", ())
+    return "derived" if derived else item.path.stem
+
+
+def _compares(item: pytest.Item) -> bool:
+    """Tell whether a test holds numbers against an oracle: their last bits are a processor's."""
 
     def home(value: object) -> str:
         return str(getattr(value, "__module__", None) or getattr(value, "__name__", ""))
 
-    for item in items:
-        names = vars(getattr(item, "module", None) or object).values()
-        if any(home(value).startswith(("oracle", "own_models", "cases")) for value in names):
-            item.add_marker("numbers")
+    names = vars(getattr(item, "module", None) or object).values()
+    return any(home(value).startswith(("oracle", "own_models", "cases")) for value in names)
 
 
 @pytest.fixture(scope="session")
 def derived() -> Callable[[str], GeneratedModel]:
     """Derive a model that comes with the project, by name; each takes a few seconds, once."""
     models = {model.name: model for model in MODELS}
-    return cache(lambda name: generate(models[name]))
+    return lambda name: own_models.derive(models[name])

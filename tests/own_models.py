@@ -1,39 +1,56 @@
 """Any declared model, compiled, with numbers: those that come with the project, and a user's own.
 
-A model of one's own is derived, emitted and compiled here in a folder, with the very module text
-that the shipped ones have.
+A model of one's own is derived, emitted and compiled here, with the very module text that the
+shipped ones have. What was compiled is kept below build/ for all processes and later runs, under a
+name that depends on declaration, generator, compiler and its options, as in
+`kintrafo.systems.compile.cache`.
 """
 
 from __future__ import annotations
 
+import fcntl
 import importlib
 import shutil
+import subprocess
+import time
+from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+from kintrafo.generator.equations.outputs import GeneratedModel, generate
 from kintrafo.systems.compile.build import build
+from kintrafo.systems.compile.cache import appearing, damage, fingerprint
 from kintrafo.systems.compile.compiler import FLAGS, Compiler
 from kintrafo.systems.compile.loader import load
 from oracle.maximal import Motion, Oracle
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-    from pathlib import Path
+    from collections.abc import Iterator, Mapping
     from types import ModuleType
 
     from kintrafo.generator import Model
-    from kintrafo.generator.equations.outputs import GeneratedModel
     from oracle.constraints import Array
 
 # Emitted code gives no warning.
 STRICT = ("-Wall", "-Wextra", "-Wpedantic", "-Werror")
-# Compiling takes a tenth of the time, and without contraction the bits are the same.
+# Compiling takes a tenth of the time, and without contraction the bits are the same. A call of a
+# block that iterates takes a third of a millisecond either way.
 UNOPTIMISED = "-O0"
+COMPILER = Compiler(("gcc", *FLAGS, UNOPTIMISED, *STRICT), "of the tests")
 
-needs_gcc = pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc")
+KEPT = Path(__file__).parents[1] / "build" / "tests"
+"""Where what was compiled is kept."""
+FORGOTTEN_S = 7 * 24 * 3600.0
+"""What was not used for so long is removed: the generator has changed since."""
+
+has_gcc = shutil.which("gcc") is not None
+needs_gcc = pytest.mark.skipif(not has_gcc, reason="no gcc")
+
+_derived: dict[str, GeneratedModel] = {}
 
 
 def shipped(model: Model) -> ModuleType:
@@ -41,12 +58,54 @@ def shipped(model: Model) -> ModuleType:
     return importlib.import_module(f"kintrafo.generated.{model.name}")
 
 
-def own(derived: GeneratedModel, folder: Path) -> ModuleType:
-    """Emit and compile a derived model in a folder."""
-    target = folder / f"{derived.model.name}-{folder.name}"
-    target.mkdir()
-    build(derived, target, Compiler(("gcc", *FLAGS, UNOPTIMISED, *STRICT), "of the tests"))
+def derive(model: Model) -> GeneratedModel:
+    """Derive a model, once in a process."""
+    declared = repr(model)  # says everything
+    if declared not in _derived:
+        _derived[declared] = generate(model)
+    return _derived[declared]
+
+
+def own(model: Model, *, arrays: bool = not has_gcc) -> ModuleType:
+    """Return the module of any declared model; what was compiled before is not derived again.
+
+    Parameters
+    ----------
+    model
+        Declaration.
+    arrays
+        Over NumPy arrays instead of compiled C.
+    """
+    built_by = "numpy" if arrays else " ".join((*COMPILER.command, _version()))
+    target = KEPT / f"{model.name}-{fingerprint(repr(model), built_by=built_by)}"
+    with _one_at_a_time(target.name):
+        if damage(target):
+            with appearing(target) as folder:
+                build(derive(model), folder, None if arrays else COMPILER, name=target.name)
     return load(target)
+
+
+@cache
+def _version() -> str:
+    found = subprocess.run(["gcc", "--version"], capture_output=True, text=True, check=True)
+    return found.stdout.partition("\n")[0]
+
+
+@contextmanager
+def _one_at_a_time(name: str) -> Iterator[None]:
+    """Let other processes wait, rather than derive the same model as well."""
+    KEPT.mkdir(parents=True, exist_ok=True)
+    with (KEPT / f"{name}.lock").open("w") as lock:  # its date is that of the last use
+        fcntl.flock(lock, fcntl.LOCK_EX)  # ends where the file is closed, or the process dies
+        yield
+
+
+def forget() -> None:
+    """Remove what has not been used for long."""
+    for lock in KEPT.glob("*.lock"):
+        if time.time() - lock.stat().st_mtime > FORGOTTEN_S:
+            shutil.rmtree(lock.with_suffix(""), ignore_errors=True)
+            lock.unlink(missing_ok=True)
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,6 @@ bearing. The amounts that the messages name are computed here from the numbers o
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -37,40 +36,15 @@ from kintrafo.generator import (
 from kintrafo.generator.declare.joints import Joint
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.program.vectors import Vector
-from kintrafo.systems.compile.build import build
-from kintrafo.systems.compile.compiler import find_compiler
-from kintrafo.systems.compile.loader import load
 from own_mechanisms import NORMAL, askew, ball, cross, guide, heading, hinge
-from own_models import Built
+from own_models import Built, has_gcc, own
 
 Place = tuple[float, float, float]
-Make = Callable[[Model], list[Any]]
 
 
-@pytest.fixture
-def make(tmp_path: Path) -> Make:
-    """Return what builds a model over NumPy arrays, and as C where there is a compiler."""
-
-    def built(model: Model) -> list[Any]:
-        derived, found = generate(model), find_compiler()
-        modules = []
-        compilers = {"numpy": None} | ({"c": found} if found else {})
-        for name, compiler in compilers.items():
-            folder = tmp_path / f"{model.name}-{name}{tmp_path.name}"
-            folder.mkdir()
-            build(derived, folder, compiler)
-            modules.append(load(folder))
-        return modules
-
-    return built
-
-
-def over_arrays(model: Model, folder: Path) -> Any:
-    """Return a model over NumPy arrays."""
-    target = folder / f"{model.name}-{folder.name}"
-    target.mkdir()
-    build(generate(model), target, None)
-    return load(target)
+def make(model: Model) -> list[Any]:
+    """Build a model over NumPy arrays, and as C where there is a compiler."""
+    return [own(model, arrays=arrays) for arrays in ([True, False] if has_gcc else [True])]
 
 
 def numbers(model: Model) -> dict[str, float]:
@@ -233,7 +207,7 @@ SLIDER_CRANK = declared(
 )
 
 
-def test_a_guide_that_leaves_the_plane_of_its_loop_is_refused(make: Make) -> None:
+def test_a_guide_that_leaves_the_plane_of_its_loop_is_refused() -> None:
     modules, values = make(SLIDER_CRANK), numbers(SLIDER_CRANK)
     length = np.linalg.norm(vector(values, "way_axis"))
     for degrees in (-40.0, 1e-3, 1e-6, 0.0573):
@@ -245,7 +219,7 @@ def test_a_guide_that_leaves_the_plane_of_its_loop_is_refused(make: Make) -> Non
         assert amount(text, "degrees") == pytest.approx(abs(degrees), rel=5e-3)  # three digits
 
 
-def test_rounding_of_a_direction_is_no_error(make: Make) -> None:
+def test_rounding_of_a_direction_is_no_error() -> None:
     modules, values = make(SLIDER_CRANK), numbers(SLIDER_CRANK)
     for factor in (1e-9, 1.0 / 3.0, 1e9):  # a direction may have any length
         scaled = {k: factor * v if k.startswith("way_axis") else v for k, v in values.items()}
@@ -288,9 +262,7 @@ def crane(*, reverse: bool = False) -> Model:
     )
 
 
-def test_pins_of_a_cylinder_at_different_places_along_their_hinges_are_refused(
-    make: Make,
-) -> None:
+def test_pins_of_a_cylinder_at_different_places_along_their_hinges_are_refused() -> None:
     model = crane()
     modules, values = make(model), numbers(model)
     span = vector(values, "piston_pin") - vector(values, "barrel_pin")
@@ -357,7 +329,7 @@ def spatial_four_bar(*, cross_at_rocker: bool) -> Model:
 
 
 @pytest.mark.parametrize("at_rocker", [False, True])
-def test_a_shaft_that_is_not_the_line_of_its_rod_is_refused(make: Make, *, at_rocker: bool) -> None:
+def test_a_shaft_that_is_not_the_line_of_its_rod_is_refused(*, at_rocker: bool) -> None:
     model = spatial_four_bar(cross_at_rocker=at_rocker)
     declared_cross = model.mechanism.joint("cross")
     assert isinstance(declared_cross, Universal)
@@ -423,7 +395,7 @@ def fan(*, axis: Place = (0.3, 0.9, -0.2), center: Place = (0.1, 0.2, 0.3)) -> M
     )
 
 
-def test_a_rotor_beside_its_bearing_is_refused(make: Make) -> None:
+def test_a_rotor_beside_its_bearing_is_refused() -> None:
     modules, values = make(fan()), numbers(fan())
     accepted(modules, moved(values, "blades_com", 0.4 * np.array([0.3, 0.9, -0.2])))  # along it
     across = 0.004 * unit(np.cross((0.3, 0.9, -0.2), (0.0, 0.0, 1.0)))
@@ -438,9 +410,7 @@ def test_a_rotor_beside_its_bearing_is_refused(make: Make) -> None:
 
 @pytest.mark.parametrize("sense", [1.0, -1.0])
 @pytest.mark.parametrize("tip", [None, (0.4, 0.1, 0.2), (-0.4, 0.3, 0.2)])
-def test_the_axis_of_a_rotor_may_point_against_its_hinge(
-    sense: float, tip: Place | None, tmp_path: Path
-) -> None:
+def test_the_axis_of_a_rotor_may_point_against_its_hinge(sense: float, tip: Place | None) -> None:
     """The sense of the angle is that of the hinge: its line, or as an ``angle_to`` makes it."""
     x, y, z = (sense * component for component in (0.3, 0.9, -0.2))
     model = fan(axis=(x, y, z))
@@ -448,7 +418,7 @@ def test_the_axis_of_a_rotor_may_point_against_its_hinge(
         spin = model.mechanism.joint("spin")
         assert isinstance(spin, Revolute)
         model = with_joint(with_points(model, tip=tip), replace(spin, angle_to=Point("tip")))
-    by_the_oracle(model, over_arrays(model, tmp_path), numbers(model))
+    by_the_oracle(model, own(model), numbers(model))
 
 
 def test_all_that_is_wrong_with_the_defaults_is_told_at_once() -> None:
@@ -475,7 +445,7 @@ def gate(line: Place, *, flap: Revolute | None = None) -> Model:
     )
 
 
-def test_a_hinge_may_have_any_direction_then_and_later(make: Make) -> None:
+def test_a_hinge_may_have_any_direction_then_and_later() -> None:
     """Upright with the defaults, and turned all around afterwards."""
     upright = gate((0.0, 0.0, 1.0))
     for module in make(upright):
@@ -493,7 +463,7 @@ def test_a_hinge_may_have_any_direction_then_and_later(make: Make) -> None:
 
 
 @pytest.mark.parametrize("axis", [(1, 0, 0), (0, 1, 0), (0, 0, 1), (-1, 0, 0), (0, 0, -1)])
-def test_a_hinge_along_a_chassis_axis_needs_no_other_direction(make: Make, axis: Place) -> None:
+def test_a_hinge_along_a_chassis_axis_needs_no_other_direction(axis: Place) -> None:
     """Not even as a parameter: the direction that the angle would count from is not read."""
     fixed = Line(Point("edge_at"), Direction("fixed", Vector.of(*axis)))
     models = [
@@ -555,11 +525,11 @@ def driven_crane() -> Model:
 @pytest.mark.parametrize("lines", [by_directions, by_points])
 @pytest.mark.parametrize("declare", [four_bar, lambda: SLIDER_CRANK, crane, driven_crane])
 def test_hinges_parallel_or_opposite_by_their_numbers_make_a_plane(
-    declare: Callable[[], Model], lines: Callable[[Model], Model], tmp_path: Path
+    declare: Callable[[], Model], lines: Callable[[Model], Model]
 ) -> None:
     """Angles are right-handed about the axis of their own hinge, wherever that points."""
     model = lines(declare())
-    built = Built.of(model, over_arrays(model, tmp_path))
+    built = Built.of(model, own(model))
     for start, rate in ((0.0, 1.3), (0.12, -2.1), (-0.07, 0.9)):
         state = np.array([start, rate])
         motion = built.motion(state, np.zeros(0))
@@ -580,9 +550,7 @@ def test_hinges_parallel_or_opposite_by_their_numbers_make_a_plane(
 
 
 @pytest.mark.parametrize("lines", [by_directions, by_points])
-def test_a_hinge_that_leaves_the_others_is_refused(
-    lines: Callable[[Model], Model], make: Make
-) -> None:
+def test_a_hinge_that_leaves_the_others_is_refused(lines: Callable[[Model], Model]) -> None:
     model = lines(four_bar())
     modules, values = make(model), numbers(model)
     along = vector(values, "c_line")

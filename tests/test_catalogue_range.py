@@ -8,8 +8,8 @@ digits; that is the geometry, and the model loses no more than that.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cache
+from dataclasses import dataclass, field
+from functools import cache, cached_property
 from typing import TYPE_CHECKING
 
 import mpmath
@@ -17,18 +17,15 @@ import numpy as np
 import pytest
 from kintrafo.generated import double_wishbone, macpherson
 from kintrafo.generated._support import ClosureError
-from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import MODELS as SHIPPED
-from kintrafo.systems.compile.build import build
-from kintrafo.systems.compile.loader import load
 from mpmath import mpf
 from own_mechanisms import moving_slider_crank, spatial_four_bar
-from own_models import Built
+from own_models import Built, own
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
-    from pathlib import Path
 
+    from kintrafo.generator import Model
     from oracle.constraints import Array
 
 BY_NAME = {model.name: model for model in SHIPPED}
@@ -94,12 +91,19 @@ class Loop:
     place: Callable[[mpf], Exact]
     span: float
     guard: str
+    _paths: dict[int, list[tuple[mpf, mpf]]] = field(default_factory=dict)
+
+    @cached_property
+    def _rod(self) -> mpf:
+        """Length of the rod, squared."""
+        with mpmath.workdps(DIGITS):
+            start, end = self.ends(mpf(0), mpf(0))
+            return (start - end).dot(start - end)
 
     def left(self, unknown: mpf, drive: mpf) -> mpf:
         """Return how much longer than the rod the way between its ends is, squared."""
         one, other = self.ends(unknown, drive)
-        start, end = self.ends(mpf(0), mpf(0))
-        return (one - other).dot(one - other) - (start - end).dot(start - end)
+        return (one - other).dot(one - other) - self._rod
 
     def solve(self, drive: mpf, guess: mpf) -> mpf | None:
         """Return the root next to a guess, by Newton's method; None if it leads away."""
@@ -114,7 +118,13 @@ class Loop:
             return None
         return root if abs(root - guess) < mpf(0.5) else None
 
-    def followed(self, side: int) -> Iterator[tuple[mpf, mpf]]:
+    def followed(self, side: int) -> list[tuple[mpf, mpf]]:
+        """Return drives and roots from the design position on, until there is none."""
+        if side not in self._paths:
+            self._paths[side] = list(self._followed(side))
+        return self._paths[side]
+
+    def _followed(self, side: int) -> Iterator[tuple[mpf, mpf]]:
         """Yield drives and roots from the design position on, until there is none."""
         root = mpf(0)
         for i in range(1, STEPS + 1):
@@ -127,7 +137,7 @@ class Loop:
 
     def end(self, side: int) -> mpf | None:
         """Return the drive at which two roots meet, or None if that is not in the span."""
-        path = list(self.followed(side))
+        path = self.followed(side)
         if len(path) == STEPS:
             return None
         drive, root = path[-1]
@@ -146,14 +156,6 @@ class Loop:
         found = places[list(self.built.module.BODIES).index(self.body)]
         expected = self.place(root)
         return float(max(abs(mpf(f) - e) for f, e in zip(found, expected, strict=True)))
-
-
-def over_arrays(model: object, folder: Path, changes: Mapping[str, float] | None = None) -> Built:
-    """Return a model over NumPy arrays."""
-    target = folder / f"{model.name}-arrays"
-    target.mkdir()
-    build(generate(model), target, None)
-    return Built.of(model, load(target), changes)
 
 
 def other_branch(loop: Loop) -> mpf:
@@ -254,12 +256,16 @@ def upper_arm(built: Built) -> Loop:
     )
 
 
+def compiled(model: Model) -> Built:
+    """Return a model with its default parameters."""
+    return Built.of(model, own(model))
+
+
 @pytest.fixture(scope="session")
-def loop(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Loop]:
+def loop() -> Callable[[str], Loop]:
     """Return a loop by its name."""
 
     def find(name: str) -> Loop:
-        folder = tmp_path_factory.mktemp(name.replace(" ", "_"))
         if name == "upper arm":
             return upper_arm(Built.of(BY_NAME["double_wishbone"], double_wishbone))
         if name.startswith("knuckle"):
@@ -268,9 +274,9 @@ def loop(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Loop]:
             shipped = "double_wishbone" if wishbone else "macpherson"
             return knuckle(Built.of(BY_NAME[shipped], module), wishbone=wishbone)
         if name.startswith("slider"):
-            built = over_arrays(moving_slider_crank("slider_in_space"), folder)
+            built = compiled(moving_slider_crank("slider_in_space"))
             return _on_the_other_side(slider, built, "slider") if "other" in name else slider(built)
-        built = over_arrays(spatial_four_bar("rocker_in_space"), folder)
+        built = compiled(spatial_four_bar("rocker_in_space"))
         return _on_the_other_side(rocker, built, "rocker") if "other" in name else rocker(built)
 
     return cache(find)
@@ -304,7 +310,7 @@ NAMES = [
 def test_over_the_whole_range(name: str, side: int, loop: Callable[[str], Loop]) -> None:
     case = loop(name)
     with mpmath.workdps(DIGITS):
-        path = list(case.followed(side))
+        path = case.followed(side)
         assert len(path) > 10
         end = case.end(side)
         for drive, root in path:
@@ -321,7 +327,7 @@ def test_to_the_end_of_the_range(name: str, side: int, loop: Callable[[str], Loo
         end = case.end(side)
         if end is None:
             pytest.skip("it goes all the way round")
-        drive, root = list(case.followed(side))[-1]
+        drive, root = case.followed(side)[-1]
         for before in (1e-2, 1e-4, 1e-6, 1e-8, 1e-10):
             where = end * (1 - mpf(before))
             if abs(where) < abs(drive):

@@ -45,14 +45,11 @@ from kintrafo.generator import (
     point,
     rigid_body,
 )
-from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms.double_wishbone import DOUBLE_WISHBONE
 from kintrafo.generator.mechanisms.double_wishbone import MODELS as WISHBONES
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.generator.mechanisms.four_bar import MODELS as FOUR_BARS
 from kintrafo.generator.mechanisms.planar import flat
-from kintrafo.systems.compile.build import build
-from kintrafo.systems.compile.loader import load
 from own_models import needs_gcc, own
 
 (FOUR, WISHBONE) = (FOUR_BARS[0], WISHBONES[0])
@@ -610,18 +607,15 @@ size_t len sum max min print range self math sp rhs margins results_ Array float
 
 
 @needs_gcc
-def test_words_of_c_and_python_can_be_parameters(tmp_path):
+def test_words_of_c_and_python_can_be_parameters():
     """What is not reserved compiles, without a warning, and is what it says."""
     words = WORDS.split()
     dampers = tuple(LinearDamper(rate=word) for word in words)
     element = ForceElement(name="dampers", path=COIL.path, laws=dampers)
     rates = tuple(Parameter(word, 1.0, "N s/m", word) for word in words)
     mechanism = with_force(element, parameters=(*FOUR_BAR.parameters, *rates))
-    derived = generate(model(mechanism=mechanism, name="words"))
-    compiled = kintrafo.System(own(derived, tmp_path))
-    (tmp_path / "words-numpy").mkdir()
-    build(derived, tmp_path / "words-numpy", None)
-    arrays = kintrafo.System(load(tmp_path / "words-numpy"))
+    declared = model(mechanism=mechanism, name="words")
+    compiled, arrays = (kintrafo.System(own(declared, arrays=a)) for a in (False, True))
     state = compiled.state(crank_angle=0.3, crank_angle_rate=2.0)
     for system in (compiled, arrays):
         signals = system.signals(state)

@@ -11,20 +11,21 @@ from kintrafo.generator.backends.numpy.printer import ArraysPrinter
 from kintrafo.generator.equations.outputs import GeneratedModel, generate
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.generator.planning.plan import Plan
-from own_models import Built, needs_gcc, own
+from own_models import Built, derive, needs_gcc, own
 
 ROOT = Path(__file__).parents[1]
 LONG = 16  # loops: more guards than a status word has bits
 
 
 @pytest.fixture(scope="module")
-def derived() -> GeneratedModel:
-    return generate(n_four_bar(LONG))
+def long_chain() -> GeneratedModel:
+    return derive(n_four_bar(LONG))
 
 
 @pytest.fixture(scope="module")
-def chain(derived: GeneratedModel, tmp_path_factory: pytest.TempPathFactory) -> Built:
-    return Built.of(derived.model, own(derived, tmp_path_factory.mktemp("chain")))
+def chain() -> Built:
+    model = n_four_bar(LONG)
+    return Built.of(model, own(model))
 
 
 @needs_gcc
@@ -62,10 +63,10 @@ def test_the_loop_that_cannot_close_is_named(chain: Built, loop: int) -> None:
     assert error.value.margins[first] < 0.0
 
 
-def test_arrays_share_the_last_bit_too(derived: GeneratedModel) -> None:
-    source = ArraysPrinter(derived).source()
-    assert len(derived.guards) > 32
-    assert f"{len(derived.guards) - 1}: " in source
+def test_arrays_share_the_last_bit_too(long_chain: GeneratedModel) -> None:
+    source = ArraysPrinter(long_chain).source()
+    assert len(long_chain.guards) > 32
+    assert f"{len(long_chain.guards) - 1}: " in source
 
 
 def test_operations_grow_by_the_same_for_every_loop() -> None:

@@ -11,11 +11,13 @@ import re
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import product
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import kintrafo
 import mpmath
 import numpy as np
+import own_models
 import pytest
 import sympy as sp
 from kintrafo.generated import double_wishbone
@@ -28,10 +30,7 @@ from kintrafo.generator.mechanisms.multi_link import CONTROL_ARM, FIVE_LINK, MOD
 from kintrafo.generator.planning.plan import Plan
 from kintrafo.generator.program import ConstantStage, Program
 from kintrafo.generator.program.newton import ITERATIONS, adjugate
-from kintrafo.systems.compile.build import build
-from kintrafo.systems.compile.compiler import FLAGS, Compiler
-from kintrafo.systems.compile.loader import load
-from own_models import STRICT, Built, needs_gcc
+from own_models import Built, needs_gcc, own
 from scipy.integrate import solve_ivp
 from scipy.optimize import root
 from scipy.spatial.transform import Rotation
@@ -39,12 +38,12 @@ from symbolic import constants_of, python
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
-    from pathlib import Path
 
     from kintrafo.generator import Mechanism
     from oracle.constraints import Array
 
 ARM, FIVE, STRUT = MODELS
+BY_NAME = {model.name: model for model in MODELS}
 RODS = {
     ARM.name: ("upper_link", "camber_link", "toe_link"),
     FIVE.name: ("upper_link", "camber_link", "toe_link", "front_link", "lower_link", "push_rod"),
@@ -56,23 +55,13 @@ TRAVEL = {ARM.name: 0.35, FIVE.name: 0.5, STRUT.name: 0.08}
 
 @pytest.fixture(scope="session")
 def derive() -> Callable[[str], GeneratedModel]:
-    return cache(lambda name: generate(next(m for m in MODELS if m.name == name)))
+    return lambda name: own_models.derive(BY_NAME[name])
 
 
 @pytest.fixture(scope="session")
-def built(
-    derive: Callable[[str], GeneratedModel], tmp_path_factory: pytest.TempPathFactory
-) -> Callable[[str], Built]:
-    """Return a model over NumPy arrays, which takes no compiler's time."""
-
-    def find(name: str) -> Built:
-        derived = derive(name)
-        folder = tmp_path_factory.mktemp(name) / f"{name}-arrays"
-        folder.mkdir()
-        build(derived, folder, None)
-        return Built.of(derived.model, load(folder))
-
-    return cache(find)
+def built() -> Callable[[str], Built]:
+    """Return a compiled model."""
+    return cache(lambda name: Built.of(BY_NAME[name], own(BY_NAME[name])))
 
 
 def states(built: Built, count: int, seed: int = 0) -> tuple[Array, Array]:
@@ -139,7 +128,8 @@ def disguised_wishbone() -> tuple[dict[str, float], dict[str, float]]:
 
 @pytest.mark.parametrize(
     ("function", "tolerance"),
-    # of the largest entry; the derivatives see products of two badly scaled factors more
+    # of the largest entry: a hundred roundings leave two digits for the condition of both models;
+    # the derivatives see products of two badly scaled factors more
     [("rhs", 1e-12), ("signals", 1e-12), ("mass_matrix", 1e-12), ("rhs_jacobian", 1e-11)],
 )
 def test_two_links_to_one_ball_joint_are_a_wishbone(
@@ -244,6 +234,7 @@ def test_a_strut_is_as_long_as_its_slide_says(built: Callable[[str], Built]) -> 
     model = built(STRUT.name)
     (state, *_), (inputs, *_) = states(model, 1)
     slide = model.oracle.driven(model.motion(state, inputs), "strut_guide")
+    # some roundings of lengths below 1 m, and of the quotient with a rate
     assert slide.value[0] == pytest.approx(state[0], abs=1e-15)
     assert slide.rate[0] == pytest.approx(state[2], rel=1e-14)
     span = -0.01, 0.16, 0.52  # as declared
@@ -265,8 +256,10 @@ def test_accelerations_are_those_of_the_maximal_coordinates(
         found = model("rhs", state, inputs)[2:]
         # rounding, a thousandfold and more by the condition of six rods and that of the oracle
         np.testing.assert_allclose(found, oracle.accelerations, rtol=0.0, atol=1e-11 * scale)
+        # a hundred roundings of the largest entry: nothing is solved for with it yet
+        scale = np.abs(oracle.mass_matrix).max()
         np.testing.assert_allclose(
-            model("mass_matrix", state, inputs), oracle.mass_matrix, rtol=0.0, atol=1e-12
+            model("mass_matrix", state, inputs), oracle.mass_matrix, rtol=0.0, atol=2e-14 * scale
         )
 
 
@@ -275,8 +268,11 @@ def test_a_rack_that_is_held_stands_still(name: str, built: Callable[[str], Buil
     model = built(name)
     state, inputs = states(model, 20)
     still = inputs * [1.0, 0.0, 0.0, 1.0]
+    expected = model("rhs", state, still)
+    # the same terms without those that are zero, so in another order: a hundred roundings leave
+    # a digit for the condition of the loops
     np.testing.assert_allclose(
-        model("rhs_rack_held", state, inputs), model("rhs", state, still), rtol=1e-11, atol=1e-9
+        model("rhs_rack_held", state, inputs), expected, rtol=0.0, atol=1e-13 * abs(expected).max()
     )
 
 
@@ -323,6 +319,7 @@ def test_jacobians_are_exact(
     expected = np.transpose(columns)
     scale = np.abs(expected).max(axis=1, keepdims=True)
     scale[scale == 0.0] = 1.0
+    # a hundred roundings leave two digits for the condition of the loops
     np.testing.assert_allclose(found / scale, expected / scale, rtol=0.0, atol=1e-12)
 
 
@@ -394,6 +391,7 @@ def test_up_to_the_end_of_the_reach(built: Callable[[str], Built]) -> None:
         assert margin(inside + distance) < 0.0
         state = np.array([model.design[0] + inside - distance, 0.0, 0.0, 0.0])
         motion = model.motion(state, np.zeros(len(model.module.INPUTS)))
+        # what the iteration may leave
         assert np.abs(model.oracle.closure(motion).value).max() < 1e-13
 
 
@@ -408,17 +406,9 @@ def test_what_is_not_finite_is_refused(built: Callable[[str], Built]) -> None:
 
 
 @needs_gcc
-def test_c_computes_what_numpy_computes(
-    built: Callable[[str], Built],
-    derive: Callable[[str], GeneratedModel],
-    tmp_path: Path,
-) -> None:
-    arrays = built(ARM.name)
-    folder = tmp_path / f"{ARM.name}-c"
-    folder.mkdir()
-    # compiled without optimisation, which takes a third of the time
-    build(derive(ARM.name), folder, Compiler(("gcc", *FLAGS, *STRICT, "-O0"), "of the tests"))
-    compiled = replace(arrays, module=load(folder))
+def test_c_computes_what_numpy_computes(built: Callable[[str], Built]) -> None:
+    compiled = built(ARM.name)
+    arrays = replace(compiled, module=own(ARM, arrays=True))
     state, inputs = states(arrays, 200)
     for function in ("rhs", "rhs_jacobian", "positions", "signals", "margins"):
         found, expected = compiled(function, state, inputs), arrays(function, state, inputs)
@@ -426,15 +416,20 @@ def test_c_computes_what_numpy_computes(
         atol = 1e-12 * np.abs(expected).max(axis=0)
         assert (np.abs(found - expected) <= atol).all(), function
     state[:, 0] += np.linspace(-1.5, 1.5, len(state))
-    for one, given in zip(state, inputs, strict=True):
-        outcomes = []
+    closed, expected = (
+        (model("margins", state, inputs) > 0.0).all(axis=1) for model in (compiled, arrays)
+    )
+    assert (closed == expected).all()
+    assert min(np.sum(closed), np.sum(~closed)) > 20
+    # both refuse by their margins
+    for one, given, closes in zip(state[::20], inputs[::20], closed[::20], strict=True):
         for model in (arrays, compiled):
-            try:
-                outcomes.append(model("positions", one, given))
-            except ClosureError as error:
-                outcomes.append(tuple(error.margins))
-        assert type(outcomes[0]) is type(outcomes[1])
-    text = (folder / f"{ARM.name}.c").read_text()
+            if closes:
+                model("positions", one, given)
+            else:
+                with pytest.raises(ClosureError, match="loops of carrier"):
+                    model("positions", one, given)
+    text = Path(compiled.module.__file__).with_name(f"{ARM.name}.c").read_text()
     assert text.count("for (int i = 0; i < ITERATIONS; ++i)") == 1  # whatever the loops are
     assert f"#define ITERATIONS {ITERATIONS}\n" in text
     rest = kintrafo.System(compiled.module).state()
@@ -486,6 +481,7 @@ def test_angles_of_the_links_can_be_reported() -> None:
     design = {**values, "rack_position": 0.0, "arm_angle": design_angle(derived)}
     beta = dict(zip(shown.labels, python(shown)(design), strict=True))
     x, y, z = (end - start) / np.linalg.norm(end - start)
+    # some roundings of a quotient of lengths
     assert float(beta["link_elevation"]) == pytest.approx(np.arcsin(z), abs=1e-14)
     assert float(beta["link_azimuth"]) == pytest.approx(np.arctan2(-x, y), abs=1e-14)
 

@@ -7,20 +7,20 @@ point the rounding of any method grows without bound (`test_mechanisms_branches`
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from functools import cache
-from pathlib import Path
+from functools import cache, cached_property
 from typing import Any
 
 import mpmath
 import numpy as np
 import own_mechanisms
+import own_models
 import pytest
 from kintrafo.generator import FORWARD, AlongLine, Model, RelativeCoordinate
 from kintrafo.generator.equations.outputs import GeneratedModel, generate
 from kintrafo.generator.mechanisms import MODELS as SHIPPED
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from oracle.constraints import Array
-from oracle.maximal import Jet, Motion, Oracle
+from oracle.maximal import Jet, Motion, Oracle, Reduced
 from oracle.reference import completed, general_parameters
 from own_models import Built, needs_gcc, own, shipped
 from scipy.integrate import solve_ivp
@@ -68,23 +68,28 @@ class At:
         prescribed = self.built.model.prescribed
         return {joint: named[f"{name}_acceleration"] for joint, name in prescribed.items()}
 
+    def reduced(self, **given: float) -> Reduced:
+        """Solve the equations of motion with the oracle, some accelerations given otherwise."""
+        named = self.built.named(self.inputs)
+        return self.built.oracle.reduced(self.motion, named, self.given | given)
+
+    @cached_property
+    def solved(self) -> Reduced:
+        """What several tests compare with."""
+        return self.reduced()
+
 
 # -- models, geometries, states -------------------------------------------------------------------
 
 
 @pytest.fixture(scope="session")
 def derive() -> Derived:
-    return cache(lambda name: generate(MODELS[name]))
+    return lambda name: own_models.derive(MODELS[name])
 
 
 @pytest.fixture(scope="session")
-def module(derive: Derived, tmp_path_factory: pytest.TempPathFactory) -> Modules:
-    def find(name: str) -> Any:
-        if name in OWN:
-            return own(derive(name), tmp_path_factory.mktemp(name))
-        return shipped(MODELS[name])
-
-    return cache(find)
+def module() -> Modules:
+    return cache(lambda name: (own if name in OWN else shipped)(MODELS[name]))
 
 
 def cases(*seeds: int, names: Iterable[str] = MODELS) -> pytest.MarkDecorator:
@@ -97,7 +102,16 @@ def cases(*seeds: int, names: Iterable[str] = MODELS) -> pytest.MarkDecorator:
 
 
 def places(name: str, seed: int, found: Any) -> list[At]:
-    """Return a geometry of a model at random states."""
+    """Return a geometry of a model at random states, searched for once."""
+    if (name, seed) not in _PLACES:
+        _PLACES[name, seed] = _places(name, seed, found)
+    return _PLACES[name, seed]
+
+
+_PLACES: dict[tuple[str, int], list[At]] = {}
+
+
+def _places(name: str, seed: int, found: Any) -> list[At]:
     rng = np.random.default_rng([seed, *name.encode()])
     built = geometry(MODELS[name], found, rng) if seed else Built.of(MODELS[name], found)
     return [random_place(built, rng) for _ in range(STATES)]
@@ -313,9 +327,9 @@ def test_state_jacobian_of_the_right_hand_side_is_exact(
 # -- dynamics --------------------------------------------------------------------------------------
 
 
-def reduced(at: At, **given: float) -> Any:
+def reduced(at: At, **given: float) -> Reduced:
     """Solve the equations of motion with the oracle."""
-    return at.built.oracle.reduced(at.motion, at.built.named(at.inputs), at.given | given)
+    return at.reduced(**given) if given else at.solved
 
 
 @cases(*SEEDS)
@@ -439,14 +453,14 @@ def four_bar(name: str, **changes: Any) -> Model:
 
 
 @needs_gcc
-def test_a_hardpoint_may_be_carried_by_two_bodies(tmp_path: Path) -> None:
+def test_a_hardpoint_may_be_carried_by_two_bodies() -> None:
     # the seat of the second spring is where the centre of the coupler is, but on the rocker
     mechanism = MODELS["four_bar"].mechanism
     coupler, rocker = mechanism.body("coupler"), mechanism.body("rocker")
     ends = ("ground", mechanism.body("ground").center), (rocker.name, coupler.center)
     spring = replace(mechanism.elements[0], name="second", path=AlongLine(*ends))
     model = four_bar("two_springs", forces=(*mechanism.forces, spring))
-    built = Built.of(model, own(generate(model), tmp_path))
+    built = Built.of(model, own(model))
     state, inputs = np.array([0.4, 1.0]), np.zeros(1)
     length = built.oracle.length(built.motion(state, inputs), spring).value[0]
     signals = dict(zip(built.module.SIGNALS, built("signals", state, inputs), strict=True))

@@ -85,9 +85,9 @@ WAY = {"x": -0.5, "y": 0.7, "z": 0.0}
 
 
 @pytest.fixture(scope="module", params=["pivot", "bore"])
-def built(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Built:
+def built(request: pytest.FixtureRequest) -> Built:
     model = crane(request.param)
-    return Built.of(model, own(generate(model), tmp_path_factory.mktemp(request.param)))
+    return Built.of(model, own(model))
 
 
 # -- the law of cosines ---------------------------------------------------------------------------

@@ -9,36 +9,28 @@ import numpy as np
 import pytest
 from kintrafo.generated._support import ClosureError
 from kintrafo.generator import AlongLine, Cylindrical, DeclarationError, Line, Parameter, Point
-from kintrafo.generator.equations.outputs import generate
-from kintrafo.systems.compile.build import build
-from kintrafo.systems.compile.loader import load
 from own_mechanisms import ball, cross, spatial_four_bar, turret
-from own_models import Built
+from own_models import Built, own
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from kintrafo.generator import Model
 
 
-def over_arrays(model: Model, folder: Path) -> Built:
-    """Return a model over NumPy arrays."""
-    target = folder / f"{model.name}-arrays"
-    target.mkdir()
-    build(generate(model), target, None)
-    return Built.of(model, load(target))
+def compiled(model: Model) -> Built:
+    """Return a model with its default parameters."""
+    return Built.of(model, own(model))
 
 
 # -- struts ---------------------------------------------------------------------------------------
 
 
-def test_a_strut_is_as_long_as_the_way_between_its_ends(tmp_path: Path) -> None:
+def test_a_strut_is_as_long_as_the_way_between_its_ends() -> None:
     """All around, and down to a tenth of a millimetre before the ends meet: that alone is singular.
 
     From some hundredths of a millimetre on its direction would be worse than 1e-9, and is refused.
     """
     model = turret("whole_turn", "lift")
-    built = over_arrays(model, tmp_path)
+    built = compiled(model)
     bearing, eye = (
         np.array([built.parameters[f"{p}_{a}"] for a in "xyz"]) for p in ("boom_bearing", "eye")
     )
@@ -64,8 +56,8 @@ def test_a_strut_is_as_long_as_the_way_between_its_ends(tmp_path: Path) -> None:
             assert slide == pytest.approx(length - start, abs=1e-15 + 1e-16 / beside)
 
 
-def test_ends_that_meet_are_named(tmp_path: Path) -> None:
-    built = over_arrays(turret("closed_strut", "stroke"), tmp_path)
+def test_ends_that_meet_are_named() -> None:
+    built = compiled(turret("closed_strut", "stroke"))
     start = np.linalg.norm([0.8, -0.2, 1.1])  # from foot to eye, as declared
     with pytest.raises(ClosureError, match="strut of barrel and piston is drawn in until its ends"):
         built("rhs", np.array([0.0, -1.01 * start, 0.0, 0.0]))
@@ -102,8 +94,8 @@ def telescope(name: str, *, ball_at_boom: bool) -> Model:
     return replace(model, mechanism=mechanism, massive=massive)
 
 
-def test_two_crosses_hold_a_telescope_that_turns(tmp_path: Path) -> None:
-    built = over_arrays(telescope("two_crosses", ball_at_boom=False), tmp_path)
+def test_two_crosses_hold_a_telescope_that_turns() -> None:
+    built = compiled(telescope("two_crosses", ball_at_boom=False))
     rng = np.random.default_rng(0)
     for state in rng.uniform(-0.4, 0.4, (20, 4)) * [1.0, 1.0, 5.0, 5.0]:
         inputs = np.zeros(len(built.module.INPUTS))
@@ -116,13 +108,13 @@ def test_two_crosses_hold_a_telescope_that_turns(tmp_path: Path) -> None:
         np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-12 * np.abs(expected).max())
 
 
-def test_a_piston_without_mass_may_turn_as_it_likes(tmp_path: Path) -> None:
+def test_a_piston_without_mass_may_turn_as_it_likes() -> None:
     model = telescope("free_piston", ball_at_boom=True)
     assert model.massive == ("turret", "boom", "barrel")
     seat = replace(model.mechanism.elements[0], path=AlongLine(*_BOOM_SPRING))
     forces = tuple(seat if f == model.mechanism.elements[0] else f for f in model.mechanism.forces)
     model = replace(model, mechanism=replace(model.mechanism, forces=forces))
-    built = over_arrays(model, tmp_path)
+    built = compiled(model)
     for state in np.random.default_rng(0).uniform(-0.4, 0.4, (10, 4)):
         closure = built.oracle.closure(built.motion(state, np.zeros(len(built.module.INPUTS))))
         np.testing.assert_allclose(closure.value, 0.0, atol=2e-15)
@@ -152,13 +144,13 @@ def on_two_balls(massive: tuple[str, ...]) -> Model:
     return replace(model, mechanism=mechanism, massive=massive)
 
 
-def test_a_rod_without_mass_on_two_balls_is_like_one_with_a_cross(tmp_path: Path) -> None:
+def test_a_rod_without_mass_on_two_balls_is_like_one_with_a_cross() -> None:
     model = on_two_balls(("crank", "rocker"))
-    balls = over_arrays(model, tmp_path)
+    balls = compiled(model)
     crossed = spatial_four_bar("with_cross")
     mechanism = replace(crossed.mechanism, forces=model.mechanism.forces)
     crossed = replace(crossed, mechanism=mechanism, massive=model.massive)
-    other = over_arrays(crossed, tmp_path)
+    other = compiled(crossed)
     rng = np.random.default_rng(0)
     for angle in np.linspace(-0.5, 0.5, 9):
         state = np.array([angle, rng.normal()])
