@@ -28,6 +28,9 @@ run: build ## The paper's suspension: topology, Figures 4 to 6, summary, all in 
 	@$(PYTHON) -m kintrafo.generator topology --picture out/topology.png --force
 	@$(PYTHON) -m kintrafo paper out --force
 
+# Tests start hundreds of processes, and each would compile what it imports again.
+test test-elsewhere: export PYTHONDONTWRITEBYTECODE =
+
 test: build ## Run all tests
 	@$(PYTHON) -m pytest -q -n 2 --dist loadgroup
 
