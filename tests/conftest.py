@@ -22,27 +22,14 @@ def pytest_sessionstart(session: pytest.Session) -> None:
         own_models.forget()
 
 
-@pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Say what a test shares with others, and whether it compares with an oracle."""
-    for item in items:
-        item.add_marker(pytest.mark.xdist_group(_shared(item)))
-        if _compares(item):
-            item.add_marker("numbers")
-
-
-def _shared(item: pytest.Item) -> str:
-    """Let one worker run what shares a model that is derived, or the fixtures of a file.
-
-    Of all that tests make for each other, deriving takes longest, and cannot be handed to another
-    process: what is derived is large, and SymPy computes what it reads again.
-    """
-    derived = "derived" in getattr(item, "fixturenames", ())
-    return "derived" if derived else item.path.stem
+def pytest_itemcollected(item: pytest.Item) -> None:
+    """Mark what holds numbers against an oracle: their last bits are a processor's."""
+    if _compares(item):
+        item.add_marker("numbers")
 
 
 def _compares(item: pytest.Item) -> bool:
-    """Tell whether a test holds numbers against an oracle: their last bits are a processor's."""
+    """Tell whether the module of a test uses an oracle."""
 
     def home(value: object) -> str:
         return str(getattr(value, "__module__", None) or getattr(value, "__name__", ""))
