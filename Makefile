@@ -35,12 +35,8 @@ test test-elsewhere: export PYTHONDONTWRITEBYTECODE =
 test: build ## Run all tests
 	@$(PYTHON) -m pytest -q -n 2 --dist loadfile
 
-# what makes the C library, NumPy and OpenBLAS compute as a processor of 2008 would
-OLDER := GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX,-AVX2,-FMA,-FMA4 OPENBLAS_CORETYPE=Nehalem \
-	NPY_DISABLE_CPU_FEATURES="AVX2 FMA3"
-
 test-elsewhere: build ## Run what is compared with oracles as a processor of 2008 would compute
-	@$(OLDER) $(PYTHON) -m pytest -q -n 2 --dist loadfile -m numbers
+	@$(PYTHON) -m benchmarks.older_processor $(PYTHON) -m pytest -q -n 2 --dist loadfile -m numbers
 
 fuzz: build ## Try every door for long; a table of what came of it (ARGS="--rounds 100")
 	@PYTHONPATH=tests $(PYTHON) -m fuzz $(ARGS)

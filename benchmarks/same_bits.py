@@ -21,18 +21,12 @@ from kintrafo import System, generated
 from rich.console import Console
 from rich.markdown import Markdown
 
+from . import older_processor
 from .report import count, fill_page, markdown_table
 
 STATES = 2000
 SPREAD = 0.01  # of the states about design, in their SI units
 FUNCTIONS = ("rhs", "rhs_jacobian", "mass_matrix", "signals", "positions")
-
-# What makes the C library and NumPy compute as a processor of 2008 would.
-OLDER = {
-    "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX,-AVX2,-FMA,-FMA4",
-    "NPY_DISABLE_CPU_FEATURES": "AVX2 FMA3 AVX512F AVX512CD AVX512_SKX",
-    "OPENBLAS_CORETYPE": "Nehalem",
-}
 
 
 def models() -> list[str]:
@@ -57,7 +51,7 @@ def results(name: str) -> dict[str, list[str]]:
 
 def differing(name: str) -> tuple[int, int]:
     """Return how many results of a model differ on the older processor, and of how many."""
-    here, there = _evaluated(name, {}), _evaluated(name, OLDER)
+    here, there = _evaluated(name, {}), _evaluated(name, older_processor.environment())
     same = [a == b for f in here for a, b in zip(here[f], there[f], strict=True)]
     return same.count(False), len(same)
 
