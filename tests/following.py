@@ -326,6 +326,12 @@ def _links(random: Random) -> dict[str, float]:
 
 FAMILIES = (
     Family(
+        "planar four-bar driven at its knee",
+        own_loops.FOUR_BAR_AT_ITS_KNEE,
+        _plane(_pins(own_loops.FOUR_BAR_AT_ITS_KNEE), 0.4),
+        (2.0 * np.pi,),
+    ),
+    Family(
         "Stephenson driven from its far side",
         own_loops.STEPHENSON,
         _plane(_pins(own_loops.STEPHENSON), 0.5),
