@@ -155,6 +155,11 @@ def fit_rod(kin: Kinematics, step: Spanning, leg: Leg, arm: Arm, line: Vector, r
     return Fit(axes, gap, hold, rod)
 
 
+def solution_for(leg: Leg) -> str:
+    """Say how the turn of a body that a leg holds is solved, for the report."""
+    return f"a cos x + b sin x = c for the turn of {leg.body} about its line, branch as at design"
+
+
 def _require_reach(kin: Kinematics, leg: Leg, arm: Arm, extent: sp.Expr) -> None:
     """Have `prepare` see that the rod's anchor is beside the line."""
     program, body, anchor = kin.program, leg.body, leg.anchor

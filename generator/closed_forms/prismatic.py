@@ -1,6 +1,4 @@
-r"""A body on a guide, held by a leg.
-
-Move a body along its guide until a rod fits: two ball joints and a guide; slider-crank.
+r"""A body on a guide, held by a leg: two ball joints and a guide; slider-crank.
 
 Let d be the direction of the guide, D_0 the rod's joint at zero slide, E the other end of the
 rod of length l, and w = E - D_0. Then ``|D_0 + x d - E| = l`` is a quadratic in the slide x:
@@ -22,84 +20,36 @@ import sympy as sp
 
 from ..declare.joints import Prismatic
 from ..kinematics.extent import extent_squared, require
-from ..kinematics.motion import BodyMotion, Meeting, from_axes
-from ..loops.forms import ClosedForm
+from ..kinematics.motion import BodyMotion, from_axes
 from ..program.floors import BRANCH, ROOT
 from ..program.functions import SignOf
 from ..program.vectors import ZERO, Twist
-from .leg import held_on
+from .held import HeldOnJoint
 from .lines import once, place_rod, projector
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-    from typing import Self
-
-    from ..declare.geometry import Point
     from ..kinematics.kinematics import Kinematics
-    from ..kinematics.step import Ends
-    from ..loops.cut import CutLoop
-    from ..loops.forms import Closing
-    from ..loops.known import Coordinate, Known
-    from .leg import Leg, Rod
+    from .leg import Rod
 
 
 @dataclass(frozen=True)
-class PrismaticByLength(ClosedForm):
+class PrismaticByLength(HeldOnJoint):
     """A body on a guide of a placed body is held by a leg: its slide follows."""
 
     joint: Prismatic
-    parent: str
-    leg: Leg
 
     rank: ClassVar[int] = 6
-
-    @classmethod
-    def match(cls, known: Known, cut: CutLoop) -> Self | None:
-        """Return the slide of a body that a leg holds from a placed one."""
-        held = held_on(known, cut)
-        if held is None:
-            return None
-        joint, parent, leg = held
-        return cls(joint, parent, leg) if isinstance(joint, Prismatic) else None
+    kind = Prismatic
 
     @property
-    def about(self) -> str:
-        """The body that is held."""
-        return self.leg.body
-
-    @property
-    def title(self) -> str:
-        """What the derivation calls this step."""
-        return f"transformer: {self.leg.body} held by {self.leg.rod}"
-
-    @property
-    def points(self) -> tuple[Point, ...]:
-        """The ends of the leg."""
-        return self.leg.points
-
-    def accept(self, known: Known) -> set[Coordinate]:
-        """Record the body that the leg drives, and the leg."""
-        known.placed.add(self.leg.body)
-        return self.leg.hold(known, self.joint)
-
-    def lines(self) -> Iterator[Ends]:
-        """Yield the rod, along its line."""
-        yield self.leg.rod, self.leg.anchor, self.leg.end
-
-    def words(self, closing: Closing | None) -> tuple[str, str]:
-        """Return the closure equation and its solution."""
-        del closing
-        return f"{self.leg.ends} = length of {self.leg.measure}", (
-            f"quadratic in the slide of {self.joint.name}, branch as at design"
-        )
+    def solution(self) -> str:
+        """How the equation is solved, for the report."""
+        return f"quadratic in the slide of {self.joint.name}, branch as at design"
 
     def carry_out(self, kin: Kinematics) -> None:
         """Move the body along its guide until the leg fits."""
         leg = self.leg
-        kin.meetings.setdefault(
-            self.joint.name,
-            Meeting(self.parent, leg.body, leg.end, leg.anchor, leg.anchor_body, leg.rod),
-        )
+        self.meet(kin)
         program, body, joint = kin.program, leg.body, self.joint
         parent = kin.placed[self.parent]
         local = kin.local_direction(parent, joint.direction)

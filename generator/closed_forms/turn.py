@@ -13,28 +13,25 @@ import sympy as sp
 
 from ..kinematics.extent import extent_squared
 from ..kinematics.motion import BodyMotion, OnLine, PointMotion, RodEnds
-from ..loops.forms import ClosedForm
 from ..program.vectors import ZERO, Twist, Vector
-from .arm import Arm, Fit, Reach, fit_rod
+from .arm import Arm, Fit, Reach, fit_rod, solution_for
+from .held import HeldByLeg
 from .lines import line_alpha, line_omega, once, place_rod, projector
 from .offset_turn import solve_offset_turn
 from .rigid_rod import RigidRod
 from .telescope import Telescope
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from typing import Self
 
     from ..declare.geometry import Point
     from ..kinematics.kinematics import Kinematics
-    from ..kinematics.step import Ends
     from ..loops.cut import CutLoop
-    from ..loops.forms import Closing
     from ..loops.known import Coordinate, Known
 
 
 @dataclass(frozen=True)
-class TurnByLength(ClosedForm):
+class TurnByLength(HeldByLeg):
     """A body known up to a rotation about a line is held by a rod: its rotation follows."""
 
     leg: RigidRod
@@ -50,19 +47,9 @@ class TurnByLength(ClosedForm):
         return cls(leg)
 
     @property
-    def about(self) -> str:
-        """The body that is held."""
-        return self.leg.body
-
-    @property
-    def title(self) -> str:
-        """What the derivation calls this step."""
-        return f"transformer: {self.leg.body} held by {self.leg.rod}"
-
-    @property
-    def points(self) -> tuple[Point, ...]:
-        """The ends of the rod."""
-        return self.leg.points
+    def solution(self) -> str:
+        """How the equation is solved, for the report."""
+        return solution_for(self.leg)
 
     def accept(self, known: Known) -> set[Coordinate]:
         """Record the body, and the telescopes that it aims."""
@@ -75,18 +62,6 @@ class TurnByLength(ClosedForm):
         joints += known.mechanism.joints_of(rod)
         joints += filter(known.joins, known.mechanism.joints_of(body))
         return known.add_all(joints)
-
-    def lines(self) -> Iterator[Ends]:
-        """Yield the rod, along its line."""
-        yield self.leg.rod, self.leg.anchor, self.leg.end
-
-    def words(self, closing: Closing | None) -> tuple[str, str]:
-        """Return the closure equation and its solution."""
-        del closing
-        return f"{self.leg.ends} = length of {self.leg.measure}", (
-            f"a cos x + b sin x = c for the turn of {self.leg.body} about its line, branch as at "
-            "design"
-        )
 
     def carry_out(self, kin: Kinematics) -> None:
         """Turn the body about its known line until the rod fits."""

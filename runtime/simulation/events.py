@@ -58,15 +58,16 @@ class Events:
     @property
     def directions(self) -> list[int]:
         """The sense of each event: -1, 0 or +1."""
-        values = [e.direction for e in self.signal]
-        values += [f.direction for f in self.functions]
-        return [(v > 0) - (v < 0) for v in values]
+        return [(e.direction > 0) - (e.direction < 0) for e in self._all]
 
     @property
     def terminal(self) -> list[int]:
         """At which crossing each event ends the simulation; 0 for never."""
-        values = [e.terminal for e in self.signal] + [f.terminal for f in self.functions]
-        return [int(v) for v in values]
+        return [int(e.terminal) for e in self._all]
+
+    @property
+    def _all(self) -> "tuple[SignalEvent | _CheckedFunction, ...]":
+        return *self.signal, *self.functions
 
     def __len__(self) -> int:
         return len(self.order)

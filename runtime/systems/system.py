@@ -81,22 +81,22 @@ class System:
 
     @property
     def state_names(self) -> tuple[str, ...]:
-        """StateNames of the state's elements, in order."""
+        """Names of the state's elements, in order."""
         return tuple(self.equations.STATE)
 
     @property
     def input_names(self) -> tuple[str, ...]:
-        """StateNames of the inputs, in order."""
+        """Names of the inputs, in order."""
         return tuple(self.equations.INPUTS)
 
     @cached_property
     def names_of_states(self) -> StateNames:
-        """StateNames of what a `State` of this system is made of."""
+        """Names of what a `State` of this system is made of."""
         return StateNames(self.state_names, self.input_names)
 
     @property
     def signal_names(self) -> tuple[str, ...]:
-        """StateNames of the physical signals, in order."""
+        """Names of the physical signals, in order."""
         return tuple(self.equations.SIGNALS)
 
     # -- building arrays --------------------------------------------------------------------------

@@ -1,0 +1,102 @@
+"""A body with one freedom left, held by a leg: what the forms that solve it share."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from ..kinematics.motion import Meeting
+from ..loops.forms import ClosedForm
+from .leg import held_on
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from typing import Self
+
+    from ..declare.geometry import Point
+    from ..declare.joints import Joint
+    from ..kinematics.kinematics import Kinematics
+    from ..kinematics.step import Ends
+    from ..loops.cut import CutLoop
+    from ..loops.forms import Closing
+    from ..loops.known import Coordinate, Known
+    from .leg import Leg
+
+
+class HeldByLeg(ClosedForm):
+    """A body that a leg holds.
+
+    Attributes
+    ----------
+    leg
+    """
+
+    leg: Leg
+
+    @property
+    def about(self) -> str:
+        """The body that is held."""
+        return self.leg.body
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"transformer: {self.leg.body} held by {self.leg.rod}"
+
+    @property
+    def points(self) -> tuple[Point, ...]:
+        """The ends of the leg."""
+        return self.leg.points
+
+    def lines(self) -> Iterator[Ends]:
+        """Yield the rod, along its line."""
+        yield self.leg.rod, self.leg.anchor, self.leg.end
+
+    def words(self, closing: Closing | None) -> tuple[str, str]:
+        """Return the closure equation and its solution."""
+        del closing
+        return f"{self.leg.ends} = length of {self.leg.measure}", self.solution
+
+    @property
+    @abstractmethod
+    def solution(self) -> str:
+        """How the equation is solved, for the report."""
+
+
+@dataclass(frozen=True)
+class HeldOnJoint(HeldByLeg):
+    """A body on a joint of a placed body is held by a leg: the joint's coordinate follows.
+
+    Attributes
+    ----------
+    joint, parent
+        The joint, and the placed body that carries it.
+    kind
+        The class of such a joint.
+    """
+
+    joint: Joint
+    parent: str
+    leg: Leg
+
+    kind: ClassVar[type[Joint]]
+
+    @classmethod
+    def match(cls, known: Known, cut: CutLoop) -> Self | None:
+        """Return the coordinate of a body that a leg holds from a placed one."""
+        held = held_on(known, cut)
+        return cls(*held) if held and isinstance(held[0], cls.kind) else None
+
+    def accept(self, known: Known) -> set[Coordinate]:
+        """Record the body that the leg drives, and the leg."""
+        known.placed.add(self.leg.body)
+        return self.leg.hold(known, self.joint)
+
+    def meet(self, kin: Kinematics) -> None:
+        """Record which points the leg keeps apart, for the residual."""
+        leg = self.leg
+        kin.meetings.setdefault(
+            self.joint.name,
+            Meeting(self.parent, leg.body, leg.end, leg.anchor, leg.anchor_body, leg.rod),
+        )
