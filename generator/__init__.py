@@ -23,7 +23,9 @@ What a declaration is made of can be imported from here.
 """
 
 from . import memory  # noqa: F401 (before SymPy is imported)
-from .declare.assembly import Body, Parameter, RelativeCoordinate
+from .declare.bodies import Body, Ground, Rotor
+from .declare.composition import Copy, combined
+from .declare.coordinates import RelativeCoordinate
 from .declare.declared import DeclarationError
 from .declare.forces import (
     AlongLine,
@@ -35,11 +37,30 @@ from .declare.forces import (
     Weight,
 )
 from .declare.geometry import FORWARD, UP, Direction, Line, Point
+from .declare.inputs import Input, Motion
 from .declare.joints import Cylindrical, Prismatic, Revolute, Spherical, Universal
 from .declare.laws import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
 from .declare.mechanism import Mechanism
 from .declare.model import Model
-from .declare.parameters import direction, point, rigid_body, rotor
+from .declare.parameters import (
+    Angle,
+    AngularSpeed,
+    DamperRate,
+    Displacement,
+    Distance,
+    ForceLevel,
+    Gravity,
+    Length,
+    MomentLevel,
+    Parameter,
+    Progression,
+    Share,
+    Speed,
+    SpringRate,
+    TorsionDamperRate,
+    TorsionProgression,
+    TorsionRate,
+)
 
 __all__ = [
     "FORWARD",
@@ -47,32 +68,50 @@ __all__ = [
     "Actuator",
     "AlongLine",
     "AlongTelescope",
+    "Angle",
+    "AngularSpeed",
     "Body",
+    "Copy",
     "Cylindrical",
+    "DamperRate",
     "DamperTable",
     "DeclarationError",
     "Direction",
+    "Displacement",
+    "Distance",
     "ForceElement",
+    "ForceLevel",
     "Friction",
+    "Gravity",
+    "Ground",
+    "Input",
     "JointForce",
+    "Length",
     "Line",
     "LinearDamper",
     "LinearSpring",
     "LinearTyre",
     "Mechanism",
     "Model",
+    "MomentLevel",
+    "Motion",
     "Parameter",
     "Point",
     "Prismatic",
+    "Progression",
     "RelativeCoordinate",
     "Revolute",
+    "Rotor",
+    "Share",
+    "Speed",
     "Spherical",
+    "SpringRate",
     "Stop",
+    "TorsionDamperRate",
+    "TorsionProgression",
+    "TorsionRate",
     "TwistOfHinges",
     "Universal",
     "Weight",
-    "direction",
-    "point",
-    "rigid_body",
-    "rotor",
+    "combined",
 ]

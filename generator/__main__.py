@@ -92,7 +92,7 @@ def show_topology(plan: Plan) -> None:
         f"Mobility (Eq. 1): {mobility_line(graph)}; independent loops: {graph.loop_count}"
     )
     paths = Table(title="Shortest paths between bodies (Table 2)")
-    for column in ("", *(str(b.number) for b in graph.mechanism.bodies)):
+    for column in ("", *map(str, graph.mechanism.numbers.values())):
         paths.add_column(column)
     for row in path_rows(graph):
         paths.add_row(*(cell.strip("*") for cell in row))

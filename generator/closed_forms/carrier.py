@@ -172,7 +172,7 @@ def _rod(known: Known, body: Body, joint: Joint) -> Leg | None:
     if guide is None or far is None:
         return RigidRod(body.name, rod, end, anchor, other.other(rod))
     pair = GuidedPair(guide, rod, anchor, other.other(rod), far, end, body.name)
-    return Strut.of(pair) if is_strut(pair, other, joint) and guide.first == rod else None
+    return Strut.of(pair) if is_strut(pair, other, joint) and guide.first.name == rod else None
 
 
 def _beyond(known: Known, joint: Joint, link: str) -> Joint | None:

@@ -307,7 +307,7 @@ def position(
         screws.append(Screw(axis, origin, isinstance(branch.joint, Prismatic), size))
     equations = []
     for cut in tree.cuts:
-        plane = frames[tree.base_of(cut.joint.first)]
+        plane = frames[tree.base_of(cut.joint.first.name)]
         equations += _at_cut(program, label, cut, geometry, frames, plane)
     for held in tree.rods:
         one, two = frames[held.anchor_body], frames[held.body]

@@ -252,7 +252,7 @@ def _place_of(kin: Kinematics, joint: Joint) -> Vector:
     """Return where a joint is; of a guide, which is nowhere, a point of its second body."""
     if isinstance(joint, Revolute):
         return kin.design(joint.axis.through)
-    return kin.design(joint.center or kin.mechanism.body(joint.second).center)
+    return kin.design(joint.center or joint.second.center)
 
 
 def _of_cut(kin: Kinematics, cut: CutJoint) -> Geometry:

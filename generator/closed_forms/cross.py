@@ -48,7 +48,7 @@ class PlaceByCross(Follower):
     @classmethod
     def follow(cls, known: Known, joint: Joint, parent: str, child: str) -> Self | None:
         """Return the step for a shaft whose line is known."""
-        if isinstance(joint, Universal) and child == joint.second and child in known.on_line:
+        if isinstance(joint, Universal) and child == joint.second.name and child in known.on_line:
             return cls(joint, parent, child)
         return None
 

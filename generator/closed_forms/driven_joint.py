@@ -41,7 +41,7 @@ class PlaceByJoint(Follower):
             return None
         if known.unknowns_of(joint) > 0:
             return None
-        if child != joint.second:
+        if child != joint.second.name:
             message = (
                 f"joint {joint.name!r}: declare {parent!r} first and {child!r} second, "
                 "since its coordinate drives the second body"

@@ -77,7 +77,7 @@ class TwoLinks:
     @property
     def first(self) -> str:
         """The first link."""
-        return self.joint.first
+        return self.joint.first.name
 
     @property
     def middle(self) -> Point:
@@ -105,7 +105,7 @@ class Elbow(Leg):
             return None
         at_anchor = one, cut.others[0], cut.anchor
         at_end = other, cut.others[-1], cut.end
-        ends = (*at_anchor, *at_end) if joint.first == near else (*at_end, *at_anchor)
+        ends = (*at_anchor, *at_end) if joint.first.name == near else (*at_end, *at_anchor)
         pair = TwoLinks(joint, *ends)
         return cls(cut.others[-1], near, cut.end, cut.anchor, cut.others[0], pair)
 
@@ -203,7 +203,7 @@ class PlaceElbow(PlannedStep):
             f"{body}_reach_squared",
             s.y**2 + s.z**2,
             f"the ends {pair.start.name} and {pair.end.name} of {pair.first} and "
-            f"{pair.joint.second} meet",
+            f"{pair.joint.second.name} meet",
             "m^2",
             DIRECTION * extent,
         )

@@ -48,7 +48,7 @@ class GuidedPair:
     @property
     def sense(self) -> int:
         """Return 1 if the far link moves along the direction of the guide with the slide."""
-        return 1 if self.joint.second == self.far else -1
+        return 1 if self.joint.second.name == self.far else -1
 
     @property
     def forward(self) -> bool:

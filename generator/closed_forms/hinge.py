@@ -72,7 +72,7 @@ class Hinge:
     @property
     def first_axis_of(self) -> str | None:
         """Name of the hinge, if its axis in its own sense is the first of the body axes."""
-        own = self.joint.second == self.body and self.joint.angle_to is None
+        own = self.joint.second.name == self.body and self.joint.angle_to is None
         return self.joint.name if own else None
 
 
@@ -159,5 +159,5 @@ def report_angle(kin: Kinematics, hinge: Hinge, axes: Axes) -> None:
     )
     now = to_axes(parent.axes, axes[1])
     side = hinge.axis_on_parent.cross(start)
-    sense = 1 if joint.second == hinge.body else -1
+    sense = 1 if joint.second.name == hinge.body else -1
     kin.angles[joint.name] = sp.atan2(sense * side.dot(now), start.dot(now))

@@ -74,7 +74,7 @@ class PrismaticByLength(HeldOnJoint):
         )
         root = program.define(f"{body}_closure_root", sp.sqrt(room))
         slide = program.define(f"{body}_slide", along + branch * root)
-        sense = 1 if joint.second == body else -1
+        sense = 1 if joint.second.name == body else -1
         kin.slides[joint.name] = sense * slide
         offset = local * slide
         placed = BodyMotion(

@@ -114,8 +114,8 @@ class ScotchYoke(ClosedForm):
         axes, pin = _Oblique.of(kin, self, base), kin.point_motion(self.pin_body, self.pin)
         q = projector(kin, base)(f"{self.block}_pin", pin.position - base.origin)
         x = axes.parts(kin, f"{self.yoke}_slide", q - kin.local(base, self.pin))
-        kin.slides[self.slot.name] = x[0] if self.slot.second == self.block else -x[0]
-        kin.slides[self.guide.name] = x[1] if self.guide.second == self.yoke else -x[1]
+        kin.slides[self.slot.name] = x[0] if self.slot.second.name == self.block else -x[0]
+        kin.slides[self.guide.name] = x[1] if self.guide.second.name == self.yoke else -x[1]
         offsets = {self.yoke: axes.along(_NONE, x[1]), self.block: axes.along(*x)}
         for body, offset in offsets.items():
             at = base.origin + from_axes(base.axes, offset)

@@ -55,7 +55,7 @@ class Telescope(ClosedForm):
         placed = {cut.others[0], cut.others[-1]} <= known.placed
         if known.knows(joint, "slide") or not (along_axis and placed):
             return None
-        if anchor_link != joint.first:
+        if anchor_link != joint.first.name:
             return None
         anchor = cut.anchor, cut.others[0], anchor_link
         return cls(TelescopeEnds(joint, *anchor, cut.end, cut.others[-1], end_link))
@@ -101,7 +101,7 @@ class Telescope(ClosedForm):
         del closing
         joint, end, anchor = self.ends.joint, self.ends.end, self.ends.anchor
         return (
-            f"|{end.name} - {anchor.name}| = {joint.length_at_zero_slide} - {joint.name}.slide",
+            f"|{end.name} - {anchor.name}| = {joint.length_at_zero_slide.name} - {joint.name}.slide",
             "explicit: the length is the root of a sum of squares",
         )
 
@@ -119,7 +119,7 @@ class Telescope(ClosedForm):
         kin.on_line[ends.end_link] = record
         kin.telescopes[name] = record
         kin.slides[name] = kin.program.define(
-            f"slide_{name}", sp.Symbol(ends.joint.length_at_zero_slide) - record.length
+            f"slide_{name}", ends.joint.length_at_zero_slide.symbol - record.length
         )
 
 
@@ -201,5 +201,5 @@ def _solve_offset(kin: Kinematics, step: Telescope) -> None:
     )
     kin.slides[name] = program.define(
         f"slide_{name}",
-        sp.Symbol(joint.length_at_zero_slide) - kin.off_line[ends.end_link].length,
+        joint.length_at_zero_slide.symbol - kin.off_line[ends.end_link].length,
     )

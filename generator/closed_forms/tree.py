@@ -30,7 +30,7 @@ class JointOfTree:
     @property
     def sense(self) -> int:
         """Return 1 if the coordinate is that of the child as seen from the parent, else -1."""
-        return 1 if self.joint.second == self.child else -1
+        return 1 if self.joint.second.name == self.child else -1
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ class CutJoint:
         """What the two bodies have in common, for the report."""
         joint = self.joint
         return (
-            f"{joint.first} and {joint.second} have {joint.common} in common at {joint.name}: "
+            f"{joint.first.name} and {joint.second.name} have {joint.common} in common at {joint.name}: "
             f"{self.equations} equations"
         )
 

@@ -1,105 +1,96 @@
-"""What a mechanism consists of: bodies, joints, forces, parameters, and how to find them."""
+"""What a mechanism consists of: what its joints and forces refer to, and how to find it."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, TypeVar
 
 import sympy as sp
 
-from .declared import Name, Number, Numeral, declared
+from ...core.suggestions import suggestion
+from .bodies import Body, Ground
+from .coordinates import RelativeCoordinate
+from .declared import Name, declared, parts
 from .forces import Force, ForceElement, LinearTyre
-from .geometry import Direction, Point
+from .geometry import Point
+from .inputs import Input
 from .joints import Cylindrical, Joint, Spherical, Universal
+from .parameters import Owner, Parameter
 
 _ENDS = 2  # of a rod
 
-
-@declared
-@dataclass(frozen=True)
-class Parameter:
-    """A number that a user of the generated code may change.
-
-    Attributes
-    ----------
-    default
-        Value in SI units.
-    unit, meaning
-        For the documentation of the generated code.
-    least, most
-        Bounds of its values, where its role has none or wider ones: masses, rates and lengths are
-        not negative in any case.
-    """
-
-    name: Name
-    default: Number
-    unit: str
-    meaning: str
-    least: Number | None = None
-    most: Number | None = None
-
-
-@declared
-@dataclass(frozen=True)
-class Body:
-    """A rigid body.
-
-    Attributes
-    ----------
-    name, number
-        The number is that of the paper's or the user's figure; every body has its own.
-    center
-        Centre of mass; its position at design is a parameter.
-    rotor_axis
-        For a body of revolution that spins about a bearing: the direction of its axis. Its inertia
-        then has two parameters, about the axis and across it; other bodies have a full tensor.
-    """
-
-    name: Name
-    number: Numeral
-    center: Point
-    rotor_axis: Direction | None = None
-
-
-@declared
-@dataclass(frozen=True)
-class RelativeCoordinate:
-    """A relative joint coordinate of the report, such as the paper's beta2."""
-
-    name: Name
-    joint: Name
-    kind: Name
-    unit: str
-    meaning: str
+Named = TypeVar("Named", Body, Joint, Input)
 
 
 @declared
 @dataclass(frozen=True)
 class Assembly:
-    """The parts of a mechanism, before anything is checked that several of them must fulfil."""
+    """The parts of a mechanism, before anything is checked that several of them must fulfil.
+
+    Bodies, inputs and parameters are those that joints, forces and coordinates refer to, in the
+    order in which they were written; the ground is the first body.
+    """
 
     name: Name
     title: str
-    bodies: tuple[Body, ...]
     joints: tuple[Joint, ...]
-    forces: tuple[Force, ...]
-    parameters: tuple[Parameter, ...]
-    coordinates: tuple[RelativeCoordinate, ...]
-    inputs: Mapping[Name, tuple[str, str]] = field(default_factory=dict)
-    derived: Mapping[Name, sp.Expr] = field(default_factory=dict)
+    forces: tuple[Force, ...] = ()
+    coordinates: tuple[RelativeCoordinate, ...] = ()
+    bodies: tuple[Body, ...] = field(init=False)
+    inputs: tuple[Input, ...] = field(init=False)
+    parameters: tuple[Parameter, ...] = field(init=False)
+
+    def __post_init__(self) -> None:
+        bodies = sorted(self.every(Body), key=lambda b: (not isinstance(b, Ground), b.order))
+        roots = sorted((owner.root for owner in self.every(Owner)), key=lambda owner: owner.order)
+        object.__setattr__(self, "bodies", tuple(dict.fromkeys(bodies)))
+        object.__setattr__(self, "inputs", tuple(self.every(Input)))
+        numbers = (p for owner in dict.fromkeys(roots) for p in owner.numbers)
+        object.__setattr__(self, "parameters", tuple(dict.fromkeys(numbers)))
+
+    def every(self, kind: type[Any]) -> list[Any]:
+        """Return what there is of a kind in joints, forces and coordinates, each once."""
+        return [part for part in self._parts if isinstance(part, kind)]
+
+    @cached_property
+    def _parts(self) -> tuple[Any, ...]:
+        return tuple(dict.fromkeys(parts((self.joints, self.forces, self.coordinates))))
+
+    @property
+    def derived(self) -> dict[str, sp.Expr]:
+        """Names that equations read like parameters, and that are expressions in parameters."""
+        owners: list[Owner] = self.every(Owner)
+        return {name: value for owner in owners for name, value in owner.derived.items()}
 
     @property
     def ground(self) -> str:
         """Name of the reference body."""
         return self.bodies[0].name
 
+    @property
+    def numbers(self) -> dict[str, int]:
+        """The number of each body in the figure, by its name."""
+        first = self.bodies[0].number if isinstance(self.bodies[0], Ground) else 0
+        return {body.name: i for i, body in enumerate(self.bodies, first)}
+
+    @property
+    def input_names(self) -> list[str]:
+        """Names of the inputs."""
+        return [entry.name for entry in self.inputs]
+
     def body(self, name: str) -> Body:
         """Return a body by its name."""
-        return next(b for b in self.bodies if b.name == name)
+        return _named(self.bodies, name)
 
     def joint(self, name: str) -> Joint:
         """Return a joint by its name."""
-        return next(j for j in self.joints if j.name == name)
+        return _named(self.joints, name)
+
+    def input(self, name: str) -> Input:
+        """Return an input by its name."""
+        return _named(self.inputs, name)
 
     def prefix(self, tyre: LinearTyre) -> str:
         """Return what begins the names of a tyre's signals: nothing, where it is alone."""
@@ -141,6 +132,15 @@ class Assembly:
     def universal_at(self, body: str, center: Point) -> Universal | None:
         """Return the universal joint that holds a shaft at a point, if there is one."""
         for joint in self.joints_of(body):
-            if isinstance(joint, Universal) and joint.at == center and joint.second == body:
+            if isinstance(joint, Universal) and joint.at == center and joint.second.name == body:
                 return joint
         return None
+
+
+def _named(things: Iterable[Named], name: str) -> Named:
+    """Return one of several things by its name."""
+    things = tuple(things)
+    found = next((thing for thing in things if thing.name == name), None)
+    if found is None:
+        raise KeyError(f"there is no {name!r}. {suggestion(name, [t.name for t in things])}")
+    return found

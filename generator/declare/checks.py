@@ -2,173 +2,97 @@
 
 from __future__ import annotations
 
-import difflib
 from collections import Counter
 from typing import TYPE_CHECKING
 
-from .declared import DeclarationError, parts
+from .bodies import Body, Ground
+from .declared import DeclarationError
 from .default_values import value_problems
-from .forces import AlongLine, AlongTelescope, ForceElement, JointForce, LinearTyre, Weight
-from .geometry import Direction, Point
-from .joints import Cylindrical, Revolute, Spherical
-from .laws import Actuator, LinearSpring
+from .forces import ForceElement, JointForce, LinearTyre, Weight
+from .inputs import Input
+from .joints import Joint
 from .names import name_problems, text_problems
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Collection, Iterable
 
     from .assembly import Assembly
-    from .joints import Joint
 
 
 def check_mechanism(mechanism: Assembly) -> None:
     """Raise `DeclarationError` if a mechanism has names or numbers that cannot be."""
     problems = [
+        *_ground_problems(mechanism),
         *_repeated_problems(mechanism),
-        *_joint_problems(mechanism),
-        *_coordinate_problems(mechanism),
-        *_force_problems(mechanism),
-        *_geometry_problems(mechanism),
+        *_stranger_problems(mechanism),
         *name_problems(mechanism),
         *text_problems(mechanism),
-        *value_problems(mechanism),
     ]
+    # ranges and lines are those of the parameters; of two of one name nobody knows which
+    problems += [] if problems else value_problems(mechanism)
     if problems:
         raise DeclarationError(mechanism.name, problems)
 
 
+def _ground_problems(mechanism: Assembly) -> list[str]:
+    grounds = [b.name for b in mechanism.bodies if isinstance(b, Ground)]
+    if len(grounds) == 1:
+        return []
+    if not grounds:
+        return ["there is no ground; declare a Ground and join the bodies to it"]
+    return [f"there are several grounds, {', '.join(map(repr, grounds))}; leave one of them"]
+
+
 def _repeated_problems(mechanism: Assembly) -> list[str]:
-    """Find what there must be once: names of a kind, numbers of bodies, elements."""
-    problems = [] if mechanism.bodies else ["there are no bodies; the first one is the ground"]
+    """Find different things of one name, and things that there must be once."""
     forces = mechanism.forces
+    problems = []
     for kind, names in (
         ("body", [b.name for b in mechanism.bodies]),
-        ("joint", [j.name for j in mechanism.joints]),
+        ("joint", [j.name for j in dict.fromkeys(mechanism.joints)]),
         ("parameter", [p.name for p in mechanism.parameters]),
+        ("input", mechanism.input_names),
+        ("coordinate", [c.name for c in dict.fromkeys(mechanism.coordinates)]),
+    ):
+        problems += [
+            f"{count} different {_plural(kind)} are named {name!r}; rename them, or declare one "
+            "and refer to it"
+            for name, count in Counter(names).items()
+            if count > 1
+        ]
+    for kind, listed in (
+        ("joint", [j.name for j in mechanism.joints if mechanism.joints.count(j) > 1]),
         ("coordinate", [c.name for c in mechanism.coordinates]),
         ("weight", ["Weight" for f in forces if isinstance(f, Weight)]),
         ("force", [f.name for f in forces if isinstance(f, ForceElement | LinearTyre)]),
         (
             "JointForce along",
-            [f"{f.joint} by {f.input}" for f in forces if isinstance(f, JointForce)],
+            [f"{f.joint.name} by {f.input.name}" for f in forces if isinstance(f, JointForce)],
         ),
-        ("number of bodies:", [str(b.number) for b in mechanism.bodies]),
     ):
-        problems += repeated(kind, names)
+        problems += repeated(kind, listed)
     return problems
 
 
-def _joint_problems(mechanism: Assembly) -> list[str]:
-    bodies, problems = [b.name for b in mechanism.bodies], []
-    for joint in mechanism.joints:
-        problems += unknown(f"joint {joint.name!r}: body", joint.bodies, bodies)
-        if joint.first == joint.second:
-            problems.append(
-                f"joint {joint.name!r} connects {joint.first!r} with itself; name two bodies"
-            )
-    return problems
+def _plural(kind: str) -> str:
+    return "bodies" if kind == "body" else f"{kind}s"
 
 
-def _coordinate_problems(mechanism: Assembly) -> list[str]:
-    joints, problems = {j.name: j.coordinates for j in mechanism.joints}, []
-    balls = {j.name for j in mechanism.joints if isinstance(j, Spherical)}
-    for coordinate in mechanism.coordinates:
-        what, joint = f"coordinate {coordinate.name!r}", coordinate.joint
-        problems += unknown(f"{what}: joint", [joint], joints)
-        kinds = joints.get(joint, (coordinate.kind,))
-        problems += unknown(f"{what}: kind", [coordinate.kind], kinds)
-        if joint in balls:
-            problems.append(
-                f"{what}: the angles of the ball joint {joint!r} have no names to report; leave it "
-                "out"
-            )
-    return problems
-
-
-def _force_problems(mechanism: Assembly) -> list[str]:
-    joints = [j.name for j in mechanism.joints]
-    bodies = [b.name for b in mechanism.bodies]
-    problems = []
-    for force in mechanism.forces:
-        what = type(force).__name__
-        if isinstance(force, JointForce):
-            problems += unknown(f"{what}: joint", [force.joint], joints)
-            problems += unknown(f"{what}: input", [force.input], mechanism.inputs)
-        elif isinstance(force, LinearTyre):
-            problems += unknown(f"{what}: body", [force.carrier], bodies)
-            inputs = [i for i in (force.road, force.road_velocity) if i is not None]
-            problems += unknown(f"{what}: input", inputs, mechanism.inputs)
-            if (force.damper is None) != (force.road_velocity is None):
-                problems.append(f"{what} {force.name!r}: give damper and road_velocity, or neither")
-        elif isinstance(force, ForceElement):
-            problems += _element_problems(mechanism, force)
-    return problems
-
-
-def _element_problems(mechanism: Assembly, element: ForceElement) -> list[str]:
-    what, path = f"ForceElement {element.name!r}", element.path
-    telescopic = isinstance(path, AlongTelescope)
-    if isinstance(path, AlongTelescope):
-        problems = _of_kind(mechanism, what, [path.joint], Cylindrical)
-    elif isinstance(path, AlongLine):
-        bodies = [body for body, _ in (path.first, path.second)]
-        problems = unknown(f"{what}: body", bodies, [b.name for b in mechanism.bodies])
-    else:
-        problems = _of_kind(mechanism, what, [path.first, path.second], Revolute)
-    problems += repeated(f"{what}: law", [repr(law) for law in element.laws])
-    for law in element.laws:
-        if isinstance(law, Actuator):
-            problems += unknown(f"{what}: input", [law.input], mechanism.inputs)
-        elif isinstance(law, LinearSpring):
-            if (law.free_slide is None) == (law.free_length is None):
-                problems.append(f"{what}: give its spring a free_slide or a free_length")
-            elif law.free_slide is not None and not telescopic:
-                problems.append(f"{what}: a free_slide needs a telescope; give a free_length")
-    return problems
-
-
-def _of_kind(
-    mechanism: Assembly, what: str, names: Iterable[str], wanted: type[Joint]
-) -> list[str]:
-    """Find joints that an element cannot act along."""
-    joints = {j.name: j for j in mechanism.joints}
-    fitting = [j.name for j in joints.values() if isinstance(j, wanted)]
-    problems = []
-    for name in names:
-        other = joints.get(name)
-        if other is None or isinstance(other, wanted):
-            problems += unknown(f"{what}: {wanted.kind} joint", [name], fitting)
-        else:
-            problems.append(
-                f"{what}: joint {name!r} is {other.kind}, not {wanted.kind}; there are "
-                f"{', '.join(fitting) or 'none of these'}. AlongTelescope is for cylindrical "
-                "joints, TwistOfHinges for revolute ones, AlongLine for two points of any bodies"
-            )
-    return problems
-
-
-def _geometry_problems(mechanism: Assembly) -> list[str]:
-    """Find names that mean two things: a point is in a plane or not, and it is no direction."""
-    meant: dict[str, set[str]] = {}
-    for part in parts(mechanism):
-        if isinstance(part, Point):
-            where = f"in a plane across {part.flat}" if part.flat else "with x, y and z"
-            meant.setdefault(part.name, set()).add(f"a point {where}")
-        elif isinstance(part, Direction) and part.fixed is None and part.between is None:
-            meant.setdefault(part.name, set()).add("a direction")
-    return [
-        f"{name!r} is {' and '.join(sorted(kinds))}; give each a name of its own, since its "
-        "parameters are named after it"
-        for name, kinds in meant.items()
-        if len(kinds) > 1
+def _stranger_problems(mechanism: Assembly) -> list[str]:
+    """Find joints and bodies that forces and coordinates refer to, but that are not joined."""
+    joined = {body for joint in mechanism.joints for body in (joint.first, joint.second)}
+    problems = [
+        f"joint {joint.name!r}, which a force or a coordinate refers to, is none of its joints; "
+        "add it"
+        for joint in mechanism.every(Joint)
+        if joint not in mechanism.joints
     ]
-
-
-def check_symbols(name: str, used: Iterable[str], declared: Iterable[str]) -> None:
-    """Raise `DeclarationError` if the equations use a parameter that is not declared."""
-    problems = unknown("parameter", sorted(used), list(declared))
-    if problems:
-        raise DeclarationError(name, problems)
+    problems += [
+        f"body {body.name!r} is held by no joint; join it to another body"
+        for body in mechanism.every(Body)
+        if body not in joined
+    ]
+    return problems
 
 
 def repeated(what: str, names: Iterable[str]) -> list[str]:
@@ -177,17 +101,18 @@ def repeated(what: str, names: Iterable[str]) -> list[str]:
     return [f"{what} {n!r} is declared {c} times; once is enough" for n, c in counts if c > 1]
 
 
-def unknown(
-    what: str, names: Iterable[str], known: Iterable[str] | Mapping[str, object]
-) -> list[str]:
-    """Find names that are not among the known ones, each with the one that was probably meant."""
-    known = list(known)
-    problems = []
-    for name in names:
-        if name not in known:
-            near = difflib.get_close_matches(name, known, n=1)
-            hint = (
-                f"did you mean {near[0]!r}?" if near else f"there are {', '.join(known) or 'none'}"
-            )
-            problems.append(f"{what} {name!r} is not declared; {hint}")
-    return problems
+def strangers(what: str, used: Iterable[Body | Joint], known: Collection[Body | Joint]) -> list[str]:
+    """Find what a model refers to and its mechanism does not have."""
+    names = ", ".join(thing.name for thing in known) or "none"
+    return [
+        f"{what} {thing.name!r} is none of its mechanism; there are {names}"
+        for thing in used
+        if thing not in known
+    ]
+
+
+def check_symbols(name: str, used: Iterable[str], declared: Collection[str]) -> None:
+    """Raise `DeclarationError` if equations read what nobody declares."""
+    problems = [f"the equations read {n!r}, which is not declared" for n in sorted(used) if n not in declared]
+    if problems:
+        raise DeclarationError(name, problems)

@@ -1,382 +1,249 @@
 """Mechanisms put together from copies of a declared one, also from its mirror image.
 
 A copy has names of its own for everything but what the copies share: the ground, and bodies and
-inputs that are named, with the joints and forces between these. The *parameters* stay those of
-the declaration: where a copy says ``left_ball_joint_y``, its mechanism knows that this is
-``-ball_joint_y`` (`Mechanism.derived`). A symmetrical machine is so given by the numbers of one
-side, cannot become lopsided by a typing error, and what is alike on both sides is one step of the
-constants. Parameters that shall differ between the copies are named, and each copy has its own.
+inputs that are named, with the joints between these. The *parameters* stay those of the
+declaration: where a copy says ``left_ball_joint_y``, its point knows that this is
+``-ball_joint_y`` (`Owner.image`). A symmetrical machine is so given by the numbers of one side,
+cannot become lopsided by a typing error, and what is alike on both sides is one step of the
+constants. What shall differ between the copies is named, and each copy has its own.
 
-The mirror is the plane y = 0. A point and a direction of motion have their image there, (x, -y, z).
-Axes of rotation have the opposite of their image, (-x, y, -z): turns about them look in the mirror
-like turns about the originals, so a wheel that rolls forward spins positively on both sides, and
-mirrored motions have the same coordinates. Where a hinge counts its angle to a point, and for the
-angles of a universal joint, the declaration's own rule holds on both sides.
+The mirror is the plane y = 0, and every type knows its image there. A point and a direction of
+motion have theirs, (x, -y, z). Axes of rotation have the opposite of their image, (-x, y, -z):
+turns about them look in the mirror like turns about the originals, so a wheel that rolls forward
+spins positively on both sides, and mirrored motions have the same coordinates. Where a hinge counts
+its angle to a point, and for the angles of a universal joint, the declaration's own rule holds on
+both sides.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields, replace
-from typing import TYPE_CHECKING, Any
-
-import sympy as sp
+from dataclasses import fields, is_dataclass, replace
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..program.vectors import Vector
+from .bodies import Body, Ground
+from .coordinates import RelativeCoordinate
 from .declared import DeclarationError
-from .forces import (
-    AlongLine,
-    AlongTelescope,
-    ForceElement,
-    JointForce,
-    LinearTyre,
-    Path,
-    TwistOfHinges,
-    Weight,
-)
+from .forces import Weight
 from .geometry import Direction, Line, Point
-from .joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
-from .laws import Stop
+from .inputs import Input, Motion
+from .joints import Joint, Revolute
 from .mechanism import Mechanism
+from .parameters import Image, Owner, Parameter, next_order
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Mapping
+    from collections.abc import Collection, Iterable
 
-    from .assembly import Body, Parameter, RelativeCoordinate
     from .forces import Force
-    from .laws import Law
+
+Thing = TypeVar("Thing")
 
 
-def copy(
-    mechanism: Mechanism,
-    prefix: str,
-    *,
-    mirrored: bool = False,
-    shared: Collection[str] = (),
-    own: Collection[str] = (),
-) -> Mechanism:
-    """Return a mechanism under other names, or its mirror image.
+class Copy:
+    """A mechanism under other names, or its mirror image.
 
     Parameters
     ----------
-    mechanism
+    source
         What is written once.
     prefix
         Begins the names of the copy's bodies, joints, coordinates, points, elements and inputs.
     mirrored
         Whether the copy is the image in the plane y = 0.
     shared
-        Names of the bodies, beside the ground, and of the inputs that all copies have in common.
-        Joints between such bodies, with their coordinates and forces, are common too.
+        The bodies, beside the ground, and the inputs that all copies have in common. Joints between
+        such bodies, with their coordinates, are common too.
     own
-        Names of parameters of which the copy has its own, with the prefix; as a default, the value
-        that the declaration's would give it.
-    """
-    known = [b.name for b in mechanism.bodies], mechanism.inputs
-    problems = [
-        f"shared {name!r} is neither a body nor an input of it"
-        for name in shared
-        if not any(name in names for names in known)
-    ]
-    declared = [p.name for p in mechanism.parameters]
-    problems += [f"own {name!r} is no parameter of it" for name in own if name not in declared]
-    if problems:
-        raise DeclarationError(f"copy {prefix!r} of {mechanism.name}", problems)
-    return _Copy(mechanism, prefix, mirrored, frozenset(shared), frozenset(own)).whole()
-
-
-def combined(
-    name: str,
-    title: str,
-    parts: Iterable[Mechanism],
-    *,
-    forces: tuple[Force, ...] = (),
-    parameters: tuple[Parameter, ...] = (),
-    inputs: Mapping[str, tuple[str, str]] | None = None,
-) -> Mechanism:
-    """Return one mechanism of several; what they have in common is there once.
-
-    Parameters
-    ----------
-    parts
-        Each begins with the same ground.
-    forces, parameters, inputs
-        What acts between the parts.
-    """
-    parts = tuple(parts)
-    bodies = dict.fromkeys((b.name, b) for part in parts for b in _unnumbered(part))
-    every: dict[str, tuple[str, str]] = {}
-    derived: dict[str, sp.Expr] = {}
-    for part in parts:
-        every |= part.inputs
-        derived |= part.derived
-    return Mechanism(
-        name=name,
-        title=title,
-        bodies=tuple(replace(body, number=i) for i, (_, body) in enumerate(bodies, 1)),
-        joints=tuple(dict.fromkeys(j for part in parts for j in part.joints)),
-        forces=(*dict.fromkeys(f for part in parts for f in part.forces), *forces),
-        parameters=(*dict.fromkeys(p for part in parts for p in part.parameters), *parameters),
-        coordinates=tuple(dict.fromkeys(c for part in parts for c in part.coordinates)),
-        inputs=every | dict(inputs or {}),
-        derived=derived,
-    )
-
-
-def _unnumbered(part: Mechanism) -> list[Body]:
-    """Return the bodies of a part; they get their numbers in the whole."""
-    return [replace(body, number=0) for body in part.bodies]
-
-
-@dataclass
-class _Copy:
-    """The names and signs of one copy.
+        Points, directions and parameters of which the copy has its own, with the prefix; as a
+        default, the value that the declaration's would give it.
 
     Attributes
     ----------
-    turned
-        Components that the mirror turns round, by the name of what has them.
+    mechanism
+        The copy.
     """
 
-    mechanism: Mechanism
-    prefix: str
-    mirrored: bool
-    shared: frozenset[str]
-    own: frozenset[str]
-    turned: dict[str, tuple[str, ...]] = field(default_factory=dict)
-
-    def whole(self) -> Mechanism:
-        """Return the copy."""
-        source = self.mechanism
-        bodies = tuple(map(self._body, source.bodies))
-        joints = tuple(map(self._joint, source.joints))
-        forces = tuple(map(self._force, source.forces))
-        coordinates = tuple(map(self._coordinate, source.coordinates))
-        self._note_loose_points()
-        return replace(
+    def __init__(
+        self,
+        source: Mechanism,
+        prefix: str,
+        *,
+        mirrored: bool = False,
+        shared: Collection[Body | Input | Motion] = (),
+        own: Collection[Owner] = (),
+    ) -> None:
+        self.source, self.prefix, self.mirrored = source, prefix, mirrored
+        self.shared, self.own = tuple(shared), tuple(own)
+        self._made: dict[Owner, Owner] = {}
+        self._check()
+        self._bodies = {body: self._body(body) for body in source.bodies}
+        self.mechanism = replace(
             source,
-            name=f"{self.prefix}{source.name}",
-            bodies=bodies,
-            joints=joints,
-            forces=forces,
-            coordinates=coordinates,
-            parameters=self._parameters(),
-            inputs={self._input(name): what for name, what in source.inputs.items()},
-            derived=self._derived(),
+            name=f"{prefix}{source.name}",
+            joints=self.of(source.joints),
+            forces=self.of(source.forces),
+            coordinates=self.of(source.coordinates),
         )
 
-    # -- names ------------------------------------------------------------------------------------
+    def _check(self) -> None:
+        owners = self.source.every(Owner)
+        known = [*self.source.bodies, *self.source.inputs]
+        problems = [
+            f"shared {thing.name!r} is neither a body nor an input of it"
+            for thing in self.shared
+            if not isinstance(thing, Motion) and thing not in known
+        ]
+        problems += [
+            f"own {getattr(thing, 'name', thing)!r} is no parameter, point or direction of it"
+            for thing in self.own
+            if thing not in owners
+        ]
+        if problems:
+            raise DeclarationError(f"copy {self.prefix!r} of {self.source.name}", problems)
 
-    def _is_shared(self, body: str) -> bool:
-        return body == self.mechanism.ground or body in self.shared
+    def of(self, thing: Thing) -> Thing:
+        """Return what something of the declaration is in the copy."""
+        return self._copied(thing)  # type: ignore[no-any-return]
 
-    def _common(self, joint: str) -> bool:
-        """Tell whether a joint is between shared bodies."""
-        return all(map(self._is_shared, self.mechanism.joint(joint).bodies))
+    def _copied(self, thing: Any, *, turns: bool = False) -> Any:
+        """Return something in the copy.
+
+        Parameters
+        ----------
+        turns
+            Whether it is an axis of rotation.
+        """
+        if isinstance(thing, tuple):
+            return tuple(map(self._copied, thing))
+        if isinstance(thing, Body):
+            return self._bodies.get(thing) or self._body(thing)
+        if not is_dataclass(thing) or isinstance(thing, type) or self._is_common(thing):
+            return thing
+        if isinstance(thing, Direction) and thing.along is None:
+            return self._unowned(thing, turns=turns)
+        if isinstance(thing, Owner):
+            return self._owner(thing, turns=turns)
+        if isinstance(thing, Revolute):
+            return self._rebuilt(thing, axis=self._hinge_line(thing))
+        if isinstance(thing, Line):
+            return Line(self._copied(thing.through), self._copied(thing.towards, turns=turns))
+        return self._rebuilt(thing)
+
+    def _is_common(self, thing: Any) -> bool:
+        """Tell whether the copies have something in common."""
+        if isinstance(thing, Ground | Weight) or thing in self.shared:
+            return True
+        if isinstance(thing, Joint):
+            return self._is_common(thing.first) and self._is_common(thing.second)
+        return isinstance(thing, RelativeCoordinate) and self._is_common(thing.joint)
+
+    def _body(self, body: Body) -> Body:
+        """Copy a body; also one that is shared has the place in lists that the copy gives it."""
+        place = next_order()
+        return replace(body, order=place) if self._is_common(body) else self._rebuilt(body, order=place)
+
+    def _rebuilt(self, thing: Any, **known: Any) -> Any:
+        """Copy something field by field."""
+        if hasattr(thing, "name"):
+            known["name"] = self._new(thing.name)
+        turning = getattr(thing, "turns_about", ())
+        for entry in fields(thing):
+            if entry.init and entry.name not in known:
+                value = getattr(thing, entry.name)
+                known[entry.name] = self._copied(value, turns=entry.name in turning)
+        return replace(thing, **known)
 
     def _new(self, name: str) -> str:
         return f"{self.prefix}{name}"
 
-    def _body_name(self, name: str) -> str:
-        return name if self._is_shared(name) else self._new(name)
+    # -- what owns parameters ---------------------------------------------------------------------
 
-    def _joint_name(self, name: str) -> str:
-        return name if self._common(name) else self._new(name)
-
-    def _input(self, name: str) -> str:
-        return name if name in self.shared else self._new(name)
-
-    # -- parameters -------------------------------------------------------------------------------
-
-    def _parameters(self) -> tuple[Parameter, ...]:
-        """Return the parameters of the declaration, or the copy's own in their place."""
-        # `or 0.0`: no minus before a zero
-        return tuple(
-            replace(p, name=self._new(p.name), default=self._sign(p.name) * p.default or 0.0)
-            if p.name in self.own
-            else p
-            for p in self.mechanism.parameters
-        )
-
-    def _derived(self) -> dict[str, sp.Expr]:
-        """Return what the copy's names of parameters stand for."""
-        values = {p.name: sp.Symbol(p.name) for p in self.mechanism.parameters}
-        values |= self.mechanism.derived
-        own = {sp.Symbol(n): self._sign(n) * sp.Symbol(self._new(n)) for n in self.own}
-        return {
-            self._new(n): self._sign(n) * value.xreplace(own)
-            for n, value in values.items()
-            if n not in self.own
-        }
-
-    def _sign(self, parameter: str) -> int:
-        name, _, component = parameter.rpartition("_")
-        return -1 if self.mirrored and component in self.turned.get(name, ()) else 1
-
-    def _note(self, name: str, *turned: str) -> None:
-        """Note the components that the mirror turns round."""
-        if self.mirrored and self.turned.setdefault(name, turned) != turned:
+    def _owner(self, owner: Owner, *, turns: bool) -> Owner:
+        """Copy what owns parameters; those of the copy stand for the declaration's."""
+        signs = _signs(owner, turns=turns) if self.mirrored else (1,) * len(owner.numbers)
+        changes: dict[str, Any] = {"image": Image(owner, signs)}
+        if owner in self.own:
+            changes = {"image": None, "order": next_order()}
+        if isinstance(owner, Direction):
+            changes["axial"] = turns
+        named = "body" if hasattr(owner, "body") else "name"
+        changes[named] = self._new(getattr(owner, named))
+        made = replace(owner, **changes, **_turned_defaults(owner, signs))
+        if self._made.setdefault(owner, made) != made:
             problem = (
-                f"{name!r} is an axis of rotation and a direction of motion; a mirror image needs "
-                "two directions, since it turns the one round and not the other"
+                f"{getattr(owner, named)!r} is an axis of rotation and a direction of motion; a mirror "
+                "image needs two directions, since it turns the one round and not the other"
             )
-            raise DeclarationError(self.mechanism.name, [problem])
+            raise DeclarationError(self.source.name, [problem])
+        return made
 
-    def _note_loose_points(self) -> None:
-        """Note the points of which there are parameters only, for what acts between the copies."""
-        metres = {p.name for p in self.mechanism.parameters if p.unit == "m"}
-        for name in (n.removesuffix("_y") for n in metres if n.endswith("_y")):
-            if name not in self.turned and {f"{name}_x", f"{name}_z"} & metres:
-                self._note(name, "y")
-
-    # -- geometry ---------------------------------------------------------------------------------
-
-    def _point(self, point: Point) -> Point:
-        self._note(point.name, "y")
-        return replace(point, name=self._new(point.name))
-
-    def _along(self, direction: Direction) -> Direction:
-        """Copy a direction of motion, or one that a body shows."""
-        if direction.fixed is not None:
-            return self._fixed(direction, -1)
+    def _unowned(self, direction: Direction, *, turns: bool) -> Direction:
+        """Copy a direction that is no parameter; a fixed one that is its own image keeps its name."""
         if direction.between is not None:
-            start, end = map(self._point, direction.between)
-            return replace(direction, name=self._new(direction.name), between=(start, end))
-        self._note(direction.name, "y")
-        return replace(direction, name=self._new(direction.name))
-
-    def _about(self, direction: Direction) -> Direction:
-        """Copy an axis of rotation."""
-        if direction.fixed is not None:
-            return self._fixed(direction, 1)
-        if direction.between is not None:
-            start, end = map(self._point, direction.between)
-            ends = (end, start) if self.mirrored else (start, end)
+            start, end = map(self._copied, direction.between)
+            ends = (end, start) if self.mirrored and turns else (start, end)
             return replace(direction, name=self._new(direction.name), between=ends)
-        self._note(direction.name, "x", "z")
-        return replace(direction, name=self._new(direction.name))
-
-    def _fixed(self, direction: Direction, sense: int) -> Direction:
-        """Copy a direction that is no parameter; one that is its own image keeps its name."""
         assert direction.fixed is not None
         x, y, z = direction.fixed
+        sense = 1 if turns else -1
         image = Vector(-sense * x, sense * y, -sense * z) if self.mirrored else direction.fixed
         if image == direction.fixed:
             return direction
         return replace(direction, name=self._new(direction.name), fixed=image)
 
-    def _line(self, line: Line) -> Line:
-        if isinstance(line.towards, Point):
-            return Line(self._point(line.through), self._point(line.towards))
-        return Line(self._point(line.through), self._along(line.towards))
-
-    def _axis(self, hinge: Revolute) -> Line:
-        """Copy the axis of a hinge."""
-        line, through = hinge.axis, self._point(hinge.axis.through)
-        if isinstance(line.towards, Direction):
-            return Line(through, self._about(line.towards))
-        towards = self._point(line.towards)
-        if self.mirrored and hinge.angle_to is None:
+    def _hinge_line(self, hinge: Revolute) -> Line:
+        """Copy the axis of a hinge; between points it keeps its way, unless turns count about it."""
+        line = hinge.axis
+        if isinstance(line.towards, Point) and self.mirrored and hinge.angle_to is None:
+            through, towards = self._copied(line.through), self._copied(line.towards)
             back = Direction(self._new(f"{hinge.name}_axis"), between=(towards, through))
             return Line(through, back)
-        return Line(through, towards)
+        copied: Line = self._copied(line, turns=True)
+        return copied
 
-    # -- bodies and joints ------------------------------------------------------------------------
 
-    def _body(self, body: Body) -> Body:
-        if self._is_shared(body.name):
-            return body
-        self._note(f"{body.name}_inertia", "xy", "yz")
-        return replace(
-            body,
-            name=self._new(body.name),
-            center=self._point(body.center),
-            rotor_axis=None if body.rotor_axis is None else self._about(body.rotor_axis),
-        )
+def _signs(owner: Owner, *, turns: bool) -> tuple[int, ...]:
+    """Return the signs of an owner's numbers in the mirror; an axis of rotation has the opposite."""
+    opposite = turns and isinstance(owner, Direction)
+    return tuple(-sign for sign in owner.turned) if opposite else owner.turned
 
-    def _joint(self, joint: Joint) -> Joint:
-        if self._common(joint.name):
-            return joint
-        first, second = map(self._body_name, joint.bodies)
-        renamed = replace(joint, name=self._new(joint.name), first=first, second=second)
-        if isinstance(renamed, Revolute):
-            marker = None if renamed.angle_to is None else self._point(renamed.angle_to)
-            zero = self._along(renamed.angle_from)
-            return replace(renamed, axis=self._axis(renamed), angle_to=marker, angle_from=zero)
-        if isinstance(renamed, Prismatic):
-            return replace(renamed, direction=self._along(renamed.direction))
-        if isinstance(renamed, Cylindrical):
-            return replace(
-                renamed,
-                axis=self._line(renamed.axis),
-                angle_to=self._point(renamed.angle_to),
-                length_at_zero_slide=self._new(renamed.length_at_zero_slide),
-            )
-        if isinstance(renamed, Universal):
-            return replace(
-                renamed,
-                at=self._point(renamed.at),
-                shaft=self._line(renamed.shaft),
-                first_axis=self._along(renamed.first_axis),
-            )
-        assert isinstance(renamed, Spherical)
-        return replace(renamed, at=self._point(renamed.at))
 
-    def _coordinate(self, coordinate: RelativeCoordinate) -> RelativeCoordinate:
-        if self._common(coordinate.joint):
-            return coordinate
-        return replace(
-            coordinate,
-            name=self._new(coordinate.name),
-            joint=self._joint_name(coordinate.joint),
-        )
+def _turned_defaults(owner: Owner, signs: tuple[int, ...]) -> dict[str, Any]:
+    """Return the defaults of an image."""
+    # `or 0.0`: no minus before a zero
+    turned = tuple(sign * p.default or 0.0 for sign, p in zip(signs, owner.numbers, strict=True))
+    if isinstance(owner, Parameter):
+        return {"default": turned[0]}
+    if isinstance(owner, Point):
+        return {"place": turned}
+    return {"along": turned} if isinstance(owner, Direction) else {}
 
-    # -- forces -----------------------------------------------------------------------------------
 
-    def _force(self, force: Force) -> Force:
-        if isinstance(force, Weight):
-            return force
-        if isinstance(force, JointForce):
-            joint, given = self._joint_name(force.joint), self._input(force.input)
-            return JointForce(joint=joint, input=given)
-        if isinstance(force, LinearTyre):
-            return self._tyre(force)
-        return ForceElement(
-            name=self._new(force.name),
-            path=self._path(force.path),
-            laws=tuple(map(self._law, force.laws)),
-        )
+def combined(
+    name: str,
+    title: str,
+    parts: Iterable[Copy],
+    *,
+    forces: tuple[Force, ...] = (),
+    coordinates: tuple[RelativeCoordinate, ...] = (),
+) -> Mechanism:
+    """Return one mechanism of several copies; what they have in common is there once.
 
-    def _tyre(self, tyre: LinearTyre) -> LinearTyre:
-        named = {
-            key: self._new(name)
-            for key in ("name", "rate", "free_height", "damper", "lifts_off")
-            if (name := getattr(tyre, key)) is not None
-        }
-        roads = {
-            key: self._input(name)
-            for key in ("road", "road_velocity")
-            if (name := getattr(tyre, key)) is not None
-        }
-        carrier, center = self._body_name(tyre.carrier), self._point(tyre.center)
-        spin = self._about(tyre.spin)
-        return replace(tyre, carrier=carrier, center=center, spin=spin, **named, **roads)
-
-    def _path(self, path: Path) -> Path:
-        if isinstance(path, AlongTelescope):
-            return AlongTelescope(self._joint_name(path.joint))
-        if isinstance(path, TwistOfHinges):
-            return TwistOfHinges(*map(self._joint_name, (path.first, path.second)))
-        ends = (
-            (self._body_name(body), self._point(point)) for body, point in (path.first, path.second)
-        )
-        return AlongLine(*ends)
-
-    def _law(self, law: Law) -> Law:
-        """Copy a law: all that it names are parameters, but for inputs and a stop's side."""
-        named: dict[str, Any] = {}
-        for entry in fields(law):
-            value = getattr(law, entry.name)
-            if not isinstance(value, str) or (isinstance(law, Stop) and entry.name == "side"):
-                continue
-            named[entry.name] = self._input(value) if entry.name == "input" else self._new(value)
-        return replace(law, **named)
+    Parameters
+    ----------
+    parts
+        Each has the same ground.
+    forces, coordinates
+        What acts between the parts, and what else is reported.
+    """
+    wholes = [part.mechanism for part in parts]
+    return Mechanism(
+        name=name,
+        title=title,
+        joints=tuple(dict.fromkeys(j for whole in wholes for j in whole.joints)),
+        forces=(*dict.fromkeys(f for whole in wholes for f in whole.forces), *forces),
+        coordinates=(
+            *dict.fromkeys(c for whole in wholes for c in whole.coordinates),
+            *coordinates,
+        ),
+    )

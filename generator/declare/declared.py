@@ -31,6 +31,7 @@ Declared = TypeVar("Declared", bound=type)
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 _MOST_SHOWN = 90  # characters of a value
+_UNNAMED = ("self", "order", "image", "axial")  # arguments that nobody writes
 
 
 class DeclarationError(KintrafoError, ValueError):
@@ -57,28 +58,6 @@ class DeclarationError(KintrafoError, ValueError):
 # -- what fields can be ---------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class Bounds:
-    """The range of the parameter that a field names.
-
-    Attributes
-    ----------
-    least
-        The smallest value.
-    above
-        What the value must be more than.
-    most
-        The greatest value.
-    of_length
-        Whether the range is that of a length, so that an angle has none.
-    """
-
-    least: float | None = None
-    above: float | None = None
-    most: float | None = None
-    of_length: bool = False
-
-
 def _identifier(name: str) -> str:
     if re.fullmatch("[A-Za-z][A-Za-z0-9_]*", name):
         return name
@@ -103,18 +82,6 @@ def _real(value: object) -> float:
 
 Name = Annotated[str, AfterValidator(_identifier)]
 """A name that code can have."""
-
-Amount = Annotated[Name, Bounds(least=0.0)]
-"""Name of a parameter that is not negative."""
-
-MoreThanZero = Annotated[Name, Bounds(above=0.0)]
-"""Name of a parameter that is more than zero."""
-
-Length = Annotated[Name, Bounds(least=0.0, of_length=True)]
-"""Name of a parameter that is a length, and not negative, unless what it belongs to turns."""
-
-Share = Annotated[Name, Bounds(least=0.0, most=1.0)]
-"""Name of a parameter between 0 and 1."""
 
 Number = Annotated[float, BeforeValidator(_real)]
 """A finite real number."""
@@ -188,7 +155,7 @@ def _problems(error: ValidationError, names: list[str], given: Mapping[str, Any]
         field = names[first] if isinstance(first, int) and first < len(names) else str(first)
         place, value = _place(field, rest, given)
         places.setdefault(place, (value, []))[1].append(detail)
-    fields = [name for name in names if name != "self"]
+    fields = [name for name in names if name not in _UNNAMED]
     return [_problem(place, value, found, fields) for place, (value, found) in places.items()]
 
 
@@ -220,6 +187,18 @@ def _problem(place: str, value: Any, found: list[Any], fields: list[str]) -> str
     return f"{place} is {_shown(value)}; {_either(wanted)} is needed{_advice(value, wanted)}"
 
 
+_PARAMETERS = (
+    "a SpringRate",
+    "a DamperRate",
+    "a Displacement",
+    "a Length",
+    "a Distance",
+    "a Gravity",
+    "a ForceLevel",
+    "a Speed",
+    "a Share",
+    "a Progression",
+)
 _WANTED = {
     "string_type": "a text",
     "int_type": "a whole number",
@@ -247,22 +226,21 @@ def _wanted(detail: Any) -> str:
 
 def _advice(value: Any, wanted: list[str]) -> str:
     """Say how to write what was probably meant."""
-    kind, text = type(value).__name__, isinstance(value, str)
+    kind = type(value).__name__
     cases = (
         (isinstance(value, type), f"write {getattr(value, '__name__', '')}(...)"),
-        (
-            "a Parameter" in wanted and isinstance(value, tuple),
-            "they are several, so write a star before what makes them, *point(...)",
-        ),
-        ("a tuple" in wanted and text, f"write a tuple of names, ({value!r},)"),
         ("a tuple" in wanted, f"write it in brackets with a comma behind, ({_shown(value)},)"),
         (wanted == ["a Line"], "write Line(point, direction) or Line(point, point)"),
-        ("a Point" in wanted and text, f"write Point({value!r})"),
-        ("a Direction" in wanted and text, f"write Direction({value!r})"),
-        (wanted == ["a text"] and hasattr(value, "name"), f"write {getattr(value, 'name', '')!r}"),
+        (wanted == ["a Point"], "write Point(name, place, meaning)"),
+        (wanted == ["a Direction"], "write Direction(name, components, meaning)"),
+        (wanted == ["a Body"], "write Body(name, mass, centre, inertia)"),
         (
             "a ForceElement" in wanted and hasattr(value, "force"),
-            f"a law acts in an element, ForceElement(name=..., path=..., laws=({kind}(...),))",
+            f"a law acts in an element, ForceElement(name, path, ({kind}(...),))",
+        ),
+        (
+            isinstance(value, float | int | str) and any(w in _PARAMETERS for w in wanted),
+            f"write {wanted[0].split()[-1]}(name, default, meaning)",
         ),
     )
     return next((f": {advice}" for fits, advice in cases if fits), "")
@@ -292,4 +270,5 @@ def parts(value: object) -> Iterator[Any]:
     elif is_dataclass(value):
         yield value
         for entry in fields(value):
-            yield from parts(getattr(value, entry.name))
+            if entry.name != "image":  # what it is an image of is in another mechanism
+                yield from parts(getattr(value, entry.name))

@@ -25,10 +25,7 @@ _ROUNDING = 1e-9
 
 
 def value_problems(mechanism: Assembly) -> list[str]:
-    """Find defaults out of their ranges, impossible inertia, and lines without a direction.
-
-    Of what parameters are missing for nothing is said; that is found when they are read.
-    """
+    """Find defaults out of their ranges, impossible inertia, and lines without a direction."""
     values = {p.name: p.default for p in mechanism.parameters}
     problems = out_of_range(values, described(mechanism)) or inertia_of_no_body(values)
     return problems + (list(_lost_directions(mechanism)) or _angle_problems(mechanism))
@@ -38,9 +35,9 @@ def _lost_directions(mechanism: Assembly) -> Iterator[str]:
     """Find points that coincide where a line is between them, and directions of length zero."""
     value = AtDefaults(mechanism)
     told: set[str] = set()
-    for part in parts(mechanism):
+    for part in mechanism.every((AlongLine, Line, Direction)):
         if isinstance(part, AlongLine):
-            ends = part.first[1], part.second[1]
+            ends = [point for _, point in part.ends]
             what, vector = _between(*ends), ends[1].position - ends[0].position
             size = _size(value, *(end.position for end in ends))
         elif isinstance(part, Line) and isinstance(part.towards, Point):
@@ -53,7 +50,6 @@ def _lost_directions(mechanism: Assembly) -> Iterator[str]:
             )
         else:
             continue
-        # a comparison with NaN is false: parameters that are missing are told elsewhere
         if what not in told and np.linalg.norm(list(map(value, vector))) <= 1e-12 * size:
             told.add(what)
             yield f"{what} at the design position; check the defaults of its parameters"

@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import ClassVar
 
-from .declared import Amount, DeclarationError, Name, Share, declared
+from .bodies import Body
+from .declared import DeclarationError, Name, declared
 from .geometry import Direction, Point
-from .laws import Law
+from .inputs import Input
+from .joints import Cylindrical, Prismatic, Revolute
+from .laws import Law, LinearSpring
+from .parameters import DamperRate, Displacement, Gravity, Share, SpringRate
 
 
 @declared
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Weight:
-    """The weight of every body that carries mass, along the downward chassis axis.
+    """The weight of every body that carries mass, along the downward chassis axis."""
 
-    Parameters
-    ----------
-    gravity
-        Name of the parameter [m/s^2].
-    """
-
-    gravity: Amount
+    gravity: Gravity = field(
+        default_factory=lambda: Gravity("gravity", 9.81, "acceleration of gravity")
+    )
 
 
 @declared
@@ -31,10 +32,10 @@ class AlongTelescope:
     Parameters
     ----------
     joint
-        Name of the cylindrical joint.
+        The telescope.
     """
 
-    joint: Name
+    joint: Cylindrical
 
 
 @declared
@@ -48,15 +49,20 @@ class AlongLine:
         Body and point at either end.
     """
 
-    first: tuple[Name, Point]
-    second: tuple[Name, Point]
+    first: tuple[Body, Point]
+    second: tuple[Body, Point]
 
     def __post_init__(self) -> None:
-        if self.first[0] == self.second[0]:
-            problem = (
-                f"both ends are on {self.first[0]!r}, so its length never changes; name two bodies"
-            )
+        (one, _), (other, _) = self.first, self.second
+        if one == other:
+            problem = f"both ends are on {one.name!r}, so its length never changes; give two bodies"
             raise DeclarationError("AlongLine", [problem])
+
+    @property
+    def ends(self) -> tuple[tuple[str, Point], tuple[str, Point]]:
+        """Name of the body and point at either end."""
+        (one, start), (other, end) = self.first, self.second
+        return (one.name, start), (other.name, end)
 
 
 @declared
@@ -71,15 +77,16 @@ class TwistOfHinges:
     Parameters
     ----------
     first, second
-        Names of the two revolute joints.
+        The two hinges.
     """
 
-    first: Name
-    second: Name
+    first: Revolute
+    second: Revolute
 
     def __post_init__(self) -> None:
         if self.first == self.second:
-            problem = f"the angle of {self.first!r} less itself is always zero; name two hinges"
+            name = self.first.name
+            problem = f"the angle of {name!r} less itself is always zero; give two hinges"
             raise DeclarationError("TwistOfHinges", [problem])
 
 
@@ -87,7 +94,7 @@ Path = AlongTelescope | AlongLine | TwistOfHinges
 
 
 @declared
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class ForceElement:
     """Springs, dampers and stops that act along one path between two bodies (Eq. 23).
 
@@ -106,6 +113,14 @@ class ForceElement:
     path: Path
     laws: tuple[Law, ...]
 
+    def __post_init__(self) -> None:
+        sliding = [law for law in self.laws if isinstance(law, LinearSpring) and law.free_slide]
+        problems = [f"law {law!r} is declared twice; once is enough" for law in _twice(self.laws)]
+        if sliding and not isinstance(self.path, AlongTelescope):
+            problems.append("a free_slide needs a telescope; give its spring a free_length")
+        if problems:
+            raise DeclarationError(f"ForceElement {self.name!r}", problems)
+
     @property
     def turns(self) -> bool:
         """Whether it acts on an angle, by moments."""
@@ -114,6 +129,10 @@ class ForceElement:
     def signal(self, law: Law) -> str:
         """Return what the signal of one of its laws is called, without the element's name."""
         return law.signal.replace("force", "moment") if self.turns else law.signal
+
+
+def _twice(laws: tuple[Law, ...]) -> list[Law]:
+    return [law for i, law in enumerate(laws) if law in laws[:i]]
 
 
 @declared
@@ -139,34 +158,41 @@ class LinearTyre:
     spin
         Direction of the spin axis, fixed in the carrier.
     rate, free_height
-        Names of the parameters [N/m, m].
+        [N/m]; height of the wheel centre at which the tyre is free of force [m].
     road
-        Name of the input: height of the road under the tyre [m].
+        Height of the road under the tyre [m].
     damper, road_velocity
-        Names of the parameter [N s/m] and of the input [m/s]; both or neither.
+        [N s/m], and an input [m/s]; both or neither.
     lifts_off
-        Name of the parameter: 1 if the tyre can leave the road, 0 if not; None: it cannot.
+        1 if the tyre can leave the road, 0 if not; None: it cannot.
     """
 
     name: Name
-    carrier: Name
+    carrier: Body
     center: Point
     spin: Direction
-    rate: Amount
-    free_height: Name
-    road: Name
-    damper: Amount | None = None
-    road_velocity: Name | None = None
+    rate: SpringRate
+    free_height: Displacement
+    road: Input
+    damper: DamperRate | None = None
+    road_velocity: Input | None = None
     lifts_off: Share | None = None
+
+    turns_about: ClassVar[tuple[str, ...]] = ("spin",)
+
+    def __post_init__(self) -> None:
+        if (self.damper is None) != (self.road_velocity is None):
+            problem = "give damper and road_velocity, or neither"
+            raise DeclarationError(f"LinearTyre {self.name!r}", [problem])
 
 
 @declared
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class JointForce:
     """A force (or moment) along an independent joint coordinate, given as an input."""
 
-    joint: Name
-    input: Name
+    joint: Revolute | Prismatic
+    input: Input
 
 
 Force = Weight | ForceElement | LinearTyre | JointForce

@@ -5,7 +5,8 @@ Chassis axes are ISO 8855: x forward, y left, z up. All components are parameter
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Annotated, Any, Literal
 
 import sympy as sp
@@ -13,11 +14,8 @@ from pydantic import BeforeValidator
 from pydantic_core import PydanticCustomError
 
 from ..program.vectors import UNIT_X, UNIT_Z, Vector
-from .declared import DeclarationError, Name, declared
-
-
-def _symbols(name: str) -> Vector:
-    return Vector(*(sp.Symbol(f"{name}_{axis}") for axis in "xyz"))
+from .declared import DeclarationError, Name, Number, declared
+from .parameters import Displacement, Owner, Parameter
 
 
 def _vector(given: Any) -> Any:
@@ -36,70 +34,129 @@ def _vector(given: Any) -> Any:
 
 @declared
 @dataclass(frozen=True)
-class Point:
+class Point(Owner):
     """A hardpoint, in metres.
 
     Parameters
     ----------
     name
         Begins the names of its parameters, ``<name>_x`` and so on.
+    place
+        Default coordinates at the design position, in chassis axes [m].
+    meaning
+        For the documentation of the generated code; without it, the name.
     flat
         Axis along which the coordinate is zero and no parameter: the points of a planar mechanism.
+        Their places have two coordinates.
     """
 
     name: Name
-    flat: Literal["", "x", "y", "z"] = ""
+    place: tuple[Number, ...]
+    meaning: str = ""
+    flat: Literal["", "x", "y", "z", "xyz"] = ""
+
+    def __post_init__(self) -> None:
+        if len(self.place) != len(self._axes):
+            axes = " and ".join(self._axes)
+            problem = f"place {self.place} has {len(self.place)} coordinates; {axes} are needed"
+            raise DeclarationError(f"Point {self.name!r}", [problem])
 
     @property
+    def _axes(self) -> str:
+        return "".join(axis for axis in "xyz" if axis not in self.flat)
+
+    @cached_property
+    def numbers(self) -> tuple[Parameter, ...]:
+        """The coordinates."""
+        what = self.meaning or self.name
+        return tuple(
+            Displacement(
+                f"{self.name}_{axis}",
+                value,
+                f"{what} at the start, {axis}" if self.flat else f"{what}, {axis} at the design position",
+            )
+            for axis, value in zip(self._axes, self.place, strict=True)
+        )
+
+    @property
+    def turned(self) -> tuple[int, ...]:
+        """The mirror is the plane y = 0."""
+        return tuple(-1 if axis == "y" else 1 for axis in self._axes)
+
+    @cached_property
     def position(self) -> Vector:
         """Coordinates at the design position, in chassis axes."""
-        x, y, z = (
-            sp.Integer(0) if axis == self.flat else component
-            for axis, component in zip("xyz", _symbols(self.name), strict=True)
-        )
-        return Vector(x, y, z)
+        symbols = dict(zip(self._axes, (p.symbol for p in self.numbers), strict=True))
+        return Vector(*(symbols.get(axis, sp.Integer(0)) for axis in "xyz"))
+
+
+ORIGIN = Point("origin", (), flat="xyz")
+"""Of the axes in which a mechanism is declared."""
 
 
 @declared
 @dataclass(frozen=True)
-class Direction:
-    """A direction: a chassis axis, a parameter of any length, or from one point to another.
+class Direction(Owner):
+    """A direction: three parameters, a fixed one, or from one point to another.
 
     Parameters
     ----------
     name
-        Begins the names of its parameters, ``<name>_x`` and so on, if the others are left out.
+        Begins the names of its parameters, ``<name>_x`` and so on.
+    along
+        Default components, of any length, in chassis axes.
+    meaning
+        For the documentation of the generated code; without it, the name.
     fixed
-        Components of a direction that is no parameter.
+        In the place of `along`: components that are no parameters.
     between
-        Two points; the direction is from the first to the second at the design position.
+        In the place of `along`: two points; from the first to the second at the design position.
+    axial
+        Whether it is the image of an axis of rotation, which a mirror turns the other way.
     """
 
     name: Name
+    along: tuple[Number, Number, Number] | None = None
+    meaning: str = ""
     fixed: Annotated[Vector, BeforeValidator(_vector)] | None = None
     between: tuple[Point, Point] | None = None
+    axial: bool = field(default=False, repr=False)
 
     def __post_init__(self) -> None:
         problems = []
-        if self.fixed is not None and self.between is not None:
-            problems.append("it is fixed and between two points; leave one of the two out")
+        if sum(given is not None for given in (self.along, self.fixed, self.between)) != 1:
+            problems.append("give its components along, or fixed ones, or the points between which")
         if self.between is not None and self.between[0] == self.between[1]:
             name = self.between[0].name
             problems.append(f"it is between {name!r} and itself; give two different points")
         if problems:
             raise DeclarationError(f"Direction {self.name!r}", problems)
 
+    @cached_property
+    def numbers(self) -> tuple[Parameter, ...]:
+        """The components, if they are parameters."""
+        what = self.meaning or self.name
+        return tuple(
+            Parameter(f"{self.name}_{axis}", value, "1", f"{what}, {axis} component")
+            for axis, value in zip("xyz", self.along or (), strict=False)
+        )
+
     @property
+    def turned(self) -> tuple[int, ...]:
+        """The mirror is the plane y = 0; an axis of rotation has the opposite signs."""
+        return (1, -1, 1)
+
+    @cached_property
     def components(self) -> Vector:
         """Components at the design position, in chassis axes, not normalised."""
         if self.between is not None:
             start, end = self.between
             return end.position - start.position
-        return self.fixed if self.fixed is not None else _symbols(self.name)
+        return self.fixed or Vector(*(p.symbol for p in self.numbers))
 
 
-FORWARD = Direction("forward", UNIT_X)
-UP = Direction("up", UNIT_Z)
+FORWARD = Direction("forward", fixed=UNIT_X)
+UP = Direction("up", fixed=UNIT_Z)
 
 
 @declared

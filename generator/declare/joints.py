@@ -9,12 +9,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from .declared import MoreThanZero, Name, declared
+from .bodies import Body
+from .declared import DeclarationError, Name, declared
 from .geometry import FORWARD, UP, Direction, Line, Point
+from .parameters import Distance
 
 
 @declared
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Joint:
     """A connection of two bodies.
 
@@ -23,16 +25,23 @@ class Joint:
     name
         As in the joint table of the mechanism.
     first, second
-        Names of the two bodies.
+        The two bodies.
     """
 
     name: Name
-    first: Name
-    second: Name
+    first: Body
+    second: Body
 
     kind: ClassVar[str]
     common: ClassVar[str]
     coordinates: ClassVar[tuple[str, ...]]
+    turns_about: ClassVar[tuple[str, ...]] = ()
+    """Fields that hold axes of rotation."""
+
+    def __post_init__(self) -> None:
+        if self.first == self.second:
+            problem = f"it connects {self.first.name!r} with itself; give two bodies"
+            raise DeclarationError(f"{type(self).__name__} {self.name!r}", [problem])
 
     @property
     def freedoms(self) -> int:
@@ -41,8 +50,8 @@ class Joint:
 
     @property
     def bodies(self) -> tuple[str, str]:
-        """The two bodies."""
-        return self.first, self.second
+        """Names of the two bodies."""
+        return self.first.name, self.second.name
 
     @property
     def center(self) -> Point | None:
@@ -50,12 +59,13 @@ class Joint:
         return None
 
     def other(self, body: str) -> str:
-        """Return the body at the other side."""
-        return self.second if body == self.first else self.first
+        """Return the name of the body at the other side."""
+        first, second = self.bodies
+        return second if body == first else first
 
 
 @declared
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Revolute(Joint):
     """A hinge about a line.
 
@@ -78,10 +88,11 @@ class Revolute(Joint):
     kind: ClassVar[str] = "revolute"
     common: ClassVar[str] = "an axis"
     coordinates: ClassVar[tuple[str, ...]] = ("angle",)
+    turns_about: ClassVar[tuple[str, ...]] = ("axis",)
 
 
 @declared
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Prismatic(Joint):
     """A guide along a direction; the slide is zero at the design position.
 
@@ -98,7 +109,7 @@ class Prismatic(Joint):
 
 
 @declared
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Cylindrical(Joint):
     """A telescope: slide along and rotation about a common line.
 
@@ -108,13 +119,13 @@ class Cylindrical(Joint):
         The line, from a point of the second body to a point of the first. The slide is positive
         when the second body moves along it, that is, when the telescope shortens.
     length_at_zero_slide
-        Name of the parameter that holds the distance of the two points at zero slide.
+        Distance of the two points at zero slide.
     angle_to
         Point of the second body that defines its rotation about the axis.
     """
 
     axis: Line
-    length_at_zero_slide: MoreThanZero
+    length_at_zero_slide: Distance
     angle_to: Point
 
     kind: ClassVar[str] = "cylindrical"
@@ -123,7 +134,7 @@ class Cylindrical(Joint):
 
 
 @declared
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Universal(Joint):
     """A cross of two perpendicular axes through a point.
 
@@ -160,7 +171,7 @@ class Universal(Joint):
 
 
 @declared
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Spherical(Joint):
     """A ball joint."""
 

@@ -1,22 +1,40 @@
 """Laws of force elements: what a spring, damper or stop does with a length and its rate.
 
-Every law returns the force that pushes the two ends of its element apart, in newtons. The names in
-a law are those of parameters (or of an input), so one declaration serves every car.
+Every law returns the force that pushes the two ends of its element apart, in newtons; along a twist
+of hinges, the moment. A law owns its parameters, whose types say which of the two it is.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, Literal
 
 import sympy as sp
 
 from ..program.functions import Positive
-from .declared import Amount, Count, Length, MoreThanZero, Name, declared
+from .declared import Count, DeclarationError, Name, declared
+from .inputs import Input
+from .parameters import (
+    Angle,
+    AngularSpeed,
+    DamperRate,
+    Displacement,
+    ForceLevel,
+    Length,
+    MomentLevel,
+    Owner,
+    Parameter,
+    Progression,
+    Speed,
+    SpringRate,
+    TorsionDamperRate,
+    TorsionProgression,
+    TorsionRate,
+)
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from ..program.program import Program
 
 
@@ -47,15 +65,19 @@ class LinearSpring:
     Parameters
     ----------
     rate
-        Name of the parameter [N/m].
+        [N/m]; of a twist, [N m/rad].
     free_slide, free_length
-        Name of the parameter that says where the spring is free of force [m]: one of the two, the
-        first for a telescope only (Eq. 23 of the paper).
+        Where the spring is free of force [m]: one of the two, the first for a telescope only
+        (Eq. 23 of the paper). Of a twist, the free angle [rad].
     """
 
-    rate: Amount
-    free_slide: Name | None = None
-    free_length: Length | None = None
+    rate: SpringRate | TorsionRate
+    free_slide: Displacement | None = None
+    free_length: Length | Angle | None = None
+
+    def __post_init__(self) -> None:
+        if (self.free_slide is None) == (self.free_length is None):
+            raise DeclarationError("LinearSpring", ["give it a free_slide or a free_length"])
 
     signal: ClassVar[str] = "spring_force"
     meaning: ClassVar[str] = "spring force"
@@ -63,8 +85,9 @@ class LinearSpring:
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""
         if self.free_slide is not None:
-            return sp.Symbol(self.rate) * (at.slide - sp.Symbol(self.free_slide))
-        return sp.Symbol(self.rate) * (sp.Symbol(str(self.free_length)) - at.length)
+            return self.rate.symbol * (at.slide - self.free_slide.symbol)
+        assert self.free_length is not None
+        return self.rate.symbol * (self.free_length.symbol - at.length)
 
 
 @declared
@@ -75,22 +98,22 @@ class LinearDamper:
     Parameters
     ----------
     rate
-        Name of the parameter [N s/m].
+        [N s/m]; of a twist, [N m s/rad].
     """
 
-    rate: Amount
+    rate: DamperRate | TorsionDamperRate
 
     signal: ClassVar[str] = "damper_force"
     meaning: ClassVar[str] = "damper force"
 
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""
-        return -sp.Symbol(self.rate) * at.velocity
+        return -self.rate.symbol * at.velocity
 
 
 @declared
 @dataclass(frozen=True, kw_only=True)
-class DamperTable:
+class DamperTable(Owner):
     r"""A curve of force over velocity, smooth, with its own shape in bump and in rebound.
 
     Let x be the compression velocity, k_0 < ... < k_n the knots, and p_i = max(x - k_i, 0). With
@@ -120,17 +143,21 @@ class DamperTable:
     signal: ClassVar[str] = "damper_force"
     meaning: ClassVar[str] = "damper force"
 
-    def parameters(self) -> Iterator[tuple[str, float, str, str]]:
-        """Yield name, default, unit and meaning of every parameter; the default is no force."""
-        yield f"{self.name}_first_force", 0.0, "N", "force at the first knot"
-        yield f"{self.name}_first_slope", 0.0, "N s/m", "slope below the first knot"
-        yield f"{self.name}_last_slope", 0.0, "N s/m", "slope above the last knot"
+    @cached_property
+    def numbers(self) -> tuple[Parameter, ...]:
+        """All of them; the defaults are no force."""
+        return tuple(Parameter(f"{self.name}_{what}", *entry) for what, *entry in self._entries())
+
+    def _entries(self) -> Iterator[tuple[str, float, str, str]]:
+        yield "first_force", 0.0, "N", "force at the first knot"
+        yield "first_slope", 0.0, "N s/m", "slope below the first knot"
+        yield "last_slope", 0.0, "N s/m", "slope above the last knot"
         for i in range(self.segments + 1):
-            yield f"{self.name}_knot_{i}", 0.0, "m/s", f"knot {i} of compression velocity"
+            yield f"knot_{i}", 0.0, "m/s", f"knot {i} of compression velocity"
         for i in range(self.segments):
-            yield f"{self.name}_inverse_width_{i}", 1.0, "s/m", f"inverse width of segment {i}"
+            yield f"inverse_width_{i}", 1.0, "s/m", f"inverse width of segment {i}"
             for power in ("linear", "quadratic", "cubic"):
-                yield f"{self.name}_{power}_{i}", 0.0, "N", f"{power} coefficient of segment {i}"
+                yield f"{power}_{i}", 0.0, "N", f"{power} coefficient of segment {i}"
 
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""
@@ -164,13 +191,13 @@ class Friction:
     Parameters
     ----------
     level
-        Name of the parameter: the force of full sliding [N].
+        The force of full sliding [N]; of a twist, the moment [N m].
     speed
-        Name of the parameter: velocity at which 71 % of it act [m/s], more than zero.
+        Velocity at which 71 % of it act [m/s], more than zero; of a twist, [rad/s].
     """
 
-    level: Amount
-    speed: MoreThanZero
+    level: ForceLevel | MomentLevel
+    speed: Speed | AngularSpeed
 
     signal: ClassVar[str] = "friction_force"
     meaning: ClassVar[str] = "friction force"
@@ -179,9 +206,9 @@ class Friction:
         """Return the force on the ends."""
         v = at.velocity
         pace = at.program.define(
-            f"{at.name}_sliding_pace", sp.sqrt(v**2 + sp.Symbol(self.speed) ** 2)
+            f"{at.name}_sliding_pace", sp.sqrt(v**2 + self.speed.symbol**2)
         )
-        return -sp.Symbol(self.level) * v / pace
+        return -self.level.symbol * v / pace
 
 
 @declared
@@ -195,15 +222,15 @@ class Stop:
         "bump": acts when the element is shorter than `length` and pushes its ends apart.
         "rebound": acts when the element is longer than `length` and pulls them together.
     length
-        Name of the parameter: length of the element at which the stop is touched [m].
+        Length of the element at which the stop is touched [m]; of a twist, the angle [rad].
     rate, progression
-        Names of the parameters [N/m, N/m^3].
+        [N/m, N/m^3]; of a twist, [N m/rad, N m/rad^3].
     """
 
     side: Literal["bump", "rebound"]
-    length: Length
-    rate: Amount
-    progression: Amount
+    length: Length | Angle
+    rate: SpringRate | TorsionRate
+    progression: Progression | TorsionProgression
 
     @property
     def signal(self) -> str:
@@ -219,10 +246,10 @@ class Stop:
         """Return the force on the ends."""
         sense = 1 if self.side == "bump" else -1
         gap = at.program.define(
-            f"{at.name}_{self.side}_gap", sense * (sp.Symbol(self.length) - at.length)
+            f"{at.name}_{self.side}_gap", sense * (self.length.symbol - at.length)
         )
         x = at.program.define(f"{at.name}_{self.side}_depth", Positive(gap))
-        return sense * x * (sp.Symbol(self.rate) + sp.Symbol(self.progression) * x**2)
+        return sense * x * (self.rate.symbol + self.progression.symbol * x**2)
 
 
 @declared
@@ -233,10 +260,10 @@ class Actuator:
     Parameters
     ----------
     input
-        Name of the input [N].
+        The force [N].
     """
 
-    input: Name
+    input: Input
 
     signal: ClassVar[str] = "actuator_force"
     meaning: ClassVar[str] = "actuator force"
@@ -244,7 +271,7 @@ class Actuator:
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""
         del at
-        return sp.Symbol(self.input)
+        return sp.Symbol(self.input.name)
 
 
 Law = LinearSpring | LinearDamper | DamperTable | Friction | Stop | Actuator

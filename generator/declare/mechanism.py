@@ -12,12 +12,13 @@ from .declared import declared
 @declared
 @dataclass(frozen=True)
 class Mechanism(Assembly):
-    """Bodies and joints with everything that acts on them.
+    """Joints between bodies, with everything that acts on them.
 
-    The first body is the ground. `coordinates` are the relative coordinates of the report, in the
-    numbering of the figure; `inputs` gives unit and meaning of each time-varying input; `derived`
-    gives, by name, what the declaration reads like a parameter but is an expression in parameters.
+    `coordinates` are the relative coordinates of the report, in the numbering of the figure. What
+    joints, forces and coordinates refer to is found by itself: `bodies`, `inputs`, `parameters`,
+    and in copies `derived`, what the names of a copy stand for.
     """
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         check_mechanism(self)

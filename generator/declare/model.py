@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from .checks import repeated, unknown
+from .bodies import Body, Ground
+from .checks import repeated, strangers
 from .declared import DeclarationError, Name, declared
 from .forces import JointForce
+from .inputs import Input, Motion
 from .joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
 from .mechanism import Mechanism
-from .names import unwritable
+from .names import input_name_problems, unwritable
 
 # what the right-hand side has beside its variants: rhs_jacobian, rhs_input_jacobian
 _FUNCTIONS = ("jacobian", "input_jacobian")
-_RATES = ("position", "velocity", "acceleration")
 
 DRIVABLE: dict[type[Joint], str] = {
     Cylindrical: "a guide and a hinge along its axis, with a link between them",
@@ -32,13 +33,13 @@ class Model:
     Attributes
     ----------
     independent
-        Names of the joints whose coordinates are the state, in order.
+        The joints whose coordinates are the state, in order.
     prescribed
-        Joint name to input name: the coordinate is an input with velocity and acceleration.
+        The joints whose coordinates are given, with their motion.
     massive
         Bodies whose inertia enters the equations.
     held
-        Variants of the right-hand side: name to the prescribed inputs that stand still in it.
+        Variants of the right-hand side: name to the prescribed joints that stand still in it.
     allow_iteration
         Whether a loop without a closed form may be solved by Newton's method, for that loop alone.
         Without it such a loop is refused.
@@ -47,14 +48,34 @@ class Model:
     name: Name
     title: str
     mechanism: Mechanism
-    independent: tuple[Name, ...]
-    massive: tuple[Name, ...]
-    prescribed: Mapping[Name, Name] = field(default_factory=dict)
-    held: Mapping[Name, tuple[Name, ...]] = field(default_factory=dict)
+    independent: tuple[Joint, ...]
+    massive: tuple[Body, ...]
+    prescribed: Mapping[Joint, Motion] = field(default_factory=dict)
+    held: Mapping[Name, tuple[Joint, ...]] = field(default_factory=dict)
     allow_iteration: bool = False
 
     def __post_init__(self) -> None:
         _check(self)
+
+    @property
+    def driven(self) -> tuple[Joint, ...]:
+        """The joints whose coordinates are independent or prescribed."""
+        return (*self.independent, *self.prescribed)
+
+    @property
+    def motions(self) -> dict[str, str]:
+        """Name of the motion of each prescribed joint, by the joint's."""
+        return {joint.name: motion.name for joint, motion in self.prescribed.items()}
+
+    @property
+    def inputs(self) -> dict[str, Input]:
+        """What is given from outside, by name: prescribed motions, and what acts."""
+        motions = (entry for motion in self.prescribed.values() for entry in motion.inputs)
+        return {entry.name: entry for entry in (*motions, *self.mechanism.inputs)}
+
+    def has_mass(self, body: str) -> bool:
+        """Tell whether the inertia of a body enters the equations."""
+        return any(body == massive.name for massive in self.massive)
 
 
 def _check(model: Model) -> None:
@@ -66,6 +87,7 @@ def _check(model: Model) -> None:
         if name in _FUNCTIONS
     ]
     problems += _driven_problems(model)
+    problems += _input_problems(model)
     problems += _mass_problems(model)
     problems += _force_problems(model)
     problems += _idle_problems(model)
@@ -74,30 +96,38 @@ def _check(model: Model) -> None:
 
 
 def _driven_problems(model: Model) -> list[str]:
-    mechanism = model.mechanism
-    joints = {j.name: j for j in mechanism.joints}
-    problems = repeated("independent joint", model.independent)
-    problems += unknown("independent joint", model.independent, joints)
-    problems += unknown("prescribed joint", model.prescribed, joints)
-    problems += repeated("input of prescribed joints", model.prescribed.values())
+    joints = model.mechanism.joints
+    problems = repeated("independent joint", [j.name for j in model.independent])
+    problems += strangers("independent joint", model.independent, joints)
+    problems += strangers("prescribed joint", model.prescribed, joints)
     for variant, held in model.held.items():
-        problems += unknown(f"held joint of {variant!r}", held, model.prescribed)
-    both = sorted(set(model.independent) & set(model.prescribed))
+        problems += [
+            f"held joint {j.name!r} of {variant!r} is not prescribed; only what is given can stand"
+            for j in held
+            if j not in model.prescribed
+        ]
+    both = [j.name for j in model.independent if j in model.prescribed]
     problems += [f"joint {name!r} is both independent and prescribed" for name in both]
-    inputs = [f"{n}_{k}" for n in model.prescribed.values() for k in _RATES]
-    problems += unknown("prescribed motion: input", inputs, mechanism.inputs)
-    independent = {n: joints[n] for n in model.independent if n in joints}
-    prescribed = {n: joints[n] for n in model.prescribed if n in joints}
-    problems += [_undrivable("independent", j) for j in independent.values() if _has_many(j)]
-    problems += [_undrivable("prescribed", j) for j in prescribed.values() if _has_many(j)]
-    reported = {c.joint for c in mechanism.coordinates}
+    problems += [_undrivable("independent", j) for j in model.independent if _has_many(j)]
+    problems += [_undrivable("prescribed", j) for j in model.prescribed if _has_many(j)]
+    reported = [c.joint for c in model.mechanism.coordinates]
     problems += [
-        f"independent joint {name!r} has no reported coordinate; add a RelativeCoordinate for its "
-        f"{joint.coordinates[0]} to the coordinates of the mechanism, which names the state"
-        for name, joint in independent.items()
-        if name not in reported and not _has_many(joint)
+        f"independent joint {joint.name!r} has no reported coordinate; add a RelativeCoordinate "
+        f"for its {joint.coordinates[0]} to the coordinates of the mechanism, which names the state"
+        for joint in model.independent
+        if joint not in reported and not _has_many(joint)
     ]
     return problems
+
+
+def _input_problems(model: Model) -> list[str]:
+    """Find motions that are given twice, and inputs of one name."""
+    problems = repeated("motion of prescribed joints", model.motions.values())
+    entries = [entry for motion in model.prescribed.values() for entry in motion.inputs]
+    for entry in entries:
+        same = [i for i in model.mechanism.inputs if i.name == entry.name and i != entry]
+        problems += [f"{i.name!r} is an input of a force and of a motion; rename one" for i in same]
+    return problems + input_name_problems(model.mechanism, entries)
 
 
 def _has_many(joint: Joint) -> bool:
@@ -112,25 +142,24 @@ def _undrivable(how: str, joint: Joint) -> str:
 
 
 def _mass_problems(model: Model) -> list[str]:
-    mechanism = model.mechanism
-    problems = unknown("massive body", model.massive, [b.name for b in mechanism.bodies])
-    problems += repeated("massive body", model.massive)
-    if mechanism.ground in model.massive:
-        problems.append(
-            f"massive body {mechanism.ground!r} is the ground, which does not move; leave it out"
-        )
+    problems = strangers("massive body", model.massive, model.mechanism.bodies)
+    problems += repeated("massive body", [b.name for b in model.massive])
+    problems += [
+        f"massive body {body.name!r} is the ground, which does not move; leave it out"
+        for body in model.massive
+        if isinstance(body, Ground)
+    ]
     return problems
 
 
 def _force_problems(model: Model) -> list[str]:
     """See that every force along a joint does work: there is none for a joint that follows."""
-    driven = {*model.independent, *model.prescribed}
     return [
-        f"JointForce: {force.joint!r} is neither independent nor prescribed, and a JointForce acts "
-        "along such joints only. Make it independent, or let an Actuator in a ForceElement push "
-        "between two points"
+        f"JointForce: {force.joint.name!r} is neither independent nor prescribed, and a JointForce "
+        "acts along such joints only. Make it independent, or let an Actuator in a ForceElement "
+        "push between two points"
         for force in model.mechanism.forces
-        if isinstance(force, JointForce) and force.joint not in driven
+        if isinstance(force, JointForce) and force.joint not in model.driven
     ]
 
 
@@ -138,7 +167,7 @@ def _idle_problems(model: Model) -> list[str]:
     """See that nothing with mass can spin about itself: nothing would determine its turn."""
     problems = []
     for body in model.mechanism.idle_links:
-        if body in model.massive:
+        if model.has_mass(body):
             first, second = (j.name for j in model.mechanism.joints_of(body))
             problems.append(
                 f"massive body {body!r} may turn about the line through its joints {first!r} and "

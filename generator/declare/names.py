@@ -11,7 +11,10 @@ from typing import TYPE_CHECKING
 from .forces import ForceElement, LinearTyre
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from .assembly import Assembly
+    from .inputs import Input
 
 # What the emitted C and Python call their own, and the words of both languages.
 _C_WORDS = """
@@ -65,7 +68,7 @@ def name_problems(mechanism: Assembly) -> list[str]:
         "joint": [j.name for j in mechanism.joints],
         "parameter": [p.name for p in mechanism.parameters],
         "coordinate": coordinates,
-        "input": list(mechanism.inputs),
+        "input": mechanism.input_names,
         "force": [f.name for f in mechanism.forces if isinstance(f, ForceElement | LinearTyre)],
     }
     # what the code reads by its own name; other names have something before or behind them
@@ -89,6 +92,20 @@ def name_problems(mechanism: Assembly) -> list[str]:
     return problems
 
 
+def input_name_problems(mechanism: Assembly, inputs: Iterable[Input]) -> list[str]:
+    """Find names that inputs cannot have beside those of a mechanism."""
+    taken = {p.name: "parameter" for p in mechanism.parameters}
+    taken |= {c.name: "coordinate" for c in mechanism.coordinates}
+    problems = []
+    for entry in inputs:
+        problems += _reserved("input", entry.name)
+        problems += unwritable(f"input {entry.name!r}", f"{entry.unit} {entry.meaning}")
+        if entry.name in taken:
+            kind = taken[entry.name]
+            problems.append(f"{entry.name!r} is the name of a {kind} and of an input; rename one")
+    return problems
+
+
 def _reserved(kind: str, name: str) -> list[str]:
     """Find out whether a name is one that the code has for something else."""
     if name in _WORDS or name.lower() in _COUNTED or name.startswith(_BEGINNINGS):
@@ -101,7 +118,7 @@ def text_problems(mechanism: Assembly) -> list[str]:
     entries = [
         *((f"parameter {p.name!r}", (p.unit, p.meaning)) for p in mechanism.parameters),
         *((f"coordinate {c.name!r}", (c.unit, c.meaning)) for c in mechanism.coordinates),
-        *((f"input {name!r}", texts) for name, texts in mechanism.inputs.items()),
+        *((f"input {i.name!r}", (i.unit, i.meaning)) for i in mechanism.inputs),
     ]
     problems = unwritable("title of the mechanism", mechanism.title)
     return problems + [p for what, texts in entries for t in texts for p in unwritable(what, t)]

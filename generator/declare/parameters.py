@@ -1,68 +1,294 @@
-"""Parameters that declarations need again and again: of points, directions and bodies."""
+"""Numbers that a user of the generated code may change, and what owns them.
+
+Whatever is declared owns its parameters: a point its coordinates, a body its mass, a law its rates.
+A mechanism collects them from what refers to them, in the order in which their owners were written.
+The type of a parameter says its unit and its range.
+"""
 
 from __future__ import annotations
 
-from ..program.vectors import ELEMENTS
-from .assembly import Parameter
-from .declared import Name, Number, checked
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import count
+from typing import Any
 
-Three = tuple[Number, Number, Number]
+import sympy as sp
 
+from .declared import Name, Number, declared
 
-@checked
-def point(name: Name, position: Three, meaning: str) -> list[Parameter]:
-    """Coordinates of a point at the design position, chassis axes."""
-    return [
-        Parameter(f"{name}_{axis}", value, "m", f"{meaning}, {axis} at the design position")
-        for axis, value in zip("xyz", position, strict=True)
-    ]
+_written = count()
 
 
-@checked
-def direction(name: Name, components: Three, meaning: str) -> list[Parameter]:
-    """Components of a direction, of any length, chassis axes."""
-    return [
-        Parameter(f"{name}_{axis}", value, "1", f"{meaning}, {axis} component")
-        for axis, value in zip("xyz", components, strict=True)
-    ]
+def next_order() -> int:
+    """Return a number greater than all before: the place of what is written now."""
+    return next(_written)
 
 
-@checked
-def rigid_body(
-    name: Name,
-    mass: Number,
-    com: Three,
-    inertia: Three = (0.0, 0.0, 0.0),
-) -> list[Parameter]:
-    """Mass, centre of mass and inertia tensor (about it, chassis axes, at the design position)."""
-    tensor = (*inertia, 0.0, 0.0, 0.0)
-    return [
-        Parameter(f"{name}_mass", mass, "kg", f"mass of the {name}"),
-        *point(f"{name}_com", com, f"centre of mass of the {name}"),
-        *(
-            Parameter(
-                f"{name}_inertia_{element}",
-                value,
-                "kg m^2",
-                f"{element} element of the inertia tensor of the {name}",
-            )
-            for element, value in zip(ELEMENTS, tensor, strict=True)
-        ),
-    ]
+@dataclass(frozen=True)
+class Image:
+    """What an owner in a copy is the image of.
+
+    Attributes
+    ----------
+    original
+        The owner whose parameters stand for those of the copy.
+    signs
+        Of every number: -1 where a mirror turns it round.
+    """
+
+    original: Owner
+    signs: tuple[int, ...]
 
 
-@checked
-def rotor(name: Name, mass: Number, spin: Number, diametral: Number) -> list[Parameter]:
-    """Mass of a body of revolution, and its inertia about its axis and across it."""
-    return [
-        Parameter(f"{name}_mass", mass, "kg", f"mass of the {name}"),
-        Parameter(
-            f"{name}_inertia_spin", spin, "kg m^2", f"inertia of the {name} about its spin axis"
-        ),
-        Parameter(
-            f"{name}_inertia_diametral",
-            diametral,
-            "kg m^2",
-            f"inertia of the {name} across its axis",
-        ),
-    ]
+@dataclass(frozen=True, kw_only=True)
+class Owner:
+    """Something that owns parameters.
+
+    Attributes
+    ----------
+    order
+        Its place in lists: that of its creation, which `dataclasses.replace` keeps.
+    image
+        In a copy: what it is the image of; its numbers then are none of its own.
+    """
+
+    order: int = field(default_factory=next_order, repr=False, compare=False)
+    image: Any = field(default=None, repr=False)
+
+    @property
+    def numbers(self) -> tuple[Parameter, ...]:
+        """Its parameters under its own names."""
+        raise NotImplementedError
+
+    @property
+    def turned(self) -> tuple[int, ...]:
+        """The sign of every number in the mirror."""
+        return (1,) * len(self.numbers)
+
+    @property
+    def root(self) -> Owner:
+        """What owns the numbers: itself, or what it is an image of."""
+        return self if self.image is None else self.image.original.root
+
+    @cached_property
+    def values(self) -> tuple[sp.Expr, ...]:
+        """Its numbers in terms of parameters of the root."""
+        if self.image is None:
+            return tuple(p.symbol for p in self.numbers)
+        pairs = zip(self.image.signs, self.image.original.values, strict=True)
+        return tuple(sign * value for sign, value in pairs)
+
+    @property
+    def derived(self) -> dict[str, sp.Expr]:
+        """What its names stand for, where they are no parameters."""
+        if self.image is None:
+            return {}
+        return {p.name: value for p, value in zip(self.numbers, self.values, strict=True)}
+
+
+@declared
+@dataclass(frozen=True)
+class Parameter(Owner):
+    """A number that a user of the generated code may change.
+
+    Attributes
+    ----------
+    default
+        Value in SI units.
+    unit, meaning
+        For the documentation of the generated code.
+    least, above, most
+        Bounds of its values: the smallest, what it must be more than, the greatest.
+    """
+
+    name: Name
+    default: Number
+    unit: str
+    meaning: str
+    least: Number | None = None
+    above: Number | None = None
+    most: Number | None = None
+
+    @property
+    def symbol(self) -> sp.Symbol:
+        """The symbol in equations."""
+        return sp.Symbol(self.name)
+
+    @property
+    def numbers(self) -> tuple[Parameter, ...]:
+        """Itself."""
+        return (self,)
+
+
+def _unit(unit: str) -> Any:
+    """Return the field of a type of parameters that have a unit."""
+    return field(default=unit, init=False)
+
+
+@declared
+@dataclass(frozen=True)
+class Mass(Parameter):
+    """A mass [kg], not negative."""
+
+    unit: str = _unit("kg")
+    least: Number | None = 0.0
+
+
+@declared
+@dataclass(frozen=True)
+class MomentOfInertia(Parameter):
+    """A moment of inertia [kg m^2], not negative."""
+
+    unit: str = _unit("kg m^2")
+    least: Number | None = 0.0
+
+
+@declared
+@dataclass(frozen=True)
+class ProductOfInertia(Parameter):
+    """A product of inertia [kg m^2]."""
+
+    unit: str = _unit("kg m^2")
+
+
+@declared
+@dataclass(frozen=True)
+class Displacement(Parameter):
+    """A coordinate or a height [m], of any sign."""
+
+    unit: str = _unit("m")
+
+
+@declared
+@dataclass(frozen=True)
+class Length(Parameter):
+    """A length [m], not negative."""
+
+    unit: str = _unit("m")
+    least: Number | None = 0.0
+
+
+@declared
+@dataclass(frozen=True)
+class Distance(Parameter):
+    """A distance [m], more than zero."""
+
+    unit: str = _unit("m")
+    above: Number | None = 0.0
+
+
+@declared
+@dataclass(frozen=True)
+class Angle(Parameter):
+    """An angle [rad], of any sign."""
+
+    unit: str = _unit("rad")
+
+
+@declared
+@dataclass(frozen=True)
+class Speed(Parameter):
+    """A speed [m/s], more than zero."""
+
+    unit: str = _unit("m/s")
+    above: Number | None = 0.0
+
+
+@declared
+@dataclass(frozen=True)
+class AngularSpeed(Parameter):
+    """An angular speed [rad/s], more than zero."""
+
+    unit: str = _unit("rad/s")
+    above: Number | None = 0.0
+
+
+@declared
+@dataclass(frozen=True)
+class Gravity(Parameter):
+    """The acceleration of gravity [m/s^2], not negative."""
+
+    unit: str = _unit("m/s^2")
+    least: Number | None = 0.0
+
+
+@declared
+@dataclass(frozen=True)
+class ForceLevel(Parameter):
+    """The amount of a force [N], not negative."""
+
+    unit: str = _unit("N")
+    least: Number | None = 0.0
+
+
+@declared
+@dataclass(frozen=True)
+class MomentLevel(Parameter):
+    """The amount of a moment [N m], not negative."""
+
+    unit: str = _unit("N m")
+    least: Number | None = 0.0
+
+
+@declared
+@dataclass(frozen=True)
+class SpringRate(Parameter):
+    """The rate of a spring [N/m], not negative."""
+
+    unit: str = _unit("N/m")
+    least: Number | None = 0.0
+
+
+@declared
+@dataclass(frozen=True)
+class TorsionRate(Parameter):
+    """The rate of a torsion spring [N m/rad], not negative."""
+
+    unit: str = _unit("N m/rad")
+    least: Number | None = 0.0
+
+
+@declared
+@dataclass(frozen=True)
+class DamperRate(Parameter):
+    """The rate of a damper [N s/m], not negative."""
+
+    unit: str = _unit("N s/m")
+    least: Number | None = 0.0
+
+
+@declared
+@dataclass(frozen=True)
+class TorsionDamperRate(Parameter):
+    """The rate of a damper of rotation [N m s/rad], not negative."""
+
+    unit: str = _unit("N m s/rad")
+    least: Number | None = 0.0
+
+
+@declared
+@dataclass(frozen=True)
+class Progression(Parameter):
+    """The cubic term of a stop [N/m^3], not negative."""
+
+    unit: str = _unit("N/m^3")
+    least: Number | None = 0.0
+
+
+@declared
+@dataclass(frozen=True)
+class TorsionProgression(Parameter):
+    """The cubic term of a stop of rotation [N m/rad^3], not negative."""
+
+    unit: str = _unit("N m/rad^3")
+    least: Number | None = 0.0
+
+
+@declared
+@dataclass(frozen=True)
+class Share(Parameter):
+    """A number between 0 and 1."""
+
+    unit: str = _unit("1")
+    least: Number | None = 0.0
+    most: Number | None = 1.0

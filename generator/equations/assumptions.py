@@ -84,8 +84,8 @@ def _assumptions(plan: Plan) -> Iterator[Assumption]:
             yield from _of_plane(transformer.cycle)
     lines = {link: ends for step in plan.steps for link, *ends in step.lines()}
     for joint in plan.topology.mechanism.joints:
-        if isinstance(joint, Universal) and joint.second in lines:
-            yield from _of_shaft(joint, lines[joint.second])
+        if isinstance(joint, Universal) and joint.second.name in lines:
+            yield from _of_shaft(joint, lines[joint.second.name])
     yield from _of_rotors(plan.model)
 
 
@@ -145,7 +145,7 @@ def _of_shaft(joint: Universal, ends: Sequence[Point]) -> Iterator[Assumption]:
             _distance(point, joint.shaft),
             length,
             "m",
-            f"the shaft of universal joint {joint.name} must be the line of {joint.second}, but "
+            f"the shaft of universal joint {joint.name} must be the line of {joint.second.name}, but "
             f"misses its end {point.name}",
             f"declare the shaft from {start.name} to {end.name}",
         )
@@ -157,7 +157,7 @@ def _of_shaft(joint: Universal, ends: Sequence[Point]) -> Iterator[Assumption]:
 def _of_rotors(model: Model) -> Iterator[Assumption]:
     """Yield what leaves the inertia of a rotor unchanged by its spin."""
     for joint in _bearings(model):
-        body, axis = model.mechanism.body(joint.second), joint.axis.vector
+        body, axis = joint.second, joint.axis.vector
         assert body.rotor_axis is not None
         remedy = (
             "a body of revolution turns about its own axis; otherwise declare it without a "
@@ -188,10 +188,10 @@ def _of_rotors(model: Model) -> Iterator[Assumption]:
 def _bearings(model: Model) -> Iterator[Revolute]:
     """Yield the hinges of known angle that carry a rotor and nothing behind it."""
     mechanism: Mechanism = model.mechanism
-    for name in (*model.independent, *model.prescribed):
-        joint = mechanism.joint(name)
-        rotor = mechanism.body(joint.second).rotor_axis is not None
-        if isinstance(joint, Revolute) and rotor and len(mechanism.joints_of(joint.second)) == 1:
+    for joint in model.driven:
+        rotor = joint.second.rotor_axis is not None
+        end = len(mechanism.joints_of(joint.second.name)) == 1
+        if isinstance(joint, Revolute) and rotor and end:
             yield joint
 
 

@@ -27,11 +27,10 @@ def design_coordinates(model: Model) -> dict[str, Steps]:
     """
     found = {}
     derived = {sp.Symbol(n): value for n, value in model.mechanism.derived.items()}
-    for name in model.independent:
-        joint = model.mechanism.joint(name)
+    for joint in model.independent:
         if isinstance(joint, Revolute) and joint.angle_to is not None:
             entries = model.mechanism.coordinates
-            coordinate = next(c.name for c in entries if c.joint == name)
+            coordinate = next(c.name for c in entries if c.joint == joint)
             steps = _angle(coordinate, joint)
             found[coordinate] = [(s, e.xreplace(derived)) for s, e in steps]
     return found

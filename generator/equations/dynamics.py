@@ -112,9 +112,8 @@ class Dynamics:
         """Sum up inertia from the last placed body to the first, moving what can be moved."""
         for name in reversed(self.kin.placed):
             self.inertia.setdefault(name, Inertia.none())
-        massive = [self.kin.mechanism.body(b) for b in self.kin.model.massive]
         rotors = {body.name: k for k, body in self.kin.rotors.items()}
-        for body in massive:
+        for body in self.kin.model.massive:
             if body.name in rotors:
                 self._fold_rotor(rotors[body.name], body)
             else:
@@ -304,7 +303,7 @@ class Dynamics:
         return self.program.vector(f"{placed.body}_up", up, "123")
 
     def _add_weight(self, force: Weight) -> None:
-        gravity = sp.Symbol(force.gravity)
+        gravity = force.gravity.symbol
         for (body, k), momentum in self._momentum.items():
             up = self.up_in(self.kin.placed[body])
             self._force[k] -= gravity * up.dot(momentum)
@@ -317,7 +316,7 @@ class Dynamics:
         velocity = program.define(f"{name}_velocity", sum(rates, NONE))
         slide = None
         if isinstance(element.path, AlongTelescope):
-            slide = self.kin.slides[element.path.joint]
+            slide = self.kin.slides[element.path.joint.name]
         stretch = Stretch(program, name, length, velocity, slide)
         names = ("angle", "angular_velocity") if element.turns else ("length", "velocity")
         values = zip(names, (length, velocity), strict=True)
@@ -343,12 +342,12 @@ class Dynamics:
     def _path_of(self, element: ForceElement) -> tuple[sp.Expr, dict[str, sp.Expr]]:
         """Return the length of an element's path, and its rate per unit rate of each coordinate."""
         if isinstance(element.path, AlongTelescope):
-            line = self.kin.telescopes[element.path.joint]
+            line = self.kin.telescopes[element.path.joint.name]
             return line.length, line.length_motion
         if isinstance(element.path, TwistOfHinges):
             return self._twist_of(element.path)
         program, name = self.program, element.name
-        relative = self.kin.relative_motion(element.path.first, element.path.second)
+        relative = self.kin.relative_motion(*element.path.ends)
         span = program.vector(f"{name}_span", relative.position)
         squared = program.guarded(
             f"{name}_length_squared",
@@ -367,15 +366,13 @@ class Dynamics:
 
     def _extent_squared(self, name: str, path: AlongLine) -> sp.Expr:
         """Return the square of the extent of two points at the design position."""
-        places = (self.kin.of(body).design(point) for body, point in (path.first, path.second))
+        places = (self.kin.of(body).design(point) for body, point in path.ends)
         return self.program.define(f"{name}_extent_squared", sum((p.dot(p) for p in places), NONE))
 
     def _twist_of(self, path: TwistOfHinges) -> tuple[sp.Expr, dict[str, sp.Expr]]:
         """Return the angle between two hinges, and its rate per unit rate of each coordinate."""
         twist, motion = NONE, dict.fromkeys(self.kin.moving, NONE)
-        for sense, name in ((-1, path.first), (1, path.second)):
-            joint = self.kin.mechanism.joint(name)
-            assert isinstance(joint, Revolute)
+        for sense, joint in ((-1, path.first), (1, path.second)):
             part = self.kin.of_joint(joint)
             twist += sense * angle_of(part, joint)
             for k, rate in turning_rates(part, joint).items():
@@ -383,7 +380,7 @@ class Dynamics:
         return twist, {k: rate for k, rate in motion.items() if rate != 0}
 
     def _add_tyre(self, force: LinearTyre) -> None:
-        program, carrier = self.program, self.kin.placed[force.carrier]
+        program, carrier = self.program, self.kin.placed[force.carrier.name]
         prefix = self.kin.mechanism.prefix(force)
         center = self.kin.local(carrier, force.center)
         up = self.up_in(carrier)
@@ -401,7 +398,7 @@ class Dynamics:
             "1",
             DIRECTION,
         )
-        deflection = sp.Symbol(force.free_height) + sp.Symbol(force.road) - height
+        deflection = force.free_height.symbol + sp.Symbol(force.road.name) - height
         load = self._tyre_load(force, carrier, center, deflection)
         load = program.define(f"{prefix}tyre_load", load / squared)
         for k in self.names:
@@ -417,7 +414,7 @@ class Dynamics:
     ) -> sp.Expr:
         """Return the load of a tyre of some deflection: spring, damper, contact."""
         program, prefix = self.program, self.kin.mechanism.prefix(force)
-        load = sp.Symbol(force.rate) * deflection
+        load = force.rate.symbol * deflection
         if force.damper is not None:
             up = self.up_in(carrier)
             rise = sum(
@@ -427,12 +424,13 @@ class Dynamics:
                 ),
                 NONE,
             )
-            load += sp.Symbol(force.damper) * (sp.Symbol(str(force.road_velocity)) - rise)
+            assert force.road_velocity is not None  # declared with the damper
+            load += force.damper.symbol * (sp.Symbol(force.road_velocity.name) - rise)
         if force.lifts_off is not None:
             deflection = program.define(f"{prefix}tyre_deflection", deflection)
             load = program.define(f"{prefix}tyre_bonded_load", load)
             pressed = IsPositive(deflection) * Positive(load)
-            load += sp.Symbol(force.lifts_off) * (pressed - load)
+            load += force.lifts_off.symbol * (pressed - load)
         return load
 
     def wheel_velocity(self, carrier: BodyMotion, center: Vector, k: str) -> Vector:
@@ -446,8 +444,7 @@ class Dynamics:
 
     def _add_joint_force(self, force: JointForce) -> None:
         if force.joint in self.kin.model.independent:
-            joint = self.kin.mechanism.joint(force.joint)
-            self._force[self.kin.coordinate_of(joint)] += sp.Symbol(force.input)
+            self._force[self.kin.coordinate_of(force.joint)] += sp.Symbol(force.input.name)
 
     # -- equations ------------------------------------------------------------------------------
 

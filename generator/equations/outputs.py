@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..declare.checks import check_symbols
-from ..declare.declared import DeclarationError
+from ..declare.declared import DeclarationError, parts
 from ..declare.forces import ForceElement, JointForce, LinearTyre
+from ..declare.inputs import Input
 from ..declare.laws import Actuator
 from ..kinematics.motion import IDENTITY, BodyMotion, from_axes
 from ..planning.plan import Plan
@@ -23,8 +24,9 @@ from .parts import Parts
 from .relative import RelativeCoordinates
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
+    from ..declare.joints import Joint
     from ..declare.laws import Law
     from ..declare.mechanism import Mechanism
     from ..declare.model import Model
@@ -106,19 +108,19 @@ class _Builder:
         )
         self.program = Program(self.constants)
         self.kin = Parts(self.program, self.plan)
+        self.moving = tuple(b.name for b in self.mechanism.bodies[1:])
+        self.massive = tuple(b for b in self.moving if model.has_mass(b))
         self._check_masses()
         self.dynamics = Dynamics(self.kin)
         self.relative = {part: RelativeCoordinates(part) for part in self.kin.parts}
         self.functions: dict[str, Function] = {}
         self.signals: list[Entry] = []
-        self.moving = tuple(b.name for b in self.mechanism.bodies[1:])
-        self.massive = tuple(b for b in self.moving if b in model.massive)
 
     def _check_masses(self) -> None:
         """See that every independent coordinate moves some mass: else it has no acceleration."""
-        moved = {k for body in self.model.massive for k in self.kin.placed[body].motion}
+        moved = {k for body in self.massive for k in self.kin.placed[body].motion}
         idle = [
-            f"independent joint {joint!r} moves no body of massive; name one there that it moves"
+            f"independent joint {joint.name!r} moves no body of massive; name one there that it moves"
             for joint, k in zip(self.model.independent, self.kin.independent, strict=True)
             if k not in moved
         ]
@@ -128,7 +130,8 @@ class _Builder:
     def build(self) -> GeneratedModel:
         self._add_dynamics(self.dynamics, "")
         for variant, joints in self.model.held.items():
-            held = Dynamics(Parts(Program(self.constants), self.plan, joints))
+            names = [joint.name for joint in joints]
+            held = Dynamics(Parts(Program(self.constants), self.plan, names))
             self._add_right_hand_side(held, f"_{variant}")
         self._add_relative()
         self._add_poses()
@@ -148,7 +151,7 @@ class _Builder:
             model=self.model,
             plan=self.plan,
             state=self._state_entries(),
-            inputs=tuple(Entry(n, *self.mechanism.inputs[n]) for n in self._input_names()),
+            inputs=tuple(self._input_entries()),
             parameters=tuple(Entry(p.name, p.unit, p.meaning) for p in self.mechanism.parameters),
             relative=tuple(Entry(c.name, c.unit, c.meaning) for c in self.mechanism.coordinates),
             functions=self.functions,
@@ -175,7 +178,7 @@ class _Builder:
         states = {e.name for e in self._state_entries()}
         check_symbols(
             self.model.name,
-            varying - given - states - set(self._input_names()),
+            varying - given - states - {e.name for e in self._input_entries()},
             [p.name for p in self.mechanism.parameters],
         )
 
@@ -185,7 +188,7 @@ class _Builder:
         states = [c.name for c in coordinates if c.joint in self.model.independent]
         rates = [f"{name}_rate" for name in states]
         given = [f"given_{c.name}" for c in coordinates]
-        return frozenset([*states, *rates, *given, *self.mechanism.inputs])
+        return frozenset([*states, *rates, *given, *self.model.inputs])
 
     # -- arrays ---------------------------------------------------------------------------------
 
@@ -197,22 +200,21 @@ class _Builder:
             *(Entry(f"{c.name}_rate", f"{c.unit}/s", f"rate of {c.name}") for c in positions),
         )
 
-    def _input_names(self) -> list[str]:
-        names = []
-        for name in self.model.prescribed.values():
-            names += [f"{name}_position", f"{name}_velocity", f"{name}_acceleration"]
-        for force in self.mechanism.forces:
-            if isinstance(force, LinearTyre):
-                names.append(force.road)
-                names += [force.road_velocity] if force.road_velocity else []
-            elif isinstance(force, ForceElement):
-                names += [law.input for law in force.laws if isinstance(law, Actuator)]
-            elif isinstance(force, JointForce) and force.joint in self.model.independent:
-                names.append(force.input)
-        return list(dict.fromkeys(names))  # two tyres may be on one road
+    def _input_entries(self) -> Iterator[Entry]:
+        """Yield what is given, but for forces along joints whose motion is."""
+        acting = tuple(
+            force
+            for force in self.mechanism.forces
+            if not isinstance(force, JointForce) or force.joint in self.model.independent
+        )
+        read = {part.name for part in parts(acting) if isinstance(part, Input)}
+        read |= {entry.name for motion in self.model.prescribed.values() for entry in motion.inputs}
+        for name, entry in self.model.inputs.items():
+            if name in read:
+                yield Entry(name, entry.unit, entry.meaning)
 
-    def _rate_inputs(self, joints: Iterable[str]) -> tuple[str, ...]:
-        names = [self.model.prescribed[j] for j in joints]
+    def _rate_inputs(self, joints: Iterable[Joint]) -> tuple[str, ...]:
+        names = [self.model.prescribed[j].name for j in joints]
         return tuple(f"{n}_{kind}" for n in names for kind in ("velocity", "acceleration"))
 
     def _acting_guards(self) -> tuple[Guard, ...]:
@@ -284,7 +286,7 @@ class _Builder:
         program.section(f"derivatives {what}")
         values = list(values)
         symbols = (
-            self._state_symbols() if by == "state" else [sp.Symbol(n) for n in self._input_names()]
+            self._state_symbols() if by == "state" else [sp.Symbol(e.name) for e in self._input_entries()]
         )
         columns = {s: program.tangents(s, values, str(s)) for s in symbols}
         entries = {
@@ -470,7 +472,7 @@ class _Builder:
 
     def _add_wheel_signals(self, tyre: LinearTyre, results: dict[str, sp.Expr]) -> None:
         prefix = self.mechanism.prefix(tyre)
-        carrier = self.kin.placed[tyre.carrier]
+        carrier = self.kin.placed[tyre.carrier.name]
         center = self.kin.local(carrier, tyre.center)
         up = self.dynamics.up_in(carrier)
         work = carrier.origin + from_axes(carrier.axes, center)

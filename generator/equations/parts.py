@@ -134,7 +134,7 @@ def _in_chassis_axes(part: Kinematics, body: str, point: Point) -> PointMotion:
 def independent_groups(plan: Plan) -> tuple[set[str], list[set[str]]]:
     """Return the ground with what prescribed joints tie to it, and the groups of other bodies."""
     mechanism, graph = plan.model.mechanism, plan.topology.graph
-    tied = nx.Graph([mechanism.joint(name).bodies for name in plan.model.prescribed])
+    tied = nx.Graph([joint.bodies for joint in plan.model.prescribed])
     tied.add_node(mechanism.ground)
     common = nx.node_connected_component(tied, mechanism.ground)
     groups = nx.connected_components(graph.subgraph(set(graph) - common))

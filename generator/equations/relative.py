@@ -95,7 +95,7 @@ class RelativeCoordinates:
     # -- values ---------------------------------------------------------------------------------
 
     def _value(self, coordinate: RelativeCoordinate) -> sp.Expr:
-        joint = self.mechanism.joint(coordinate.joint)
+        joint = coordinate.joint
         if isinstance(joint, Revolute | Prismatic):
             return self._hinge_or_guide(joint)
         if isinstance(joint, Universal):
@@ -119,7 +119,7 @@ class RelativeCoordinates:
         if joint.name in self._shafts:
             return self._shafts[joint.name]
         program, name = self.program, joint.name
-        parent = self.kin.placed[joint.first]
+        parent = self.kin.placed[joint.first.name]
         n = self.shaft_direction(joint)
         squared = program.guarded(
             f"shaft_level_squared_{name}",
@@ -141,8 +141,8 @@ class RelativeCoordinates:
 
     def shaft_direction(self, joint: Universal) -> Vector:
         """Return the unit vector of a shaft along the chassis axes that the first body carries."""
-        direction = self.kin.on_line[joint.second].direction
-        seen = self._in_first_body(self.kin.placed[joint.first], direction)
+        direction = self.kin.on_line[joint.second.name].direction
+        seen = self._in_first_body(self.kin.placed[joint.first.name], direction)
         return self.program.vector(f"shaft_{joint.name}", seen)
 
     def _in_first_body(self, parent: BodyMotion, work: Vector) -> Vector:
@@ -165,7 +165,7 @@ class RelativeCoordinates:
     def _telescope_angle(self, joint: Cylindrical) -> sp.Expr:
         """Rotation of the second body about the axis, from the z' axis of the shaft."""
         shaft = self._shaft(self.holder(joint))
-        placed = self.kin.placed[joint.second]
+        placed = self.kin.placed[joint.second.name]
         local = self.from_axis(placed, joint, joint.angle_to)
         marker = self.program.vector(f"marker_{joint.name}", from_axes(placed.axes, local))
         return self.program.define(
@@ -181,12 +181,12 @@ class RelativeCoordinates:
         """Return the universal joint that carries the first body of a telescope."""
         center = joint.axis.towards
         universal = (
-            self.mechanism.universal_at(joint.first, center) if isinstance(center, Point) else None
+            self.mechanism.universal_at(joint.first.name, center) if isinstance(center, Point) else None
         )
         if universal is None:
             message = (
                 f"the angle of joint {joint.name!r} is reported from the frame of a universal "
-                f"joint at {joint.first!r}, which has none"
+                f"joint at {joint.first.name!r}, which has none"
             )
             raise ValueError(message)
         return universal
@@ -228,7 +228,7 @@ class RelativeCoordinates:
         graph = nx.DiGraph()
         for joint in self.mechanism.joints:
             if all(self.reported(joint.name, c) for c in joint.coordinates):
-                graph.add_edge(joint.first, joint.second, joint=joint)
+                graph.add_edge(*joint.bodies, joint=joint)
         return graph
 
     def _chain(self, body: str) -> list[_Screw]:
@@ -243,20 +243,20 @@ class RelativeCoordinates:
 
     def reported(self, joint: str, kind: str) -> str | None:
         """Return the first name under which a joint's coordinate is reported."""
-        names = [c.name for c in self.mechanism.coordinates if (c.joint, c.kind) == (joint, kind)]
-        return names[0] if names else None
+        entries = self.mechanism.coordinates
+        return next((c.name for c in entries if (c.joint.name, c.kind) == (joint, kind)), None)
 
     def _screws(self, joint: Joint) -> list[_Screw]:
         names = {c: self.reported(joint.name, c) or "" for c in joint.coordinates}
         if isinstance(joint, Revolute):
             return [self._screw_of_hinge(joint, names["angle"])]
         if isinstance(joint, Prismatic):
-            parent = self.kin.placed[joint.first]
+            parent = self.kin.placed[joint.first.name]
             direction = from_axes(parent.axes, self.kin.local_direction(parent, joint.direction))
             return [_Screw(names["slide"], ZERO, ZERO, direction)]
         if isinstance(joint, Universal):
             shaft = self._shaft(joint)
-            center = self.kin.on_line[joint.second].anchor_motion.position
+            center = self.kin.on_line[joint.second.name].anchor_motion.position
             return [
                 _Screw(names["azimuth"], shaft.up, center, ZERO),
                 _Screw(names["elevation"], shaft.x, center, ZERO),
@@ -271,7 +271,8 @@ class RelativeCoordinates:
 
     def _screw_of_hinge(self, joint: Revolute, name: str) -> _Screw:
         """Return the screw of a hinge; where it placed its second body, that has it as its axis."""
-        kin, first, second = self.kin, self.kin.placed[joint.first], self.kin.placed[joint.second]
+        kin = self.kin
+        first, second = (kin.placed[body] for body in joint.bodies)
         if is_first_axis(kin, joint):
             return _Screw(name, second.axes[0], second.origin, ZERO)
         n = positive_axis_at_design(kin, joint)
@@ -282,7 +283,7 @@ class RelativeCoordinates:
         """Let a shaft turn about itself as its cross demands, not as the z-x sequence does."""
         n, second, third = self.kin.placed[body].axes
         joint = next(j for j in self.mechanism.joints_of(body) if isinstance(j, Universal))
-        parent = self.kin.placed[joint.first]
+        parent = self.kin.placed[joint.first.name]
         axis = from_axes(parent.axes, self.kin.local_direction(parent, joint.first_axis))
         if screw.angular.is_zero:
             return screw
@@ -318,11 +319,11 @@ class _Closure:
 
     def residual(self, coordinate: RelativeCoordinate) -> sp.Expr:
         """Return what the given coordinate leaves of its own equation."""
-        first = self.relative.reported(coordinate.joint, coordinate.kind)
+        first = self.relative.reported(coordinate.joint.name, coordinate.kind)
         given = self._given(coordinate.name)
         if first is not None and first != coordinate.name:
             return given - self._given(first)
-        joint = self.mechanism.joint(coordinate.joint)
+        joint = coordinate.joint
         if isinstance(joint, Revolute | Prismatic):
             return self._solved_residual(joint, given)
         offset = self._offset_telescope(joint)
@@ -335,7 +336,7 @@ class _Closure:
         if coordinate.kind == "slide":
             span = self._telescope_span(joint)
             length = sp.sqrt(span.dot(span))
-            return length - (sp.Symbol(joint.length_at_zero_slide) - given)
+            return length - (joint.length_at_zero_slide.symbol - given)
         return self._rod_residual(joint)
 
     def _solved_residual(self, joint: Revolute | Prismatic, given: sp.Symbol) -> sp.Expr:
@@ -348,7 +349,7 @@ class _Closure:
         meeting = self.kin.meetings.get(joint.name)
         if meeting is None or (isinstance(joint, Revolute) and joint.angle_to is not None):
             return self._placed_residual(joint, given)
-        parent, sense = self.kin.placed[meeting.parent], 1 if joint.second == meeting.body else -1
+        parent, sense = self.kin.placed[meeting.parent], 1 if joint.second.name == meeting.body else -1
         target = self.kin.point_motion(meeting.target_body, meeting.target).position
         local = self.kin.local(parent, meeting.point)
         moved = self._moved(joint, parent, local, sense * given)
@@ -409,15 +410,15 @@ class _Closure:
         return self._given(self._copies(joint, kind)[-1])
 
     def _copies(self, joint: str, kind: str) -> list[str]:
-        return [c.name for c in self.mechanism.coordinates if (c.joint, c.kind) == (joint, kind)]
+        entries = self.mechanism.coordinates
+        return [c.name for c in entries if (c.joint.name, c.kind) == (joint, kind)]
 
     def _driven(self) -> dict[sp.Symbol, sp.Expr]:
         """Return what stands in for the driven coordinates: their given copies."""
         replaced = {}
         for coordinate in self.mechanism.coordinates:
-            joint = self.mechanism.joint(coordinate.joint)
-            if self.kin.is_driven(joint):
-                symbol = self.kin.coordinates[self.kin.coordinate_of(joint)]
+            if self.kin.is_driven(coordinate.joint):
+                symbol = self.kin.coordinates[self.kin.coordinate_of(coordinate.joint)]
                 replaced[symbol] = self._given(coordinate.name)
         return replaced
 
@@ -436,9 +437,9 @@ class _Closure:
         That is a chain with a telescope, in terms of given coordinates; where there is none, the
         poses say where the far end is.
         """
-        turn = self._turn_of_rod(joint.second)
-        shafts = (j for j in self.mechanism.joints_of(joint.second) if isinstance(j, Cylindrical))
-        telescope = next(shafts, None)
+        turn = self._turn_of_rod(joint.second.name)
+        others = self.mechanism.joints_of(joint.second.name)
+        telescope = next((j for j in others if isinstance(j, Cylindrical)), None)
         if turn is not None and any(t.end_link == turn.body for t in self.kin.spans.values()):
             span = self._rod_span(turn)
         elif telescope is not None:
@@ -453,7 +454,7 @@ class _Closure:
 
     def _rod_residual(self, joint: Cylindrical) -> sp.Expr:
         """Eq. 13: the distance of the rod's ends along the chain, less the length of the rod."""
-        turn = self.kin.turned[joint.second]
+        turn = self.kin.turned[joint.second.name]
         span = self._rod_span(turn)
         return sp.sqrt(span.dot(span)) - self.kin.rod_lengths[turn.rod]
 
@@ -473,7 +474,7 @@ class _Closure:
         """Return where the chain through a telescope puts a point of its second body."""
         joint = telescope.joint
         holder = self.relative.holder(joint)
-        length = sp.Symbol(joint.length_at_zero_slide) - copy(joint.name, "slide")
+        length = joint.length_at_zero_slide.symbol - copy(joint.name, "slide")
         local = self._in_marker_axes(joint, point)
         swung = rotate_y(-copy(joint.name, "angle"), local) + UNIT_Y * length
         swung = self.program.vector(f"given_{point.name}_in_shaft", swung)
@@ -481,7 +482,7 @@ class _Closure:
         lifted = self.program.vector(f"given_{point.name}_lifted", lifted)
         from_center = rotate_z(copy(holder.name, "azimuth"), lifted)
         center = self._from_driven(
-            f"given_{holder.at.name}", self.kin.point_motion(holder.first, holder.at).position
+            f"given_{holder.at.name}", self.kin.point_motion(holder.first.name, holder.at).position
         )
         return center + from_center
 
@@ -503,7 +504,7 @@ class _Closure:
 
     def _in_marker_axes(self, joint: Cylindrical, point: Point) -> Vector:
         """Return a point's body coordinates along (x'', line, marker): those of zero angle."""
-        placed = self.kin.placed[joint.second]
+        placed = self.kin.placed[joint.second.name]
         local = self.relative.from_axis(placed, joint, point)
         mark = self.relative.from_axis(placed, joint, joint.angle_to)
         across = self.program.define(f"{placed.body}_marker", sp.sqrt(mark.y**2 + mark.z**2))

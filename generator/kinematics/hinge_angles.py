@@ -89,7 +89,7 @@ def turning_rates(kin: Kinematics, joint: Revolute) -> dict[str, sp.Expr]:
     The axis is fixed in both bodies: ``n . omega`` of the second less that of the first.
     """
     rates: dict[str, sp.Expr] = {}
-    for sense, name in ((1, joint.second), (-1, joint.first)):
+    for sense, name in ((1, joint.second.name), (-1, joint.first.name)):
         placed = kin.placed[name]
         n = _axis_on(kin, joint, placed)
         for k, twist in placed.motion.items():
@@ -100,12 +100,12 @@ def turning_rates(kin: Kinematics, joint: Revolute) -> dict[str, sp.Expr]:
 
 def is_first_axis(kin: Kinematics, joint: Revolute) -> bool:
     """Tell whether a hinge placed its second body, so that it is the first of the body's axes."""
-    return kin.placed[joint.second].hinge == joint.name
+    return kin.placed[joint.second.name].hinge == joint.name
 
 
 def driven_coordinates(kin: Kinematics) -> Iterator[tuple[sp.Symbol, sp.Expr, bool]]:
     """Yield symbol, value at design, and whether it is an angle, of each driven coordinate."""
-    for joint in (j for j in kin.driven if j.second in kin.bodies):
+    for joint in (j for j in kin.driven if j.second.name in kin.bodies):
         start = sp.Integer(0)
         if isinstance(joint, Revolute) and joint.angle_to is not None:
             start = HingeDesign.of(kin, joint).angle(kin.program, joint.name)
@@ -114,7 +114,7 @@ def driven_coordinates(kin: Kinematics) -> Iterator[tuple[sp.Symbol, sp.Expr, bo
 
 def _axis_on(kin: Kinematics, joint: Revolute, placed: BodyMotion) -> Vector:
     """Return the axis of a hinge in the axes of one of its bodies."""
-    if placed.body == joint.second and is_first_axis(kin, joint):
+    if placed.body == joint.second.name and is_first_axis(kin, joint):
         return UNIT_X
     n = to_axes(placed.design_axes, positive_axis_at_design(kin, joint))
     return kin.program.vector(f"{joint.name}_axis_on_{placed.body}", n, "123")
@@ -127,7 +127,7 @@ def turn_between(kin: Kinematics, joint: Revolute) -> tuple[sp.Expr, sp.Expr]:
     the turn from the design position: with a the axes of the second body as the first carries them
     on from there, and b as they are, ``2 sin = n . sum(a x b)`` and ``1 + 2 cos = sum(a . b)``.
     """
-    first, second = kin.placed[joint.first], kin.placed[joint.second]
+    first, second = kin.placed[joint.first.name], kin.placed[joint.second.name]
     n = _carried(kin, first, f"{joint.name}_axis", positive_axis_at_design(kin, joint))
     if joint.angle_to is not None:
         design = HingeDesign.of(kin, joint)

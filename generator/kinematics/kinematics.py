@@ -88,6 +88,8 @@ class Kinematics:
         self.program = program
         self.model = model
         self.mechanism = model.mechanism
+        self._motions = model.motions
+        self._driven_names = frozenset(joint.name for joint in model.driven)
         self._loops = loops
         self.at_defaults = AtDefaults(self.mechanism)
         self.held = frozenset(held)
@@ -118,31 +120,30 @@ class Kinematics:
     @property
     def driven(self) -> list[Joint]:
         """The joints whose coordinates are independent or prescribed."""
-        names = (*self.model.independent, *self.model.prescribed)
-        return [self.mechanism.joint(n) for n in names]
+        return list(self.model.driven)
 
     def coordinate_of(self, joint: Joint) -> str:
         """Return the key of a driven coordinate: a reported name, or that of the input."""
-        if joint.name in self.model.prescribed:
-            return self.model.prescribed[joint.name]
-        return next(c.name for c in self.mechanism.coordinates if c.joint == joint.name)
+        if joint.name in self._motions:
+            return self._motions[joint.name]
+        return next(c.name for c in self.mechanism.coordinates if c.joint.name == joint.name)
 
     def is_driven(self, joint: Joint) -> bool:
         """Tell whether a joint's coordinate is independent or prescribed."""
-        return joint.name in (*self.model.independent, *self.model.prescribed)
+        return joint.name in self._driven_names
 
     def _coordinate_symbol(self, joint: Joint) -> str:
         name = self.coordinate_of(joint)
-        return f"{name}_position" if joint.name in self.model.prescribed else name
+        return f"{name}_position" if joint.name in self._motions else name
 
     @property
     def independent(self) -> list[str]:
         """Names of the independent coordinates, in the order of the state."""
-        return [self.coordinate_of(self.mechanism.joint(n)) for n in self.model.independent]
+        return [self.coordinate_of(joint) for joint in self.model.independent]
 
     def true_rate(self, coordinate: str) -> sp.Symbol:
         """Return the symbol of the rate of a coordinate."""
-        prescribed = coordinate in self.model.prescribed.values()
+        prescribed = coordinate in self._motions.values()
         return sp.Symbol(f"{coordinate}_velocity" if prescribed else f"{coordinate}_rate")
 
     def rate(self, coordinate: str) -> sp.Expr:
@@ -162,7 +163,7 @@ class Kinematics:
         """Yield the independent coordinates that alone move bodies that hang together."""
         moving = set(self._graph) - self._still()
         drives = {
-            j.second: self.coordinate_of(j)
+            j.second.name: self.coordinate_of(j)
             for j in self.driven
             if self.coordinate_of(j) in self.moving and self.coordinate_of(j) not in self.rotors
         }
@@ -180,7 +181,7 @@ class Kinematics:
 
     def acceleration(self, coordinate: str) -> sp.Expr:
         """Return the part of a coordinate's acceleration that is given: that of an input."""
-        if coordinate in self.model.prescribed.values() and coordinate in self.moving:
+        if coordinate in self._motions.values() and coordinate in self.moving:
             return sp.Symbol(f"{coordinate}_acceleration")
         return sp.Integer(0)
 
@@ -188,7 +189,7 @@ class Kinematics:
         """Return the bodies of revolution at the end of a chain, by their spin coordinate."""
         rotors = {}
         for joint in self.driven:
-            body = self.mechanism.body(joint.second)
+            body = joint.second
             leaf = len(self.mechanism.joints_of(body.name)) == 1
             if isinstance(joint, Revolute) and leaf and body.rotor_axis is not None:
                 rotors[self.coordinate_of(joint)] = body
@@ -202,8 +203,8 @@ class Kinematics:
             (
                 j
                 for j in self.driven
-                if isinstance(j, Revolute) and j.first == self.mechanism.ground and j.angle_to
-                if j.second in self.bodies
+                if isinstance(j, Revolute) and j.first.name == self.mechanism.ground and j.angle_to
+                if j.second.name in self.bodies
             ),
             None,
         )
@@ -360,5 +361,5 @@ class Kinematics:
         return [
             c
             for c in self.mechanism.coordinates
-            if self.bodies.issuperset(self.mechanism.joint(c.joint).bodies)
+            if self.bodies.issuperset(c.joint.bodies)
         ]

@@ -77,7 +77,7 @@ class Topology:
         for joint in self.mechanism.joints:
             if graph.has_edge(*joint.bodies):
                 message = (
-                    f"bodies {joint.first!r} and {joint.second!r} have two joints between them"
+                    f"bodies {joint.first.name!r} and {joint.second.name!r} have two joints between them"
                 )
                 raise TopologyError(message)
             graph.add_edge(*joint.bodies, joint=joint, length=joint.freedoms)
@@ -137,7 +137,7 @@ class Topology:
     @cached_property
     def _numbers(self) -> dict[str, int]:
         """The number of each body, by its name."""
-        return {b.name: b.number for b in self.mechanism.bodies}
+        return self.mechanism.numbers
 
     def path_length(self, path: Sequence[str]) -> int:
         """Return the sum of the joint freedoms along a path."""
@@ -168,8 +168,8 @@ class Topology:
             for joint in self.mechanism.joints:
                 if paths.all_part_alike(*joint.bodies):
                     continue
-                for there in paths.to(joint.first):
-                    for back in paths.to(joint.second):
+                for there in paths.to(joint.first.name):
+                    for back in paths.to(joint.second.name):
                         round_trip = (*there, *reversed(back[1:]))
                         if len(set(round_trip)) == len(round_trip) > 2:
                             cycles.append(self.cycle(round_trip))

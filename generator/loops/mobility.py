@@ -87,7 +87,7 @@ class Mobility:
             block = {j.name: np.zeros((6, j.freedoms)) for j in mechanism.joints}
             for here, there in pairwise([*bodies, bodies[0]]):
                 joint = self._topology.joint_between(here, there)
-                sense = 1.0 if here == joint.first else -1.0
+                sense = 1.0 if here == joint.first.name else -1.0
                 block[joint.name] = sense * screws.of(joint)
             rows.append(np.hstack(list(block.values())))
         return np.vstack([np.zeros((0, len(self._coordinates))), *rows])

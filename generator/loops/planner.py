@@ -156,7 +156,7 @@ class Plan:
 
     @property
     def _driven(self) -> tuple[str, ...]:
-        return (*self.model.independent, *self.model.prescribed)
+        return tuple(joint.name for joint in self.model.driven)
 
     @property
     def _mechanism(self) -> Mechanism:
@@ -191,7 +191,7 @@ class Plan:
 
     def _place_leftovers(self) -> None:
         for kind in self.catalogue.leftovers:
-            for step in kind.left(self._known, self.model.massive):
+            for step in kind.left(self._known, [body.name for body in self.model.massive]):
                 self._accept(step)
 
     # -- solving a loop -------------------------------------------------------------------------
@@ -309,8 +309,7 @@ class Plan:
 
     def _miscounted(self) -> str:
         """Say by how much the driven coordinates differ from the degrees of freedom."""
-        joints = [self._mechanism.joint(name) for name in self._driven]
-        driven = sum(j.freedoms for j in joints)
+        driven = sum(j.freedoms for j in self.model.driven)
         mobility = self.topology.mobility - len(self._mechanism.idle_links)
         if driven == mobility:
             return ""
@@ -356,7 +355,7 @@ class Plan:
             return ""
         if isinstance(joint, Revolute | Prismatic):
             return f"declare joint {joint.name!r} independent or prescribed"
-        if isinstance(joint, Universal) and there == joint.first and there in self._known.on_line:
+        if isinstance(joint, Universal) and there == joint.first.name and there in self._known.on_line:
             return (
                 f"declare {here!r} first and {there!r} second in the cross {joint.name!r}, with "
                 f"the shaft along the rod {there!r}"

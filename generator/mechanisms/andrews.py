@@ -10,12 +10,15 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..declare.assembly import Body, Parameter, RelativeCoordinate
+from ..declare.bodies import Body, Ground
+from ..declare.coordinates import RelativeCoordinate
 from ..declare.forces import AlongLine, ForceElement, JointForce
+from ..declare.inputs import Input
 from ..declare.laws import LinearSpring
 from ..declare.mechanism import Mechanism
 from ..declare.model import Model
-from .planar import flat, hinge, inertia, places
+from ..declare.parameters import Length, SpringRate
+from .planar import flat, hinge
 
 _DIGITS = 40  # so that defaults are rounded once, on every machine alike
 
@@ -88,59 +91,61 @@ def _places() -> dict[str, tuple[sp.Expr, sp.Expr]]:
     }
 
 
-def _parameters() -> tuple[Parameter, ...]:
-    return (
-        *places({name: ((float(x), float(y)), name) for name, (x, y) in _places().items()}),
-        *(
-            parameter
-            for i, (mass, moment) in enumerate(zip(MASSES, INERTIAS, strict=True), 1)
-            for parameter in inertia(f"k{i}", float(mass), float(moment))
-        ),
-        Parameter("spring_rate", 4530.0, "N/m", "rate of the spring (c0)"),
-        Parameter("spring_free_length", 0.07785, "m", "free length of the spring (l0)"),
-    )
+POINTS = {name: flat(name, (float(x), float(y)), name) for name, (x, y) in _places().items()}
 
+GROUND = Ground("ground")
+K1, K2, K3, K4, K5, K6, K7 = BODIES = tuple(
+    Body(f"k{i}", float(mass), POINTS[f"k{i}_com"], float(moment))
+    for i, (mass, moment) in enumerate(zip(MASSES, INERTIAS, strict=True), 1)
+)
 
-_BODIES = tuple(f"k{i}" for i in range(1, 8))
+O = hinge("O", GROUND, K1, POINTS["crank_bearing"])
+CRANK_PIN = hinge("crank_pin", K1, K2, POINTS["crank_pin"])
+B = hinge("B", GROUND, K3, POINTS["pivot_b"])
+KNEE_34 = hinge("knee_34", K3, K4, POINTS["knee"])
+A_5 = hinge("A_5", GROUND, K5, POINTS["pivot_a"])
+KNEE_36 = hinge("knee_36", K3, K6, POINTS["knee"])
+A_7 = hinge("A_7", GROUND, K7, POINTS["pivot_a"])
+
+SPRING = LinearSpring(
+    rate=SpringRate("spring_rate", 4530.0, "rate of the spring (c0)"),
+    free_length=Length("spring_free_length", 0.07785, "free length of the spring (l0)"),
+)
 
 SQUEEZER = Mechanism(
     name="andrews",
     title="Andrews' squeezer mechanism",
-    bodies=(
-        Body("ground", 0, center=flat("crank_bearing")),
-        *(Body(name, i, center=flat(f"{name}_com")) for i, name in enumerate(_BODIES, 1)),
-    ),
     joints=(
-        hinge("O", "ground", "k1", "crank_bearing"),
-        hinge("crank_pin", "k1", "k2", "crank_pin"),
-        hinge("B", "ground", "k3", "pivot_b"),
-        hinge("knee_23", "k2", "k3", "knee"),
-        hinge("knee_34", "k3", "k4", "knee"),
-        hinge("pin_45", "k4", "k5", "pin_45"),
-        hinge("A_5", "ground", "k5", "pivot_a"),
-        hinge("knee_36", "k3", "k6", "knee"),
-        hinge("pin_67", "k6", "k7", "pin_67"),
-        hinge("A_7", "ground", "k7", "pivot_a"),
+        O,
+        CRANK_PIN,
+        B,
+        hinge("knee_23", K2, K3, POINTS["knee"]),
+        KNEE_34,
+        hinge("pin_45", K4, K5, POINTS["pin_45"]),
+        A_5,
+        KNEE_36,
+        hinge("pin_67", K6, K7, POINTS["pin_67"]),
+        A_7,
     ),
     forces=(
         ForceElement(
-            name="spring",
-            path=AlongLine(("ground", flat("spring_ground")), ("k3", flat("spring_body"))),
-            laws=(LinearSpring(rate="spring_rate", free_length="spring_free_length"),),
+            "spring",
+            AlongLine((GROUND, POINTS["spring_ground"]), (K3, POINTS["spring_body"])),
+            (SPRING,),
         ),
-        JointForce(joint="O", input="drive_torque"),
+        JointForce(
+            O, Input("drive_torque", "N m", "torque on the crank; 0.033 N m in the test set")
+        ),
     ),
-    parameters=_parameters(),
     coordinates=(
-        RelativeCoordinate("beta", "O", "angle", "rad", "angle of the crank from the start"),
-        RelativeCoordinate("theta", "crank_pin", "angle", "rad", "angle of body 2 on the crank"),
-        RelativeCoordinate("gamma", "B", "angle", "rad", "angle of body 3 from the start"),
-        RelativeCoordinate("delta", "A_5", "angle", "rad", "angle of body 5 from the start"),
-        RelativeCoordinate("epsilon", "A_7", "angle", "rad", "angle of body 7 from the start"),
-        RelativeCoordinate("knee_34", "knee_34", "angle", "rad", "angle of body 4 on body 3"),
-        RelativeCoordinate("knee_36", "knee_36", "angle", "rad", "angle of body 6 on body 3"),
+        RelativeCoordinate("beta", O, "angle of the crank from the start"),
+        RelativeCoordinate("theta", CRANK_PIN, "angle of body 2 on the crank"),
+        RelativeCoordinate("gamma", B, "angle of body 3 from the start"),
+        RelativeCoordinate("delta", A_5, "angle of body 5 from the start"),
+        RelativeCoordinate("epsilon", A_7, "angle of body 7 from the start"),
+        RelativeCoordinate("knee_34", KNEE_34, "angle of body 4 on body 3"),
+        RelativeCoordinate("knee_36", KNEE_36, "angle of body 6 on body 3"),
     ),
-    inputs={"drive_torque": ("N m", "torque on the crank; 0.033 N m in the test set")},
 )
 
 MODELS = (
@@ -148,7 +153,7 @@ MODELS = (
         name="andrews",
         title="Andrews' squeezer mechanism, driven by a torque on its crank",
         mechanism=SQUEEZER,
-        independent=("O",),
-        massive=_BODIES,
+        independent=(O,),
+        massive=BODIES,
     ),
 )

@@ -13,18 +13,15 @@ zero in the position of the table, with the arm upright and the bucket above the
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from ..declare.assembly import Body, Parameter, RelativeCoordinate
+from ..declare.bodies import Body, Ground
+from ..declare.coordinates import RelativeCoordinate
 from ..declare.forces import JointForce, Weight
-from ..declare.geometry import Direction
-from ..declare.joints import Prismatic
+from ..declare.geometry import Direction, Point
+from ..declare.inputs import Input, Motion
+from ..declare.joints import Prismatic, Revolute
 from ..declare.mechanism import Mechanism
 from ..declare.model import Model
-from .planar import flat, hinge, inertia, places
-
-if TYPE_CHECKING:
-    from ..declare.joints import Joint
+from .planar import flat, hinge
 
 _PLACES = {
     "boom_foot": ((0.2, 1.9), "hinge of the boom on the chassis"),
@@ -63,107 +60,108 @@ _MASSES = {  # kg, kg m^2
     "link": (45.0, 1.9),
     "bucket": (740.0, 190.0),
 }
-_CYLINDERS = ("boom", "arm", "bucket")
+_POINTS = {name: flat(name, place, meaning, "y") for name, (place, meaning) in _PLACES.items()}
+_BODIES = {
+    name: Body(name, mass, _POINTS[f"{name}_com"], moment)
+    for name, (mass, moment) in _MASSES.items()
+}
+CHASSIS = Ground("chassis")
+BOOM, ARM, ROCKER, LINK, BUCKET = (
+    _BODIES[name] for name in ("boom", "arm", "rocker", "link", "bucket")
+)
 
 
-def _pin(name: str, first: str, second: str, at: str) -> Joint:
-    return hinge(name, first, second, at, "y")
+def _pin(name: str, first: Body, second: Body, at: str) -> Revolute:
+    return hinge(name, first, second, _POINTS[at])
 
 
-def _cylinder(name: str, base: str, body: str, rod_pin: str) -> tuple[Joint, ...]:
+def _cylinder(
+    name: str, base: Body, body: Body, rod_pin: str
+) -> tuple[Revolute, Prismatic, Revolute]:
     """Return the joints of a cylinder, its barrel on one body and its rod on another."""
-    barrel, rod, barrel_pin = f"{name}_barrel", f"{name}_rod", f"{name}_barrel_pin"
-    bore = Direction(f"{name}_bore", between=(flat(barrel_pin, "y"), flat(rod_pin, "y")))
+    barrel, rod, barrel_pin = _BODIES[f"{name}_barrel"], _BODIES[f"{name}_rod"], f"{name}_barrel_pin"
+    bore = Direction(f"{name}_bore", between=(_POINTS[barrel_pin], _POINTS[rod_pin]))
     return (
         _pin(f"{name}_barrel_hinge", base, barrel, barrel_pin),
-        Prismatic(name=f"{name}_bore", first=barrel, second=rod, direction=bore),
+        Prismatic(f"{name}_bore", barrel, rod, direction=bore),
         _pin(f"{name}_rod_hinge", rod, body, rod_pin),
     )
 
 
-BODIES = (
-    Body("chassis", 0, center=flat("boom_foot", "y")),
-    *(Body(name, i, center=flat(f"{name}_com", "y")) for i, name in enumerate(_MASSES, 1)),
-)
+CYLINDERS = {
+    "boom": _cylinder("boom", CHASSIS, BOOM, "boom_rod_pin"),
+    "arm": _cylinder("arm", BOOM, ARM, "arm_rod_pin"),
+    "bucket": _cylinder("bucket", ARM, ROCKER, "knee"),
+}
+BORES = {name: bore for name, (_, bore, _) in CYLINDERS.items()}
+BOOM_HINGE = _pin("boom_hinge", CHASSIS, BOOM, "boom_foot")
+ARM_HINGE = _pin("arm_hinge", BOOM, ARM, "arm_pin")
+ROCKER_HINGE = _pin("rocker_hinge", ARM, ROCKER, "rocker_pin")
+KNEE_HINGE = _pin("knee_hinge", ROCKER, LINK, "knee")
+LINK_HINGE = _pin("link_hinge", LINK, BUCKET, "link_pin")
+BUCKET_HINGE = _pin("bucket_hinge", ARM, BUCKET, "bucket_pin")
 JOINTS = (
-    _pin("boom_hinge", "chassis", "boom", "boom_foot"),
-    *_cylinder("boom", "chassis", "boom", "boom_rod_pin"),
-    _pin("arm_hinge", "boom", "arm", "arm_pin"),
-    *_cylinder("arm", "boom", "arm", "arm_rod_pin"),
-    _pin("rocker_hinge", "arm", "rocker", "rocker_pin"),
-    *_cylinder("bucket", "arm", "rocker", "knee"),
-    _pin("knee_hinge", "rocker", "link", "knee"),
-    _pin("link_hinge", "link", "bucket", "link_pin"),
-    _pin("bucket_hinge", "arm", "bucket", "bucket_pin"),
+    BOOM_HINGE,
+    *CYLINDERS["boom"],
+    ARM_HINGE,
+    *CYLINDERS["arm"],
+    ROCKER_HINGE,
+    *CYLINDERS["bucket"],
+    KNEE_HINGE,
+    LINK_HINGE,
+    BUCKET_HINGE,
 )
 
 
-def _angle(name: str, joint: str, what: str) -> RelativeCoordinate:
-    return RelativeCoordinate(name, joint, "angle", "rad", f"{what}, from the start")
+def _angle(name: str, joint: Revolute, what: str) -> RelativeCoordinate:
+    return RelativeCoordinate(name, joint, f"{what}, from the start")
 
 
 COORDINATES = (
     *(
-        RelativeCoordinate(
-            f"{c}_stroke", f"{c}_bore", "slide", "m", f"stroke of the {c} cylinder, from the start"
-        )
-        for c in _CYLINDERS
+        RelativeCoordinate(f"{c}_stroke", bore, f"stroke of the {c} cylinder, from the start")
+        for c, bore in BORES.items()
     ),
-    _angle("boom_angle", "boom_hinge", "angle of the boom on the chassis, positive down"),
-    _angle("arm_angle", "arm_hinge", "angle of the arm on the boom, positive towards the chassis"),
-    _angle("rocker_angle", "rocker_hinge", "angle of the rocker on the arm"),
-    _angle("link_angle", "knee_hinge", "angle of the link on the rocker"),
-    _angle("bucket_angle", "bucket_hinge", "angle of the bucket on the arm, positive curling in"),
+    _angle("boom_angle", BOOM_HINGE, "angle of the boom on the chassis, positive down"),
+    _angle("arm_angle", ARM_HINGE, "angle of the arm on the boom, positive towards the chassis"),
+    _angle("rocker_angle", ROCKER_HINGE, "angle of the rocker on the arm"),
+    _angle("link_angle", KNEE_HINGE, "angle of the link on the rocker"),
+    _angle("bucket_angle", BUCKET_HINGE, "angle of the bucket on the arm, positive curling in"),
     *(
-        _angle(f"{c}_cylinder_angle", f"{c}_barrel_hinge", f"angle of the {c} cylinder")
-        for c in _CYLINDERS
+        _angle(f"{c}_cylinder_angle", foot, f"angle of the {c} cylinder")
+        for c, (foot, *_) in CYLINDERS.items()
     ),
 )
-PARAMETERS = (
-    *places(_PLACES, "xz"),
-    *(entry for name, values in _MASSES.items() for entry in inertia(name, *values, "y")),
-    Parameter("gravity", 9.81, "m/s^2", "acceleration of gravity"),
-)
+WEIGHT = Weight()
 
 EXCAVATOR = Mechanism(
     name="excavator",
     title="Planar excavator",
-    bodies=BODIES,
     joints=JOINTS,
     forces=(
-        Weight(gravity="gravity"),
-        *(JointForce(joint=f"{c}_bore", input=f"{c}_force") for c in _CYLINDERS),
+        WEIGHT,
+        *(
+            JointForce(
+                bore,
+                Input(f"{c}_force", "N", f"force of the {c} cylinder, positive when it extends"),
+            )
+            for c, bore in BORES.items()
+        ),
     ),
-    parameters=PARAMETERS,
     coordinates=COORDINATES,
-    inputs={
-        f"{c}_force": ("N", f"force of the {c} cylinder, positive when it extends")
-        for c in _CYLINDERS
-    },
 )
 
-_LOAD = {
-    "hook": ((7.05, 1.55), "eye on the back of the bucket that the load hangs from"),
-    "load_com": ((7.05, 0.35), "centre of mass of the load"),
-}
+_EYE = flat("hook", (7.05, 1.55), "eye on the back of the bucket that the load hangs from", "y")
+_LOAD_COM = flat("load_com", (7.05, 0.35), "centre of mass of the load", "y")
+LOAD = Body("load", 1500.0, _LOAD_COM, 300.0)
+HOOK = hinge("hook", BUCKET, LOAD, _EYE)
 
 LIFTING = Mechanism(
     name="excavator_lifting",
     title="Planar excavator that lifts a load on a hook",
-    bodies=(*BODIES, Body("load", len(BODIES), center=flat("load_com", "y"))),
-    joints=(*JOINTS, _pin("hook", "bucket", "load", "hook")),
-    forces=(Weight(gravity="gravity"),),
-    parameters=(*PARAMETERS, *places(_LOAD, "xz"), *inertia("load", 1500.0, 300.0, "y")),
-    coordinates=(*COORDINATES, _angle("swing", "hook", "angle of the load on the bucket")),
-    inputs={
-        f"{c}_stroke_{kind}": (unit, f"{what}stroke of the {c} cylinder, from the start")
-        for c in _CYLINDERS
-        for kind, unit, what in (
-            ("position", "m", ""),
-            ("velocity", "m/s", "rate of the "),
-            ("acceleration", "m/s^2", "acceleration of the "),
-        )
-    },
+    joints=(*JOINTS, HOOK),
+    forces=(WEIGHT,),
+    coordinates=(*COORDINATES, _angle("swing", HOOK, "angle of the load on the bucket")),
 )
 
 MODELS = (
@@ -171,16 +169,19 @@ MODELS = (
         name="excavator",
         title="Planar excavator, three degrees of freedom, moved by the forces of its cylinders",
         mechanism=EXCAVATOR,
-        independent=tuple(f"{c}_bore" for c in _CYLINDERS),
-        massive=tuple(_MASSES),
+        independent=tuple(BORES.values()),
+        massive=tuple(_BODIES.values()),
     ),
     Model(
         name="excavator_lifting",
         title="Planar excavator, strokes prescribed, with a load that swings on its bucket",
         mechanism=LIFTING,
-        independent=("hook",),
-        prescribed={f"{c}_bore": f"{c}_stroke" for c in _CYLINDERS},
-        massive=("load",),
-        held={"cylinders_held": tuple(f"{c}_bore" for c in _CYLINDERS)},
+        independent=(HOOK,),
+        prescribed={
+            bore: Motion(f"{c}_stroke", "m", f"stroke of the {c} cylinder, from the start")
+            for c, bore in BORES.items()
+        },
+        massive=(LOAD,),
+        held={"cylinders_held": tuple(BORES.values())},
     ),
 )

@@ -7,70 +7,57 @@ crank of 0.1 m, turns all the way round. There is no gravity in its plane.
 
 from __future__ import annotations
 
-from ..declare.assembly import Body, Parameter, RelativeCoordinate
+from ..declare.bodies import Body, Ground
+from ..declare.coordinates import RelativeCoordinate
 from ..declare.forces import AlongLine, ForceElement, JointForce
+from ..declare.inputs import Input
 from ..declare.laws import LinearDamper, LinearSpring
 from ..declare.mechanism import Mechanism
 from ..declare.model import Model
-from .planar import flat, hinge, inertia, places
+from ..declare.parameters import DamperRate, Length, SpringRate
+from .planar import flat, hinge
 
 # At the start the crank points along y: 0.1 m up from the origin.
-_PLACES = {
-    "crank_bearing": ((0.0, 0.0), "hinge of the crank on the ground"),
-    "crank_pin": ((0.0, 0.1), "hinge of crank and coupler"),
-    "rocker_pin": ((0.24, 0.26), "hinge of coupler and rocker"),
-    "rocker_bearing": ((0.3, 0.0), "hinge of the rocker on the ground"),
-    "crank_com": ((0.0, 0.05), "centre of mass of the crank"),
-    "coupler_com": ((0.12, 0.18), "centre of mass of the coupler"),
-    "rocker_com": ((0.27, 0.13), "centre of mass of the rocker"),
-    "spring_ground": ((0.45, 0.2), "end of the spring on the ground"),
-}
+CRANK_BEARING = flat("crank_bearing", (0.0, 0.0), "hinge of the crank on the ground")
+CRANK_PIN = flat("crank_pin", (0.0, 0.1), "hinge of crank and coupler")
+ROCKER_PIN = flat("rocker_pin", (0.24, 0.26), "hinge of coupler and rocker")
+ROCKER_BEARING = flat("rocker_bearing", (0.3, 0.0), "hinge of the rocker on the ground")
+CRANK_COM = flat("crank_com", (0.0, 0.05), "centre of mass of the crank")
+COUPLER_COM = flat("coupler_com", (0.12, 0.18), "centre of mass of the coupler")
+ROCKER_COM = flat("rocker_com", (0.27, 0.13), "centre of mass of the rocker")
+SPRING_GROUND = flat("spring_ground", (0.45, 0.2), "end of the spring on the ground")
+
+GROUND = Ground("ground")
+CRANK = Body("crank", 0.5, CRANK_COM, 5e-4)
+COUPLER = Body("coupler", 1.0, COUPLER_COM, 8e-3)
+ROCKER = Body("rocker", 1.2, ROCKER_COM, 8e-3)
+
+A = hinge("A", GROUND, CRANK, CRANK_BEARING)
+B = hinge("B", CRANK, COUPLER, CRANK_PIN)
+C = hinge("C", COUPLER, ROCKER, ROCKER_PIN)
+D = hinge("D", GROUND, ROCKER, ROCKER_BEARING)
+
+SPRING = LinearSpring(
+    rate=SpringRate("spring_rate", 400.0, "rate of the spring"),
+    free_length=Length("spring_free_length", 0.3, "free length of the spring"),
+)
+DAMPER = LinearDamper(rate=DamperRate("damper_rate", 0.0, "rate of the damper beside the spring"))
 
 FOUR_BAR = Mechanism(
     name="four_bar",
     title="Planar four-bar linkage",
-    bodies=(
-        Body("ground", 0, center=flat("crank_bearing")),
-        Body("crank", 1, center=flat("crank_com")),
-        Body("coupler", 2, center=flat("coupler_com")),
-        Body("rocker", 3, center=flat("rocker_com")),
-    ),
-    joints=(
-        hinge("A", "ground", "crank", "crank_bearing"),
-        hinge("B", "crank", "coupler", "crank_pin"),
-        hinge("C", "coupler", "rocker", "rocker_pin"),
-        hinge("D", "ground", "rocker", "rocker_bearing"),
-    ),
+    joints=(A, B, C, D),
     forces=(
         ForceElement(
-            name="spring",
-            path=AlongLine(("ground", flat("spring_ground")), ("coupler", flat("coupler_com"))),
-            laws=(
-                LinearSpring(rate="spring_rate", free_length="spring_free_length"),
-                LinearDamper(rate="damper_rate"),
-            ),
+            "spring", AlongLine((GROUND, SPRING_GROUND), (COUPLER, COUPLER_COM)), (SPRING, DAMPER)
         ),
-        JointForce(joint="A", input="crank_torque"),
-    ),
-    parameters=(
-        *places(_PLACES),
-        *inertia("crank", 0.5, 5e-4),
-        *inertia("coupler", 1.0, 8e-3),
-        *inertia("rocker", 1.2, 8e-3),
-        Parameter("spring_rate", 400.0, "N/m", "rate of the spring"),
-        Parameter("spring_free_length", 0.3, "m", "free length of the spring"),
-        Parameter("damper_rate", 0.0, "N s/m", "rate of the damper beside the spring"),
+        JointForce(A, Input("crank_torque", "N m", "torque on the crank")),
     ),
     coordinates=(
-        RelativeCoordinate("crank_angle", "A", "angle", "rad", "angle of the crank from the start"),
-        RelativeCoordinate(
-            "coupler_angle", "B", "angle", "rad", "angle of the coupler on the crank"
-        ),
-        RelativeCoordinate(
-            "rocker_angle", "D", "angle", "rad", "angle of the rocker from the start"
-        ),
+        RelativeCoordinate("crank_angle", A, "angle of the crank from the start"),
+        RelativeCoordinate("coupler_angle", B, "angle of the coupler on the crank"),
+        RelativeCoordinate("rocker_angle", D, "angle of the rocker from the start"),
     ),
-    inputs={"crank_torque": ("N m", "torque on the crank")},
 )
 
 MODELS = (
@@ -78,7 +65,7 @@ MODELS = (
         name="four_bar",
         title="Planar four-bar linkage, one degree of freedom",
         mechanism=FOUR_BAR,
-        independent=("A",),
-        massive=("crank", "coupler", "rocker"),
+        independent=(A,),
+        massive=(CRANK, COUPLER, ROCKER),
     ),
 )

@@ -13,70 +13,46 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from ..declare.assembly import Body, Parameter, RelativeCoordinate
-from ..declare.composition import combined, copy
+from ..declare.bodies import Body
+from ..declare.composition import Copy, combined
+from ..declare.coordinates import RelativeCoordinate
 from ..declare.forces import ForceElement, TwistOfHinges
 from ..declare.geometry import FORWARD, Direction, Line, Point
 from ..declare.joints import Revolute, Spherical, Universal
 from ..declare.laws import LinearSpring
 from ..declare.model import Model
-from ..declare.parameters import direction, point, rigid_body
+from ..declare.parameters import Angle, TorsionRate
 from . import macpherson
+from .macpherson import ARM, CHASSIS, HG, KNUCKLE, OA, WHEEL, Y
+from .suspension import RACK_FORCE, RACK_MOTION
 
 if TYPE_CHECKING:
     from ..declare.mechanism import Mechanism
 
-BAR_BUSH = Point("bar_bush")
-LINK_TOP, LINK_FOOT = Point("link_top"), Point("link_foot")
-BAR_AXIS = Direction("bar_axis")
+BAR_BUSH = Point("bar_bush", (0.24, -0.4, 0.32), "bush of the bar's half, on its axis")
+BAR_AXIS = Direction("bar_axis", (0.0, 1.0, 0.0), "axis of the bar in its bush, pointing left")
+LINK_TOP = Point("link_top", (0.03, -0.58, 0.33), "drop link at the bar")
+LINK_FOOT = Point("link_foot", (0.03, -0.58, 0.2), "drop link at the control arm")
 
-BAR_BODIES = (
-    Body("bar", 8, center=Point("bar_com")),
-    Body("drop_link", 9, center=Point("drop_link_com")),
+BAR = Body("bar", 0.0, (0.24, -0.3, 0.32))
+DROP_LINK = Body("drop_link", 0.0, (0.03, -0.58, 0.265))
+
+BAR_HINGE = Revolute("bar_hinge", CHASSIS, BAR, axis=Line(BAR_BUSH, BAR_AXIS))
+LINK_BALL = Spherical("link_ball", BAR, DROP_LINK, at=LINK_TOP)
+LINK_CROSS = Universal(
+    "link_cross", ARM, DROP_LINK, at=LINK_FOOT, shaft=Line(LINK_FOOT, LINK_TOP), first_axis=FORWARD
 )
-
-BAR_JOINTS = (
-    Revolute(name="bar_hinge", first="chassis", second="bar", axis=Line(BAR_BUSH, BAR_AXIS)),
-    Spherical(name="link_ball", first="bar", second="drop_link", at=LINK_TOP),
-    Universal(
-        name="link_cross",
-        first="control_arm",
-        second="drop_link",
-        at=LINK_FOOT,
-        shaft=Line(LINK_FOOT, LINK_TOP),
-        first_axis=FORWARD,
-    ),
-)
-
 BAR_ANGLE = RelativeCoordinate(
     "bar_angle",
-    "bar_hinge",
-    "angle",
-    "rad",
+    BAR_HINGE,
     "angle of the bar's half from design, right-handed about its axis to the left",
 )
-
-BAR_PARAMETERS = (
-    *point("bar_bush", (0.24, -0.4, 0.32), "bush of the bar's half, on its axis"),
-    *direction("bar_axis", (0.0, 1.0, 0.0), "axis of the bar in its bush, pointing left"),
-    *point("link_top", (0.03, -0.58, 0.33), "drop link at the bar"),
-    *point("link_foot", (0.03, -0.58, 0.2), "drop link at the control arm"),
-    *rigid_body("bar", 0.0, (0.24, -0.3, 0.32)),
-    *rigid_body("drop_link", 0.0, (0.03, -0.58, 0.265)),
+BAR_SPRING = LinearSpring(
+    rate=TorsionRate("bar_rate", 1000.0, "rate of the anti-roll bar between its arms"),
+    free_length=Angle(
+        "bar_free_angle", 0.0, "twist at which the bar is free, left less right"
+    ),
 )
-
-BAR_RATES = (
-    Parameter("bar_rate", 1000.0, "N m/rad", "rate of the anti-roll bar between its arms"),
-    Parameter("bar_free_angle", 0.0, "rad", "twist at which the bar is free, left less right"),
-)
-
-ANTI_ROLL_BAR = ForceElement(
-    name="bar",
-    path=TwistOfHinges("right_bar_hinge", "left_bar_hinge"),
-    laws=(LinearSpring(rate="bar_rate", free_length="bar_free_angle"),),
-)
-
-RACK = ("rack", "rack_position", "rack_velocity", "rack_acceleration", "rack_force")
 
 
 def side() -> Mechanism:
@@ -85,38 +61,37 @@ def side() -> Mechanism:
     return replace(
         strut,
         name="side",
-        bodies=strut.bodies + BAR_BODIES,
-        joints=strut.joints + BAR_JOINTS,
-        parameters=strut.parameters + BAR_PARAMETERS,
+        joints=(*strut.joints, BAR_HINGE, LINK_BALL, LINK_CROSS),
         coordinates=(*strut.coordinates, BAR_ANGLE),
     )
 
 
-def axle(declared: Mechanism, name: str, title: str) -> Mechanism:
-    """Return a suspension of the right side with its mirror image, on one rack."""
-    sides = [
-        copy(declared, "right_", shared=RACK),
-        copy(declared, "left_", mirrored=True, shared=RACK),
-    ]
-    return combined(name, title, sides)
+def sides(declared: Mechanism) -> tuple[Copy, Copy]:
+    """Return a suspension of the right side and its mirror image, on one rack."""
+    shared = (macpherson.RACK, RACK_FORCE)
+    return (
+        Copy(declared, "right_", shared=shared),
+        Copy(declared, "left_", mirrored=True, shared=shared),
+    )
 
 
 def mechanism() -> Mechanism:
     """Return the axle with its anti-roll bar."""
-    sides = axle(side(), "front_axle", "Front axle: two MacPherson suspensions, anti-roll bar")
-    return replace(
-        sides, forces=(*sides.forces, ANTI_ROLL_BAR), parameters=sides.parameters + BAR_RATES
+    right, left = sides(side())
+    bar = ForceElement(
+        "bar", TwistOfHinges(right.of(BAR_HINGE), left.of(BAR_HINGE)), (BAR_SPRING,)
     )
+    title = "Front axle: two MacPherson suspensions, anti-roll bar"
+    return combined("front_axle", title, (right, left), forces=(bar,))
 
 
 def without_bar() -> Mechanism:
     """Return the axle without an anti-roll bar."""
-    return axle(macpherson.mechanism(), "front_axle", "Front axle: two MacPherson suspensions")
+    title = "Front axle: two MacPherson suspensions"
+    return combined("front_axle", title, sides(macpherson.mechanism()))
 
 
-def model(
-    declared: Mechanism, massive: tuple[str, ...] = ("control_arm", "knuckle", "wheel")
-) -> Model:
+def model(declared: Mechanism, massive: tuple[Body, ...] = (ARM, KNUCKLE, WHEEL)) -> Model:
     """Return the equations of an axle with prescribed rack.
 
     Parameters
@@ -124,17 +99,17 @@ def model(
     declared
         With or without a bar.
     massive
-        Bodies of a side that have mass; ``bar`` may be one of them.
+        Bodies of a side that have mass; the bar may be one of them.
     """
     both = ("right_", "left_")
     return Model(
         name=declared.name,
         title=declared.title + "; rack prescribed",
         mechanism=declared,
-        independent=tuple(f"{prefix}{joint}" for prefix in both for joint in ("OA", "HG")),
-        prescribed={"y": "rack"},
-        massive=tuple(f"{prefix}{body}" for prefix in both for body in massive),
-        held={"rack_held": ("y",)},
+        independent=tuple(declared.joint(f"{s}{joint.name}") for s in both for joint in (OA, HG)),
+        prescribed={Y: RACK_MOTION},
+        massive=tuple(declared.body(f"{s}{body.name}") for s in both for body in massive),
+        held={"rack_held": (Y,)},
     )
 
 

@@ -8,54 +8,47 @@ from __future__ import annotations
 
 import math
 
-from ..declare.assembly import Body, Parameter, RelativeCoordinate
+from ..declare.bodies import Body, Ground
+from ..declare.coordinates import RelativeCoordinate
 from ..declare.forces import JointForce
 from ..declare.geometry import FORWARD
+from ..declare.inputs import Input
 from ..declare.joints import Prismatic
 from ..declare.mechanism import Mechanism
 from ..declare.model import Model
-from .planar import flat, hinge, inertia, places
+from .planar import flat, hinge
 
 # A crank of 40 mm and a rod of 0.15 m, at the start with the crank along y.
 _ROD = 0.15
 _PISTON = math.sqrt(_ROD**2 - 0.04**2)
-_PLACES = {
-    "crank_bearing": ((0.0, 0.0), "hinge of the crank on the ground"),
-    "crank_pin": ((0.0, 0.04), "hinge of crank and rod"),
-    "piston_pin": ((_PISTON, 0.0), "hinge of rod and piston"),
-    "crank_com": ((0.0, 0.01), "centre of mass of the crank"),
-    "rod_com": ((0.3 * _PISTON, 0.028), "centre of mass of the rod"),
-    "piston_com": ((_PISTON, 0.0), "centre of mass of the piston"),
-}
+
+CRANK_BEARING = flat("crank_bearing", (0.0, 0.0), "hinge of the crank on the ground")
+CRANK_PIN = flat("crank_pin", (0.0, 0.04), "hinge of crank and rod")
+PISTON_PIN = flat("piston_pin", (_PISTON, 0.0), "hinge of rod and piston")
+CRANK_COM = flat("crank_com", (0.0, 0.01), "centre of mass of the crank")
+ROD_COM = flat("rod_com", (0.3 * _PISTON, 0.028), "centre of mass of the rod")
+PISTON_COM = flat("piston_com", (_PISTON, 0.0), "centre of mass of the piston")
+
+GROUND = Ground("ground")
+CRANK = Body("crank", 2.0, CRANK_COM, 3e-3)
+ROD = Body("rod", 0.6, ROD_COM, 2e-3)
+PISTON = Body("piston", 0.4, PISTON_COM)
+
+A = hinge("A", GROUND, CRANK, CRANK_BEARING)
+B = hinge("B", CRANK, ROD, CRANK_PIN)
+C = hinge("C", ROD, PISTON, PISTON_PIN)
+GUIDE = Prismatic("guide", GROUND, PISTON, direction=FORWARD)
 
 SLIDER_CRANK = Mechanism(
     name="slider_crank",
     title="Slider-crank",
-    bodies=(
-        Body("ground", 0, center=flat("crank_bearing")),
-        Body("crank", 1, center=flat("crank_com")),
-        Body("rod", 2, center=flat("rod_com")),
-        Body("piston", 3, center=flat("piston_com")),
-    ),
-    joints=(
-        hinge("A", "ground", "crank", "crank_bearing"),
-        hinge("B", "crank", "rod", "crank_pin"),
-        hinge("C", "rod", "piston", "piston_pin"),
-        Prismatic(name="guide", first="ground", second="piston", direction=FORWARD),
-    ),
-    forces=(JointForce(joint="A", input="crank_torque"),),
-    parameters=(
-        *places(_PLACES),
-        *inertia("crank", 2.0, 3e-3),
-        *inertia("rod", 0.6, 2e-3),
-        Parameter("piston_mass", 0.4, "kg", "mass of piston"),
-    ),
+    joints=(A, B, C, GUIDE),
+    forces=(JointForce(A, Input("crank_torque", "N m", "torque on the crank")),),
     coordinates=(
-        RelativeCoordinate("crank_angle", "A", "angle", "rad", "angle of the crank from the start"),
-        RelativeCoordinate("rod_angle", "B", "angle", "rad", "angle of the rod on the crank"),
-        RelativeCoordinate("piston_slide", "guide", "slide", "m", "slide of the piston along x"),
+        RelativeCoordinate("crank_angle", A, "angle of the crank from the start"),
+        RelativeCoordinate("rod_angle", B, "angle of the rod on the crank"),
+        RelativeCoordinate("piston_slide", GUIDE, "slide of the piston along x"),
     ),
-    inputs={"crank_torque": ("N m", "torque on the crank")},
 )
 
 MODELS = (
@@ -63,7 +56,7 @@ MODELS = (
         name="slider_crank",
         title="Slider-crank, one degree of freedom",
         mechanism=SLIDER_CRANK,
-        independent=("A",),
-        massive=("crank", "rod", "piston"),
+        independent=(A,),
+        massive=(CRANK, ROD, PISTON),
     ),
 )

@@ -24,6 +24,7 @@ from .plan import Plan
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
+    from ..declare.joints import Joint
     from ..declare.mechanism import Mechanism
 
 _SECONDS_TO_FIND = 20.0  # a mechanism with so many choices has one that its author would name
@@ -115,9 +116,10 @@ class Search:
         mechanism = model.mechanism
         self.mobility = Topology(mechanism).mobility - len(mechanism.idle_links)
         self.count = self.mobility - len(model.prescribed)
-        self.candidates = [n for n in _candidates(mechanism) if n not in model.prescribed]
-        forces = [f.joint for f in mechanism.forces if isinstance(f, JointForce)]
-        self._pushed = {name for name in forces if name not in model.prescribed}
+        given = model.motions
+        self.candidates = [j.name for j in _candidates(mechanism) if j.name not in given]
+        forces = [f.joint.name for f in mechanism.forces if isinstance(f, JointForce)]
+        self._pushed = {name for name in forces if name not in given}
         self._tried = 0
         self._nearest: tuple[tuple[str, ...], NoClosedFormError] | None = None
 
@@ -156,8 +158,9 @@ class Search:
             yield Proposal(independent, iterates=True)
 
     def model(self, independent: tuple[str, ...], *, allow_iteration: bool = False) -> Model:
-        """Return the model with some independent joints."""
-        return replace(self._model, independent=independent, allow_iteration=allow_iteration)
+        """Return the model with some independent joints, by their names."""
+        joints = tuple(map(self._model.mechanism.joint, independent))
+        return replace(self._model, independent=joints, allow_iteration=allow_iteration)
 
     def refusal(self) -> str:
         """Say why nothing was found, by the trial that came nearest, and what would help."""
@@ -226,15 +229,15 @@ def _bare(mechanism: Mechanism) -> Model:
         title=mechanism.title,
         mechanism=mechanism,
         independent=_candidates(mechanism),
-        massive=tuple(body.name for body in mechanism.bodies[1:]),
+        massive=mechanism.bodies[1:],
     )
 
 
-def _candidates(mechanism: Mechanism) -> tuple[str, ...]:
+def _candidates(mechanism: Mechanism) -> tuple[Joint, ...]:
     """Return the joints with one reported coordinate, those on the ground first."""
-    reported = {c.joint for c in mechanism.coordinates}
+    reported = {c.joint.name for c in mechanism.coordinates}
     joints = [
         j for j in mechanism.joints if isinstance(j, Revolute | Prismatic) and j.name in reported
     ]
     joints.sort(key=lambda joint: mechanism.ground not in joint.bodies)  # stable
-    return tuple(joint.name for joint in joints)
+    return tuple(joints)

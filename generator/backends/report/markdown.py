@@ -31,19 +31,19 @@ def table(header: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> str:
 
 def bodies_of(topology: Topology, cycle: Cycle) -> str:
     """Return a cycle as the numbers and names of its bodies."""
-    named = (f"{topology.mechanism.body(b).number} {b}" for b in cycle.bodies)
+    numbers = topology.mechanism.numbers
+    named = (f"{numbers[body]} {body}" for body in cycle.bodies)
     return " - ".join(named)
 
 
 def joint_rows(topology: Topology) -> list[tuple[str, ...]]:
     """Return the rows of the joint table (Table 1)."""
-    mechanism = topology.mechanism
+    mechanism, numbers = topology.mechanism, topology.mechanism.numbers
     return [
         (
             j.name,
             j.kind,
-            f"{mechanism.body(j.first).number} {j.first}",
-            f"{mechanism.body(j.second).number} {j.second}",
+            *(f"{numbers[body]} {body}" for body in j.bodies),
             str(j.freedoms),
             j.common,
         )
@@ -53,16 +53,14 @@ def joint_rows(topology: Topology) -> list[tuple[str, ...]]:
 
 def path_rows(topology: Topology) -> list[tuple[str, ...]]:
     """Return the rows of the table of shortest paths (Table 2), ties included."""
-    bodies = topology.mechanism.bodies
+    numbers = topology.mechanism.numbers
     rows = []
-    for start in bodies:
-        cells = [f"**{start.number}**"]
-        for end in bodies:
-            paths = topology.shortest_paths(start.name, end.name) if start != end else []
-            numbers = (
-                "".join(str(topology.mechanism.body(b).number) for b in path) for path in paths
-            )
-            cells.append(" or ".join(numbers) or "")
+    for start, number in numbers.items():
+        cells = [f"**{number}**"]
+        for end in numbers:
+            paths = topology.shortest_paths(start, end) if start != end else []
+            texts = ("".join(str(numbers[body]) for body in path) for path in paths)
+            cells.append(" or ".join(texts) or "")
         rows.append(tuple(cells))
     return rows
 
@@ -111,9 +109,10 @@ def block_diagram(topology: Topology, transformer: Transformer) -> str:
 
 def mermaid(topology: Topology) -> str:
     """Return the joint graph as a Mermaid diagram, which forges draw as a picture."""
-    bodies = [f'    {b.name}(["{b.number} {b.name}"])' for b in topology.mechanism.bodies]
+    numbers = topology.mechanism.numbers
+    bodies = [f'    {body}(["{number} {body}"])' for body, number in numbers.items()]
     joints = [
-        f'    {j.first} ---|"{j.name}: {j.kind}, {j.freedoms}"| {j.second}'
+        f'    {j.first.name} ---|"{j.name}: {j.kind}, {j.freedoms}"| {j.second.name}'
         for j in topology.mechanism.joints
     ]
     return "\n".join(["graph LR", *bodies, *joints])
@@ -166,7 +165,7 @@ def markdown(model: GeneratedModel) -> str:
             "An edge is as long as its joint has freedoms. Where several paths are equally short, "
             "all are listed."
         ),
-        table(("", *(str(b.number) for b in topology.mechanism.bodies)), path_rows(topology)),
+        table(("", *map(str, topology.mechanism.numbers.values())), path_rows(topology)),
         "## Cycles",
         (
             f"Horton's construction gives {len(topology.horton_candidates())} simple cycles with "

@@ -57,10 +57,10 @@ def draw(plan: Plan, path: Path, *, force: bool = False) -> None:
         )
     for index in range(len(plan.transformers)):
         _draw_loop(axes, positions, plan, index)
-    for body in mechanism.bodies:
+    for body, number in mechanism.numbers.items():
         axes.annotate(
-            f"{body.number} {body.name.replace('_', ' ')}",
-            positions[body.name],
+            f"{number} {body.replace('_', ' ')}",
+            positions[body],
             ha="center",
             va="center",
             fontsize=10,
@@ -89,7 +89,7 @@ def _draw_loop(
     shrink = 0.9
     xs = [center[0] + shrink * (c[0] - center[0]) for c in corners]
     ys = [center[1] + shrink * (c[1] - center[1]) for c in corners]
-    numbers = ", ".join(str(plan.model.mechanism.body(b).number) for b in cycle.bodies)
+    numbers = ", ".join(str(plan.model.mechanism.numbers[body]) for body in cycle.bodies)
     axes.plot(
         xs,
         ys,

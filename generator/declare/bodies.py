@@ -1,0 +1,178 @@
+"""Bodies: what moves and has mass, and the ground on which it stands."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import ClassVar
+
+from ..program.vectors import ELEMENTS
+from .declared import DeclarationError, Name, Number, Numeral, declared
+from .geometry import ORIGIN, Direction, Point
+from .parameters import (
+    Mass,
+    MomentOfInertia,
+    Owner,
+    Parameter,
+    ProductOfInertia,
+    next_order,
+)
+
+_DIAGONAL = ELEMENTS[:3]
+_MIRRORED = ("xy", "yz")  # products with y change their sign in the mirror
+
+
+@declared
+@dataclass(frozen=True)
+class Inertia(Owner):
+    """The inertia of a body about its centre of mass: named numbers of it.
+
+    Attributes
+    ----------
+    body
+        Name of the body.
+    given
+        Elements (`ELEMENTS` of the tensor; ``spin`` and ``diametral`` of a rotor), with defaults
+        [kg m^2] and meanings.
+    """
+
+    body: Name
+    given: tuple[tuple[str, Number, str], ...]
+
+    @cached_property
+    def numbers(self) -> tuple[Parameter, ...]:
+        """The elements."""
+        return tuple(
+            (ProductOfInertia if element in ELEMENTS[3:] else MomentOfInertia)(
+                f"{self.body}_inertia_{element}", value, meaning
+            )
+            for element, value, meaning in self.given
+        )
+
+    @property
+    def turned(self) -> tuple[int, ...]:
+        """The mirror is the plane y = 0."""
+        return tuple(-1 if element in _MIRRORED else 1 for element, *_ in self.given)
+
+
+@declared
+@dataclass(frozen=True)
+class Body:
+    """A rigid body.
+
+    Parameters
+    ----------
+    name
+        Begins the names of its parameters, ``<name>_mass`` and so on.
+    mass
+        Default [kg].
+    center
+        Centre of mass at the design position: a point, or its default place [m].
+    inertia
+        Default moments about the centre of mass, chassis axes at the design position [kg m^2]: xx,
+        yy, zz, and also xy, xz, yz where they are not zero. If the centre is in a plane, the one
+        about the normal of the plane; it may be left out of a body that does not turn.
+    """
+
+    name: Name
+    mass: Mass | Number
+    center: Point | tuple[Number, Number, Number]
+    inertia: Inertia | Number | tuple[Number, ...] = ()
+    order: int = field(default_factory=next_order, repr=False, compare=False, kw_only=True)
+
+    def __post_init__(self) -> None:
+        # in this order: it is that of the parameters
+        if not isinstance(self.mass, Mass):
+            what = self.name if self._normal else f"the {self.name}"
+            self._set("mass", Mass(f"{self.name}_mass", self.mass, f"mass of {what}"))
+        if not isinstance(self.center, Point):
+            meaning = f"centre of mass of the {self.name}"
+            self._set("center", Point(f"{self.name}_com", self.center, meaning))
+        if not isinstance(self.inertia, Inertia):
+            self._set("inertia", Inertia(self.name, self._elements()))
+
+    def _set(self, name: str, value: object) -> None:
+        object.__setattr__(self, name, value)
+
+    @property
+    def _normal(self) -> str:
+        """Axis across the plane of a planar body; nothing for others."""
+        return self.center.flat if isinstance(self.center, Point) else ""
+
+    def _elements(self) -> tuple[tuple[str, float, str], ...]:
+        given = self.inertia if isinstance(self.inertia, tuple) else (self.inertia,)
+        if self._normal:
+            names: tuple[str, ...] = (2 * self._normal,)
+            meaning = "inertia of {body} across the plane"
+            allowed = (0, 1)
+        else:
+            names, allowed = ELEMENTS, (0, 3, 6)
+            meaning = "{element} element of the inertia tensor of the {body}"
+        if len(given) not in allowed:
+            counts = " or ".join(str(n) for n in allowed if n)
+            problem = f"inertia has {len(given)} number(s); {counts} are needed"
+            raise DeclarationError(f"Body {self.name!r}", [problem])
+        if not self._normal:
+            given = (*given, *[0.0] * (len(ELEMENTS) - len(given)))
+        return tuple(
+            (element, value, meaning.format(element=element, body=self.name))
+            for element, value in zip(names, given, strict=False)
+        )
+
+    @property
+    def rotor_axis(self) -> Direction | None:
+        """The axis of a body of revolution that spins about a bearing; None for others."""
+        return None
+
+
+@declared
+@dataclass(frozen=True)
+class Rotor(Body):
+    """A body of revolution that spins about a bearing, such as a wheel.
+
+    Parameters
+    ----------
+    axis
+        Direction of its axis.
+    spin, diametral
+        Default moments of inertia about the axis and across it [kg m^2].
+    """
+
+    inertia: Inertia | None = field(default=None, kw_only=True)  # type: ignore[assignment]
+    axis: Direction = field(kw_only=True)
+    spin: Number = field(kw_only=True)
+    diametral: Number = field(kw_only=True)
+
+    turns_about: ClassVar[tuple[str, ...]] = ("axis",)
+
+    def _elements(self) -> tuple[tuple[str, float, str], ...]:
+        return (
+            ("spin", self.spin, f"inertia of the {self.name} about its spin axis"),
+            ("diametral", self.diametral, f"inertia of the {self.name} across its axis"),
+        )
+
+    @property
+    def rotor_axis(self) -> Direction:
+        """Its axis."""
+        return self.axis
+
+
+@declared
+@dataclass(frozen=True)
+class Ground(Body):
+    """The body that the others move on.
+
+    Parameters
+    ----------
+    number
+        Its number in the figure; the other bodies count on from it, in the order in which they were
+        written.
+    """
+
+    mass: Mass | Number = field(default=0.0, init=False)
+    center: Point = field(default=ORIGIN, init=False)
+    inertia: tuple[()] = field(default=(), init=False)
+    number: Numeral = 0
+
+    def __post_init__(self) -> None:
+        """It owns no parameters."""

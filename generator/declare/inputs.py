@@ -1,0 +1,65 @@
+"""What is given from outside as time goes on: forces, roads, motions of joints."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from .declared import DeclarationError, Name, declared
+
+
+@declared
+@dataclass(frozen=True)
+class Input:
+    """A number that varies in time and is given from outside.
+
+    Attributes
+    ----------
+    unit, meaning
+        For the documentation of the generated code.
+    derivative_of
+        The input whose rate this one is.
+    """
+
+    name: Name
+    unit: str
+    meaning: str
+    derivative_of: Any = None
+
+    def __post_init__(self) -> None:
+        source = self.derivative_of
+        if source is not None and not isinstance(source, Input):
+            problem = f"derivative_of is {source!r}; an Input is needed"
+            raise DeclarationError(f"Input {self.name!r}", [problem])
+
+
+@declared
+@dataclass(frozen=True)
+class Motion:
+    """The motion of a joint that is given from outside: three inputs.
+
+    Attributes
+    ----------
+    name
+        Begins the names of its inputs, ``<name>_position``, ``_velocity`` and ``_acceleration``.
+    unit
+        Of the position: m or rad.
+    position, velocity, acceleration
+        What the inputs mean; the latter two follow from the first if they are left out.
+    """
+
+    name: Name
+    unit: str
+    position: str
+    velocity: str = ""
+    acceleration: str = ""
+
+    @property
+    def inputs(self) -> tuple[Input, Input, Input]:
+        """Position, velocity and acceleration."""
+        name, unit = self.name, self.unit
+        rate = self.velocity or f"rate of the {self.position}"
+        change = self.acceleration or f"acceleration of the {self.position}"
+        position = Input(f"{name}_position", unit, self.position)
+        velocity = Input(f"{name}_velocity", f"{unit}/s", rate, position)
+        return position, velocity, Input(f"{name}_acceleration", f"{unit}/s^2", change, velocity)
