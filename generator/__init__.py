@@ -23,43 +23,59 @@ What a declaration is made of can be imported from here.
 """
 
 from . import memory  # noqa: F401 (before SymPy is imported)
-from .declare.bodies import Body, Ground, Rotor
-from .declare.composition import Copy, combined
-from .declare.coordinates import RelativeCoordinate
-from .declare.declared import DeclarationError
-from .declare.forces import (
+from .declare import (
+    FORWARD,
+    UP,
+    Actuator,
     AlongLine,
     AlongTelescope,
-    ForceElement,
-    JointForce,
-    LinearTyre,
-    TwistOfHinges,
-    Weight,
-)
-from .declare.geometry import FORWARD, UP, Direction, Line, Point
-from .declare.inputs import Input, Motion
-from .declare.joints import Cylindrical, Prismatic, Revolute, Spherical, Universal
-from .declare.laws import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
-from .declare.mechanism import Mechanism
-from .declare.model import Model
-from .declare.parameters import (
     Angle,
     AngularSpeed,
+    Body,
+    Copy,
+    Cylindrical,
     DamperRate,
+    DamperTable,
+    DeclarationError,
+    Direction,
     Displacement,
     Distance,
+    ForceElement,
     ForceLevel,
+    Friction,
     Gravity,
+    Ground,
+    Input,
+    Joint,
+    JointForce,
     Length,
+    Line,
+    LinearDamper,
+    LinearSpring,
+    LinearTyre,
+    Mechanism,
+    Model,
     MomentLevel,
+    Motion,
     Parameter,
+    Point,
+    Prismatic,
     Progression,
+    RelativeCoordinate,
+    Revolute,
+    Rotor,
     Share,
     Speed,
+    Spherical,
     SpringRate,
+    Stop,
     TorsionDamperRate,
     TorsionProgression,
     TorsionRate,
+    TwistOfHinges,
+    Universal,
+    Weight,
+    combined,
 )
 
 __all__ = [
@@ -85,6 +101,7 @@ __all__ = [
     "Gravity",
     "Ground",
     "Input",
+    "Joint",
     "JointForce",
     "Length",
     "Line",

@@ -1,1 +1,102 @@
 """What a person declares: bodies, joints, forces, laws, and models made of them."""
+
+from .bodies import Body, Ground, Rotor
+from .composition import Copy, combined
+from .declared import DeclarationError
+from .forces import (
+    AlongLine,
+    AlongTelescope,
+    ForceElement,
+    JointForce,
+    LinearTyre,
+    TwistOfHinges,
+    Weight,
+)
+from .geometry import FORWARD, UP, Direction, Line, Point
+from .inputs import Input, Motion
+from .joints import (
+    Cylindrical,
+    Joint,
+    Prismatic,
+    RelativeCoordinate,
+    Revolute,
+    Spherical,
+    Universal,
+)
+from .laws import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
+from .mechanism import Mechanism
+from .model import Model
+from .parameters import (
+    Angle,
+    AngularSpeed,
+    DamperRate,
+    Displacement,
+    Distance,
+    ForceLevel,
+    Gravity,
+    Length,
+    MomentLevel,
+    Parameter,
+    Progression,
+    Share,
+    Speed,
+    SpringRate,
+    TorsionDamperRate,
+    TorsionProgression,
+    TorsionRate,
+)
+
+__all__ = [
+    "FORWARD",
+    "UP",
+    "Actuator",
+    "AlongLine",
+    "AlongTelescope",
+    "Angle",
+    "AngularSpeed",
+    "Body",
+    "Copy",
+    "Cylindrical",
+    "DamperRate",
+    "DamperTable",
+    "DeclarationError",
+    "Direction",
+    "Displacement",
+    "Distance",
+    "ForceElement",
+    "ForceLevel",
+    "Friction",
+    "Gravity",
+    "Ground",
+    "Input",
+    "Joint",
+    "JointForce",
+    "Length",
+    "Line",
+    "LinearDamper",
+    "LinearSpring",
+    "LinearTyre",
+    "Mechanism",
+    "Model",
+    "MomentLevel",
+    "Motion",
+    "Parameter",
+    "Point",
+    "Prismatic",
+    "Progression",
+    "RelativeCoordinate",
+    "Revolute",
+    "Rotor",
+    "Share",
+    "Speed",
+    "Spherical",
+    "SpringRate",
+    "Stop",
+    "TorsionDamperRate",
+    "TorsionProgression",
+    "TorsionRate",
+    "TwistOfHinges",
+    "Universal",
+    "Weight",
+    "combined",
+]

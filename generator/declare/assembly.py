@@ -11,12 +11,11 @@ import sympy as sp
 
 from ...core.suggestions import suggestion
 from .bodies import Body, Ground
-from .coordinates import RelativeCoordinate
 from .declared import Name, declared, parts
 from .forces import Force, ForceElement, LinearTyre
 from .geometry import Point
 from .inputs import Input
-from .joints import Cylindrical, Joint, Spherical, Universal
+from .joints import Cylindrical, Joint, RelativeCoordinate, Spherical, Universal
 from .parameters import Owner, Parameter
 
 _ENDS = 2  # of a rod

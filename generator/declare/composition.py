@@ -17,17 +17,17 @@ both sides.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import fields, is_dataclass, replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..program.vectors import Vector
 from .bodies import Body, Ground
-from .coordinates import RelativeCoordinate
 from .declared import DeclarationError
 from .forces import Weight
 from .geometry import Direction, Line, Point
 from .inputs import Input, Motion
-from .joints import Joint, Revolute
+from .joints import Joint, RelativeCoordinate, Revolute
 from .mechanism import Mechanism
 from .parameters import Image, Owner, Parameter, next_order
 
@@ -115,6 +115,8 @@ class Copy:
         """
         if isinstance(thing, tuple):
             return tuple(map(self._copied, thing))
+        if isinstance(thing, Mapping):
+            return {self._copied(key): self._copied(value) for key, value in thing.items()}
         if isinstance(thing, Body):
             return self._bodies.get(thing) or self._body(thing)
         if not is_dataclass(thing) or isinstance(thing, type) or self._is_common(thing):

@@ -58,6 +58,9 @@ class Joint:
         """The point that stays common to both bodies whatever they do, if there is one."""
         return None
 
+    def _coordinate(self, kind: str, name: str, meaning: str) -> RelativeCoordinate:
+        return RelativeCoordinate(name, self, kind, meaning)
+
     def other(self, body: str) -> str:
         """Return the name of the body at the other side."""
         first, second = self.bodies
@@ -90,6 +93,10 @@ class Revolute(Joint):
     coordinates: ClassVar[tuple[str, ...]] = ("angle",)
     turns_about: ClassVar[tuple[str, ...]] = ("axis",)
 
+    def angle(self, name: Name, meaning: str) -> RelativeCoordinate:
+        """Report its angle [rad]."""
+        return self._coordinate("angle", name, meaning)
+
 
 @declared
 @dataclass(frozen=True)
@@ -106,6 +113,10 @@ class Prismatic(Joint):
     kind: ClassVar[str] = "prismatic"
     common: ClassVar[str] = "a direction, without rotation"
     coordinates: ClassVar[tuple[str, ...]] = ("slide",)
+
+    def slide(self, name: Name, meaning: str) -> RelativeCoordinate:
+        """Report its slide [m]."""
+        return self._coordinate("slide", name, meaning)
 
 
 @declared
@@ -131,6 +142,14 @@ class Cylindrical(Joint):
     kind: ClassVar[str] = "cylindrical"
     common: ClassVar[str] = "an axis"
     coordinates: ClassVar[tuple[str, ...]] = ("slide", "angle")
+
+    def slide(self, name: Name, meaning: str) -> RelativeCoordinate:
+        """Report its slide [m]."""
+        return self._coordinate("slide", name, meaning)
+
+    def angle(self, name: Name, meaning: str) -> RelativeCoordinate:
+        """Report its angle [rad]."""
+        return self._coordinate("angle", name, meaning)
 
 
 @declared
@@ -169,6 +188,14 @@ class Universal(Joint):
         """The centre of the cross."""
         return self.at
 
+    def azimuth(self, name: Name, meaning: str) -> RelativeCoordinate:
+        """Report the azimuth of its shaft [rad]."""
+        return self._coordinate("azimuth", name, meaning)
+
+    def elevation(self, name: Name, meaning: str) -> RelativeCoordinate:
+        """Report the elevation of its shaft [rad]."""
+        return self._coordinate("elevation", name, meaning)
+
 
 @declared
 @dataclass(frozen=True)
@@ -185,3 +212,27 @@ class Spherical(Joint):
     def center(self) -> Point:
         """The centre of the ball."""
         return self.at
+
+
+@declared
+@dataclass(frozen=True)
+class RelativeCoordinate:
+    """A relative coordinate of the report, such as the paper's beta2: see the methods of joints.
+
+    Attributes
+    ----------
+    joint, kind
+        Whose coordinate it is, and which of them.
+    meaning
+        For the documentation of the generated code.
+    """
+
+    name: Name
+    joint: Joint
+    kind: str
+    meaning: str
+
+    @property
+    def unit(self) -> str:
+        """Of its value."""
+        return "m" if self.kind == "slide" else "rad"

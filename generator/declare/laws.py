@@ -58,7 +58,7 @@ class Stretch:
 
 
 @declared
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class LinearSpring:
     """Force ``rate (slide - free_slide)``, or ``rate (free_length - length)``.
 
@@ -91,7 +91,7 @@ class LinearSpring:
 
 
 @declared
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class LinearDamper:
     """Force ``-rate velocity``.
 
@@ -184,7 +184,7 @@ class DamperTable(Owner):
 
 
 @declared
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Friction:
     """Coulomb friction, regularised: ``-force velocity / sqrt(velocity^2 + speed^2)``.
 
@@ -253,7 +253,7 @@ class Stop:
 
 
 @declared
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class Actuator:
     """A force that is given from outside.
 

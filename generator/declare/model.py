@@ -37,7 +37,7 @@ class Model:
     prescribed
         The joints whose coordinates are given, with their motion.
     massive
-        Bodies whose inertia enters the equations.
+        Bodies whose inertia enters the equations; all that move, if nothing is said.
     held
         Variants of the right-hand side: name to the prescribed joints that stand still in it.
     allow_iteration
@@ -49,12 +49,14 @@ class Model:
     title: str
     mechanism: Mechanism
     independent: tuple[Joint, ...]
-    massive: tuple[Body, ...]
+    massive: tuple[Body, ...] = None  # type: ignore[assignment]  # below
     prescribed: Mapping[Joint, Motion] = field(default_factory=dict)
     held: Mapping[Name, tuple[Joint, ...]] = field(default_factory=dict)
     allow_iteration: bool = False
 
     def __post_init__(self) -> None:
+        if self.massive is None:
+            object.__setattr__(self, "massive", self.mechanism.bodies[1:])
         _check(self)
 
     @property

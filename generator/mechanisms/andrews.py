@@ -10,14 +10,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from ..declare.bodies import Body, Ground
-from ..declare.coordinates import RelativeCoordinate
-from ..declare.forces import AlongLine, ForceElement, JointForce
-from ..declare.inputs import Input
-from ..declare.laws import LinearSpring
-from ..declare.mechanism import Mechanism
-from ..declare.model import Model
-from ..declare.parameters import Length, SpringRate
+from .. import declare as d
 from .planar import flat, hinge
 
 _DIGITS = 40  # so that defaults are rounded once, on every machine alike
@@ -93,9 +86,9 @@ def _places() -> dict[str, tuple[sp.Expr, sp.Expr]]:
 
 POINTS = {name: flat(name, (float(x), float(y)), name) for name, (x, y) in _places().items()}
 
-GROUND = Ground("ground")
+GROUND = d.Ground("ground")
 K1, K2, K3, K4, K5, K6, K7 = BODIES = tuple(
-    Body(f"k{i}", float(mass), POINTS[f"k{i}_com"], float(moment))
+    d.Body(f"k{i}", float(mass), POINTS[f"k{i}_com"], float(moment))
     for i, (mass, moment) in enumerate(zip(MASSES, INERTIAS, strict=True), 1)
 )
 
@@ -107,12 +100,12 @@ A_5 = hinge("A_5", GROUND, K5, POINTS["pivot_a"])
 KNEE_36 = hinge("knee_36", K3, K6, POINTS["knee"])
 A_7 = hinge("A_7", GROUND, K7, POINTS["pivot_a"])
 
-SPRING = LinearSpring(
-    rate=SpringRate("spring_rate", 4530.0, "rate of the spring (c0)"),
-    free_length=Length("spring_free_length", 0.07785, "free length of the spring (l0)"),
+SPRING = d.LinearSpring(
+    rate=d.SpringRate("spring_rate", 4530.0, "rate of the spring (c0)"),
+    free_length=d.Length("spring_free_length", 0.07785, "free length of the spring (l0)"),
 )
 
-SQUEEZER = Mechanism(
+SQUEEZER = d.Mechanism(
     name="andrews",
     title="Andrews' squeezer mechanism",
     joints=(
@@ -128,28 +121,28 @@ SQUEEZER = Mechanism(
         A_7,
     ),
     forces=(
-        ForceElement(
+        d.ForceElement(
             "spring",
-            AlongLine((GROUND, POINTS["spring_ground"]), (K3, POINTS["spring_body"])),
+            d.AlongLine((GROUND, POINTS["spring_ground"]), (K3, POINTS["spring_body"])),
             (SPRING,),
         ),
-        JointForce(
-            O, Input("drive_torque", "N m", "torque on the crank; 0.033 N m in the test set")
+        d.JointForce(
+            O, d.Input("drive_torque", "N m", "torque on the crank; 0.033 N m in the test set")
         ),
     ),
     coordinates=(
-        RelativeCoordinate("beta", O, "angle of the crank from the start"),
-        RelativeCoordinate("theta", CRANK_PIN, "angle of body 2 on the crank"),
-        RelativeCoordinate("gamma", B, "angle of body 3 from the start"),
-        RelativeCoordinate("delta", A_5, "angle of body 5 from the start"),
-        RelativeCoordinate("epsilon", A_7, "angle of body 7 from the start"),
-        RelativeCoordinate("knee_34", KNEE_34, "angle of body 4 on body 3"),
-        RelativeCoordinate("knee_36", KNEE_36, "angle of body 6 on body 3"),
+        O.angle("beta", "angle of the crank from the start"),
+        CRANK_PIN.angle("theta", "angle of body 2 on the crank"),
+        B.angle("gamma", "angle of body 3 from the start"),
+        A_5.angle("delta", "angle of body 5 from the start"),
+        A_7.angle("epsilon", "angle of body 7 from the start"),
+        KNEE_34.angle("knee_34", "angle of body 4 on body 3"),
+        KNEE_36.angle("knee_36", "angle of body 6 on body 3"),
     ),
 )
 
 MODELS = (
-    Model(
+    d.Model(
         name="andrews",
         title="Andrews' squeezer mechanism, driven by a torque on its crank",
         mechanism=SQUEEZER,

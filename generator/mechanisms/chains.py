@@ -13,18 +13,12 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from ..declare.assembly import Body, Parameter, RelativeCoordinate
-from ..declare.forces import JointForce, Weight
-from ..declare.geometry import Direction, Line, Point
-from ..declare.joints import Revolute
-from ..declare.mechanism import Mechanism
-from ..declare.model import Model
-from ..declare.parameters import direction, point, rigid_body
+from .. import declare as d
 
 Place = tuple[float, float, float]
 
 
-def ring(name: str, title: str, places: list[Place], axes: list[Place]) -> Model:
+def ring(name: str, title: str, places: list[Place], axes: list[Place]) -> d.Model:
     """Return a closed chain of hinges, each body hinged to the next and the last to the ground.
 
     Parameters
@@ -32,75 +26,41 @@ def ring(name: str, title: str, places: list[Place], axes: list[Place]) -> Model
     places, axes
         Of every hinge: a point, m, and a direction. The first hinge, on the ground, drives.
     """
-    links = [f"link_{i}" for i in range(1, len(places))]
-    hinges = [f"hinge_{i}" for i in range(len(places))]
-    bodies = ["ground", *links, "ground"]
+    ground = d.Ground("ground")
     middles = [
         tuple((a + b) / 2 for a, b in zip(one, two, strict=True)) for one, two in pairwise(places)
     ]
-    mechanism = Mechanism(
+    links = tuple(
+        d.Body(f"link_{i}", 0.8, (x, y, z), (0.002, 0.003, 0.004))
+        for i, (x, y, z) in enumerate(middles, 1)
+    )
+    points = [d.Point(f"place_{i}", at, f"point of hinge_{i}") for i, at in enumerate(places)]
+    along = [d.Direction(f"axis_{i}", to, f"axis of hinge_{i}") for i, to in enumerate(axes)]
+    hinges = tuple(
+        d.Revolute(f"hinge_{i}", *pair, axis=d.Line(points[i], along[i]))
+        for i, pair in enumerate(pairwise((ground, *links, ground)))
+    )
+    mechanism = d.Mechanism(
         name=name,
         title=title,
-        bodies=(
-            Body("ground", 0, center=Point("place_0")),
-            *(Body(link, i, center=Point(f"{link}_com")) for i, link in enumerate(links, 1)),
-        ),
-        joints=tuple(
-            Revolute(
-                name=hinge,
-                first=bodies[i],
-                second=bodies[i + 1],
-                axis=Line(Point(f"place_{i}"), Direction(f"axis_{i}")),
-            )
-            for i, hinge in enumerate(hinges)
-        ),
-        forces=(Weight(gravity="gravity"), JointForce(joint="hinge_0", input="torque")),
-        parameters=(
-            *(
-                p
-                for i, at in enumerate(places)
-                for p in point(f"place_{i}", at, f"point of hinge_{i}")
-            ),
-            *(
-                p
-                for i, to in enumerate(axes)
-                for p in direction(f"axis_{i}", to, f"axis of hinge_{i}")
-            ),
-            *(
-                parameter
-                for link, (x, y, z) in zip(links, middles, strict=True)
-                for parameter in rigid_body(link, 0.8, (x, y, z), (0.002, 0.003, 0.004))
-            ),
-            Parameter("gravity", 9.81, "m/s^2", "acceleration of gravity"),
+        joints=hinges,
+        forces=(
+            d.Weight(),
+            d.JointForce(hinges[0], d.Input("torque", "N m", "torque on the first link")),
         ),
         coordinates=tuple(
-            RelativeCoordinate(
-                f"{hinge}_angle",
-                hinge,
-                "angle",
-                "rad",
-                f"angle of {hinge} from the design position",
-            )
+            hinge.angle(f"{hinge.name}_angle", f"angle of {hinge.name} from the design position")
             for hinge in hinges
         ),
-        inputs={"torque": ("N m", "torque on the first link")},
     )
-    return Model(
+    return d.Model(
         name=name,
         title=title,
         mechanism=mechanism,
-        independent=("hinge_0",),
-        massive=tuple(links),
+        independent=hinges[:1],
+        massive=links,
         allow_iteration=True,
     )
-
-
-def _at(number: int, hinge: str, place: Place, axis: Place) -> list[Parameter]:
-    """Return the parameters of a hinge."""
-    return [
-        *point(f"place_{number}", place, f"point of {hinge}"),
-        *direction(f"axis_{number}", axis, f"axis of {hinge}"),
-    ]
 
 
 PLACES: list[Place] = [

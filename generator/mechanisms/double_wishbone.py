@@ -7,77 +7,72 @@ are this project's own: a front right corner, ISO 8855 axes, ground at z = 0.
 
 from __future__ import annotations
 
-from ..declare.bodies import Body, Ground, Rotor
-from ..declare.coordinates import RelativeCoordinate
-from ..declare.forces import AlongLine, ForceElement, JointForce, LinearTyre, Weight
-from ..declare.geometry import UP, Direction, Line, Point
-from ..declare.inputs import Input
-from ..declare.joints import Prismatic, Revolute, Spherical, Universal
-from ..declare.laws import Actuator, LinearDamper, LinearSpring
-from ..declare.mechanism import Mechanism
-from ..declare.model import Model
-from ..declare.parameters import DamperRate, Displacement, Length, SpringRate
+from .. import declare as d
 from .suspension import RACK_FORCE, RACK_MOTION, ROAD_HEIGHT
 
-LOWER_FRONT = Point("lower_arm_front", (0.16, -0.36, 0.20), "front bush of the lower arm")
-LOWER_REAR = Point("lower_arm_rear", (-0.20, -0.36, 0.19), "rear bush of the lower arm")
-UPPER_FRONT = Point("upper_arm_front", (0.12, -0.46, 0.51), "front bush of the upper arm")
-UPPER_REAR = Point("upper_arm_rear", (-0.14, -0.46, 0.49), "rear bush of the upper arm")
-LOWER_BALL_JOINT = Point("lower_ball_joint", (0.005, -0.72, 0.185), "lower ball joint")
-UPPER_BALL_JOINT = Point("upper_ball_joint", (-0.025, -0.67, 0.505), "upper ball joint")
-ROD_OUTER = Point("tie_rod_outer", (-0.13, -0.70, 0.26), "tie rod at the knuckle")
-ROD_INNER = Point("tie_rod_inner", (-0.14, -0.38, 0.265), "tie rod at the rack")
-SPRING_TOP = Point("spring_top", (-0.03, -0.50, 0.62), "upper seat of the spring, on the chassis")
-SPRING_SEAT = Point(
+LOWER_FRONT = d.Point("lower_arm_front", (0.16, -0.36, 0.20), "front bush of the lower arm")
+LOWER_REAR = d.Point("lower_arm_rear", (-0.20, -0.36, 0.19), "rear bush of the lower arm")
+UPPER_FRONT = d.Point("upper_arm_front", (0.12, -0.46, 0.51), "front bush of the upper arm")
+UPPER_REAR = d.Point("upper_arm_rear", (-0.14, -0.46, 0.49), "rear bush of the upper arm")
+LOWER_BALL_JOINT = d.Point("lower_ball_joint", (0.005, -0.72, 0.185), "lower ball joint")
+UPPER_BALL_JOINT = d.Point("upper_ball_joint", (-0.025, -0.67, 0.505), "upper ball joint")
+ROD_OUTER = d.Point("tie_rod_outer", (-0.13, -0.70, 0.26), "tie rod at the knuckle")
+ROD_INNER = d.Point("tie_rod_inner", (-0.14, -0.38, 0.265), "tie rod at the rack")
+SPRING_TOP = d.Point("spring_top", (-0.03, -0.50, 0.62), "upper seat of the spring, on the chassis")
+SPRING_SEAT = d.Point(
     "spring_seat", (-0.01, -0.60, 0.20), "lower seat of the spring, on the lower arm"
 )
-WHEEL_CENTER = Point("wheel_center", (0.0, -0.76, 0.3), "wheel centre")
-RACK_AXIS = Direction("rack_axis", (0.0, 1.0, 0.0), "direction of the rack")
-SPIN_AXIS = Direction("spin_axis", (0.0, 1.0, 0.0), "spin axis of the wheel, pointing left")
+WHEEL_CENTER = d.Point("wheel_center", (0.0, -0.76, 0.3), "wheel centre")
+RACK_AXIS = d.Direction("rack_axis", (0.0, 1.0, 0.0), "direction of the rack")
+SPIN_AXIS = d.Direction("spin_axis", (0.0, 1.0, 0.0), "spin axis of the wheel, pointing left")
 
-SPRING = LinearSpring(
-    rate=SpringRate("spring_rate", 60000.0, "rate of the spring"),
-    free_length=Length("spring_free_length", 0.53, "distance of the seats with the spring force-free"),
+SPRING = d.LinearSpring(
+    rate=d.SpringRate("spring_rate", 60000.0, "rate of the spring"),
+    free_length=d.Length(
+        "spring_free_length", 0.53, "distance of the seats with the spring force-free"
+    ),
 )
-DAMPER = LinearDamper(rate=DamperRate("damper_rate", 4000.0, "rate of the damper along the spring"))
-TYRE_RATE = SpringRate("tyre_rate", 200000.0, "radial rate of the tyre")
-TYRE_HEIGHT = Displacement(
+DAMPER = d.LinearDamper(
+    rate=d.DamperRate("damper_rate", 4000.0, "rate of the damper along the spring")
+)
+TYRE_RATE = d.SpringRate("tyre_rate", 200000.0, "radial rate of the tyre")
+TYRE_HEIGHT = d.Displacement(
     "tyre_free_height", 0.319, "height of the wheel centre at which the tyre is free of force"
 )
-WEIGHT = Weight()
+WEIGHT = d.Weight()
 
-CHASSIS = Ground("chassis", 1)
-LOWER_ARM = Body("lower_arm", 5.0, (-0.01, -0.5, 0.19), (0.06, 0.04, 0.09))
-KNUCKLE = Body("knuckle", 12.0, (-0.01, -0.71, 0.3), (0.15, 0.13, 0.06))
-TIE_ROD = Body("tie_rod", 0.0, (-0.135, -0.54, 0.2625))
-RACK = Body("rack", 0.0, (-0.14, -0.38, 0.265))
-UPPER_ARM = Body("upper_arm", 2.5, (-0.015, -0.55, 0.5), (0.015, 0.012, 0.025))
-WHEEL = Rotor("wheel", 22.0, WHEEL_CENTER, axis=SPIN_AXIS, spin=1.1, diametral=0.6)
+CHASSIS = d.Ground("chassis", 1)
+LOWER_ARM = d.Body("lower_arm", 5.0, (-0.01, -0.5, 0.19), (0.06, 0.04, 0.09))
+KNUCKLE = d.Body("knuckle", 12.0, (-0.01, -0.71, 0.3), (0.15, 0.13, 0.06))
+TIE_ROD = d.Body("tie_rod", 0.0, (-0.135, -0.54, 0.2625))
+RACK = d.Body("rack", 0.0, (-0.14, -0.38, 0.265))
+UPPER_ARM = d.Body("upper_arm", 2.5, (-0.015, -0.55, 0.5), (0.015, 0.012, 0.025))
+WHEEL = d.Rotor("wheel", 22.0, WHEEL_CENTER, axis=SPIN_AXIS, spin=1.1, diametral=0.6)
 
-LOWER_HINGE = Revolute(
+LOWER_HINGE = d.Revolute(
     "lower_hinge",
     CHASSIS,
     LOWER_ARM,
-    axis=Line(LOWER_REAR, LOWER_FRONT),
+    axis=d.Line(LOWER_REAR, LOWER_FRONT),
     angle_to=LOWER_BALL_JOINT,
 )
-LOWER_BALL = Spherical("lower_ball", LOWER_ARM, KNUCKLE, at=LOWER_BALL_JOINT)
-UPPER_BALL = Spherical("upper_ball", UPPER_ARM, KNUCKLE, at=UPPER_BALL_JOINT)
-UPPER_HINGE = Revolute("upper_hinge", CHASSIS, UPPER_ARM, axis=Line(UPPER_REAR, UPPER_FRONT))
-ROD_BALL = Spherical("rod_ball", KNUCKLE, TIE_ROD, at=ROD_OUTER)
-ROD_CROSS = Universal(
-    "rod_cross", RACK, TIE_ROD, at=ROD_INNER, shaft=Line(ROD_INNER, ROD_OUTER), first_axis=UP
+LOWER_BALL = d.Spherical("lower_ball", LOWER_ARM, KNUCKLE, at=LOWER_BALL_JOINT)
+UPPER_BALL = d.Spherical("upper_ball", UPPER_ARM, KNUCKLE, at=UPPER_BALL_JOINT)
+UPPER_HINGE = d.Revolute("upper_hinge", CHASSIS, UPPER_ARM, axis=d.Line(UPPER_REAR, UPPER_FRONT))
+ROD_BALL = d.Spherical("rod_ball", KNUCKLE, TIE_ROD, at=ROD_OUTER)
+ROD_CROSS = d.Universal(
+    "rod_cross", RACK, TIE_ROD, at=ROD_INNER, shaft=d.Line(ROD_INNER, ROD_OUTER), first_axis=d.UP
 )
-RACK_GUIDE = Prismatic("rack_guide", CHASSIS, RACK, direction=RACK_AXIS)
-BEARING = Revolute("bearing", KNUCKLE, WHEEL, axis=Line(WHEEL_CENTER, SPIN_AXIS))
+RACK_GUIDE = d.Prismatic("rack_guide", CHASSIS, RACK, direction=RACK_AXIS)
+BEARING = d.Revolute("bearing", KNUCKLE, WHEEL, axis=d.Line(WHEEL_CENTER, SPIN_AXIS))
 
-ACTUATOR = Actuator(
-    input=Input(
+ACTUATOR = d.Actuator(
+    input=d.Input(
         "spring_actuator", "N", "actuator force, positive when it pushes the spring's seats apart"
     )
 )
 
-DOUBLE_WISHBONE = Mechanism(
+DOUBLE_WISHBONE = d.Mechanism(
     name="double_wishbone",
     title="Double wishbone suspension with tie rod",
     joints=(
@@ -92,12 +87,12 @@ DOUBLE_WISHBONE = Mechanism(
     ),
     forces=(
         WEIGHT,
-        ForceElement(
+        d.ForceElement(
             "spring",
-            AlongLine((CHASSIS, SPRING_TOP), (LOWER_ARM, SPRING_SEAT)),
+            d.AlongLine((CHASSIS, SPRING_TOP), (LOWER_ARM, SPRING_SEAT)),
             (SPRING, DAMPER, ACTUATOR),
         ),
-        LinearTyre(
+        d.LinearTyre(
             name="front",
             carrier=KNUCKLE,
             center=WHEEL_CENTER,
@@ -106,30 +101,26 @@ DOUBLE_WISHBONE = Mechanism(
             free_height=TYRE_HEIGHT,
             road=ROAD_HEIGHT,
         ),
-        JointForce(RACK_GUIDE, RACK_FORCE),
+        d.JointForce(RACK_GUIDE, RACK_FORCE),
     ),
     coordinates=(
-        RelativeCoordinate(
+        LOWER_HINGE.angle(
             "arm_angle",
-            LOWER_HINGE,
             "angle of the lower arm from the chassis vertical; falls as the wheel rises",
         ),
-        RelativeCoordinate(
-            "spin_angle",
-            BEARING,
-            "wheel spin angle relative to the knuckle, positive rolling forward",
+        BEARING.angle(
+            "spin_angle", "wheel spin angle relative to the knuckle, positive rolling forward"
         ),
-        RelativeCoordinate(
+        UPPER_HINGE.angle(
             "upper_angle",
-            UPPER_HINGE,
             "angle of the upper arm from design, right-handed about its axis to the front",
         ),
-        RelativeCoordinate("rack_displacement", RACK_GUIDE, "rack displacement along its axis"),
+        RACK_GUIDE.slide("rack_displacement", "rack displacement along its axis"),
     ),
 )
 
 MODELS = (
-    Model(
+    d.Model(
         name="double_wishbone",
         title="Double wishbone suspension, rack prescribed",
         mechanism=DOUBLE_WISHBONE,

@@ -13,14 +13,7 @@ zero in the position of the table, with the arm upright and the bucket above the
 
 from __future__ import annotations
 
-from ..declare.bodies import Body, Ground
-from ..declare.coordinates import RelativeCoordinate
-from ..declare.forces import JointForce, Weight
-from ..declare.geometry import Direction, Point
-from ..declare.inputs import Input, Motion
-from ..declare.joints import Prismatic, Revolute
-from ..declare.mechanism import Mechanism
-from ..declare.model import Model
+from .. import declare as d
 from .planar import flat, hinge
 
 _PLACES = {
@@ -62,28 +55,32 @@ _MASSES = {  # kg, kg m^2
 }
 _POINTS = {name: flat(name, place, meaning, "y") for name, (place, meaning) in _PLACES.items()}
 _BODIES = {
-    name: Body(name, mass, _POINTS[f"{name}_com"], moment)
+    name: d.Body(name, mass, _POINTS[f"{name}_com"], moment)
     for name, (mass, moment) in _MASSES.items()
 }
-CHASSIS = Ground("chassis")
+CHASSIS = d.Ground("chassis")
 BOOM, ARM, ROCKER, LINK, BUCKET = (
     _BODIES[name] for name in ("boom", "arm", "rocker", "link", "bucket")
 )
 
 
-def _pin(name: str, first: Body, second: Body, at: str) -> Revolute:
+def _pin(name: str, first: d.Body, second: d.Body, at: str) -> d.Revolute:
     return hinge(name, first, second, _POINTS[at])
 
 
 def _cylinder(
-    name: str, base: Body, body: Body, rod_pin: str
-) -> tuple[Revolute, Prismatic, Revolute]:
+    name: str, base: d.Body, body: d.Body, rod_pin: str
+) -> tuple[d.Revolute, d.Prismatic, d.Revolute]:
     """Return the joints of a cylinder, its barrel on one body and its rod on another."""
-    barrel, rod, barrel_pin = _BODIES[f"{name}_barrel"], _BODIES[f"{name}_rod"], f"{name}_barrel_pin"
-    bore = Direction(f"{name}_bore", between=(_POINTS[barrel_pin], _POINTS[rod_pin]))
+    barrel, rod, barrel_pin = (
+        _BODIES[f"{name}_barrel"],
+        _BODIES[f"{name}_rod"],
+        f"{name}_barrel_pin",
+    )
+    bore = d.Direction(f"{name}_bore", between=(_POINTS[barrel_pin], _POINTS[rod_pin]))
     return (
         _pin(f"{name}_barrel_hinge", base, barrel, barrel_pin),
-        Prismatic(f"{name}_bore", barrel, rod, direction=bore),
+        d.Prismatic(f"{name}_bore", barrel, rod, direction=bore),
         _pin(f"{name}_rod_hinge", rod, body, rod_pin),
     )
 
@@ -113,13 +110,13 @@ JOINTS = (
 )
 
 
-def _angle(name: str, joint: Revolute, what: str) -> RelativeCoordinate:
-    return RelativeCoordinate(name, joint, f"{what}, from the start")
+def _angle(name: str, joint: d.Revolute, what: str) -> d.RelativeCoordinate:
+    return joint.angle(name, f"{what}, from the start")
 
 
 COORDINATES = (
     *(
-        RelativeCoordinate(f"{c}_stroke", bore, f"stroke of the {c} cylinder, from the start")
+        bore.slide(f"{c}_stroke", f"stroke of the {c} cylinder, from the start")
         for c, bore in BORES.items()
     ),
     _angle("boom_angle", BOOM_HINGE, "angle of the boom on the chassis, positive down"),
@@ -132,18 +129,18 @@ COORDINATES = (
         for c, (foot, *_) in CYLINDERS.items()
     ),
 )
-WEIGHT = Weight()
+WEIGHT = d.Weight()
 
-EXCAVATOR = Mechanism(
+EXCAVATOR = d.Mechanism(
     name="excavator",
     title="Planar excavator",
     joints=JOINTS,
     forces=(
         WEIGHT,
         *(
-            JointForce(
+            d.JointForce(
                 bore,
-                Input(f"{c}_force", "N", f"force of the {c} cylinder, positive when it extends"),
+                d.Input(f"{c}_force", "N", f"force of the {c} cylinder, positive when it extends"),
             )
             for c, bore in BORES.items()
         ),
@@ -153,10 +150,10 @@ EXCAVATOR = Mechanism(
 
 _EYE = flat("hook", (7.05, 1.55), "eye on the back of the bucket that the load hangs from", "y")
 _LOAD_COM = flat("load_com", (7.05, 0.35), "centre of mass of the load", "y")
-LOAD = Body("load", 1500.0, _LOAD_COM, 300.0)
+LOAD = d.Body("load", 1500.0, _LOAD_COM, 300.0)
 HOOK = hinge("hook", BUCKET, LOAD, _EYE)
 
-LIFTING = Mechanism(
+LIFTING = d.Mechanism(
     name="excavator_lifting",
     title="Planar excavator that lifts a load on a hook",
     joints=(*JOINTS, HOOK),
@@ -165,20 +162,20 @@ LIFTING = Mechanism(
 )
 
 MODELS = (
-    Model(
+    d.Model(
         name="excavator",
         title="Planar excavator, three degrees of freedom, moved by the forces of its cylinders",
         mechanism=EXCAVATOR,
         independent=tuple(BORES.values()),
         massive=tuple(_BODIES.values()),
     ),
-    Model(
+    d.Model(
         name="excavator_lifting",
         title="Planar excavator, strokes prescribed, with a load that swings on its bucket",
         mechanism=LIFTING,
         independent=(HOOK,),
         prescribed={
-            bore: Motion(f"{c}_stroke", "m", f"stroke of the {c} cylinder, from the start")
+            bore: d.Motion(f"{c}_stroke", "m", f"stroke of the {c} cylinder, from the start")
             for c, bore in BORES.items()
         },
         massive=(LOAD,),

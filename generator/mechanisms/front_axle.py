@@ -11,51 +11,40 @@ arm held by a rod.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
-from ..declare.bodies import Body
-from ..declare.composition import Copy, combined
-from ..declare.coordinates import RelativeCoordinate
-from ..declare.forces import ForceElement, TwistOfHinges
-from ..declare.geometry import FORWARD, Direction, Line, Point
-from ..declare.joints import Revolute, Spherical, Universal
-from ..declare.laws import LinearSpring
-from ..declare.model import Model
-from ..declare.parameters import Angle, TorsionRate
+from .. import declare as d
 from . import macpherson
 from .macpherson import ARM, CHASSIS, HG, KNUCKLE, OA, WHEEL, Y
 from .suspension import RACK_FORCE, RACK_MOTION
 
-if TYPE_CHECKING:
-    from ..declare.mechanism import Mechanism
+BAR_BUSH = d.Point("bar_bush", (0.24, -0.4, 0.32), "bush of the bar's half, on its axis")
+BAR_AXIS = d.Direction("bar_axis", (0.0, 1.0, 0.0), "axis of the bar in its bush, pointing left")
+LINK_TOP = d.Point("link_top", (0.03, -0.58, 0.33), "drop link at the bar")
+LINK_FOOT = d.Point("link_foot", (0.03, -0.58, 0.2), "drop link at the control arm")
 
-BAR_BUSH = Point("bar_bush", (0.24, -0.4, 0.32), "bush of the bar's half, on its axis")
-BAR_AXIS = Direction("bar_axis", (0.0, 1.0, 0.0), "axis of the bar in its bush, pointing left")
-LINK_TOP = Point("link_top", (0.03, -0.58, 0.33), "drop link at the bar")
-LINK_FOOT = Point("link_foot", (0.03, -0.58, 0.2), "drop link at the control arm")
+BAR = d.Body("bar", 0.0, (0.24, -0.3, 0.32))
+DROP_LINK = d.Body("drop_link", 0.0, (0.03, -0.58, 0.265))
 
-BAR = Body("bar", 0.0, (0.24, -0.3, 0.32))
-DROP_LINK = Body("drop_link", 0.0, (0.03, -0.58, 0.265))
-
-BAR_HINGE = Revolute("bar_hinge", CHASSIS, BAR, axis=Line(BAR_BUSH, BAR_AXIS))
-LINK_BALL = Spherical("link_ball", BAR, DROP_LINK, at=LINK_TOP)
-LINK_CROSS = Universal(
-    "link_cross", ARM, DROP_LINK, at=LINK_FOOT, shaft=Line(LINK_FOOT, LINK_TOP), first_axis=FORWARD
+BAR_HINGE = d.Revolute("bar_hinge", CHASSIS, BAR, axis=d.Line(BAR_BUSH, BAR_AXIS))
+LINK_BALL = d.Spherical("link_ball", BAR, DROP_LINK, at=LINK_TOP)
+LINK_CROSS = d.Universal(
+    "link_cross",
+    ARM,
+    DROP_LINK,
+    at=LINK_FOOT,
+    shaft=d.Line(LINK_FOOT, LINK_TOP),
+    first_axis=d.FORWARD,
 )
-BAR_ANGLE = RelativeCoordinate(
-    "bar_angle",
-    BAR_HINGE,
-    "angle of the bar's half from design, right-handed about its axis to the left",
+BAR_ANGLE = BAR_HINGE.angle(
+    "bar_angle", "angle of the bar's half from design, right-handed about its axis to the left"
 )
-BAR_SPRING = LinearSpring(
-    rate=TorsionRate("bar_rate", 1000.0, "rate of the anti-roll bar between its arms"),
-    free_length=Angle(
-        "bar_free_angle", 0.0, "twist at which the bar is free, left less right"
-    ),
+BAR_SPRING = d.LinearSpring(
+    rate=d.TorsionRate("bar_rate", 1000.0, "rate of the anti-roll bar between its arms"),
+    free_length=d.Angle("bar_free_angle", 0.0, "twist at which the bar is free, left less right"),
 )
 
 
-def side() -> Mechanism:
+def side() -> d.Mechanism:
     """Return the right side: the paper's suspension with half an anti-roll bar."""
     strut = macpherson.mechanism()
     return replace(
@@ -66,32 +55,32 @@ def side() -> Mechanism:
     )
 
 
-def sides(declared: Mechanism) -> tuple[Copy, Copy]:
+def sides(declared: d.Mechanism) -> tuple[d.Copy, d.Copy]:
     """Return a suspension of the right side and its mirror image, on one rack."""
     shared = (macpherson.RACK, RACK_FORCE)
     return (
-        Copy(declared, "right_", shared=shared),
-        Copy(declared, "left_", mirrored=True, shared=shared),
+        d.Copy(declared, "right_", shared=shared),
+        d.Copy(declared, "left_", mirrored=True, shared=shared),
     )
 
 
-def mechanism() -> Mechanism:
+def mechanism() -> d.Mechanism:
     """Return the axle with its anti-roll bar."""
     right, left = sides(side())
-    bar = ForceElement(
-        "bar", TwistOfHinges(right.of(BAR_HINGE), left.of(BAR_HINGE)), (BAR_SPRING,)
+    bar = d.ForceElement(
+        "bar", d.TwistOfHinges(right.of(BAR_HINGE), left.of(BAR_HINGE)), (BAR_SPRING,)
     )
     title = "Front axle: two MacPherson suspensions, anti-roll bar"
-    return combined("front_axle", title, (right, left), forces=(bar,))
+    return d.combined("front_axle", title, (right, left), forces=(bar,))
 
 
-def without_bar() -> Mechanism:
+def without_bar() -> d.Mechanism:
     """Return the axle without an anti-roll bar."""
     title = "Front axle: two MacPherson suspensions"
-    return combined("front_axle", title, sides(macpherson.mechanism()))
+    return d.combined("front_axle", title, sides(macpherson.mechanism()))
 
 
-def model(declared: Mechanism, massive: tuple[Body, ...] = (ARM, KNUCKLE, WHEEL)) -> Model:
+def model(declared: d.Mechanism, massive: tuple[d.Body, ...] = (ARM, KNUCKLE, WHEEL)) -> d.Model:
     """Return the equations of an axle with prescribed rack.
 
     Parameters
@@ -102,7 +91,7 @@ def model(declared: Mechanism, massive: tuple[Body, ...] = (ARM, KNUCKLE, WHEEL)
         Bodies of a side that have mass; the bar may be one of them.
     """
     both = ("right_", "left_")
-    return Model(
+    return d.Model(
         name=declared.name,
         title=declared.title + "; rack prescribed",
         mechanism=declared,

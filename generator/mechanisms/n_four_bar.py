@@ -8,62 +8,47 @@ pass.
 
 from __future__ import annotations
 
-from ..declare.assembly import Body, Parameter, RelativeCoordinate
-from ..declare.forces import JointForce, Weight
-from ..declare.mechanism import Mechanism
-from ..declare.model import Model
-from .planar import flat, hinge, inertia
+from .. import declare as d
+from .planar import flat, hinge
 
 
-def _bar(name: str, x: float, z: float) -> list[Parameter]:
-    """Return the parameters of a slender bar of 1 kg and 1 m, its centre at a given place."""
-    return [
-        Parameter(f"{name}_com_x", x, "m", f"centre of {name}, x"),
-        Parameter(f"{name}_com_z", z, "m", f"centre of {name}, z"),
-        *inertia(name, 1.0, 1.0 / 12.0, "y"),
-    ]
+def _bar(name: str, x: float, z: float) -> d.Body:
+    """Return a slender bar of 1 kg and 1 m, its centre at a given place."""
+    return d.Body(name, 1.0, flat(f"{name}_com", (x, z), f"centre of {name}", "y"), 1.0 / 12.0)
 
 
-def n_four_bar(count: int) -> Model:
+def n_four_bar(count: int) -> d.Model:
     """Return the chain of some number of four-bar linkages."""
-    rockers = [f"rocker_{i}" for i in range(count + 1)]
-    couplers = [f"coupler_{i}" for i in range(1, count + 1)]
-    bodies = [Body("ground", 0, center=flat("base_0", "y"))]
-    joints = [hinge("crank", "ground", rockers[0], "base_0", "y")]
-    parameters: list[Parameter] = []
-    for i, name in enumerate(rockers):
-        bodies.append(Body(name, len(bodies), center=flat(f"{name}_com", "y")))
-        parameters += [
-            Parameter(f"base_{i}_x", float(i), "m", f"hinge of {name} on the ground, x"),
-            Parameter(f"base_{i}_z", 0.0, "m", f"hinge of {name} on the ground, z"),
-            Parameter(f"top_{i}_x", float(i), "m", f"upper end of {name}, x"),
-            Parameter(f"top_{i}_z", 1.0, "m", f"upper end of {name}, z"),
-            *_bar(name, float(i), 0.5),
-        ]
-    for i, name in enumerate(couplers, 1):
-        bodies.append(Body(name, len(bodies), center=flat(f"{name}_com", "y")))
-        parameters += _bar(name, i - 0.5, 1.0)
+    ground = d.Ground("ground")
+    rockers, feet, tops = [], [], []
+    for i in range(count + 1):
+        name = f"rocker_{i}"
+        feet.append(flat(f"base_{i}", (float(i), 0.0), f"hinge of {name} on the ground", "y"))
+        tops.append(flat(f"top_{i}", (float(i), 1.0), f"upper end of {name}", "y"))
+        rockers.append(_bar(name, float(i), 0.5))
+    couplers = [_bar(f"coupler_{i}", i - 0.5, 1.0) for i in range(1, count + 1)]
+    crank = hinge("crank", ground, rockers[0], feet[0])
+    joints = [crank]
+    for i, coupler in enumerate(couplers, 1):
         joints += [
-            hinge(f"left_{i}", rockers[i - 1], name, f"top_{i - 1}", "y"),
-            hinge(f"right_{i}", name, rockers[i], f"top_{i}", "y"),
-            hinge(f"foot_{i}", "ground", rockers[i], f"base_{i}", "y"),
+            hinge(f"left_{i}", rockers[i - 1], coupler, tops[i - 1]),
+            hinge(f"right_{i}", coupler, rockers[i], tops[i]),
+            hinge(f"foot_{i}", ground, rockers[i], feet[i]),
         ]
-    mechanism = Mechanism(
+    mechanism = d.Mechanism(
         name=f"four_bars_{count}",
         title=f"Chain of {count} four-bar linkages",
-        bodies=tuple(bodies),
         joints=tuple(joints),
-        forces=(Weight(gravity="gravity"), JointForce(joint="crank", input="crank_torque")),
-        parameters=(*parameters, Parameter("gravity", 9.81, "m/s^2", "acceleration of gravity")),
-        coordinates=(
-            RelativeCoordinate("crank_angle", "crank", "angle", "rad", "angle from upright"),
+        forces=(
+            d.Weight(),
+            d.JointForce(crank, d.Input("crank_torque", "N m", "torque on the first rocker")),
         ),
-        inputs={"crank_torque": ("N m", "torque on the first rocker")},
+        coordinates=(crank.angle("crank_angle", "angle from upright"),),
     )
-    return Model(
+    return d.Model(
         name=mechanism.name,
         title=mechanism.title,
         mechanism=mechanism,
-        independent=("crank",),
-        massive=tuple(b.name for b in bodies[1:]),
+        independent=(crank,),
+        massive=(*rockers, *couplers),
     )

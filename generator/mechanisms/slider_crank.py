@@ -4,18 +4,9 @@ The loop leaves one quadratic in the slide. By default the guide passes through 
 bearing; the points may be moved for an offset one.
 """
 
-from __future__ import annotations
-
 import math
 
-from ..declare.bodies import Body, Ground
-from ..declare.coordinates import RelativeCoordinate
-from ..declare.forces import JointForce
-from ..declare.geometry import FORWARD
-from ..declare.inputs import Input
-from ..declare.joints import Prismatic
-from ..declare.mechanism import Mechanism
-from ..declare.model import Model
+from .. import declare as d
 from .planar import flat, hinge
 
 # A crank of 40 mm and a rod of 0.15 m, at the start with the crank along y.
@@ -29,34 +20,26 @@ CRANK_COM = flat("crank_com", (0.0, 0.01), "centre of mass of the crank")
 ROD_COM = flat("rod_com", (0.3 * _PISTON, 0.028), "centre of mass of the rod")
 PISTON_COM = flat("piston_com", (_PISTON, 0.0), "centre of mass of the piston")
 
-GROUND = Ground("ground")
-CRANK = Body("crank", 2.0, CRANK_COM, 3e-3)
-ROD = Body("rod", 0.6, ROD_COM, 2e-3)
-PISTON = Body("piston", 0.4, PISTON_COM)
+GROUND = d.Ground("ground")
+CRANK = d.Body("crank", 2.0, CRANK_COM, 3e-3)
+ROD = d.Body("rod", 0.6, ROD_COM, 2e-3)
+PISTON = d.Body("piston", 0.4, PISTON_COM)
 
 A = hinge("A", GROUND, CRANK, CRANK_BEARING)
 B = hinge("B", CRANK, ROD, CRANK_PIN)
 C = hinge("C", ROD, PISTON, PISTON_PIN)
-GUIDE = Prismatic("guide", GROUND, PISTON, direction=FORWARD)
+GUIDE = d.Prismatic("guide", GROUND, PISTON, direction=d.FORWARD)
 
-SLIDER_CRANK = Mechanism(
+SLIDER_CRANK = d.Mechanism(
     name="slider_crank",
     title="Slider-crank",
     joints=(A, B, C, GUIDE),
-    forces=(JointForce(A, Input("crank_torque", "N m", "torque on the crank")),),
+    forces=(d.JointForce(A, d.Input("crank_torque", "N m", "torque on the crank")),),
     coordinates=(
-        RelativeCoordinate("crank_angle", A, "angle of the crank from the start"),
-        RelativeCoordinate("rod_angle", B, "angle of the rod on the crank"),
-        RelativeCoordinate("piston_slide", GUIDE, "slide of the piston along x"),
+        A.angle("crank_angle", "angle of the crank from the start"),
+        B.angle("rod_angle", "angle of the rod on the crank"),
+        GUIDE.slide("piston_slide", "slide of the piston along x"),
     ),
 )
 
-MODELS = (
-    Model(
-        name="slider_crank",
-        title="Slider-crank, one degree of freedom",
-        mechanism=SLIDER_CRANK,
-        independent=(A,),
-        massive=(CRANK, ROD, PISTON),
-    ),
-)
+MODELS = (d.Model("slider_crank", "Slider-crank, one degree of freedom", SLIDER_CRANK, (A,)),)
