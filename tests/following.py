@@ -70,9 +70,7 @@ class Follower:
         self._planes: list[tuple[int, int, Array, Array]] = []
         for joint in model.mechanism.joints:
             self._add(joint)
-        self._driven = [
-            model.mechanism.joint(name) for name in (*model.independent, *model.prescribed)
-        ]
+        self._driven = list(model.driven)
         start = [oracle.driven(self.motion, joint.name).value[0] for joint in self._driven]
         self.coordinates = self._design = np.array(start)
         for joint in self._driven:

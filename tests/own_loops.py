@@ -24,12 +24,12 @@ from own_mechanisms import (
 
 if TYPE_CHECKING:
     from kintrafo.generator import Model
-    from kintrafo.generator.declare.joints import Joint
+    from own_mechanisms import Sketch
 
 BODIES = ["ground", "one", "two", "three", "four", "five", "six"]
 
 
-def in_a_ring(count: int) -> tuple[Joint, ...]:
+def in_a_ring(count: int) -> tuple[Sketch, ...]:
     """Return hinges ``hinge_i`` between one body and the next, the last one at the ground again."""
     return tuple(
         hinge(f"hinge_{i}", BODIES[i], BODIES[(i + 1) % count], f"place_{i}", f"axis_{i}")
@@ -39,7 +39,7 @@ def in_a_ring(count: int) -> tuple[Joint, ...]:
 
 def ring(
     name: str,
-    joints: tuple[Joint, ...],
+    joints: tuple[Sketch, ...],
     places: list[Place],
     axes: list[Place],
     driven: str | None = None,
@@ -49,7 +49,8 @@ def ring(
     middles = {
         body: tuple((np.array(places[i]) + places[i + 1]) / 2) for i, body in enumerate(bodies)
     }
-    model = declare(
+    # one of them has a mass, and its accelerations depend on those of all: a third of the time
+    return declare(
         name,
         middles,
         joints,
@@ -61,9 +62,9 @@ def ring(
         {f"axis_{i}": axis for i, axis in enumerate(axes)},
         (driven or joints[0].name,),
         spring=("ground_top", "two_seat"),
+        massive=("two",),
+        allow_iteration=True,
     )
-    # one of them has a mass, and its accelerations depend on those of all: a third of the time
-    return replace(model, massive=("two",), allow_iteration=True)
 
 
 # -- one loop in space ----------------------------------------------------------------------------
@@ -199,7 +200,7 @@ PLATE_ON_A_SLOT = plate("plate_on_a_slot", "slot")
 PLATE_ON_A_PIN = plate("plate_on_a_pin", "plate_pin")
 
 
-def _rod(name: str, first: str, second: str, axis: str) -> tuple[Joint, Joint]:
+def _rod(name: str, first: str, second: str, axis: str) -> tuple[Sketch, Sketch]:
     """Return the joints of a rod: a cross and a ball joint."""
     return (
         cross(f"{name}_cross", first, name, f"{name}_start", f"{name}_end", axis),
@@ -358,7 +359,7 @@ def planar(
         for body in (first, second):
             places.setdefault(body, []).append(at)
     body, end = seat
-    model = declare(
+    return declare(
         name,
         {b: askew(*np.mean(p, axis=0), 0.01) for b, p in places.items() if b != "ground"},
         tuple(hinge(n, one, two, f"{n}_at", "normal") for n, one, two, _ in hinges),
@@ -370,8 +371,9 @@ def planar(
         {"normal": NORMAL},
         driven,
         spring=("ground_top", f"{body}_seat"),
+        massive=(body,),
+        allow_iteration=True,
     )
-    return replace(model, massive=(body,), allow_iteration=True)
 
 
 FOUR_BAR_AT_ITS_KNEE = planar(

@@ -6,6 +6,7 @@ or slides itself, so that no term of a velocity or of a bias is zero by accident
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,85 +14,133 @@ from kintrafo.generator import (
     FORWARD,
     AlongLine,
     Body,
+    DamperRate,
     Direction,
     ForceElement,
+    Ground,
+    Input,
     JointForce,
+    Length,
     Line,
     LinearDamper,
     LinearSpring,
     Mechanism,
     Model,
-    Parameter,
+    Motion,
     Point,
     Prismatic,
-    RelativeCoordinate,
     Revolute,
+    Rotor,
     Spherical,
+    SpringRate,
     Universal,
     Weight,
-    direction,
-    point,
-    rotor,
 )
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from kintrafo.generator.declare.joints import Joint
+    from kintrafo.generator import Joint
 
 Place = tuple[float, float, float]
 
-INERTIA: dict[str, float] = {
-    "xx": 0.021,
-    "yy": 0.034,
-    "zz": 0.029,
-    "xy": 0.004,
-    "xz": -0.003,
-    "yz": 0.005,
-}
-"""Of every body, kg m^2; those of a body differ by its number."""
+INERTIA = (0.021, 0.034, 0.029, 0.004, -0.003, 0.005)
+"""Of every body, kg m^2: xx, yy, zz, xy, xz, yz; those of a body differ by its number."""
 
 
-def hinge(
-    name: str, first: str, second: str, at: str, along: str, to: str | None = None
-) -> Revolute:
+@dataclass(frozen=True)
+class Parts:
+    """Bodies, points and directions of a mechanism by their names."""
+
+    bodies: Mapping[str, Body]
+    points: Mapping[str, Point]
+    directions: Mapping[str, Direction]
+
+
+@dataclass(frozen=True)
+class Sketch:
+    """A joint as a table has it, by names.
+
+    Attributes
+    ----------
+    at, to
+        Points; the second one is what an angle counts to, or the far end of a rod.
+    along
+        A direction, or two points between which it is.
+    """
+
+    kind: type[Joint]
+    name: str
+    first: str
+    second: str
+    at: str = ""
+    along: str | tuple[str, str] = ""
+    to: str | None = None
+
+    def of(self, parts: Parts) -> Joint:
+        """Return the joint between bodies of a mechanism."""
+        named = self.name, parts.bodies[self.first], parts.bodies[self.second]
+        at = parts.points.get(self.at)
+        to = None if self.to is None else parts.points[self.to]
+        if self.kind is Spherical:
+            return Spherical(*named, at)
+        along = self._direction(parts)
+        if self.kind is Prismatic:
+            return Prismatic(*named, along)
+        if self.kind is Universal:
+            return Universal(*named, at, shaft=Line(at, to), first_axis=along)
+        return Revolute(*named, Line(at, along), angle_from=FORWARD, angle_to=to)
+
+    def _direction(self, parts: Parts) -> Direction:
+        if isinstance(self.along, str):
+            return parts.directions[self.along]
+        start, end = (parts.points[name] for name in self.along)
+        return Direction("_".join(self.along), between=(start, end))
+
+
+def hinge(name: str, first: str, second: str, at: str, along: str, to: str | None = None) -> Sketch:
     """Return a hinge through a point along a direction, both of them parameters.
 
     Its angle counts from the design position, or from forward to a point.
     """
-    axis = Line(Point(at), Direction(along))
-    mark = None if to is None else Point(to)
-    return Revolute(
-        name=name, first=first, second=second, axis=axis, angle_from=FORWARD, angle_to=mark
-    )
+    return Sketch(Revolute, name, first, second, at, along, to)
 
 
-def guide(name: str, first: str, second: str, along: str) -> Prismatic:
+def guide(name: str, first: str, second: str, along: str | tuple[str, str]) -> Sketch:
     """Return a guide along a direction."""
-    return Prismatic(name=name, first=first, second=second, direction=Direction(along))
+    return Sketch(Prismatic, name, first, second, along=along)
 
 
-def ball(name: str, first: str, second: str, at: str) -> Spherical:
+def ball(name: str, first: str, second: str, at: str) -> Sketch:
     """Return a ball joint at a point."""
-    return Spherical(name=name, first=first, second=second, at=Point(at))
+    return Sketch(Spherical, name, first, second, at)
 
 
-def cross(name: str, first: str, rod: str, at: str, to: str, axis: str) -> Universal:
+def cross(name: str, first: str, rod: str, at: str, to: str, axis: str) -> Sketch:
     """Return a universal joint that holds a rod at a point; the rod runs to another point."""
-    return Universal(
-        name=name,
-        first=first,
-        second=rod,
-        at=Point(at),
-        shaft=Line(Point(at), Point(to)),
-        first_axis=Direction(axis),
+    return Sketch(Universal, name, first, rod, at, axis, to)
+
+
+def reported(joints: Sequence[Joint]) -> tuple:
+    """Return the angles and slides of hinges and guides, named after their joints."""
+    return tuple(
+        (j.angle if isinstance(j, Revolute) else j.slide)(
+            f"{j.name}_{j.coordinates[0]}", f"{j.coordinates[0]} of {j.name}"
+        )
+        for j in joints
+        if isinstance(j, Revolute | Prismatic)
     )
+
+
+def motion_of(joint: Joint, name: str) -> Motion:
+    """Return a prescribed motion of a joint."""
+    return Motion(name, "m" if isinstance(joint, Prismatic) else "rad", f"position of {name}")
 
 
 def declare(
     name: str,
     bodies: Mapping[str, Place],
-    joints: Sequence[Joint],
+    joints: Sequence[Sketch],
     points: Mapping[str, Place],
     directions: Mapping[str, Place],
     independent: tuple[str, ...],
@@ -99,6 +148,7 @@ def declare(
     spring: tuple[str, str],
     prescribed: Mapping[str, str] | None = None,
     wheel: tuple[str, Place] | None = None,
+    **more: object,
 ) -> Model:
     """Return a model with weight, a spring with a damper, and a force on every coordinate.
 
@@ -110,89 +160,67 @@ def declare(
         Two points; each is taken with the body whose name begins its own.
     wheel
         Name of a rotor among the bodies, with the direction of its axis.
+    more
+        Of the model; bodies with mass by their names.
     """
-    prescribed = prescribed or {}
-    centers = {f"{body}_com": place for body, place in bodies.items()}
-    directions = dict(directions) | ({"spin": wheel[1]} if wheel else {})
-    spinning = {wheel[0]: Direction("spin")} if wheel else {}
-    seats = tuple((p.split("_", maxsplit=1)[0], Point(p)) for p in spring)
-    reported = [j for j in joints if isinstance(j, Revolute | Prismatic)]
-    parameters = [
-        *(entry for n, place in {**points, **centers}.items() for entry in point(n, place, n)),
-        *(entry for n, along in directions.items() for entry in direction(n, along, n)),
-        *(
-            entry
-            for number, body in enumerate(bodies, 1)
-            for entry in (rotor(body, 1.5, 0.03, 0.02) if body in spinning else mass(body, number))
+    parts = _parts(bodies, points, directions, wheel)
+    built = tuple(sketch.of(parts) for sketch in joints)
+    named = {joint.name: joint for joint in built}
+    seats = ((parts.bodies[p.split("_", maxsplit=1)[0]], parts.points[p]) for p in spring)
+    laws = (
+        LinearSpring(
+            SpringRate("spring_rate", 300.0, "rate of the spring"),
+            free_length=Length("spring_free_length", 0.3, "free length of the spring"),
         ),
-        Parameter("spring_rate", 300.0, "N/m", "rate of the spring"),
-        Parameter("spring_free_length", 0.3, "m", "free length of the spring"),
-        Parameter("damper_rate", 5.0, "N s/m", "rate of the damper"),
-        Parameter("gravity", 9.81, "m/s^2", "acceleration of gravity"),
-    ]
-    inputs = {f"{j}_force": ("N or N m", f"force along {j}") for j in independent}
-    slides = {j.name for j in joints if isinstance(j, Prismatic)}
-    for joint, motion in prescribed.items():
-        base = "m" if joint in slides else "rad"
-        for kind, unit in (("position", ""), ("velocity", "/s"), ("acceleration", "/s^2")):
-            inputs[f"{motion}_{kind}"] = (f"{base}{unit}", f"{kind} of {motion}")
+        LinearDamper(DamperRate("damper_rate", 5.0, "rate of the damper")),
+    )
     mechanism = Mechanism(
         name=name,
         title=name,
-        bodies=(
-            Body("ground", 0, center=Point(f"{next(iter(bodies))}_com")),
-            *(
-                Body(body, i, center=Point(f"{body}_com"), rotor_axis=spinning.get(body))
-                for i, body in enumerate(bodies, 1)
-            ),
-        ),
-        joints=tuple(joints),
+        joints=built,
         forces=(
-            Weight(gravity="gravity"),
-            ForceElement(
-                name="spring",
-                path=AlongLine(*seats),
-                laws=(
-                    LinearSpring(rate="spring_rate", free_length="spring_free_length"),
-                    LinearDamper(rate="damper_rate"),
-                ),
+            Weight(),
+            ForceElement("spring", AlongLine(*seats), laws),
+            *(
+                JointForce(named[j], Input(f"{j}_force", "N or N m", f"force along {j}"))
+                for j in independent
             ),
-            *(JointForce(joint=j, input=f"{j}_force") for j in independent),
         ),
-        parameters=tuple(parameters),
-        coordinates=tuple(
-            RelativeCoordinate(
-                f"{j.name}_{j.coordinates[0]}",
-                j.name,
-                j.coordinates[0],
-                "rad" if isinstance(j, Revolute) else "m",
-                f"{j.coordinates[0]} of {j.name}",
-            )
-            for j in reported
-        ),
-        inputs=inputs,
+        coordinates=reported(built),
     )
+    given = {named[j]: motion_of(named[j], motion) for j, motion in (prescribed or {}).items()}
+    massive = more.pop("massive", bodies)
     return Model(
         name=name,
         title=name,
         mechanism=mechanism,
-        independent=independent,
-        prescribed=prescribed,
-        massive=tuple(bodies),
-        held={"still": tuple(prescribed)} if prescribed else {},
+        independent=tuple(named[j] for j in independent),
+        prescribed=given,
+        massive=tuple(parts.bodies[body] for body in massive),
+        held={"still": tuple(given)} if given else {},
+        **more,
     )
 
 
-def mass(body: str, number: int) -> list[Parameter]:
-    """Return mass and inertia of a body: a full tensor, not that of its neighbours."""
-    scale = 1.0 + 0.3 * number
-    return [
-        Parameter(f"{body}_mass", 0.8 * scale, "kg", "mass"),
-        *(
-            Parameter(f"{body}_inertia_{element}", scale * value, "kg m^2", element)
-            for element, value in INERTIA.items()
-        ),
-    ]
+def _parts(
+    bodies: Mapping[str, Place],
+    points: Mapping[str, Place],
+    directions: Mapping[str, Place],
+    wheel: tuple[str, Place] | None,
+) -> Parts:
+    centers = {f"{body}_com": place for body, place in bodies.items()}
+    places = {n: Point(n, place) for n, place in {**points, **centers}.items()}
+    along = dict(directions) | ({"spin": wheel[1]} if wheel else {})
+    ways = {n: Direction(n, way) for n, way in along.items()}
+    built: dict[str, Body] = {"ground": Ground("ground")}
+    for number, body in enumerate(bodies, 1):
+        center, scale = places[f"{body}_com"], 1.0 + 0.3 * number
+        if wheel and body == wheel[0]:
+            built[body] = Rotor(body, 1.5, center, axis=ways["spin"], spin=0.03, diametral=0.02)
+        else:
+            tensor = tuple(scale * value for value in INERTIA)
+            built[body] = Body(body, 0.8 * scale, center, tensor)
+    return Parts(built, places, ways)
 
 
 # -- planes that lie askew ------------------------------------------------------------------------
@@ -328,12 +356,7 @@ def oblique_four_bar() -> Model:
             hinge("knee", "crank", "coupler", "crank_pin", "normal"),
             hinge("knuckle", "rocker", "coupler", "rocker_pin", "normal"),
             hinge("pivot", "rocker", "base", "rocker_bearing", "normal"),
-            Revolute(
-                name="spinning",
-                first="coupler",
-                second="wheel",
-                axis=Line(Point("wheel_com"), Direction("spin")),
-            ),
+            hinge("spinning", "coupler", "wheel", "wheel_com", "spin"),
         ),
         {
             "base_bearing": (0.0, -0.1, 0.1),
@@ -580,14 +603,8 @@ def turret(name: str, driven: str, *, carriage: bool = False, reverse: bool = Fa
     reverse
         Whether the guide is declared from the ball joint to the cross, and the piston first.
     """
-    foot, eye = Point("foot"), Point("eye")
     links = ("piston", "barrel") if reverse else ("barrel", "piston")
-    stroke = Prismatic(
-        name="stroke",
-        first=links[0],
-        second=links[1],
-        direction=Direction("bore", between=(eye, foot) if reverse else (foot, eye)),
-    )
+    stroke = guide("stroke", *links, ("eye", "foot") if reverse else ("foot", "eye"))
     lift = guide("lift", "turret", "boom", "lift_line")
     if not carriage:
         lift = hinge("lift", "turret", "boom", "boom_bearing", "boom_line")

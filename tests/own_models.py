@@ -152,7 +152,7 @@ class Built:
     @cached_property
     def design(self) -> Array:
         """The independent coordinates of the design position, as the joints declare them."""
-        names = self.model.independent
+        names = [joint.name for joint in self.model.independent]
         return np.array([self.oracle.driven(self.at_design, j).value[0] for j in names])
 
     @property

@@ -67,8 +67,7 @@ class Placements:
         function = program.function("places", "", places | guards)
         prepare = constants.function([function])
         names = tuple(
-            str(kin.parts[0].coordinates[kin.coordinate_of(model.mechanism.joint(joint))])
-            for joint in (*model.independent, *model.prescribed)
+            str(kin.parts[0].coordinates[kin.coordinate_of(joint)]) for joint in model.driven
         )
         source = _printed(function, prepare, [str(s) for s in symbols], list(names))
         found: dict[str, Any] = {}

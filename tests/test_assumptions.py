@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from changes import changed, with_default
 from kintrafo.generated._support import ParameterError
 from kintrafo.generator import (
     FORWARD,
@@ -18,25 +19,31 @@ from kintrafo.generator import (
     Body,
     DeclarationError,
     Direction,
+    Ground,
+    Joint,
     Line,
     Mechanism,
     Model,
-    Parameter,
     Point,
-    Prismatic,
-    RelativeCoordinate,
     Revolute,
+    Rotor,
     Universal,
     Weight,
-    direction,
-    point,
-    rigid_body,
-    rotor,
 )
-from kintrafo.generator.declare.joints import Joint
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.program.vectors import Vector
-from own_mechanisms import NORMAL, askew, ball, cross, guide, heading, hinge
+from own_mechanisms import (
+    NORMAL,
+    Parts,
+    Sketch,
+    askew,
+    ball,
+    cross,
+    guide,
+    heading,
+    hinge,
+    reported,
+)
 from own_models import Built, has_gcc, own
 
 Place = tuple[float, float, float]
@@ -94,82 +101,55 @@ def amount(text: str, unit: str) -> float:
 
 def with_joint(model: Model, joint: Joint) -> Model:
     """Return a model with another joint of the same name."""
-    mechanism = model.mechanism
-    joints = tuple(joint if j.name == joint.name else j for j in mechanism.joints)
-    return replace(model, mechanism=replace(mechanism, joints=joints))
-
-
-def with_points(model: Model, **places: Place) -> Model:
-    """Return a model with more points among its parameters."""
-    mechanism = model.mechanism
-    added = tuple(entry for n, place in places.items() for entry in point(n, place, n))
-    return replace(model, mechanism=replace(mechanism, parameters=(*mechanism.parameters, *added)))
-
-
-def with_defaults(model: Model, values: Mapping[str, float]) -> Model:
-    """Return a model with other default parameters."""
-    mechanism = model.mechanism
-    parameters = tuple(replace(p, default=values[p.name]) for p in mechanism.parameters)
-    return replace(model, mechanism=replace(mechanism, parameters=parameters))
+    return changed(model, (model.mechanism.joint(joint.name), joint))
 
 
 def declared(
     name: str,
-    joints: tuple[Joint, ...],
+    joints: tuple[Sketch, ...],
     points: Mapping[str, Place],
     directions: Mapping[str, Place],
     independent: tuple[str, ...],
 ) -> Model:
     """Return a model of the bodies that some joints connect, each with its centre of mass."""
-    names = dict.fromkeys(body for joint in joints for body in joint.bodies if body != "ground")
-    coordinates = (
-        RelativeCoordinate(f"{j.name}_{j.coordinates[0]}", j.name, j.coordinates[0], "1", j.name)
-        for j in joints
-        if isinstance(j, Revolute | Prismatic)
+    bodies: dict[str, Body] = {"ground": Ground("ground")}
+    for body in (b for joint in joints for b in (joint.first, joint.second)):
+        if body not in bodies:
+            bodies[body] = Body(body, 1.0, (0.1, 0.2, 0.1), (0.02, 0.03, 0.04))
+    parts = Parts(
+        bodies,
+        {n: Point(n, place) for n, place in points.items()},
+        {n: Direction(n, along) for n, along in directions.items()},
     )
-    mechanism = Mechanism(
-        name=name,
-        title=name,
-        bodies=(
-            Body("ground", 0, center=Point(next(iter(points)))),
-            *(Body(body, i, center=Point(f"{body}_com")) for i, body in enumerate(names, 1)),
-        ),
-        joints=joints,
-        forces=(),
-        parameters=(
-            *(entry for n, place in points.items() for entry in point(n, place, n)),
-            *(entry for n, along in directions.items() for entry in direction(n, along, n)),
-            *(
-                entry
-                for n in names
-                for entry in rigid_body(n, 1.0, (0.1, 0.2, 0.1), (0.02, 0.03, 0.04))
-            ),
-        ),
-        coordinates=tuple(coordinates),
-    )
-    return Model(name, name, mechanism, independent=independent, massive=tuple(names))
+    built = tuple(sketch.of(parts) for sketch in joints)
+    mechanism = Mechanism(name, name, built, coordinates=reported(built))
+    return Model(name, name, mechanism, independent=tuple(map(mechanism.joint, independent)))
 
 
 def by_directions(model: Model) -> Model:
     """Give every hinge a direction of its own, every other one the other way round."""
-    return _lines(model, lambda joint: Direction(f"{joint.name}_line"))
+    return _lines(model, lambda joint, place: Direction(f"{joint.name}_line", place))
 
 
 def by_points(model: Model) -> Model:
     """Make every hinge a line through two points, every other one the other way round."""
-    return _lines(model, lambda joint: Point(f"{joint.name}_line"))
+    return _lines(model, lambda joint, place: Point(f"{joint.name}_line", place), by_points=True)
 
 
-def _lines(model: Model, towards: Callable[[Joint], Point | Direction]) -> Model:
+def _lines(
+    model: Model,
+    towards: Callable[[Joint, Place], Point | Direction],
+    *,
+    by_points: bool = False,
+) -> Model:
     values, normal = numbers(model), np.array(NORMAL)
     hinges = [j for j in model.mechanism.joints if isinstance(j, Revolute)]
     for i, joint in enumerate(hinges):
         place = (-1.0) ** i * (0.3 + 0.2 * i) * normal
-        end = towards(joint)
-        if isinstance(end, Point):
+        if by_points:
             place += vector(values, joint.axis.through.name)
-        line = replace(joint, axis=Line(joint.axis.through, end))
-        model = with_joint(with_points(model, **{end.name: tuple(place.tolist())}), line)
+        end = towards(joint, tuple(place.tolist()))
+        model = with_joint(model, replace(joint, axis=Line(joint.axis.through, end)))
     return model
 
 
@@ -180,7 +160,7 @@ def by_the_oracle(model: Model, module: Any, values: Mapping[str, float]) -> Non
     motion = built.motion(state, np.zeros(0))
     # 1e-14, 1e-13: some roundings of lengths of 1 m, and of accelerations of about 10 m/s^2
     np.testing.assert_allclose(built.oracle.closure(motion).value, 0.0, atol=1e-14)
-    angles = [built.oracle.driven(motion, joint).value[0] for joint in model.independent]
+    angles = [built.oracle.driven(motion, joint.name).value[0] for joint in model.independent]
     np.testing.assert_allclose(angles, state[:2], atol=1e-14)
     expected = built.oracle.reduced(motion, {}, {}).accelerations
     assert np.abs(expected).min() > 1e-2  # both are moved by something
@@ -242,13 +222,12 @@ def test_equations_do_not_read_what_must_be_zero() -> None:
 
 def crane(*, reverse: bool = False) -> Model:
     """Return a boom and a cylinder in an oblique plane; the guide is declared from pin to pin."""
-    pins = Point("piston_pin"), Point("barrel_pin")
-    between = Direction("bore_line", between=pins[::-1] if reverse else pins)
+    pins = ("barrel_pin", "piston_pin") if reverse else ("piston_pin", "barrel_pin")
     return declared(
         "crane",
         (
             hinge("foot", "ground", "barrel", "barrel_pin", "normal"),
-            Prismatic(name="bore", first="piston", second="barrel", direction=between),
+            guide("bore", "piston", "barrel", pins),
             hinge("head", "piston", "boom", "piston_pin", "normal"),
             hinge("pivot", "ground", "boom", "boom_bearing", "normal"),
         ),
@@ -288,7 +267,7 @@ def test_defaults_that_leave_the_plane_are_refused_before_anything_is_compiled(
     model = crane(reverse=reverse)
     beside = moved(numbers(model), "barrel_pin", 0.05 * unit(NORMAL))
     with pytest.raises(DeclarationError, match="guide bore is not across the hinge"):
-        generate(with_defaults(model, beside))
+        generate(with_default(model, **beside))
 
 
 # -- shafts of crosses ----------------------------------------------------------------------------
@@ -337,8 +316,8 @@ def test_a_shaft_that_is_not_the_line_of_its_rod_is_refused(*, at_rocker: bool) 
     near, far = ("rocker_end", "crank_end") if at_rocker else ("crank_end", "rocker_end")
     along = vector(values, far) - vector(values, near)
     beyond = tuple((vector(values, near) + 1.3 * along).tolist())
-    bent = replace(declared_cross, shaft=Line(Point(near), Point("knee")))
-    model = with_joint(with_points(model, knee=beyond), bent)
+    bent = replace(declared_cross, shaft=Line(declared_cross.at, Point("knee", beyond)))
+    model = with_joint(model, bent)
     modules, values = make(model), numbers(model)  # on the line, if not at the pin: accepted
     across = 0.02 * unit(np.cross(along, (0.3, 0.5, -0.2)))
     text = refusal(modules, moved(values, "knee", across))
@@ -357,42 +336,23 @@ def test_a_shaft_that_is_not_the_line_of_its_rod_is_refused(*, at_rocker: bool) 
 
 def fan(*, axis: Place = (0.3, 0.9, -0.2), center: Place = (0.1, 0.2, 0.3)) -> Model:
     """Return a rotor in a bearing on an arm; the axis and the centre of the rotor are free."""
-    line = (0.3, 0.9, -0.2)
-    return Model(
-        "fan",
-        "Fan",
-        Mechanism(
-            name="fan",
-            title="Fan",
-            bodies=(
-                Body("ground", 0, center=Point("foot")),
-                Body("arm", 1, center=Point("arm_com")),
-                Body("blades", 2, center=Point("blades_com"), rotor_axis=Direction("blades_axis")),
-            ),
-            joints=(
-                hinge("swing", "ground", "arm", "foot", "swing_line"),
-                hinge("spin", "arm", "blades", "bearing", "spin_line"),
-            ),
-            forces=(Weight(gravity="gravity"),),
-            parameters=(
-                *point("foot", (0.0, 0.0, 0.0), "foot"),
-                *point("bearing", (0.1, 0.2, 0.3), "bearing"),
-                *direction("swing_line", (1.0, 0.2, 0.1), "swing"),
-                *direction("spin_line", line, "spin"),
-                *direction("blades_axis", axis, "axis"),
-                *rigid_body("arm", 1.0, (0.05, 0.1, 0.1), (0.01, 0.01, 0.01)),
-                *point("blades_com", center, "centre"),
-                *rotor("blades", 1.5, 0.03, 0.02),
-                Parameter("gravity", 9.81, "m/s^2", "acceleration of gravity"),
-            ),
-            coordinates=tuple(
-                RelativeCoordinate(f"{name}_angle", name, "angle", "rad", name)
-                for name in ("swing", "spin")
-            ),
-        ),
-        independent=("swing", "spin"),
-        massive=("arm", "blades"),
+    foot, bearing = Point("foot", (0.0, 0.0, 0.0)), Point("bearing", (0.1, 0.2, 0.3))
+    arm = Body("arm", 1.0, (0.05, 0.1, 0.1), (0.01, 0.01, 0.01))
+    blades = Rotor(
+        "blades",
+        1.5,
+        Point("blades_com", center),
+        axis=Direction("blades_axis", axis),
+        spin=0.03,
+        diametral=0.02,
     )
+    swing_line = Direction("swing_line", (1.0, 0.2, 0.1))
+    spin_line = Direction("spin_line", (0.3, 0.9, -0.2))
+    swing = Revolute("swing", Ground("ground"), arm, Line(foot, swing_line), angle_from=FORWARD)
+    spin = Revolute("spin", arm, blades, Line(bearing, spin_line), angle_from=FORWARD)
+    joints = (swing, spin)
+    mechanism = Mechanism("fan", "Fan", joints, (Weight(),), reported(joints))
+    return Model("fan", "Fan", mechanism, independent=joints)
 
 
 def test_a_rotor_beside_its_bearing_is_refused() -> None:
@@ -417,7 +377,7 @@ def test_the_axis_of_a_rotor_may_point_against_its_hinge(sense: float, tip: Plac
     if tip is not None:
         spin = model.mechanism.joint("spin")
         assert isinstance(spin, Revolute)
-        model = with_joint(with_points(model, tip=tip), replace(spin, angle_to=Point("tip")))
+        model = with_joint(model, replace(spin, angle_to=Point("tip", tip)))
     by_the_oracle(model, own(model), numbers(model))
 
 
@@ -430,19 +390,22 @@ def test_all_that_is_wrong_with_the_defaults_is_told_at_once() -> None:
 
 # -- hinges of any direction ----------------------------------------------------------------------
 
+EDGE_AT = Point("edge_at", (0.9, 0.4, 0.1))
 
-def gate(line: Place, *, flap: Revolute | None = None) -> Model:
+
+def gate(line: Place, **flap: Any) -> Model:
     """Return a leaf on a post with a flap at its end; no angle counts from or to anything."""
-    return declared(
+    model = declared(
         "gate",
         (
             hinge("post", "ground", "leaf", "pintle", "post_line"),
-            flap or hinge("edge", "leaf", "flap", "edge_at", "edge_line"),
+            hinge("edge", "leaf", "flap", "edge_at", "edge_line"),
         ),
-        {"pintle": (0.0, 0.1, 0.2), "edge_at": (0.9, 0.4, 0.1), "flap_tip": (1.2, 0.3, 0.5)},
+        {"pintle": (0.0, 0.1, 0.2), "edge_at": EDGE_AT.place},
         {"post_line": line, "edge_line": (0.2, 0.5, 1.0)},
         ("post", "edge"),
     )
+    return with_joint(model, replace(model.mechanism.joint("edge"), **flap))
 
 
 def test_a_hinge_may_have_any_direction_then_and_later() -> None:
@@ -465,14 +428,8 @@ def test_a_hinge_may_have_any_direction_then_and_later() -> None:
 @pytest.mark.parametrize("axis", [(1, 0, 0), (0, 1, 0), (0, 0, 1), (-1, 0, 0), (0, 0, -1)])
 def test_a_hinge_along_a_chassis_axis_needs_no_other_direction(axis: Place) -> None:
     """Not even as a parameter: the direction that the angle would count from is not read."""
-    fixed = Line(Point("edge_at"), Direction("fixed", Vector.of(*axis)))
-    models = [
-        gate(
-            (0.1, 0.2, 1.0),
-            flap=Revolute(name="edge", first="leaf", second="flap", axis=fixed, angle_from=start),
-        )
-        for start in (UP, FORWARD)
-    ]
+    fixed = Line(EDGE_AT, Direction("fixed", fixed=Vector.of(*axis)))
+    models = [gate((0.1, 0.2, 1.0), axis=fixed, angle_from=start) for start in (UP, FORWARD)]
     texts = [str(generate(model).functions["rhs"]) for model in models]
     assert texts[0] == texts[1]
     for module in make(models[0]):
@@ -483,13 +440,9 @@ def test_an_angle_that_counts_from_along_its_hinge_is_refused_by_name() -> None:
     with pytest.raises(DeclarationError, match="'edge': angle_from, which is up, lies along"):
         gate(
             (0.0, 0.0, 1.0),
-            flap=Revolute(
-                name="edge",
-                first="leaf",
-                second="flap",
-                axis=Line(Point("edge_at"), UP),
-                angle_to=Point("flap_tip"),
-            ),
+            axis=Line(EDGE_AT, UP),
+            angle_from=UP,
+            angle_to=Point("flap_tip", (1.2, 0.3, 0.5)),
         )
 
 
@@ -519,7 +472,8 @@ def four_bar() -> Model:
 
 def driven_crane() -> Model:
     """Return the crane with the stroke of its cylinder given."""
-    return replace(crane(), independent=("bore",))
+    model = crane()
+    return replace(model, independent=(model.mechanism.joint("bore"),))
 
 
 @pytest.mark.parametrize("lines", [by_directions, by_points])
@@ -537,10 +491,8 @@ def test_hinges_parallel_or_opposite_by_their_numbers_make_a_plane(
         # rounding of lengths below 1 m, and of the speeds and accelerations that follow from them
         np.testing.assert_allclose(closure.value, 0.0, atol=1e-14)
         np.testing.assert_allclose(closure.rate, 0.0, atol=1e-13)
-        reported = model.mechanism.coordinates
         jets = [
-            built.oracle.coordinate(motion, model.mechanism.joint(c.joint), c.kind)
-            for c in reported
+            built.oracle.coordinate(motion, c.joint, c.kind) for c in model.mechanism.coordinates
         ]
         np.testing.assert_allclose(
             built("relative_coordinates", state), [jet.value[0] for jet in jets], atol=1e-13

@@ -16,10 +16,9 @@ import own_mechanisms
 import own_yokes
 import pytest
 import sympy as sp
-from kintrafo.generator import Model, Revolute
+from kintrafo.generator import Copy, Model, Revolute, combined
 from kintrafo.generator.closed_forms.catalogue import STEPS
 from kintrafo.generator.closed_forms.idle import PlaceIdle
-from kintrafo.generator.declare.composition import combined, copy
 from kintrafo.generator.equations.design import _angle, design_coordinates
 from kintrafo.generator.equations.dynamics import Dynamics
 from kintrafo.generator.equations.parts import Parts
@@ -94,7 +93,7 @@ class Moving:
         driven = [c.name for c in mechanism.coordinates if c.joint in model.independent]
         stage = ConstantStage(
             tuple(sp.Symbol(p.name) for p in mechanism.parameters),
-            frozenset([*driven, *(f"{n}_rate" for n in driven), *mechanism.inputs]),
+            frozenset([*driven, *(f"{n}_rate" for n in driven), *model.inputs]),
             derived={sp.Symbol(n): value for n, value in mechanism.derived.items()},
         )
         program = Program(stage)
@@ -120,8 +119,8 @@ class Moving:
     def given_angles(self) -> dict[str, mpmath.mpf]:
         """Return the positions at design of prescribed hinges that measure their angle."""
         found = {}
-        for name, given in self.model.prescribed.items():
-            joint = self.model.mechanism.joint(name)
+        for joint, motion in self.model.prescribed.items():
+            given = motion.name
             if isinstance(joint, Revolute) and joint.angle_to is not None:
                 steps = [Step(*step, "") for step in _angle(given, joint)]
                 (angle,) = python(_function(steps, [sp.Symbol(given)]))(self._given())
@@ -157,22 +156,17 @@ def _derived(mechanism: Mechanism) -> tuple[Step, ...]:
 
 def in_company(model: Model) -> Model:
     """Return a copy of a model beside its mirror image."""
-    parts = [
-        copy(model.mechanism, prefix, mirrored=mirrored and model.name not in NOT_MIRRORED)
+    one, two = (
+        Copy(model.mechanism, prefix, mirrored=mirrored and model.name not in NOT_MIRRORED)
         for prefix, mirrored in zip(COPIES, (False, True), strict=True)
-    ]
-
-    def both(names: Iterable[str]) -> tuple[str, ...]:
-        names = tuple(names)
-        return tuple(f"{prefix}{name}" for prefix in COPIES for name in names)
-
+    )
     return Model(
         name="pair",
         title="Two of them",
-        mechanism=combined("pair", "Two of them", parts),
-        independent=both(model.independent),
-        prescribed=dict(zip(both(model.prescribed), both(model.prescribed.values()), strict=True)),
-        massive=both(model.massive),
+        mechanism=combined("pair", "Two of them", (one, two)),
+        independent=one.of(model.independent) + two.of(model.independent),
+        prescribed=one.of(model.prescribed) | two.of(model.prescribed),
+        massive=one.of(model.massive) + two.of(model.massive),
         allow_iteration=model.allow_iteration,
     )
 
@@ -185,7 +179,7 @@ def check_in_company(model: Model, random: np.random.Generator) -> None:
         rates = random.standard_normal(len(one.coordinates))
         state = dict(zip(one.coordinates, np.array(one.design()) + off, strict=True))
         state |= {f"{k}_rate": r for k, r in zip(one.coordinates, rates, strict=True)}
-        inputs = model.mechanism.inputs
+        inputs = model.inputs
         state |= dict(zip(inputs, 1e-3 * random.standard_normal(len(inputs)), strict=True))
         state |= one.given_angles()
         alone = one(state)

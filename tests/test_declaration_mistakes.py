@@ -15,51 +15,64 @@ import kintrafo
 import numpy as np
 import pytest
 import sympy as sp
+from changes import changed, with_default
 from kintrafo.generated import double_wishbone, front_axle, macpherson_general
 from kintrafo.generated import four_bar as four_bar_equations
 from kintrafo.generator import (
     UP,
     AlongLine,
     AlongTelescope,
+    Angle,
+    AngularSpeed,
     Body,
+    DamperRate,
     DamperTable,
     DeclarationError,
     Direction,
     ForceElement,
     Friction,
+    Ground,
+    Input,
     JointForce,
+    Length,
     Line,
     LinearDamper,
     LinearSpring,
     LinearTyre,
+    Model,
+    MomentLevel,
+    Motion,
     Parameter,
     Point,
     Prismatic,
+    Progression,
     Revolute,
+    Rotor,
     Spherical,
+    SpringRate,
     Stop,
+    TorsionProgression,
+    TorsionRate,
     TwistOfHinges,
     Weight,
     backends,
-    direction,
-    point,
-    rigid_body,
 )
+from kintrafo.generator.mechanisms import double_wishbone as wishbone
+from kintrafo.generator.mechanisms import four_bar as bar
 from kintrafo.generator.mechanisms.double_wishbone import DOUBLE_WISHBONE
 from kintrafo.generator.mechanisms.double_wishbone import MODELS as WISHBONES
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.generator.mechanisms.four_bar import MODELS as FOUR_BARS
-from kintrafo.generator.mechanisms.planar import flat
 from own_models import needs_gcc, own
 
 (FOUR, WISHBONE) = (FOUR_BARS[0], WISHBONES[0])
-A, B = Point("a"), Point("b")
+A, B = Point("a", (0.0, 0.0, 0.0)), Point("b", (1.0, 0.0, 0.0))
 AXIS = Line(A, UP)
-BETWEEN = AlongLine(("crank", A), ("rocker", B))
-SPRING = LinearSpring(rate="spring_rate", free_length="spring_free_length")
+ONE, TWO = bar.CRANK, bar.ROCKER
+BETWEEN = AlongLine((ONE, A), (TWO, B))
 (COIL, TORQUE) = FOUR_BAR.forces
 (TYRE,) = (f for f in DOUBLE_WISHBONE.forces if isinstance(f, LinearTyre))
-COORDINATE = FOUR_BAR.coordinates[0]
+RATE, FREE = bar.SPRING.rate, bar.SPRING.free_length
 
 
 def four_bar(**changes):
@@ -72,24 +85,9 @@ def with_force(*forces, **changes):
     return four_bar(forces=(*FOUR_BAR.forces, *forces), **changes)
 
 
-def with_parameter(name, /, **changes):
-    """Return the four-bar with a parameter changed."""
-    parameters = [replace(p, **changes) if p.name == name else p for p in FOUR_BAR.parameters]
-    return four_bar(parameters=tuple(parameters))
-
-
-def with_joint(number, /, **changes):
-    """Return the four-bar with a joint changed."""
-    joints = list(FOUR_BAR.joints)
-    joints[number] = replace(joints[number], **changes)
-    return four_bar(joints=tuple(joints))
-
-
-def with_body(number, /, **changes):
-    """Return the four-bar with a body changed."""
-    bodies = list(FOUR_BAR.bodies)
-    bodies[number] = replace(bodies[number], **changes)
-    return four_bar(bodies=tuple(bodies))
+def instead(old, **changes):
+    """Return the four-bar with an object changed wherever it is."""
+    return changed(FOUR_BAR, (old, replace(old, **changes)))
 
 
 def model(**changes):
@@ -97,173 +95,170 @@ def model(**changes):
     return replace(FOUR, **changes)
 
 
-def telescope(**changes):
-    """Return a force element along the double wishbone's joints, with changes."""
-    element = ForceElement(name="extra", path=AlongTelescope("lower_hinge"), laws=(SPRING,))
-    changed = replace(element, **changes)
-    return replace(DOUBLE_WISHBONE, forces=(*DOUBLE_WISHBONE.forces, changed))
+def stop(**changes):
+    """Return a stop with changes."""
+    rate, progression = SpringRate("r", 1.0, "rate"), Progression("p", 1.0, "progression")
+    given = {"side": "bump", "length": FREE, "rate": rate, "progression": progression}
+    return Stop(**given | changes)
 
 
 MISTAKES = {
     # -- types: one thing in the place of another
-    "star forgotten": (
-        lambda: four_bar(parameters=(*FOUR_BAR.parameters, point("a", (0, 0, 0), "a"))),
-        ["four_bar", "parameters[25]", "write a star", "*point(...)"],
-    ),
     "direction for an axis": (
-        lambda: Revolute(name="A", first="a", second="b", axis=Direction("x")),
+        lambda: Revolute("A", ONE, TWO, axis=UP),
         ["Revolute 'A'", "axis", "a Line is needed", "Line(point, direction)"],
     ),
     "point for an axis": (
-        lambda: Revolute(name="A", first="a", second="b", axis=A),
+        lambda: Revolute("A", ONE, TWO, axis=A),
         ["Revolute 'A'", "axis", "a Line is needed"],
     ),
     "text for a point": (
-        lambda: Spherical(name="B", first="a", second="b", at="ball"),
-        ["Spherical 'B'", "at", "write Point('ball')"],
+        lambda: Spherical("B", ONE, TWO, at="ball"),
+        ["Spherical 'B'", "at", "write Point(name, place, meaning)"],
     ),
     "line for a direction": (
-        lambda: Prismatic(name="P", first="a", second="b", direction=AXIS),
+        lambda: Prismatic("P", ONE, TWO, direction=AXIS),
         ["Prismatic 'P'", "direction", "a Direction is needed"],
     ),
     "text for a direction": (
-        lambda: Body("wheel", 1, center=A, rotor_axis="spin"),
-        ["Body 'wheel'", "rotor_axis", "write Direction('spin')"],
+        lambda: Rotor("wheel", 1.0, A, axis="spin", spin=1.0, diametral=1.0),
+        ["Rotor 'wheel'", "axis", "write Direction(name, components, meaning)"],
     ),
     "text for a centre": (
-        lambda: Body("wheel", 1, center="wheel_com"),
-        ["Body 'wheel'", "center", "write Point('wheel_com')"],
+        lambda: Body("wheel", 1.0, center="wheel_com"),
+        ["Body 'wheel'", "center is 'wheel_com'", "a Point"],
     ),
-    "place for a point": (
-        lambda: Body("wheel", 1, center=(0.0, 0.0, 0.0)),
-        ["Body 'wheel'", "center is (0.0, 0.0, 0.0)", "a Point is needed"],
+    "text for a mass": (
+        lambda: Body("wheel", "1.0", A),
+        ["Body 'wheel'", "mass", "a Mass"],
     ),
-    "body for its name": (
-        lambda: Revolute(name="A", first=Body("crank", 1, center=A), second="b", axis=AXIS),
-        ["Revolute 'A'", "first", "a text is needed", "'crank'"],
+    "name of a body for the body": (
+        lambda: Revolute("A", "crank", TWO, axis=AXIS),
+        ["Revolute 'A'", "first is 'crank'", "a Body is needed"],
     ),
-    "point for its name": (
-        lambda: AlongLine((A, "crank"), ("rocker", B)),
-        ["AlongLine", "first[0]", "a text", "first[1]", "a Point"],
+    "end the wrong way round": (
+        lambda: AlongLine((A, ONE), (TWO, B)),
+        ["AlongLine", "first[0]", "a Body", "first[1]", "a Point"],
     ),
-    "number for a parameter's name": (
-        lambda: LinearSpring(rate=400.0, free_length="l"),
-        ["LinearSpring", "rate is 400.0", "a text is needed"],
+    "number for a parameter": (
+        lambda: LinearSpring(400.0, free_length=FREE),
+        ["LinearSpring", "rate is 400.0", "SpringRate(name, default, meaning)"],
     ),
-    "parameter for its name": (
-        lambda: Weight(gravity=Parameter("g", 9.81, "m/s^2", "gravity")),
-        ["Weight", "gravity", "a text is needed", "'g'"],
+    "name for a parameter": (
+        lambda: Weight("gravity"),
+        ["Weight", "gravity is 'gravity'", "Gravity(name, default, meaning)"],
+    ),
+    "rate of a damper for that of a spring": (
+        lambda: LinearSpring(bar.DAMPER.rate, free_length=FREE),
+        ["LinearSpring", "rate", "a SpringRate or a TorsionRate is needed"],
+    ),
+    "torsion along a line": (
+        lambda: replace(COIL, laws=(LinearSpring(TorsionRate("k", 1.0, "k"), free_length=FREE),)),
+        ["ForceElement 'spring'", "'k' is in N m/rad", "AlongLine", "a length or a force"],
     ),
     "class for an object": (
         lambda: Line(A, Direction),
         ["Line", "towards", "write Direction(...)"],
     ),
-    "joint for its name": (
-        lambda: AlongTelescope(FOUR_BAR.joints[0]),
-        ["AlongTelescope", "joint", "a text is needed", "'A'"],
+    "name of a joint for the telescope": (
+        lambda: AlongTelescope("BC"),
+        ["AlongTelescope", "joint is 'BC'", "a Cylindrical is needed"],
     ),
     "law for a force": (
-        lambda: with_force(SPRING),
-        ["four_bar", "forces[2]", "LinearSpring", "a law acts in an element", "laws="],
+        lambda: with_force(bar.SPRING),
+        ["four_bar", "forces[2]", "LinearSpring", "a law acts in an element", "ForceElement("],
     ),
     "none for a force": (lambda: with_force(None), ["forces[2] is None", "Weight", "JointForce"]),
     "text for a force": (lambda: with_force("spring"), ["forces[2] is 'spring'", "ForceElement"]),
     "law without brackets": (
-        lambda: replace(COIL, laws=SPRING),
+        lambda: replace(COIL, laws=bar.SPRING),
         ["ForceElement 'spring'", "laws", "in brackets with a comma"],
     ),
     "force for a law": (lambda: replace(COIL, laws=(COIL,)), ["laws[0]", "a LinearSpring"]),
     "text for a law": (lambda: replace(COIL, laws=("spring",)), ["laws[0] is 'spring'"]),
     "path without its class": (
-        lambda: replace(COIL, path=(("crank", A), ("rocker", B))),
+        lambda: replace(COIL, path=((ONE, A), (TWO, B))),
         ["path", "an AlongTelescope, an AlongLine or a TwistOfHinges is needed"],
     ),
-    "one body without brackets": (
-        lambda: four_bar(bodies=FOUR_BAR.bodies[0]),
-        ["bodies", "a tuple is needed", "with a comma"],
+    "one joint without brackets": (
+        lambda: four_bar(joints=bar.A),
+        ["joints", "a tuple is needed", "with a comma"],
     ),
     "name of a joint for a joint": (
         lambda: four_bar(joints=("A", "B")),
         ["joints[0] is 'A'", "a Joint is needed"],
     ),
-    "names of inputs without meaning": (
-        lambda: four_bar(inputs=("crank_torque",)),
-        ["inputs", "a dictionary is needed"],
+    "name of an input for an input": (
+        lambda: JointForce(bar.A, "crank_torque"),
+        ["JointForce", "input is 'crank_torque'", "an Input is needed"],
     ),
     "input with a unit only": (
-        lambda: four_bar(inputs={"crank_torque": "N m"}),
-        ["inputs['crank_torque'] is 'N m'", "a tuple is needed"],
+        lambda: Input("crank_torque", "N m"),
+        ["Input 'crank_torque'", "meaning is missing"],
+    ),
+    "derivative of a name": (
+        lambda: Input("v", "m/s", "velocity", "x"),
+        ["Input 'v'", "derivative_of is 'x'; an Input is needed"],
     ),
     "model for a mechanism": (
         lambda: model(mechanism=FOUR),
         ["Model 'four_bar'", "mechanism", "a Mechanism is needed"],
     ),
-    "text for independent": (
-        lambda: model(independent="A"),
-        ["independent is 'A'", "write a tuple of names, ('A',)"],
+    "one independent joint without brackets": (
+        lambda: model(independent=bar.A),
+        ["independent", "a tuple is needed", "with a comma"],
     ),
-    "text for massive": (lambda: model(massive="crank"), ["massive is 'crank'", "('crank',)"]),
-    "joint for independent": (
-        lambda: model(independent=(FOUR_BAR.joints[0],)),
-        ["independent[0]", "a text is needed", "'A'"],
+    "name for an independent joint": (
+        lambda: model(independent=("A",)),
+        ["independent[0] is 'A'", "a Joint is needed"],
+    ),
+    "name for a body with mass": (
+        lambda: model(massive=("crank",)),
+        ["massive[0] is 'crank'", "a Body is needed"],
     ),
     "words for permission": (
         lambda: model(allow_iteration="no"),
         ["allow_iteration is 'no'", "True or False"],
     ),
     "list of prescribed joints": (
-        lambda: model(prescribed=("A",)),
+        lambda: model(prescribed=(bar.A,)),
         ["prescribed", "a dictionary is needed"],
     ),
-    "text for what is held": (
-        lambda: replace(WISHBONE, held={"still": "rack_guide"}),
-        ["held['still'] is 'rack_guide'", "('rack_guide',)"],
-    ),
-    "expression that is no expression": (
-        lambda: four_bar(derived={"x": "-y"}),
-        ["derived['x'] is '-y'", "Expr is needed"],
+    "joint for what is held": (
+        lambda: replace(WISHBONE, held={"still": wishbone.RACK_GUIDE}),
+        ["held['still']", "in brackets with a comma"],
     ),
     # -- fields
     "misspelt field": (
-        lambda: Revolute(name="A", frist="a", second="b", axis=AXIS),
+        lambda: Revolute(name="A", frist=ONE, second=TWO, axis=AXIS),
         ["Revolute 'A'", "frist is none of its fields", "Did you mean first?"],
     ),
     "field left out": (
-        lambda: Revolute(name="A", first="a", second="b"),
+        lambda: Revolute("A", ONE, TWO),
         ["Revolute 'A'", "axis is missing"],
     ),
     "argument too many": (
-        lambda: Point("a", "x", "y"),
-        ["Point 'a'", "'y' is one argument too many", "name, flat"],
+        lambda: Point("a", (0, 0, 0), "a", "x", "y"),
+        ["Point 'a'", "'y' is one argument too many", "name, place, meaning, flat"],
     ),
     "unit and meaning left out": (
         lambda: Parameter("mass", 1.0),
         ["Parameter 'mass'", "unit is missing", "meaning is missing"],
     ),
-    "path left out": (lambda: ForceElement(name="s", laws=()), ["'s'", "path is missing"]),
-    "point without a name": (Point, ["Point", "name is missing"]),
+    "path left out": (lambda: ForceElement("s", laws=()), ["'s'", "path is missing"]),
+    "point without a name": (Point, ["Point", "name is missing", "place is missing"]),
     "end without a point": (
-        lambda: AlongLine(("crank",), ("rocker", B)),
-        ["AlongLine", "first is ('crank',), too few"],
+        lambda: AlongLine((ONE,), (TWO, B)),
+        ["AlongLine", "first is (Body", "too few"],
     ),
     # -- words of a choice
     "stop with a capital": (
-        lambda: Stop(side="Bump", length="l", rate="r", progression="p"),
+        lambda: stop(side="Bump"),
         ["Stop", "side is 'Bump'", "'bump' or 'rebound' is needed"],
     ),
-    "stop at the top": (
-        lambda: Stop(side="top", length="l", rate="r", progression="p"),
-        ["side is 'top'", "'bump' or 'rebound'"],
-    ),
-    "stop at no side": (
-        lambda: Stop(side=None, length="l", rate="r", progression="p"),
-        ["side is None", "'bump' or 'rebound'"],
-    ),
-    "flat along a number": (lambda: Point("a", flat=2), ["flat is 2", "'z'"]),
-    "kind of a coordinate": (
-        lambda: four_bar(coordinates=(replace(COORDINATE, kind="slide"),)),
-        ["'crank_angle'", "kind 'slide' is not declared", "angle"],
-    ),
+    "stop at the top": (lambda: stop(side="top"), ["side is 'top'", "'bump' or 'rebound'"]),
+    "stop at no side": (lambda: stop(side=None), ["side is None", "'bump' or 'rebound'"]),
+    "flat along a number": (lambda: Point("a", (0, 0), flat=2), ["flat is 2", "'z'"]),
     # -- numbers
     "not a number": (
         lambda: Parameter("a", float("nan"), "m", "a"),
@@ -276,20 +271,28 @@ MISTAKES = {
     "a symbol": (lambda: Parameter("a", sp.Symbol("x"), "m", "a"), ["default x", "real"]),
     "beyond double precision": (lambda: Parameter("a", 10**400, "m", "a"), ["finite"]),
     "two coordinates of three": (
-        lambda: point("a", (0.0, 1.0), "a"),
-        ["point 'a'", "position", "too few"],
+        lambda: Point("a", (0.0, 1.0)),
+        ["Point 'a'", "2 coordinates", "x and y and z are needed"],
     ),
-    "four coordinates of three": (
-        lambda: point("a", (0.0, 1.0, 2.0, 3.0), "a"),
-        ["point 'a'", "position", "shorter"],
+    "three coordinates in a plane": (
+        lambda: Point("a", (0.0, 1.0, 2.0), flat="z"),
+        ["Point 'a'", "3 coordinates", "x and y are needed"],
     ),
     "a coordinate in quotes": (
-        lambda: direction("a", (0.0, "1", 0.0), "a"),
-        ["direction 'a'", "components[1] '1'", "real number"],
+        lambda: Direction("a", (0.0, "1", 0.0), "a"),
+        ["Direction 'a'", "along[1] '1'", "real number"],
     ),
     "inertia as a matrix": (
-        lambda: rigid_body("a", 1.0, (0, 0, 0), np.eye(3)),
-        ["rigid_body 'a'", "inertia"],
+        lambda: Body("a", 1.0, (0, 0, 0), np.eye(3)),
+        ["Body 'a'", "inertia"],
+    ),
+    "two moments of inertia": (
+        lambda: Body("a", 1.0, (0, 0, 0), (1.0, 2.0)),
+        ["Body 'a'", "inertia has 2 number(s); 3 or 6 are needed"],
+    ),
+    "a tensor in a plane": (
+        lambda: Body("a", 1.0, bar.CRANK_COM, (1.0, 2.0, 3.0)),
+        ["Body 'a'", "inertia has 3 number(s); 1 are needed"],
     ),
     "fixed direction of zeros": (
         lambda: Direction("a", fixed=(0, 0, 0)),
@@ -299,94 +302,93 @@ MISTAKES = {
     "no segments": (lambda: DamperTable(name="d", segments=0), ["segments is 0", "1 or more"]),
     "half a segment": (lambda: DamperTable(name="d", segments=1.5), ["segments is 1.5", "whole"]),
     "negative mass": (
-        lambda: with_parameter("crank_mass", default=-1.0),
+        lambda: with_default(FOUR_BAR, crank_mass=-1.0),
         ["'crank_mass' = -1 kg", "0 kg or more"],
     ),
     "negative inertia": (
-        lambda: with_parameter("crank_inertia_zz", default=-1e-3),
+        lambda: with_default(FOUR_BAR, crank_inertia_zz=-1e-3),
         ["'crank_inertia_zz' = -0.001 kg m^2", "0 kg m^2 or more"],
     ),
     "negative rate": (
-        lambda: with_parameter("spring_rate", default=-400.0),
+        lambda: with_default(FOUR_BAR, spring_rate=-400.0),
         ["'spring_rate' = -400 N/m", "0 N/m or more"],
     ),
     "negative length": (
-        lambda: with_parameter("spring_free_length", default=-0.3),
+        lambda: with_default(FOUR_BAR, spring_free_length=-0.3),
         ["'spring_free_length' = -0.3 m", "0 m or more"],
     ),
     "negative damping": (
-        lambda: with_parameter("damper_rate", default=-1.0),
+        lambda: with_default(FOUR_BAR, damper_rate=-1.0),
         ["'damper_rate' = -1 N s/m", "0 N s/m or more"],
     ),
     "beyond a bound of its own": (
-        lambda: with_parameter("spring_ground_x", most=0.4),
-        ["'spring_ground_x' = 0.45 m", "0.4 m or less"],
+        lambda: instead(RATE, most=300.0),
+        ["'spring_rate' = 400 N/m", "300 N/m or less"],
     ),
     "gravity upwards": (
-        lambda: replace(
-            DOUBLE_WISHBONE,
-            parameters=tuple(
-                replace(p, default=-9.81) if p.name == "gravity" else p
-                for p in DOUBLE_WISHBONE.parameters
-            ),
-        ),
+        lambda: with_default(DOUBLE_WISHBONE, gravity=-9.81),
         ["'gravity' = -9.81 m/s^2", "0 m/s^2 or more"],
     ),
     "friction without a speed": (
         lambda: with_force(
             ForceElement(
-                name="f",
-                path=TwistOfHinges("A", "D"),
-                laws=(Friction(level="damper_rate", speed="spring_free_length"),),
-            ),
-            parameters=tuple(
-                replace(p, default=0.0) if p.name == "spring_free_length" else p
-                for p in FOUR_BAR.parameters
-            ),
+                "f",
+                TwistOfHinges(bar.A, bar.D),
+                (Friction(MomentLevel("m", 1.0, "m"), AngularSpeed("w", 0.0, "speed")),),
+            )
         ),
-        ["'spring_free_length' = 0 m", "more than 0 m"],
+        ["'w' = 0 rad/s", "more than 0 rad/s"],
     ),
     # -- names
-    "space in a name": (lambda: Point("ball joint"), ["'ball joint' cannot be written in C"]),
-    "dash in a name": (lambda: Body("tie-rod", 1, center=A), ["'tie-rod' cannot be written in C"]),
-    "digit first": (lambda: Direction("2nd"), ["'2nd' cannot be written in C", "a letter first"]),
+    "space in a name": (
+        lambda: Point("ball joint", (0, 0, 0)),
+        ["'ball joint' cannot be written in C"],
+    ),
+    "dash in a name": (
+        lambda: Body("tie-rod", 1.0, A),
+        ["'tie-rod' cannot be written in C"],
+    ),
+    "digit first": (
+        lambda: Direction("2nd", (1, 0, 0)),
+        ["'2nd' cannot be written in C", "a letter first"],
+    ),
     "empty name": (lambda: Parameter("", 1.0, "m", "a"), ["'' cannot be written in C"]),
-    "accent": (lambda: with_joint(0, name="müde"), ["'müde' cannot be written in C"]),
+    "accent": (lambda: instead(bar.A, name="müde"), ["'müde' cannot be written in C"]),
     "tyre named after its wheel": (
         lambda: replace(TYRE, name="front-left"),
         ["LinearTyre 'front-left'", "cannot be written in C"],
     ),
     "dash in a model's name": (lambda: model(name="four-bar"), ["Model", "'four-bar' cannot"]),
-    "macro of math.h": (
-        lambda: with_parameter("spring_rate", name="NAN"),
-        ["parameter 'NAN'", "choose another"],
-    ),
-    "another macro": (
-        lambda: with_parameter("spring_rate", name="INFINITY"),
-        ["parameter 'INFINITY'", "choose another"],
-    ),
-    "macro of the emitted code": (
-        lambda: with_parameter("spring_rate", name="GUARD_FLOOR"),
-        ["parameter 'GUARD_FLOOR'", "choose another"],
-    ),
-    "keyword of C": (
-        lambda: with_parameter("spring_rate", name="double"),
-        ["parameter 'double'", "choose another"],
-    ),
-    "keyword of Python": (
-        lambda: with_parameter("spring_rate", name="lambda"),
-        ["parameter 'lambda'", "choose another"],
-    ),
+    **{
+        f"parameter {name}": (
+            lambda name=name: instead(RATE, name=name),
+            [f"parameter '{name}'", "choose another"],
+        )
+        for name in ("NAN", "INFINITY", "GUARD_FLOOR", "double", "lambda")
+    },
     "coordinate named after a function": (
-        lambda: four_bar(coordinates=(replace(COORDINATE, name="sin"),)),
+        lambda: four_bar(coordinates=(bar.A.angle("sin", "angle"),)),
         ["coordinate 'sin'", "choose another"],
     ),
-    "body's number twice": (lambda: with_body(2, number=1), ["number of bodies: '1'", "2 times"]),
-    "body twice": (lambda: with_body(2, name="crank"), ["body 'crank' is declared 2 times"]),
-    "joint twice": (lambda: with_joint(1, name="A"), ["joint 'A' is declared 2 times"]),
+    "two bodies of a name": (
+        lambda: instead(bar.COUPLER, name="crank"),
+        ["2 different bodies are named 'crank'", "rename them, or declare one"],
+    ),
+    "a body declared twice, differently": (
+        lambda: four_bar(joints=(replace(bar.A, second=replace(bar.CRANK, mass=1.0)), bar.B)),
+        ["2 different bodies are named 'crank'", "refer to it"],
+    ),
+    "two joints of a name": (
+        lambda: instead(bar.B, name="A"),
+        ["2 different joints are named 'A'"],
+    ),
+    "joint twice": (
+        lambda: four_bar(joints=(*FOUR_BAR.joints, bar.A)),
+        ["joint 'A' is declared 2 times"],
+    ),
     "element twice": (lambda: with_force(COIL), ["force 'spring' is declared 2 times"]),
     "other element of the name": (
-        lambda: with_force(ForceElement(name="spring", path=BETWEEN, laws=(SPRING,))),
+        lambda: with_force(ForceElement("spring", BETWEEN, (bar.DAMPER,))),
         ["force 'spring' is declared 2 times"],
     ),
     "torque twice": (
@@ -394,75 +396,67 @@ MISTAKES = {
         ["JointForce along 'A by crank_torque' is declared 2"],
     ),
     "law twice": (
-        lambda: four_bar(forces=(replace(COIL, laws=(SPRING, SPRING)),)),
-        ["'spring'", "law", "is declared 2 times"],
+        lambda: four_bar(forces=(replace(COIL, laws=(bar.SPRING, bar.SPRING)),)),
+        ["'spring'", "law", "is declared twice"],
     ),
     "weight twice": (
-        lambda: with_force(Weight(gravity="damper_rate"), Weight(gravity="damper_rate")),
+        lambda: with_force(Weight(), Weight()),
         ["weight 'Weight' is declared 2 times"],
     ),
-    "parameter twice": (
-        lambda: four_bar(parameters=(*FOUR_BAR.parameters, FOUR_BAR.parameters[0])),
-        ["parameter 'crank_bearing_x' is declared 2 times"],
+    "two parameters of a name": (
+        lambda: instead(bar.DAMPER.rate, name="crank_mass"),
+        ["2 different parameters are named 'crank_mass'"],
     ),
     "point and direction of one name": (
-        lambda: with_joint(0, axis=Line(flat("crank_bearing"), Direction("rocker_pin"))),
-        ["'rocker_pin' is a direction and a point", "a name of its own"],
+        lambda: instead(bar.A, axis=Line(bar.CRANK_BEARING, Direction("rocker_pin", (0, 0, 1)))),
+        ["2 different parameters are named 'rocker_pin_x'"],
     ),
     "point in a plane and in space": (
-        lambda: with_joint(0, axis=Line(Point("crank_bearing"), UP)),
-        ["'crank_bearing' is a point in a plane across z and a point with x, y and z"],
+        lambda: instead(bar.A, axis=Line(Point("crank_pin", (0.0, 0.1, 0.1)), UP)),
+        ["2 different parameters are named 'crank_pin_x'"],
     ),
     "variant named after a function": (
-        lambda: replace(WISHBONE, held={"jacobian": ("rack_guide",)}),
+        lambda: replace(WISHBONE, held={"jacobian": (wishbone.RACK_GUIDE,)}),
         ["variant 'jacobian'", "rhs_jacobian", "rename it"],
     ),
     # -- what belongs to what
-    "misspelt body": (
-        lambda: with_joint(1, second="cuopler"),
-        ["joint 'B': body 'cuopler'", "did you mean 'coupler'?"],
-    ),
     "joint of a body with itself": (
-        lambda: with_joint(0, second="ground"),
-        ["joint 'A' connects 'ground' with itself", "two bodies"],
+        lambda: replace(bar.A, second=bar.GROUND),
+        ["Revolute 'A'", "connects 'ground' with itself", "two bodies"],
     ),
-    "misspelt joint of a torque": (
-        lambda: with_force(JointForce(joint="Z", input="crank_torque")),
-        ["JointForce: joint 'Z' is not declared", "A, B, C, D"],
+    "torque along a joint of another mechanism": (
+        lambda: with_force(JointForce(wishbone.BEARING, TORQUE.input)),
+        ["joint 'bearing', which a force", "is none of its joints"],
     ),
-    "misspelt input": (
-        lambda: four_bar(forces=(JointForce(joint="A", input="crank_troque"),)),
-        ["input 'crank_troque'", "did you mean 'crank_torque'?"],
-    ),
-    "misspelt body of a spring": (
+    "spring at a body of another mechanism": (
         lambda: with_force(
-            ForceElement(name="s", path=AlongLine(("crnk", A), ("rocker", B)), laws=(SPRING,))
+            ForceElement("s", AlongLine((wishbone.KNUCKLE, A), (TWO, B)), (bar.DAMPER,))
         ),
-        ["ForceElement 's': body 'crnk'", "did you mean 'crank'?"],
+        ["body 'knuckle' is held by no joint"],
+    ),
+    "coordinate of another mechanism": (
+        lambda: four_bar(coordinates=(wishbone.BEARING.angle("q", "angle"),)),
+        ["joint 'bearing', which a force or a coordinate refers to"],
     ),
     "both ends on one body": (
-        lambda: AlongLine(("crank", A), ("crank", B)),
+        lambda: AlongLine((ONE, A), (ONE, B)),
         ["AlongLine", "both ends are on 'crank'", "two bodies"],
     ),
     "twist of one hinge": (
-        lambda: TwistOfHinges("main", "main"),
-        ["TwistOfHinges", "'main' less itself", "two hinges"],
+        lambda: TwistOfHinges(bar.A, bar.A),
+        ["TwistOfHinges", "'A' less itself", "two hinges"],
     ),
     "telescope of a hinge": (
-        telescope,
-        ["'extra': joint 'lower_hinge' is revolute, not cylindrical", "AlongLine"],
-    ),
-    "telescope of a ball joint": (
-        lambda: telescope(path=AlongTelescope("lower_ball")),
-        ["joint 'lower_ball' is spherical, not cylindrical"],
+        lambda: AlongTelescope(wishbone.LOWER_HINGE),
+        ["AlongTelescope", "joint", "a Cylindrical is needed"],
     ),
     "twist of a guide": (
-        lambda: telescope(path=TwistOfHinges("rack_guide", "bearing")),
-        ["joint 'rack_guide' is prismatic, not revolute"],
+        lambda: TwistOfHinges(wishbone.RACK_GUIDE, wishbone.BEARING),
+        ["TwistOfHinges", "first", "a Revolute is needed"],
     ),
     "spring without a free length": (
-        lambda: with_force(replace(COIL, name="s", laws=(LinearSpring(rate="spring_rate"),))),
-        ["'s'", "free_slide or a free_length"],
+        lambda: LinearSpring(RATE),
+        ["LinearSpring", "free_slide or a free_length"],
     ),
     "line to itself": (lambda: Line(A, A), ["Line", "from 'a' to itself"]),
     "direction between one point": (
@@ -471,46 +465,60 @@ MISTAKES = {
     ),
     "direction given twice": (
         lambda: Direction("d", fixed=(0, 0, 1), between=(A, B)),
-        ["Direction 'd'", "fixed and between", "leave one"],
+        ["Direction 'd'", "give its components along, or fixed ones, or the points"],
+    ),
+    "direction without components": (
+        lambda: Direction("d"),
+        ["Direction 'd'", "give its components along"],
     ),
     "spring between coincident points": (
-        lambda: four_bar(
-            parameters=tuple(
-                replace(p, default={"x": 0.12, "y": 0.18}[p.name[-1]])
-                if p.name.startswith("spring_ground_")
-                else p
-                for p in FOUR_BAR.parameters
-            )
-        ),
+        lambda: with_default(FOUR_BAR, spring_ground_x=0.12, spring_ground_y=0.18),
         ["points 'spring_ground' and 'coupler_com'", "coincide", "check the defaults"],
     ),
-    "no bodies": (lambda: four_bar(bodies=()), ["no bodies", "the first one is the ground"]),
-    "misspelt independent joint": (
-        lambda: model(independent=("a",)),
-        ["independent joint 'a' is not declared", "A"],
+    "no joints": (lambda: four_bar(joints=(), forces=(), coordinates=()), ["there is no ground"]),
+    "no ground": (
+        lambda: changed(FOUR_BAR, (bar.GROUND, Body("ground", 1.0, (0.0, 0.0, 0.0)))),
+        ["there is no ground; declare a Ground"],
+    ),
+    "two grounds": (
+        lambda: instead(bar.D, first=Ground("floor")),
+        ["there are several grounds", "'ground', 'floor'"],
+    ),
+    "independent joint of another mechanism": (
+        lambda: model(independent=(wishbone.BEARING,)),
+        ["independent joint 'bearing' is none of its mechanism", "A, B, C, D"],
     ),
     "ball joint as independent": (
-        lambda: replace(WISHBONE, independent=("lower_ball",)),
+        lambda: replace(WISHBONE, independent=(wishbone.LOWER_BALL,)),
         ["'lower_ball' is spherical", "three hinges"],
     ),
     "ground with mass": (
-        lambda: model(massive=("ground", "crank")),
+        lambda: model(massive=(bar.GROUND, bar.CRANK)),
         ["'ground' is the ground", "leave it out"],
     ),
     "torque on what follows": (
-        lambda: replace(model(), mechanism=with_force(JointForce(joint="D", input="crank_torque"))),
+        lambda: model(mechanism=with_force(JointForce(bar.D, TORQUE.input))),
         ["'D' is neither independent nor prescribed", "Actuator"],
     ),
     "one motion for two joints": (
-        lambda: model(independent=(), prescribed={"A": "drive", "D": "drive"}),
-        ["input of prescribed joints 'drive' is declared 2 times"],
+        lambda: Model(
+            "m", "m", four_bar(forces=()), (), prescribed=dict.fromkeys((bar.A, bar.D), DRIVE)
+        ),
+        ["motion of prescribed joints 'drive' is declared 2 times"],
     ),
-    "misspelt prescribed input": (
-        lambda: replace(WISHBONE, prescribed={"rack_guide": "rak"}),
-        ["input 'rak_position'", "did you mean 'rack_position'?"],
+    "motion named as a parameter": (
+        lambda: Model(
+            "m",
+            "m",
+            instead(RATE, name="drive_velocity"),
+            (),
+            prescribed={bar.A: DRIVE},
+        ),
+        ["'drive_velocity' is the name of a parameter and of an input"],
     ),
     "end of a comment": (lambda: four_bar(title="a */ b"), ["'a */ b'", "without */"]),
 }
+DRIVE = Motion("drive", "rad", "angle of the crank")
 
 
 @pytest.mark.parametrize("mistake", MISTAKES)
@@ -540,25 +548,30 @@ def test_every_real_number_is_one(given, expected):
     default = Parameter("a", given, "m", "a").default
     assert type(default) is float
     assert default == pytest.approx(expected, rel=1e-15)
-    assert [p.default for p in point("a", (given, 0, 0), "a")] == [default, 0.0, 0.0]
+    point = Point("a", (given, 0, 0))
+    assert [p.default for p in point.numbers] == [default, 0.0, 0.0]
 
 
 def test_lists_do_for_tuples():
-    listed = four_bar(bodies=list(FOUR_BAR.bodies), joints=list(FOUR_BAR.joints))
+    listed = four_bar(joints=list(FOUR_BAR.joints), forces=list(FOUR_BAR.forces))
     assert listed == FOUR_BAR
-    assert model(independent=["A"], massive=list(FOUR.massive)) == FOUR
-    assert Direction("up", [0, 0, 1]) == Direction("up", (0, 0, 1))
+    assert model(independent=[bar.A], massive=list(FOUR.massive)) == FOUR
+    assert Direction("up", fixed=[0, 0, 1]) == Direction("up", fixed=(0, 0, 1))
+    assert Point("a", [0, 0, 1]) == Point("a", (0, 0, 1))
 
 
 def test_a_stop_between_hinges_has_an_angle_of_any_sign():
     """A length is not negative, but an angle may be."""
-    stop = Stop(side="bump", length="angle", rate="spring_rate", progression="damper_rate")
-    parameters = (*FOUR_BAR.parameters, Parameter("angle", -0.5, "rad", "angle of the stop"))
-    bar = ForceElement(name="bar", path=TwistOfHinges("A", "D"), laws=(stop,))
-    with_force(bar, parameters=parameters)
-    line = ForceElement(name="bar", path=COIL.path, laws=(stop,))
-    with pytest.raises(DeclarationError, match=r"'angle' = -0\.5 rad is out of its range"):
-        with_force(line, parameters=parameters)
+    turning = Stop(
+        side="bump",
+        length=Angle("angle", -0.5, "angle of the stop"),
+        rate=TorsionRate("rate", 1.0, "rate"),
+        progression=TorsionProgression("progression", 0.0, "progression"),
+    )
+    with_force(ForceElement("bar", TwistOfHinges(bar.A, bar.D), (turning,)))
+    line = ForceElement("bar", COIL.path, (stop(length=Length("touch", -0.5, "length")),))
+    with pytest.raises(DeclarationError, match=r"'touch' = -0\.5 m is out of its range"):
+        with_force(line)
 
 
 # -- parameters of compiled models ----------------------------------------------------------------
@@ -610,10 +623,8 @@ size_t len sum max min print range self math sp rhs margins results_ Array float
 def test_words_of_c_and_python_can_be_parameters():
     """What is not reserved compiles, without a warning, and is what it says."""
     words = WORDS.split()
-    dampers = tuple(LinearDamper(rate=word) for word in words)
-    element = ForceElement(name="dampers", path=COIL.path, laws=dampers)
-    rates = tuple(Parameter(word, 1.0, "N s/m", word) for word in words)
-    mechanism = with_force(element, parameters=(*FOUR_BAR.parameters, *rates))
+    dampers = tuple(LinearDamper(DamperRate(word, 1.0, word)) for word in words)
+    mechanism = with_force(ForceElement("dampers", COIL.path, dampers))
     declared = model(mechanism=mechanism, name="words")
     compiled, arrays = (kintrafo.System(own(declared, arrays=a)) for a in (False, True))
     state = compiled.state(crank_angle=0.3, crank_angle_rate=2.0)
@@ -635,4 +646,4 @@ def test_macros_of_the_emitted_code_are_reserved():
     assert {"ROUNDING", "CONVERGED"} <= defined
     for name in sorted(defined):
         with pytest.raises(DeclarationError, match=f"parameter '{name}' has a name that"):
-            with_parameter("spring_rate", name=name)
+            instead(RATE, name=name)

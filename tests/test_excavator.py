@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+from changes import changed, named
 from kintrafo.generated import excavator, excavator_lifting
 from kintrafo.generator import Actuator, AlongLine, ForceElement, Point, Weight
 from kintrafo.generator.closed_forms.rpr import RPR
 from kintrafo.generator.equations.outputs import generate
-from kintrafo.generator.mechanisms.excavator import EXCAVATOR, LIFTING, MODELS
+from kintrafo.generator.mechanisms.excavator import EXCAVATOR, MODELS
 from kintrafo.generator.planning.plan import Plan
 from own_models import Built
 from scipy.integrate import solve_ivp
@@ -226,23 +227,27 @@ def test_work_of_the_cylinders_is_what_the_energy_changes_by() -> None:
 
 def test_angles_as_coordinates_give_the_same_motion() -> None:
     """Cylinders that follow their hinges, with the force along the line of their pins."""
-    points = {name: (body, Point(pin, flat="y")) for name, (body, pin) in _ends().items()}
+    points = {
+        name: (EXCAVATOR.body(body), named(EXCAVATOR, Point, pin))
+        for name, (body, pin) in _ends().items()
+    }
+    inputs = {c: EXCAVATOR.input(f"{c}_force") for c in CYLINDERS}
     mechanism = replace(
         EXCAVATOR,
         name="by_angles",
         forces=(
-            Weight(gravity="gravity"),
+            Weight(),
             *(
                 ForceElement(
                     name=f"{c}_cylinder",
                     path=AlongLine(points[f"{c}_low"], points[f"{c}_high"]),
-                    laws=(Actuator(input=f"{c}_force"),),
+                    laws=(Actuator(inputs[c]),),
                 )
                 for c in CYLINDERS
             ),
         ),
     )
-    hinges = ("boom_hinge", "arm_hinge", "bucket_hinge")
+    hinges = tuple(map(EXCAVATOR.joint, ("boom_hinge", "arm_hinge", "bucket_hinge")))
     model = replace(MODELS[0], name="by_angles", mechanism=mechanism, independent=hinges)
     derived = generate(model)
     strokes = [a for a in derived.plan.steps if isinstance(a, RPR)]
@@ -289,10 +294,9 @@ def drift_of(state: Array, rows: list[int]) -> Array:
 def test_loops_wait_for_those_that_they_hang_on(model: Any) -> None:
     """The bucket's loops declared first and its bodies numbered first: the same loops."""
     mechanism = model.mechanism
-    ground, *moving = mechanism.bodies
-    bodies = (ground, *(replace(b, number=i) for i, b in enumerate(moving[::-1], 1)))
-    joints = mechanism.joints[::-1]
-    turned = replace(mechanism, bodies=bodies, joints=joints)
+    backward = ((body, replace(body, order=-body.order)) for body in mechanism.bodies)
+    turned = replace(changed(mechanism, *backward), joints=mechanism.joints[::-1])
+    assert turned.bodies[1:] == mechanism.bodies[:0:-1]
     plan, expected = Plan.of(replace(model, mechanism=turned)), Plan.of(model)
     assert {t.cycle.key for t in plan.transformers} == {t.cycle.key for t in expected.transformers}
     assert plan.transformers[0].cycle.key == expected.transformers[0].cycle.key
@@ -300,5 +304,5 @@ def test_loops_wait_for_those_that_they_hang_on(model: Any) -> None:
 
 def test_mobility() -> None:
     assert excavator.MOBILITY == 3
-    assert len(LIFTING.inputs) == 3 * (excavator_lifting.MOBILITY - 1)
+    assert len(MODELS[1].inputs) == 3 * (excavator_lifting.MOBILITY - 1)
     assert len(excavator.LOOPS) == 4

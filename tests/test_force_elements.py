@@ -1,11 +1,10 @@
 """Force elements that can stand in for one another give the same equations."""
 
-import dataclasses
-
 import mpmath
 import numpy as np
 import pytest
-from kintrafo.generator import AlongLine, ForceElement, LinearDamper, LinearSpring, Parameter
+from changes import changed
+from kintrafo.generator import AlongLine, ForceElement, Length, LinearSpring
 from kintrafo.generator.equations.dynamics import Dynamics
 from kintrafo.generator.equations.parts import Parts
 from kintrafo.generator.mechanisms import macpherson
@@ -43,28 +42,18 @@ def accelerations(model, parameters):
 def test_line_spring_along_the_strut_is_the_telescope_spring(seed):
     model = macpherson.MODELS[0]
     parameters = perturbed_parameters(np.random.default_rng(seed))
+    length = Length("coil_free_length", 0.8, "length at which the spring is free")
     line = ForceElement(
-        name="coil",
-        path=AlongLine(("chassis", macpherson.C), ("control_arm", macpherson.B)),
-        laws=(
-            LinearSpring(rate="spring_rate", free_length="coil_free_length"),
-            LinearDamper(rate="damper_rate"),
+        "coil",
+        AlongLine(
+            (macpherson.CHASSIS, macpherson.STRUT_TOP), (macpherson.ARM, macpherson.BALL_JOINT)
         ),
+        (LinearSpring(macpherson.SPRING_RATE, free_length=length), macpherson.DAMPER),
     )
-    forces = tuple(
-        line if isinstance(force, ForceElement) else force for force in model.mechanism.forces
-    )
-    mechanism = dataclasses.replace(
-        model.mechanism,
-        forces=forces,
-        parameters=(
-            *model.mechanism.parameters,
-            Parameter("coil_free_length", 0.8, "m", "length at which the spring is free"),
-        ),
-    )
+    (strut,) = model.mechanism.elements
     free_length = parameters["strut_length_max"] - parameters["spring_free_slide"]
     by_line = accelerations(
-        dataclasses.replace(model, mechanism=mechanism),
+        changed(model, (strut, line)),
         parameters | {"coil_free_length": free_length},
     )
     # both are evaluated with 15 digits of mpmath; the forces are large differences of lengths

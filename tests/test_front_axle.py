@@ -357,9 +357,8 @@ def test_halves_of_the_bar_may_have_mass() -> None:
         "bar_inertia_xy": 4e-3,
     }
     given = parameters_of(1, **heavy)
-    model = declaration.model(
-        declaration.mechanism(), massive=("control_arm", "knuckle", "wheel", "bar")
-    )
+    massive = (declaration.ARM, declaration.KNUCKLE, declaration.WHEEL, declaration.BAR)
+    model = declaration.model(declaration.mechanism(), massive)
     at = Compared.of(1)
     state, inputs = at.state[0], at.inputs[0]
     named = dict(zip(at.axle.input_names, map(float, inputs), strict=True))
@@ -377,12 +376,13 @@ def test_halves_of_the_bar_may_have_mass() -> None:
 def test_a_free_rack_couples_the_sides() -> None:
     """The same declaration with the rack as a fifth freedom: then the axle is one part."""
     prescribed = declaration.MODELS[0]
+    mechanism = prescribed.mechanism
     model = replace(
         prescribed,
-        independent=(*prescribed.independent, "y"),
+        independent=(*prescribed.independent, mechanism.joint("y")),
         prescribed={},
         held={},
-        massive=(*prescribed.massive, "rack"),
+        massive=(*prescribed.massive, mechanism.body("rack")),
     )
     given = parameters_of(2, rack_mass=3.0)
     at = Compared.of(2)

@@ -20,12 +20,14 @@ import numpy as np
 import own_models
 import pytest
 import sympy as sp
+from changes import changed
 from kintrafo.generated import double_wishbone
 from kintrafo.generated._support import ClosureError, ModelError
-from kintrafo.generator import Direction, Line, Point, RelativeCoordinate, Revolute
+from kintrafo.generator import Line, Revolute
 from kintrafo.generator.backends.report.markdown import markdown
 from kintrafo.generator.equations.outputs import GeneratedModel, generate
 from kintrafo.generator.loops.errors import NoClosedFormError
+from kintrafo.generator.mechanisms import multi_link
 from kintrafo.generator.mechanisms.multi_link import CONTROL_ARM, FIVE_LINK, MODELS
 from kintrafo.generator.planning.plan import Plan
 from kintrafo.generator.program import ConstantStage, Program
@@ -39,7 +41,6 @@ from symbolic import constants_of, python
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from kintrafo.generator import Mechanism
     from oracle.constraints import Array
 
 ARM, FIVE, STRUT = MODELS
@@ -457,17 +458,14 @@ def test_report_names_the_equations_of_the_loops(
 
 
 def test_angles_of_the_links_can_be_reported() -> None:
-    mechanism = replace(
-        CONTROL_ARM,
-        coordinates=(
-            *CONTROL_ARM.coordinates,
-            *(
-                RelativeCoordinate(f"link_{kind}", "upper_link_cross", kind, "rad", kind)
-                for kind in ("azimuth", "elevation")
-            ),
-        ),
+    cross = CONTROL_ARM.joint("upper_link_cross")
+    angles = (
+        cross.azimuth("link_azimuth", "azimuth"),
+        cross.elevation("link_elevation", "elevation"),
     )
-    derived = generate(replace(ARM, mechanism=mechanism, massive=("carrier", "wheel"), held={}))
+    mechanism = replace(CONTROL_ARM, coordinates=(*CONTROL_ARM.coordinates, *angles))
+    massive = tuple(map(mechanism.body, ("carrier", "wheel")))
+    derived = generate(replace(ARM, mechanism=mechanism, massive=massive, held={}))
     values = constants_of(derived, {p.name: p.default for p in mechanism.parameters})
     values |= {"arm_angle": 1.5, "rack_position": 0.02, "spin_angle": 0.1}
     shown = derived.functions["relative_coordinates"]
@@ -509,21 +507,11 @@ def test_without_permission_the_loop_is_refused(model: Any) -> None:
         kintrafo.compile(replace(model, allow_iteration=False))
 
 
-def with_joints(mechanism: Mechanism, **joints: Any) -> Mechanism:
-    """Return a mechanism with some of its joints declared otherwise; None leaves one out."""
-    kept = [joints.get(j.name, j) for j in mechanism.joints]
-    return replace(mechanism, joints=tuple(j for j in kept if j is not None))
-
-
 def test_a_hinge_in_place_of_a_ball_joint_has_no_block() -> None:
     """What is neither a body on rods nor in the catalogue is refused, permission or not."""
-    hinge = Revolute(
-        name="lower_ball",
-        first="lower_arm",
-        second="carrier",
-        axis=Line(Point("lower_ball_joint"), Direction("spin_axis")),
-    )
-    model = replace(ARM, mechanism=with_joints(CONTROL_ARM, lower_ball=hinge))
+    ball, line = multi_link.LOWER_BALL, Line(multi_link.ARM_BALL, multi_link.SPIN_AXIS)
+    hinge = Revolute("lower_ball", multi_link.LOWER_ARM, multi_link.CARRIER, axis=line)
+    model = changed(ARM, (ball, hinge))
     with pytest.raises(NoClosedFormError, match="no closed") as told:
         Plan.of(model)
     assert "allow_iteration" not in str(told.value)
@@ -531,10 +519,7 @@ def test_a_hinge_in_place_of_a_ball_joint_has_no_block() -> None:
 
 def test_rods_on_the_ground_only_cannot_move() -> None:
     """The body they hold is a part of the ground, and its inertia is none of the equations'."""
-    at_rest = {
-        f"{rod}_cross": replace(FIVE_LINK.joint(f"{rod}_cross"), first="chassis")
-        for rod in ("toe_link", "push_rod")
-    }
-    model = replace(FIVE, mechanism=with_joints(FIVE_LINK, **at_rest))
+    crosses = [FIVE_LINK.joint(f"{rod}_cross") for rod in ("toe_link", "push_rod")]
+    model = changed(FIVE, *((c, replace(c, first=multi_link.CHASSIS)) for c in crosses))
     with pytest.raises(NoClosedFormError, match=r"carrier, held by upper_link, .* cannot move"):
         generate(model)

@@ -17,6 +17,7 @@ import numpy as np
 import own_loops
 import own_models
 import pytest
+from changes import with_default
 from kintrafo.generated._support import ClosureError
 from kintrafo.generator.backends.report.markdown import markdown
 from kintrafo.generator.closed_forms.coupled_loops import MOST_UNKNOWNS, CoupledLoops, obstacle
@@ -94,7 +95,7 @@ def given(built: Built) -> Array:
     inputs = np.zeros(len(built.module.INPUTS))
     start = {
         motion: built.oracle.driven(built.at_design, joint).value[0]
-        for joint, motion in built.model.prescribed.items()
+        for joint, motion in built.model.motions.items()
     }
     for i, name in enumerate(built.module.INPUTS):
         motion, _, what = name.rpartition("_")
@@ -130,12 +131,12 @@ def test_loops_close_and_accelerate(model: Model, built: Callable[[Model], Built
     compiled = built(model)
     inputs = given(compiled)
     named = compiled.named(inputs)
-    accelerations = {j: named[f"{m}_acceleration"] for j, m in model.prescribed.items()}
+    accelerations = {j: named[f"{m}_acceleration"] for j, m in model.motions.items()}
     for state in states(compiled, 25):
         motion = compiled.motion(state, inputs)
         rates = np.abs(motion.twist).max()
         for i, joint in enumerate(model.independent):
-            driven = compiled.oracle.driven(motion, joint)
+            driven = compiled.oracle.driven(motion, joint.name)
             turns = (driven.value[0] - state[i]) / (2.0 * np.pi)
             # some ten roundings of an angle below one turn; a rate is a difference of twists
             assert turns == pytest.approx(round(turns), abs=5e-15)
@@ -348,14 +349,6 @@ def test_without_permission_the_loop_is_refused(model: Model, words: str) -> Non
     assert "declared with allow_iteration=True" in str(told.value)
 
 
-def with_default(model: Model, **changes: float) -> Model:
-    """Return a model with some defaults changed."""
-    parameters = tuple(
-        replace(p, default=changes.get(p.name, p.default)) for p in model.mechanism.parameters
-    )
-    return replace(model, mechanism=replace(model.mechanism, parameters=parameters))
-
-
 def test_six_hinges_in_general_cannot_move() -> None:
     """Bricard's chain with another place of a hinge: recognised before anything is derived."""
     model = with_default(BRICARD, place_3_x=-0.25)
@@ -392,7 +385,7 @@ def test_too_many_unknowns_are_refused() -> None:
 
 def test_mobility_at_the_design_position() -> None:
     for model in MODELS.values():
-        driven = (*model.independent, *model.prescribed)
+        driven = [joint.name for joint in model.driven]
         mobility = Mobility(Topology(model.mechanism), driven)
         assert mobility.driven_move()
         joints = [j for j in model.mechanism.joints if j.name not in driven]

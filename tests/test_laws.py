@@ -7,7 +7,22 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kintrafo.generator import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
+from kintrafo.generator import (
+    Actuator,
+    DamperRate,
+    DamperTable,
+    Displacement,
+    ForceLevel,
+    Friction,
+    Input,
+    Length,
+    LinearDamper,
+    LinearSpring,
+    Progression,
+    Speed,
+    SpringRate,
+    Stop,
+)
 from kintrafo.generator.declare.laws import Law, Stretch
 from kintrafo.generator.program import ConstantStage, Function, Program
 from oracle import laws as oracle
@@ -48,8 +63,10 @@ def force_of(law: Law, given: Mapping[str, float]) -> Callable[..., float]:
 
 def test_spring_by_slide_and_by_length() -> None:
     """Both push when the element is short: the slide grows as the length falls."""
-    by_slide = force_of(LinearSpring(rate="k", free_slide="free"), {"k": 2e4, "free": 0.05})
-    by_length = force_of(LinearSpring(rate="k", free_length="free"), {"k": 2e4, "free": 0.8})
+    rate = SpringRate("k", 2e4, "rate")
+    free_slide, free_length = Displacement("free", 0.05, "slide"), Length("free", 0.8, "length")
+    by_slide = force_of(LinearSpring(rate, free_slide), {"k": 2e4, "free": 0.05})
+    by_length = force_of(LinearSpring(rate, free_length=free_length), {"k": 2e4, "free": 0.8})
     assert by_slide(slide=0.3) == pytest.approx(5000.0, rel=1e-15)
     assert by_length(length=0.55) == pytest.approx(5000.0, rel=1e-15)
     assert by_slide(slide=0.05) == by_length(length=0.8) == 0.0
@@ -58,19 +75,20 @@ def test_spring_by_slide_and_by_length() -> None:
 
 
 def test_damper_resists() -> None:
-    force = force_of(LinearDamper(rate="c"), {"c": 1500.0})
+    force = force_of(LinearDamper(DamperRate("c", 1.0, "rate")), {"c": 1500.0})
     assert force(velocity=-2.0) == 3000.0
     assert force(velocity=2.0) == -3000.0
     assert force(velocity=0.0) == 0.0
 
 
 def test_actuator_is_its_input() -> None:
-    assert force_of(Actuator(input="push"), {"push": 123.0})() == 123.0
+    push = Actuator(Input("push", "N", "push"))
+    assert force_of(push, {"push": 123.0})() == 123.0
 
 
 # -- friction -------------------------------------------------------------------------------------
 
-FRICTION = Friction(level="level", speed="speed")
+FRICTION = Friction(ForceLevel("level", 80.0, "level"), Speed("speed", 0.02, "speed"))
 
 
 @given(velocities, st.floats(1e-3, 1.0))
@@ -98,7 +116,12 @@ def test_friction_at_its_speed_and_at_rest() -> None:
 # -- stops ----------------------------------------------------------------------------------------
 
 STOPS = {
-    side: Stop(side=side, length="touch", rate="rate", progression="progression")
+    side: Stop(
+        side=side,
+        length=Length("touch", 0.6, "length"),
+        rate=SpringRate("rate", 3e4, "rate"),
+        progression=Progression("progression", 2e7, "progression"),
+    )
     for side in ("bump", "rebound")
 }
 STOP = {"touch": 0.6, "rate": 3e4, "progression": 2e7}
@@ -128,7 +151,7 @@ def test_names_of_signals() -> None:
         "force of the bump stop",
         "force of the rebound stop",
     ]
-    assert TABLE.signal == LinearDamper(rate="c").signal  # shown as one force
+    assert TABLE.signal == LinearDamper.signal  # shown as one force
 
 
 # -- the damper's table ---------------------------------------------------------------------------
@@ -141,7 +164,7 @@ def table(count: int, seed: int) -> tuple[PchipInterpolator, dict[str, float]]:
     curve = PchipInterpolator(knots, np.cumsum(rng.uniform(-200.0, 500.0, count)))
     parameters = completed(reference_parameters())
     set_damper_curve(parameters, curve)
-    return curve, {name: parameters[name] for name, *_ in TABLE.parameters()}
+    return curve, {p.name: parameters[p.name] for p in TABLE.numbers}
 
 
 CURVES = [(count, seed) for count in (2, 5, 11) for seed in range(3)]
@@ -184,7 +207,7 @@ def test_table_is_smooth_at_its_knots(count: int, seed: int) -> None:
 def test_table_is_that_of_the_oracle(velocity: float, seed: int) -> None:
     """With coefficients of no interpolation at all, as no program of ours would write them."""
     rng = np.random.default_rng(seed)
-    names = [name for name, *_ in TABLE.parameters()]
+    names = [p.name for p in TABLE.numbers]
     parameters = {name: rng.uniform(-300.0, 300.0) for name in names}
     knots = np.cumsum(rng.uniform(0.1, 0.5, 11)) - 1.5
     parameters |= {f"damper_table_knot_{i}": knots[i] for i in range(11)}
@@ -200,7 +223,7 @@ def test_table_is_that_of_the_oracle(velocity: float, seed: int) -> None:
 
 def test_table_without_force() -> None:
     """The defaults are no damper at all."""
-    parameters = {name: default for name, default, *_ in TABLE.parameters()}
+    parameters = {p.name: p.default for p in TABLE.numbers}
     force = force_of(TABLE, parameters)
     assert [force(velocity=v) for v in (-3.0, -1e-9, 0.0, 1e-9, 3.0)] == [0.0] * 5
     assert len(parameters) == 3 + 11 + 4 * 10
@@ -209,14 +232,14 @@ def test_table_without_force() -> None:
 @pytest.mark.parametrize(
     "law",
     [
-        LinearSpring(rate="rate", free_slide="touch"),
-        LinearSpring(rate="rate", free_length="touch"),
-        LinearDamper(rate="rate"),
+        LinearSpring(SpringRate("rate", 3e4, "rate"), Displacement("touch", 0.61, "slide")),
+        LinearSpring(SpringRate("rate", 3e4, "rate"), free_length=STOPS["bump"].length),
+        LinearDamper(DamperRate("rate", 3e4, "rate")),
         FRICTION,
         *STOPS.values(),
         TABLE,
     ],
-    ids=repr,
+    ids=lambda law: type(law).__name__,
 )
 def test_slopes_are_the_differences_of_the_force(law: Law) -> None:
     """Away from kinks: a central difference of the sixth order, good to 1e-9."""

@@ -15,7 +15,8 @@ import numpy as np
 import own_mechanisms
 import own_models
 import pytest
-from kintrafo.generator import FORWARD, AlongLine, Model, RelativeCoordinate
+from changes import changed
+from kintrafo.generator import FORWARD, AlongLine, Model
 from kintrafo.generator.equations.outputs import GeneratedModel, generate
 from kintrafo.generator.mechanisms import MODELS as SHIPPED
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
@@ -65,8 +66,8 @@ class At:
     def given(self) -> dict[str, float]:
         """Accelerations of the prescribed joints."""
         named = self.built.named(self.inputs)
-        prescribed = self.built.model.prescribed
-        return {joint: named[f"{name}_acceleration"] for joint, name in prescribed.items()}
+        motions = self.built.model.motions
+        return {joint: named[f"{name}_acceleration"] for joint, name in motions.items()}
 
     def reduced(self, **given: float) -> Reduced:
         """Solve the equations of motion with the oracle, some accelerations given otherwise."""
@@ -121,13 +122,13 @@ def geometry(model: Model, found: Any, rng: np.random.Generator) -> Built:
     """Return a model of other dimensions; its loops are about as far from dead points."""
     reference = margins(Built.of(model, found))
     for _ in range(100):
-        built = Built.of(model, found, changed(model, rng))
+        built = Built.of(model, found, other_values(model, rng))
         if (margins(built) > 0.4 * reference).all():
             return built
     raise AssertionError(f"{model.name}: no other geometry found")
 
 
-def changed(model: Model, rng: np.random.Generator) -> dict[str, float]:
+def other_values(model: Model, rng: np.random.Generator) -> dict[str, float]:
     """Return other values of all parameters that may be chosen freely."""
     if model.name.startswith("macpherson"):
         car = completed(general_parameters(rng, offset=rng.uniform(0.0, 0.08)))
@@ -211,7 +212,7 @@ def test_rotations_are_rotations(name: str, seed: int, module: Modules) -> None:
 @cases(*SEEDS)
 def test_bodies_stand_and_move_as_the_state_says(name: str, seed: int, module: Modules) -> None:
     for at in places(name, seed, module(name)):
-        driven = [at.built.oracle.driven(at.motion, j) for j in at.built.model.independent]
+        driven = [at.built.oracle.driven(at.motion, j.name) for j in at.built.model.independent]
         q, rates = np.split(at.state, 2)
         for jet, coordinate, rate in zip(driven, q, rates, strict=True):
             assert whole_turns_off(jet, coordinate) < 1e-13
@@ -225,10 +226,9 @@ def whole_turns_off(jet: Jet, value: float) -> float:
 
 def reported(at: At) -> list[Jet]:
     """Return all relative coordinates by the oracle."""
-    mechanism = at.built.model.mechanism
     return [
-        at.built.oracle.coordinate(at.motion, mechanism.joint(c.joint), c.kind)
-        for c in mechanism.coordinates
+        at.built.oracle.coordinate(at.motion, c.joint, c.kind)
+        for c in at.built.model.mechanism.coordinates
     ]
 
 
@@ -372,7 +372,7 @@ def acceleration_scale(oracle: Any) -> float:
 def test_held_joints_stand_still(name: str, seed: int, module: Modules) -> None:
     for at in places(name, seed, module(name)):
         (variant, joints), *_ = MODELS[name].held.items()
-        moving = [MODELS[name].prescribed[j] for j in joints]
+        moving = [MODELS[name].prescribed[j].name for j in joints]
         still = at.inputs.copy()
         for i, entry in enumerate(at.built.module.INPUTS):
             if entry in {f"{m}_{kind}" for m in moving for kind in ("velocity", "acceleration")}:
@@ -457,7 +457,8 @@ def test_a_hardpoint_may_be_carried_by_two_bodies() -> None:
     # the seat of the second spring is where the centre of the coupler is, but on the rocker
     mechanism = MODELS["four_bar"].mechanism
     coupler, rocker = mechanism.body("coupler"), mechanism.body("rocker")
-    ends = ("ground", mechanism.body("ground").center), (rocker.name, coupler.center)
+    ground = mechanism.body("ground")
+    ends = (ground, ground.center), (rocker, coupler.center)
     spring = replace(mechanism.elements[0], name="second", path=AlongLine(*ends))
     model = four_bar("two_springs", forces=(*mechanism.forces, spring))
     built = Built.of(model, own(model))
@@ -472,18 +473,14 @@ def test_a_hardpoint_may_be_carried_by_two_bodies() -> None:
 def test_every_angle_of_a_planar_loop_can_be_reported(joint: str, *, counted: bool) -> None:
     """The pin at which the loop closes, too; also where the angle counts to a hardpoint."""
     mechanism = MODELS["four_bar"].mechanism
-    declared = mechanism.joint(joint)
+    plain = declared = mechanism.joint(joint)
     if counted:
-        marker = mechanism.body(declared.second).center
-        declared = replace(declared, angle_to=marker, angle_from=FORWARD)
-    model = four_bar(
-        "reported",
-        joints=tuple(declared if j.name == joint else j for j in mechanism.joints),
-        coordinates=(
-            *(c for c in mechanism.coordinates if c.joint in {"A"} - {joint}),
-            RelativeCoordinate("shown", joint, "angle", "rad", "angle"),
-        ),
-    )
+        declared = replace(plain, angle_to=plain.second.center, angle_from=FORWARD)
+    model = changed(MODELS["four_bar"], (plain, declared))
+    kept = (c for c in model.mechanism.coordinates if c.joint.name in {"A"} - {joint})
+    coordinates = (*kept, declared.angle("shown", "angle"))
+    mechanism = replace(model.mechanism, name="reported", coordinates=coordinates)
+    model = replace(model, name="reported", mechanism=mechanism)
     derived = generate(model)
     given = {p.name: p.default for p in mechanism.parameters}
     constants = constants_of(derived, given)

@@ -9,19 +9,21 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import permutations, product
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import mpmath
 import numpy as np
 import pytest
+from changes import changed, named
 from kintrafo.generator import (
     Body,
     Direction,
+    Ground,
+    Joint,
     Mechanism,
     Model,
-    Parameter,
+    Point,
     Prismatic,
-    RelativeCoordinate,
     Revolute,
     Spherical,
     Universal,
@@ -31,15 +33,12 @@ from kintrafo.generator.closed_forms.revolute import RevoluteByLength
 from kintrafo.generator.closed_forms.rpr import RPR, PlaceTelescope
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.loops.errors import NoClosedFormError
-from kintrafo.generator.mechanisms.planar import flat, hinge, inertia, places
+from kintrafo.generator.mechanisms.planar import flat, hinge
 from kintrafo.generator.mechanisms.slider_crank import MODELS as SLIDER_CRANKS
 from kintrafo.generator.planning.plan import Plan
 from mpmath import mpf
 from own_models import Built, needs_gcc, own
 from symbolic import constants_of, python
-
-if TYPE_CHECKING:
-    from kintrafo.generator.declare.joints import Joint
 
 EPSILON = 2.0**-52
 BOOM, BASE = (
@@ -50,35 +49,37 @@ BOOM, BASE = (
 
 def crane(driven: str) -> Model:
     """Return the crane with the boom's hinge or the bore of the cylinder driven."""
-    names = ("boom", "barrel", "piston")
-    at_pins = {"foot": (0.0, 0.0), "barrel_pin": (BASE, 0.0), "piston_pin": (0.0, BOOM)}
-    centers = {"boom_com": (0.1, 0.9), "barrel_com": (0.8, 0.3), "piston_com": (0.3, 0.9)}
+    ground = Ground("ground")
+    foot, low, high = (
+        flat(name, place)
+        for name, place in (
+            ("foot", (0.0, 0.0)),
+            ("barrel_pin", (BASE, 0.0)),
+            ("piston_pin", (0.0, BOOM)),
+        )
+    )
+    boom, barrel, piston = (
+        Body(name, 2.0, flat(f"{name}_com", place), 0.3)
+        for name, place in (("boom", (0.1, 0.9)), ("barrel", (0.8, 0.3)), ("piston", (0.3, 0.9)))
+    )
+    joints = (
+        hinge("pivot", ground, boom, foot),
+        hinge("low", ground, barrel, low),
+        Prismatic("bore", barrel, piston, Direction("way", tuple(WAY.values()))),
+        hinge("high", piston, boom, high),
+    )
+    pivot, leaning, bore, _ = joints
     mechanism = Mechanism(
         name=f"crane_{driven}",
         title="Crane",
-        bodies=(
-            Body("ground", 0, center=flat("foot")),
-            *(Body(name, i, center=flat(f"{name}_com")) for i, name in enumerate(names, 1)),
-        ),
-        joints=(
-            hinge("pivot", "ground", "boom", "foot"),
-            hinge("low", "ground", "barrel", "barrel_pin"),
-            Prismatic(name="bore", first="barrel", second="piston", direction=Direction("way")),
-            hinge("high", "piston", "boom", "piston_pin"),
-        ),
-        forces=(),
-        parameters=(
-            *places({name: (place, name) for name, place in {**at_pins, **centers}.items()}),
-            *(Parameter(f"way_{axis}", value, "1", "guide") for axis, value in WAY.items()),
-            *(entry for name in names for entry in inertia(name, 2.0, 0.3)),
-        ),
+        joints=joints,
         coordinates=(
-            RelativeCoordinate("boom_angle", "pivot", "angle", "rad", "angle of the boom"),
-            RelativeCoordinate("barrel_angle", "low", "angle", "rad", "angle of the barrel"),
-            RelativeCoordinate("stroke", "bore", "slide", "m", "stroke"),
+            pivot.angle("boom_angle", "angle of the boom"),
+            leaning.angle("barrel_angle", "angle of the barrel"),
+            bore.slide("stroke", "stroke"),
         ),
     )
-    return Model(mechanism.name, "Crane", mechanism, independent=(driven,), massive=names)
+    return Model(mechanism.name, "Crane", mechanism, independent=(mechanism.joint(driven),))
 
 
 WAY = {"x": -0.5, "y": 0.7, "z": 0.0}
@@ -159,7 +160,7 @@ class Exact:
 
     def all_at(self, built: Built, driven: float) -> tuple[mpf, mpf, mpf]:
         """Return boom angle, barrel angle and stroke."""
-        if "pivot" in built.model.independent:
+        if built.model.independent[0].name == "pivot":
             turn, stroke = mpf(driven), self.stroke(driven)
         else:
             turn, stroke = self.boom_angle(driven), mpf(driven)
@@ -198,7 +199,7 @@ def test_position_over_the_whole_range(built: Built, geometry: str) -> None:
 
 def reach(built: Built, exact: Exact) -> tuple[float, float]:
     """Return the ends of the driven coordinate: of the boom half a turn, of the stroke its ends."""
-    if "pivot" in built.model.independent:
+    if built.model.independent[0].name == "pivot":
         return nearest_pins(exact), float(exact.side * mpmath.pi - exact.start)
     sign = mpmath.sign(exact.along)
     lengths = (abs(exact.boom - exact.base), exact.boom + exact.base)
@@ -230,7 +231,7 @@ def end_of(built: Built, which: str) -> End:
     """Return an end of the range of a crane whose guide passes far beside its pins."""
     with mpmath.workdps(40):
         exact = Exact.of(built)
-        if "pivot" in built.model.independent:
+        if built.model.independent[0].name == "pivot":
             return End(nearest_pins(exact), float(exact.side), "barrel_extension_squared")
         shortest, longest = reach(built, exact)
         inward = float(mpmath.sign(exact.along))
@@ -245,7 +246,7 @@ def with_end(built: Built, which: str) -> Built:
     Where the stroke follows, both stand for the pins coming together, on either side of the boom:
     the guide is so far beside them that they cannot meet.
     """
-    if "pivot" not in built.model.independent:
+    if built.model.independent[0].name != "pivot":
         return Built.of(built.model, built.module)
     side = 1.0 if which == "shortest" else -1.0
     bent = {"way_x": -0.99, "way_y": 0.3 * side, "piston_pin_y": side * BOOM}
@@ -312,12 +313,13 @@ def test_a_cylinder_drawn_in_beyond_its_pins_is_named(built: Built) -> None:
 def test_any_order_of_declaration(driven: str) -> None:
     """Joints in any order, and those that are not driven from either end: crane, slider-crank."""
     model = crane(driven) if driven in ("pivot", "bore") else sliding(driven)
-    free = [j.name for j in model.mechanism.joints if j.name != driven]
-    for order in permutations(model.mechanism.joints):
-        for flips in product([False, True], repeat=len(free)):
-            flipped = {name for name, flip in zip(free, flips, strict=True) if flip}
-            joints = tuple(reversed_joint(j) if j.name in flipped else j for j in order)
-            plan = Plan.of(replace(model, mechanism=replace(model.mechanism, joints=joints)))
+    free = [j for j in model.mechanism.joints if j.name != driven]
+    for flips in product([False, True], repeat=len(free)):
+        turned = [(j, reversed_joint(j)) for j, flip in zip(free, flips, strict=True) if flip]
+        flipped = changed(model, *turned)
+        for order in permutations(flipped.mechanism.joints):
+            mechanism = replace(flipped.mechanism, joints=order)
+            plan = Plan.of(replace(flipped, mechanism=mechanism))
             kinds = [type(action) for action in plan.steps if type(action) in ANSWERS[driven]]
             assert kinds == ANSWERS[driven]
 
@@ -334,7 +336,7 @@ def sliding(driven: str) -> Model:
     """Return the slider-crank without forces, its crank or its piston driven."""
     model = SLIDER_CRANKS[0]
     still = replace(model.mechanism, forces=())
-    return replace(model, mechanism=still, independent=(driven,))
+    return replace(model, mechanism=still, independent=(still.joint(driven),))
 
 
 def reversed_joint(joint: Joint) -> Joint:
@@ -345,19 +347,16 @@ def reversed_joint(joint: Joint) -> Joint:
 def test_guide_along_the_pins_is_a_guide_that_does_not_miss_them(built: Built) -> None:
     """Declared from pin to pin it costs less, and the numbers are those of a direction."""
     mechanism = built.model.mechanism
-    pins = flat("barrel_pin"), flat("piston_pin")
+    pins = named(mechanism, Point, "barrel_pin"), named(mechanism, Point, "piston_pin")
     along = {"way_x": -BASE, "way_y": BOOM}
     state = np.array([0.2, 1.3])
     expected = Built.of(built.model, built.module, along)("rhs", state)
     for between in (pins, pins[::-1]):
-        joints = tuple(
-            replace(j, direction=Direction("bore", between=between)) if j.name == "bore" else j
-            for j in mechanism.joints
-        )
-        parameters = tuple(p for p in mechanism.parameters if not p.name.startswith("way"))
-        direct = replace(mechanism, joints=joints, parameters=parameters)
-        derived = generate(replace(built.model, mechanism=direct))
-        sign = -1.0 if between != pins and "bore" in built.model.independent else 1.0
+        way = named(mechanism, Direction, "way")
+        direct = changed(built.model, (way, Direction("bore", between=between)))
+        derived = generate(direct)
+        driven = built.model.independent[0].name
+        sign = -1.0 if between != pins and driven == "bore" else 1.0
         found = evaluated(derived, sign * state)
         np.testing.assert_allclose(sign * found, expected, rtol=1e-13)
         general = sum(built.module.rhs.operations[kind] for kind in ("add", "multiply"))
@@ -377,20 +376,14 @@ def test_known_telescope_in_space_is_refused_by_name() -> None:
     model = crane("bore")
     pivot = model.mechanism.joint("pivot")
     assert isinstance(pivot, Revolute)
-    at, to = pivot.axis.through, flat("piston_pin")
-    pins = {
-        "low": Universal(
-            name="low",
-            first="ground",
-            second="barrel",
-            at=flat("barrel_pin"),
-            shaft=replace(pivot.axis, through=flat("barrel_pin"), towards=to),
-        ),
-        "high": Spherical(name="high", first="piston", second="boom", at=to),
-    }
-    assert at == flat("foot")
-    joints = tuple(pins.get(j.name, j) for j in model.mechanism.joints)
-    coordinates = tuple(c for c in model.mechanism.coordinates if c.joint == "bore")
-    mechanism = replace(model.mechanism, joints=joints, coordinates=coordinates)
+    low, high = (model.mechanism.joint(name) for name in ("low", "high"))
+    at, to = (named(model, Point, name) for name in ("barrel_pin", "piston_pin"))
+    shaft = replace(pivot.axis, through=at, towards=to)
+    pins = (
+        (low, Universal("low", low.first, low.second, at=at, shaft=shaft)),
+        (high, Spherical("high", high.first, high.second, at=to)),
+    )
+    coordinates = tuple(c for c in model.mechanism.coordinates if c.joint.name == "bore")
+    mechanism = replace(model.mechanism, coordinates=coordinates)
     with pytest.raises(NoClosedFormError, match="ground - barrel - piston - boom"):
-        Plan.of(replace(model, mechanism=mechanism))
+        Plan.of(changed(replace(model, mechanism=mechanism), *pins))

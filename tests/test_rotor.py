@@ -7,14 +7,14 @@ where it is not, the unfolded equations must still be those of the oracle.
 """
 
 from collections.abc import Callable
-from dataclasses import replace
 from functools import cache
 
 import mpmath
 import numpy as np
 import pytest
 from cases import MODELS, Instant, car_parameters, counted_by, random_instants
-from kintrafo.generator import Model, Parameter
+from changes import changed, named
+from kintrafo.generator import Body, Model, Rotor
 from kintrafo.generator.equations.outputs import GeneratedModel, generate
 from kintrafo.generator.mechanisms import MODELS as DECLARED
 from oracle.constraints import WHEEL, Array
@@ -30,20 +30,8 @@ pytestmark = pytest.mark.slow
 
 def without_rotor(model: Model) -> Model:
     """Return a model whose wheel is a body with a full inertia tensor."""
-    mechanism = model.mechanism
-    tensor = [
-        Parameter(f"wheel_inertia_{element}", 0.0, "kg m^2", "of the wheel")
-        for element in INERTIA_ELEMENTS
-    ]
-    kept = [p for p in mechanism.parameters if not p.name.startswith("wheel_inertia")]
-    return replace(
-        model,
-        mechanism=replace(
-            mechanism,
-            bodies=tuple(replace(body, rotor_axis=None) for body in mechanism.bodies),
-            parameters=(*kept, *tensor),
-        ),
-    )
+    wheel = named(model, Rotor, "wheel")
+    return changed(model, (wheel, Body("wheel", wheel.mass.default, wheel.center, (0.0, 0.0, 0.0))))
 
 
 @cache

@@ -7,9 +7,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
+from changes import changed, named
 from kintrafo.generated._support import ClosureError
-from kintrafo.generator import AlongLine, Cylindrical, DeclarationError, Line, Parameter, Point
-from own_mechanisms import ball, cross, spatial_four_bar, turret
+from kintrafo.generator import (
+    AlongLine,
+    Cylindrical,
+    DeclarationError,
+    Direction,
+    Distance,
+    Line,
+    Point,
+    Spherical,
+    Universal,
+)
+from own_mechanisms import spatial_four_bar, turret
 from own_models import Built, own
 
 if TYPE_CHECKING:
@@ -71,26 +82,17 @@ def test_ends_that_meet_are_named() -> None:
 def telescope(name: str, *, ball_at_boom: bool) -> Model:
     """Return the turret with a telescope that may turn about its axis, from a cross to the boom."""
     model = turret(name, "lift")
-    foot, eye = Point("foot"), Point("eye")
-    tube = Cylindrical(
-        name="stroke",
-        first="barrel",
-        second="piston",
-        axis=Line(eye, foot),
-        length_at_zero_slide="bore_length",
-        angle_to=Point("piston_seat"),
-    )
-    pin = cross("pin", "boom", "piston", "eye", "foot", "slew_line")
-    others = {"stroke": tube} if ball_at_boom else {"stroke": tube, "pin": pin}
-    mechanism = replace(
-        model.mechanism,
-        joints=tuple(others.get(j.name, j) for j in model.mechanism.joints),
-        parameters=(
-            *model.mechanism.parameters,
-            Parameter("bore_length", 1.4, "m", "length of the telescope at zero slide"),
-        ),
-    )
-    massive = tuple(b for b in model.massive if b not in mechanism.idle_links)
+    foot, eye, seat = (named(model, Point, name) for name in ("foot", "eye", "piston_seat"))
+    mechanism = model.mechanism
+    boom, barrel, piston = map(mechanism.body, ("boom", "barrel", "piston"))
+    length = Distance("bore_length", 1.4, "length of the telescope at zero slide")
+    tube = Cylindrical("stroke", barrel, piston, Line(eye, foot), length, angle_to=seat)
+    mechanism = changed(mechanism, (mechanism.joint("stroke"), tube))
+    if not ball_at_boom:
+        axis = named(model, Direction, "slew_line")
+        pin = Universal("pin", boom, piston, at=eye, shaft=Line(eye, foot), first_axis=axis)
+        mechanism = changed(mechanism, (mechanism.joint("pin"), pin))
+    massive = tuple(b for b in model.massive if b.name not in mechanism.idle_links)
     return replace(model, mechanism=mechanism, massive=massive)
 
 
@@ -110,18 +112,15 @@ def test_two_crosses_hold_a_telescope_that_turns() -> None:
 
 def test_a_piston_without_mass_may_turn_as_it_likes() -> None:
     model = telescope("free_piston", ball_at_boom=True)
-    assert model.massive == ("turret", "boom", "barrel")
-    seat = replace(model.mechanism.elements[0], path=AlongLine(*_BOOM_SPRING))
-    forces = tuple(seat if f == model.mechanism.elements[0] else f for f in model.mechanism.forces)
-    model = replace(model, mechanism=replace(model.mechanism, forces=forces))
-    built = compiled(model)
+    assert [body.name for body in model.massive] == ["turret", "boom", "barrel"]
+    (spring,) = model.mechanism.elements
+    eye = model.mechanism.body("boom"), named(model, Point, "eye")
+    seat = replace(spring, path=AlongLine(spring.path.first, eye))
+    built = compiled(changed(model, (spring, seat)))
     for state in np.random.default_rng(0).uniform(-0.4, 0.4, (10, 4)):
         closure = built.oracle.closure(built.motion(state, np.zeros(len(built.module.INPUTS))))
         np.testing.assert_allclose(closure.value, 0.0, atol=2e-15)
         np.testing.assert_allclose(closure.rate, 0.0, atol=5e-15)
-
-
-_BOOM_SPRING = ("ground", Point("ground_seat")), ("boom", Point("eye"))
 
 
 # -- rods on two ball joints ----------------------------------------------------------------------
@@ -130,18 +129,15 @@ _BOOM_SPRING = ("ground", Point("ground_seat")), ("boom", Point("eye"))
 def on_two_balls(massive: tuple[str, ...]) -> Model:
     """Return a spatial four-bar whose rod has a ball joint in place of its cross."""
     model = spatial_four_bar("two_balls")
-    joints = tuple(
-        ball("cross", "crank", "rod", "crank_end") if j.name == "cross" else j
-        for j in model.mechanism.joints
+    cross = model.mechanism.joint("cross")
+    ball = Spherical("cross", cross.first, cross.second, at=cross.center)
+    (spring,) = model.mechanism.elements
+    end = model.mechanism.body("rocker"), named(model, Point, "rocker_end")
+    other = replace(spring, path=AlongLine(spring.path.first, end))
+    bodies = tuple(map(model.mechanism.body, massive))
+    return replace(
+        changed(replace(model, massive=bodies[:1]), (cross, ball), (spring, other)), massive=bodies
     )
-    forces = tuple(
-        replace(f, path=AlongLine(f.path.first, ("rocker", Point("rocker_end"))))
-        if getattr(f, "name", "") == "spring"
-        else f
-        for f in model.mechanism.forces
-    )
-    mechanism = replace(model.mechanism, joints=joints, forces=forces)
-    return replace(model, mechanism=mechanism, massive=massive)
 
 
 def test_a_rod_without_mass_on_two_balls_is_like_one_with_a_cross() -> None:

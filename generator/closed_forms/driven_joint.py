@@ -137,7 +137,7 @@ def _revolute_frame(
 ) -> _HingeFrame:
     """Return the axes of a hinge on both of its bodies."""
     through = kin.design(joint.axis.through)
-    if joint is kin.work_hinge:
+    if joint == kin.work_hinge:
         assert joint.angle_to is not None
         point = kin.design(joint.angle_to)
         axis, z_parent = UNIT_X, UNIT_Z

@@ -100,8 +100,9 @@ class Telescope(ClosedForm):
         """Return the closure equation and its solution."""
         del closing
         joint, end, anchor = self.ends.joint, self.ends.end, self.ends.anchor
+        full = joint.length_at_zero_slide.name
         return (
-            f"|{end.name} - {anchor.name}| = {joint.length_at_zero_slide.name} - {joint.name}.slide",
+            f"|{end.name} - {anchor.name}| = {full} - {joint.name}.slide",
             "explicit: the length is the root of a sum of squares",
         )
 

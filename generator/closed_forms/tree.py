@@ -67,7 +67,7 @@ class CutJoint:
         """What the two bodies have in common, for the report."""
         joint = self.joint
         return (
-            f"{joint.first.name} and {joint.second.name} have {joint.common} in common at {joint.name}: "
+            f"{' and '.join(joint.bodies)} have {joint.common} in common at {joint.name}: "
             f"{self.equations} equations"
         )
 

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, TypeVar
-
-import sympy as sp
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from ...core.suggestions import suggestion
 from .bodies import Body, Ground
 from .declared import Name, declared, parts
 from .forces import Force, ForceElement, LinearTyre
-from .geometry import Point
 from .inputs import Input
 from .joints import Cylindrical, Joint, RelativeCoordinate, Spherical, Universal
 from .parameters import Owner, Parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    import sympy as sp
+
+    from .geometry import Point
 
 _ENDS = 2  # of a rod
 
@@ -43,15 +46,20 @@ class Assembly:
 
     def __post_init__(self) -> None:
         bodies = sorted(self.every(Body), key=lambda b: (not isinstance(b, Ground), b.order))
-        roots = sorted((owner.root for owner in self.every(Owner)), key=lambda owner: owner.order)
+        numbers = (p for owner in self.owners for p in owner.numbers)
         object.__setattr__(self, "bodies", tuple(dict.fromkeys(bodies)))
         object.__setattr__(self, "inputs", tuple(self.every(Input)))
-        numbers = (p for owner in dict.fromkeys(roots) for p in owner.numbers)
         object.__setattr__(self, "parameters", tuple(dict.fromkeys(numbers)))
 
     def every(self, kind: type[Any]) -> list[Any]:
         """Return what there is of a kind in joints, forces and coordinates, each once."""
         return [part for part in self._parts if isinstance(part, kind)]
+
+    @property
+    def owners(self) -> tuple[Owner, ...]:
+        """What owns the parameters, in the order in which it was written."""
+        roots = (owner.root for owner in self.every(Owner))
+        return tuple(dict.fromkeys(sorted(roots, key=lambda owner: owner.order)))
 
     @cached_property
     def _parts(self) -> tuple[Any, ...]:

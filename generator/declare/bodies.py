@@ -175,4 +175,4 @@ class Ground(Body):
     number: Numeral = 0
 
     def __post_init__(self) -> None:
-        """It owns no parameters."""
+        """Own no parameters."""

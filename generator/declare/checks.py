@@ -9,7 +9,6 @@ from .bodies import Body, Ground
 from .declared import DeclarationError
 from .default_values import value_problems
 from .forces import ForceElement, JointForce, LinearTyre, Weight
-from .inputs import Input
 from .joints import Joint
 from .names import name_problems, text_problems
 
@@ -101,7 +100,9 @@ def repeated(what: str, names: Iterable[str]) -> list[str]:
     return [f"{what} {n!r} is declared {c} times; once is enough" for n, c in counts if c > 1]
 
 
-def strangers(what: str, used: Iterable[Body | Joint], known: Collection[Body | Joint]) -> list[str]:
+def strangers(
+    what: str, used: Iterable[Body | Joint], known: Collection[Body | Joint]
+) -> list[str]:
     """Find what a model refers to and its mechanism does not have."""
     names = ", ".join(thing.name for thing in known) or "none"
     return [
@@ -113,6 +114,10 @@ def strangers(what: str, used: Iterable[Body | Joint], known: Collection[Body | 
 
 def check_symbols(name: str, used: Iterable[str], declared: Collection[str]) -> None:
     """Raise `DeclarationError` if equations read what nobody declares."""
-    problems = [f"the equations read {n!r}, which is not declared" for n in sorted(used) if n not in declared]
+    problems = [
+        f"the equations read {n!r}, which is not declared"
+        for n in sorted(used)
+        if n not in declared
+    ]
     if problems:
         raise DeclarationError(name, problems)

@@ -105,7 +105,7 @@ class Copy:
         """Return what something of the declaration is in the copy."""
         return self._copied(thing)  # type: ignore[no-any-return]
 
-    def _copied(self, thing: Any, *, turns: bool = False) -> Any:
+    def _copied(self, thing: Any, *, turns: bool = False) -> Any:  # noqa: PLR0911 (of types)
         """Return something in the copy.
 
         Parameters
@@ -142,7 +142,11 @@ class Copy:
     def _body(self, body: Body) -> Body:
         """Copy a body; also one that is shared has the place in lists that the copy gives it."""
         place = next_order()
-        return replace(body, order=place) if self._is_common(body) else self._rebuilt(body, order=place)
+        return (
+            replace(body, order=place)
+            if self._is_common(body)
+            else self._rebuilt(body, order=place)
+        )
 
     def _rebuilt(self, thing: Any, **known: Any) -> Any:
         """Copy something field by field."""
@@ -173,14 +177,14 @@ class Copy:
         made = replace(owner, **changes, **_turned_defaults(owner, signs))
         if self._made.setdefault(owner, made) != made:
             problem = (
-                f"{getattr(owner, named)!r} is an axis of rotation and a direction of motion; a mirror "
-                "image needs two directions, since it turns the one round and not the other"
+                f"{getattr(owner, named)!r} is an axis of rotation and a direction of motion; a "
+                "mirror image needs two directions, since it turns the one round and not the other"
             )
             raise DeclarationError(self.source.name, [problem])
         return made
 
     def _unowned(self, direction: Direction, *, turns: bool) -> Direction:
-        """Copy a direction that is no parameter; a fixed one that is its own image keeps its name."""
+        """Copy a direction that is no parameter; a fixed one that is its own image stays."""
         if direction.between is not None:
             start, end = map(self._copied, direction.between)
             ends = (end, start) if self.mirrored and turns else (start, end)
@@ -194,7 +198,7 @@ class Copy:
         return replace(direction, name=self._new(direction.name), fixed=image)
 
     def _hinge_line(self, hinge: Revolute) -> Line:
-        """Copy the axis of a hinge; between points it keeps its way, unless turns count about it."""
+        """Copy the axis of a hinge; between points it is turned if angles count about it."""
         line = hinge.axis
         if isinstance(line.towards, Point) and self.mirrored and hinge.angle_to is None:
             through, towards = self._copied(line.through), self._copied(line.towards)
@@ -205,7 +209,7 @@ class Copy:
 
 
 def _signs(owner: Owner, *, turns: bool) -> tuple[int, ...]:
-    """Return the signs of an owner's numbers in the mirror; an axis of rotation has the opposite."""
+    """Return the signs of numbers in the mirror; an axis of rotation has the opposite ones."""
     opposite = turns and isinstance(owner, Direction)
     return tuple(-sign for sign in owner.turned) if opposite else owner.turned
 

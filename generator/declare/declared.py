@@ -15,7 +15,7 @@ import inspect
 import math
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import fields, is_dataclass
 from functools import wraps
 from numbers import Complex, Real
 from typing import Annotated, Any, SupportsFloat, TypeVar, cast, get_type_hints

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...core.physical import inertia_of_no_body, out_of_range
-from .declared import parts
 from .evaluation import AtDefaults
 from .forces import AlongLine
 from .geometry import Direction, Line, Point

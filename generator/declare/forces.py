@@ -11,7 +11,7 @@ from .geometry import Direction, Point
 from .inputs import Input
 from .joints import Cylindrical, Prismatic, Revolute
 from .laws import Law, LinearSpring
-from .parameters import DamperRate, Displacement, Gravity, Share, SpringRate
+from .parameters import DamperRate, Displacement, Gravity, Parameter, Share, SpringRate
 
 
 @declared
@@ -118,6 +118,14 @@ class ForceElement:
         problems = [f"law {law!r} is declared twice; once is enough" for law in _twice(self.laws)]
         if sliding and not isinstance(self.path, AlongTelescope):
             problems.append("a free_slide needs a telescope; give its spring a free_length")
+        wanted = "an angle or a moment" if self.turns else "a length or a force"
+        problems += [
+            f"{number.name!r} is in {number.unit}; {type(self.path).__name__} needs what is about "
+            f"{wanted}"
+            for law in self.laws
+            for number in vars(law).values()
+            if isinstance(number, Parameter) and number.of_angle != self.turns
+        ]
         if problems:
             raise DeclarationError(f"ForceElement {self.name!r}", problems)
 

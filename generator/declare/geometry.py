@@ -73,7 +73,9 @@ class Point(Owner):
             Displacement(
                 f"{self.name}_{axis}",
                 value,
-                f"{what} at the start, {axis}" if self.flat else f"{what}, {axis} at the design position",
+                f"{what} at the start, {axis}"
+                if self.flat
+                else f"{what}, {axis} at the design position",
             )
             for axis, value in zip(self._axes, self.place, strict=True)
         )

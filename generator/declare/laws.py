@@ -6,7 +6,6 @@ of hinges, the moment. A law owns its parameters, whose types say which of the t
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, Literal
@@ -35,6 +34,8 @@ from .parameters import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from ..program.program import Program
 
 
@@ -205,9 +206,7 @@ class Friction:
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""
         v = at.velocity
-        pace = at.program.define(
-            f"{at.name}_sliding_pace", sp.sqrt(v**2 + self.speed.symbol**2)
-        )
+        pace = at.program.define(f"{at.name}_sliding_pace", sp.sqrt(v**2 + self.speed.symbol**2))
         return -self.level.symbol * v / pace
 
 

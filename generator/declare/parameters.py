@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import count
-from typing import Any
+from typing import Any, ClassVar
 
 import sympy as sp
 
@@ -109,6 +109,9 @@ class Parameter(Owner):
     above: Number | None = None
     most: Number | None = None
 
+    of_angle: ClassVar[bool] = False
+    """Whether it is about an angle or a moment, where others are about a length or a force."""
+
     @property
     def symbol(self) -> sp.Symbol:
         """The symbol in equations."""
@@ -182,6 +185,7 @@ class Distance(Parameter):
 class Angle(Parameter):
     """An angle [rad], of any sign."""
 
+    of_angle: ClassVar[bool] = True
     unit: str = _unit("rad")
 
 
@@ -199,6 +203,7 @@ class Speed(Parameter):
 class AngularSpeed(Parameter):
     """An angular speed [rad/s], more than zero."""
 
+    of_angle: ClassVar[bool] = True
     unit: str = _unit("rad/s")
     above: Number | None = 0.0
 
@@ -226,6 +231,7 @@ class ForceLevel(Parameter):
 class MomentLevel(Parameter):
     """The amount of a moment [N m], not negative."""
 
+    of_angle: ClassVar[bool] = True
     unit: str = _unit("N m")
     least: Number | None = 0.0
 
@@ -244,6 +250,7 @@ class SpringRate(Parameter):
 class TorsionRate(Parameter):
     """The rate of a torsion spring [N m/rad], not negative."""
 
+    of_angle: ClassVar[bool] = True
     unit: str = _unit("N m/rad")
     least: Number | None = 0.0
 
@@ -262,6 +269,7 @@ class DamperRate(Parameter):
 class TorsionDamperRate(Parameter):
     """The rate of a damper of rotation [N m s/rad], not negative."""
 
+    of_angle: ClassVar[bool] = True
     unit: str = _unit("N m s/rad")
     least: Number | None = 0.0
 
@@ -280,6 +288,7 @@ class Progression(Parameter):
 class TorsionProgression(Parameter):
     """The cubic term of a stop of rotation [N m/rad^3], not negative."""
 
+    of_angle: ClassVar[bool] = True
     unit: str = _unit("N m/rad^3")
     least: Number | None = 0.0
 

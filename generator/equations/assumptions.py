@@ -145,7 +145,8 @@ def _of_shaft(joint: Universal, ends: Sequence[Point]) -> Iterator[Assumption]:
             _distance(point, joint.shaft),
             length,
             "m",
-            f"the shaft of universal joint {joint.name} must be the line of {joint.second.name}, but "
+            f"the shaft of universal joint {joint.name} must be the line of "
+            f"{joint.second.name}, but "
             f"misses its end {point.name}",
             f"declare the shaft from {start.name} to {end.name}",
         )

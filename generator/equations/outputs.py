@@ -120,7 +120,8 @@ class _Builder:
         """See that every independent coordinate moves some mass: else it has no acceleration."""
         moved = {k for body in self.massive for k in self.kin.placed[body].motion}
         idle = [
-            f"independent joint {joint.name!r} moves no body of massive; name one there that it moves"
+            f"independent joint {joint.name!r} moves no body of massive; name one there that it "
+            "moves"
             for joint, k in zip(self.model.independent, self.kin.independent, strict=True)
             if k not in moved
         ]
@@ -286,7 +287,9 @@ class _Builder:
         program.section(f"derivatives {what}")
         values = list(values)
         symbols = (
-            self._state_symbols() if by == "state" else [sp.Symbol(e.name) for e in self._input_entries()]
+            self._state_symbols()
+            if by == "state"
+            else [sp.Symbol(e.name) for e in self._input_entries()]
         )
         columns = {s: program.tangents(s, values, str(s)) for s in symbols}
         entries = {

@@ -181,7 +181,9 @@ class RelativeCoordinates:
         """Return the universal joint that carries the first body of a telescope."""
         center = joint.axis.towards
         universal = (
-            self.mechanism.universal_at(joint.first.name, center) if isinstance(center, Point) else None
+            self.mechanism.universal_at(joint.first.name, center)
+            if isinstance(center, Point)
+            else None
         )
         if universal is None:
             message = (
@@ -349,7 +351,10 @@ class _Closure:
         meeting = self.kin.meetings.get(joint.name)
         if meeting is None or (isinstance(joint, Revolute) and joint.angle_to is not None):
             return self._placed_residual(joint, given)
-        parent, sense = self.kin.placed[meeting.parent], 1 if joint.second.name == meeting.body else -1
+        parent, sense = (
+            self.kin.placed[meeting.parent],
+            1 if joint.second.name == meeting.body else -1,
+        )
         target = self.kin.point_motion(meeting.target_body, meeting.target).position
         local = self.kin.local(parent, meeting.point)
         moved = self._moved(joint, parent, local, sense * given)

@@ -358,8 +358,4 @@ class Kinematics:
     @property
     def reported(self) -> list[RelativeCoordinate]:
         """The relative coordinates of the report at the joints of this part."""
-        return [
-            c
-            for c in self.mechanism.coordinates
-            if self.bodies.issuperset(c.joint.bodies)
-        ]
+        return [c for c in self.mechanism.coordinates if self.bodies.issuperset(c.joint.bodies)]

@@ -76,9 +76,8 @@ class Topology:
         graph.add_nodes_from(b.name for b in self.mechanism.bodies)
         for joint in self.mechanism.joints:
             if graph.has_edge(*joint.bodies):
-                message = (
-                    f"bodies {joint.first.name!r} and {joint.second.name!r} have two joints between them"
-                )
+                first, second = joint.bodies
+                message = f"bodies {first!r} and {second!r} have two joints between them"
                 raise TopologyError(message)
             graph.add_edge(*joint.bodies, joint=joint, length=joint.freedoms)
         return graph

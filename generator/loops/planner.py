@@ -355,7 +355,11 @@ class Plan:
             return ""
         if isinstance(joint, Revolute | Prismatic):
             return f"declare joint {joint.name!r} independent or prescribed"
-        if isinstance(joint, Universal) and there == joint.first.name and there in self._known.on_line:
+        if (
+            isinstance(joint, Universal)
+            and there == joint.first.name
+            and there in self._known.on_line
+        ):
             return (
                 f"declare {here!r} first and {there!r} second in the cross {joint.name!r}, with "
                 f"the shaft along the rod {there!r}"

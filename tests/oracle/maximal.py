@@ -21,7 +21,7 @@ velocity), and body 0 is the ground, which does not move.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from kintrafo.generator import (
@@ -218,7 +218,7 @@ class Oracle:
         """Return the design position of a point."""
         return np.array(
             [
-                0.0 if axis == point.flat else self.parameters[f"{point.name}_{axis}"]
+                0.0 if axis in point.flat else self.parameters[f"{point.name}_{axis}"]
                 for axis in "xyz"
             ]
         )
@@ -239,11 +239,11 @@ class Oracle:
         return self.along(line.towards)
 
     def _mass(self, body: Body) -> float:
-        return self.parameters[f"{body.name}_mass"] if body.name in self.model.massive else 0.0
+        return self.parameters[f"{body.name}_mass"] if self.model.has_mass(body.name) else 0.0
 
     def _inertia(self, body: Body) -> Array:
         """Return the tensor about the centre of mass at design; planar bodies declare a part."""
-        if body.name not in self.model.massive:
+        if not self.model.has_mass(body.name):
             return np.zeros((3, 3))
         if body.rotor_axis is not None:
             axis = self.along(body.rotor_axis)
@@ -311,7 +311,7 @@ class Oracle:
             ]
         if isinstance(joint, Prismatic):
             x, y, z = np.eye(3)
-            place = self.centers[self.index[joint.second]]
+            place = self.centers[self.index[joint.second.name]]
             along = self.along(joint.direction)
             return [
                 *(self._perpendicular(motion, joint, *pair) for pair in ((x, y), (y, z), (z, x))),
@@ -327,11 +327,13 @@ class Oracle:
 
     def _gap(self, motion: Motion, joint: Joint, at: Point) -> Jet:
         place = self.place(at)
-        return self.point(motion, joint.second, place) - self.point(motion, joint.first, place)
+        return self.point(motion, joint.second.name, place) - self.point(
+            motion, joint.first.name, place
+        )
 
     def _perpendicular(self, motion: Motion, joint: Joint, first: Array, second: Array) -> Jet:
-        return self.vector(motion, joint.first, first).dot(
-            self.vector(motion, joint.second, second)
+        return self.vector(motion, joint.first.name, first).dot(
+            self.vector(motion, joint.second.name, second)
         )
 
     def _parallel(self, motion: Motion, joint: Joint, axis: Array) -> list[Jet]:
@@ -342,9 +344,9 @@ class Oracle:
         self, motion: Motion, joint: Joint, axis: Array, on_first: Array, on_second: Array
     ) -> list[Jet]:
         """Return the two equations of points that do not leave a line along the axis."""
-        span = self.point(motion, joint.second, on_second)
-        span -= self.point(motion, joint.first, on_first)
-        return [self.vector(motion, joint.first, v).dot(span) for v in perpendiculars(axis)]
+        span = self.point(motion, joint.second.name, on_second)
+        span -= self.point(motion, joint.first.name, on_first)
+        return [self.vector(motion, joint.first.name, v).dot(span) for v in perpendiculars(axis)]
 
     # -- coordinates ------------------------------------------------------------------------------
 
@@ -353,15 +355,15 @@ class Oracle:
         if isinstance(joint, Revolute):
             return self._hinge_angle(motion, joint)
         if isinstance(joint, Prismatic):
-            place = self.centers[self.index[joint.second]]
-            span = self.point(motion, joint.second, place)
-            span -= self.point(motion, joint.first, place)
-            return self.vector(motion, joint.first, self.along(joint.direction)).dot(span)
+            place = self.centers[self.index[joint.second.name]]
+            span = self.point(motion, joint.second.name, place)
+            span -= self.point(motion, joint.first.name, place)
+            return self.vector(motion, joint.first.name, self.along(joint.direction)).dot(span)
         if isinstance(joint, Universal):
             return self._shaft_angles(motion, joint)[kind]
         assert isinstance(joint, Cylindrical)
         if kind == "slide":
-            full = self.parameters[joint.length_at_zero_slide]
+            full = self.parameters[joint.length_at_zero_slide.name]
             return -self.telescope_length(motion, joint) + full
         return self._telescope_angle(motion, joint)
 
@@ -376,15 +378,15 @@ class Oracle:
             arm = self.place(joint.angle_to) - self.place(joint.axis.through)
             mark = unit(arm - axis * (axis @ arm))
             axis = axis * np.sign(np.cross(start, mark) @ axis)
-        marker = self.vector(motion, joint.second, mark)
-        cosine = self.vector(motion, joint.first, start).dot(marker)
-        sine = self.vector(motion, joint.first, np.cross(axis, start)).dot(marker)
+        marker = self.vector(motion, joint.second.name, mark)
+        cosine = self.vector(motion, joint.first.name, start).dot(marker)
+        sine = self.vector(motion, joint.first.name, np.cross(axis, start)).dot(marker)
         return angle_of(sine, cosine)
 
     def _shaft_angles(self, motion: Motion, joint: Universal) -> dict[str, Jet]:
         """Return azimuth and elevation: Rz(azimuth) Rx(elevation) takes y to the shaft."""
-        shaft = self.vector(motion, joint.second, self.axis(joint.shaft))
-        x, y, z = (self.vector(motion, joint.first, axis).dot(shaft) for axis in np.eye(3))
+        shaft = self.vector(motion, joint.second.name, self.axis(joint.shaft))
+        x, y, z = (self.vector(motion, joint.first.name, axis).dot(shaft) for axis in np.eye(3))
         return {
             "azimuth": angle_of(-x, y),
             "elevation": angle_of(z, stacked([x, y], self.size).norm()),
@@ -392,9 +394,9 @@ class Oracle:
 
     def telescope_length(self, motion: Motion, joint: Cylindrical) -> Jet:
         """Return the distance, along the axis, of the two points that define it."""
-        return self.vector(motion, joint.first, self.axis(joint.axis)).dot(
-            self.point(motion, joint.first, self.place(joint.axis.towards))
-            - self.point(motion, joint.second, self.place(joint.axis.through))
+        return self.vector(motion, joint.first.name, self.axis(joint.axis)).dot(
+            self.point(motion, joint.first.name, self.place(joint.axis.towards))
+            - self.point(motion, joint.second.name, self.place(joint.axis.through))
         )
 
     def _telescope_angle(self, motion: Motion, joint: Cylindrical) -> Jet:
@@ -407,11 +409,11 @@ class Oracle:
             for j in self.mechanism.joints
             if isinstance(j, Universal) and j.second == joint.first and j.at == joint.axis.towards
         )
-        shaft = -self.vector(motion, joint.first, self.axis(joint.axis)).value
-        up = self.vector(motion, holder.first, UP).value
+        shaft = -self.vector(motion, joint.first.name, self.axis(joint.axis)).value
+        up = self.vector(motion, holder.first.name, UP).value
         x = unit(np.cross(shaft, up))
         place = self.place(joint.angle_to) - self.place(joint.axis.through)
-        mark = self.vector(motion, joint.second, place).value
+        mark = self.vector(motion, joint.second.name, place).value
         angle = np.array([np.arctan2(-mark @ x, mark @ np.cross(x, shaft))])
         nothing = np.full(1, np.nan)
         return Jet(angle, np.full((1, 6 * self.size), np.nan), nothing, nothing)
@@ -433,7 +435,7 @@ class Oracle:
     def _wrench_of(self, force: Force, motion: Motion, inputs: Mapping[str, float]) -> Array:
         if isinstance(force, Weight):
             pull = np.zeros((self.size, 6))
-            pull[:, 2] = -self.mass[1:] * self.parameters[force.gravity]
+            pull[:, 2] = -self.mass[1:] * self.parameters[force.gravity.name]
             return pull.ravel()
         if isinstance(force, ForceElement):
             length = self.length(motion, force)
@@ -442,24 +444,22 @@ class Oracle:
         if isinstance(force, JointForce):
             if force.joint not in self.model.independent:
                 return np.zeros(6 * self.size)
-            return inputs[force.input] * self.driven(motion, force.joint).rows[0]
+            return inputs[force.input.name] * self.driven(motion, force.joint.name).rows[0]
         assert isinstance(force, LinearTyre)
-        center = self.point(motion, force.carrier, self.place(force.center))
+        center = self.point(motion, force.carrier.name, self.place(force.center))
         return self._tyre(force, motion, center, inputs) @ center.rows
 
     def length(self, motion: Motion, element: ForceElement) -> Jet:
         """Return the length of an element's path, or its twist."""
         if isinstance(element.path, AlongLine):
             first, second = (
-                self.point(motion, body, self.place(point))
-                for body, point in (element.path.first, element.path.second)
+                self.point(motion, body, self.place(point)) for body, point in element.path.ends
             )
             return (second - first).norm()
         if isinstance(element.path, AlongTelescope):
-            return self.telescope_length(motion, self.mechanism.joint(element.path.joint))
+            return self.telescope_length(motion, element.path.joint)
         first, second = (
-            self._hinge_angle(motion, self.mechanism.joint(name))
-            for name in (element.path.first, element.path.second)
+            self._hinge_angle(motion, hinge) for hinge in (element.path.first, element.path.second)
         )
         return second - first
 
@@ -469,25 +469,27 @@ class Oracle:
         """Return the force that pushes the ends of an element apart."""
         given, length, velocity = self.parameters, float(path.value[0]), float(path.rate[0])
         if isinstance(law, LinearSpring):
-            return given[law.rate] * (self._free_length(element, law) - length)
+            return given[law.rate.name] * (self._free_length(element, law) - length)
         if isinstance(law, LinearDamper):
-            return -given[law.rate] * velocity
+            return -given[law.rate.name] * velocity
         if isinstance(law, Friction):
-            return -given[law.level] * np.sin(np.arctan2(velocity, given[law.speed]))
+            return -given[law.level.name] * np.sin(np.arctan2(velocity, given[law.speed.name]))
         if isinstance(law, Stop):
             sense = {"bump": 1.0, "rebound": -1.0}[law.side]
-            depth = max(sense * (given[law.length] - length), 0.0)
-            return sense * np.polyval([given[law.progression], 0.0, given[law.rate], 0.0], depth)
+            depth = max(sense * (given[law.length.name] - length), 0.0)
+            return sense * np.polyval(
+                [given[law.progression.name], 0.0, given[law.rate.name], 0.0], depth
+            )
         if isinstance(law, DamperTable):
             return self._damper(law, -velocity)
         assert isinstance(law, Actuator)
-        return inputs[law.input]
+        return inputs[law.input.name]
 
     def _free_length(self, element: ForceElement, spring: LinearSpring) -> float:
         if spring.free_length is not None:
-            return self.parameters[spring.free_length]
-        telescope: Any = self.mechanism.joint(element.path.joint)
-        return self.parameters[telescope.length_at_zero_slide] - self.parameters[spring.free_slide]
+            return self.parameters[spring.free_length.name]
+        full = self.parameters[element.path.joint.length_at_zero_slide.name]
+        return full - self.parameters[spring.free_slide.name]
 
     def _damper(self, table: DamperTable, compression: float) -> float:
         """Return the force of a damper's curve: segment by segment as far as it is passed."""
@@ -511,14 +513,17 @@ class Oracle:
     ) -> Array:
         """Return the force of the road on a wheel, at its centre."""
         given = self.parameters
-        deflection = given[tyre.free_height] + inputs[tyre.road] - center.value[2]
-        load = given[tyre.rate] * deflection
+        deflection = given[tyre.free_height.name] + inputs[tyre.road.name] - center.value[2]
+        load = given[tyre.rate.name] * deflection
         if tyre.damper is not None:
-            load += given[tyre.damper] * (inputs[tyre.road_velocity] - center.rate[2])
-        if tyre.lifts_off is not None and given[tyre.lifts_off] and min(deflection, load) < 0.0:
+            load += given[tyre.damper.name] * (inputs[tyre.road_velocity.name] - center.rate[2])
+        if self._lifts_off(tyre) and min(deflection, load) < 0.0:
             load = 0.0
-        axis = self.vector(motion, tyre.carrier, self.along(tyre.spin)).value
+        axis = self.vector(motion, tyre.carrier.name, self.along(tyre.spin)).value
         return load * (UP - axis * axis[2]) / (1.0 - axis[2] ** 2)
+
+    def _lifts_off(self, tyre: LinearTyre) -> bool:
+        return tyre.lifts_off is not None and bool(self.parameters[tyre.lifts_off.name])
 
     # -- equations of motion ----------------------------------------------------------------------
 
@@ -537,7 +542,8 @@ class Oracle:
             Acceleration of each prescribed joint by its name, m/s^2 or rad/s^2.
         """
         closure = self.closure(motion)
-        driven = [self.driven(motion, j) for j in (*self.model.independent, *given)]
+        names = [joint.name for joint in self.model.independent]
+        driven = [self.driven(motion, j) for j in (*names, *given)]
         driving = stacked(driven, self.size)
         count = len(self.model.independent)
         rows = np.concatenate((closure.rows, driving.rows))
@@ -584,7 +590,7 @@ class Oracle:
         for force in self.mechanism.forces:
             if isinstance(force, Weight):
                 heights = motion.position[:, 2] * self.mass
-                energy += self.parameters[force.gravity] * np.sum(heights)
+                energy += self.parameters[force.gravity.name] * np.sum(heights)
             elif isinstance(force, ForceElement):
                 length = float(self.length(motion, force).value[0])
                 energy += sum(self._stored(force, law, length) for law in force.laws)
@@ -593,11 +599,14 @@ class Oracle:
     def _stored(self, element: ForceElement, law: Law, length: float) -> float:
         given = self.parameters
         if isinstance(law, LinearSpring):
-            return 0.5 * given[law.rate] * (self._free_length(element, law) - length) ** 2
+            return 0.5 * given[law.rate.name] * (self._free_length(element, law) - length) ** 2
         if isinstance(law, Stop):
             sense = {"bump": 1.0, "rebound": -1.0}[law.side]
-            depth = max(sense * (given[law.length] - length), 0.0)
-            return 0.5 * given[law.rate] * depth**2 + 0.25 * given[law.progression] * depth**4
+            depth = max(sense * (given[law.length.name] - length), 0.0)
+            return (
+                0.5 * given[law.rate.name] * depth**2
+                + 0.25 * given[law.progression.name] * depth**4
+            )
         return 0.0
 
 

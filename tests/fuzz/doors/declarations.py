@@ -87,14 +87,19 @@ def _paths(value, path=()):
     if path:
         yield path
     if is_dataclass(value) and type(value).__name__ != "Vector":
-        for entry in fields(value):
-            yield from _paths(getattr(value, entry.name), (*path, entry.name))
+        for name in _written(value):
+            yield from _paths(getattr(value, name), (*path, name))
     elif isinstance(value, tuple):
         for i, item in enumerate(value):
             yield from _paths(item, (*path, i))
     elif isinstance(value, dict):
         for key, item in value.items():
             yield from _paths(item, (*path, key))
+
+
+def _written(value):
+    """Return the names of the fields that a person gives."""
+    return [e.name for e in fields(value) if e.init and e.name not in ("order", "image", "axial")]
 
 
 def _changed(value, path, random, words):
@@ -169,8 +174,8 @@ def _texts(value):
     elif isinstance(value, dict):
         yield from _texts(tuple(value.items()))
     elif is_dataclass(value):
-        for entry in fields(value):
-            yield from _texts(getattr(value, entry.name))
+        for name in _written(value):
+            yield from _texts(getattr(value, name))
 
 
 # -- outcomes -------------------------------------------------------------------------------------
