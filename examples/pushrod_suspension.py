@@ -62,8 +62,8 @@ MODEL = g.Model(
         joints=(ARM_HINGE, LOWER_END, UPPER_END, ROCKER_HINGE),
         forces=(g.Weight(), COILOVER, TYRE),
         coordinates=(
-            g.RelativeCoordinate("arm_angle", ARM_HINGE, "angle of the arm"),
-            g.RelativeCoordinate("rocker_angle", ROCKER_HINGE, "angle of the rocker"),
+            ARM_HINGE.angle("arm_angle", "angle of the arm"),
+            ROCKER_HINGE.angle("rocker_angle", "angle of the rocker"),
         ),
     ),
     independent=(ARM_HINGE,),

@@ -125,8 +125,8 @@ MISTAKES = {
         ["Rotor 'wheel'", "axis", "write Direction(name, components, meaning)"],
     ),
     "text for a centre": (
-        lambda: Body("wheel", 1.0, center="wheel_com"),
-        ["Body 'wheel'", "center is 'wheel_com'", "a Point"],
+        lambda: Body("wheel", 1.0, com="wheel_com"),
+        ["Body 'wheel'", "com is 'wheel_com'", "a Point"],
     ),
     "text for a mass": (
         lambda: Body("wheel", "1.0", A),

@@ -26,6 +26,14 @@ from .joints import (
 from .laws import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
 from .mechanism import Mechanism
 from .model import Model
+from .outputs import (
+    AccelerationOf,
+    AngleBetween,
+    DistanceBetween,
+    ForceOf,
+    PositionOf,
+    VelocityOf,
+)
 from .parameters import (
     Angle,
     AngularSpeed,
@@ -49,10 +57,12 @@ from .parameters import (
 __all__ = [
     "FORWARD",
     "UP",
+    "AccelerationOf",
     "Actuator",
     "AlongLine",
     "AlongTelescope",
     "Angle",
+    "AngleBetween",
     "AngularSpeed",
     "Body",
     "Copy",
@@ -63,8 +73,10 @@ __all__ = [
     "Direction",
     "Displacement",
     "Distance",
+    "DistanceBetween",
     "ForceElement",
     "ForceLevel",
+    "ForceOf",
     "Friction",
     "Gravity",
     "Ground",
@@ -82,6 +94,7 @@ __all__ = [
     "Motion",
     "Parameter",
     "Point",
+    "PositionOf",
     "Prismatic",
     "Progression",
     "RelativeCoordinate",
@@ -97,6 +110,7 @@ __all__ = [
     "TorsionRate",
     "TwistOfHinges",
     "Universal",
+    "VelocityOf",
     "Weight",
     "combined",
 ]

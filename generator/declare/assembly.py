@@ -12,6 +12,7 @@ from .declared import Name, declared, parts
 from .forces import Force, ForceElement, LinearTyre
 from .inputs import Input
 from .joints import Cylindrical, Joint, RelativeCoordinate, Spherical, Universal
+from .outputs import Output
 from .parameters import Owner, Parameter
 
 if TYPE_CHECKING:
@@ -31,8 +32,8 @@ Named = TypeVar("Named", Body, Joint, Input)
 class Assembly:
     """The parts of a mechanism, before anything is checked that several of them must fulfil.
 
-    Bodies, inputs and parameters are those that joints, forces and coordinates refer to, in the
-    order in which they were written; the ground is the first body.
+    Bodies, inputs and parameters are those that joints, forces, coordinates and outputs refer to,
+    in the order in which they were written; the ground is the first body.
     """
 
     name: Name
@@ -40,6 +41,7 @@ class Assembly:
     joints: tuple[Joint, ...]
     forces: tuple[Force, ...] = ()
     coordinates: tuple[RelativeCoordinate, ...] = ()
+    outputs: tuple[Output, ...] = ()
     bodies: tuple[Body, ...] = field(init=False)
     inputs: tuple[Input, ...] = field(init=False)
     parameters: tuple[Parameter, ...] = field(init=False)
@@ -51,8 +53,8 @@ class Assembly:
         object.__setattr__(self, "inputs", tuple(self.every(Input)))
         object.__setattr__(self, "parameters", tuple(dict.fromkeys(numbers)))
 
-    def every(self, kind: type[Any]) -> list[Any]:
-        """Return what there is of a kind in joints, forces and coordinates, each once."""
+    def every(self, kind: type[Any] | tuple[type[Any], ...]) -> list[Any]:
+        """Return what there is of a kind in all that is declared, each once."""
         return [part for part in self._parts if isinstance(part, kind)]
 
     @property
@@ -63,7 +65,9 @@ class Assembly:
 
     @cached_property
     def _parts(self) -> tuple[Any, ...]:
-        return tuple(dict.fromkeys(parts((self.joints, self.forces, self.coordinates))))
+        return tuple(
+            dict.fromkeys(parts((self.joints, self.forces, self.coordinates, self.outputs)))
+        )
 
     @property
     def derived(self) -> dict[str, sp.Expr]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from ..program.vectors import ELEMENTS
 from .declared import DeclarationError, Name, Number, Numeral, declared
@@ -18,7 +18,13 @@ from .parameters import (
     next_order,
 )
 
-_DIAGONAL = ELEMENTS[:3]
+# Names of the numbers of an inertia, how many of them may be given, and what they mean.
+_Elements = tuple[tuple[str, ...], tuple[int, ...], str]
+_SPATIAL: _Elements = (
+    ELEMENTS,
+    (0, 3, 6),
+    "{element} element of the inertia tensor of the {body}",
+)
 _MIRRORED = ("xy", "yz")  # products with y change their sign in the mirror
 
 
@@ -66,7 +72,7 @@ class Body:
         Begins the names of its parameters, ``<name>_mass`` and so on.
     mass
         Default [kg].
-    center
+    com
         Centre of mass at the design position: a point, or its default place [m].
     inertia
         Default moments about the centre of mass, chassis axes at the design position [kg m^2]: xx,
@@ -76,38 +82,47 @@ class Body:
 
     name: Name
     mass: Mass | Number
-    center: Point | tuple[Number, Number, Number]
+    com: Point | tuple[Number, Number, Number]
     inertia: Inertia | Number | tuple[Number, ...] = ()
     order: int = field(default_factory=next_order, repr=False, compare=False, kw_only=True)
 
     def __post_init__(self) -> None:
-        # in this order: it is that of the parameters
+        place = self.order  # what it owns stands where it does
         if not isinstance(self.mass, Mass):
             what = self.name if self._normal else f"the {self.name}"
-            self._set("mass", Mass(f"{self.name}_mass", self.mass, f"mass of {what}"))
-        if not isinstance(self.center, Point):
+            mass = Mass(f"{self.name}_mass", self.mass, f"mass of {what}", order=place)
+            self._set("mass", mass)
+        if not isinstance(self.com, Point):
             meaning = f"centre of mass of the {self.name}"
-            self._set("center", Point(f"{self.name}_com", self.center, meaning))
+            self._set("com", Point(f"{self.name}_com", self.com, meaning, order=place))
         if not isinstance(self.inertia, Inertia):
-            self._set("inertia", Inertia(self.name, self._elements()))
+            self._set("inertia", Inertia(self.name, self._elements(), order=place))
 
     def _set(self, name: str, value: object) -> None:
         object.__setattr__(self, name, value)
 
     @property
+    def center(self) -> Point:
+        """The centre of mass."""
+        assert isinstance(self.com, Point)
+        return self.com
+
+    @property
     def _normal(self) -> str:
         """Axis across the plane of a planar body; nothing for others."""
-        return self.center.flat if isinstance(self.center, Point) else ""
+        return self.com.flat if isinstance(self.com, Point) else ""
 
     def _elements(self) -> tuple[tuple[str, float, str], ...]:
-        given = self.inertia if isinstance(self.inertia, tuple) else (self.inertia,)
+        given: tuple[Any, ...] = (
+            self.inertia if isinstance(self.inertia, tuple) else (self.inertia,)
+        )
+        names, allowed, meaning = _SPATIAL
         if self._normal:
-            names: tuple[str, ...] = (2 * self._normal,)
-            meaning = "inertia of {body} across the plane"
-            allowed = (0, 1)
-        else:
-            names, allowed = ELEMENTS, (0, 3, 6)
-            meaning = "{element} element of the inertia tensor of the {body}"
+            names, allowed, meaning = (
+                (2 * self._normal,),
+                (0, 1),
+                "inertia of {body} across the plane",
+            )
         if len(given) not in allowed:
             counts = " or ".join(str(n) for n in allowed if n)
             problem = f"inertia has {len(given)} number(s); {counts} are needed"
@@ -170,7 +185,7 @@ class Ground(Body):
     """
 
     mass: Mass | Number = field(default=0.0, init=False)
-    center: Point = field(default=ORIGIN, init=False)
+    com: Point = field(default=ORIGIN, init=False)
     inertia: tuple[()] = field(default=(), init=False)
     number: Numeral = 0
 

@@ -62,6 +62,7 @@ def _repeated_problems(mechanism: Assembly) -> list[str]:
     for kind, listed in (
         ("joint", [j.name for j in mechanism.joints if mechanism.joints.count(j) > 1]),
         ("coordinate", [c.name for c in mechanism.coordinates]),
+        ("output", [o.name for o in mechanism.outputs]),
         ("weight", ["Weight" for f in forces if isinstance(f, Weight)]),
         ("force", [f.name for f in forces if isinstance(f, ForceElement | LinearTyre)]),
         (

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterable
 
     from .forces import Force
+    from .outputs import Output
 
 Thing = TypeVar("Thing")
 
@@ -83,6 +84,7 @@ class Copy:
             joints=self.of(source.joints),
             forces=self.of(source.forces),
             coordinates=self.of(source.coordinates),
+            outputs=self.of(source.outputs),
         )
 
     def _check(self) -> None:
@@ -232,6 +234,7 @@ def combined(
     *,
     forces: tuple[Force, ...] = (),
     coordinates: tuple[RelativeCoordinate, ...] = (),
+    outputs: tuple[Output, ...] = (),
 ) -> Mechanism:
     """Return one mechanism of several copies; what they have in common is there once.
 
@@ -239,7 +242,7 @@ def combined(
     ----------
     parts
         Each has the same ground.
-    forces, coordinates
+    forces, coordinates, outputs
         What acts between the parts, and what else is reported.
     """
     wholes = [part.mechanism for part in parts]
@@ -252,4 +255,5 @@ def combined(
             *dict.fromkeys(c for whole in wholes for c in whole.coordinates),
             *coordinates,
         ),
+        outputs=(*dict.fromkeys(o for whole in wholes for o in whole.outputs), *outputs),
     )

@@ -147,7 +147,10 @@ class DamperTable(Owner):
     @cached_property
     def numbers(self) -> tuple[Parameter, ...]:
         """All of them; the defaults are no force."""
-        return tuple(Parameter(f"{self.name}_{what}", *entry) for what, *entry in self._entries())
+        return tuple(
+            Parameter(f"{self.name}_{what}", default, unit, meaning)
+            for what, default, unit, meaning in self._entries()
+        )
 
     def _entries(self) -> Iterator[tuple[str, float, str, str]]:
         yield "first_force", 0.0, "N", "force at the first knot"

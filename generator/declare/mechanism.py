@@ -14,9 +14,9 @@ from .declared import declared
 class Mechanism(Assembly):
     """Joints between bodies, with everything that acts on them.
 
-    `coordinates` are the relative coordinates of the report, in the numbering of the figure. What
-    joints, forces and coordinates refer to is found by itself: `bodies`, `inputs`, `parameters`,
-    and in copies `derived`, what the names of a copy stand for.
+    `coordinates` are the relative coordinates of the report, in the numbering of the figure,
+    `outputs` what else is to be seen. What all these refer to is found by itself: `bodies`,
+    `inputs`, `parameters`, and in copies `derived`, what the names of a copy stand for.
     """
 
     def __post_init__(self) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 from .bodies import Body, Ground
 from .checks import repeated, strangers
@@ -16,6 +17,8 @@ from .names import input_name_problems, unwritable
 
 # what the right-hand side has beside its variants: rhs_jacobian, rhs_input_jacobian
 _FUNCTIONS = ("jacobian", "input_jacobian")
+
+_ALL_THAT_MOVE: Any = None
 
 DRIVABLE: dict[type[Joint], str] = {
     Cylindrical: "a guide and a hinge along its axis, with a link between them",
@@ -49,13 +52,13 @@ class Model:
     title: str
     mechanism: Mechanism
     independent: tuple[Joint, ...]
-    massive: tuple[Body, ...] = None  # type: ignore[assignment]  # below
+    massive: tuple[Body, ...] = _ALL_THAT_MOVE
     prescribed: Mapping[Joint, Motion] = field(default_factory=dict)
     held: Mapping[Name, tuple[Joint, ...]] = field(default_factory=dict)
     allow_iteration: bool = False
 
     def __post_init__(self) -> None:
-        if self.massive is None:
+        if self.massive is _ALL_THAT_MOVE:
             object.__setattr__(self, "massive", self.mechanism.bodies[1:])
         _check(self)
 
@@ -114,8 +117,9 @@ def _driven_problems(model: Model) -> list[str]:
     problems += [_undrivable("prescribed", j) for j in model.prescribed if _has_many(j)]
     reported = [c.joint for c in model.mechanism.coordinates]
     problems += [
-        f"independent joint {joint.name!r} has no reported coordinate; add a RelativeCoordinate "
-        f"for its {joint.coordinates[0]} to the coordinates of the mechanism, which names the state"
+        f"independent joint {joint.name!r} has no reported coordinate; add its "
+        f"{joint.coordinates[0]}(name, meaning) to the coordinates of the mechanism: it names the "
+        "state"
         for joint in model.independent
         if joint not in reported and not _has_many(joint)
     ]

@@ -70,6 +70,7 @@ def name_problems(mechanism: Assembly) -> list[str]:
         "coordinate": coordinates,
         "input": mechanism.input_names,
         "force": [f.name for f in mechanism.forces if isinstance(f, ForceElement | LinearTyre)],
+        "output": [o.name for o in mechanism.outputs],
     }
     # what the code reads by its own name; other names have something before or behind them
     read_alone = ("parameter", "coordinate", "input")

@@ -123,17 +123,12 @@ class Parameter(Owner):
         return (self,)
 
 
-def _unit(unit: str) -> Any:
-    """Return the field of a type of parameters that have a unit."""
-    return field(default=unit, init=False)
-
-
 @declared
 @dataclass(frozen=True)
 class Mass(Parameter):
     """A mass [kg], not negative."""
 
-    unit: str = _unit("kg")
+    unit: str = field(default="kg", init=False)
     least: Number | None = 0.0
 
 
@@ -142,7 +137,7 @@ class Mass(Parameter):
 class MomentOfInertia(Parameter):
     """A moment of inertia [kg m^2], not negative."""
 
-    unit: str = _unit("kg m^2")
+    unit: str = field(default="kg m^2", init=False)
     least: Number | None = 0.0
 
 
@@ -151,7 +146,7 @@ class MomentOfInertia(Parameter):
 class ProductOfInertia(Parameter):
     """A product of inertia [kg m^2]."""
 
-    unit: str = _unit("kg m^2")
+    unit: str = field(default="kg m^2", init=False)
 
 
 @declared
@@ -159,7 +154,7 @@ class ProductOfInertia(Parameter):
 class Displacement(Parameter):
     """A coordinate or a height [m], of any sign."""
 
-    unit: str = _unit("m")
+    unit: str = field(default="m", init=False)
 
 
 @declared
@@ -167,7 +162,7 @@ class Displacement(Parameter):
 class Length(Parameter):
     """A length [m], not negative."""
 
-    unit: str = _unit("m")
+    unit: str = field(default="m", init=False)
     least: Number | None = 0.0
 
 
@@ -176,7 +171,7 @@ class Length(Parameter):
 class Distance(Parameter):
     """A distance [m], more than zero."""
 
-    unit: str = _unit("m")
+    unit: str = field(default="m", init=False)
     above: Number | None = 0.0
 
 
@@ -186,7 +181,7 @@ class Angle(Parameter):
     """An angle [rad], of any sign."""
 
     of_angle: ClassVar[bool] = True
-    unit: str = _unit("rad")
+    unit: str = field(default="rad", init=False)
 
 
 @declared
@@ -194,7 +189,7 @@ class Angle(Parameter):
 class Speed(Parameter):
     """A speed [m/s], more than zero."""
 
-    unit: str = _unit("m/s")
+    unit: str = field(default="m/s", init=False)
     above: Number | None = 0.0
 
 
@@ -204,7 +199,7 @@ class AngularSpeed(Parameter):
     """An angular speed [rad/s], more than zero."""
 
     of_angle: ClassVar[bool] = True
-    unit: str = _unit("rad/s")
+    unit: str = field(default="rad/s", init=False)
     above: Number | None = 0.0
 
 
@@ -213,7 +208,7 @@ class AngularSpeed(Parameter):
 class Gravity(Parameter):
     """The acceleration of gravity [m/s^2], not negative."""
 
-    unit: str = _unit("m/s^2")
+    unit: str = field(default="m/s^2", init=False)
     least: Number | None = 0.0
 
 
@@ -222,7 +217,7 @@ class Gravity(Parameter):
 class ForceLevel(Parameter):
     """The amount of a force [N], not negative."""
 
-    unit: str = _unit("N")
+    unit: str = field(default="N", init=False)
     least: Number | None = 0.0
 
 
@@ -232,7 +227,7 @@ class MomentLevel(Parameter):
     """The amount of a moment [N m], not negative."""
 
     of_angle: ClassVar[bool] = True
-    unit: str = _unit("N m")
+    unit: str = field(default="N m", init=False)
     least: Number | None = 0.0
 
 
@@ -241,7 +236,7 @@ class MomentLevel(Parameter):
 class SpringRate(Parameter):
     """The rate of a spring [N/m], not negative."""
 
-    unit: str = _unit("N/m")
+    unit: str = field(default="N/m", init=False)
     least: Number | None = 0.0
 
 
@@ -251,7 +246,7 @@ class TorsionRate(Parameter):
     """The rate of a torsion spring [N m/rad], not negative."""
 
     of_angle: ClassVar[bool] = True
-    unit: str = _unit("N m/rad")
+    unit: str = field(default="N m/rad", init=False)
     least: Number | None = 0.0
 
 
@@ -260,7 +255,7 @@ class TorsionRate(Parameter):
 class DamperRate(Parameter):
     """The rate of a damper [N s/m], not negative."""
 
-    unit: str = _unit("N s/m")
+    unit: str = field(default="N s/m", init=False)
     least: Number | None = 0.0
 
 
@@ -270,7 +265,7 @@ class TorsionDamperRate(Parameter):
     """The rate of a damper of rotation [N m s/rad], not negative."""
 
     of_angle: ClassVar[bool] = True
-    unit: str = _unit("N m s/rad")
+    unit: str = field(default="N m s/rad", init=False)
     least: Number | None = 0.0
 
 
@@ -279,7 +274,7 @@ class TorsionDamperRate(Parameter):
 class Progression(Parameter):
     """The cubic term of a stop [N/m^3], not negative."""
 
-    unit: str = _unit("N/m^3")
+    unit: str = field(default="N/m^3", init=False)
     least: Number | None = 0.0
 
 
@@ -289,7 +284,7 @@ class TorsionProgression(Parameter):
     """The cubic term of a stop of rotation [N m/rad^3], not negative."""
 
     of_angle: ClassVar[bool] = True
-    unit: str = _unit("N m/rad^3")
+    unit: str = field(default="N m/rad^3", init=False)
     least: Number | None = 0.0
 
 
@@ -298,6 +293,6 @@ class TorsionProgression(Parameter):
 class Share(Parameter):
     """A number between 0 and 1."""
 
-    unit: str = _unit("1")
+    unit: str = field(default="1", init=False)
     least: Number | None = 0.0
     most: Number | None = 1.0

@@ -19,8 +19,8 @@ def described(mechanism: Assembly) -> dict[str, dict[str, float | str]]:
         By name: ``default``, ``unit``, ``meaning``, and ``least``, ``above``, ``most`` as far as
         there are such bounds.
     """
-    return {
-        p.name: {"default": p.default, "unit": p.unit, "meaning": p.meaning}
-        | {bound: value for bound in _BOUNDS if (value := getattr(p, bound)) is not None}
-        for p in mechanism.parameters
-    }
+    found: dict[str, dict[str, float | str]] = {}
+    for p in mechanism.parameters:
+        found[p.name] = {"default": p.default, "unit": p.unit, "meaning": p.meaning}
+        found[p.name] |= {b: value for b in _BOUNDS if (value := getattr(p, b)) is not None}
+    return found

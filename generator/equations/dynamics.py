@@ -35,7 +35,7 @@ from ..program.functions import IsPositive, Positive
 from ..program.vectors import ELEMENTS, SymmetricTensor, Twist, Vector
 
 if TYPE_CHECKING:
-    from ..declare.assembly import Body
+    from ..declare.bodies import Body
     from ..declare.laws import Law
     from .parts import Parts
 
@@ -96,6 +96,7 @@ class Dynamics:
         self.inertia: dict[str, Inertia] = {}
         self.rotors: list[Rotor] = []
         self.signals: dict[str, sp.Expr] = {}
+        self.totals: dict[str, sp.Expr] = {}  # of each element
         self.program.section("inertia")
         self._gather_inertia()
         self._matrix: dict[tuple[str, str], sp.Expr] = {}
@@ -328,6 +329,7 @@ class Dynamics:
             self.signals[shown] = program.define(shown, own)
             total += self.signals[shown]
         total = program.define(f"{name}_total_force", total)
+        self.totals[name] = total
         for k in self.names:
             if k in motion:
                 self._force[k] += total * motion[k]

@@ -19,6 +19,7 @@ from ..program.functions import SignOf
 from ..program.program import Program
 from ..program.vectors import ZERO, Vector
 from .assumptions import define_assumptions, find_assumptions
+from .declared_outputs import signals_of
 from .dynamics import Dynamics
 from .parts import Parts
 from .relative import RelativeCoordinates
@@ -459,6 +460,9 @@ class _Builder:
                 self._add_wheel_signals(force, results)
             elif isinstance(force, ForceElement):
                 self._add_element_signals(force, results)
+        for output in self.mechanism.outputs:
+            for shown in signals_of(self.dynamics, output):
+                self._signal(results, *shown)
         if not results:
             return
         self._add("signals", "Physical signals, see the enumeration of signals.", results)
@@ -470,6 +474,9 @@ class _Builder:
     def _signal(
         self, results: dict[str, sp.Expr], name: str, value: sp.Expr, unit: str, meaning: str
     ) -> None:
+        if name in results:
+            problem = f"two signals are named {name!r}; give the output another name"
+            raise DeclarationError(self.model.name, [problem])
         self.signals.append(Entry(name, unit, meaning))
         results[name] = value
 

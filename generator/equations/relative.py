@@ -32,7 +32,7 @@ from ..program.vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Vector
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ..declare.assembly import RelativeCoordinate
+    from ..declare.joints import RelativeCoordinate
     from ..kinematics.kinematics import Kinematics
 
 

@@ -10,7 +10,7 @@ import sympy as sp
 
 from ..declare.evaluation import AtDefaults
 from ..declare.geometry import UP, Direction, Point
-from ..declare.joints import Joint, Revolute
+from ..declare.joints import Joint, RelativeCoordinate, Revolute
 from ..program.functions import SignOf
 from ..program.vectors import NO_TWIST, ZERO, Twist, Vector
 from .motion import (
@@ -29,7 +29,7 @@ from .motion import (
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator, Mapping
 
-    from ..declare.assembly import Body, RelativeCoordinate
+    from ..declare.bodies import Body
     from ..declare.model import Model
     from ..program.program import Program
 

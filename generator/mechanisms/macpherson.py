@@ -7,6 +7,7 @@ values are this project's reference car (front right, ISO 8855 axes, ground at z
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Literal
 
 from .. import declare as d
 from .suspension import RACK_FORCE, RACK_MOTION, ROAD_HEIGHT, ROAD_VELOCITY
@@ -144,19 +145,21 @@ FRICTION = d.Friction(
         "strut_friction_speed", 0.01, "velocity at which 71 % of the friction is reached"
     ),
 )
-BUMP_STOP, REBOUND_STOP = (
-    d.Stop(
+
+
+def _stop(side: Literal["bump", "rebound"], touched: float) -> d.Stop:
+    length = f"strut length at which the {side} stop is touched"
+    return d.Stop(
         side=side,
-        length=d.Length(
-            f"{side}_stop_length", touched, f"strut length at which the {side} stop is touched"
-        ),
+        length=d.Length(f"{side}_stop_length", touched, length),
         rate=d.SpringRate(f"{side}_stop_rate", 0.0, f"rate of the {side} stop at first touch"),
         progression=d.Progression(
             f"{side}_stop_progression", 0.0, f"cubic term of the {side} stop"
         ),
     )
-    for side, touched in (("bump", 0.0), ("rebound", 0.85))
-)
+
+
+BUMP_STOP, REBOUND_STOP = _stop("bump", 0.0), _stop("rebound", 0.85)
 GENERAL_FORCES = (
     WEIGHT,
     d.ForceElement(
@@ -209,8 +212,8 @@ def general(*, free_rack: bool = False) -> d.Mechanism:
 
 def _steered(name: str, title: str, declared: d.Mechanism) -> d.Model:
     """Return the equations with a prescribed rack: arm, knuckle and wheel carry mass."""
-    massive, rack = (ARM, KNUCKLE, WHEEL), {Y: RACK_MOTION}
-    return d.Model(name, title, declared, (OA, HG), massive, rack, held={"rack_held": (Y,)})
+    massive, held = (ARM, KNUCKLE, WHEEL), {"rack_held": (Y,)}
+    return d.Model(name, title, declared, (OA, HG), massive, {Y: RACK_MOTION}, held)
 
 
 MODELS = (

@@ -137,8 +137,8 @@ class Search:
         if len(self.candidates) < self.count:
             return (
                 f"{what}: {self.count} coordinate(s) must be independent; of hinges and guides it "
-                f"reports {reported}. Report more of them (RelativeCoordinate), or declare a Model "
-                "with prescribed joints"
+                f"reports {reported}. Report more of them among the coordinates, or declare a "
+                "Model with prescribed joints"
             )
         if not self._pushed <= set(self.candidates) or len(self._pushed) > self.count:
             return (

@@ -1,0 +1,122 @@
+"""What a person wants to see of a mechanism, beside the signals of its tyres and force elements.
+
+An output makes one signal or three; vectors are in chassis axes, with ``_x``, ``_y``, ``_z`` behind
+their names.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from .bodies import Body
+from .declared import DeclarationError, Name, declared
+from .forces import ForceElement
+from .geometry import Direction, Point
+
+
+@declared
+@dataclass(frozen=True)
+class Output:
+    """A signal that is declared.
+
+    Parameters
+    ----------
+    name
+        Of the signal, or the beginning of the names of its components.
+    """
+
+    name: Name
+
+
+@declared
+@dataclass(frozen=True)
+class OfPoint(Output):
+    """A vector of a point that a body carries.
+
+    Parameters
+    ----------
+    body, point
+        The body, and the point by its place at the design position.
+    meaning
+        What the point is, for the documentation of the generated code.
+    """
+
+    body: Body
+    point: Point
+    meaning: str
+
+
+@declared
+@dataclass(frozen=True)
+class PositionOf(OfPoint):
+    """Where a point is [m]."""
+
+
+@declared
+@dataclass(frozen=True)
+class VelocityOf(OfPoint):
+    """The velocity of a point [m/s]."""
+
+
+@declared
+@dataclass(frozen=True)
+class AccelerationOf(OfPoint):
+    """The acceleration of a point [m/s^2], as it follows from the forces."""
+
+
+@declared
+@dataclass(frozen=True)
+class DistanceBetween(Output):
+    """The distance of two points [m], and its rate, ``<name>_rate`` [m/s].
+
+    Parameters
+    ----------
+    first, second
+        Body and point at either end.
+    """
+
+    first: tuple[Body, Point]
+    second: tuple[Body, Point]
+    meaning: str
+
+    def __post_init__(self) -> None:
+        (one, _), (other, _) = self.first, self.second
+        if one == other:
+            problem = f"both ends are on {one.name!r}, so it never changes; give two bodies"
+            raise DeclarationError(f"DistanceBetween {self.name!r}", [problem])
+
+
+@declared
+@dataclass(frozen=True)
+class AngleBetween(Output):
+    """The angle from a direction of one body to a direction of another [rad], from -pi to pi.
+
+    It is that of their parts across an axis of the first body, right-handed about it.
+
+    Parameters
+    ----------
+    first, second
+        Body and direction at the design position.
+    about
+        The axis.
+    """
+
+    first: tuple[Body, Direction]
+    second: tuple[Body, Direction]
+    about: Direction
+    meaning: str
+
+    turns_about: ClassVar[tuple[str, ...]] = ("about",)
+
+
+@declared
+@dataclass(frozen=True)
+class ForceOf(Output):
+    """The force of an element: the sum of its laws, positive when it pushes its ends apart [N].
+
+    Of a twist it is a moment, positive when it increases the twist [N m].
+    """
+
+    element: ForceElement
+    meaning: str
