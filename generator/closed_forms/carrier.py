@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Sequence
     from typing import Self
 
-    from ..declare.assembly import Body
+    from ..declare.bodies import Body
     from ..declare.geometry import Point
     from ..kinematics.kinematics import Kinematics
     from ..kinematics.step import Ends
