@@ -295,7 +295,8 @@ def test_loops_wait_for_those_that_they_hang_on(model: Any) -> None:
     """The bucket's loops declared first and its bodies numbered first: the same loops."""
     mechanism = model.mechanism
     backward = ((body, replace(body, order=-body.order)) for body in mechanism.bodies)
-    turned = replace(changed(mechanism, *backward), joints=mechanism.joints[::-1])
+    turned = changed(mechanism, *backward)
+    turned = replace(turned, joints=turned.joints[::-1])
     assert turned.bodies[1:] == mechanism.bodies[:0:-1]
     plan, expected = Plan.of(replace(model, mechanism=turned)), Plan.of(model)
     assert {t.cycle.key for t in plan.transformers} == {t.cycle.key for t in expected.transformers}

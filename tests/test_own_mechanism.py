@@ -17,6 +17,7 @@ import kintrafo
 import numpy as np
 import own_loops
 import pytest
+from changes import with_default
 from kintrafo.cli import app
 from kintrafo.generator import JointForce, Mechanism, Model, Motion
 from kintrafo.generator.mechanisms.andrews import MODELS as ANDREWS
@@ -57,7 +58,7 @@ class TestPage:
     def test_the_declaration_is_that_of_the_example(self):
         text = EXAMPLE.read_text(encoding="utf-8")
         shown = [block for block in blocks("python") if "import kintrafo" not in block]
-        assert len(shown) == 3
+        assert len(shown) == 5
         assert all(block in text for block in shown)
 
     def test_the_use_of_it_prints_what_it_says(self, tmp_path, monkeypatch, capsys):
@@ -177,8 +178,7 @@ class TestCache:
             ]
             changed = replace(SLIDER_CRANK, joints=tuple(joints))
         elif what == "default":
-            last = replace(SLIDER_CRANK.parameters[-1], default=0.123)
-            changed = replace(SLIDER_CRANK, parameters=(*SLIDER_CRANK.parameters[:-1], last))
+            changed = with_default(SLIDER_CRANK, piston_mass=0.123)
         elif what == "flags":
             monkeypatch.setenv("CFLAGS", "-O1")
         else:
