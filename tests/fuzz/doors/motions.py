@@ -21,6 +21,7 @@ from kintrafo import Model, SimulationError, System, simulate
 from kintrafo.generated import (
     andrews,
     excavator,
+    excavator_lifting,
     four_bar,
     front_axle,
     macpherson_free_rack,
@@ -42,7 +43,15 @@ if TYPE_CHECKING:
 SHORT = 8
 SECONDS = 60.0
 
-_MODULES = (four_bar, slider_crank, andrews, excavator, front_axle, macpherson_free_rack)
+_MODULES = (
+    four_bar,
+    slider_crank,
+    andrews,
+    excavator,
+    excavator_lifting,
+    front_axle,
+    macpherson_free_rack,
+)
 _CARS = ("reference_car", "double_wishbone_car", "offset_strut_car")
 METHODS = tuple(dict.fromkeys([*native_methods(), "Radau", "LSODA", "RK45", "DOP853"]))
 
