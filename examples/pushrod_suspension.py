@@ -9,6 +9,7 @@ from kintrafo.generator import (
     Body,
     Direction,
     ForceElement,
+    Input,
     Line,
     LinearDamper,
     LinearSpring,
@@ -131,7 +132,7 @@ MECHANISM = Mechanism(
         RelativeCoordinate("arm_angle", "arm_hinge", "angle", "rad", "angle of the arm"),
         RelativeCoordinate("rocker_angle", "rocker_hinge", "angle", "rad", "angle of the rocker"),
     ),
-    inputs={"road_height": ("m", "height of the road under the tyre, positive up")},
+    inputs=(Input("road_height", "m", "height of the road under the tyre, positive up"),),
 )
 
 MODEL = Model(

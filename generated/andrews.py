@@ -214,7 +214,9 @@ PARAMETERS: Final[dict[str, dict[str, Any]]] = {'crank_bearing_x': {'default': 0
 STATE: Final[dict[str, dict[str, str]]] = {'beta': {'unit': 'rad', 'meaning': 'angle of the crank from the start'},
  'beta_rate': {'unit': 'rad/s', 'meaning': 'rate of beta'}}
 
-INPUTS: Final[dict[str, dict[str, str]]] = {'drive_torque': {'unit': 'N m', 'meaning': 'torque on the crank; 0.033 N m in the test set'}}
+INPUTS: Final[dict[str, dict[str, str | None]]] = {'drive_torque': {'unit': 'N m',
+                  'meaning': 'torque on the crank; 0.033 N m in the test set',
+                  'derivative_of': None}}
 
 RELATIVE_COORDINATES: Final[dict[str, dict[str, str]]] = {'beta': {'unit': 'rad', 'meaning': 'angle of the crank from the start'},
  'theta': {'unit': 'rad', 'meaning': 'angle of body 2 on the crank'},

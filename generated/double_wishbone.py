@@ -442,13 +442,22 @@ STATE: Final[dict[str, dict[str, str]]] = {'arm_angle': {'unit': 'rad',
  'arm_angle_rate': {'unit': 'rad/s', 'meaning': 'rate of arm_angle'},
  'spin_angle_rate': {'unit': 'rad/s', 'meaning': 'rate of spin_angle'}}
 
-INPUTS: Final[dict[str, dict[str, str]]] = {'rack_position': {'unit': 'm', 'meaning': 'displacement of the rack along its axis'},
- 'rack_velocity': {'unit': 'm/s', 'meaning': 'velocity of the rack along its axis'},
- 'rack_acceleration': {'unit': 'm/s^2', 'meaning': 'acceleration of the rack along its axis'},
+INPUTS: Final[dict[str, dict[str, str | None]]] = {'rack_position': {'unit': 'm',
+                   'meaning': 'displacement of the rack along its axis',
+                   'derivative_of': None},
+ 'rack_velocity': {'unit': 'm/s',
+                   'meaning': 'velocity of the rack along its axis',
+                   'derivative_of': 'rack_position'},
+ 'rack_acceleration': {'unit': 'm/s^2',
+                       'meaning': 'acceleration of the rack along its axis',
+                       'derivative_of': 'rack_velocity'},
  'spring_actuator': {'unit': 'N',
                      'meaning': "actuator force, positive when it pushes the spring's seats "
-                                'apart'},
- 'road_height': {'unit': 'm', 'meaning': 'height of the road under the tyre, positive up'}}
+                                'apart',
+                     'derivative_of': None},
+ 'road_height': {'unit': 'm',
+                 'meaning': 'height of the road under the tyre, positive up',
+                 'derivative_of': None}}
 
 RELATIVE_COORDINATES: Final[dict[str, dict[str, str]]] = {'arm_angle': {'unit': 'rad',
                'meaning': 'angle of the lower arm from the chassis vertical; falls as the wheel '

@@ -334,10 +334,15 @@ STATE: Final[dict[str, dict[str, str]]] = {'boom_stroke': {'unit': 'm', 'meaning
  'arm_stroke_rate': {'unit': 'm/s', 'meaning': 'rate of arm_stroke'},
  'bucket_stroke_rate': {'unit': 'm/s', 'meaning': 'rate of bucket_stroke'}}
 
-INPUTS: Final[dict[str, dict[str, str]]] = {'boom_force': {'unit': 'N', 'meaning': 'force of the boom cylinder, positive when it extends'},
- 'arm_force': {'unit': 'N', 'meaning': 'force of the arm cylinder, positive when it extends'},
+INPUTS: Final[dict[str, dict[str, str | None]]] = {'boom_force': {'unit': 'N',
+                'meaning': 'force of the boom cylinder, positive when it extends',
+                'derivative_of': None},
+ 'arm_force': {'unit': 'N',
+               'meaning': 'force of the arm cylinder, positive when it extends',
+               'derivative_of': None},
  'bucket_force': {'unit': 'N',
-                  'meaning': 'force of the bucket cylinder, positive when it extends'}}
+                  'meaning': 'force of the bucket cylinder, positive when it extends',
+                  'derivative_of': None}}
 
 RELATIVE_COORDINATES: Final[dict[str, dict[str, str]]] = {'boom_stroke': {'unit': 'm', 'meaning': 'stroke of the boom cylinder, from the start'},
  'arm_stroke': {'unit': 'm', 'meaning': 'stroke of the arm cylinder, from the start'},

@@ -355,26 +355,37 @@ PARAMETERS: Final[dict[str, dict[str, Any]]] = {'boom_foot_x': {'default': 0.2,
 STATE: Final[dict[str, dict[str, str]]] = {'swing': {'unit': 'rad', 'meaning': 'angle of the load on the bucket, from the start'},
  'swing_rate': {'unit': 'rad/s', 'meaning': 'rate of swing'}}
 
-INPUTS: Final[dict[str, dict[str, str]]] = {'boom_stroke_position': {'unit': 'm', 'meaning': 'stroke of the boom cylinder, from the start'},
+INPUTS: Final[dict[str, dict[str, str | None]]] = {'boom_stroke_position': {'unit': 'm',
+                          'meaning': 'stroke of the boom cylinder, from the start',
+                          'derivative_of': None},
  'boom_stroke_velocity': {'unit': 'm/s',
-                          'meaning': 'rate of the stroke of the boom cylinder, from the start'},
+                          'meaning': 'rate of the stroke of the boom cylinder, from the start',
+                          'derivative_of': 'boom_stroke_position'},
  'boom_stroke_acceleration': {'unit': 'm/s^2',
                               'meaning': 'acceleration of the stroke of the boom cylinder, from '
-                                         'the start'},
- 'arm_stroke_position': {'unit': 'm', 'meaning': 'stroke of the arm cylinder, from the start'},
+                                         'the start',
+                              'derivative_of': 'boom_stroke_velocity'},
+ 'arm_stroke_position': {'unit': 'm',
+                         'meaning': 'stroke of the arm cylinder, from the start',
+                         'derivative_of': None},
  'arm_stroke_velocity': {'unit': 'm/s',
-                         'meaning': 'rate of the stroke of the arm cylinder, from the start'},
+                         'meaning': 'rate of the stroke of the arm cylinder, from the start',
+                         'derivative_of': 'arm_stroke_position'},
  'arm_stroke_acceleration': {'unit': 'm/s^2',
                              'meaning': 'acceleration of the stroke of the arm cylinder, from '
-                                        'the start'},
+                                        'the start',
+                             'derivative_of': 'arm_stroke_velocity'},
  'bucket_stroke_position': {'unit': 'm',
-                            'meaning': 'stroke of the bucket cylinder, from the start'},
+                            'meaning': 'stroke of the bucket cylinder, from the start',
+                            'derivative_of': None},
  'bucket_stroke_velocity': {'unit': 'm/s',
                             'meaning': 'rate of the stroke of the bucket cylinder, from the '
-                                       'start'},
+                                       'start',
+                            'derivative_of': 'bucket_stroke_position'},
  'bucket_stroke_acceleration': {'unit': 'm/s^2',
                                 'meaning': 'acceleration of the stroke of the bucket cylinder, '
-                                           'from the start'}}
+                                           'from the start',
+                                'derivative_of': 'bucket_stroke_velocity'}}
 
 RELATIVE_COORDINATES: Final[dict[str, dict[str, str]]] = {'boom_stroke': {'unit': 'm', 'meaning': 'stroke of the boom cylinder, from the start'},
  'arm_stroke': {'unit': 'm', 'meaning': 'stroke of the arm cylinder, from the start'},

@@ -525,17 +525,29 @@ STATE: Final[dict[str, dict[str, str]]] = {'right_beta1': {'unit': 'rad',
  'left_beta1_rate': {'unit': 'rad/s', 'meaning': 'rate of left_beta1'},
  'left_beta5_rate': {'unit': 'rad/s', 'meaning': 'rate of left_beta5'}}
 
-INPUTS: Final[dict[str, dict[str, str]]] = {'rack_position': {'unit': 'm', 'meaning': 'displacement of the rack along its axis'},
- 'rack_velocity': {'unit': 'm/s', 'meaning': 'velocity of the rack along its axis'},
- 'rack_acceleration': {'unit': 'm/s^2', 'meaning': 'acceleration of the rack along its axis'},
+INPUTS: Final[dict[str, dict[str, str | None]]] = {'rack_position': {'unit': 'm',
+                   'meaning': 'displacement of the rack along its axis',
+                   'derivative_of': None},
+ 'rack_velocity': {'unit': 'm/s',
+                   'meaning': 'velocity of the rack along its axis',
+                   'derivative_of': 'rack_position'},
+ 'rack_acceleration': {'unit': 'm/s^2',
+                       'meaning': 'acceleration of the rack along its axis',
+                       'derivative_of': 'rack_velocity'},
  'right_strut_force': {'unit': 'N',
                        'meaning': 'actuator force in the strut, positive when it pushes its ends '
-                                  'apart'},
- 'right_road_height': {'unit': 'm', 'meaning': 'height of the road under the tyre, positive up'},
+                                  'apart',
+                       'derivative_of': None},
+ 'right_road_height': {'unit': 'm',
+                       'meaning': 'height of the road under the tyre, positive up',
+                       'derivative_of': None},
  'left_strut_force': {'unit': 'N',
                       'meaning': 'actuator force in the strut, positive when it pushes its ends '
-                                 'apart'},
- 'left_road_height': {'unit': 'm', 'meaning': 'height of the road under the tyre, positive up'}}
+                                 'apart',
+                      'derivative_of': None},
+ 'left_road_height': {'unit': 'm',
+                      'meaning': 'height of the road under the tyre, positive up',
+                      'derivative_of': None}}
 
 RELATIVE_COORDINATES: Final[dict[str, dict[str, str]]] = {'right_beta1': {'unit': 'rad',
                  'meaning': 'arm angle from the chassis vertical (Eq. 6); falls as the wheel '

@@ -407,13 +407,21 @@ STATE: Final[dict[str, dict[str, str]]] = {'beta1': {'unit': 'rad',
  'beta1_rate': {'unit': 'rad/s', 'meaning': 'rate of beta1'},
  'beta5_rate': {'unit': 'rad/s', 'meaning': 'rate of beta5'}}
 
-INPUTS: Final[dict[str, dict[str, str]]] = {'rack_position': {'unit': 'm', 'meaning': 'displacement of the rack along its axis'},
- 'rack_velocity': {'unit': 'm/s', 'meaning': 'velocity of the rack along its axis'},
- 'rack_acceleration': {'unit': 'm/s^2', 'meaning': 'acceleration of the rack along its axis'},
+INPUTS: Final[dict[str, dict[str, str | None]]] = {'rack_position': {'unit': 'm',
+                   'meaning': 'displacement of the rack along its axis',
+                   'derivative_of': None},
+ 'rack_velocity': {'unit': 'm/s',
+                   'meaning': 'velocity of the rack along its axis',
+                   'derivative_of': 'rack_position'},
+ 'rack_acceleration': {'unit': 'm/s^2',
+                       'meaning': 'acceleration of the rack along its axis',
+                       'derivative_of': 'rack_velocity'},
  'strut_force': {'unit': 'N',
-                 'meaning': 'actuator force in the strut, positive when it pushes its ends '
-                            'apart'},
- 'road_height': {'unit': 'm', 'meaning': 'height of the road under the tyre, positive up'}}
+                 'meaning': 'actuator force in the strut, positive when it pushes its ends apart',
+                 'derivative_of': None},
+ 'road_height': {'unit': 'm',
+                 'meaning': 'height of the road under the tyre, positive up',
+                 'derivative_of': None}}
 
 RELATIVE_COORDINATES: Final[dict[str, dict[str, str]]] = {'beta1': {'unit': 'rad',
            'meaning': 'arm angle from the chassis vertical (Eq. 6); falls as the wheel rises'},

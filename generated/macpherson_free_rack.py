@@ -403,11 +403,15 @@ STATE: Final[dict[str, dict[str, str]]] = {'beta1': {'unit': 'rad',
  'beta5_rate': {'unit': 'rad/s', 'meaning': 'rate of beta5'},
  'beta9_rate': {'unit': 'm/s', 'meaning': 'rate of beta9'}}
 
-INPUTS: Final[dict[str, dict[str, str]]] = {'strut_force': {'unit': 'N',
-                 'meaning': 'actuator force in the strut, positive when it pushes its ends '
-                            'apart'},
- 'road_height': {'unit': 'm', 'meaning': 'height of the road under the tyre, positive up'},
- 'rack_force': {'unit': 'N', 'meaning': 'force on the rack along its axis'}}
+INPUTS: Final[dict[str, dict[str, str | None]]] = {'strut_force': {'unit': 'N',
+                 'meaning': 'actuator force in the strut, positive when it pushes its ends apart',
+                 'derivative_of': None},
+ 'road_height': {'unit': 'm',
+                 'meaning': 'height of the road under the tyre, positive up',
+                 'derivative_of': None},
+ 'rack_force': {'unit': 'N',
+                'meaning': 'force on the rack along its axis',
+                'derivative_of': None}}
 
 RELATIVE_COORDINATES: Final[dict[str, dict[str, str]]] = {'beta1': {'unit': 'rad',
            'meaning': 'arm angle from the chassis vertical (Eq. 6); falls as the wheel rises'},

@@ -163,7 +163,7 @@ PARAMETERS: Final[dict[str, dict[str, Any]]] = {'crank_bearing_x': {'default': 0
 STATE: Final[dict[str, dict[str, str]]] = {'crank_angle': {'unit': 'rad', 'meaning': 'angle of the crank from the start'},
  'crank_angle_rate': {'unit': 'rad/s', 'meaning': 'rate of crank_angle'}}
 
-INPUTS: Final[dict[str, dict[str, str]]] = {'crank_torque': {'unit': 'N m', 'meaning': 'torque on the crank'}}
+INPUTS: Final[dict[str, dict[str, str | None]]] = {'crank_torque': {'unit': 'N m', 'meaning': 'torque on the crank', 'derivative_of': None}}
 
 RELATIVE_COORDINATES: Final[dict[str, dict[str, str]]] = {'crank_angle': {'unit': 'rad', 'meaning': 'angle of the crank from the start'},
  'rod_angle': {'unit': 'rad', 'meaning': 'angle of the rod on the crank'},

@@ -35,6 +35,7 @@ from .declare.forces import (
     Weight,
 )
 from .declare.geometry import FORWARD, UP, Direction, Line, Point
+from .declare.inputs import Input, motion
 from .declare.joints import Cylindrical, Prismatic, Revolute, Spherical, Universal
 from .declare.laws import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
 from .declare.mechanism import Mechanism
@@ -54,6 +55,7 @@ __all__ = [
     "Direction",
     "ForceElement",
     "Friction",
+    "Input",
     "JointForce",
     "Line",
     "LinearDamper",
@@ -72,6 +74,7 @@ __all__ = [
     "Universal",
     "Weight",
     "direction",
+    "motion",
     "point",
     "rigid_body",
     "rotor",

@@ -15,6 +15,7 @@ from kintrafo.generator import (
     Body,
     Direction,
     ForceElement,
+    Input,
     JointForce,
     Line,
     LinearDamper,
@@ -30,6 +31,7 @@ from kintrafo.generator import (
     Universal,
     Weight,
     direction,
+    motion,
     point,
     rotor,
 )
@@ -130,12 +132,15 @@ def declare(
         Parameter("damper_rate", 5.0, "N s/m", "rate of the damper"),
         Parameter("gravity", 9.81, "m/s^2", "acceleration of gravity"),
     ]
-    inputs = {f"{j}_force": ("N or N m", f"force along {j}") for j in independent}
     slides = {j.name for j in joints if isinstance(j, Prismatic)}
-    for joint, motion in prescribed.items():
-        base = "m" if joint in slides else "rad"
-        for kind, unit in (("position", ""), ("velocity", "/s"), ("acceleration", "/s^2")):
-            inputs[f"{motion}_{kind}"] = (f"{base}{unit}", f"{kind} of {motion}")
+    inputs = (
+        *(Input(f"{j}_force", "N or N m", f"force along {j}") for j in independent),
+        *(
+            entry
+            for joint, name in prescribed.items()
+            for entry in motion(name, "m" if joint in slides else "rad", f"coordinate of {joint}")
+        ),
+    )
     mechanism = Mechanism(
         name=name,
         title=name,

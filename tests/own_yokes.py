@@ -5,6 +5,7 @@ from __future__ import annotations
 from kintrafo.generator import (
     Body,
     Direction,
+    Input,
     JointForce,
     Mechanism,
     Model,
@@ -64,7 +65,7 @@ def yoke(name: str, *, turned: bool = False, carried: bool = False) -> Model:
             RelativeCoordinate(f"{j.name}_coordinate", j.name, j.coordinates[0], "1", j.name)
             for j in joints
         ),
-        inputs={"torque": ("N m", "torque on the crank")},
+        inputs=(Input("torque", "N m", "torque on the crank"),),
     )
     independent = ("F", "A") if carried else ("A",)
     return Model(name, "Scotch yoke", mechanism, independent, tuple(moving))

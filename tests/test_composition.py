@@ -20,6 +20,7 @@ from kintrafo.generator import (
     Direction,
     ForceElement,
     Friction,
+    Input,
     JointForce,
     Line,
     LinearDamper,
@@ -148,8 +149,8 @@ def test_copies_read_the_parameters_of_the_declaration() -> None:
     assert read["left_knuckle_inertia_xz"] == sp.Symbol("knuckle_inertia_xz")
     assert read["left_wheel_inertia_spin"] == sp.Symbol("wheel_inertia_spin")
     assert left.joint("y") == source.joint("y")
-    assert "rack_force" in left.inputs
-    assert "left_road_height" in left.inputs
+    assert "rack_force" in left.input_names
+    assert "left_road_height" in left.input_names
 
 
 def test_a_copy_may_have_parameters_of_its_own() -> None:
@@ -267,7 +268,7 @@ def pendulum(first: str, second: str) -> Model:
             RelativeCoordinate("q1", "shoulder", "angle", "rad", "angle of the shoulder"),
             RelativeCoordinate("q2", "elbow", "angle", "rad", "angle of the elbow"),
         ),
-        inputs={"motor": ("N m", "moment of a motor")},
+        inputs=(Input("motor", "N m", "moment of a motor"),),
     )
     return Model(
         name="pendulum",

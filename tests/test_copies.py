@@ -94,7 +94,7 @@ class Moving:
         driven = [c.name for c in mechanism.coordinates if c.joint in model.independent]
         stage = ConstantStage(
             tuple(sp.Symbol(p.name) for p in mechanism.parameters),
-            frozenset([*driven, *(f"{n}_rate" for n in driven), *mechanism.inputs]),
+            frozenset([*driven, *(f"{n}_rate" for n in driven), *mechanism.input_names]),
             derived={sp.Symbol(n): value for n, value in mechanism.derived.items()},
         )
         program = Program(stage)
@@ -185,7 +185,7 @@ def check_in_company(model: Model, random: np.random.Generator) -> None:
         rates = random.standard_normal(len(one.coordinates))
         state = dict(zip(one.coordinates, np.array(one.design()) + off, strict=True))
         state |= {f"{k}_rate": r for k, r in zip(one.coordinates, rates, strict=True)}
-        inputs = model.mechanism.inputs
+        inputs = model.mechanism.input_names
         state |= dict(zip(inputs, 1e-3 * random.standard_normal(len(inputs)), strict=True))
         state |= one.given_angles()
         alone = one(state)

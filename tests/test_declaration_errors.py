@@ -11,6 +11,7 @@ from kintrafo.generator import (
     Cylindrical,
     DeclarationError,
     Direction,
+    Input,
     JointForce,
     Line,
     Mechanism,
@@ -150,7 +151,7 @@ class TestForces:
     PUSHED = replace(
         RUSR,
         forces=(JointForce(joint="D", input="torque"),),
-        inputs={"torque": ("N m", "torque on the rocker")},
+        inputs=(Input("torque", "N m", "torque on the rocker"),),
     )
 
     def test_along_a_joint_that_follows(self):
@@ -202,7 +203,7 @@ class TestTexts:
             {"title": text},
             {"parameters": (replace(RUSR.parameters[0], meaning=text), *RUSR.parameters[1:])},
             {"coordinates": (replace(entry, unit=text),)},
-            {"inputs": {"torque": ("N m", text)}},
+            {"inputs": (Input("torque", "N m", text),)},
         )
         for change in changes:
             with pytest.raises(DeclarationError, match="cannot stand in a comment"):

@@ -27,6 +27,7 @@ from kintrafo.generator import (
     Direction,
     ForceElement,
     Friction,
+    Input,
     JointForce,
     Line,
     LinearDamper,
@@ -188,11 +189,11 @@ MISTAKES = {
     ),
     "names of inputs without meaning": (
         lambda: four_bar(inputs=("crank_torque",)),
-        ["inputs", "a dictionary is needed"],
+        ["inputs[0] is 'crank_torque'", "an Input is needed"],
     ),
     "input with a unit only": (
-        lambda: four_bar(inputs={"crank_torque": "N m"}),
-        ["inputs['crank_torque'] is 'N m'", "a tuple is needed"],
+        lambda: four_bar(inputs=(Input("crank_torque", "N m"),)),
+        ["Input 'crank_torque'", "meaning is missing"],
     ),
     "model for a mechanism": (
         lambda: model(mechanism=FOUR),

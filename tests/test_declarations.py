@@ -10,6 +10,7 @@ from kintrafo.generator import (
     Body,
     DeclarationError,
     ForceElement,
+    Input,
     JointForce,
     LinearDamper,
     LinearSpring,
@@ -81,7 +82,10 @@ STRUT = ForceElement(name="strut", path=AlongTelescope("BC"), laws=(SPRING,))
             "a free_slide or a free_length",
         ),
         (replace(STRUT, laws=(replace(SPRING, free_slide=None),)), "a free_slide or a free_length"),
-        (replace(TYRE, damper="tyre_damper"), "'front': give damper and road_velocity, or neither"),
+        (
+            replace(TYRE, damper="tyre_damper", road="rack_force"),
+            "'front': its damper needs the rate of 'rack_force'",
+        ),
         (replace(TYRE, road="rod_height"), "did you mean 'road_height'"),
     ],
 )
@@ -154,7 +158,7 @@ def renamed(old: str, new: str) -> tuple[Parameter, ...]:
             {"parameters": renamed("gravity", "rack_force")},
             "'rack_force' is the name of a parameter and of an input; rename the parameter",
         ),
-        ({"inputs": {**MECHANISM.inputs, "for": ("N", "")}}, "input 'for' has a name that"),
+        ({"inputs": (*MECHANISM.inputs, Input("for", "N", ""))}, "input 'for' has a name that"),
     ],
 )
 def test_names_that_code_cannot_have(changes, words):
@@ -192,3 +196,41 @@ def test_parameter_with_the_name_of_an_internal_step(name):
 def defaults(mechanism):
     """Return the values of all parameters."""
     return {p.name: p.default for p in mechanism.parameters}
+
+
+PULL = Input("pull", "N", "some force")
+
+
+@pytest.mark.parametrize(
+    ("inputs", "words"),
+    [
+        ((PULL, PULL), "input 'pull' is declared 2 times"),
+        ((replace(PULL, derivative_of="push"),), "'pull': derivative_of='push' is not declared"),
+        ((replace(PULL, derivative_of="pull"),), "'pull' is the derivative of itself"),
+        (
+            (replace(PULL, derivative_of="rate"), Input("rate", "N/s", "", derivative_of="pull")),
+            "'rate' is the derivative of itself",
+        ),
+        (
+            (PULL, *(Input(f"rate_{i}", "N/s", "", derivative_of="pull") for i in (1, 2))),
+            "'rate_1' and 'rate_2' are both the derivative of 'pull'",
+        ),
+    ],
+)
+def test_an_input_is_the_derivative_of_another_one_once(inputs, words):
+    with pytest.raises(DeclarationError, match=words):
+        replace(MECHANISM, inputs=(*MECHANISM.inputs, *inputs))
+
+
+@pytest.mark.parametrize(
+    ("left_out", "of"), [("velocity", "position"), ("acceleration", "velocity")]
+)
+def test_a_prescribed_motion_has_its_rates(left_out, of):
+    model = macpherson.MODELS[0]
+    inputs = tuple(
+        replace(i, derivative_of=None) if i.name == f"rack_{left_out}" else i
+        for i in MECHANISM.inputs
+    )
+    mechanism = replace(MECHANISM, inputs=inputs)
+    with pytest.raises(DeclarationError, match=f"no input is the rate of 'rack_{of}'; declare"):
+        replace(model, mechanism=mechanism)

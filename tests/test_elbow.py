@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 from kintrafo.generated._support import ClosureError
-from kintrafo.generator import Model, Point
+from kintrafo.generator import Model, Point, motion
 from kintrafo.generator.closed_forms.elbow import Elbow, PlaceElbow
 from kintrafo.generator.closed_forms.prismatic import PrismaticByLength
 from kintrafo.generator.closed_forms.revolute import RevoluteByLength
@@ -32,7 +32,7 @@ def other_way_round(model: Model) -> Model:
 def driven_slider() -> Model:
     """Push the piston of a slider-crank by the hinge between crank and rod."""
     (model,) = SLIDER_CRANKS
-    mechanism = replace(model.mechanism, forces=(), inputs={})
+    mechanism = replace(model.mechanism, forces=(), inputs=())
     return replace(model, name="knee_slider", mechanism=mechanism, independent=("B",))
 
 
@@ -42,9 +42,6 @@ def counted_to_a_point() -> Model:
     counted = replace(knee, angle_to=Point("knuckle_at"))
     joints = tuple(counted if j == knee else j for j in KNEE.mechanism.joints)
     return replace(KNEE, name="counted_knee", mechanism=replace(KNEE.mechanism, joints=joints))
-
-
-RATES = (("position", "rad"), ("velocity", "rad/s"), ("acceleration", "rad/s^2"))
 
 
 @pytest.mark.parametrize(
@@ -91,10 +88,7 @@ def test_a_driven_elbow_may_hang_at_moving_bodies(tmp_path: Path) -> None:
     bars = replace(bars, allow_iteration=False, massive=moving)
     assert PlaceElbow in map(type, Plan.of(bars).steps)
     check_with_the_oracle(bars, tmp_path, 0.2)
-    inputs = {
-        **bars.mechanism.inputs,
-        **{f"pin_{k}": (unit, f"{k} of the pin") for k, unit in RATES},
-    }
+    inputs = (*bars.mechanism.inputs, *motion("pin", "rad", "angle of the pin"))
     given = replace(
         bars,
         name="five_bar_with_a_given_pin",

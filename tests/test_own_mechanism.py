@@ -18,7 +18,7 @@ import numpy as np
 import own_loops
 import pytest
 from kintrafo.cli import app
-from kintrafo.generator import JointForce, Mechanism, Model
+from kintrafo.generator import JointForce, Mechanism, Model, motion
 from kintrafo.generator.mechanisms.andrews import MODELS as ANDREWS
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.generator.mechanisms.four_bar import MODELS as FOUR_BAR_MODELS
@@ -403,7 +403,7 @@ def test_a_chain_without_loops_inputs_and_signals(tmp_path):
 def test_a_model_that_is_prescribed_as_a_whole():
     """It has no state, and a motion all the same: signals over time."""
     model = spatial_four_bar("all_given")
-    inputs = {f"drive_{k}": ("rad", k) for k in ("position", "velocity", "acceleration")}
+    inputs = motion("drive", "rad", "angle of the crank")
     forces = tuple(f for f in model.mechanism.forces if not isinstance(f, JointForce))
     mechanism = replace(model.mechanism, inputs=inputs, forces=forces)
     given = replace(model, mechanism=mechanism, independent=(), prescribed={"drive": "drive"})

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
+from kintrafo.generator import motion
 from kintrafo.generator.closed_forms.scotch_yoke import ScotchYoke
 from kintrafo.generator.planning.plan import Plan
 from oracle_check import check_with_the_oracle
@@ -39,8 +40,7 @@ def test_it_moves_as_the_oracle_says_all_around(model: Model, tmp_path: Path) ->
 
 def test_a_crank_that_is_driven_by_what_is_given_drives_it_too(tmp_path: Path) -> None:
     model = yoke("given_yoke", carried=True)
-    rates = (("position", "rad"), ("velocity", "rad/s"), ("acceleration", "rad/s^2"))
-    inputs = {**model.mechanism.inputs, **{f"turn_{k}": (u, k) for k, u in rates}}
+    inputs = (*model.mechanism.inputs, *motion("turn", "rad", "turn of F"))
     mechanism = replace(model.mechanism, inputs=inputs)
     given = replace(model, mechanism=mechanism, independent=("A",), prescribed={"F": "turn"})
     check_with_the_oracle(given, tmp_path, 1.0)

@@ -10,6 +10,7 @@ import sympy as sp
 from .declared import Name, Number, Numeral, declared
 from .forces import Force, ForceElement, LinearTyre
 from .geometry import Direction, Point
+from .inputs import Input
 from .joints import Cylindrical, Joint, Spherical, Universal
 
 _ENDS = 2  # of a rod
@@ -85,13 +86,18 @@ class Assembly:
     forces: tuple[Force, ...]
     parameters: tuple[Parameter, ...]
     coordinates: tuple[RelativeCoordinate, ...]
-    inputs: Mapping[Name, tuple[str, str]] = field(default_factory=dict)
+    inputs: tuple[Input, ...] = ()
     derived: Mapping[Name, sp.Expr] = field(default_factory=dict)
 
     @property
     def ground(self) -> str:
         """Name of the reference body."""
         return self.bodies[0].name
+
+    @property
+    def input_names(self) -> list[str]:
+        """Names of the inputs."""
+        return [entry.name for entry in self.inputs]
 
     def body(self, name: str) -> Body:
         """Return a body by its name."""
@@ -100,6 +106,10 @@ class Assembly:
     def joint(self, name: str) -> Joint:
         """Return a joint by its name."""
         return next(j for j in self.joints if j.name == name)
+
+    def input(self, name: str) -> Input:
+        """Return an input by its name."""
+        return next(i for i in self.inputs if i.name == name)
 
     def prefix(self, tyre: LinearTyre) -> str:
         """Return what begins the names of a tyre's signals: nothing, where it is alone."""

@@ -10,6 +10,7 @@ from .declared import DeclarationError, parts
 from .default_values import value_problems
 from .forces import AlongLine, AlongTelescope, ForceElement, JointForce, LinearTyre, Weight
 from .geometry import Direction, Point
+from .inputs import derivative, input_problems
 from .joints import Cylindrical, Revolute, Spherical
 from .laws import Actuator, LinearSpring
 from .names import name_problems, text_problems
@@ -28,6 +29,7 @@ def check_mechanism(mechanism: Assembly) -> None:
         *_joint_problems(mechanism),
         *_coordinate_problems(mechanism),
         *_force_problems(mechanism),
+        *input_problems(mechanism.inputs),
         *_geometry_problems(mechanism),
         *name_problems(mechanism),
         *text_problems(mechanism),
@@ -46,6 +48,7 @@ def _repeated_problems(mechanism: Assembly) -> list[str]:
         ("joint", [j.name for j in mechanism.joints]),
         ("parameter", [p.name for p in mechanism.parameters]),
         ("coordinate", [c.name for c in mechanism.coordinates]),
+        ("input", mechanism.input_names),
         ("weight", ["Weight" for f in forces if isinstance(f, Weight)]),
         ("force", [f.name for f in forces if isinstance(f, ForceElement | LinearTyre)]),
         (
@@ -93,13 +96,15 @@ def _force_problems(mechanism: Assembly) -> list[str]:
         what = type(force).__name__
         if isinstance(force, JointForce):
             problems += unknown(f"{what}: joint", [force.joint], joints)
-            problems += unknown(f"{what}: input", [force.input], mechanism.inputs)
+            problems += unknown(f"{what}: input", [force.input], mechanism.input_names)
         elif isinstance(force, LinearTyre):
             problems += unknown(f"{what}: body", [force.carrier], bodies)
-            inputs = [i for i in (force.road, force.road_velocity) if i is not None]
-            problems += unknown(f"{what}: input", inputs, mechanism.inputs)
-            if (force.damper is None) != (force.road_velocity is None):
-                problems.append(f"{what} {force.name!r}: give damper and road_velocity, or neither")
+            problems += unknown(f"{what}: input", [force.road], mechanism.input_names)
+            if force.damper is not None and derivative(force.road, mechanism.inputs) is None:
+                problems.append(
+                    f"{what} {force.name!r}: its damper needs the rate of {force.road!r}; declare "
+                    f"an Input with derivative_of={force.road!r}, or leave damper out"
+                )
         elif isinstance(force, ForceElement):
             problems += _element_problems(mechanism, force)
     return problems
@@ -118,7 +123,7 @@ def _element_problems(mechanism: Assembly, element: ForceElement) -> list[str]:
     problems += repeated(f"{what}: law", [repr(law) for law in element.laws])
     for law in element.laws:
         if isinstance(law, Actuator):
-            problems += unknown(f"{what}: input", [law.input], mechanism.inputs)
+            problems += unknown(f"{what}: input", [law.input], mechanism.input_names)
         elif isinstance(law, LinearSpring):
             if (law.free_slide is None) == (law.free_length is None):
                 problems.append(f"{what}: give its spring a free_slide or a free_length")

@@ -39,10 +39,11 @@ from .laws import Stop
 from .mechanism import Mechanism
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Mapping
+    from collections.abc import Collection, Iterable
 
     from .assembly import Body, Parameter, RelativeCoordinate
     from .forces import Force
+    from .inputs import Input
     from .laws import Law
 
 
@@ -71,7 +72,7 @@ def copy(
         Names of parameters of which the copy has its own, with the prefix; as a default, the value
         that the declaration's would give it.
     """
-    known = [b.name for b in mechanism.bodies], mechanism.inputs
+    known = [b.name for b in mechanism.bodies], mechanism.input_names
     problems = [
         f"shared {name!r} is neither a body nor an input of it"
         for name in shared
@@ -91,7 +92,7 @@ def combined(
     *,
     forces: tuple[Force, ...] = (),
     parameters: tuple[Parameter, ...] = (),
-    inputs: Mapping[str, tuple[str, str]] | None = None,
+    inputs: tuple[Input, ...] = (),
 ) -> Mechanism:
     """Return one mechanism of several; what they have in common is there once.
 
@@ -104,10 +105,8 @@ def combined(
     """
     parts = tuple(parts)
     bodies = dict.fromkeys((b.name, b) for part in parts for b in _unnumbered(part))
-    every: dict[str, tuple[str, str]] = {}
     derived: dict[str, sp.Expr] = {}
     for part in parts:
-        every |= part.inputs
         derived |= part.derived
     return Mechanism(
         name=name,
@@ -117,7 +116,7 @@ def combined(
         forces=(*dict.fromkeys(f for part in parts for f in part.forces), *forces),
         parameters=(*dict.fromkeys(p for part in parts for p in part.parameters), *parameters),
         coordinates=tuple(dict.fromkeys(c for part in parts for c in part.coordinates)),
-        inputs=every | dict(inputs or {}),
+        inputs=(*dict.fromkeys(i for part in parts for i in part.inputs), *inputs),
         derived=derived,
     )
 
@@ -160,7 +159,7 @@ class _Copy:
             forces=forces,
             coordinates=coordinates,
             parameters=self._parameters(),
-            inputs={self._input(name): what for name, what in source.inputs.items()},
+            inputs=tuple(map(self._copied_input, source.inputs)),
             derived=self._derived(),
         )
 
@@ -184,6 +183,11 @@ class _Copy:
 
     def _input(self, name: str) -> str:
         return name if name in self.shared else self._new(name)
+
+    def _copied_input(self, entry: Input) -> Input:
+        source = entry.derivative_of
+        rate_of = None if source is None else self._input(source)
+        return replace(entry, name=self._input(entry.name), derivative_of=rate_of)
 
     # -- parameters -------------------------------------------------------------------------------
 
@@ -352,14 +356,9 @@ class _Copy:
             for key in ("name", "rate", "free_height", "damper", "lifts_off")
             if (name := getattr(tyre, key)) is not None
         }
-        roads = {
-            key: self._input(name)
-            for key in ("road", "road_velocity")
-            if (name := getattr(tyre, key)) is not None
-        }
         carrier, center = self._body_name(tyre.carrier), self._point(tyre.center)
-        spin = self._about(tyre.spin)
-        return replace(tyre, carrier=carrier, center=center, spin=spin, **named, **roads)
+        spin, road = self._about(tyre.spin), self._input(tyre.road)
+        return replace(tyre, carrier=carrier, center=center, spin=spin, road=road, **named)
 
     def _path(self, path: Path) -> Path:
         if isinstance(path, AlongTelescope):

@@ -142,8 +142,8 @@ class LinearTyre:
         Names of the parameters [N/m, m].
     road
         Name of the input: height of the road under the tyre [m].
-    damper, road_velocity
-        Names of the parameter [N s/m] and of the input [m/s]; both or neither.
+    damper
+        Name of the parameter [N s/m]; the road then needs an input that is its derivative [m/s].
     lifts_off
         Name of the parameter: 1 if the tyre can leave the road, 0 if not; None: it cannot.
     """
@@ -156,7 +156,6 @@ class LinearTyre:
     free_height: Name
     road: Name
     damper: Amount | None = None
-    road_velocity: Name | None = None
     lifts_off: Share | None = None
 
 

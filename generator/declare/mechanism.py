@@ -15,8 +15,8 @@ class Mechanism(Assembly):
     """Bodies and joints with everything that acts on them.
 
     The first body is the ground. `coordinates` are the relative coordinates of the report, in the
-    numbering of the figure; `inputs` gives unit and meaning of each time-varying input; `derived`
-    gives, by name, what the declaration reads like a parameter but is an expression in parameters.
+    numbering of the figure; `inputs` are the time-varying inputs; `derived` gives, by name, what
+    the declaration reads like a parameter but is an expression in parameters.
     """
 
     def __post_init__(self) -> None:

@@ -8,13 +8,13 @@ from dataclasses import dataclass, field
 from .checks import repeated, unknown
 from .declared import DeclarationError, Name, declared
 from .forces import JointForce
+from .inputs import Motion, motion_problems, position_of
 from .joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
 from .mechanism import Mechanism
 from .names import unwritable
 
 # what the right-hand side has beside its variants: rhs_jacobian, rhs_input_jacobian
 _FUNCTIONS = ("jacobian", "input_jacobian")
-_RATES = ("position", "velocity", "acceleration")
 
 DRIVABLE: dict[type[Joint], str] = {
     Cylindrical: "a guide and a hinge along its axis, with a link between them",
@@ -34,7 +34,8 @@ class Model:
     independent
         Names of the joints whose coordinates are the state, in order.
     prescribed
-        Joint name to input name: the coordinate is an input with velocity and acceleration.
+        Joint name to the name of a motion: the coordinate is the input ``<motion>_position``,
+        of which others are velocity and acceleration (`Input.derivative_of`).
     massive
         Bodies whose inertia enters the equations.
     held
@@ -55,6 +56,12 @@ class Model:
 
     def __post_init__(self) -> None:
         _check(self)
+
+    @property
+    def motions(self) -> dict[str, Motion]:
+        """The inputs of each prescribed motion, by its name."""
+        inputs = self.mechanism.inputs
+        return {name: Motion.of(name, inputs) for name in self.prescribed.values()}
 
 
 def _check(model: Model) -> None:
@@ -84,8 +91,10 @@ def _driven_problems(model: Model) -> list[str]:
         problems += unknown(f"held joint of {variant!r}", held, model.prescribed)
     both = sorted(set(model.independent) & set(model.prescribed))
     problems += [f"joint {name!r} is both independent and prescribed" for name in both]
-    inputs = [f"{n}_{k}" for n in model.prescribed.values() for k in _RATES]
-    problems += unknown("prescribed motion: input", inputs, mechanism.inputs)
+    motions = tuple(dict.fromkeys(model.prescribed.values()))
+    positions = [position_of(motion) for motion in motions]
+    problems += unknown("prescribed motion: input", positions, mechanism.input_names)
+    problems += [p for motion in motions for p in motion_problems(motion, mechanism.inputs)]
     independent = {n: joints[n] for n in model.independent if n in joints}
     prescribed = {n: joints[n] for n in model.prescribed if n in joints}
     problems += [_undrivable("independent", j) for j in independent.values() if _has_many(j)]

@@ -65,7 +65,7 @@ def name_problems(mechanism: Assembly) -> list[str]:
         "joint": [j.name for j in mechanism.joints],
         "parameter": [p.name for p in mechanism.parameters],
         "coordinate": coordinates,
-        "input": list(mechanism.inputs),
+        "input": mechanism.input_names,
         "force": [f.name for f in mechanism.forces if isinstance(f, ForceElement | LinearTyre)],
     }
     # what the code reads by its own name; other names have something before or behind them
@@ -101,7 +101,7 @@ def text_problems(mechanism: Assembly) -> list[str]:
     entries = [
         *((f"parameter {p.name!r}", (p.unit, p.meaning)) for p in mechanism.parameters),
         *((f"coordinate {c.name!r}", (c.unit, c.meaning)) for c in mechanism.coordinates),
-        *((f"input {name!r}", texts) for name, texts in mechanism.inputs.items()),
+        *((f"input {i.name!r}", (i.unit, i.meaning)) for i in mechanism.inputs),
     ]
     problems = unwritable("title of the mechanism", mechanism.title)
     return problems + [p for what, texts in entries for t in texts for p in unwritable(what, t)]

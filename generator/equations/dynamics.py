@@ -26,6 +26,7 @@ from ..declare.forces import (
     Weight,
 )
 from ..declare.geometry import UP, Direction
+from ..declare.inputs import derivative
 from ..declare.joints import Revolute
 from ..declare.laws import Stretch
 from ..kinematics.hinge_angles import angle_of, positive_axis_at_design, turning_rates
@@ -427,13 +428,18 @@ class Dynamics:
                 ),
                 NONE,
             )
-            load += sp.Symbol(force.damper) * (sp.Symbol(str(force.road_velocity)) - rise)
+            load += sp.Symbol(force.damper) * (sp.Symbol(self._road_rate(force)) - rise)
         if force.lifts_off is not None:
             deflection = program.define(f"{prefix}tyre_deflection", deflection)
             load = program.define(f"{prefix}tyre_bonded_load", load)
             pressed = IsPositive(deflection) * Positive(load)
             load += sp.Symbol(force.lifts_off) * (pressed - load)
         return load
+
+    def _road_rate(self, force: LinearTyre) -> str:
+        rate = derivative(force.road, self.kin.mechanism.inputs)
+        assert rate is not None  # checked with the mechanism
+        return rate
 
     def wheel_velocity(self, carrier: BodyMotion, center: Vector, k: str) -> Vector:
         """Return the velocity of the wheel centre per unit rate, in the carrier's axes."""

@@ -10,6 +10,7 @@ import sympy as sp
 from ..declare.checks import check_symbols
 from ..declare.declared import DeclarationError
 from ..declare.forces import ForceElement, JointForce, LinearTyre
+from ..declare.inputs import derivative
 from ..declare.laws import Actuator
 from ..kinematics.motion import IDENTITY, BodyMotion, from_axes
 from ..planning.plan import Plan
@@ -25,6 +26,7 @@ from .relative import RelativeCoordinates
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
+    from ..declare.inputs import Input
     from ..declare.laws import Law
     from ..declare.mechanism import Mechanism
     from ..declare.model import Model
@@ -72,7 +74,7 @@ class GeneratedModel:
     model: Model
     plan: Plan
     state: tuple[Entry, ...]
-    inputs: tuple[Entry, ...]
+    inputs: tuple[Input, ...]
     parameters: tuple[Entry, ...]
     relative: tuple[Entry, ...]
     functions: dict[str, Function]
@@ -148,7 +150,7 @@ class _Builder:
             model=self.model,
             plan=self.plan,
             state=self._state_entries(),
-            inputs=tuple(Entry(n, *self.mechanism.inputs[n]) for n in self._input_names()),
+            inputs=tuple(map(self.mechanism.input, self._input_names())),
             parameters=tuple(Entry(p.name, p.unit, p.meaning) for p in self.mechanism.parameters),
             relative=tuple(Entry(c.name, c.unit, c.meaning) for c in self.mechanism.coordinates),
             functions=self.functions,
@@ -185,7 +187,7 @@ class _Builder:
         states = [c.name for c in coordinates if c.joint in self.model.independent]
         rates = [f"{name}_rate" for name in states]
         given = [f"given_{c.name}" for c in coordinates]
-        return frozenset([*states, *rates, *given, *self.mechanism.inputs])
+        return frozenset([*states, *rates, *given, *self.mechanism.input_names])
 
     # -- arrays ---------------------------------------------------------------------------------
 
@@ -199,12 +201,13 @@ class _Builder:
 
     def _input_names(self) -> list[str]:
         names = []
-        for name in self.model.prescribed.values():
-            names += [f"{name}_position", f"{name}_velocity", f"{name}_acceleration"]
+        for motion in self.model.motions.values():
+            names += [motion.position, *motion.rates]
         for force in self.mechanism.forces:
             if isinstance(force, LinearTyre):
                 names.append(force.road)
-                names += [force.road_velocity] if force.road_velocity else []
+                rate = derivative(force.road, self.mechanism.inputs)
+                names += [rate] if force.damper and rate else []
             elif isinstance(force, ForceElement):
                 names += [law.input for law in force.laws if isinstance(law, Actuator)]
             elif isinstance(force, JointForce) and force.joint in self.model.independent:
@@ -212,8 +215,8 @@ class _Builder:
         return list(dict.fromkeys(names))  # two tyres may be on one road
 
     def _rate_inputs(self, joints: Iterable[str]) -> tuple[str, ...]:
-        names = [self.model.prescribed[j] for j in joints]
-        return tuple(f"{n}_{kind}" for n in names for kind in ("velocity", "acceleration"))
+        motions = (self.model.motions[self.model.prescribed[j]] for j in joints)
+        return tuple(rate for motion in motions for rate in motion.rates)
 
     def _acting_guards(self) -> tuple[Guard, ...]:
         """Return the guards of all functions; variants have the same ones under the same names."""

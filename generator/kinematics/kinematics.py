@@ -91,6 +91,7 @@ class Kinematics:
         self._loops = loops
         self.at_defaults = AtDefaults(self.mechanism)
         self.held = frozenset(held)
+        self.motions = model.motions
         self.bodies = frozenset(bodies)
         self._graph = nx.Graph([joint.bodies for joint in self.mechanism.joints])
         self.coordinates = {
@@ -133,7 +134,7 @@ class Kinematics:
 
     def _coordinate_symbol(self, joint: Joint) -> str:
         name = self.coordinate_of(joint)
-        return f"{name}_position" if joint.name in self.model.prescribed else name
+        return self.motions[name].position if name in self.motions else name
 
     @property
     def independent(self) -> list[str]:
@@ -142,8 +143,8 @@ class Kinematics:
 
     def true_rate(self, coordinate: str) -> sp.Symbol:
         """Return the symbol of the rate of a coordinate."""
-        prescribed = coordinate in self.model.prescribed.values()
-        return sp.Symbol(f"{coordinate}_velocity" if prescribed else f"{coordinate}_rate")
+        motion = self.motions.get(coordinate)
+        return sp.Symbol(f"{coordinate}_rate" if motion is None else motion.velocity)
 
     def rate(self, coordinate: str) -> sp.Expr:
         """Return the rate of a coordinate at which biases are computed."""
@@ -180,8 +181,8 @@ class Kinematics:
 
     def acceleration(self, coordinate: str) -> sp.Expr:
         """Return the part of a coordinate's acceleration that is given: that of an input."""
-        if coordinate in self.model.prescribed.values() and coordinate in self.moving:
-            return sp.Symbol(f"{coordinate}_acceleration")
+        if coordinate in self.motions and coordinate in self.moving:
+            return sp.Symbol(self.motions[coordinate].acceleration)
         return sp.Integer(0)
 
     def _rotors(self) -> dict[str, Body]:

@@ -12,6 +12,7 @@ import sympy as sp
 
 from ..declare.assembly import Body, Parameter, RelativeCoordinate
 from ..declare.forces import AlongLine, ForceElement, JointForce
+from ..declare.inputs import Input
 from ..declare.laws import LinearSpring
 from ..declare.mechanism import Mechanism
 from ..declare.model import Model
@@ -140,7 +141,7 @@ SQUEEZER = Mechanism(
         RelativeCoordinate("knee_34", "knee_34", "angle", "rad", "angle of body 4 on body 3"),
         RelativeCoordinate("knee_36", "knee_36", "angle", "rad", "angle of body 6 on body 3"),
     ),
-    inputs={"drive_torque": ("N m", "torque on the crank; 0.033 N m in the test set")},
+    inputs=(Input("drive_torque", "N m", "torque on the crank; 0.033 N m in the test set"),),
 )
 
 MODELS = (

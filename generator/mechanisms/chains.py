@@ -16,6 +16,7 @@ from itertools import pairwise
 from ..declare.assembly import Body, Parameter, RelativeCoordinate
 from ..declare.forces import JointForce, Weight
 from ..declare.geometry import Direction, Line, Point
+from ..declare.inputs import Input
 from ..declare.joints import Revolute
 from ..declare.mechanism import Mechanism
 from ..declare.model import Model
@@ -83,7 +84,7 @@ def ring(name: str, title: str, places: list[Place], axes: list[Place]) -> Model
             )
             for hinge in hinges
         ),
-        inputs={"torque": ("N m", "torque on the first link")},
+        inputs=(Input("torque", "N m", "torque on the first link"),),
     )
     return Model(
         name=name,

@@ -10,6 +10,7 @@ from __future__ import annotations
 from ..declare.assembly import Body, Parameter, RelativeCoordinate
 from ..declare.forces import AlongLine, ForceElement, JointForce, LinearTyre, Weight
 from ..declare.geometry import UP, Direction, Line, Point
+from ..declare.inputs import Input
 from ..declare.joints import Prismatic, Revolute, Spherical, Universal
 from ..declare.laws import Actuator, LinearDamper, LinearSpring
 from ..declare.mechanism import Mechanism
@@ -155,10 +156,14 @@ DOUBLE_WISHBONE = Mechanism(
     forces=FORCES,
     parameters=PARAMETERS,
     coordinates=COORDINATES,
-    inputs=INPUTS
-    | {
-        "spring_actuator": ("N", "actuator force, positive when it pushes the spring's seats apart")
-    },
+    inputs=(
+        *INPUTS,
+        Input(
+            "spring_actuator",
+            "N",
+            "actuator force, positive when it pushes the spring's seats apart",
+        ),
+    ),
 )
 
 MODELS = (

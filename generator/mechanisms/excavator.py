@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 from ..declare.assembly import Body, Parameter, RelativeCoordinate
 from ..declare.forces import JointForce, Weight
 from ..declare.geometry import Direction
+from ..declare.inputs import Input, motion
 from ..declare.joints import Prismatic
 from ..declare.mechanism import Mechanism
 from ..declare.model import Model
@@ -136,10 +137,10 @@ EXCAVATOR = Mechanism(
     ),
     parameters=PARAMETERS,
     coordinates=COORDINATES,
-    inputs={
-        f"{c}_force": ("N", f"force of the {c} cylinder, positive when it extends")
+    inputs=tuple(
+        Input(f"{c}_force", "N", f"force of the {c} cylinder, positive when it extends")
         for c in _CYLINDERS
-    },
+    ),
 )
 
 _LOAD = {
@@ -155,15 +156,11 @@ LIFTING = Mechanism(
     forces=(Weight(gravity="gravity"),),
     parameters=(*PARAMETERS, *places(_LOAD, "xz"), *inertia("load", 1500.0, 300.0, "y")),
     coordinates=(*COORDINATES, _angle("swing", "hook", "angle of the load on the bucket")),
-    inputs={
-        f"{c}_stroke_{kind}": (unit, f"{what}stroke of the {c} cylinder, from the start")
+    inputs=tuple(
+        entry
         for c in _CYLINDERS
-        for kind, unit, what in (
-            ("position", "m", ""),
-            ("velocity", "m/s", "rate of the "),
-            ("acceleration", "m/s^2", "acceleration of the "),
-        )
-    },
+        for entry in motion(f"{c}_stroke", "m", f"stroke of the {c} cylinder, from the start")
+    ),
 )
 
 MODELS = (

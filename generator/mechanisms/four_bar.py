@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from ..declare.assembly import Body, Parameter, RelativeCoordinate
 from ..declare.forces import AlongLine, ForceElement, JointForce
+from ..declare.inputs import Input
 from ..declare.laws import LinearDamper, LinearSpring
 from ..declare.mechanism import Mechanism
 from ..declare.model import Model
@@ -70,7 +71,7 @@ FOUR_BAR = Mechanism(
             "rocker_angle", "D", "angle", "rad", "angle of the rocker from the start"
         ),
     ),
-    inputs={"crank_torque": ("N m", "torque on the crank")},
+    inputs=(Input("crank_torque", "N m", "torque on the crank"),),
 )
 
 MODELS = (

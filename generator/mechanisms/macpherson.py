@@ -9,6 +9,7 @@ from __future__ import annotations
 from ..declare.assembly import Body, Parameter, RelativeCoordinate
 from ..declare.forces import AlongLine, AlongTelescope, ForceElement, JointForce, LinearTyre, Weight
 from ..declare.geometry import FORWARD, UP, Direction, Line, Point
+from ..declare.inputs import Input
 from ..declare.joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
 from ..declare.laws import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
 from ..declare.mechanism import Mechanism
@@ -183,15 +184,17 @@ GENERAL_FORCES = (
         free_height="tyre_free_height",
         road="road_height",
         damper="tyre_damper_rate",
-        road_velocity="road_velocity",
         lifts_off="tyre_lifts_off",
     ),
     JointForce(joint="y", input="rack_force"),
 )
 
-INPUTS = SUSPENSION_INPUTS | {
-    "strut_force": ("N", "actuator force in the strut, positive when it pushes its ends apart"),
-}
+INPUTS = (
+    *SUSPENSION_INPUTS,
+    Input(
+        "strut_force", "N", "actuator force in the strut, positive when it pushes its ends apart"
+    ),
+)
 
 
 _COMMON_PARAMETERS = (

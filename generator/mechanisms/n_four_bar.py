@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from ..declare.assembly import Body, Parameter, RelativeCoordinate
 from ..declare.forces import JointForce, Weight
+from ..declare.inputs import Input
 from ..declare.mechanism import Mechanism
 from ..declare.model import Model
 from .planar import flat, hinge, inertia
@@ -58,7 +59,7 @@ def n_four_bar(count: int) -> Model:
         coordinates=(
             RelativeCoordinate("crank_angle", "crank", "angle", "rad", "angle from upright"),
         ),
-        inputs={"crank_torque": ("N m", "torque on the first rocker")},
+        inputs=(Input("crank_torque", "N m", "torque on the first rocker"),),
     )
     return Model(
         name=mechanism.name,

@@ -11,6 +11,7 @@ import math
 from ..declare.assembly import Body, Parameter, RelativeCoordinate
 from ..declare.forces import JointForce
 from ..declare.geometry import FORWARD
+from ..declare.inputs import Input
 from ..declare.joints import Prismatic
 from ..declare.mechanism import Mechanism
 from ..declare.model import Model
@@ -55,7 +56,7 @@ SLIDER_CRANK = Mechanism(
         RelativeCoordinate("rod_angle", "B", "angle", "rad", "angle of the rod on the crank"),
         RelativeCoordinate("piston_slide", "guide", "slide", "m", "slide of the piston along x"),
     ),
-    inputs={"crank_torque": ("N m", "torque on the crank")},
+    inputs=(Input("crank_torque", "N m", "torque on the crank"),),
 )
 
 MODELS = (

@@ -514,7 +514,8 @@ class Oracle:
         deflection = given[tyre.free_height] + inputs[tyre.road] - center.value[2]
         load = given[tyre.rate] * deflection
         if tyre.damper is not None:
-            load += given[tyre.damper] * (inputs[tyre.road_velocity] - center.rate[2])
+            (rising,) = (i.name for i in self.mechanism.inputs if i.derivative_of == tyre.road)
+            load += given[tyre.damper] * (inputs[rising] - center.rate[2])
         if tyre.lifts_off is not None and given[tyre.lifts_off] and min(deflection, load) < 0.0:
             load = 0.0
         axis = self.vector(motion, tyre.carrier, self.along(tyre.spin)).value

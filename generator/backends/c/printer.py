@@ -28,6 +28,7 @@ from ..words import (
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
+    from ...declare.inputs import Input
     from ...equations.outputs import Entry, GeneratedModel
     from ...program.conditions import Assumption, Condition
     from ...program.function import Block, Function
@@ -125,7 +126,7 @@ class CPrinter:
         note = iteration_note(self.model)
         return f"\n\n{textwrap.fill(note, WIDTH - 4)}" if note else ""
 
-    def _enum(self, kind: str, title: str, entries: Sequence[Entry]) -> str:
+    def _enum(self, kind: str, title: str, entries: Sequence[Entry | Input]) -> str:
         described = [(e.name, f"[{e.unit}] {e.meaning}") for e in entries]
         return self._print_enum(kind, title, described)
 

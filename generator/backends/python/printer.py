@@ -17,6 +17,7 @@ from ..templates import template
 from ..words import count_line, iteration_note, mechanism_hash, reads_given
 
 if TYPE_CHECKING:
+    from ...declare.inputs import Input
     from ...equations.outputs import Entry, GeneratedModel
     from ...program.function import Function
 
@@ -117,7 +118,7 @@ class PythonPrinter:
         return {
             "PARAMETERS": ("dict[str, dict[str, Any]]", parameters_of(model.model.mechanism)),
             "STATE": (described, _described(model.state)),
-            "INPUTS": (described, _described(model.inputs)),
+            "INPUTS": ("dict[str, dict[str, str | None]]", _inputs(model.inputs)),
             "RELATIVE_COORDINATES": (described, _described(model.relative)),
             "SIGNALS": (described, _described(model.signals)),
             "BODIES": (names, model.moving_bodies),
@@ -177,6 +178,13 @@ def _acting(model: GeneratedModel) -> dict[str, tuple[int, ...]]:
         name: tuple(sorted(places[guard.name] for guard in model.functions[name].guards))
         for name in _OF_A_SIMULATION
         if name in model.functions
+    }
+
+
+def _inputs(entries: tuple[Input, ...]) -> dict[str, dict[str, str | None]]:
+    return {
+        e.name: {"unit": e.unit, "meaning": e.meaning, "derivative_of": e.derivative_of}
+        for e in entries
     }
 
 
