@@ -5,8 +5,12 @@ from __future__ import annotations
 import hashlib
 from typing import TYPE_CHECKING
 
+import sympy as sp
+
+from ..program.functions import Guarded, IsPositive, Positive, SignOf
 from ..program.newton import ITERATIONS, LIMITS
-from ..program.writing import OPERATIONS
+from .counting import OPERATIONS, operations_of
+from .text import Dialect, written
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -16,10 +20,26 @@ if TYPE_CHECKING:
 
 GENERATOR_VERSION = "0.1.0"
 
+FORMULA = Dialect(
+    {
+        sp.sin: "sin({})",
+        sp.cos: "cos({})",
+        sp.asin: "asin({})",
+        sp.atan2: "atan2({}, {})",
+        Guarded: "at_least({}, {})",
+        SignOf: "copysign(1.0, {})",
+        Positive: "at_least({}, 0.0)",
+        IsPositive: "(double)({} > 0.0)",
+    },
+    root="sqrt({})",
+    component="{}.at[{}]",
+)
+"""For a person to read, and for what does not depend on a language."""
+
 
 def count_line(function: Function) -> str:
     """Describe the operations of a function in one line."""
-    counts = function.operations()
+    counts = operations_of(function)
     parts = ", ".join(f"{counts[name]} {name}" for name in OPERATIONS if counts[name])
     line = f"{counts.total()} operations ({parts or 'none'})"
     iterating = "; iterates: " + ", ".join(block.name for block in function.blocks)
@@ -55,10 +75,11 @@ def mechanism_hash(model: GeneratedModel) -> str:
     once = (block.once for block in blocks)
     for function in (model.prepare, *once, *model.functions.values()):
         digest.update(function.name.encode())
-        for step, written in zip(function.steps, function.written.steps, strict=True):
-            digest.update(f"{step.symbol}={written.text};".encode())
-        for written in function.written.results:
-            digest.update(f"{written.text};".encode())
+        steps, results = written(function, FORMULA)
+        for step, text in zip(function.steps, steps, strict=True):
+            digest.update(f"{step.symbol}={text};".encode())
+        for text in results:
+            digest.update(f"{text};".encode())
     return digest.hexdigest()[:16]
 
 

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from sympy.core.symbol import Str
-
-from .functions import Iterated
-from .writing import Written, write
 
 if TYPE_CHECKING:
     import sympy as sp
@@ -21,17 +17,9 @@ LOST = "lost"
 """Result of a block: one where it has not arrived, else zero."""
 
 
-@dataclass(frozen=True)
-class WrittenFunction:
-    """The steps and the results of a function as text."""
-
-    steps: tuple[Written, ...]
-    results: tuple[Written, ...]
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Function:
-    """An emitted function: the pruned program of some results.
+    """An emitted function: the pruned program of some results, in no language.
 
     Attributes
     ----------
@@ -69,30 +57,6 @@ class Function:
         expressions = [step.expression for step in self.steps]
         used = set().union(*(e.free_symbols for e in (*expressions, *self.results)))
         return used - {step.symbol for step in self.steps}
-
-    def operations(self) -> Counter[str]:
-        """Count the arithmetic operations of one call, exactly as they are printed.
-
-        Of a block that iterates, those of one iteration.
-        """
-        total: Counter[str] = Counter()
-        for written in (*self.written.steps, *self.written.results):
-            total.update(written.operations)
-        blocks = {block.name: block for block in self.blocks}
-        for step in self.steps:
-            if isinstance(step.expression, Iterated):
-                total.update(blocks[step.expression.args[0].name].once.operations())
-        return total
-
-    @cached_property
-    def written(self) -> WrittenFunction:
-        """The text of every step and result in C."""
-        ready: dict[sp.Symbol, int] = {}
-        steps = []
-        for step in self.steps:
-            steps.append(write(step.expression, ready=ready))
-            ready[step.symbol] = steps[-1].ready
-        return WrittenFunction(tuple(steps), tuple(write(r, ready=ready) for r in self.results))
 
 
 @dataclass(frozen=True)

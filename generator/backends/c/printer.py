@@ -14,8 +14,8 @@ from ...program.floors import ROUNDING
 from ...program.functions import Iterated
 from ...program.newton import LIMITS
 from ...program.status import LAST_GUARD_BIT, NOT_FINITE_BIT
-from ...program.writing import write
 from ..templates import template
+from ..text import formula, written
 from ..words import (
     GENERATOR_VERSION,
     blocks_of,
@@ -24,6 +24,7 @@ from ..words import (
     mechanism_hash,
     reads_given,
 )
+from .dialect import C
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -284,7 +285,7 @@ class CPrinter:
                 f"fabs({a.quantity}) > ROUNDING{'' if a.scale == 1 else f' * {a.scale}'}"
                 for a in self.model.assumptions
             ),
-            *(f"fabs({c.quantity}) <= {write(c.least).text}" for c in self.model.conditions),
+            *(f"fabs({c.quantity}) <= {formula(c.least, C)}" for c in self.model.conditions),
         ]
         for number, test in enumerate(tests, 1):
             lines += [
@@ -313,9 +314,9 @@ class CPrinter:
         lines += self.steps(function)
         lines.append("")
         for index, (label, result) in enumerate(
-            zip(function.labels, function.written.results, strict=True)
+            zip(function.labels, written(function, C)[1], strict=True)
         ):
-            text = f"    out[{index}] = {result.text};"
+            text = f"    out[{index}] = {result};"
             lines.append(f"{text:<70} /* {label} */")
         lines += ["", *self._return(function)]
         return "\n".join([*lines, "}"])
@@ -327,11 +328,11 @@ class CPrinter:
     def steps(function: Function) -> list[str]:
         """Return the assignments of a function, with the parts of the derivation in between."""
         lines, section = [], None
-        for step, written in zip(function.steps, function.written.steps, strict=True):
+        for step, value in zip(function.steps, written(function, C)[0], strict=True):
             if step.section != section:
                 section = step.section
                 lines += ["", f"    /* {section} */"]
-            text = f"{_type(step.expression)} {step.symbol} = {written.text};"
+            text = f"{_type(step.expression)} {step.symbol} = {value};"
             lines += textwrap.wrap(
                 text,
                 WIDTH,
@@ -348,7 +349,7 @@ class CPrinter:
         A NaN or infinity that goes in comes out as one, or is caught by a guard.
         """
         bits = [
-            (f"!({g.quantity} > {write(g.floor).text})", self.enumerator("status", g.name))
+            (f"!({g.quantity} > {formula(g.floor, C)})", self.enumerator("status", g.name))
             for g in self.model.guards
             if g in function.guards
         ]
@@ -384,9 +385,9 @@ def _once(printer: CPrinter, block: Block) -> str:
         lines += loads or [f"    (void){array};"]
     lines += [*printer.steps(block.once), ""]
     for i, (label, result) in enumerate(
-        zip(block.once.labels, block.once.written.results, strict=True)
+        zip(block.once.labels, written(block.once, C)[1], strict=True)
     ):
-        text = f"    out[{i}] = {result.text};"
+        text = f"    out[{i}] = {result};"
         lines.append(f"{text:<70} /* {label} */")
     return "\n".join([*lines, "}"])
 

@@ -10,14 +10,13 @@ from typing import TYPE_CHECKING
 
 from ...program.floors import ROUNDING
 from ...program.newton import LIMITS
-from ...program.writing import NUMPY, write
 from ..templates import template
+from ..text import formula, written
 from ..words import blocks_of, reads_given
+from .dialect import NUMPY
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
-
-    import sympy as sp
 
     from ...equations.outputs import GeneratedModel
     from ...program.function import Block, Function
@@ -52,10 +51,7 @@ class ArraysPrinter:
                 f"not abs({a.quantity}) > ROUNDING{'' if a.scale == 1 else f' * {a.scale}'}"
                 for a in self.model.assumptions
             ),
-            *(
-                f"not abs({c.quantity}) <= {write(c.least, NUMPY).text}"
-                for c in self.model.conditions
-            ),
+            *(f"not abs({c.quantity}) <= {formula(c.least, NUMPY)}" for c in self.model.conditions),
         ]
         holds = [f"{place}: {test}" for place, test in enumerate(tests)]
         return definition(self.model.prepare, "parameters", loads, holds)
@@ -72,7 +68,7 @@ class ArraysPrinter:
             names = [f"given_{e.name}" for e in self.model.relative]
             loads += loaded("given", names, function)
         holds = [
-            f"{place}: {guard.quantity} > {write(guard.floor, NUMPY).text}"
+            f"{place}: {guard.quantity} > {formula(guard.floor, NUMPY)}"
             for place, guard in enumerate(self.model.guards)
             if guard in function.guards
         ]
@@ -148,10 +144,6 @@ def loaded(array: str, names: Iterable[str], function: Function) -> list[str]:
 
 def _written(function: Function) -> tuple[list[str], list[str]]:
     """Write steps and results in the order of operations that the C code has."""
-    ready: dict[sp.Symbol, int] = {}
-    steps = []
-    for step in function.steps:
-        written = write(step.expression, NUMPY, ready)
-        ready[step.symbol] = written.ready
-        steps.append(f"{step.symbol} = {written.text}")
-    return steps, [write(result, NUMPY, ready).text for result in function.results]
+    values, results = written(function, NUMPY)
+    steps = [f"{s.symbol} = {value}" for s, value in zip(function.steps, values, strict=True)]
+    return steps, results

@@ -12,8 +12,10 @@ from typing import TYPE_CHECKING
 
 from ...declare.ranges import described as parameters_of
 from ...equations.design import design_coordinates
-from ...program.writing import NUMPY, OPERATIONS, write
+from ..counting import OPERATIONS, operations_of
+from ..numpy.dialect import NUMPY
 from ..templates import template
+from ..text import formula
 from ..words import count_line, iteration_note, mechanism_hash, reads_given
 
 if TYPE_CHECKING:
@@ -103,7 +105,7 @@ class PythonPrinter:
             "def design_state(parameters: Mapping[str, float]) -> Array:",
             '    """Return the state at the design position of some parameters, at rest."""',
             *(f'    {s} = parameters["{s}"]' for s in sorted(read, key=str)),
-            *(f"    {symbol} = {write(e, NUMPY).text}" for symbol, e in steps),
+            *(f"    {symbol} = {formula(e, NUMPY)}" for symbol, e in steps),
             f"    state = np.zeros({len(order)})",
             *(f"    state[{order.index(name)}] = {name}" for name in coordinates),
             "    return state",
@@ -147,7 +149,7 @@ class PythonPrinter:
         }
 
     def _function(self, function: Function) -> str:
-        counts = function.operations()
+        counts = operations_of(function)
         operations = {"total": counts.total()} | {name: counts[name] for name in OPERATIONS}
         labels = pprint.pformat(function.labels, width=88, compact=True)
         doc = f"{function.doc}\n\nResult (..., {_shape(function)}); {count_line(function)}."

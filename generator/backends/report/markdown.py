@@ -6,8 +6,9 @@ from itertools import zip_longest
 from typing import TYPE_CHECKING
 
 from ...program.floors import ROUNDING
-from ...program.writing import OPERATIONS, write
-from ..words import iteration_note, mechanism_hash
+from ..counting import OPERATIONS, operations_of
+from ..text import formula
+from ..words import FORMULA, iteration_note, mechanism_hash
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -185,7 +186,10 @@ def markdown(model: GeneratedModel) -> str:
         "Each function reports, by a status bit, which of these has left its range:",
         table(
             ("quantity", "floor", "unit", "meaning when it is not over the floor"),
-            [(f"`{g.name}`", f"`{write(g.floor).text}`", g.unit, g.meaning) for g in model.guards],
+            [
+                (f"`{g.name}`", f"`{formula(g.floor, FORMULA)}`", g.unit, g.meaning)
+                for g in model.guards
+            ],
         ),
         *_assumptions(model),
     ]
@@ -228,7 +232,7 @@ def _conditions(model: GeneratedModel) -> list[str]:
         table(
             ("quantity", "least", "unit", "meaning when it is less"),
             [
-                (f"`{c.quantity}`", f"`{write(c.least).text}`", c.unit, c.meaning)
+                (f"`{c.quantity}`", f"`{formula(c.least, FORMULA)}`", c.unit, c.meaning)
                 for c in model.conditions
             ],
         ),
@@ -253,7 +257,7 @@ def _zeros(model: GeneratedModel) -> list[str]:
 def _counts(model: GeneratedModel) -> str:
     rows = []
     for function in (model.prepare, *model.functions.values()):
-        counts = function.operations()
+        counts = operations_of(function)
         rows.append(
             (
                 f"`{function.name}`",
