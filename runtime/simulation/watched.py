@@ -14,10 +14,9 @@ from .dead_points import LAPSE, LEFT, SMALLEST_PART, Approach, DeadPoint
 Array = NDArray[np.float64]
 
 _METHODS = {"RK45": RK45, "DOP853": DOP853, "Radau": Radau, "BDF": BDF, "LSODA": LSODA}
-# So many steps that gain less than this part of the whole time, all together, gain nothing: a
-# hundred thousand million of that kind would be needed. It happens where the error of a step is that
-# of rounding, close to a dead point. Steps grow tenfold at most, so that a first one that is too
-# short takes some tens of them.
+# So many steps that gain less than this part of the whole time, all together, gain nothing: 1e11 of
+# that kind would be needed. It happens where the error of a step is that of rounding, close to a
+# dead point. Steps grow tenfold at most, so that a first one that is too short takes some tens.
 _LOOKED_AT_EVERY, _NO_GAIN = 1000, 1e-8
 # As in ``native/integrate.c``: parts of the whole time and of the longest step.
 _SMALLEST_OF_TIME, _SMALLEST_OF_STEP = 1e-9, 1e-6
