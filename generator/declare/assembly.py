@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 import sympy as sp
 
 from .declared import Name, Number, Numeral, declared
-from .forces import Force, ForceElement, LinearTyre
+from .forces import Force
+from .forces.force_element import ForceElement
 from .geometry import Direction, Point
 from .inputs import Input
 from .joints import Cylindrical, Joint, Spherical, Universal
@@ -110,20 +111,6 @@ class Assembly:
     def input(self, name: str) -> Input:
         """Return an input by its name."""
         return next(i for i in self.inputs if i.name == name)
-
-    def prefix(self, tyre: LinearTyre) -> str:
-        """Return what begins the names of a tyre's signals: nothing, where it is alone."""
-        alone = sum(isinstance(f, LinearTyre) for f in self.forces) == 1
-        return "" if alone else f"{tyre.name}_"
-
-    def signal_name(self, element: ForceElement, signal: str) -> str:
-        """Return the name of a force signal, with the element's where others have it too.
-
-        That of a moment always has it: it is rarely the only thing that springs.
-        """
-        having = [e for e in self.elements if any(e.signal(law) == signal for law in e.laws)]
-        alone = len(having) == 1 and not element.turns
-        return signal if alone else f"{element.name}_{signal}"
 
     @property
     def elements(self) -> list[ForceElement]:

@@ -6,18 +6,24 @@ a law are those of parameters (or of an input), so one declaration serves every 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Literal
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import sympy as sp
 
 from ..program.functions import Positive
 from .declared import Amount, Count, Length, MoreThanZero, Name, declared
+from .known import unknown
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from typing import Self
 
     from ..program.program import Program
+    from .assembly import Assembly
+    from .copying import Copying
+    from .paths import AnyPath
 
 
 @dataclass(frozen=True)
@@ -39,9 +45,49 @@ class Stretch:
     slide: sp.Expr | None = None
 
 
+class AnyLaw(ABC):
+    """What the laws have in common.
+
+    Attributes
+    ----------
+    signal, meaning
+        Name and meaning of the signal that shows the force.
+    inputs
+        Names of the inputs that it reads: a force that is given from outside is not shown.
+    """
+
+    signal: str
+    meaning: str
+    not_named: ClassVar[tuple[str, ...]] = ()  # fields with a text that is no name
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """None."""
+        return ()
+
+    @abstractmethod
+    def force(self, at: Stretch) -> sp.Expr:
+        """Return the force on the ends."""
+
+    def problems(self, mechanism: Assembly, path: AnyPath) -> list[str]:
+        """Say what is wrong with it in a mechanism, on a path."""
+        del path
+        return unknown("input", self.inputs, mechanism.input_names)
+
+    def copied(self, copy: Copying) -> Self:
+        """Return the law of a copy: all that it names are parameters, but for inputs."""
+        named: dict[str, Any] = {}
+        for entry in fields(self):  # type: ignore[arg-type]  # every law is a dataclass
+            value = getattr(self, entry.name)
+            if isinstance(value, str) and entry.name not in self.not_named:
+                of_input = value in self.inputs
+                named[entry.name] = copy.input(value) if of_input else copy.named(value)
+        return replace(self, **named)  # type: ignore[type-var]
+
+
 @declared
 @dataclass(frozen=True, kw_only=True)
-class LinearSpring:
+class LinearSpring(AnyLaw):
     """Force ``rate (slide - free_slide)``, or ``rate (free_length - length)``.
 
     Parameters
@@ -66,10 +112,19 @@ class LinearSpring:
             return sp.Symbol(self.rate) * (at.slide - sp.Symbol(self.free_slide))
         return sp.Symbol(self.rate) * (sp.Symbol(str(self.free_length)) - at.length)
 
+    def problems(self, mechanism: Assembly, path: AnyPath) -> list[str]:
+        """See that it is free of force somewhere, and that the path has such a coordinate."""
+        problems = super().problems(mechanism, path)
+        if (self.free_slide is None) == (self.free_length is None):
+            problems.append("give its spring a free_slide or a free_length")
+        elif self.free_slide is not None and not path.has_slide:
+            problems.append("a free_slide needs a telescope; give a free_length")
+        return problems
+
 
 @declared
 @dataclass(frozen=True, kw_only=True)
-class LinearDamper:
+class LinearDamper(AnyLaw):
     """Force ``-rate velocity``.
 
     Parameters
@@ -90,7 +145,7 @@ class LinearDamper:
 
 @declared
 @dataclass(frozen=True, kw_only=True)
-class DamperTable:
+class DamperTable(AnyLaw):
     r"""A curve of force over velocity, smooth, with its own shape in bump and in rebound.
 
     Let x be the compression velocity, k_0 < ... < k_n the knots, and p_i = max(x - k_i, 0). With
@@ -158,7 +213,7 @@ class DamperTable:
 
 @declared
 @dataclass(frozen=True, kw_only=True)
-class Friction:
+class Friction(AnyLaw):
     """Coulomb friction, regularised: ``-force velocity / sqrt(velocity^2 + speed^2)``.
 
     Parameters
@@ -186,7 +241,7 @@ class Friction:
 
 @declared
 @dataclass(frozen=True, kw_only=True)
-class Stop:
+class Stop(AnyLaw):
     """A progressive stop: ``rate x + progression x^3``, x being how far it is pressed in.
 
     Parameters
@@ -204,6 +259,8 @@ class Stop:
     length: Length
     rate: Amount
     progression: Amount
+
+    not_named: ClassVar[tuple[str, ...]] = ("side",)
 
     @property
     def signal(self) -> str:
@@ -227,7 +284,7 @@ class Stop:
 
 @declared
 @dataclass(frozen=True, kw_only=True)
-class Actuator:
+class Actuator(AnyLaw):
     """A force that is given from outside.
 
     Parameters
@@ -240,6 +297,11 @@ class Actuator:
 
     signal: ClassVar[str] = "actuator_force"
     meaning: ClassVar[str] = "actuator force"
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """The force."""
+        return (self.input,)
 
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from .checks import repeated, unknown
 from .declared import DeclarationError, Name, declared
-from .forces import JointForce
 from .inputs import Motion, motion_problems, position_of
 from .joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
+from .known import repeated, unknown
 from .mechanism import Mechanism
 from .names import unwritable
 
@@ -135,11 +134,11 @@ def _force_problems(model: Model) -> list[str]:
     """See that every force along a joint does work: there is none for a joint that follows."""
     driven = {*model.independent, *model.prescribed}
     return [
-        f"JointForce: {force.joint!r} is neither independent nor prescribed, and a JointForce acts "
-        "along such joints only. Make it independent, or let an Actuator in a ForceElement push "
-        "between two points"
-        for force in model.mechanism.forces
-        if isinstance(force, JointForce) and force.joint not in driven
+        f"{kind}: {joint!r} is neither independent nor prescribed, and a {kind} acts along such "
+        "joints only. Make it independent, or let an Actuator in a ForceElement push between two "
+        "points"
+        for kind, joint in ((type(f).__name__, f.along) for f in model.mechanism.forces)
+        if joint is not None and joint not in driven
     ]
 
 

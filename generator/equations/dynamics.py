@@ -16,29 +16,22 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ..declare.forces import (
-    AlongLine,
-    AlongTelescope,
-    ForceElement,
-    JointForce,
-    LinearTyre,
-    TwistOfHinges,
-    Weight,
-)
-from ..declare.geometry import UP, Direction
-from ..declare.inputs import derivative
+from ..declare.geometry import Direction
 from ..declare.joints import Revolute
-from ..declare.laws import Stretch
-from ..kinematics.hinge_angles import angle_of, positive_axis_at_design, turning_rates
+from ..kinematics.hinge_angles import positive_axis_at_design
 from ..kinematics.motion import BodyMotion, to_axes
-from ..program.floors import DIRECTION, POSITIVE
-from ..program.functions import IsPositive, Positive
+from ..program.floors import POSITIVE
 from ..program.vectors import ELEMENTS, SymmetricTensor, Twist, Vector
+from .surroundings import Seen
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from ..declare.assembly import Body
-    from ..declare.laws import Law
+    from ..declare.forces.force import Action
+    from ..declare.shown import Shown
     from .parts import Parts
+    from .surroundings import Momenta
 
 NONE = sp.Integer(0)
 
@@ -86,8 +79,6 @@ class Dynamics:
     ----------
     accelerations
         q'' by coordinate name.
-    signals
-        What the force elements show, by name.
     """
 
     def __init__(self, kin: Parts) -> None:
@@ -96,13 +87,14 @@ class Dynamics:
         self.names = kin.independent
         self.inertia: dict[str, Inertia] = {}
         self.rotors: list[Rotor] = []
-        self.signals: dict[str, sp.Expr] = {}
+        self.accelerations: dict[str, sp.Expr] = {}
         self.program.section("inertia")
         self._gather_inertia()
         self._matrix: dict[tuple[str, str], sp.Expr] = {}
         self._bias: dict[str, sp.Expr] = dict.fromkeys(self.names, NONE)
         self._force: dict[str, sp.Expr] = dict.fromkeys(self.names, NONE)
-        self._momentum: dict[tuple[str, str], Vector] = {}
+        self._momentum: Momenta = {}
+        self._actions: list[Action] = []
         self._add_bodies()
         self._add_forces()
         self.accelerations = self._solve()
@@ -288,172 +280,20 @@ class Dynamics:
     # -- forces ---------------------------------------------------------------------------------
 
     def _add_forces(self) -> None:
+        at = Seen(self.kin, self._momentum, self.accelerations)
         for force in self.kin.mechanism.forces:
             self.program.section(f"forces: {type(force).__name__}")
-            if isinstance(force, Weight):
-                self._add_weight(force)
-            elif isinstance(force, ForceElement):
-                self._add_element(force)
-            elif isinstance(force, LinearTyre):
-                self._add_tyre(force)
-            elif isinstance(force, JointForce):
-                self._add_joint_force(force)
+            action = force.act(at)
+            self._actions.append(action)
+            for k in self.names:
+                if k in action.forces:
+                    self._force[k] += action.forces[k]
 
-    def up_in(self, placed: BodyMotion) -> Vector:
-        """Return the upward unit vector in body axes."""
-        up = to_axes(placed.axes, self.kin.of(placed.body).design_direction(UP))
-        return self.program.vector(f"{placed.body}_up", up, "123")
-
-    def _add_weight(self, force: Weight) -> None:
-        gravity = sp.Symbol(force.gravity)
-        for (body, k), momentum in self._momentum.items():
-            up = self.up_in(self.kin.placed[body])
-            self._force[k] -= gravity * up.dot(momentum)
-
-    def _add_element(self, element: ForceElement) -> None:
-        """Sum up the laws of an element; what pushes its ends apart does work on its length."""
-        name, program = element.name, self.program
-        length, motion = self._path_of(element)
-        rates = [m * self.kin.true_rate(k) for k, m in motion.items()]
-        velocity = program.define(f"{name}_velocity", sum(rates, NONE))
-        slide = None
-        if isinstance(element.path, AlongTelescope):
-            slide = self.kin.slides[element.path.joint]
-        stretch = Stretch(program, name, length, velocity, slide)
-        names = ("angle", "angular_velocity") if element.turns else ("length", "velocity")
-        values = zip(names, (length, velocity), strict=True)
-        self.signals |= {f"{name}_{what}": value for what, value in values}
-        total = NONE
-        for signal, laws in self._by_signal(element).items():
-            shown = self.kin.mechanism.signal_name(element, signal)
-            own = sum((law.force(stretch) for law in laws), NONE)
-            self.signals[shown] = program.define(shown, own)
-            total += self.signals[shown]
-        total = program.define(f"{name}_total_force", total)
-        for k in self.names:
-            if k in motion:
-                self._force[k] += total * motion[k]
-
-    @staticmethod
-    def _by_signal(element: ForceElement) -> dict[str, list[Law]]:
-        groups: dict[str, list[Law]] = {}
-        for law in element.laws:
-            groups.setdefault(element.signal(law), []).append(law)
-        return groups
-
-    def _path_of(self, element: ForceElement) -> tuple[sp.Expr, dict[str, sp.Expr]]:
-        """Return the length of an element's path, and its rate per unit rate of each coordinate."""
-        if isinstance(element.path, AlongTelescope):
-            line = self.kin.telescopes[element.path.joint]
-            return line.length, line.length_motion
-        if isinstance(element.path, TwistOfHinges):
-            return self._twist_of(element.path)
-        program, name = self.program, element.name
-        relative = self.kin.relative_motion(element.path.first, element.path.second)
-        span = program.vector(f"{name}_span", relative.position)
-        squared = program.guarded(
-            f"{name}_length_squared",
-            span.dot(span),
-            f"the ends of {name} coincide",
-            "m^2",
-            DIRECTION * self._extent_squared(name, element.path),
-        )
-        length = program.define(f"{name}_length", sp.sqrt(squared))
-        direction = program.vector(f"{name}_direction", span * (1 / length))
-        motion = {
-            k: program.define(f"d_{name}_length_{k}", direction.dot(v))
-            for k, v in relative.motion.items()
-        }
-        return length, motion
-
-    def _extent_squared(self, name: str, path: AlongLine) -> sp.Expr:
-        """Return the square of the extent of two points at the design position."""
-        places = (self.kin.of(body).design(point) for body, point in (path.first, path.second))
-        return self.program.define(f"{name}_extent_squared", sum((p.dot(p) for p in places), NONE))
-
-    def _twist_of(self, path: TwistOfHinges) -> tuple[sp.Expr, dict[str, sp.Expr]]:
-        """Return the angle between two hinges, and its rate per unit rate of each coordinate."""
-        twist, motion = NONE, dict.fromkeys(self.kin.moving, NONE)
-        for sense, name in ((-1, path.first), (1, path.second)):
-            joint = self.kin.mechanism.joint(name)
-            assert isinstance(joint, Revolute)
-            part = self.kin.of_joint(joint)
-            twist += sense * angle_of(part, joint)
-            for k, rate in turning_rates(part, joint).items():
-                motion[k] += sense * rate
-        return twist, {k: rate for k, rate in motion.items() if rate != 0}
-
-    def _add_tyre(self, force: LinearTyre) -> None:
-        program, carrier = self.program, self.kin.placed[force.carrier]
-        prefix = self.kin.mechanism.prefix(force)
-        center = self.kin.local(carrier, force.center)
-        up = self.up_in(carrier)
-        axis = self.kin.local_direction(carrier, force.spin)
-        lean = program.define(f"{prefix}wheel_axis_up", axis.dot(up))
-        part = self.kin.of(carrier.body)
-        height_of_origin = carrier.origin.dot(part.design_direction(UP)) + part.work_origin.z
-        height = program.define(f"{prefix}wheel_height", height_of_origin + center.dot(up))
-        pull = program.vector(f"{prefix}tyre_pull", up - axis * lean, "123")
-        # not 1 - lean^2: of a wheel that lies flat, rounding would leave something positive
-        squared = program.guarded(
-            f"{prefix}cos_camber_squared",
-            pull.dot(pull),
-            "the wheel lies flat on the road",
-            "1",
-            DIRECTION,
-        )
-        deflection = sp.Symbol(force.free_height) + sp.Symbol(force.road) - height
-        load = self._tyre_load(force, carrier, center, deflection)
-        load = program.define(f"{prefix}tyre_load", load / squared)
-        for k in self.names:
-            if k in carrier.motion:
-                velocity = self.wheel_velocity(carrier, center, k)
-                self._force[k] += load * pull.dot(velocity)
-        self.signals[f"{prefix}tyre_force"] = program.define(
-            f"{prefix}tyre_force", load * sp.sqrt(squared)
-        )
-
-    def _tyre_load(
-        self, force: LinearTyre, carrier: BodyMotion, center: Vector, deflection: sp.Expr
-    ) -> sp.Expr:
-        """Return the load of a tyre of some deflection: spring, damper, contact."""
-        program, prefix = self.program, self.kin.mechanism.prefix(force)
-        load = sp.Symbol(force.rate) * deflection
-        if force.damper is not None:
-            up = self.up_in(carrier)
-            rise = sum(
-                (
-                    up.dot(self.wheel_velocity(carrier, center, k)) * self.kin.true_rate(k)
-                    for k in carrier.motion
-                ),
-                NONE,
-            )
-            load += sp.Symbol(force.damper) * (sp.Symbol(self._road_rate(force)) - rise)
-        if force.lifts_off is not None:
-            deflection = program.define(f"{prefix}tyre_deflection", deflection)
-            load = program.define(f"{prefix}tyre_bonded_load", load)
-            pressed = IsPositive(deflection) * Positive(load)
-            load += sp.Symbol(force.lifts_off) * (pressed - load)
-        return load
-
-    def _road_rate(self, force: LinearTyre) -> str:
-        rate = derivative(force.road, self.kin.mechanism.inputs)
-        assert rate is not None  # checked with the mechanism
-        return rate
-
-    def wheel_velocity(self, carrier: BodyMotion, center: Vector, k: str) -> Vector:
-        """Return the velocity of the wheel centre per unit rate, in the carrier's axes."""
-        twist = carrier.motion[k]
-        return self.program.vector(
-            f"{carrier.body}_wheel_velocity_{k}",
-            twist.linear + twist.angular.cross(center),
-            "123",
-        )
-
-    def _add_joint_force(self, force: JointForce) -> None:
-        if force.joint in self.kin.model.independent:
-            joint = self.kin.mechanism.joint(force.joint)
-            self._force[self.kin.coordinate_of(joint)] += sp.Symbol(force.input)
+    def signals(self) -> Iterator[Shown]:
+        """Yield what the forces show, force by force."""
+        at = Seen(self.kin, self._momentum, self.accelerations)
+        for force, action in zip(self.kin.mechanism.forces, self._actions, strict=True):
+            yield from force.signals(at, action)
 
     # -- equations ------------------------------------------------------------------------------
 

@@ -9,13 +9,9 @@ import sympy as sp
 
 from ..declare.checks import check_symbols
 from ..declare.declared import DeclarationError
-from ..declare.forces import ForceElement, JointForce, LinearTyre
-from ..declare.inputs import derivative
-from ..declare.laws import Actuator
 from ..kinematics.motion import IDENTITY, BodyMotion, from_axes
 from ..planning.plan import Plan
 from ..program.constants import ConstantStage
-from ..program.functions import SignOf
 from ..program.program import Program
 from ..program.vectors import ZERO, Vector
 from .assumptions import define_assumptions, find_assumptions
@@ -27,7 +23,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from ..declare.inputs import Input
-    from ..declare.laws import Law
     from ..declare.mechanism import Mechanism
     from ..declare.model import Model
     from ..program.conditions import Assumption, Condition
@@ -204,14 +199,8 @@ class _Builder:
         for motion in self.model.motions.values():
             names += [motion.position, *motion.rates]
         for force in self.mechanism.forces:
-            if isinstance(force, LinearTyre):
-                names.append(force.road)
-                rate = derivative(force.road, self.mechanism.inputs)
-                names += [rate] if force.damper and rate else []
-            elif isinstance(force, ForceElement):
-                names += [law.input for law in force.laws if isinstance(law, Actuator)]
-            elif isinstance(force, JointForce) and force.joint in self.model.independent:
-                names.append(force.input)
+            if force.along not in self.model.prescribed:  # else it does no work
+                names += force.inputs(self.mechanism)
         return list(dict.fromkeys(names))  # two tyres may be on one road
 
     def _rate_inputs(self, joints: Iterable[str]) -> tuple[str, ...]:
@@ -451,12 +440,10 @@ class _Builder:
 
     def _add_signals(self) -> None:
         self.program.section("signals")
-        results: dict[str, sp.Expr] = {}
-        for force in self.mechanism.forces:
-            if isinstance(force, LinearTyre):
-                self._add_wheel_signals(force, results)
-            elif isinstance(force, ForceElement):
-                self._add_element_signals(force, results)
+        results = {}
+        for shown in self.dynamics.signals():
+            self.signals.append(Entry(shown.name, shown.unit, shown.meaning))
+            results[shown.name] = shown.value
         if not results:
             return
         self._add("signals", "Physical signals, see the enumeration of signals.", results)
@@ -464,115 +451,3 @@ class _Builder:
             self._add_derivatives(
                 self.program, name, "of the signals", results.values(), list(results), by
             )
-
-    def _signal(
-        self, results: dict[str, sp.Expr], name: str, value: sp.Expr, unit: str, meaning: str
-    ) -> None:
-        self.signals.append(Entry(name, unit, meaning))
-        results[name] = value
-
-    def _add_wheel_signals(self, tyre: LinearTyre, results: dict[str, sp.Expr]) -> None:
-        prefix = self.mechanism.prefix(tyre)
-        carrier = self.kin.placed[tyre.carrier]
-        center = self.kin.local(carrier, tyre.center)
-        up = self.dynamics.up_in(carrier)
-        work = carrier.origin + from_axes(carrier.axes, center)
-        part = self.kin.of(carrier.body)
-        position = part.to_chassis(work) + part.work_origin
-        for axis, value in zip(AXES, position, strict=True):
-            self._signal(
-                results, f"{prefix}wheel_center_{axis}", value, "m", f"wheel centre, {axis}"
-            )
-        velocity = acceleration = sp.Integer(0)
-        for k in carrier.motion:
-            share = up.dot(self.dynamics.wheel_velocity(carrier, center, k))
-            velocity += share * self.kin.true_rate(k)
-            acceleration += share * self.dynamics.accelerations.get(k, sp.Integer(0))
-        own = up.dot(self.kin.point_bias(carrier, center))
-        acceleration += own * self.kin.pace_of(carrier) ** 2
-        self._signal(
-            results,
-            f"{prefix}wheel_velocity",
-            velocity,
-            "m/s",
-            "vertical velocity of the wheel centre, positive up",
-        )
-        self._signal(
-            results,
-            f"{prefix}wheel_acceleration",
-            acceleration,
-            "m/s^2",
-            "vertical acceleration of the wheel centre, positive up",
-        )
-        self._add_wheel_angles(tyre, carrier, results)
-        self._signal(
-            results,
-            f"{prefix}tyre_force",
-            self.dynamics.signals[f"{prefix}tyre_force"],
-            "N",
-            "tyre force in the wheel plane, positive in compression",
-        )
-
-    def _add_wheel_angles(
-        self, tyre: LinearTyre, carrier: BodyMotion, results: dict[str, sp.Expr]
-    ) -> None:
-        prefix = self.mechanism.prefix(tyre)
-        axis = from_axes(carrier.axes, self.kin.local_direction(carrier, tyre.spin))
-        part = self.kin.of(carrier.body)
-        a = self.program.vector(f"{prefix}spin_axis_now", part.to_chassis(axis))
-        side = self.program.define(f"{prefix}wheel_side", SignOf(tyre.center.position.y))
-        self._signal(
-            results,
-            f"{prefix}camber",
-            sp.atan2(-side * a.z, a.y),
-            "rad",
-            "camber, positive with the top of the wheel outboard",
-        )
-        self._signal(
-            results, f"{prefix}toe", sp.atan2(side * a.x, a.y), "rad", "toe angle, positive toe-in"
-        )
-        self._signal(
-            results,
-            f"{prefix}steer",
-            sp.atan2(-a.x, a.y),
-            "rad",
-            "steer angle, positive to the left",
-        )
-
-    def _add_element_signals(self, element: ForceElement, results: dict[str, sp.Expr]) -> None:
-        described = self._described_turning(element) if element.turns else self._described(element)
-        for signal, (unit, meaning) in described.items():
-            self._signal(results, signal, self.dynamics.signals[signal], unit, meaning)
-
-    def _described(self, element: ForceElement) -> dict[str, tuple[str, str]]:
-        """Return unit and meaning of each signal of an element that acts along a line."""
-        name = element.name
-        return {
-            f"{name}_length": ("m", f"length of the {name}"),
-            f"{name}_velocity": ("m/s", f"rate of the {name}'s length, positive in rebound"),
-        } | {
-            self._shown(element, law): (
-                "N",
-                f"{law.meaning}, positive when it pushes the ends apart",
-            )
-            for law in element.laws
-            if not isinstance(law, Actuator)
-        }
-
-    def _described_turning(self, element: ForceElement) -> dict[str, tuple[str, str]]:
-        """Return unit and meaning of each signal of an element that acts on an angle."""
-        name = element.name
-        return {
-            f"{name}_angle": ("rad", f"twist of the {name}"),
-            f"{name}_angular_velocity": ("rad/s", f"rate of the {name}'s twist"),
-        } | {
-            self._shown(element, law): (
-                "N m",
-                f"{law.meaning.replace('force', 'moment')}, positive when it increases the twist",
-            )
-            for law in element.laws
-            if not isinstance(law, Actuator)
-        }
-
-    def _shown(self, element: ForceElement, law: Law) -> str:
-        return self.mechanism.signal_name(element, element.signal(law))

@@ -11,11 +11,13 @@ from __future__ import annotations
 import sympy as sp
 
 from ..declare.assembly import Body, Parameter, RelativeCoordinate
-from ..declare.forces import AlongLine, ForceElement, JointForce
+from ..declare.forces.force_element import ForceElement
+from ..declare.forces.joint_force import JointForce
 from ..declare.inputs import Input
 from ..declare.laws import LinearSpring
 from ..declare.mechanism import Mechanism
 from ..declare.model import Model
+from ..declare.paths import AlongLine
 from .planar import flat, hinge, inertia, places
 
 _DIGITS = 40  # so that defaults are rounded once, on every machine alike

@@ -16,7 +16,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..declare.assembly import Body, Parameter, RelativeCoordinate
-from ..declare.forces import JointForce, Weight
+from ..declare.forces.joint_force import JointForce
+from ..declare.forces.weight import Weight
 from ..declare.geometry import Direction
 from ..declare.inputs import Input, motion
 from ..declare.joints import Prismatic

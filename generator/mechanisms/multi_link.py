@@ -13,13 +13,18 @@ project, whose code is all free of iteration.
 from __future__ import annotations
 
 from ..declare.assembly import Body, Parameter, RelativeCoordinate
-from ..declare.forces import AlongLine, ForceElement, JointForce, LinearTyre, Weight
+from ..declare.forces.force_element import ForceElement
+from ..declare.forces.joint_force import JointForce
+from ..declare.forces.linear_tyre import LinearTyre
+from ..declare.forces.weight import Weight
 from ..declare.geometry import UP, Direction, Line, Point
 from ..declare.joints import Joint, Prismatic, Revolute, Spherical, Universal
 from ..declare.laws import LinearDamper, LinearSpring
 from ..declare.mechanism import Mechanism
 from ..declare.model import Model
 from ..declare.parameters import direction, point, rigid_body, rotor
+from ..declare.paths import AlongLine
+from ..declare.wheel import Wheel
 from .suspension import INPUTS
 
 Place = tuple[float, float, float]
@@ -99,9 +104,7 @@ def _forces(seat_body: str) -> tuple[Weight, ForceElement, LinearTyre, JointForc
         ),
         LinearTyre(
             name="rear",
-            carrier="carrier",
-            center=WHEEL_CENTER,
-            spin=SPIN,
+            wheel=Wheel("carrier", WHEEL_CENTER, SPIN),
             rate="tyre_rate",
             free_height="tyre_free_height",
             road="road_height",

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from ..declare.assembly import Body, Parameter, RelativeCoordinate
-from ..declare.forces import JointForce
+from ..declare.forces.joint_force import JointForce
 from ..declare.geometry import FORWARD
 from ..declare.inputs import Input
 from ..declare.joints import Prismatic

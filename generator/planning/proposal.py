@@ -14,7 +14,6 @@ from math import comb
 from time import monotonic
 from typing import TYPE_CHECKING
 
-from ..declare.forces import JointForce
 from ..declare.joints import Prismatic, Revolute
 from ..declare.model import Model
 from ..loops.errors import NoClosedFormError
@@ -116,8 +115,8 @@ class Search:
         self.mobility = Topology(mechanism).mobility - len(mechanism.idle_links)
         self.count = self.mobility - len(model.prescribed)
         self.candidates = [n for n in _candidates(mechanism) if n not in model.prescribed]
-        forces = [f.joint for f in mechanism.forces if isinstance(f, JointForce)]
-        self._pushed = {name for name in forces if name not in model.prescribed}
+        pushed = {force.along for force in mechanism.forces if force.along is not None}
+        self._pushed = pushed.difference(model.prescribed)
         self._tried = 0
         self._nearest: tuple[tuple[str, ...], NoClosedFormError] | None = None
 
