@@ -122,6 +122,7 @@ PARAMETERS = (
 
 MECHANISM = Mechanism(
     name="pushrod_suspension",
+    fixed="chassis",
     title="Pushrod suspension",
     bodies=BODIES,
     joints=JOINTS,

@@ -31,7 +31,7 @@ from .declare.forces.linear_tyre import LinearTyre
 from .declare.forces.weight import Weight
 from .declare.geometry import FORWARD, UP, Direction, Line, Point
 from .declare.inputs import Input, motion
-from .declare.joints import Cylindrical, Prismatic, Revolute, Spherical, Universal
+from .declare.joints import Cylindrical, Free, Prismatic, Revolute, Spherical, Universal
 from .declare.laws import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
 from .declare.mechanism import Mechanism
 from .declare.model import Model
@@ -51,6 +51,7 @@ __all__ = [
     "DeclarationError",
     "Direction",
     "ForceElement",
+    "Free",
     "Friction",
     "Input",
     "JointForce",

@@ -149,7 +149,6 @@ def test_metres():
             "velocities must rise",
         ),
         ({"damper.friction_velocity_m_per_s": 0.0}, "more than 0 m/s"),
-        ({"bump_stop.clearance_mm": 10.0}, "[bump_stop] rate_N_per_m"),
         ({"spring.free_length_mm": 530.0}, "both are given. Keep one."),
         ({"spring.force_at_design_N": None}, "neither is given. Keep one."),
         ({"spring.rate_N_per_m": 0.0}, "needs a spring, but rate_N_per_m = 0.0 N/m"),

@@ -155,13 +155,16 @@ class Elbow(Leg):
             f"{' and '.join(self.links)} coincide",
             "move one of the two",
         )
-        coordinate = kin.coordinate_of(self.pair.joint)
+        coordinate = kin.coordinates.of(self.pair.joint)
         stretch, bias = {}, sp.Integer(0)
-        if coordinate in kin.moving:
+        if coordinate in kin.coordinates.moving:
             slope = bend.skew * bend.cosine - reach * bend.sine
             slope = program.define(f"{name}_stretch", slope)
             stretch[coordinate] = slope
-            bias = slope * kin.acceleration(coordinate) - near * kin.rate(coordinate) ** 2
+            bias = (
+                slope * kin.coordinates.acceleration(coordinate)
+                - near * kin.coordinates.rate(coordinate) ** 2
+            )
         length = program.define(f"{name}_length_now", sp.sqrt(squared))
         return Rod(f"pair of {' and '.join(self.links)}", design, length, squared, stretch, bias)
 
@@ -246,7 +249,7 @@ class _Bend:
         v = program.vector(
             f"{joint.name}_second_way", kin.design(pair.end) - kin.design(pair.middle)
         )
-        angle = kin.coordinates[kin.coordinate_of(joint)]
+        angle = kin.coordinates.symbol(joint)
         if joint.angle_to is not None:
             start = HingeDesign.of(kin, joint).angle(program, joint.name)
             angle = program.define(f"{joint.name}_bent", angle - start)
@@ -310,6 +313,7 @@ def _place(
     """Record pose, velocities and bias of the first link."""
     program, body, parent, s = kin.program, hinge.body, hinge.parent, reach.end
     placed = BodyMotion(
+        kin,
         body,
         origin=hinge.origin.position,
         axes=axes,
@@ -319,8 +323,8 @@ def _place(
         carrier=(parent.body, kin.local(parent, hinge.through)),
         hinge=hinge.first_axis_of,
     )
-    to_body, coordinate = projector(kin, placed), kin.coordinate_of(pair.joint)
-    moves = coordinate in kin.moving
+    to_body, coordinate = projector(kin, placed), kin.coordinates.of(pair.joint)
+    moves = coordinate in kin.coordinates.moving
     grip = Vector(ZERO.x, -s.z, s.y)  # n x s
 
     def carried(label: str, v: Vector) -> Vector:
@@ -346,9 +350,11 @@ def _place(
         spin = Vector(omega.x - parent_omega.x, ZERO.y, ZERO.z)
         alpha = carried("carried_bias", parent.bias().angular) + parent_omega.cross(spin)
         alpha = program.vector(f"{body}_alpha_carried", alpha, "123")
-        rate = kin.rate(coordinate) if moves else sp.Integer(0)
+        rate = kin.coordinates.rate(coordinate) if moves else sp.Integer(0)
         pull = target - base - omega.cross(omega.cross(s)) - alpha.cross(s)
-        pull -= omega.cross(reach.swing * rate) * 2 + reach.swing * kin.acceleration(coordinate)
+        pull -= omega.cross(reach.swing * rate) * 2 + reach.swing * kin.coordinates.acceleration(
+            coordinate
+        )
         pull -= reach.curl * rate**2
         turn = program.define(f"{body}_turn_bias", grip.dot(pull) * inverse)
         return kin.define_bias(body, Twist(alpha + UNIT_X * turn, base))

@@ -102,6 +102,7 @@ def place_on_hinge(kin: Kinematics, hinge: Hinge, axes: Axes, condition: Conditi
     """Record pose, velocities and bias of a body on a hinge."""
     program, body, parent, arm = kin.program, hinge.body, hinge.parent, hinge.arm.local
     placed = BodyMotion(
+        kin,
         body,
         origin=hinge.origin.position,
         axes=axes,
@@ -129,7 +130,7 @@ def place_on_hinge(kin: Kinematics, hinge: Hinge, axes: Axes, condition: Conditi
         turn = program.define(f"{body}_turn_{k}", fitted * hold)
         omega = program.vector(f"{body}_omega_{k}", swing + UNIT_X * turn, "123")
         placed.motion[k] = Twist(omega, base)
-        rate += (base - target + omega.cross(arm)) * kin.rate(k)
+        rate += (base - target + omega.cross(arm)) * kin.coordinates.rate(k)
 
     def bias() -> Twist:
         now = program.vector(f"{body}_rod_rate", rate, "123")

@@ -81,6 +81,7 @@ class TurnByLength(HeldByLeg):
         reach = _reach(kin, leg.body, record, base, arm, rod_anchor)
         fit = fit_rod(kin, self, leg, arm, record.direction, reach)
         placed = BodyMotion(
+            kin,
             leg.body,
             origin=base.motion.position,
             axes=fit.axes,
@@ -159,7 +160,7 @@ def _turn_motion(
         turn = program.define(f"{body}_turn_{k}", gap.dot(slip) * hold)
         omega = Vector(turn, across.y, across.z)
         placed.motion[k] = Twist(omega, base)
-        rod_rate += (base - anchor + omega.cross(arm)) * kin.rate(k)
+        rod_rate += (base - anchor + omega.cross(arm)) * kin.coordinates.rate(k)
 
     def bias() -> Twist:
         rate = program.vector(f"{body}_rod_rate", rod_rate, "123")

@@ -13,6 +13,7 @@ from .forces.force_element import ForceElement
 from .geometry import Direction, Point
 from .inputs import Input
 from .joints import Cylindrical, Joint, Spherical, Universal
+from .world import WORLD
 
 _ENDS = 2  # of a rod
 
@@ -89,11 +90,17 @@ class Assembly:
     coordinates: tuple[RelativeCoordinate, ...]
     inputs: tuple[Input, ...] = ()
     derived: Mapping[Name, sp.Expr] = field(default_factory=dict)
+    fixed: Name | None = None
 
     @property
     def ground(self) -> str:
-        """Name of the reference body."""
-        return self.bodies[0].name
+        """Name of what all motion is relative to: the fixed body, or the world itself."""
+        return self.fixed or WORLD
+
+    @property
+    def moving(self) -> tuple[Body, ...]:
+        """The bodies that can move."""
+        return tuple(body for body in self.bodies if body.name != self.fixed)
 
     @property
     def input_names(self) -> list[str]:
@@ -130,7 +137,7 @@ class Assembly:
         """
         return tuple(
             body.name
-            for body in self.bodies[1:]
+            for body in self.moving
             if len(joints := self.joints_of(body.name)) == _ENDS
             and all(isinstance(joint, Spherical | Cylindrical) for joint in joints)
         )

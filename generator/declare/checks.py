@@ -8,9 +8,10 @@ from .declared import DeclarationError, parts
 from .default_values import value_problems
 from .geometry import Direction, Point
 from .inputs import input_problems
-from .joints import Spherical
+from .joints import Free, Spherical
 from .known import repeated, unknown
 from .names import name_problems, text_problems
+from .world import WORLD
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -37,7 +38,7 @@ def check_mechanism(mechanism: Assembly) -> None:
 
 def _repeated_problems(mechanism: Assembly) -> list[str]:
     """Find what there must be once: names of a kind, numbers of bodies, elements."""
-    problems = [] if mechanism.bodies else ["there are no bodies; the first one is the ground"]
+    problems = [] if mechanism.bodies else ["there are no bodies; one of them is fixed, or free"]
     identities = [force.identity for force in mechanism.forces]
     kinds = dict.fromkeys(kind for kind, _ in identities)
     for kind, names in (
@@ -54,7 +55,9 @@ def _repeated_problems(mechanism: Assembly) -> list[str]:
 
 
 def _joint_problems(mechanism: Assembly) -> list[str]:
-    bodies, problems = [b.name for b in mechanism.bodies], []
+    bodies, problems = [b.name for b in mechanism.bodies], _reference_problems(mechanism)
+    if mechanism.fixed is None:
+        bodies.append(WORLD)
     for joint in mechanism.joints:
         problems += unknown(f"joint {joint.name!r}: body", joint.bodies, bodies)
         if joint.first == joint.second:
@@ -62,6 +65,28 @@ def _joint_problems(mechanism: Assembly) -> list[str]:
                 f"joint {joint.name!r} connects {joint.first!r} with itself; name two bodies"
             )
     return problems
+
+
+def _reference_problems(mechanism: Assembly) -> list[str]:
+    """See that the world is no body, and that the mechanism is somewhere in it."""
+    names = [b.name for b in mechanism.bodies]
+    free = [j.name for j in mechanism.joints if isinstance(j, Free)]
+    if WORLD in names:
+        return [f"body {WORLD!r} has the name of the world; choose another one"]
+    if mechanism.fixed is not None:
+        problems = unknown("fixed: body", [mechanism.fixed], names)
+        return problems + [
+            f"joint {name!r} is free, and moves in the world, while {mechanism.fixed!r} is fixed "
+            "there; leave one of the two out"
+            for name in free
+        ]
+    if free or not names:
+        return []
+    problem = (
+        "nothing says where it is in the world: name the body that rests there, "
+        f"fixed={names[0]!r}, or let one move by a joint Free(name=..., second={names[0]!r})"
+    )
+    return [problem]
 
 
 def _coordinate_problems(mechanism: Assembly) -> list[str]:

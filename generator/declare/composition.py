@@ -106,6 +106,7 @@ def combined(
         coordinates=tuple(dict.fromkeys(c for part in parts for c in part.coordinates)),
         inputs=(*dict.fromkeys(i for part in parts for i in part.inputs), *inputs),
         derived=derived,
+        fixed=parts[0].fixed,
     )
 
 
@@ -315,8 +316,9 @@ class _Copy:
                 shaft=self._line(renamed.shaft),
                 first_axis=self._along(renamed.first_axis),
             )
-        assert isinstance(renamed, Spherical)
-        return replace(renamed, at=self.point(renamed.at))
+        if isinstance(renamed, Spherical):
+            renamed = replace(renamed, at=self.point(renamed.at))
+        return renamed
 
     def _coordinate(self, coordinate: RelativeCoordinate) -> RelativeCoordinate:
         if self._common(coordinate.joint):

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from .declared import DeclarationError, Name, declared
 from .inputs import Motion, motion_problems, position_of
-from .joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
+from .joints import Cylindrical, Free, Joint, Prismatic, Revolute, Spherical, Universal
 from .known import repeated, unknown
 from .mechanism import Mechanism
 from .names import unwritable
@@ -19,6 +19,7 @@ DRIVABLE: dict[type[Joint], str] = {
     Cylindrical: "a guide and a hinge along its axis, with a link between them",
     Universal: "two hinges along the axes of the cross, with a link between them",
     Spherical: "three hinges through its centre, with two links between them",
+    Free: "three guides and three hinges, with links between them",
 }
 """What has the freedoms of a joint that cannot be driven, and can be."""
 
@@ -85,6 +86,12 @@ def _driven_problems(model: Model) -> list[str]:
     problems = repeated("independent joint", model.independent)
     problems += unknown("independent joint", model.independent, joints)
     problems += unknown("prescribed joint", model.prescribed, joints)
+    problems += [
+        f"joint {name!r} is free, and nothing else says where {joint.second!r} is; make it "
+        "independent"
+        for name, joint in joints.items()
+        if isinstance(joint, Free) and name not in (*model.independent, *model.prescribed)
+    ]
     problems += repeated("input of prescribed joints", model.prescribed.values())
     for variant, held in model.held.items():
         problems += unknown(f"held joint of {variant!r}", held, model.prescribed)
@@ -96,7 +103,11 @@ def _driven_problems(model: Model) -> list[str]:
     problems += [p for motion in motions for p in motion_problems(motion, mechanism.inputs)]
     independent = {n: joints[n] for n in model.independent if n in joints}
     prescribed = {n: joints[n] for n in model.prescribed if n in joints}
-    problems += [_undrivable("independent", j) for j in independent.values() if _has_many(j)]
+    problems += [
+        _undrivable("independent", j)
+        for j in independent.values()
+        if _has_many(j) and not isinstance(j, Free)
+    ]
     problems += [_undrivable("prescribed", j) for j in prescribed.values() if _has_many(j)]
     reported = {c.joint for c in mechanism.coordinates}
     problems += [

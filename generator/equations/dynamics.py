@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from ..declare.assembly import Body
     from ..declare.forces.force import Action
     from ..declare.shown import Shown
-    from .parts import Parts
+    from .in_motion import InMotion
     from .surroundings import Momenta
 
 NONE = sp.Integer(0)
@@ -81,10 +81,10 @@ class Dynamics:
         q'' by coordinate name.
     """
 
-    def __init__(self, kin: Parts) -> None:
-        self.kin = kin
-        self.program = kin.program
-        self.names = kin.independent
+    def __init__(self, moving: InMotion) -> None:
+        self.program, self.mechanism = moving.program, moving.mechanism
+        self.moving, self.placed = moving, moving.placed
+        self.coordinates, self.names = moving.coordinates, moving.coordinates.independent
         self.inertia: dict[str, Inertia] = {}
         self.rotors: list[Rotor] = []
         self.accelerations: dict[str, sp.Expr] = {}
@@ -103,17 +103,17 @@ class Dynamics:
 
     def _gather_inertia(self) -> None:
         """Sum up inertia from the last placed body to the first, moving what can be moved."""
-        for name in reversed(self.kin.placed):
+        for name in reversed(self.placed):
             self.inertia.setdefault(name, Inertia.none())
-        massive = [self.kin.mechanism.body(b) for b in self.kin.model.massive]
-        rotors = {body.name: k for k, body in self.kin.rotors.items()}
+        massive = [self.mechanism.body(b) for b in self.moving.model.massive]
+        rotors = {body.name: k for k, body in self.coordinates.rotors.items()}
         for body in massive:
             if body.name in rotors:
                 self._fold_rotor(rotors[body.name], body)
             else:
                 self._add_rigid(body)
-        for name in reversed(self.kin.placed):
-            placed, inertia = self.kin.placed[name], self.inertia[name]
+        for name in reversed(self.placed):
+            placed, inertia = self.placed[name], self.inertia[name]
             if placed.carrier is not None and inertia.mass != 0:
                 carrier, at = placed.carrier
                 self.inertia[carrier].add_point(inertia.mass, at)
@@ -123,9 +123,9 @@ class Dynamics:
 
     def _add_rigid(self, body: Body) -> None:
         """Add a body given by mass, centre and tensor in chassis axes at the design position."""
-        placed = self.kin.placed[body.name]
+        placed = self.placed[body.name]
         mass = sp.Symbol(f"{body.name}_mass")
-        com = self.kin.local(placed, body.center)
+        com = placed.kin.local(placed, body.center)
         own = self.inertia[body.name]
         own.add_point(mass, com)
         own.tensor += self._own_tensor(body).in_axes(self._chassis_axes(placed))
@@ -134,8 +134,8 @@ class Dynamics:
         if body.rotor_axis is None:
             return SymmetricTensor(*(sp.Symbol(f"{body.name}_inertia_{e}") for e in ELEMENTS))
         spin, across = self._rotor_moments(body)
-        part = self.kin.of(body.name)
-        axis = part.to_chassis(part.design_direction(body.rotor_axis))
+        part = self.placed[body.name].kin
+        axis = part.to_ground(part.design_direction(body.rotor_axis))
         axis = self.program.vector(f"{body.name}_rotor_axis", axis)
         tensor = SymmetricTensor.transverse(across, axis)
         x, y, z = axis
@@ -151,22 +151,22 @@ class Dynamics:
 
     def _chassis_axes(self, placed: BodyMotion) -> tuple[Vector, Vector, Vector]:
         """Return the body axes at the design position, in chassis axes."""
-        names, part = ("first", "second", "third"), self.kin.of(placed.body)
+        names, part = ("first", "second", "third"), placed.kin
         x, y, z = (
-            self.program.vector(f"{placed.body}_{name}_in_chassis", part.to_chassis(axis))
+            self.program.vector(f"{placed.body}_{name}_in_chassis", part.to_ground(axis))
             for name, axis in zip(names, placed.design_axes, strict=True)
         )
         return x, y, z
 
     def _fold_rotor(self, coordinate: str, body: Body) -> None:
         """Give the carrier all but the momentum of a rotor about its own axis."""
-        joint = self.kin.mechanism.joints_of(body.name)[0]
-        carrier = self.kin.placed[joint.other(body.name)]
+        joint = self.mechanism.joints_of(body.name)[0]
+        carrier = self.placed[joint.other(body.name)]
         spin, across = self._rotor_moments(body)
         assert isinstance(joint, Revolute)
         axis = self._bearing_axis(joint, carrier)
         own = self.inertia[carrier.body]
-        own.add_point(sp.Symbol(f"{body.name}_mass"), self.kin.local(carrier, body.center))
+        own.add_point(sp.Symbol(f"{body.name}_mass"), carrier.kin.local(carrier, body.center))
         own.tensor += SymmetricTensor.transverse(across, axis)
         self.rotors.append(Rotor(coordinate, body, carrier, axis, spin))
 
@@ -176,8 +176,8 @@ class Dynamics:
         The axis of the rotor is the same line, but may point the other way.
         """
         if isinstance(joint.axis.towards, Direction) and joint.angle_to is None:
-            return self.kin.local_direction(carrier, joint.axis.towards)
-        positive = positive_axis_at_design(self.kin.of(carrier.body), joint)
+            return carrier.kin.local_direction(carrier, joint.axis.towards)
+        positive = positive_axis_at_design(carrier.kin, joint)
         n = to_axes(carrier.design_axes, positive)
         return self.program.vector(f"{joint.name}_axis_on_{carrier.body}", n, "123")
 
@@ -194,7 +194,7 @@ class Dynamics:
     # -- bodies ---------------------------------------------------------------------------------
 
     def _add_bodies(self) -> None:
-        for name, placed in self.kin.placed.items():
+        for name, placed in self.placed.items():
             if placed.motion and not self._is_rotor(name):
                 self.program.section(f"dynamics: {name}")
                 self._add_body(placed, self.inertia[name])
@@ -231,7 +231,7 @@ class Dynamics:
                     energy = one.angular.dot(angular[other]) + two.angular.dot(offset[k])
                 energy += inertia.mass * one.linear.dot(two.linear)
                 self._matrix[k, other] = self._matrix.get((k, other), NONE) + energy
-        if len(columns) == 1 and columns[0] in self.kin.alone:
+        if len(columns) == 1 and columns[0] in self.coordinates.alone:
             self._add_single_bias(placed, columns[0], angular[columns[0]])
         else:
             self._add_full_bias(placed, inertia, columns)
@@ -245,7 +245,7 @@ class Dynamics:
     def _add_full_bias(self, placed: BodyMotion, inertia: Inertia, columns: list[str]) -> None:
         """Newton-Euler at the bias acceleration, projected on each column."""
         body, program = placed.body, self.program
-        bias, omega = placed.bias(), self.kin.total(placed).angular
+        bias, omega = placed.bias(), placed.kin.total(placed).angular
         whirl = program.vector(f"{body}_whirl_moment", omega.cross(inertia.moment), "123")
         spin = program.vector(f"{body}_spin_now", inertia.tensor @ omega, "123")
         force = program.vector(
@@ -264,10 +264,10 @@ class Dynamics:
 
     def _add_rotor(self, rotor: Rotor) -> None:
         """Gyroscopic part of a rotor on its carrier; the rest is in `_solve` and `full`."""
-        if self.kin.pace_of(rotor.carrier) != 1:
+        if self.coordinates.pace_of(rotor.carrier) != 1:
             return  # axis x omega is perpendicular to omega, the only direction of motion
-        omega = self.kin.total(rotor.carrier).angular
-        spin = self.kin.true_rate(rotor.coordinate) + rotor.axis.dot(omega)
+        omega = rotor.carrier.kin.total(rotor.carrier).angular
+        spin = self.coordinates.true_rate(rotor.coordinate) + rotor.axis.dot(omega)
         momentum = self.program.define(f"{rotor.body.name}_spin_momentum", rotor.inertia * spin)
         swing = omega.cross(rotor.axis)
         couple = self.program.vector(f"{rotor.body.name}_gyroscopic", swing * momentum, "123")
@@ -280,8 +280,8 @@ class Dynamics:
     # -- forces ---------------------------------------------------------------------------------
 
     def _add_forces(self) -> None:
-        at = Seen(self.kin, self._momentum, self.accelerations)
-        for force in self.kin.mechanism.forces:
+        at = Seen(self.moving, self._momentum, self.accelerations)
+        for force in self.mechanism.forces:
             self.program.section(f"forces: {type(force).__name__}")
             action = force.act(at)
             self._actions.append(action)
@@ -291,8 +291,8 @@ class Dynamics:
 
     def signals(self) -> Iterator[Shown]:
         """Yield what the forces show, force by force."""
-        at = Seen(self.kin, self._momentum, self.accelerations)
-        for force, action in zip(self.kin.mechanism.forces, self._actions, strict=True):
+        at = Seen(self.moving, self._momentum, self.accelerations)
+        for force, action in zip(self.mechanism.forces, self._actions, strict=True):
             yield from force.signals(at, action)
 
     # -- equations ------------------------------------------------------------------------------
@@ -334,7 +334,7 @@ class Dynamics:
         back = sum(
             (self._rotor_share(r, k) * self._force[r.coordinate] for r in self._driven_on(k)), NONE
         )
-        return self._force[k] - self._bias[k] * self.kin.pace(k) ** 2 - back
+        return self._force[k] - self._bias[k] * self.coordinates.pace(k) ** 2 - back
 
     def _driven_on(self, k: str) -> list[Rotor]:
         """Return the rotors with a torque on their bearing whose carrier a coordinate moves."""
@@ -344,7 +344,7 @@ class Dynamics:
     def _spin_bias(self, rotor: Rotor, accelerations: dict[str, sp.Expr]) -> sp.Expr:
         """Return the rate of ``axis . omega`` of the carrier."""
         carrier = rotor.carrier
-        total = rotor.axis.dot(carrier.bias().angular) * self.kin.pace_of(carrier) ** 2
+        total = rotor.axis.dot(carrier.bias().angular) * self.coordinates.pace_of(carrier) ** 2
         for k in self._carried(rotor):
             total += self._rotor_share(rotor, k) * accelerations.get(k, NONE)
         return total
@@ -406,7 +406,7 @@ class Dynamics:
 
     def full_bias(self) -> list[sp.Expr]:
         """Return B of all independent coordinates, rotors included."""
-        bias = {k: self._bias[k] * self.kin.pace(k) ** 2 for k in self.names}
+        bias = {k: self._bias[k] * self.coordinates.pace(k) ** 2 for k in self.names}
         for rotor in self.rotors:
             rate = self._spin_bias(rotor, {})
             for k, share in self._rotor_row(rotor).items():

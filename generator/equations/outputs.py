@@ -9,6 +9,7 @@ import sympy as sp
 
 from ..declare.checks import check_symbols
 from ..declare.declared import DeclarationError
+from ..declare.joints import Free
 from ..kinematics.motion import IDENTITY, BodyMotion, from_axes
 from ..planning.plan import Plan
 from ..program.constants import ConstantStage
@@ -16,7 +17,7 @@ from ..program.program import Program
 from ..program.vectors import ZERO, Vector
 from .assumptions import define_assumptions, find_assumptions
 from .dynamics import Dynamics
-from .parts import Parts
+from .in_motion import InMotion
 from .relative import RelativeCoordinates
 
 if TYPE_CHECKING:
@@ -88,12 +89,26 @@ def generate(model: Model) -> GeneratedModel:
     return _Builder(model).build()
 
 
+def _refuse_free(model: Model) -> None:
+    """See that the mechanism is fixed in the world: how it moves in it cannot be derived yet."""
+    problems = [
+        f"body {joint.second!r} moves freely in the world (joint {joint.name!r}), and there are no "
+        "equations for that yet. Leave the joint out and let the body rest there, "
+        f"fixed={joint.second!r}; topology and plan can be had as it is"
+        for joint in model.mechanism.joints
+        if isinstance(joint, Free)
+    ]
+    if problems:
+        raise DeclarationError(model.name, problems)
+
+
 class _Builder:
     """Collects the functions of one model from one program."""
 
     def __init__(self, model: Model) -> None:
         self.model = model
         self.mechanism: Mechanism = model.mechanism
+        _refuse_free(model)
         self.plan = Plan.of(model)
         self.assumed = find_assumptions(self.plan)
         self.constants = ConstantStage(
@@ -102,21 +117,23 @@ class _Builder:
             derived={sp.Symbol(n): value for n, value in self.mechanism.derived.items()},
         )
         self.program = Program(self.constants)
-        self.kin = Parts(self.program, self.plan)
+        self.motion = InMotion.of(self.program, self.plan)
         self._check_masses()
-        self.dynamics = Dynamics(self.kin)
-        self.relative = {part: RelativeCoordinates(part) for part in self.kin.parts}
+        self.dynamics = Dynamics(self.motion)
+        self.relative = {part: RelativeCoordinates(part) for part in self.motion.parts}
         self.functions: dict[str, Function] = {}
         self.signals: list[Entry] = []
-        self.moving = tuple(b.name for b in self.mechanism.bodies[1:])
+        self.moving = tuple(b.name for b in self.mechanism.moving)
         self.massive = tuple(b for b in self.moving if b in model.massive)
 
     def _check_masses(self) -> None:
         """See that every independent coordinate moves some mass: else it has no acceleration."""
-        moved = {k for body in self.model.massive for k in self.kin.placed[body].motion}
+        moved = {k for body in self.model.massive for k in self.motion.placed[body].motion}
         idle = [
             f"independent joint {joint!r} moves no body of massive; name one there that it moves"
-            for joint, k in zip(self.model.independent, self.kin.independent, strict=True)
+            for joint, k in zip(
+                self.model.independent, self.motion.coordinates.independent, strict=True
+            )
             if k not in moved
         ]
         if idle:
@@ -125,7 +142,7 @@ class _Builder:
     def build(self) -> GeneratedModel:
         self._add_dynamics(self.dynamics, "")
         for variant, joints in self.model.held.items():
-            held = Dynamics(Parts(Program(self.constants), self.plan, joints))
+            held = Dynamics(InMotion.of(Program(self.constants), self.plan, joints))
             self._add_right_hand_side(held, f"_{variant}")
         self._add_relative()
         self._add_poses()
@@ -188,7 +205,7 @@ class _Builder:
 
     def _state_entries(self) -> tuple[Entry, ...]:
         entries = {c.name: c for c in self.mechanism.coordinates}
-        positions = [entries[k] for k in self.kin.independent]
+        positions = [entries[k] for k in self.motion.coordinates.independent]
         return (
             *(Entry(c.name, c.unit, c.meaning) for c in positions),
             *(Entry(f"{c.name}_rate", f"{c.unit}/s", f"rate of {c.name}") for c in positions),
@@ -213,7 +230,7 @@ class _Builder:
         return tuple(g for g in self.program.guards.values() if g.name in acting)
 
     def _state_symbols(self) -> list[sp.Symbol]:
-        names = self.kin.independent
+        names = self.motion.coordinates.independent
         return [sp.Symbol(n) for n in (*names, *(f"{n}_rate" for n in names))]
 
     def _add(self, name: str, doc: str, results: dict[str, sp.Expr], *shape: int) -> None:
@@ -223,7 +240,7 @@ class _Builder:
 
     def _add_dynamics(self, dynamics: Dynamics, suffix: str) -> None:
         self._add_right_hand_side(dynamics, suffix)
-        names = self.kin.independent
+        names = self.motion.coordinates.independent
         n = len(names)
         matrix = dynamics.full_mass_matrix()
         self._add(
@@ -249,7 +266,7 @@ class _Builder:
         )
 
     def _add_right_hand_side(self, dynamics: Dynamics, suffix: str) -> None:
-        names, program = self.kin.independent, dynamics.program
+        names, program = self.motion.coordinates.independent, dynamics.program
         rates = {f"d({k})/dt": sp.Symbol(f"{k}_rate") for k in names}
         rates |= {f"d({k}_rate)/dt": dynamics.accelerations[k] for k in names}
         what = "" if not suffix else f" with {suffix[1:].replace('_', ' ')}"
@@ -292,7 +309,7 @@ class _Builder:
 
     def _add_relative(self) -> None:
         values = self._in_order([relative.values for relative in self.relative.values()])
-        names = self.kin.independent
+        names = self.motion.coordinates.independent
         self._add("relative_coordinates", "Relative joint coordinates beta (Figure 3).", values)
         columns = [self.program.tangents(sp.Symbol(k), values.values(), f"by_{k}") for k in names]
         self._add(
@@ -311,7 +328,7 @@ class _Builder:
             "Closure residuals g(beta, q) of Eqs. 4 to 13 for given beta.",
             {f"g_{name}": left for name, left in self._residuals().items()},
         )
-        if all(self.relative[self.kin.of(body)].reaches(body) for body in self.massive):
+        if all(self.relative[self.motion.placed[body].kin].reaches(body) for body in self.massive):
             self._add_absolute(list(values))
         self._add_global()
 
@@ -326,7 +343,7 @@ class _Builder:
     def _add_absolute(self, betas: list[str]) -> None:
         results = {}
         for body in self.massive:
-            columns = self.relative[self.kin.of(body)].absolute_jacobian(body)
+            columns = self.relative[self.motion.placed[body].kin].absolute_jacobian(body)
             for row, label in enumerate(self._twist_labels(body)):
                 for beta in betas:
                     angular, linear = columns.get(beta, (ZERO, ZERO))
@@ -344,7 +361,7 @@ class _Builder:
         return [f"{body} omega_{a}" for a in AXES] + [f"{body} velocity_{a}" for a in AXES]
 
     def _add_global(self) -> None:
-        names = self.kin.independent
+        names = self.motion.coordinates.independent
         results = {}
         for body in self.massive:
             columns = {k: self._chassis_twist(body, k) for k in names}
@@ -361,14 +378,14 @@ class _Builder:
 
     def _chassis_twist(self, body: str, coordinate: str) -> list[sp.Expr]:
         """Return (omega, velocity of the centre of mass) per unit rate, in chassis axes."""
-        placed = self.kin.placed[body]
+        placed = self.motion.placed[body]
         if coordinate not in placed.motion:
             return [sp.Integer(0)] * 6
         twist = placed.motion[coordinate]
-        center = self.kin.local(placed, self.mechanism.body(body).center)
+        center = placed.kin.local(placed, self.mechanism.body(body).center)
         velocity = twist.linear + twist.angular.cross(center)
         parts = (from_axes(placed.axes, v) for v in (twist.angular, velocity))
-        return [c for part in parts for c in self.kin.of(body).to_chassis(part)]
+        return [c for part in parts for c in placed.kin.to_ground(part)]
 
     # -- poses ----------------------------------------------------------------------------------
 
@@ -378,7 +395,7 @@ class _Builder:
         orientations: dict[str, sp.Expr] = {}
         velocities: dict[str, sp.Expr] = {}
         for body in self.moving:
-            placed = self.kin.placed[body]
+            placed = self.motion.placed[body]
             for axis, value in zip(AXES, self._center(placed), strict=True):
                 positions[f"{body} {axis}"] = value
             for label, value in self._orientation(placed).items():
@@ -408,17 +425,17 @@ class _Builder:
 
     def _center(self, placed: BodyMotion) -> Vector:
         """Return the centre of mass in chassis axes."""
-        local = self.kin.local(placed, self.mechanism.body(placed.body).center)
+        local = placed.kin.local(placed, self.mechanism.body(placed.body).center)
         work = placed.origin + from_axes(placed.axes, local)
-        part = self.kin.of(placed.body)
-        return part.to_chassis(work) + part.work_origin
+        part = placed.kin
+        return part.to_ground(work) + part.work_origin
 
     def _orientation(self, placed: BodyMotion) -> dict[str, sp.Expr]:
         if placed.axes is IDENTITY:
             return {f"R{a}{b}": sp.Integer(int(a == b)) for a in AXES for b in AXES}
-        part = self.kin.of(placed.body)
-        now = [part.to_chassis(axis) for axis in placed.axes]
-        design = [part.to_chassis(axis) for axis in placed.design_axes]
+        part = placed.kin
+        now = [part.to_ground(axis) for axis in placed.axes]
+        design = [part.to_ground(axis) for axis in placed.design_axes]
         return {
             f"R{a}{b}": sum(
                 (getattr(n, a) * getattr(d, b) for n, d in zip(now, design, strict=True)),
@@ -430,8 +447,8 @@ class _Builder:
 
     def _velocity(self, body: str) -> list[sp.Expr]:
         total: list[sp.Expr] = [sp.Integer(0)] * 6
-        for coordinate in self.kin.placed[body].motion:
-            rate = self.kin.true_rate(coordinate)
+        for coordinate in self.motion.placed[body].motion:
+            rate = self.motion.coordinates.true_rate(coordinate)
             column = self._chassis_twist(body, coordinate)
             total = [t + rate * c for t, c in zip(total, column, strict=True)]
         return total

@@ -16,8 +16,9 @@ if TYPE_CHECKING:
 
     from ..declare.geometry import Direction, Point
     from ..declare.surroundings import Motion
+    from ..kinematics.kinematics import Kinematics
     from ..program.vectors import Twist, Vector
-    from .parts import Parts
+    from .in_motion import InMotion
 
 Momenta = dict[tuple[str, str], "Vector"]
 """Linear momentum per unit rate, in body axes, by body and coordinate."""
@@ -28,7 +29,7 @@ class Seen:
 
     Parameters
     ----------
-    kin
+    moving
         The bodies in motion.
     momenta
         Those of the bodies that carry mass.
@@ -36,21 +37,23 @@ class Seen:
         Of the independent coordinates; empty until they are known.
     """
 
-    def __init__(self, kin: Parts, momenta: Momenta, accelerations: Mapping[str, sp.Expr]) -> None:
-        self.kin = kin
-        self.program, self.mechanism = kin.program, kin.mechanism
-        self.independent, self.coordinates = kin.independent, kin.moving
+    def __init__(
+        self, moving: InMotion, momenta: Momenta, accelerations: Mapping[str, sp.Expr]
+    ) -> None:
+        self._moving, self._placed, self._driven = moving, moving.placed, moving.coordinates
+        self.program, self.mechanism = moving.program, moving.mechanism
+        self.independent, self.coordinates = self._driven.independent, self._driven.moving
         self._momenta, self._accelerations = momenta, accelerations
 
     # -- coordinates ------------------------------------------------------------------------------
 
     def coordinate(self, joint: str) -> str:
         """Return the coordinate of a driven joint."""
-        return self.kin.coordinate_of(self.mechanism.joint(joint))
+        return self._driven.of(self.mechanism.joint(joint))
 
     def rate(self, coordinate: str) -> sp.Expr:
         """Return the rate of a coordinate."""
-        return self.kin.true_rate(coordinate)
+        return self._driven.true_rate(coordinate)
 
     def acceleration(self, coordinate: str) -> sp.Expr:
         """Return the acceleration of a coordinate; that of a prescribed one is in the bias."""
@@ -60,21 +63,23 @@ class Seen:
 
     def local(self, body: str, point: Point) -> Vector:
         """Return the constant coordinates of a point, in body axes."""
-        return self.kin.local(self.kin.placed[body], point)
+        placed = self._placed[body]
+        return placed.kin.local(placed, point)
 
     def direction(self, body: str, direction: Direction) -> Vector:
         """Return the constant components of a direction fixed in a body, in body axes."""
-        return self.kin.local_direction(self.kin.placed[body], direction)
+        placed = self._placed[body]
+        return placed.kin.local_direction(placed, direction)
 
     def up(self, body: str) -> Vector:
         """Return the upward unit vector of the world, in body axes."""
-        placed = self.kin.placed[body]
-        up = to_axes(placed.axes, self.kin.of(body).design_direction(UP))
+        placed = self._placed[body]
+        up = to_axes(placed.axes, placed.kin.design_direction(UP))
         return self.program.vector(f"{body}_up", up, "123")
 
     def twists(self, body: str) -> Mapping[str, Twist]:
         """Return the twist per unit rate of each coordinate that moves a body, in body axes."""
-        return self.kin.placed[body].motion
+        return self._placed[body].motion
 
     def momenta(self) -> Iterator[tuple[str, str, Vector]]:
         """Yield body, coordinate and linear momentum per unit rate, in body axes, where mass is."""
@@ -82,47 +87,55 @@ class Seen:
 
     def height(self, body: str, local: Vector) -> sp.Expr:
         """Return the height of a point of a body in the world."""
-        placed, part = self.kin.placed[body], self.kin.of(body)
-        origin = placed.origin.dot(part.design_direction(UP)) + part.work_origin.z
+        placed = self._placed[body]
+        origin = placed.origin.dot(placed.kin.design_direction(UP)) + placed.kin.work_origin.z
         return origin + local.dot(self.up(body))
 
     def place(self, body: str, local: Vector) -> Vector:
         """Return the position of a point of a body in the world."""
-        placed, part = self.kin.placed[body], self.kin.of(body)
+        placed = self._placed[body]
         work = placed.origin + from_axes(placed.axes, local)
-        return part.to_chassis(work) + part.work_origin
+        return placed.kin.to_ground(work) + placed.kin.work_origin
 
     def in_world(self, body: str, vector: Vector) -> Vector:
         """Return the components in the world of a vector in body axes."""
-        return self.kin.of(body).to_chassis(from_axes(self.kin.placed[body].axes, vector))
+        placed = self._placed[body]
+        return placed.kin.to_ground(from_axes(placed.axes, vector))
 
     def rising(self, body: str, local: Vector) -> sp.Expr:
         """Return the upward acceleration of a point that the coordinates' own leave over."""
-        placed = self.kin.placed[body]
-        own = self.up(body).dot(self.kin.point_bias(placed, local))
-        return own * self.kin.pace_of(placed) ** 2
+        placed = self._placed[body]
+        own = self.up(body).dot(placed.kin.point_bias(placed, local))
+        return own * self._driven.pace_of(placed) ** 2
 
     # -- paths ------------------------------------------------------------------------------------
 
     def telescope(self, joint: str) -> tuple[sp.Expr, Motion, sp.Expr]:
         """Return length of a telescope, its rate per unit rate, and its slide."""
-        line = self.kin.telescopes[joint]
-        return line.length, line.length_motion, self.kin.slides[joint]
+        part = self._part_of(joint)
+        line = part.telescopes[joint]
+        return line.length, line.length_motion, part.slides[joint]
 
     def hinge(self, joint: str) -> tuple[sp.Expr, Motion]:
         """Return the angle of a hinge, and its rate per unit rate of each coordinate."""
         hinge = self.mechanism.joint(joint)
         assert isinstance(hinge, Revolute)  # checked with the mechanism
-        part = self.kin.of_joint(hinge)
+        part = self._part_of(joint)
         return angle_of(part, hinge), turning_rates(part, hinge)
+
+    def _part_of(self, joint: str) -> Kinematics:
+        """Return the part that a joint belongs to: nothing closes between two parts."""
+        part = self._moving.part_with(*self.mechanism.joint(joint).bodies)
+        assert part is not None
+        return part
 
     def between(
         self, first: tuple[str, Point], second: tuple[str, Point]
     ) -> tuple[Vector, Mapping[str, Vector]]:
         """Return the way from one point to another, and its rate per unit rate, in equal axes."""
-        relative = self.kin.relative_motion(first, second)
+        relative = self._moving.relative_motion(first, second)
         return relative.position, relative.motion
 
     def extent(self, body: str, point: Point) -> Vector:
         """Return where a point is at the design position: a measure of size."""
-        return self.kin.of(body).design(point)
+        return self._placed[body].kin.design(point)

@@ -108,6 +108,7 @@ _BODIES = tuple(f"k{i}" for i in range(1, 8))
 
 SQUEEZER = Mechanism(
     name="andrews",
+    fixed="ground",
     title="Andrews' squeezer mechanism",
     bodies=(
         Body("ground", 0, center=flat("crank_bearing")),

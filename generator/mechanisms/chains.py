@@ -42,6 +42,7 @@ def ring(name: str, title: str, places: list[Place], axes: list[Place]) -> Model
     ]
     mechanism = Mechanism(
         name=name,
+        fixed="ground",
         title=title,
         bodies=(
             Body("ground", 0, center=Point("place_0")),

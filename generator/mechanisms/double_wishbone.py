@@ -161,6 +161,7 @@ PARAMETERS = (
 
 DOUBLE_WISHBONE = Mechanism(
     name="double_wishbone",
+    fixed="chassis",
     title="Double wishbone suspension with tie rod",
     bodies=BODIES,
     joints=JOINTS,

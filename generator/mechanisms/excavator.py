@@ -129,6 +129,7 @@ PARAMETERS = (
 
 EXCAVATOR = Mechanism(
     name="excavator",
+    fixed="chassis",
     title="Planar excavator",
     bodies=BODIES,
     joints=JOINTS,
@@ -151,6 +152,7 @@ _LOAD = {
 
 LIFTING = Mechanism(
     name="excavator_lifting",
+    fixed="chassis",
     title="Planar excavator that lifts a load on a hook",
     bodies=(*BODIES, Body("load", len(BODIES), center=flat("load_com", "y"))),
     joints=(*JOINTS, _pin("hook", "bucket", "load", "hook")),

@@ -31,6 +31,7 @@ _PLACES = {
 
 FOUR_BAR = Mechanism(
     name="four_bar",
+    fixed="ground",
     title="Planar four-bar linkage",
     bodies=(
         Body("ground", 0, center=flat("crank_bearing")),

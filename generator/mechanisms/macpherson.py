@@ -255,6 +255,7 @@ def mechanism(*, free_rack: bool = False) -> Mechanism:
     """Return the suspension; with a free rack, the tie rod's angles are reported as well."""
     return Mechanism(
         name="macpherson",
+        fixed="chassis",
         title="MacPherson suspension (Góis & Sarzeto, 2000)",
         bodies=BODIES,
         joints=_joints(Line(B, C)),
@@ -274,6 +275,7 @@ def general(*, free_rack: bool = False) -> Mechanism:
     """
     return Mechanism(
         name="macpherson_general",
+        fixed="chassis",
         title="MacPherson suspension with an offset strut",
         bodies=BODIES,
         joints=_joints(Line(STRUT_LOWER, C)),

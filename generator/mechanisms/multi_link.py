@@ -148,6 +148,7 @@ _THREE = ("upper_link", "camber_link", "toe_link")
 
 CONTROL_ARM = Mechanism(
     name="control_arm_multi_link",
+    fixed="chassis",
     title="Multi-link suspension with a lower control arm and three links",
     bodies=_bodies("lower_arm", "carrier", *_THREE, "rack"),
     joints=(
@@ -194,6 +195,7 @@ _SIX = ("upper_link", "camber_link", "toe_link", "front_link", "lower_link", "pu
 
 FIVE_LINK = Mechanism(
     name="five_link",
+    fixed="chassis",
     title="Five-link suspension with a push rod and a rocker",
     bodies=_bodies("rocker", "carrier", *_SIX, "rack"),
     joints=(
@@ -241,6 +243,7 @@ _STRUT_LINE = Direction("strut_line", between=(SPRING_SEAT, SPRING_TOP))
 
 STRUT = Mechanism(
     name="five_link_strut",
+    fixed="chassis",
     title="Five-link suspension with a strut",
     bodies=_bodies("strut_tube", "strut_rod", "carrier", *_FIVE, "rack"),
     joints=(

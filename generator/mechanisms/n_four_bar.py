@@ -52,6 +52,7 @@ def n_four_bar(count: int) -> Model:
         ]
     mechanism = Mechanism(
         name=f"four_bars_{count}",
+        fixed="ground",
         title=f"Chain of {count} four-bar linkages",
         bodies=tuple(bodies),
         joints=tuple(joints),

@@ -31,6 +31,7 @@ _PLACES = {
 
 SLIDER_CRANK = Mechanism(
     name="slider_crank",
+    fixed="ground",
     title="Slider-crank",
     bodies=(
         Body("ground", 0, center=flat("crank_bearing")),
