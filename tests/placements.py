@@ -56,7 +56,7 @@ class Placements:
         places: dict[str, sp.Expr] = {}
         for body in model.mechanism.bodies[1:]:
             placed = kin.placed[body.name]
-            part = placed.kin
+            part = kin.part_of[body.name]
             at = part.to_ground(part.position(placed, body.center)) + part.work_origin
             places |= {f"{body.name} {i}": value for i, value in enumerate(at)}
             for j, e in enumerate((UNIT_X, UNIT_Y, UNIT_Z)):

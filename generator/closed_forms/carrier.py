@@ -340,7 +340,6 @@ def _place(kin: Kinematics, held: _Held, solved: _Solved) -> None:
     """Record pose, velocities and bias."""
     step, program, pose = held.step, kin.program, solved.pose
     placed = BodyMotion(
-        kin,
         step.body,
         origin=held.base.position
         if held.base

@@ -358,7 +358,7 @@ def _place(kin: Kinematics, step: CoupledLoops, solved: _Solved) -> None:
     for branch in step.tree:
         frame = solved.position.frames[branch.child]
         kin.placed[branch.child] = BodyMotion(
-            kin, branch.child, origin=frame.origin, axes=frame.axes, design_origin=frame.start
+            branch.child, origin=frame.origin, axes=frame.axes, design_origin=frame.start
         )
     for branch, x in zip(step.unknowns, solved.unknowns, strict=True):
         if isinstance(branch.joint, Prismatic):

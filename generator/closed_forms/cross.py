@@ -106,7 +106,6 @@ def turn_on_cross(
     second = program.vector(f"{body}_second_axis", cross * (1 / lever))
     axes: Axes = (n, second, program.vector(f"{body}_third_axis", n.cross(second)))
     placed = BodyMotion(
-        kin,
         body,
         origin=record.anchor_motion.position,
         axes=axes,

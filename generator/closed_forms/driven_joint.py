@@ -99,7 +99,6 @@ def _place_revolute(kin: Kinematics, joint: Revolute, parent_name: str, child: s
     x, y, z = (from_axes(parent.axes, axis) for axis in frame.parent_axes)
     axes = (x, y * cosine + z * sine, z * cosine - y * sine)
     placed = BodyMotion(
-        kin,
         child,
         origin=kin.program.vector(
             f"{child}_origin", parent.origin + from_axes(parent.axes, frame.origin)
@@ -211,7 +210,6 @@ def _place_prismatic(kin: Kinematics, joint: Prismatic, parent_name: str, child:
     start = parent.design_origin
     offset = direction * slide
     placed = BodyMotion(
-        kin,
         child,
         origin=kin.program.vector(
             f"{child}_origin", parent.origin + from_axes(parent.axes, offset)

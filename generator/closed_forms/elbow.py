@@ -313,7 +313,6 @@ def _place(
     """Record pose, velocities and bias of the first link."""
     program, body, parent, s = kin.program, hinge.body, hinge.parent, reach.end
     placed = BodyMotion(
-        kin,
         body,
         origin=hinge.origin.position,
         axes=axes,

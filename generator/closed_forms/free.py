@@ -28,8 +28,9 @@ class PlaceFree(Follower):
     def follow(cls, known: Known, joint: Joint, parent: str, child: str) -> Self | None:
         """Return the step, where the joint is driven."""
         del parent
-        moves = isinstance(joint, Free) and joint.second == child
-        return cls(joint) if moves and not known.unknowns_of(joint) else None
+        if not isinstance(joint, Free) or joint.second != child or known.unknowns_of(joint):
+            return None
+        return cls(joint)
 
     @property
     def about(self) -> str:

@@ -102,7 +102,6 @@ def place_on_hinge(kin: Kinematics, hinge: Hinge, axes: Axes, condition: Conditi
     """Record pose, velocities and bias of a body on a hinge."""
     program, body, parent, arm = kin.program, hinge.body, hinge.parent, hinge.arm.local
     placed = BodyMotion(
-        kin,
         body,
         origin=hinge.origin.position,
         axes=axes,

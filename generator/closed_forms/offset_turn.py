@@ -176,7 +176,6 @@ class _OffsetTurn:
         )
         arm = program.vector(f"{body}_arm_now", record.span * u + w * v + normal * self.height)
         self.placed = BodyMotion(
-            self.kin,
             body,
             origin=record.end_motion.position,
             axes=self._axes(arm, along_span),

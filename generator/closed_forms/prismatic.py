@@ -78,7 +78,6 @@ class PrismaticByLength(HeldOnJoint):
         kin.slides[joint.name] = sense * slide
         offset = local * slide
         placed = BodyMotion(
-            kin,
             body,
             origin=program.vector(f"{body}_origin", parent.origin + from_axes(parent.axes, offset)),
             axes=parent.axes,

@@ -346,7 +346,6 @@ def _place(kin: Kinematics, pins: _Pins, extension: sp.Expr) -> None:
     axes = _axes(kin, pins, extension)
     parent, carrier = kin.placed[telescope.anchor_body], kin.placed[telescope.end_body]
     link = BodyMotion(
-        kin,
         near,
         origin=pins.anchor.position,
         axes=axes,
@@ -356,7 +355,6 @@ def _place(kin: Kinematics, pins: _Pins, extension: sp.Expr) -> None:
         carrier=(parent.body, kin.local(parent, telescope.anchor)),
     )
     other = BodyMotion(
-        kin,
         telescope.far,
         origin=pins.end.position,
         axes=axes,

@@ -120,7 +120,6 @@ class ScotchYoke(ClosedForm):
         for body, offset in offsets.items():
             at = base.origin + from_axes(base.axes, offset)
             kin.placed[body] = BodyMotion(
-                kin,
                 body,
                 origin=program.vector(f"{body}_origin", at),
                 axes=base.axes,

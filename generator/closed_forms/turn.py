@@ -81,7 +81,6 @@ class TurnByLength(HeldByLeg):
         reach = _reach(kin, leg.body, record, base, arm, rod_anchor)
         fit = fit_rod(kin, self, leg, arm, record.direction, reach)
         placed = BodyMotion(
-            kin,
             leg.body,
             origin=base.motion.position,
             axes=fit.axes,

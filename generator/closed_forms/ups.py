@@ -132,7 +132,6 @@ class PlaceByGuide(Follower):
         strut = self.strut
         near, end = kin.placed[strut.near], kin.point_motion(strut.end_body, strut.end)
         placed = BodyMotion(
-            kin,
             strut.far,
             origin=end.position,
             axes=near.axes,

@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     from typing import Self
 
     from ..program.program import Program
-    from .assembly import Assembly
     from .copying import Copying
     from .paths import AnyPath
+    from .whole import Whole
 
 
 @dataclass(frozen=True)
@@ -48,28 +48,31 @@ class Stretch:
 class AnyLaw(ABC):
     """What the laws have in common.
 
-    Attributes
-    ----------
-    signal, meaning
-        Name and meaning of the signal that shows the force.
-    inputs
-        Names of the inputs that it reads: a force that is given from outside is not shown.
+    A force that is given from outside, by an input, is not shown.
     """
 
-    signal: str
-    meaning: str
     not_named: ClassVar[tuple[str, ...]] = ()  # fields with a text that is no name
 
     @property
+    @abstractmethod
+    def signal(self) -> str:
+        """Name of the signal that shows the force."""
+
+    @property
+    @abstractmethod
+    def meaning(self) -> str:
+        """What that signal is."""
+
+    @property
     def inputs(self) -> tuple[str, ...]:
-        """None."""
+        """Names of the inputs that it reads."""
         return ()
 
     @abstractmethod
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""
 
-    def problems(self, mechanism: Assembly, path: AnyPath) -> list[str]:
+    def problems(self, mechanism: Whole, path: AnyPath) -> list[str]:
         """Say what is wrong with it in a mechanism, on a path."""
         del path
         return unknown("input", self.inputs, mechanism.input_names)
@@ -103,8 +106,8 @@ class LinearSpring(AnyLaw):
     free_slide: Name | None = None
     free_length: Length | None = None
 
-    signal: ClassVar[str] = "spring_force"
-    meaning: ClassVar[str] = "spring force"
+    signal = "spring_force"
+    meaning = "spring force"
 
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""
@@ -112,7 +115,7 @@ class LinearSpring(AnyLaw):
             return sp.Symbol(self.rate) * (at.slide - sp.Symbol(self.free_slide))
         return sp.Symbol(self.rate) * (sp.Symbol(str(self.free_length)) - at.length)
 
-    def problems(self, mechanism: Assembly, path: AnyPath) -> list[str]:
+    def problems(self, mechanism: Whole, path: AnyPath) -> list[str]:
         """See that it is free of force somewhere, and that the path has such a coordinate."""
         problems = super().problems(mechanism, path)
         if (self.free_slide is None) == (self.free_length is None):
@@ -135,8 +138,8 @@ class LinearDamper(AnyLaw):
 
     rate: Amount
 
-    signal: ClassVar[str] = "damper_force"
-    meaning: ClassVar[str] = "damper force"
+    signal = "damper_force"
+    meaning = "damper force"
 
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""
@@ -172,8 +175,8 @@ class DamperTable(AnyLaw):
     name: Name
     segments: Count
 
-    signal: ClassVar[str] = "damper_force"
-    meaning: ClassVar[str] = "damper force"
+    signal = "damper_force"
+    meaning = "damper force"
 
     def parameters(self) -> Iterator[tuple[str, float, str, str]]:
         """Yield name, default, unit and meaning of every parameter; the default is no force."""
@@ -227,8 +230,8 @@ class Friction(AnyLaw):
     level: Amount
     speed: MoreThanZero
 
-    signal: ClassVar[str] = "friction_force"
-    meaning: ClassVar[str] = "friction force"
+    signal = "friction_force"
+    meaning = "friction force"
 
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""
@@ -295,8 +298,8 @@ class Actuator(AnyLaw):
 
     input: Name
 
-    signal: ClassVar[str] = "actuator_force"
-    meaning: ClassVar[str] = "actuator force"
+    signal = "actuator_force"
+    meaning = "actuator force"
 
     @property
     def inputs(self) -> tuple[str, ...]:

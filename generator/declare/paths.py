@@ -20,9 +20,9 @@ from .known import unknown
 if TYPE_CHECKING:
     from typing import Self
 
-    from .assembly import Assembly
     from .copying import Copying
     from .surroundings import Surroundings
+    from .whole import Whole
 
 
 class Course(NamedTuple):
@@ -88,7 +88,7 @@ class AnyPath(ABC):
         """Append its length and the rate of that; `name` begins the names of the steps."""
 
     @abstractmethod
-    def problems(self, mechanism: Assembly, what: str) -> list[str]:
+    def problems(self, mechanism: Whole, what: str) -> list[str]:
         """Say what it names that the mechanism has not."""
 
     @abstractmethod
@@ -116,7 +116,7 @@ class AlongTelescope(AnyPath):
         del name
         return Course(*at.telescope(self.joint))
 
-    def problems(self, mechanism: Assembly, what: str) -> list[str]:
+    def problems(self, mechanism: Whole, what: str) -> list[str]:
         """Say if the joint is no telescope."""
         return _of_kind(mechanism, what, [self.joint], Cylindrical)
 
@@ -171,7 +171,7 @@ class AlongLine(AnyPath):
         squared = sum((p.dot(p) for p in places), sp.Integer(0))
         return at.program.define(f"{name}_extent_squared", squared)
 
-    def problems(self, mechanism: Assembly, what: str) -> list[str]:
+    def problems(self, mechanism: Whole, what: str) -> list[str]:
         """Say which of the bodies is not declared."""
         bodies = [body for body, _ in (self.first, self.second)]
         return unknown(f"{what}: body", bodies, [b.name for b in mechanism.bodies])
@@ -218,7 +218,7 @@ class TwistOfHinges(AnyPath):
                 motion[k] += sense * rate
         return Course(twist, {k: rate for k, rate in motion.items() if rate != 0})
 
-    def problems(self, mechanism: Assembly, what: str) -> list[str]:
+    def problems(self, mechanism: Whole, what: str) -> list[str]:
         """Say which of the joints is no hinge."""
         return _of_kind(mechanism, what, [self.first, self.second], Revolute)
 
@@ -230,7 +230,7 @@ class TwistOfHinges(AnyPath):
 Path = AlongTelescope | AlongLine | TwistOfHinges
 
 
-def _of_kind(mechanism: Assembly, what: str, names: list[str], wanted: type[Joint]) -> list[str]:
+def _of_kind(mechanism: Whole, what: str, names: list[str], wanted: type[Joint]) -> list[str]:
     """Find joints that an element cannot act along."""
     joints = {j.name: j for j in mechanism.joints}
     fitting = [j.name for j in joints.values() if isinstance(j, wanted)]

@@ -11,8 +11,8 @@ if TYPE_CHECKING:
 
     from ..program.program import Program
     from ..program.vectors import Twist, Vector
-    from .assembly import Assembly
     from .geometry import Direction, Point
+    from .whole import Whole
 
 Motion = dict[str, "sp.Expr"]
 """The rate of something per unit rate of each coordinate that moves it."""
@@ -24,20 +24,23 @@ class Surroundings(Protocol):
     Vectors are in the axes of the body that is named, or in those of the world: x forward, y left,
     z up. Coordinates are those that are independent or prescribed.
 
-    Attributes
-    ----------
-    program
-        Receives the steps.
-    mechanism
-        Whose bodies they are.
-    independent, coordinates
-        Names of the independent coordinates, and of all that move.
     """
 
-    program: Program
-    mechanism: Assembly
-    independent: Sequence[str]
-    coordinates: Sequence[str]
+    @property
+    def program(self) -> Program:
+        """What receives the steps."""
+
+    @property
+    def mechanism(self) -> Whole:
+        """Whose bodies they are."""
+
+    @property
+    def independent(self) -> Sequence[str]:
+        """Names of the independent coordinates."""
+
+    @property
+    def coordinates(self) -> Sequence[str]:
+        """Names of all coordinates that move."""
 
     # -- coordinates --
 

@@ -83,7 +83,7 @@ class Dynamics:
 
     def __init__(self, moving: InMotion) -> None:
         self.program, self.mechanism = moving.program, moving.mechanism
-        self.moving, self.placed = moving, moving.placed
+        self.moving, self.placed, self.part_of = moving, moving.placed, moving.part_of
         self.coordinates, self.names = moving.coordinates, moving.coordinates.independent
         self.inertia: dict[str, Inertia] = {}
         self.rotors: list[Rotor] = []
@@ -125,7 +125,7 @@ class Dynamics:
         """Add a body given by mass, centre and tensor in chassis axes at the design position."""
         placed = self.placed[body.name]
         mass = sp.Symbol(f"{body.name}_mass")
-        com = placed.kin.local(placed, body.center)
+        com = self.part_of[placed.body].local(placed, body.center)
         own = self.inertia[body.name]
         own.add_point(mass, com)
         own.tensor += self._own_tensor(body).in_axes(self._chassis_axes(placed))
@@ -134,7 +134,7 @@ class Dynamics:
         if body.rotor_axis is None:
             return SymmetricTensor(*(sp.Symbol(f"{body.name}_inertia_{e}") for e in ELEMENTS))
         spin, across = self._rotor_moments(body)
-        part = self.placed[body.name].kin
+        part = self.part_of[body.name]
         axis = part.to_ground(part.design_direction(body.rotor_axis))
         axis = self.program.vector(f"{body.name}_rotor_axis", axis)
         tensor = SymmetricTensor.transverse(across, axis)
@@ -151,7 +151,7 @@ class Dynamics:
 
     def _chassis_axes(self, placed: BodyMotion) -> tuple[Vector, Vector, Vector]:
         """Return the body axes at the design position, in chassis axes."""
-        names, part = ("first", "second", "third"), placed.kin
+        names, part = ("first", "second", "third"), self.part_of[placed.body]
         x, y, z = (
             self.program.vector(f"{placed.body}_{name}_in_chassis", part.to_ground(axis))
             for name, axis in zip(names, placed.design_axes, strict=True)
@@ -166,7 +166,9 @@ class Dynamics:
         assert isinstance(joint, Revolute)
         axis = self._bearing_axis(joint, carrier)
         own = self.inertia[carrier.body]
-        own.add_point(sp.Symbol(f"{body.name}_mass"), carrier.kin.local(carrier, body.center))
+        own.add_point(
+            sp.Symbol(f"{body.name}_mass"), self.part_of[carrier.body].local(carrier, body.center)
+        )
         own.tensor += SymmetricTensor.transverse(across, axis)
         self.rotors.append(Rotor(coordinate, body, carrier, axis, spin))
 
@@ -176,8 +178,8 @@ class Dynamics:
         The axis of the rotor is the same line, but may point the other way.
         """
         if isinstance(joint.axis.towards, Direction) and joint.angle_to is None:
-            return carrier.kin.local_direction(carrier, joint.axis.towards)
-        positive = positive_axis_at_design(carrier.kin, joint)
+            return self.part_of[carrier.body].local_direction(carrier, joint.axis.towards)
+        positive = positive_axis_at_design(self.part_of[carrier.body], joint)
         n = to_axes(carrier.design_axes, positive)
         return self.program.vector(f"{joint.name}_axis_on_{carrier.body}", n, "123")
 
@@ -245,7 +247,7 @@ class Dynamics:
     def _add_full_bias(self, placed: BodyMotion, inertia: Inertia, columns: list[str]) -> None:
         """Newton-Euler at the bias acceleration, projected on each column."""
         body, program = placed.body, self.program
-        bias, omega = placed.bias(), placed.kin.total(placed).angular
+        bias, omega = placed.bias(), self.part_of[placed.body].total(placed).angular
         whirl = program.vector(f"{body}_whirl_moment", omega.cross(inertia.moment), "123")
         spin = program.vector(f"{body}_spin_now", inertia.tensor @ omega, "123")
         force = program.vector(
@@ -266,7 +268,7 @@ class Dynamics:
         """Gyroscopic part of a rotor on its carrier; the rest is in `_solve` and `full`."""
         if self.coordinates.pace_of(rotor.carrier) != 1:
             return  # axis x omega is perpendicular to omega, the only direction of motion
-        omega = rotor.carrier.kin.total(rotor.carrier).angular
+        omega = self.part_of[rotor.carrier.body].total(rotor.carrier).angular
         spin = self.coordinates.true_rate(rotor.coordinate) + rotor.axis.dot(omega)
         momentum = self.program.define(f"{rotor.body.name}_spin_momentum", rotor.inertia * spin)
         swing = omega.cross(rotor.axis)

@@ -39,14 +39,15 @@ class InMotion:
         Those that are driven.
     parts
         The kinematics of each part.
-    placed
-        Every body, with the kinematics of its part; of what all parts have in common, the first.
+    placed, part_of
+        Every body, and the part that it is in; of what all parts have in common, the first.
     """
 
     program: Program
     coordinates: Coordinates
     parts: tuple[Kinematics, ...]
     placed: dict[str, BodyMotion]
+    part_of: dict[str, Kinematics]
 
     @classmethod
     def of(cls, program: Program, plan: Plan, held: Iterable[str] = ()) -> InMotion:
@@ -60,10 +61,11 @@ class InMotion:
         coordinates = Coordinates(plan.model, held)
         common, groups = independent_groups(plan)
         parts = tuple(_moved(program, plan, common | group, coordinates) for group in groups)
-        placed: dict[str, BodyMotion] = {}
+        part_of: dict[str, Kinematics] = {}
         for part in parts:
-            placed |= {body: p for body, p in part.placed.items() if body not in placed}
-        return cls(program, coordinates, parts, placed)
+            part_of |= {body: part for body in part.placed if body not in part_of}
+        placed = {body: part.placed[body] for body, part in part_of.items()}
+        return cls(program, coordinates, parts, placed, part_of)
 
     @property
     def model(self) -> Model:
@@ -87,7 +89,7 @@ class InMotion:
         ends = first, second
         part = self.part_with(*(body for body, _ in ends))
         if part is None:
-            one, other = (_in_ground_axes(self.placed[body], point) for body, point in ends)
+            one, other = (_in_ground_axes(self.part_of[body], body, point) for body, point in ends)
         else:
             one, other = (part.point_motion(body, point) for body, point in ends)
         return other.minus(one)
@@ -108,9 +110,8 @@ def _moved(program: Program, plan: Plan, bodies: set[str], coordinates: Coordina
     return kin
 
 
-def _in_ground_axes(placed: BodyMotion, point: Point) -> PointMotion:
-    part = placed.kin
-    motion = part.point_motion(placed.body, point)
+def _in_ground_axes(part: Kinematics, body: str, point: Point) -> PointMotion:
+    motion = part.point_motion(body, point)
     return PointMotion(
         part.to_ground(motion.position) + part.work_origin,
         {k: part.to_ground(velocity) for k, velocity in motion.motion.items()},

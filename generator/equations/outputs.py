@@ -328,7 +328,7 @@ class _Builder:
             "Closure residuals g(beta, q) of Eqs. 4 to 13 for given beta.",
             {f"g_{name}": left for name, left in self._residuals().items()},
         )
-        if all(self.relative[self.motion.placed[body].kin].reaches(body) for body in self.massive):
+        if all(self.relative[self.motion.part_of[body]].reaches(body) for body in self.massive):
             self._add_absolute(list(values))
         self._add_global()
 
@@ -343,7 +343,7 @@ class _Builder:
     def _add_absolute(self, betas: list[str]) -> None:
         results = {}
         for body in self.massive:
-            columns = self.relative[self.motion.placed[body].kin].absolute_jacobian(body)
+            columns = self.relative[self.motion.part_of[body]].absolute_jacobian(body)
             for row, label in enumerate(self._twist_labels(body)):
                 for beta in betas:
                     angular, linear = columns.get(beta, (ZERO, ZERO))
@@ -382,10 +382,10 @@ class _Builder:
         if coordinate not in placed.motion:
             return [sp.Integer(0)] * 6
         twist = placed.motion[coordinate]
-        center = placed.kin.local(placed, self.mechanism.body(body).center)
+        center = self.motion.part_of[placed.body].local(placed, self.mechanism.body(body).center)
         velocity = twist.linear + twist.angular.cross(center)
         parts = (from_axes(placed.axes, v) for v in (twist.angular, velocity))
-        return [c for part in parts for c in placed.kin.to_ground(part)]
+        return [c for part in parts for c in self.motion.part_of[placed.body].to_ground(part)]
 
     # -- poses ----------------------------------------------------------------------------------
 
@@ -425,15 +425,15 @@ class _Builder:
 
     def _center(self, placed: BodyMotion) -> Vector:
         """Return the centre of mass in chassis axes."""
-        local = placed.kin.local(placed, self.mechanism.body(placed.body).center)
+        part = self.motion.part_of[placed.body]
+        local = part.local(placed, self.mechanism.body(placed.body).center)
         work = placed.origin + from_axes(placed.axes, local)
-        part = placed.kin
         return part.to_ground(work) + part.work_origin
 
     def _orientation(self, placed: BodyMotion) -> dict[str, sp.Expr]:
         if placed.axes is IDENTITY:
             return {f"R{a}{b}": sp.Integer(int(a == b)) for a in AXES for b in AXES}
-        part = placed.kin
+        part = self.motion.part_of[placed.body]
         now = [part.to_ground(axis) for axis in placed.axes]
         design = [part.to_ground(axis) for axis in placed.design_axes]
         return {

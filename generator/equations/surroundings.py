@@ -40,7 +40,8 @@ class Seen:
     def __init__(
         self, moving: InMotion, momenta: Momenta, accelerations: Mapping[str, sp.Expr]
     ) -> None:
-        self._moving, self._placed, self._driven = moving, moving.placed, moving.coordinates
+        self._moving, self._placed, self._part_of = moving, moving.placed, moving.part_of
+        self._driven = moving.coordinates
         self.program, self.mechanism = moving.program, moving.mechanism
         self.independent, self.coordinates = self._driven.independent, self._driven.moving
         self._momenta, self._accelerations = momenta, accelerations
@@ -64,17 +65,17 @@ class Seen:
     def local(self, body: str, point: Point) -> Vector:
         """Return the constant coordinates of a point, in body axes."""
         placed = self._placed[body]
-        return placed.kin.local(placed, point)
+        return self._part_of[body].local(placed, point)
 
     def direction(self, body: str, direction: Direction) -> Vector:
         """Return the constant components of a direction fixed in a body, in body axes."""
         placed = self._placed[body]
-        return placed.kin.local_direction(placed, direction)
+        return self._part_of[body].local_direction(placed, direction)
 
     def up(self, body: str) -> Vector:
         """Return the upward unit vector of the world, in body axes."""
         placed = self._placed[body]
-        up = to_axes(placed.axes, placed.kin.design_direction(UP))
+        up = to_axes(placed.axes, self._part_of[body].design_direction(UP))
         return self.program.vector(f"{body}_up", up, "123")
 
     def twists(self, body: str) -> Mapping[str, Twist]:
@@ -87,32 +88,32 @@ class Seen:
 
     def height(self, body: str, local: Vector) -> sp.Expr:
         """Return the height of a point of a body in the world."""
-        placed = self._placed[body]
-        origin = placed.origin.dot(placed.kin.design_direction(UP)) + placed.kin.work_origin.z
+        placed, part = self._placed[body], self._part_of[body]
+        origin = placed.origin.dot(part.design_direction(UP)) + part.work_origin.z
         return origin + local.dot(self.up(body))
 
     def place(self, body: str, local: Vector) -> Vector:
         """Return the position of a point of a body in the world."""
-        placed = self._placed[body]
+        placed, part = self._placed[body], self._part_of[body]
         work = placed.origin + from_axes(placed.axes, local)
-        return placed.kin.to_ground(work) + placed.kin.work_origin
+        return part.to_ground(work) + part.work_origin
 
     def in_world(self, body: str, vector: Vector) -> Vector:
         """Return the components in the world of a vector in body axes."""
         placed = self._placed[body]
-        return placed.kin.to_ground(from_axes(placed.axes, vector))
+        return self._part_of[body].to_ground(from_axes(placed.axes, vector))
 
     def rising(self, body: str, local: Vector) -> sp.Expr:
         """Return the upward acceleration of a point that the coordinates' own leave over."""
         placed = self._placed[body]
-        own = self.up(body).dot(placed.kin.point_bias(placed, local))
+        own = self.up(body).dot(self._part_of[body].point_bias(placed, local))
         return own * self._driven.pace_of(placed) ** 2
 
     # -- paths ------------------------------------------------------------------------------------
 
     def telescope(self, joint: str) -> tuple[sp.Expr, Motion, sp.Expr]:
         """Return length of a telescope, its rate per unit rate, and its slide."""
-        part = self._part_of(joint)
+        part = self._with_joint(joint)
         line = part.telescopes[joint]
         return line.length, line.length_motion, part.slides[joint]
 
@@ -120,10 +121,10 @@ class Seen:
         """Return the angle of a hinge, and its rate per unit rate of each coordinate."""
         hinge = self.mechanism.joint(joint)
         assert isinstance(hinge, Revolute)  # checked with the mechanism
-        part = self._part_of(joint)
+        part = self._with_joint(joint)
         return angle_of(part, hinge), turning_rates(part, hinge)
 
-    def _part_of(self, joint: str) -> Kinematics:
+    def _with_joint(self, joint: str) -> Kinematics:
         """Return the part that a joint belongs to: nothing closes between two parts."""
         part = self._moving.part_with(*self.mechanism.joint(joint).bodies)
         assert part is not None
@@ -138,4 +139,4 @@ class Seen:
 
     def extent(self, body: str, point: Point) -> Vector:
         """Return where a point is at the design position: a measure of size."""
-        return self._placed[body].kin.design(point)
+        return self._part_of[body].design(point)

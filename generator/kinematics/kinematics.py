@@ -118,7 +118,7 @@ class Kinematics:
                 y = Vector(y.x, y.y, sp.Integer(0))
             self.work_axes = (x, y, z)
         ground = self.mechanism.ground
-        self.placed[ground] = BodyMotion(self, ground)
+        self.placed[ground] = BodyMotion(ground)
 
     def _hinge_axes(self, hinge: Revolute) -> tuple[Vector, Vector]:
         """Return the positive hinge axis and the reference of its angle, in chassis axes."""

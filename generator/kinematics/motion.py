@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     import sympy as sp
 
     from ..declare.joints import Cylindrical
-    from .kinematics import Kinematics
 
 Axes = tuple[Vector, Vector, Vector]
 IDENTITY: Axes = (UNIT_X, UNIT_Y, UNIT_Z)
@@ -43,8 +42,6 @@ class BodyMotion:
 
     Attributes
     ----------
-    kin
-        The kinematics that placed it, in whose work axes it is.
     origin, axes
         Origin of the body axes and their directions.
     design_origin, design_axes
@@ -60,7 +57,6 @@ class BodyMotion:
         The hinge whose axis is the first of the body axes, if one placed the body.
     """
 
-    kin: Kinematics = field(repr=False)
     body: str
     origin: Vector = ZERO
     axes: Axes = IDENTITY

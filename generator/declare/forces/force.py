@@ -12,10 +12,10 @@ if TYPE_CHECKING:
 
     import sympy as sp
 
-    from ..assembly import Assembly
     from ..copying import Copying
     from ..shown import Shown
     from ..surroundings import Surroundings
+    from ..whole import Whole
 
 
 @dataclass(frozen=True)
@@ -65,12 +65,12 @@ class Force(ABC):
         del at, action
         yield from ()
 
-    def inputs(self, mechanism: Assembly) -> list[str]:
+    def inputs(self, mechanism: Whole) -> list[str]:
         """Return the inputs that it reads."""
         del mechanism
         return []
 
-    def problems(self, mechanism: Assembly) -> list[str]:
+    def problems(self, mechanism: Whole) -> list[str]:
         """Say what it names that the mechanism has not, or that cannot be."""
         del mechanism
         return []

@@ -17,9 +17,9 @@ from .force import Action, Force
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from ..assembly import Assembly
     from ..copying import Copying
     from ..surroundings import Surroundings
+    from ..whole import Whole
 
 
 @declared
@@ -56,7 +56,7 @@ class ForceElement(Force):
         """Return what the signal of one of its laws is called, without the element's name."""
         return law.signal.replace("force", self.path.words.force)
 
-    def shown_as(self, law: Law, mechanism: Assembly) -> str:
+    def shown_as(self, law: Law, mechanism: Whole) -> str:
         """Return the name of a law's signal, with the element's where others have it too.
 
         That of a moment always has it: it is rarely the only thing that springs.
@@ -85,7 +85,7 @@ class ForceElement(Force):
         total = program.define(f"{name}_total_force", total)
         return Action({k: total * m for k, m in course.motion.items()}, values)
 
-    def _by_signal(self, mechanism: Assembly) -> dict[str, list[Law]]:
+    def _by_signal(self, mechanism: Whole) -> dict[str, list[Law]]:
         """Return the laws by the names of their signals; those of one name are shown together."""
         groups: dict[str, list[Law]] = {}
         for law in self.laws:
@@ -115,12 +115,12 @@ class ForceElement(Force):
         for name, (unit, meaning) in described.items():
             yield Shown(name, action.values[name], unit, meaning)
 
-    def inputs(self, mechanism: Assembly) -> list[str]:
+    def inputs(self, mechanism: Whole) -> list[str]:
         """Return what its laws read."""
         del mechanism
         return [name for law in self.laws for name in law.inputs]
 
-    def problems(self, mechanism: Assembly) -> list[str]:
+    def problems(self, mechanism: Whole) -> list[str]:
         """Say what path and laws name that the mechanism has not, or that cannot be together."""
         what = f"ForceElement {self.name!r}"
         problems = self.path.problems(mechanism, what)

@@ -12,9 +12,9 @@ from ..known import unknown
 from .force import Action, Force
 
 if TYPE_CHECKING:
-    from ..assembly import Assembly
     from ..copying import Copying
     from ..surroundings import Surroundings
+    from ..whole import Whole
 
 
 @declared
@@ -39,12 +39,12 @@ class JointForce(Force):
         """Append the force; it does its work on the coordinate."""
         return Action({at.coordinate(self.joint): sp.Symbol(self.input)})
 
-    def inputs(self, mechanism: Assembly) -> list[str]:
+    def inputs(self, mechanism: Whole) -> list[str]:
         """Return the force."""
         del mechanism
         return [self.input]
 
-    def problems(self, mechanism: Assembly) -> list[str]:
+    def problems(self, mechanism: Whole) -> list[str]:
         """Say which of its names are not declared."""
         joints = [j.name for j in mechanism.joints]
         problems = unknown("JointForce: joint", [self.joint], joints)

@@ -19,9 +19,9 @@ from .force import Action, Force
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from ..assembly import Assembly
     from ..copying import Copying
     from ..surroundings import Surroundings
+    from ..whole import Whole
 
 
 @declared
@@ -65,7 +65,7 @@ class LinearTyre(Force):
         """Its name."""
         return "force", self.name
 
-    def prefix(self, mechanism: Assembly) -> str:
+    def prefix(self, mechanism: Whole) -> str:
         """Return what begins the names of its signals: nothing, where it is alone."""
         alone = sum(isinstance(f, LinearTyre) for f in mechanism.forces) == 1
         return "" if alone else f"{self.name}_"
@@ -124,12 +124,12 @@ class LinearTyre(Force):
         meaning = "tyre force in the wheel plane, positive in compression"
         yield from (Shown(name, value, "N", meaning) for name, value in action.values.items())
 
-    def inputs(self, mechanism: Assembly) -> list[str]:
+    def inputs(self, mechanism: Whole) -> list[str]:
         """Return the height of the road, and its rate where that counts."""
         rate = None if self.damper is None else derivative(self.road, mechanism.inputs)
         return [self.road] if rate is None else [self.road, rate]
 
-    def problems(self, mechanism: Assembly) -> list[str]:
+    def problems(self, mechanism: Whole) -> list[str]:
         """Say which of its names are not declared."""
         bodies = [b.name for b in mechanism.bodies]
         problems = unknown("LinearTyre: body", [self.wheel.carrier], bodies)
