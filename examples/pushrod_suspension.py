@@ -23,6 +23,7 @@ from kintrafo.generator import (
     Spherical,
     Universal,
     Weight,
+    Wheel,
     direction,
     point,
     rigid_body,
@@ -88,9 +89,7 @@ FORCES = (
     ),
     LinearTyre(
         name="tyre",
-        carrier="arm",
-        center=WHEEL_CENTER,
-        spin=Direction("spin_axis"),
+        wheel=Wheel("arm", WHEEL_CENTER, Direction("spin_axis")),
         rate="tyre_rate",
         free_height="tyre_free_height",
         road="road_height",
@@ -123,6 +122,7 @@ PARAMETERS = (
 
 MECHANISM = Mechanism(
     name="pushrod_suspension",
+    fixed="chassis",
     title="Pushrod suspension",
     bodies=BODIES,
     joints=JOINTS,

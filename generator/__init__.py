@@ -25,22 +25,19 @@ What a declaration is made of can be imported from here.
 from . import memory  # noqa: F401 (before SymPy is imported)
 from .declare.assembly import Body, Parameter, RelativeCoordinate
 from .declare.declared import DeclarationError
-from .declare.forces import (
-    AlongLine,
-    AlongTelescope,
-    ForceElement,
-    JointForce,
-    LinearTyre,
-    TwistOfHinges,
-    Weight,
-)
+from .declare.forces.force_element import ForceElement
+from .declare.forces.joint_force import JointForce
+from .declare.forces.linear_tyre import LinearTyre
+from .declare.forces.weight import Weight
 from .declare.geometry import FORWARD, UP, Direction, Line, Point
 from .declare.inputs import Input, motion
-from .declare.joints import Cylindrical, Prismatic, Revolute, Spherical, Universal
+from .declare.joints import Cylindrical, Free, Prismatic, Revolute, Spherical, Universal
 from .declare.laws import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
 from .declare.mechanism import Mechanism
 from .declare.model import Model
 from .declare.parameters import direction, point, rigid_body, rotor
+from .declare.paths import AlongLine, AlongTelescope, TwistOfHinges
+from .declare.wheel import Wheel
 
 __all__ = [
     "FORWARD",
@@ -54,6 +51,7 @@ __all__ = [
     "DeclarationError",
     "Direction",
     "ForceElement",
+    "Free",
     "Friction",
     "Input",
     "JointForce",
@@ -73,6 +71,7 @@ __all__ = [
     "TwistOfHinges",
     "Universal",
     "Weight",
+    "Wheel",
     "direction",
     "motion",
     "point",

@@ -143,6 +143,7 @@ def declare(
     )
     mechanism = Mechanism(
         name=name,
+        fixed="ground",
         title=name,
         bodies=(
             Body("ground", 0, center=Point(f"{next(iter(bodies))}_com")),

@@ -53,6 +53,7 @@ def yoke(name: str, *, turned: bool = False, carried: bool = False) -> Model:
     )
     mechanism = Mechanism(
         name=name,
+        fixed="ground",
         title="Scotch yoke",
         bodies=(
             Body("ground", 0, center=flat("crank_bearing")),

@@ -129,6 +129,7 @@ def declared(
     )
     mechanism = Mechanism(
         name=name,
+        fixed="ground",
         title=name,
         bodies=(
             Body("ground", 0, center=Point(next(iter(points)))),
@@ -363,6 +364,7 @@ def fan(*, axis: Place = (0.3, 0.9, -0.2), center: Place = (0.1, 0.2, 0.3)) -> M
         "Fan",
         Mechanism(
             name="fan",
+            fixed="ground",
             title="Fan",
             bodies=(
                 Body("ground", 0, center=Point("foot")),

@@ -221,6 +221,7 @@ def pendulum(first: str, second: str) -> Model:
     """Return a double pendulum about oblique axes, with everything between its two hinges."""
     mechanism = Mechanism(
         name="pendulum",
+        fixed="ground",
         title="Double pendulum",
         bodies=(
             Body("ground", 0, center=PIVOT),

@@ -22,7 +22,7 @@ from kintrafo.generator.closed_forms.idle import PlaceIdle
 from kintrafo.generator.declare.composition import combined, copy
 from kintrafo.generator.equations.design import _angle, design_coordinates
 from kintrafo.generator.equations.dynamics import Dynamics
-from kintrafo.generator.equations.parts import Parts
+from kintrafo.generator.equations.in_motion import InMotion
 from kintrafo.generator.mechanisms import MODELS, chains, multi_link
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.generator.planning.plan import Plan
@@ -98,14 +98,14 @@ class Moving:
             derived={sp.Symbol(n): value for n, value in mechanism.derived.items()},
         )
         program = Program(stage)
-        kin = Parts(program, plan)
+        kin = InMotion.of(program, plan)
         found = Dynamics(kin).accelerations
-        results = [stage.insert_derived(found[k]) for k in kin.independent]
+        results = [stage.insert_derived(found[k]) for k in kin.coordinates.independent]
         steps = stage.steps | program.steps
         needed = ancestors(steps, results)
         return cls(
             model,
-            tuple(kin.independent),
+            tuple(kin.coordinates.independent),
             _derived(mechanism),
             _function([steps[s] for s in steps if s in needed], results, stage.blocks.values()),
         )

@@ -275,7 +275,7 @@ class TestJoints:
             replace(RUSR, coordinates=(*RUSR.coordinates, turn))
 
     def test_without_bodies(self):
-        with pytest.raises(DeclarationError, match="no bodies; the first one is the ground"):
+        with pytest.raises(DeclarationError, match="no bodies; one of them is fixed"):
             replace(RUSR, bodies=())
 
     def test_none_reported_at_the_ground(self, tmp_path):
@@ -300,6 +300,7 @@ def boom():
     bodies = [Body(n, i, center=Point(f"{n}_com")) for i, n in enumerate(centres, 1)]
     mechanism = Mechanism(
         name="boom",
+        fixed="ground",
         title="Boom",
         bodies=(Body("ground", 0, center=Point("foot")), *bodies),
         joints=(
@@ -377,6 +378,7 @@ def stephenson(*reported):
     bodies = ("crank", "coupler", "rocker", "link", "lever")
     return Mechanism(
         name="stephenson",
+        fixed="ground",
         title="Stephenson's chain",
         bodies=tuple(Body(n, i, center=Point("a")) for i, n in enumerate(("ground", *bodies))),
         joints=(

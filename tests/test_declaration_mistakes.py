@@ -485,7 +485,7 @@ MISTAKES = {
         ),
         ["points 'spring_ground' and 'coupler_com'", "coincide", "check the defaults"],
     ),
-    "no bodies": (lambda: four_bar(bodies=()), ["no bodies", "the first one is the ground"]),
+    "no bodies": (lambda: four_bar(bodies=()), ["no bodies", "one of them is fixed"]),
     "misspelt independent joint": (
         lambda: model(independent=("a",)),
         ["independent joint 'a' is not declared", "A"],

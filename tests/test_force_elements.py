@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from kintrafo.generator import AlongLine, ForceElement, LinearDamper, LinearSpring, Parameter
 from kintrafo.generator.equations.dynamics import Dynamics
-from kintrafo.generator.equations.parts import Parts
+from kintrafo.generator.equations.in_motion import InMotion
 from kintrafo.generator.mechanisms import macpherson
 from kintrafo.generator.planning.plan import Plan
 from kintrafo.generator.program import ConstantStage, Program
@@ -30,7 +30,7 @@ def accelerations(model, parameters):
     symbols = tuple(Symbol(p.name) for p in model.mechanism.parameters)
     constants = ConstantStage(symbols)
     program = Program(constants)
-    dynamics = Dynamics(Parts(program, Plan.of(model)))
+    dynamics = Dynamics(InMotion.of(program, Plan.of(model)))
     function = program.function("rhs", "", dict(dynamics.accelerations))
     prepare = constants.function([function])
     given = {name: mpmath.mpf(value) for name, value in parameters.items()}

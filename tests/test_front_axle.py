@@ -19,8 +19,8 @@ from kintrafo import System, simulate
 from kintrafo.generated import front_axle, macpherson
 from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.equations.dynamics import Dynamics
+from kintrafo.generator.equations.in_motion import InMotion
 from kintrafo.generator.equations.outputs import generate
-from kintrafo.generator.equations.parts import Parts
 from kintrafo.generator.mechanisms import front_axle as declaration
 from kintrafo.generator.planning.plan import Plan
 from kintrafo.generator.program import ConstantStage, Program
@@ -407,7 +407,7 @@ def accelerations(model: Model, given: dict[str, float], values: dict[str, float
         derived={sp.Symbol(n): value for n, value in mechanism.derived.items()},
     )
     program = Program(constants)
-    dynamics = Dynamics(Parts(program, Plan.of(model)))
+    dynamics = Dynamics(InMotion.of(program, Plan.of(model)))
     function = program.function("rhs", "", dict(dynamics.accelerations))
     prepare = constants.function([function])
     known = dict(zip(prepare.labels, python(prepare)(given), strict=True))

@@ -21,7 +21,7 @@ from kintrafo.generator.mechanisms import MODELS as SHIPPED
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from oracle.constraints import Array
 from oracle.maximal import Jet, Motion, Oracle, Reduced
-from oracle.reference import completed, general_parameters
+from oracle.reference import completed, further_parameters, general_parameters
 from own_models import Built, needs_gcc, own, shipped
 from scipy.integrate import solve_ivp
 from symbolic import constants_of, python
@@ -154,6 +154,9 @@ def changed(model: Model, rng: np.random.Generator) -> dict[str, float]:
             new[p.name] = p.default * inertia[p.name.split("_inertia_")[0]]
         else:
             new[p.name] = p.default * rng.uniform(0.8, 1.2)
+    if model.name == "double_wishbone_general":
+        ends = (np.array([new[f"spring_{end}_{a}"] for a in "xyz"]) for end in ("top", "seat"))
+        new |= further_parameters(rng, "damper", float(np.linalg.norm(np.subtract(*ends))))
     return new
 
 

@@ -56,6 +56,7 @@ def crane(driven: str) -> Model:
     centers = {"boom_com": (0.1, 0.9), "barrel_com": (0.8, 0.3), "piston_com": (0.3, 0.9)}
     mechanism = Mechanism(
         name=f"crane_{driven}",
+        fixed="ground",
         title="Crane",
         bodies=(
             Body("ground", 0, center=flat("foot")),

@@ -356,6 +356,7 @@ from kintrafo.generator import *
 PIVOT, ELBOW, AXIS = Point("pivot"), Point("elbow"), Direction("axis")
 PENDULUM = Mechanism(
     name="double_pendulum",
+    fixed="ground",
     title="Double pendulum",
     bodies=(
         Body("ground", 0, center=PIVOT),

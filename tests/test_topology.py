@@ -216,6 +216,7 @@ def joint_between(kind: type[Joint], name: str, first: str, second: str) -> Join
 def mechanism_of(count: int, joints: list[Joint]) -> Mechanism:
     return Mechanism(
         name="any",
+        fixed="body_0",
         title="any",
         bodies=tuple(Body(f"body_{i}", i, center=P) for i in range(count)),
         joints=tuple(joints),

@@ -383,7 +383,9 @@ def _add_motion(kin: Kinematics, held: _Held, solved: _Solved, placed: BodyMotio
         twist = twist_of(solve(f"{body}_{k}", slips), base)
         placed.motion[k] = now = kin.define_twist(body, k, twist)
         for i, (rod, start) in enumerate(zip(held.rods, starts, strict=True)):
-            rates[i] += (now.linear - start + now.angular.cross(rod.equation.end)) * kin.rate(k)
+            rates[i] += (
+                now.linear - start + now.angular.cross(rod.equation.end)
+            ) * kin.coordinates.rate(k)
 
     def bias() -> Twist:
         omega = kin.total(placed).angular

@@ -156,13 +156,16 @@ class Elbow(Leg):
             f"{' and '.join(self.links)} coincide",
             "move one of the two",
         )
-        coordinate = kin.coordinate_of(self.pair.joint)
+        coordinate = kin.coordinates.of(self.pair.joint)
         stretch, bias = {}, sp.Integer(0)
-        if coordinate in kin.moving:
+        if coordinate in kin.coordinates.moving:
             slope = bend.skew * bend.cosine - reach * bend.sine
             slope = program.define(f"{name}_stretch", slope)
             stretch[coordinate] = slope
-            bias = slope * kin.acceleration(coordinate) - near * kin.rate(coordinate) ** 2
+            bias = (
+                slope * kin.coordinates.acceleration(coordinate)
+                - near * kin.coordinates.rate(coordinate) ** 2
+            )
         length = program.define(f"{name}_length_now", sp.sqrt(squared))
         return Rod(f"pair of {' and '.join(self.links)}", design, length, squared, stretch, bias)
 
@@ -247,7 +250,7 @@ class _Bend:
         v = program.vector(
             f"{joint.name}_second_way", kin.design(pair.end) - kin.design(pair.middle)
         )
-        angle = kin.coordinates[kin.coordinate_of(joint)]
+        angle = kin.coordinates.symbol(joint)
         if joint.angle_to is not None:
             start = HingeDesign.of(kin, joint).angle(program, joint.name)
             angle = program.define(f"{joint.name}_bent", angle - start)
@@ -320,8 +323,11 @@ def _place(
         carrier=(parent.body, kin.local(parent, hinge.through)),
         hinge=hinge.first_axis_of,
     )
-    turning, coordinate = TurningBody(kin, placed, hinge.origin, end), kin.coordinate_of(pair.joint)
-    moves = coordinate in kin.moving
+    turning, coordinate = (
+        TurningBody(kin, placed, hinge.origin, end),
+        kin.coordinates.of(pair.joint),
+    )
+    moves = coordinate in kin.coordinates.moving
     grip = Vector(ZERO.x, -s.z, s.y)  # n x s
     for k in turning.moved_by([coordinate] if moves else []):
         given = turning.rates(k)
@@ -333,9 +339,11 @@ def _place(
 
     def bias() -> Twist:
         given, omega = turning.biases(), kin.total(placed).angular
-        rate = kin.rate(coordinate) if moves else sp.Integer(0)
+        rate = kin.coordinates.rate(coordinate) if moves else sp.Integer(0)
         pull = given.target - given.base - omega.cross(omega.cross(s)) - given.carried.cross(s)
-        pull -= omega.cross(reach.swing * rate) * 2 + reach.swing * kin.acceleration(coordinate)
+        pull -= omega.cross(reach.swing * rate) * 2 + reach.swing * kin.coordinates.acceleration(
+            coordinate
+        )
         pull -= reach.curl * rate**2
         turn = program.define(f"{body}_turn_bias", grip.dot(pull) * inverse)
         return kin.define_bias(body, Twist(given.carried + UNIT_X * turn, given.base))

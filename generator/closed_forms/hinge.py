@@ -122,7 +122,7 @@ def place_on_hinge(kin: Kinematics, hinge: Hinge, axes: Axes, condition: Conditi
         turn = program.define(f"{body}_turn_{k}", fitted * hold)
         omega = program.vector(f"{body}_omega_{k}", given.carried + UNIT_X * turn, "123")
         placed.motion[k] = Twist(omega, given.base)
-        rate += (given.base - given.target + omega.cross(arm)) * kin.rate(k)
+        rate += (given.base - given.target + omega.cross(arm)) * kin.coordinates.rate(k)
 
     def bias() -> Twist:
         now = program.vector(f"{body}_rod_rate", rate, "123")

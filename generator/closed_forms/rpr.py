@@ -198,12 +198,12 @@ class PinnedTelescope(Leg):
         extension = guide.known_extension(kin, extent)
         beside = guide.start.x**2 + guide.start.z**2
         squared = kin.program.define(f"{near}_length_squared", extension**2 + beside)
-        coordinate = kin.coordinate_of(telescope.joint)
+        coordinate = kin.coordinates.of(telescope.joint)
         stretch, bias = {}, sp.Integer(0)
-        if coordinate in kin.moving:
+        if coordinate in kin.coordinates.moving:
             stretch[coordinate] = telescope.sense * extension
-            given = telescope.sense * kin.acceleration(coordinate)
-            bias = kin.rate(coordinate) ** 2 + extension * given
+            given = telescope.sense * kin.coordinates.acceleration(coordinate)
+            bias = kin.coordinates.rate(coordinate) ** 2 + extension * given
         name = f"telescope of {telescope.links}"
         return Rod(name, design, sp.sqrt(squared), squared, stretch, bias)
 
@@ -294,7 +294,7 @@ class _Guide:
     def known_extension(self, kin: Kinematics, extent: sp.Expr) -> sp.Expr:
         """Return c + x of a telescope of known slide x."""
         telescope = self.telescope
-        slide = kin.coordinates[kin.coordinate_of(telescope.joint)]
+        slide = kin.coordinates.symbol(telescope.joint)
         drawn = kin.program.guarded(
             f"{telescope.near}_extension",
             self.branch * (self.start.y + telescope.sense * slide),
@@ -376,7 +376,7 @@ def _place(kin: Kinematics, pins: _Pins, extension: sp.Expr) -> None:
         )
         omega = program.vector(f"{near}_omega_{k}", given.carried + UNIT_X * turn, "123")
         link.motion[k], other.motion[k] = Twist(omega, base), Twist(omega, target)
-        growth += (target - base - omega.cross(arm)).y * kin.rate(k)
+        growth += (target - base - omega.cross(arm)).y * kin.coordinates.rate(k)
 
     def bias() -> Twist:
         given, omega = turning.biases(), kin.total(link).angular

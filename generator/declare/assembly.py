@@ -8,10 +8,12 @@ from dataclasses import dataclass, field
 import sympy as sp
 
 from .declared import Name, Number, Numeral, declared
-from .forces import Force, ForceElement, LinearTyre
+from .forces import Force
+from .forces.force_element import ForceElement
 from .geometry import Direction, Point
 from .inputs import Input
 from .joints import Cylindrical, Joint, Spherical, Universal
+from .world import WORLD
 
 _ENDS = 2  # of a rod
 
@@ -88,11 +90,17 @@ class Assembly:
     coordinates: tuple[RelativeCoordinate, ...]
     inputs: tuple[Input, ...] = ()
     derived: Mapping[Name, sp.Expr] = field(default_factory=dict)
+    fixed: Name | None = None
 
     @property
     def ground(self) -> str:
-        """Name of the reference body."""
-        return self.bodies[0].name
+        """Name of what all motion is relative to: the fixed body, or the world itself."""
+        return self.fixed or WORLD
+
+    @property
+    def moving(self) -> tuple[Body, ...]:
+        """The bodies that can move."""
+        return tuple(body for body in self.bodies if body.name != self.fixed)
 
     @property
     def input_names(self) -> list[str]:
@@ -110,20 +118,6 @@ class Assembly:
     def input(self, name: str) -> Input:
         """Return an input by its name."""
         return next(i for i in self.inputs if i.name == name)
-
-    def prefix(self, tyre: LinearTyre) -> str:
-        """Return what begins the names of a tyre's signals: nothing, where it is alone."""
-        alone = sum(isinstance(f, LinearTyre) for f in self.forces) == 1
-        return "" if alone else f"{tyre.name}_"
-
-    def signal_name(self, element: ForceElement, signal: str) -> str:
-        """Return the name of a force signal, with the element's where others have it too.
-
-        That of a moment always has it: it is rarely the only thing that springs.
-        """
-        having = [e for e in self.elements if any(e.signal(law) == signal for law in e.laws)]
-        alone = len(having) == 1 and not element.turns
-        return signal if alone else f"{element.name}_{signal}"
 
     @property
     def elements(self) -> list[ForceElement]:
@@ -143,7 +137,7 @@ class Assembly:
         """
         return tuple(
             body.name
-            for body in self.bodies[1:]
+            for body in self.moving
             if len(joints := self.joints_of(body.name)) == _ENDS
             and all(isinstance(joint, Spherical | Cylindrical) for joint in joints)
         )

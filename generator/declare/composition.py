@@ -16,26 +16,15 @@ angles of a universal joint, the declaration's own rule holds on both sides.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields, replace
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import sympy as sp
 
 from ..program.vectors import Vector
 from .declared import DeclarationError
-from .forces import (
-    AlongLine,
-    AlongTelescope,
-    ForceElement,
-    JointForce,
-    LinearTyre,
-    Path,
-    TwistOfHinges,
-    Weight,
-)
 from .geometry import Direction, Line, Point
 from .joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
-from .laws import Stop
 from .mechanism import Mechanism
 
 if TYPE_CHECKING:
@@ -44,7 +33,6 @@ if TYPE_CHECKING:
     from .assembly import Body, Parameter, RelativeCoordinate
     from .forces import Force
     from .inputs import Input
-    from .laws import Law
 
 
 def copy(
@@ -118,6 +106,7 @@ def combined(
         coordinates=tuple(dict.fromkeys(c for part in parts for c in part.coordinates)),
         inputs=(*dict.fromkeys(i for part in parts for i in part.inputs), *inputs),
         derived=derived,
+        fixed=parts[0].fixed,
     )
 
 
@@ -148,7 +137,7 @@ class _Copy:
         source = self.mechanism
         bodies = tuple(map(self._body, source.bodies))
         joints = tuple(map(self._joint, source.joints))
-        forces = tuple(map(self._force, source.forces))
+        forces = tuple(force.copied(self) for force in source.forces)
         coordinates = tuple(map(self._coordinate, source.coordinates))
         self._note_loose_points()
         return replace(
@@ -172,22 +161,26 @@ class _Copy:
         """Tell whether a joint is between shared bodies."""
         return all(map(self._is_shared, self.mechanism.joint(joint).bodies))
 
-    def _new(self, name: str) -> str:
+    def named(self, name: str) -> str:
+        """Return the name of what each copy has for itself."""
         return f"{self.prefix}{name}"
 
-    def _body_name(self, name: str) -> str:
-        return name if self._is_shared(name) else self._new(name)
+    def body(self, name: str) -> str:
+        """Return the name of a body of the copy."""
+        return name if self._is_shared(name) else self.named(name)
 
-    def _joint_name(self, name: str) -> str:
-        return name if self._common(name) else self._new(name)
+    def joint(self, name: str) -> str:
+        """Return the name of a joint of the copy."""
+        return name if self._common(name) else self.named(name)
 
-    def _input(self, name: str) -> str:
-        return name if name in self.shared else self._new(name)
+    def input(self, name: str) -> str:
+        """Return the name of an input of the copy."""
+        return name if name in self.shared else self.named(name)
 
     def _copied_input(self, entry: Input) -> Input:
         source = entry.derivative_of
-        rate_of = None if source is None else self._input(source)
-        return replace(entry, name=self._input(entry.name), derivative_of=rate_of)
+        rate_of = None if source is None else self.input(source)
+        return replace(entry, name=self.input(entry.name), derivative_of=rate_of)
 
     # -- parameters -------------------------------------------------------------------------------
 
@@ -195,7 +188,7 @@ class _Copy:
         """Return the parameters of the declaration, or the copy's own in their place."""
         # `or 0.0`: no minus before a zero
         return tuple(
-            replace(p, name=self._new(p.name), default=self._sign(p.name) * p.default or 0.0)
+            replace(p, name=self.named(p.name), default=self._sign(p.name) * p.default or 0.0)
             if p.name in self.own
             else p
             for p in self.mechanism.parameters
@@ -205,9 +198,9 @@ class _Copy:
         """Return what the copy's names of parameters stand for."""
         values = {p.name: sp.Symbol(p.name) for p in self.mechanism.parameters}
         values |= self.mechanism.derived
-        own = {sp.Symbol(n): self._sign(n) * sp.Symbol(self._new(n)) for n in self.own}
+        own = {sp.Symbol(n): self._sign(n) * sp.Symbol(self.named(n)) for n in self.own}
         return {
-            self._new(n): self._sign(n) * value.xreplace(own)
+            self.named(n): self._sign(n) * value.xreplace(own)
             for n, value in values.items()
             if n not in self.own
         }
@@ -234,30 +227,31 @@ class _Copy:
 
     # -- geometry ---------------------------------------------------------------------------------
 
-    def _point(self, point: Point) -> Point:
+    def point(self, point: Point) -> Point:
+        """Return a point of the copy."""
         self._note(point.name, "y")
-        return replace(point, name=self._new(point.name))
+        return replace(point, name=self.named(point.name))
 
     def _along(self, direction: Direction) -> Direction:
         """Copy a direction of motion, or one that a body shows."""
         if direction.fixed is not None:
             return self._fixed(direction, -1)
         if direction.between is not None:
-            start, end = map(self._point, direction.between)
-            return replace(direction, name=self._new(direction.name), between=(start, end))
+            start, end = map(self.point, direction.between)
+            return replace(direction, name=self.named(direction.name), between=(start, end))
         self._note(direction.name, "y")
-        return replace(direction, name=self._new(direction.name))
+        return replace(direction, name=self.named(direction.name))
 
-    def _about(self, direction: Direction) -> Direction:
+    def axis(self, direction: Direction) -> Direction:
         """Copy an axis of rotation."""
         if direction.fixed is not None:
             return self._fixed(direction, 1)
         if direction.between is not None:
-            start, end = map(self._point, direction.between)
+            start, end = map(self.point, direction.between)
             ends = (end, start) if self.mirrored else (start, end)
-            return replace(direction, name=self._new(direction.name), between=ends)
+            return replace(direction, name=self.named(direction.name), between=ends)
         self._note(direction.name, "x", "z")
-        return replace(direction, name=self._new(direction.name))
+        return replace(direction, name=self.named(direction.name))
 
     def _fixed(self, direction: Direction, sense: int) -> Direction:
         """Copy a direction that is no parameter; one that is its own image keeps its name."""
@@ -266,21 +260,21 @@ class _Copy:
         image = Vector(-sense * x, sense * y, -sense * z) if self.mirrored else direction.fixed
         if image == direction.fixed:
             return direction
-        return replace(direction, name=self._new(direction.name), fixed=image)
+        return replace(direction, name=self.named(direction.name), fixed=image)
 
     def _line(self, line: Line) -> Line:
         if isinstance(line.towards, Point):
-            return Line(self._point(line.through), self._point(line.towards))
-        return Line(self._point(line.through), self._along(line.towards))
+            return Line(self.point(line.through), self.point(line.towards))
+        return Line(self.point(line.through), self._along(line.towards))
 
     def _axis(self, hinge: Revolute) -> Line:
         """Copy the axis of a hinge."""
-        line, through = hinge.axis, self._point(hinge.axis.through)
+        line, through = hinge.axis, self.point(hinge.axis.through)
         if isinstance(line.towards, Direction):
-            return Line(through, self._about(line.towards))
-        towards = self._point(line.towards)
+            return Line(through, self.axis(line.towards))
+        towards = self.point(line.towards)
         if self.mirrored and hinge.angle_to is None:
-            back = Direction(self._new(f"{hinge.name}_axis"), between=(towards, through))
+            back = Direction(self.named(f"{hinge.name}_axis"), between=(towards, through))
             return Line(through, back)
         return Line(through, towards)
 
@@ -292,18 +286,18 @@ class _Copy:
         self._note(f"{body.name}_inertia", "xy", "yz")
         return replace(
             body,
-            name=self._new(body.name),
-            center=self._point(body.center),
-            rotor_axis=None if body.rotor_axis is None else self._about(body.rotor_axis),
+            name=self.named(body.name),
+            center=self.point(body.center),
+            rotor_axis=None if body.rotor_axis is None else self.axis(body.rotor_axis),
         )
 
     def _joint(self, joint: Joint) -> Joint:
         if self._common(joint.name):
             return joint
-        first, second = map(self._body_name, joint.bodies)
-        renamed = replace(joint, name=self._new(joint.name), first=first, second=second)
+        first, second = map(self.body, joint.bodies)
+        renamed = replace(joint, name=self.named(joint.name), first=first, second=second)
         if isinstance(renamed, Revolute):
-            marker = None if renamed.angle_to is None else self._point(renamed.angle_to)
+            marker = None if renamed.angle_to is None else self.point(renamed.angle_to)
             zero = self._along(renamed.angle_from)
             return replace(renamed, axis=self._axis(renamed), angle_to=marker, angle_from=zero)
         if isinstance(renamed, Prismatic):
@@ -312,70 +306,25 @@ class _Copy:
             return replace(
                 renamed,
                 axis=self._line(renamed.axis),
-                angle_to=self._point(renamed.angle_to),
-                length_at_zero_slide=self._new(renamed.length_at_zero_slide),
+                angle_to=self.point(renamed.angle_to),
+                length_at_zero_slide=self.named(renamed.length_at_zero_slide),
             )
         if isinstance(renamed, Universal):
             return replace(
                 renamed,
-                at=self._point(renamed.at),
+                at=self.point(renamed.at),
                 shaft=self._line(renamed.shaft),
                 first_axis=self._along(renamed.first_axis),
             )
-        assert isinstance(renamed, Spherical)
-        return replace(renamed, at=self._point(renamed.at))
+        if isinstance(renamed, Spherical):
+            renamed = replace(renamed, at=self.point(renamed.at))
+        return renamed
 
     def _coordinate(self, coordinate: RelativeCoordinate) -> RelativeCoordinate:
         if self._common(coordinate.joint):
             return coordinate
         return replace(
             coordinate,
-            name=self._new(coordinate.name),
-            joint=self._joint_name(coordinate.joint),
+            name=self.named(coordinate.name),
+            joint=self.joint(coordinate.joint),
         )
-
-    # -- forces -----------------------------------------------------------------------------------
-
-    def _force(self, force: Force) -> Force:
-        if isinstance(force, Weight):
-            return force
-        if isinstance(force, JointForce):
-            joint, given = self._joint_name(force.joint), self._input(force.input)
-            return JointForce(joint=joint, input=given)
-        if isinstance(force, LinearTyre):
-            return self._tyre(force)
-        return ForceElement(
-            name=self._new(force.name),
-            path=self._path(force.path),
-            laws=tuple(map(self._law, force.laws)),
-        )
-
-    def _tyre(self, tyre: LinearTyre) -> LinearTyre:
-        named = {
-            key: self._new(name)
-            for key in ("name", "rate", "free_height", "damper", "lifts_off")
-            if (name := getattr(tyre, key)) is not None
-        }
-        carrier, center = self._body_name(tyre.carrier), self._point(tyre.center)
-        spin, road = self._about(tyre.spin), self._input(tyre.road)
-        return replace(tyre, carrier=carrier, center=center, spin=spin, road=road, **named)
-
-    def _path(self, path: Path) -> Path:
-        if isinstance(path, AlongTelescope):
-            return AlongTelescope(self._joint_name(path.joint))
-        if isinstance(path, TwistOfHinges):
-            return TwistOfHinges(*map(self._joint_name, (path.first, path.second)))
-        ends = (
-            (self._body_name(body), self._point(point)) for body, point in (path.first, path.second)
-        )
-        return AlongLine(*ends)
-
-    def _law(self, law: Law) -> Law:
-        """Copy a law: all that it names are parameters, but for inputs and a stop's side."""
-        named: dict[str, Any] = {}
-        for entry in fields(law):
-            value = getattr(law, entry.name)
-            if not isinstance(value, str) or (isinstance(law, Stop) and entry.name == "side"):
-                continue
-            named[entry.name] = self._input(value) if entry.name == "input" else self._new(value)
-        return replace(law, **named)

@@ -9,8 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from .declared import MoreThanZero, Name, declared
+from .declared import DeclarationError, MoreThanZero, Name, declared
 from .geometry import FORWARD, UP, Direction, Line, Point
+from .world import WORLD
 
 
 @declared
@@ -157,6 +158,27 @@ class Universal(Joint):
     def center(self) -> Point:
         """The centre of the cross."""
         return self.at
+
+
+@declared
+@dataclass(frozen=True, kw_only=True)
+class Free(Joint):
+    """No hold at all: the second body moves in the world, which is the first, with six freedoms.
+
+    Its coordinates are the position of the second body's centre of mass along the axes of the world
+    less that at design, and the angles of the body in the z-y-x sequence (yaw, pitch, roll).
+    """
+
+    first: Name = WORLD
+
+    kind: ClassVar[str] = "free"
+    common: ClassVar[str] = "nothing"
+    coordinates: ClassVar[tuple[str, ...]] = ("x", "y", "z", "yaw", "pitch", "roll")
+
+    def __post_init__(self) -> None:
+        if self.first != WORLD:
+            problem = f"its first body is {self.first!r}, and must be the {WORLD}; leave first out"
+            raise DeclarationError(f"Free {self.name!r}", [problem])
 
 
 @declared

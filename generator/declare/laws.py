@@ -6,18 +6,24 @@ a law are those of parameters (or of an input), so one declaration serves every 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Literal
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import sympy as sp
 
 from ..program.functions import Positive
 from .declared import Amount, Count, Length, MoreThanZero, Name, declared
+from .known import unknown
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from typing import Self
 
     from ..program.program import Program
+    from .copying import Copying
+    from .paths import AnyPath
+    from .whole import Whole
 
 
 @dataclass(frozen=True)
@@ -39,9 +45,52 @@ class Stretch:
     slide: sp.Expr | None = None
 
 
+class AnyLaw(ABC):
+    """What the laws have in common.
+
+    A force that is given from outside, by an input, is not shown.
+    """
+
+    not_named: ClassVar[tuple[str, ...]] = ()  # fields with a text that is no name
+
+    @property
+    @abstractmethod
+    def signal(self) -> str:
+        """Name of the signal that shows the force."""
+
+    @property
+    @abstractmethod
+    def meaning(self) -> str:
+        """What that signal is."""
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """Names of the inputs that it reads."""
+        return ()
+
+    @abstractmethod
+    def force(self, at: Stretch) -> sp.Expr:
+        """Return the force on the ends."""
+
+    def problems(self, mechanism: Whole, path: AnyPath) -> list[str]:
+        """Say what is wrong with it in a mechanism, on a path."""
+        del path
+        return unknown("input", self.inputs, mechanism.input_names)
+
+    def copied(self, copy: Copying) -> Self:
+        """Return the law of a copy: all that it names are parameters, but for inputs."""
+        named: dict[str, Any] = {}
+        for entry in fields(self):  # type: ignore[arg-type]  # every law is a dataclass
+            value = getattr(self, entry.name)
+            if isinstance(value, str) and entry.name not in self.not_named:
+                of_input = value in self.inputs
+                named[entry.name] = copy.input(value) if of_input else copy.named(value)
+        return replace(self, **named)  # type: ignore[type-var]
+
+
 @declared
 @dataclass(frozen=True, kw_only=True)
-class LinearSpring:
+class LinearSpring(AnyLaw):
     """Force ``rate (slide - free_slide)``, or ``rate (free_length - length)``.
 
     Parameters
@@ -57,8 +106,8 @@ class LinearSpring:
     free_slide: Name | None = None
     free_length: Length | None = None
 
-    signal: ClassVar[str] = "spring_force"
-    meaning: ClassVar[str] = "spring force"
+    signal = "spring_force"
+    meaning = "spring force"
 
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""
@@ -66,10 +115,19 @@ class LinearSpring:
             return sp.Symbol(self.rate) * (at.slide - sp.Symbol(self.free_slide))
         return sp.Symbol(self.rate) * (sp.Symbol(str(self.free_length)) - at.length)
 
+    def problems(self, mechanism: Whole, path: AnyPath) -> list[str]:
+        """See that it is free of force somewhere, and that the path has such a coordinate."""
+        problems = super().problems(mechanism, path)
+        if (self.free_slide is None) == (self.free_length is None):
+            problems.append("give its spring a free_slide or a free_length")
+        elif self.free_slide is not None and not path.has_slide:
+            problems.append("a free_slide needs a telescope; give a free_length")
+        return problems
+
 
 @declared
 @dataclass(frozen=True, kw_only=True)
-class LinearDamper:
+class LinearDamper(AnyLaw):
     """Force ``-rate velocity``.
 
     Parameters
@@ -80,8 +138,8 @@ class LinearDamper:
 
     rate: Amount
 
-    signal: ClassVar[str] = "damper_force"
-    meaning: ClassVar[str] = "damper force"
+    signal = "damper_force"
+    meaning = "damper force"
 
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""
@@ -90,7 +148,7 @@ class LinearDamper:
 
 @declared
 @dataclass(frozen=True, kw_only=True)
-class DamperTable:
+class DamperTable(AnyLaw):
     r"""A curve of force over velocity, smooth, with its own shape in bump and in rebound.
 
     Let x be the compression velocity, k_0 < ... < k_n the knots, and p_i = max(x - k_i, 0). With
@@ -117,8 +175,8 @@ class DamperTable:
     name: Name
     segments: Count
 
-    signal: ClassVar[str] = "damper_force"
-    meaning: ClassVar[str] = "damper force"
+    signal = "damper_force"
+    meaning = "damper force"
 
     def parameters(self) -> Iterator[tuple[str, float, str, str]]:
         """Yield name, default, unit and meaning of every parameter; the default is no force."""
@@ -158,7 +216,7 @@ class DamperTable:
 
 @declared
 @dataclass(frozen=True, kw_only=True)
-class Friction:
+class Friction(AnyLaw):
     """Coulomb friction, regularised: ``-force velocity / sqrt(velocity^2 + speed^2)``.
 
     Parameters
@@ -172,8 +230,8 @@ class Friction:
     level: Amount
     speed: MoreThanZero
 
-    signal: ClassVar[str] = "friction_force"
-    meaning: ClassVar[str] = "friction force"
+    signal = "friction_force"
+    meaning = "friction force"
 
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""
@@ -186,7 +244,7 @@ class Friction:
 
 @declared
 @dataclass(frozen=True, kw_only=True)
-class Stop:
+class Stop(AnyLaw):
     """A progressive stop: ``rate x + progression x^3``, x being how far it is pressed in.
 
     Parameters
@@ -204,6 +262,8 @@ class Stop:
     length: Length
     rate: Amount
     progression: Amount
+
+    not_named: ClassVar[tuple[str, ...]] = ("side",)
 
     @property
     def signal(self) -> str:
@@ -227,7 +287,7 @@ class Stop:
 
 @declared
 @dataclass(frozen=True, kw_only=True)
-class Actuator:
+class Actuator(AnyLaw):
     """A force that is given from outside.
 
     Parameters
@@ -238,8 +298,13 @@ class Actuator:
 
     input: Name
 
-    signal: ClassVar[str] = "actuator_force"
-    meaning: ClassVar[str] = "actuator force"
+    signal = "actuator_force"
+    meaning = "actuator force"
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """The force."""
+        return (self.input,)
 
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""

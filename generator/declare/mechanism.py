@@ -14,9 +14,11 @@ from .declared import declared
 class Mechanism(Assembly):
     """Bodies and joints with everything that acts on them.
 
-    The first body is the ground. `coordinates` are the relative coordinates of the report, in the
-    numbering of the figure; `inputs` are the time-varying inputs; `derived` gives, by name, what
-    the declaration reads like a parameter but is an expression in parameters.
+    `fixed` is the body that rests in the world, with its axes along those of the world at design;
+    None: all move, and a joint `Free` says which body they hang on. `coordinates` are the relative
+    coordinates of the report, in the numbering of the figure; `inputs` are the time-varying inputs;
+    `derived` gives, by name, what the declaration reads like a parameter but is an expression in
+    parameters.
     """
 
     def __post_init__(self) -> None:

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from .checks import repeated, unknown
 from .declared import DeclarationError, Name, declared
-from .forces import JointForce
 from .inputs import Motion, motion_problems, position_of
-from .joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
+from .joints import Cylindrical, Free, Joint, Prismatic, Revolute, Spherical, Universal
+from .known import repeated, unknown
 from .mechanism import Mechanism
 from .names import unwritable
 
@@ -20,6 +19,7 @@ DRIVABLE: dict[type[Joint], str] = {
     Cylindrical: "a guide and a hinge along its axis, with a link between them",
     Universal: "two hinges along the axes of the cross, with a link between them",
     Spherical: "three hinges through its centre, with two links between them",
+    Free: "three guides and three hinges, with links between them",
 }
 """What has the freedoms of a joint that cannot be driven, and can be."""
 
@@ -86,6 +86,12 @@ def _driven_problems(model: Model) -> list[str]:
     problems = repeated("independent joint", model.independent)
     problems += unknown("independent joint", model.independent, joints)
     problems += unknown("prescribed joint", model.prescribed, joints)
+    problems += [
+        f"joint {name!r} is free, and nothing else says where {joint.second!r} is; make it "
+        "independent"
+        for name, joint in joints.items()
+        if isinstance(joint, Free) and name not in (*model.independent, *model.prescribed)
+    ]
     problems += repeated("input of prescribed joints", model.prescribed.values())
     for variant, held in model.held.items():
         problems += unknown(f"held joint of {variant!r}", held, model.prescribed)
@@ -97,7 +103,11 @@ def _driven_problems(model: Model) -> list[str]:
     problems += [p for motion in motions for p in motion_problems(motion, mechanism.inputs)]
     independent = {n: joints[n] for n in model.independent if n in joints}
     prescribed = {n: joints[n] for n in model.prescribed if n in joints}
-    problems += [_undrivable("independent", j) for j in independent.values() if _has_many(j)]
+    problems += [
+        _undrivable("independent", j)
+        for j in independent.values()
+        if _has_many(j) and not isinstance(j, Free)
+    ]
     problems += [_undrivable("prescribed", j) for j in prescribed.values() if _has_many(j)]
     reported = {c.joint for c in mechanism.coordinates}
     problems += [
@@ -135,11 +145,11 @@ def _force_problems(model: Model) -> list[str]:
     """See that every force along a joint does work: there is none for a joint that follows."""
     driven = {*model.independent, *model.prescribed}
     return [
-        f"JointForce: {force.joint!r} is neither independent nor prescribed, and a JointForce acts "
-        "along such joints only. Make it independent, or let an Actuator in a ForceElement push "
-        "between two points"
-        for force in model.mechanism.forces
-        if isinstance(force, JointForce) and force.joint not in driven
+        f"{kind}: {joint!r} is neither independent nor prescribed, and a {kind} acts along such "
+        "joints only. Make it independent, or let an Actuator in a ForceElement push between two "
+        "points"
+        for kind, joint in ((type(f).__name__, f.along) for f in model.mechanism.forces)
+        if joint is not None and joint not in driven
     ]
 
 

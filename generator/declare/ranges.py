@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, get_type_hints
 import sympy as sp
 
 from ..program.vectors import ELEMENTS
-from .declared import Bounds
-from .forces import ForceElement
+from .declared import Bounds, parts
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -58,11 +57,11 @@ def _bounds(mechanism: Assembly) -> Iterator[tuple[str, Bounds]]:
         yield f"{body.name}_mass", _NOT_NEGATIVE
         for element in (*ELEMENTS[:3], "spin", "diametral"):
             yield f"{body.name}_inertia_{element}", _NOT_NEGATIVE
-    for part in (*mechanism.joints, *mechanism.forces):
-        yield from _of_fields(part, turns=False)
-        if isinstance(part, ForceElement):
-            for law in part.laws:
-                yield from _of_fields(law, turns=part.turns)
+    for joint in mechanism.joints:
+        yield from _of_fields(joint, turns=False)
+    for force in mechanism.forces:
+        for part in parts(force):
+            yield from _of_fields(part, turns=force.turns)
 
 
 def _of_fields(part: object, *, turns: bool) -> Iterator[tuple[str, Bounds]]:

@@ -9,25 +9,21 @@ import sympy as sp
 
 from ..declare.checks import check_symbols
 from ..declare.declared import DeclarationError
-from ..declare.forces import ForceElement, JointForce, LinearTyre
-from ..declare.inputs import derivative
-from ..declare.laws import Actuator
+from ..declare.joints import Free
 from ..kinematics.motion import IDENTITY, BodyMotion, from_axes
 from ..planning.plan import Plan
 from ..program.constants import ConstantStage
-from ..program.functions import SignOf
 from ..program.program import Program
 from ..program.vectors import ZERO, Vector
 from .assumptions import define_assumptions, find_assumptions
 from .dynamics import Dynamics
-from .parts import Parts
+from .in_motion import InMotion
 from .relative import RelativeCoordinates
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from ..declare.inputs import Input
-    from ..declare.laws import Law
     from ..declare.mechanism import Mechanism
     from ..declare.model import Model
     from ..program.conditions import Assumption, Condition
@@ -93,12 +89,26 @@ def generate(model: Model) -> GeneratedModel:
     return _Builder(model).build()
 
 
+def _refuse_free(model: Model) -> None:
+    """See that the mechanism is fixed in the world: how it moves in it cannot be derived yet."""
+    problems = [
+        f"body {joint.second!r} moves freely in the world (joint {joint.name!r}), and there are no "
+        "equations for that yet. Leave the joint out and let the body rest there, "
+        f"fixed={joint.second!r}; topology and plan can be had as it is"
+        for joint in model.mechanism.joints
+        if isinstance(joint, Free)
+    ]
+    if problems:
+        raise DeclarationError(model.name, problems)
+
+
 class _Builder:
     """Collects the functions of one model from one program."""
 
     def __init__(self, model: Model) -> None:
         self.model = model
         self.mechanism: Mechanism = model.mechanism
+        _refuse_free(model)
         self.plan = Plan.of(model)
         self.assumed = find_assumptions(self.plan)
         self.constants = ConstantStage(
@@ -107,21 +117,23 @@ class _Builder:
             derived={sp.Symbol(n): value for n, value in self.mechanism.derived.items()},
         )
         self.program = Program(self.constants)
-        self.kin = Parts(self.program, self.plan)
+        self.motion = InMotion.of(self.program, self.plan)
         self._check_masses()
-        self.dynamics = Dynamics(self.kin)
-        self.relative = {part: RelativeCoordinates(part) for part in self.kin.parts}
+        self.dynamics = Dynamics(self.motion)
+        self.relative = {part: RelativeCoordinates(part) for part in self.motion.parts}
         self.functions: dict[str, Function] = {}
         self.signals: list[Entry] = []
-        self.moving = tuple(b.name for b in self.mechanism.bodies[1:])
+        self.moving = tuple(b.name for b in self.mechanism.moving)
         self.massive = tuple(b for b in self.moving if b in model.massive)
 
     def _check_masses(self) -> None:
         """See that every independent coordinate moves some mass: else it has no acceleration."""
-        moved = {k for body in self.model.massive for k in self.kin.placed[body].motion}
+        moved = {k for body in self.model.massive for k in self.motion.placed[body].motion}
         idle = [
             f"independent joint {joint!r} moves no body of massive; name one there that it moves"
-            for joint, k in zip(self.model.independent, self.kin.independent, strict=True)
+            for joint, k in zip(
+                self.model.independent, self.motion.coordinates.independent, strict=True
+            )
             if k not in moved
         ]
         if idle:
@@ -130,7 +142,7 @@ class _Builder:
     def build(self) -> GeneratedModel:
         self._add_dynamics(self.dynamics, "")
         for variant, joints in self.model.held.items():
-            held = Dynamics(Parts(Program(self.constants), self.plan, joints))
+            held = Dynamics(InMotion.of(Program(self.constants), self.plan, joints))
             self._add_right_hand_side(held, f"_{variant}")
         self._add_relative()
         self._add_poses()
@@ -193,7 +205,7 @@ class _Builder:
 
     def _state_entries(self) -> tuple[Entry, ...]:
         entries = {c.name: c for c in self.mechanism.coordinates}
-        positions = [entries[k] for k in self.kin.independent]
+        positions = [entries[k] for k in self.motion.coordinates.independent]
         return (
             *(Entry(c.name, c.unit, c.meaning) for c in positions),
             *(Entry(f"{c.name}_rate", f"{c.unit}/s", f"rate of {c.name}") for c in positions),
@@ -204,14 +216,8 @@ class _Builder:
         for motion in self.model.motions.values():
             names += [motion.position, *motion.rates]
         for force in self.mechanism.forces:
-            if isinstance(force, LinearTyre):
-                names.append(force.road)
-                rate = derivative(force.road, self.mechanism.inputs)
-                names += [rate] if force.damper and rate else []
-            elif isinstance(force, ForceElement):
-                names += [law.input for law in force.laws if isinstance(law, Actuator)]
-            elif isinstance(force, JointForce) and force.joint in self.model.independent:
-                names.append(force.input)
+            if force.along not in self.model.prescribed:  # else it does no work
+                names += force.inputs(self.mechanism)
         return list(dict.fromkeys(names))  # two tyres may be on one road
 
     def _rate_inputs(self, joints: Iterable[str]) -> tuple[str, ...]:
@@ -224,7 +230,7 @@ class _Builder:
         return tuple(g for g in self.program.guards.values() if g.name in acting)
 
     def _state_symbols(self) -> list[sp.Symbol]:
-        names = self.kin.independent
+        names = self.motion.coordinates.independent
         return [sp.Symbol(n) for n in (*names, *(f"{n}_rate" for n in names))]
 
     def _add(self, name: str, doc: str, results: dict[str, sp.Expr], *shape: int) -> None:
@@ -234,7 +240,7 @@ class _Builder:
 
     def _add_dynamics(self, dynamics: Dynamics, suffix: str) -> None:
         self._add_right_hand_side(dynamics, suffix)
-        names = self.kin.independent
+        names = self.motion.coordinates.independent
         n = len(names)
         matrix = dynamics.full_mass_matrix()
         self._add(
@@ -260,7 +266,7 @@ class _Builder:
         )
 
     def _add_right_hand_side(self, dynamics: Dynamics, suffix: str) -> None:
-        names, program = self.kin.independent, dynamics.program
+        names, program = self.motion.coordinates.independent, dynamics.program
         rates = {f"d({k})/dt": sp.Symbol(f"{k}_rate") for k in names}
         rates |= {f"d({k}_rate)/dt": dynamics.accelerations[k] for k in names}
         what = "" if not suffix else f" with {suffix[1:].replace('_', ' ')}"
@@ -303,7 +309,7 @@ class _Builder:
 
     def _add_relative(self) -> None:
         values = self._in_order([relative.values for relative in self.relative.values()])
-        names = self.kin.independent
+        names = self.motion.coordinates.independent
         self._add("relative_coordinates", "Relative joint coordinates beta (Figure 3).", values)
         columns = [self.program.tangents(sp.Symbol(k), values.values(), f"by_{k}") for k in names]
         self._add(
@@ -322,7 +328,7 @@ class _Builder:
             "Closure residuals g(beta, q) of Eqs. 4 to 13 for given beta.",
             {f"g_{name}": left for name, left in self._residuals().items()},
         )
-        if all(self.relative[self.kin.of(body)].reaches(body) for body in self.massive):
+        if all(self.relative[self.motion.part_of[body]].reaches(body) for body in self.massive):
             self._add_absolute(list(values))
         self._add_global()
 
@@ -337,7 +343,7 @@ class _Builder:
     def _add_absolute(self, betas: list[str]) -> None:
         results = {}
         for body in self.massive:
-            columns = self.relative[self.kin.of(body)].absolute_jacobian(body)
+            columns = self.relative[self.motion.part_of[body]].absolute_jacobian(body)
             for row, label in enumerate(self._twist_labels(body)):
                 for beta in betas:
                     angular, linear = columns.get(beta, (ZERO, ZERO))
@@ -355,7 +361,7 @@ class _Builder:
         return [f"{body} omega_{a}" for a in AXES] + [f"{body} velocity_{a}" for a in AXES]
 
     def _add_global(self) -> None:
-        names = self.kin.independent
+        names = self.motion.coordinates.independent
         results = {}
         for body in self.massive:
             columns = {k: self._chassis_twist(body, k) for k in names}
@@ -372,14 +378,14 @@ class _Builder:
 
     def _chassis_twist(self, body: str, coordinate: str) -> list[sp.Expr]:
         """Return (omega, velocity of the centre of mass) per unit rate, in chassis axes."""
-        placed = self.kin.placed[body]
+        placed = self.motion.placed[body]
         if coordinate not in placed.motion:
             return [sp.Integer(0)] * 6
         twist = placed.motion[coordinate]
-        center = self.kin.local(placed, self.mechanism.body(body).center)
+        center = self.motion.part_of[placed.body].local(placed, self.mechanism.body(body).center)
         velocity = twist.linear + twist.angular.cross(center)
         parts = (from_axes(placed.axes, v) for v in (twist.angular, velocity))
-        return [c for part in parts for c in self.kin.of(body).to_chassis(part)]
+        return [c for part in parts for c in self.motion.part_of[placed.body].to_ground(part)]
 
     # -- poses ----------------------------------------------------------------------------------
 
@@ -389,7 +395,7 @@ class _Builder:
         orientations: dict[str, sp.Expr] = {}
         velocities: dict[str, sp.Expr] = {}
         for body in self.moving:
-            placed = self.kin.placed[body]
+            placed = self.motion.placed[body]
             for axis, value in zip(AXES, self._center(placed), strict=True):
                 positions[f"{body} {axis}"] = value
             for label, value in self._orientation(placed).items():
@@ -419,17 +425,17 @@ class _Builder:
 
     def _center(self, placed: BodyMotion) -> Vector:
         """Return the centre of mass in chassis axes."""
-        local = self.kin.local(placed, self.mechanism.body(placed.body).center)
+        part = self.motion.part_of[placed.body]
+        local = part.local(placed, self.mechanism.body(placed.body).center)
         work = placed.origin + from_axes(placed.axes, local)
-        part = self.kin.of(placed.body)
-        return part.to_chassis(work) + part.work_origin
+        return part.to_ground(work) + part.work_origin
 
     def _orientation(self, placed: BodyMotion) -> dict[str, sp.Expr]:
         if placed.axes is IDENTITY:
             return {f"R{a}{b}": sp.Integer(int(a == b)) for a in AXES for b in AXES}
-        part = self.kin.of(placed.body)
-        now = [part.to_chassis(axis) for axis in placed.axes]
-        design = [part.to_chassis(axis) for axis in placed.design_axes]
+        part = self.motion.part_of[placed.body]
+        now = [part.to_ground(axis) for axis in placed.axes]
+        design = [part.to_ground(axis) for axis in placed.design_axes]
         return {
             f"R{a}{b}": sum(
                 (getattr(n, a) * getattr(d, b) for n, d in zip(now, design, strict=True)),
@@ -441,8 +447,8 @@ class _Builder:
 
     def _velocity(self, body: str) -> list[sp.Expr]:
         total: list[sp.Expr] = [sp.Integer(0)] * 6
-        for coordinate in self.kin.placed[body].motion:
-            rate = self.kin.true_rate(coordinate)
+        for coordinate in self.motion.placed[body].motion:
+            rate = self.motion.coordinates.true_rate(coordinate)
             column = self._chassis_twist(body, coordinate)
             total = [t + rate * c for t, c in zip(total, column, strict=True)]
         return total
@@ -451,12 +457,10 @@ class _Builder:
 
     def _add_signals(self) -> None:
         self.program.section("signals")
-        results: dict[str, sp.Expr] = {}
-        for force in self.mechanism.forces:
-            if isinstance(force, LinearTyre):
-                self._add_wheel_signals(force, results)
-            elif isinstance(force, ForceElement):
-                self._add_element_signals(force, results)
+        results = {}
+        for shown in self.dynamics.signals():
+            self.signals.append(Entry(shown.name, shown.unit, shown.meaning))
+            results[shown.name] = shown.value
         if not results:
             return
         self._add("signals", "Physical signals, see the enumeration of signals.", results)
@@ -464,115 +468,3 @@ class _Builder:
             self._add_derivatives(
                 self.program, name, "of the signals", results.values(), list(results), by
             )
-
-    def _signal(
-        self, results: dict[str, sp.Expr], name: str, value: sp.Expr, unit: str, meaning: str
-    ) -> None:
-        self.signals.append(Entry(name, unit, meaning))
-        results[name] = value
-
-    def _add_wheel_signals(self, tyre: LinearTyre, results: dict[str, sp.Expr]) -> None:
-        prefix = self.mechanism.prefix(tyre)
-        carrier = self.kin.placed[tyre.carrier]
-        center = self.kin.local(carrier, tyre.center)
-        up = self.dynamics.up_in(carrier)
-        work = carrier.origin + from_axes(carrier.axes, center)
-        part = self.kin.of(carrier.body)
-        position = part.to_chassis(work) + part.work_origin
-        for axis, value in zip(AXES, position, strict=True):
-            self._signal(
-                results, f"{prefix}wheel_center_{axis}", value, "m", f"wheel centre, {axis}"
-            )
-        velocity = acceleration = sp.Integer(0)
-        for k in carrier.motion:
-            share = up.dot(self.dynamics.wheel_velocity(carrier, center, k))
-            velocity += share * self.kin.true_rate(k)
-            acceleration += share * self.dynamics.accelerations.get(k, sp.Integer(0))
-        own = up.dot(self.kin.point_bias(carrier, center))
-        acceleration += own * self.kin.pace_of(carrier) ** 2
-        self._signal(
-            results,
-            f"{prefix}wheel_velocity",
-            velocity,
-            "m/s",
-            "vertical velocity of the wheel centre, positive up",
-        )
-        self._signal(
-            results,
-            f"{prefix}wheel_acceleration",
-            acceleration,
-            "m/s^2",
-            "vertical acceleration of the wheel centre, positive up",
-        )
-        self._add_wheel_angles(tyre, carrier, results)
-        self._signal(
-            results,
-            f"{prefix}tyre_force",
-            self.dynamics.signals[f"{prefix}tyre_force"],
-            "N",
-            "tyre force in the wheel plane, positive in compression",
-        )
-
-    def _add_wheel_angles(
-        self, tyre: LinearTyre, carrier: BodyMotion, results: dict[str, sp.Expr]
-    ) -> None:
-        prefix = self.mechanism.prefix(tyre)
-        axis = from_axes(carrier.axes, self.kin.local_direction(carrier, tyre.spin))
-        part = self.kin.of(carrier.body)
-        a = self.program.vector(f"{prefix}spin_axis_now", part.to_chassis(axis))
-        side = self.program.define(f"{prefix}wheel_side", SignOf(tyre.center.position.y))
-        self._signal(
-            results,
-            f"{prefix}camber",
-            sp.atan2(-side * a.z, a.y),
-            "rad",
-            "camber, positive with the top of the wheel outboard",
-        )
-        self._signal(
-            results, f"{prefix}toe", sp.atan2(side * a.x, a.y), "rad", "toe angle, positive toe-in"
-        )
-        self._signal(
-            results,
-            f"{prefix}steer",
-            sp.atan2(-a.x, a.y),
-            "rad",
-            "steer angle, positive to the left",
-        )
-
-    def _add_element_signals(self, element: ForceElement, results: dict[str, sp.Expr]) -> None:
-        described = self._described_turning(element) if element.turns else self._described(element)
-        for signal, (unit, meaning) in described.items():
-            self._signal(results, signal, self.dynamics.signals[signal], unit, meaning)
-
-    def _described(self, element: ForceElement) -> dict[str, tuple[str, str]]:
-        """Return unit and meaning of each signal of an element that acts along a line."""
-        name = element.name
-        return {
-            f"{name}_length": ("m", f"length of the {name}"),
-            f"{name}_velocity": ("m/s", f"rate of the {name}'s length, positive in rebound"),
-        } | {
-            self._shown(element, law): (
-                "N",
-                f"{law.meaning}, positive when it pushes the ends apart",
-            )
-            for law in element.laws
-            if not isinstance(law, Actuator)
-        }
-
-    def _described_turning(self, element: ForceElement) -> dict[str, tuple[str, str]]:
-        """Return unit and meaning of each signal of an element that acts on an angle."""
-        name = element.name
-        return {
-            f"{name}_angle": ("rad", f"twist of the {name}"),
-            f"{name}_angular_velocity": ("rad/s", f"rate of the {name}'s twist"),
-        } | {
-            self._shown(element, law): (
-                "N m",
-                f"{law.meaning.replace('force', 'moment')}, positive when it increases the twist",
-            )
-            for law in element.laws
-            if not isinstance(law, Actuator)
-        }
-
-    def _shown(self, element: ForceElement, law: Law) -> str:
-        return self.mechanism.signal_name(element, element.signal(law))

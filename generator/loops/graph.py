@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import networkx as nx
 
+from ..declare.world import WORLD
 from .errors import TopologyError
 from .planes import Planes
 
@@ -63,8 +64,8 @@ class Topology:
     mechanism: Mechanism
 
     def __post_init__(self) -> None:
-        names = [b.name for b in self.mechanism.bodies]
-        unreached = set(names) - set(nx.node_connected_component(self.graph, names[0]))
+        reached = nx.node_connected_component(self.graph, self.mechanism.ground)
+        unreached = {b.name for b in self.mechanism.bodies} - set(reached)
         if unreached:
             message = f"no joint path leads from the ground to {', '.join(sorted(unreached))}"
             raise TopologyError(message)
@@ -74,6 +75,7 @@ class Topology:
         """The joint graph; edges carry ``joint`` and ``length``."""
         graph = nx.Graph()
         graph.add_nodes_from(b.name for b in self.mechanism.bodies)
+        graph.add_node(self.mechanism.ground)  # the world, if no body rests in it
         for joint in self.mechanism.joints:
             if graph.has_edge(*joint.bodies):
                 message = (
@@ -97,7 +99,7 @@ class Topology:
         A planar loop closes with three equations; the spatial count of six would take its mechanism
         for over-constrained.
         """
-        moving = len(self.mechanism.bodies) - 1
+        moving = len(self.mechanism.moving)
         spatial = 6 * moving - sum(6 - j.freedoms for j in self.mechanism.joints)
         return spatial + 3 * self.planar_loop_count
 
@@ -113,7 +115,7 @@ class Topology:
     @property
     def loop_count(self) -> int:
         """Number of independent loops (section 4)."""
-        return len(self.mechanism.joints) - (len(self.mechanism.bodies) - 1)
+        return len(self.mechanism.joints) - len(self.mechanism.moving)
 
     # -- paths ----------------------------------------------------------------------------------
 
@@ -136,8 +138,8 @@ class Topology:
 
     @cached_property
     def _numbers(self) -> dict[str, int]:
-        """The number of each body, by its name."""
-        return {b.name: b.number for b in self.mechanism.bodies}
+        """The number of each body, by its name; the world comes first."""
+        return {WORLD: -1} | {b.name: b.number for b in self.mechanism.bodies}
 
     def path_length(self, path: Sequence[str]) -> int:
         """Return the sum of the joint freedoms along a path."""

@@ -11,11 +11,13 @@ from __future__ import annotations
 import sympy as sp
 
 from ..declare.assembly import Body, Parameter, RelativeCoordinate
-from ..declare.forces import AlongLine, ForceElement, JointForce
+from ..declare.forces.force_element import ForceElement
+from ..declare.forces.joint_force import JointForce
 from ..declare.inputs import Input
 from ..declare.laws import LinearSpring
 from ..declare.mechanism import Mechanism
 from ..declare.model import Model
+from ..declare.paths import AlongLine
 from .planar import flat, hinge, inertia, places
 
 _DIGITS = 40  # so that defaults are rounded once, on every machine alike
@@ -106,6 +108,7 @@ _BODIES = tuple(f"k{i}" for i in range(1, 8))
 
 SQUEEZER = Mechanism(
     name="andrews",
+    fixed="ground",
     title="Andrews' squeezer mechanism",
     bodies=(
         Body("ground", 0, center=flat("crank_bearing")),

@@ -14,7 +14,8 @@ from __future__ import annotations
 from itertools import pairwise
 
 from ..declare.assembly import Body, Parameter, RelativeCoordinate
-from ..declare.forces import JointForce, Weight
+from ..declare.forces.joint_force import JointForce
+from ..declare.forces.weight import Weight
 from ..declare.geometry import Direction, Line, Point
 from ..declare.inputs import Input
 from ..declare.joints import Revolute
@@ -41,6 +42,7 @@ def ring(name: str, title: str, places: list[Place], axes: list[Place]) -> Model
     ]
     mechanism = Mechanism(
         name=name,
+        fixed="ground",
         title=title,
         bodies=(
             Body("ground", 0, center=Point("place_0")),

@@ -7,8 +7,13 @@ are this project's own: a front right corner, ISO 8855 axes, ground at z = 0.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ..declare.assembly import Body, Parameter, RelativeCoordinate
-from ..declare.forces import AlongLine, ForceElement, JointForce, LinearTyre, Weight
+from ..declare.forces.force_element import ForceElement
+from ..declare.forces.joint_force import JointForce
+from ..declare.forces.linear_tyre import LinearTyre
+from ..declare.forces.weight import Weight
 from ..declare.geometry import UP, Direction, Line, Point
 from ..declare.inputs import Input
 from ..declare.joints import Prismatic, Revolute, Spherical, Universal
@@ -16,7 +21,9 @@ from ..declare.laws import Actuator, LinearDamper, LinearSpring
 from ..declare.mechanism import Mechanism
 from ..declare.model import Model
 from ..declare.parameters import direction, point, rigid_body, rotor
-from .suspension import INPUTS
+from ..declare.paths import AlongLine
+from ..declare.wheel import Wheel
+from .suspension import INPUTS, further_laws, further_parameters
 
 LOWER_FRONT, LOWER_REAR = Point("lower_arm_front"), Point("lower_arm_rear")
 UPPER_FRONT, UPPER_REAR = Point("upper_arm_front"), Point("upper_arm_rear")
@@ -92,26 +99,30 @@ COORDINATES = (
     ),
 )
 
+SPRING = AlongLine(("chassis", SPRING_TOP), ("lower_arm", SPRING_SEAT))
+COIL = LinearSpring(rate="spring_rate", free_length="spring_free_length")
+DAMPER = LinearDamper(rate="damper_rate")
+ACTUATOR = Actuator(input="spring_actuator")
+TYRE = LinearTyre(
+    name="front",
+    wheel=Wheel("knuckle", WHEEL_CENTER, SPIN),
+    rate="tyre_rate",
+    free_height="tyre_free_height",
+    road="road_height",
+)
+
 FORCES = (
     Weight(gravity="gravity"),
+    ForceElement(name="spring", path=SPRING, laws=(COIL, DAMPER, ACTUATOR)),
+    TYRE,
+    JointForce(joint="rack_guide", input="rack_force"),
+)
+GENERAL_FORCES = (
+    Weight(gravity="gravity"),
     ForceElement(
-        name="spring",
-        path=AlongLine(("chassis", SPRING_TOP), ("lower_arm", SPRING_SEAT)),
-        laws=(
-            LinearSpring(rate="spring_rate", free_length="spring_free_length"),
-            LinearDamper(rate="damper_rate"),
-            Actuator(input="spring_actuator"),
-        ),
+        name="spring", path=SPRING, laws=(COIL, DAMPER, *further_laws("damper"), ACTUATOR)
     ),
-    LinearTyre(
-        name="front",
-        carrier="knuckle",
-        center=WHEEL_CENTER,
-        spin=SPIN,
-        rate="tyre_rate",
-        free_height="tyre_free_height",
-        road="road_height",
-    ),
+    replace(TYRE, damper="tyre_damper_rate", lifts_off="tyre_lifts_off"),
     JointForce(joint="rack_guide", input="rack_force"),
 )
 
@@ -150,6 +161,7 @@ PARAMETERS = (
 
 DOUBLE_WISHBONE = Mechanism(
     name="double_wishbone",
+    fixed="chassis",
     title="Double wishbone suspension with tie rod",
     bodies=BODIES,
     joints=JOINTS,
@@ -166,14 +178,31 @@ DOUBLE_WISHBONE = Mechanism(
     ),
 )
 
-MODELS = (
-    Model(
-        name="double_wishbone",
-        title="Double wishbone suspension, rack prescribed",
-        mechanism=DOUBLE_WISHBONE,
+GENERAL = replace(
+    DOUBLE_WISHBONE,
+    name="double_wishbone_general",
+    title="Double wishbone suspension with stops",
+    forces=GENERAL_FORCES,
+    parameters=(*PARAMETERS, *further_parameters("damper", 1.0)),
+)
+
+
+def _model(mechanism: Mechanism, title: str) -> Model:
+    return Model(
+        name=mechanism.name,
+        title=title,
+        mechanism=mechanism,
         independent=("lower_hinge", "bearing"),
         prescribed={"rack_guide": "rack"},
         massive=("lower_arm", "knuckle", "upper_arm", "wheel"),
         held={"rack_held": ("rack_guide",)},
+    )
+
+
+MODELS = (
+    _model(DOUBLE_WISHBONE, "Double wishbone suspension, rack prescribed"),
+    _model(
+        GENERAL,
+        "Double wishbone suspension with a damper curve, friction, stops; rack prescribed",
     ),
 )

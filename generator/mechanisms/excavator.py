@@ -16,7 +16,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..declare.assembly import Body, Parameter, RelativeCoordinate
-from ..declare.forces import JointForce, Weight
+from ..declare.forces.joint_force import JointForce
+from ..declare.forces.weight import Weight
 from ..declare.geometry import Direction
 from ..declare.inputs import Input, motion
 from ..declare.joints import Prismatic
@@ -128,6 +129,7 @@ PARAMETERS = (
 
 EXCAVATOR = Mechanism(
     name="excavator",
+    fixed="chassis",
     title="Planar excavator",
     bodies=BODIES,
     joints=JOINTS,
@@ -150,6 +152,7 @@ _LOAD = {
 
 LIFTING = Mechanism(
     name="excavator_lifting",
+    fixed="chassis",
     title="Planar excavator that lifts a load on a hook",
     bodies=(*BODIES, Body("load", len(BODIES), center=flat("load_com", "y"))),
     joints=(*JOINTS, _pin("hook", "bucket", "load", "hook")),

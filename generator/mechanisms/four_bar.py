@@ -8,11 +8,13 @@ crank of 0.1 m, turns all the way round. There is no gravity in its plane.
 from __future__ import annotations
 
 from ..declare.assembly import Body, Parameter, RelativeCoordinate
-from ..declare.forces import AlongLine, ForceElement, JointForce
+from ..declare.forces.force_element import ForceElement
+from ..declare.forces.joint_force import JointForce
 from ..declare.inputs import Input
 from ..declare.laws import LinearDamper, LinearSpring
 from ..declare.mechanism import Mechanism
 from ..declare.model import Model
+from ..declare.paths import AlongLine
 from .planar import flat, hinge, inertia, places
 
 # At the start the crank points along y: 0.1 m up from the origin.
@@ -29,6 +31,7 @@ _PLACES = {
 
 FOUR_BAR = Mechanism(
     name="four_bar",
+    fixed="ground",
     title="Planar four-bar linkage",
     bodies=(
         Body("ground", 0, center=flat("crank_bearing")),

@@ -15,12 +15,13 @@ from typing import TYPE_CHECKING
 
 from ..declare.assembly import Body, Parameter, RelativeCoordinate
 from ..declare.composition import combined, copy
-from ..declare.forces import ForceElement, TwistOfHinges
+from ..declare.forces.force_element import ForceElement
 from ..declare.geometry import FORWARD, Direction, Line, Point
 from ..declare.joints import Revolute, Spherical, Universal
 from ..declare.laws import LinearSpring
 from ..declare.model import Model
 from ..declare.parameters import direction, point, rigid_body
+from ..declare.paths import TwistOfHinges
 from . import macpherson
 
 if TYPE_CHECKING:

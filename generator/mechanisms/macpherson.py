@@ -7,15 +7,21 @@ values are this project's reference car (front right, ISO 8855 axes, ground at z
 from __future__ import annotations
 
 from ..declare.assembly import Body, Parameter, RelativeCoordinate
-from ..declare.forces import AlongLine, AlongTelescope, ForceElement, JointForce, LinearTyre, Weight
+from ..declare.forces.force_element import ForceElement
+from ..declare.forces.joint_force import JointForce
+from ..declare.forces.linear_tyre import LinearTyre
+from ..declare.forces.weight import Weight
 from ..declare.geometry import FORWARD, UP, Direction, Line, Point
 from ..declare.inputs import Input
 from ..declare.joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
-from ..declare.laws import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
+from ..declare.laws import Actuator, LinearDamper, LinearSpring
 from ..declare.mechanism import Mechanism
 from ..declare.model import Model
 from ..declare.parameters import direction, point, rigid_body, rotor
+from ..declare.paths import AlongLine, AlongTelescope
+from ..declare.wheel import Wheel
 from .suspension import INPUTS as SUSPENSION_INPUTS
+from .suspension import further_laws, further_parameters
 
 A = Point("arm_front")
 O = Point("arm_rear")
@@ -134,9 +140,7 @@ FORCES = (
     ),
     LinearTyre(
         name="front",
-        carrier="knuckle",
-        center=G,
-        spin=SPIN,
+        wheel=Wheel("knuckle", G, SPIN),
         rate="tyre_rate",
         free_height="tyre_free_height",
         road="road_height",
@@ -145,7 +149,6 @@ FORCES = (
 )
 
 # What cars have beyond the paper: see `general`.
-DAMPER_TABLE = DamperTable(name="damper_table", segments=10)
 GENERAL_FORCES = (
     Weight(gravity="gravity"),
     ForceElement(
@@ -158,28 +161,13 @@ GENERAL_FORCES = (
         path=AlongTelescope("BC"),
         laws=(
             LinearDamper(rate="damper_rate"),
-            DAMPER_TABLE,
-            Friction(level="strut_friction", speed="strut_friction_speed"),
-            Stop(
-                side="bump",
-                length="bump_stop_length",
-                rate="bump_stop_rate",
-                progression="bump_stop_progression",
-            ),
-            Stop(
-                side="rebound",
-                length="rebound_stop_length",
-                rate="rebound_stop_rate",
-                progression="rebound_stop_progression",
-            ),
+            *further_laws("strut"),
             Actuator(input="strut_force"),
         ),
     ),
     LinearTyre(
         name="front",
-        carrier="knuckle",
-        center=G,
-        spin=SPIN,
+        wheel=Wheel("knuckle", G, SPIN),
         rate="tyre_rate",
         free_height="tyre_free_height",
         road="road_height",
@@ -259,21 +247,7 @@ GENERAL_PARAMETERS = (
         "m",
         "distance of the spring's seats at which it is free of force",
     ),
-    *(Parameter(*entry) for entry in DAMPER_TABLE.parameters()),
-    Parameter("strut_friction", 0.0, "N", "friction of the strut in full sliding"),
-    Parameter(
-        "strut_friction_speed", 0.01, "m/s", "velocity at which 71 % of the friction is reached"
-    ),
-    Parameter("bump_stop_length", 0.0, "m", "strut length at which the bump stop is touched"),
-    Parameter("bump_stop_rate", 0.0, "N/m", "rate of the bump stop at first touch"),
-    Parameter("bump_stop_progression", 0.0, "N/m^3", "cubic term of the bump stop"),
-    Parameter(
-        "rebound_stop_length", 0.85, "m", "strut length at which the rebound stop is touched"
-    ),
-    Parameter("rebound_stop_rate", 0.0, "N/m", "rate of the rebound stop at first touch"),
-    Parameter("rebound_stop_progression", 0.0, "N/m^3", "cubic term of the rebound stop"),
-    Parameter("tyre_damper_rate", 0.0, "N s/m", "radial damping of the tyre"),
-    Parameter("tyre_lifts_off", 0.0, "1", "1: the tyre can leave the road; 0: it holds on to it"),
+    *further_parameters("strut", 0.85),
 )
 
 
@@ -281,6 +255,7 @@ def mechanism(*, free_rack: bool = False) -> Mechanism:
     """Return the suspension; with a free rack, the tie rod's angles are reported as well."""
     return Mechanism(
         name="macpherson",
+        fixed="chassis",
         title="MacPherson suspension (Góis & Sarzeto, 2000)",
         bodies=BODIES,
         joints=_joints(Line(B, C)),
@@ -300,6 +275,7 @@ def general(*, free_rack: bool = False) -> Mechanism:
     """
     return Mechanism(
         name="macpherson_general",
+        fixed="chassis",
         title="MacPherson suspension with an offset strut",
         bodies=BODIES,
         joints=_joints(Line(STRUT_LOWER, C)),

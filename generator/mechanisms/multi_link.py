@@ -13,13 +13,18 @@ project, whose code is all free of iteration.
 from __future__ import annotations
 
 from ..declare.assembly import Body, Parameter, RelativeCoordinate
-from ..declare.forces import AlongLine, ForceElement, JointForce, LinearTyre, Weight
+from ..declare.forces.force_element import ForceElement
+from ..declare.forces.joint_force import JointForce
+from ..declare.forces.linear_tyre import LinearTyre
+from ..declare.forces.weight import Weight
 from ..declare.geometry import UP, Direction, Line, Point
 from ..declare.joints import Joint, Prismatic, Revolute, Spherical, Universal
 from ..declare.laws import LinearDamper, LinearSpring
 from ..declare.mechanism import Mechanism
 from ..declare.model import Model
 from ..declare.parameters import direction, point, rigid_body, rotor
+from ..declare.paths import AlongLine
+from ..declare.wheel import Wheel
 from .suspension import INPUTS
 
 Place = tuple[float, float, float]
@@ -99,9 +104,7 @@ def _forces(seat_body: str) -> tuple[Weight, ForceElement, LinearTyre, JointForc
         ),
         LinearTyre(
             name="rear",
-            carrier="carrier",
-            center=WHEEL_CENTER,
-            spin=SPIN,
+            wheel=Wheel("carrier", WHEEL_CENTER, SPIN),
             rate="tyre_rate",
             free_height="tyre_free_height",
             road="road_height",
@@ -145,6 +148,7 @@ _THREE = ("upper_link", "camber_link", "toe_link")
 
 CONTROL_ARM = Mechanism(
     name="control_arm_multi_link",
+    fixed="chassis",
     title="Multi-link suspension with a lower control arm and three links",
     bodies=_bodies("lower_arm", "carrier", *_THREE, "rack"),
     joints=(
@@ -191,6 +195,7 @@ _SIX = ("upper_link", "camber_link", "toe_link", "front_link", "lower_link", "pu
 
 FIVE_LINK = Mechanism(
     name="five_link",
+    fixed="chassis",
     title="Five-link suspension with a push rod and a rocker",
     bodies=_bodies("rocker", "carrier", *_SIX, "rack"),
     joints=(
@@ -238,6 +243,7 @@ _STRUT_LINE = Direction("strut_line", between=(SPRING_SEAT, SPRING_TOP))
 
 STRUT = Mechanism(
     name="five_link_strut",
+    fixed="chassis",
     title="Five-link suspension with a strut",
     bodies=_bodies("strut_tube", "strut_rod", "carrier", *_FIVE, "rack"),
     joints=(

@@ -9,7 +9,8 @@ pass.
 from __future__ import annotations
 
 from ..declare.assembly import Body, Parameter, RelativeCoordinate
-from ..declare.forces import JointForce, Weight
+from ..declare.forces.joint_force import JointForce
+from ..declare.forces.weight import Weight
 from ..declare.inputs import Input
 from ..declare.mechanism import Mechanism
 from ..declare.model import Model
@@ -51,6 +52,7 @@ def n_four_bar(count: int) -> Model:
         ]
     mechanism = Mechanism(
         name=f"four_bars_{count}",
+        fixed="ground",
         title=f"Chain of {count} four-bar linkages",
         bodies=tuple(bodies),
         joints=tuple(joints),

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from ..declare.assembly import Body, Parameter, RelativeCoordinate
-from ..declare.forces import JointForce
+from ..declare.forces.joint_force import JointForce
 from ..declare.geometry import FORWARD
 from ..declare.inputs import Input
 from ..declare.joints import Prismatic
@@ -31,6 +31,7 @@ _PLACES = {
 
 SLIDER_CRANK = Mechanism(
     name="slider_crank",
+    fixed="ground",
     title="Slider-crank",
     bodies=(
         Body("ground", 0, center=flat("crank_bearing")),

@@ -14,8 +14,7 @@ from math import comb
 from time import monotonic
 from typing import TYPE_CHECKING
 
-from ..declare.forces import JointForce
-from ..declare.joints import Prismatic, Revolute
+from ..declare.joints import Free, Prismatic, Revolute
 from ..declare.model import Model
 from ..loops.errors import NoClosedFormError
 from ..loops.graph import Topology
@@ -114,10 +113,12 @@ class Search:
         self._model = model
         mechanism = model.mechanism
         self.mobility = Topology(mechanism).mobility - len(mechanism.idle_links)
-        self.count = self.mobility - len(model.prescribed)
+        self._free = _free(mechanism)
+        freedoms = sum(mechanism.joint(name).freedoms for name in self._free)
+        self.count = self.mobility - freedoms - len(model.prescribed)
         self.candidates = [n for n in _candidates(mechanism) if n not in model.prescribed]
-        forces = [f.joint for f in mechanism.forces if isinstance(f, JointForce)]
-        self._pushed = {name for name in forces if name not in model.prescribed}
+        pushed = {force.along for force in mechanism.forces if force.along is not None}
+        self._pushed = pushed.difference(model.prescribed)
         self._tried = 0
         self._nearest: tuple[tuple[str, ...], NoClosedFormError] | None = None
 
@@ -157,7 +158,8 @@ class Search:
 
     def model(self, independent: tuple[str, ...], *, allow_iteration: bool = False) -> Model:
         """Return the model with some independent joints."""
-        return replace(self._model, independent=independent, allow_iteration=allow_iteration)
+        every = (*self._free, *independent)
+        return replace(self._model, independent=every, allow_iteration=allow_iteration)
 
     def refusal(self) -> str:
         """Say why nothing was found, by the trial that came nearest, and what would help."""
@@ -225,9 +227,14 @@ def _bare(mechanism: Mechanism) -> Model:
         name=mechanism.name,
         title=mechanism.title,
         mechanism=mechanism,
-        independent=_candidates(mechanism),
-        massive=tuple(body.name for body in mechanism.bodies[1:]),
+        independent=(*_free(mechanism), *_candidates(mechanism)),
+        massive=tuple(body.name for body in mechanism.moving),
     )
+
+
+def _free(mechanism: Mechanism) -> tuple[str, ...]:
+    """Return the joints that must be independent: those of bodies that move in the world."""
+    return tuple(joint.name for joint in mechanism.joints if isinstance(joint, Free))
 
 
 def _candidates(mechanism: Mechanism) -> tuple[str, ...]:

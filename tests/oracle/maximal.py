@@ -444,7 +444,7 @@ class Oracle:
                 return np.zeros(6 * self.size)
             return inputs[force.input] * self.driven(motion, force.joint).rows[0]
         assert isinstance(force, LinearTyre)
-        center = self.point(motion, force.carrier, self.place(force.center))
+        center = self.point(motion, force.wheel.carrier, self.place(force.wheel.center))
         return self._tyre(force, motion, center, inputs) @ center.rows
 
     def length(self, motion: Motion, element: ForceElement) -> Jet:
@@ -518,7 +518,7 @@ class Oracle:
             load += given[tyre.damper] * (inputs[rising] - center.rate[2])
         if tyre.lifts_off is not None and given[tyre.lifts_off] and min(deflection, load) < 0.0:
             load = 0.0
-        axis = self.vector(motion, tyre.carrier, self.along(tyre.spin)).value
+        axis = self.vector(motion, tyre.wheel.carrier, self.along(tyre.wheel.spin)).value
         return load * (UP - axis * axis[2]) / (1.0 - axis[2] ** 2)
 
     # -- equations of motion ----------------------------------------------------------------------

@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import zip_longest
 from typing import TYPE_CHECKING
 
+from ...declare.world import WORLD
 from ...program.floors import ROUNDING
 from ..counting import OPERATIONS, operations_of
 from ..text import formula
@@ -13,6 +14,7 @@ from ..words import FORMULA, iteration_note, mechanism_hash
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from ...declare.mechanism import Mechanism
     from ...equations.outputs import GeneratedModel
     from ...loops.graph import Cycle, Topology
     from ...loops.planner import Transformer
@@ -43,13 +45,17 @@ def joint_rows(topology: Topology) -> list[tuple[str, ...]]:
         (
             j.name,
             j.kind,
-            f"{mechanism.body(j.first).number} {j.first}",
-            f"{mechanism.body(j.second).number} {j.second}",
+            *(_numbered(mechanism, name) for name in j.bodies),
             str(j.freedoms),
             j.common,
         )
         for j in mechanism.joints
     ]
+
+
+def _numbered(mechanism: Mechanism, body: str) -> str:
+    """Return the number and the name of a body; the world has no number."""
+    return body if body == WORLD else f"{mechanism.body(body).number} {body}"
 
 
 def path_rows(topology: Topology) -> list[tuple[str, ...]]:
@@ -70,7 +76,7 @@ def path_rows(topology: Topology) -> list[tuple[str, ...]]:
 
 def mobility_line(topology: Topology) -> str:
     """Return Eq. 1 with the numbers of the mechanism."""
-    moving = len(topology.mechanism.bodies) - 1
+    moving = len(topology.mechanism.moving)
     closed = [str(6 - j.freedoms) for j in topology.mechanism.joints]
     planar = topology.planar_loop_count
     extra = f" + 3 x {planar} planar loops" if planar else ""

@@ -1,0 +1,151 @@
+"""A tyre: a radial spring in the plane of its wheel."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ...program.floors import DIRECTION
+from ...program.functions import IsPositive, Positive
+from ..declared import Amount, Name, Share, declared
+from ..inputs import derivative
+from ..known import unknown
+from ..shown import Shown
+from ..wheel import Wheel
+from .force import Action, Force
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from ..copying import Copying
+    from ..surroundings import Surroundings
+    from ..whole import Whole
+
+
+@declared
+@dataclass(frozen=True, kw_only=True)
+class LinearTyre(Force):
+    """A radial tyre spring in the wheel plane (Eq. 24 of the paper).
+
+    With ``a`` the spin axis and ``e_z`` up, the force on the wheel at its centre is
+    ``load (e_z - a a_z) / (1 - a_z^2)``, with ``load = rate x``, x = free_height + road - height.
+
+    With a damper the load is ``rate x + damper x'``. A tyre that lifts off neither pulls nor damps
+    in the air: its load is zero where x or the load itself would be negative; one that does not
+    holds on to the road, as in the paper.
+
+    Parameters
+    ----------
+    name
+        Begins the names of its signals, and those of the wheel, where there are several tyres.
+    wheel
+        What it is on; the force acts at its centre.
+    rate, free_height
+        Names of the parameters [N/m, m].
+    road
+        Name of the input: height of the road under the tyre in the world [m].
+    damper
+        Name of the parameter [N s/m]; the road then needs an input that is its derivative [m/s].
+    lifts_off
+        Name of the parameter: 1 if the tyre can leave the road, 0 if not; None: it cannot.
+    """
+
+    name: Name
+    wheel: Wheel
+    rate: Amount
+    free_height: Name
+    road: Name
+    damper: Amount | None = None
+    lifts_off: Share | None = None
+
+    @property
+    def identity(self) -> tuple[str, str]:
+        """Its name."""
+        return "force", self.name
+
+    def prefix(self, mechanism: Whole) -> str:
+        """Return what begins the names of its signals: nothing, where it is alone."""
+        alone = sum(isinstance(f, LinearTyre) for f in mechanism.forces) == 1
+        return "" if alone else f"{self.name}_"
+
+    def act(self, at: Surroundings) -> Action:
+        """Append the force at the centre of the wheel."""
+        program, prefix, body = at.program, self.prefix(at.mechanism), self.wheel.carrier
+        center, up = at.local(body, self.wheel.center), at.up(body)
+        axis = at.direction(body, self.wheel.spin)
+        lean = program.define(f"{prefix}wheel_axis_up", axis.dot(up))
+        height = program.define(f"{prefix}wheel_height", at.height(body, center))
+        pull = program.vector(f"{prefix}tyre_pull", up - axis * lean, "123")
+        # not 1 - lean^2: of a wheel that lies flat, rounding would leave something positive
+        squared = program.guarded(
+            f"{prefix}cos_camber_squared",
+            pull.dot(pull),
+            "the wheel lies flat on the road",
+            "1",
+            DIRECTION,
+        )
+        deflection = sp.Symbol(self.free_height) + sp.Symbol(self.road) - height
+        load = self._contact(at, prefix, deflection, self._bonded(at, deflection))
+        load = program.define(f"{prefix}tyre_load", load / squared)
+        moving = [k for k in at.independent if k in at.twists(body)]
+        forces = {k: load * pull.dot(self.wheel.velocity(at, k)) for k in moving}
+        shown = program.define(f"{prefix}tyre_force", load * sp.sqrt(squared))
+        return Action(forces, {f"{prefix}tyre_force": shown})
+
+    def _bonded(self, at: Surroundings, deflection: sp.Expr) -> sp.Expr:
+        """Return the load of spring and damper on a road that it holds on to."""
+        load = sp.Symbol(self.rate) * deflection
+        if self.damper is None:
+            return load
+        body = self.wheel.carrier
+        up, rise = at.up(body), sp.Integer(0)
+        for k in at.twists(body):
+            rise += up.dot(self.wheel.velocity(at, k)) * at.rate(k)
+        road_rate = derivative(self.road, at.mechanism.inputs)
+        assert road_rate is not None  # checked with the mechanism
+        return load + sp.Symbol(self.damper) * (sp.Symbol(road_rate) - rise)
+
+    def _contact(
+        self, at: Surroundings, prefix: str, deflection: sp.Expr, load: sp.Expr
+    ) -> sp.Expr:
+        """Return the load of a tyre that may leave the road."""
+        if self.lifts_off is None:
+            return load
+        deflection = at.program.define(f"{prefix}tyre_deflection", deflection)
+        load = at.program.define(f"{prefix}tyre_bonded_load", load)
+        pressed = IsPositive(deflection) * Positive(load)
+        return load + sp.Symbol(self.lifts_off) * (pressed - load)
+
+    def signals(self, at: Surroundings, action: Action) -> Iterator[Shown]:
+        """Yield those of the wheel, then the force."""
+        yield from self.wheel.signals(at, self.prefix(at.mechanism))
+        meaning = "tyre force in the wheel plane, positive in compression"
+        yield from (Shown(name, value, "N", meaning) for name, value in action.values.items())
+
+    def inputs(self, mechanism: Whole) -> list[str]:
+        """Return the height of the road, and its rate where that counts."""
+        rate = None if self.damper is None else derivative(self.road, mechanism.inputs)
+        return [self.road] if rate is None else [self.road, rate]
+
+    def problems(self, mechanism: Whole) -> list[str]:
+        """Say which of its names are not declared."""
+        bodies = [b.name for b in mechanism.bodies]
+        problems = unknown("LinearTyre: body", [self.wheel.carrier], bodies)
+        problems += unknown("LinearTyre: input", [self.road], mechanism.input_names)
+        if self.damper is not None and derivative(self.road, mechanism.inputs) is None:
+            problems.append(
+                f"LinearTyre {self.name!r}: its damper needs the rate of {self.road!r}; declare "
+                f"an Input with derivative_of={self.road!r}, or leave damper out"
+            )
+        return problems
+
+    def copied(self, copy: Copying) -> LinearTyre:
+        """Return the tyre of a copy."""
+        named = {
+            key: copy.named(name)
+            for key in ("name", "rate", "free_height", "damper", "lifts_off")
+            if (name := getattr(self, key)) is not None
+        }
+        return replace(self, wheel=self.wheel.copied(copy), road=copy.input(self.road), **named)
