@@ -34,7 +34,7 @@ def rigid_body(
     com: Three,
     inertia: Three = (0.0, 0.0, 0.0),
 ) -> list[Parameter]:
-    """Mass, centre of mass and inertia tensor (about it, axes of the world, at the design position)."""
+    """Mass, centre of mass, inertia tensor about it (axes of the world, at the design position)."""
     tensor = (*inertia, 0.0, 0.0, 0.0)
     return [
         Parameter(f"{name}_mass", mass, "kg", f"mass of the {name}"),
