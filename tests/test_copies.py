@@ -18,6 +18,7 @@ import pytest
 import sympy as sp
 from kintrafo.generator import Model, Revolute
 from kintrafo.generator.closed_forms.catalogue import STEPS
+from kintrafo.generator.closed_forms.free import PlaceFree
 from kintrafo.generator.closed_forms.idle import PlaceIdle
 from kintrafo.generator.declare.composition import combined, copy
 from kintrafo.generator.equations.design import _angle, design_coordinates
@@ -203,7 +204,8 @@ def test_a_copy_and_an_image_move_as_the_original_does(name: str) -> None:
 
 def test_the_sample_has_every_step_of_the_catalogue() -> None:
     found = {type(action) for name in SAMPLE for action in Plan.of(EVERY[name]).steps}
-    assert found >= STEPS - {PlaceIdle}  # this one is in no model but test_struts'
+    # the one is in no model but test_struts', the other has no equations yet
+    assert found >= STEPS - {PlaceIdle, PlaceFree}
 
 
 def test_a_step_does_not_take_the_name_of_a_parameter_of_a_copy() -> None:

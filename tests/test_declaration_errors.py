@@ -68,6 +68,7 @@ def spatial(*joints, coordinates=("A", "D"), bodies=tuple(CENTRES), **changes):
     """Return a mechanism of crank, rod and rocker with some joints."""
     fields = {
         "name": "spatial",
+        "fixed": "ground",
         "title": "Crank, rod and rocker",
         "bodies": (
             Body("ground", 0, center=Point("crank_pin")),

@@ -194,10 +194,12 @@ def test_the_documented_commands_run(run):
 
 
 def test_the_documented_code_prints_what_it_says(capsys):
-    (block,) = re.findall(r"```python\n(.*?)```", PAGE, flags=re.DOTALL)
-    exec(compile(block, "double-wishbone.md", "exec"), {})
-    (said,) = re.findall(r"print.*# (.*)\n", block)
-    assert capsys.readouterr().out.strip() == said
+    blocks = re.findall(r"```python\n(.*?)```", PAGE, flags=re.DOTALL)
+    code = "".join(blocks)
+    exec(compile(code, "double-wishbone.md", "exec"), {})
+    said = re.findall(r"print.*# (.*)\n", code)
+    assert len(said) == len(blocks)
+    assert capsys.readouterr().out.splitlines() == said
 
 
 # -- handing over ---------------------------------------------------------------------------------

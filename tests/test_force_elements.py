@@ -5,7 +5,16 @@ import dataclasses
 import mpmath
 import numpy as np
 import pytest
-from kintrafo.generator import AlongLine, ForceElement, LinearDamper, LinearSpring, Parameter
+from kintrafo.generator import (
+    AlongLine,
+    ForceElement,
+    LinearDamper,
+    LinearSpring,
+    Parameter,
+    Point,
+)
+from kintrafo.generator.declare.declared import Name, declared
+from kintrafo.generator.declare.forces.force import Action, Force
 from kintrafo.generator.equations.dynamics import Dynamics
 from kintrafo.generator.equations.in_motion import InMotion
 from kintrafo.generator.mechanisms import macpherson
@@ -69,3 +78,53 @@ def test_line_spring_along_the_strut_is_the_telescope_spring(seed):
     )
     # both are evaluated with 15 digits of mpmath; the forces are large differences of lengths
     assert by_line == pytest.approx(accelerations(model, parameters), rel=1e-11)
+
+
+@declared
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Thrust(Force):
+    """A constant force upward at a point of a body: a kind that this project does not have."""
+
+    body: Name
+    point: Point
+    force: Name
+
+    @property
+    def identity(self):
+        return "thrust", self.body
+
+    def act(self, at):
+        local, up = at.local(self.body, self.point), at.up(self.body)
+        forces = {
+            k: Symbol(self.force) * up.dot(twist.linear + twist.angular.cross(local))
+            for k, twist in at.twists(self.body).items()
+        }
+        return Action(forces)
+
+    def copied(self, copy):
+        return Thrust(
+            body=copy.body(self.body), point=copy.point(self.point), force=copy.named(self.force)
+        )
+
+
+def test_a_force_of_one_s_own_applies_itself():
+    """What lifts every body by its weight is worth as much as no gravity."""
+    model = macpherson.MODELS[0]
+    parameters = perturbed_parameters(np.random.default_rng(4))
+    bodies = [model.mechanism.body(name) for name in model.massive]
+    lifts = {f"{b.name}_lift": parameters["gravity"] * parameters[f"{b.name}_mass"] for b in bodies}
+    mechanism = dataclasses.replace(
+        model.mechanism,
+        forces=(
+            *model.mechanism.forces,
+            *(Thrust(body=b.name, point=b.center, force=f"{b.name}_lift") for b in bodies),
+        ),
+        parameters=(
+            *model.mechanism.parameters,
+            *(Parameter(name, 0.0, "N", "lift") for name in lifts),
+        ),
+    )
+    lifted = accelerations(dataclasses.replace(model, mechanism=mechanism), parameters | lifts)
+    weightless = accelerations(model, parameters | {"gravity": 0.0})
+    # both are evaluated with 15 digits of mpmath; the forces are large differences of lengths
+    assert lifted == pytest.approx(weightless, rel=1e-11)

@@ -1,6 +1,6 @@
-"""Points, directions and lines of a mechanism at its design position, in chassis axes.
+"""Points, directions and lines of a mechanism at its design position, in the axes of the world.
 
-Chassis axes are ISO 8855: x forward, y left, z up. All components are parameters.
+They are those of ISO 8855: x forward, y left, z up. All components are parameters.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ class Point:
 
     @property
     def position(self) -> Vector:
-        """Coordinates at the design position, in chassis axes."""
+        """Coordinates at the design position, in the axes of the world."""
         x, y, z = (
             sp.Integer(0) if axis == self.flat else component
             for axis, component in zip("xyz", _symbols(self.name), strict=True)
@@ -63,7 +63,7 @@ class Point:
 @declared
 @dataclass(frozen=True)
 class Direction:
-    """A direction: a chassis axis, a parameter of any length, or from one point to another.
+    """A direction: an axis of the world, a parameter of any length, or from one point to another.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ class Direction:
 
     @property
     def components(self) -> Vector:
-        """Components at the design position, in chassis axes, not normalised."""
+        """Components at the design position, in the axes of the world, not normalised."""
         if self.between is not None:
             start, end = self.between
             return end.position - start.position

@@ -11,7 +11,7 @@ Three = tuple[Number, Number, Number]
 
 @checked
 def point(name: Name, position: Three, meaning: str) -> list[Parameter]:
-    """Coordinates of a point at the design position, chassis axes."""
+    """Coordinates of a point at the design position, axes of the world."""
     return [
         Parameter(f"{name}_{axis}", value, "m", f"{meaning}, {axis} at the design position")
         for axis, value in zip("xyz", position, strict=True)
@@ -20,7 +20,7 @@ def point(name: Name, position: Three, meaning: str) -> list[Parameter]:
 
 @checked
 def direction(name: Name, components: Three, meaning: str) -> list[Parameter]:
-    """Components of a direction, of any length, chassis axes."""
+    """Components of a direction, of any length, axes of the world."""
     return [
         Parameter(f"{name}_{axis}", value, "1", f"{meaning}, {axis} component")
         for axis, value in zip("xyz", components, strict=True)
@@ -34,7 +34,7 @@ def rigid_body(
     com: Three,
     inertia: Three = (0.0, 0.0, 0.0),
 ) -> list[Parameter]:
-    """Mass, centre of mass and inertia tensor (about it, chassis axes, at the design position)."""
+    """Mass, centre of mass, inertia tensor about it (axes of the world, at the design position)."""
     tensor = (*inertia, 0.0, 0.0, 0.0)
     return [
         Parameter(f"{name}_mass", mass, "kg", f"mass of the {name}"),

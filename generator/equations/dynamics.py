@@ -122,13 +122,13 @@ class Dynamics:
             self._name_inertia(name, inertia)
 
     def _add_rigid(self, body: Body) -> None:
-        """Add a body given by mass, centre and tensor in chassis axes at the design position."""
+        """Add a body given by mass, centre and tensor in ground axes at the design position."""
         placed = self.placed[body.name]
         mass = sp.Symbol(f"{body.name}_mass")
         com = self.part_of[placed.body].local(placed, body.center)
         own = self.inertia[body.name]
         own.add_point(mass, com)
-        own.tensor += self._own_tensor(body).in_axes(self._chassis_axes(placed))
+        own.tensor += self._own_tensor(body).in_axes(self._ground_axes(placed))
 
     def _own_tensor(self, body: Body) -> SymmetricTensor:
         if body.rotor_axis is None:
@@ -149,8 +149,8 @@ class Dynamics:
             sp.Symbol(f"{body.name}_inertia_diametral"),
         )
 
-    def _chassis_axes(self, placed: BodyMotion) -> tuple[Vector, Vector, Vector]:
-        """Return the body axes at the design position, in chassis axes."""
+    def _ground_axes(self, placed: BodyMotion) -> tuple[Vector, Vector, Vector]:
+        """Return the body axes at the design position, in ground axes."""
         names, part = ("first", "second", "third"), self.part_of[placed.body]
         x, y, z = (
             self.program.vector(f"{placed.body}_{name}_in_chassis", part.to_ground(axis))

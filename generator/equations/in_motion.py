@@ -1,9 +1,10 @@
 """A mechanism in motion: its parts that hang together through the ground alone.
 
-Two suspensions of an axle are such parts: no closure equation has bodies of both. Each part is
+Two sides of a machine are such parts: no closure equation has bodies of both. Each part is
 solved by a `Kinematics` of its own, whose axes are chosen for it, so that it costs what it would
 cost alone, and what is alike in the parts is one constant. Bodies whose motion is prescribed from
-the ground on, like a rack, are part of the ground here: every part places them for itself.
+the ground on, like a rod that both sides share, are part of the ground here: every part places them
+for itself.
 """
 
 from __future__ import annotations

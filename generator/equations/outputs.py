@@ -218,7 +218,7 @@ class _Builder:
         for force in self.mechanism.forces:
             if force.along not in self.model.prescribed:  # else it does no work
                 names += force.inputs(self.mechanism)
-        return list(dict.fromkeys(names))  # two tyres may be on one road
+        return list(dict.fromkeys(names))  # two forces may read one input
 
     def _rate_inputs(self, joints: Iterable[str]) -> tuple[str, ...]:
         motions = (self.model.motions[self.model.prescribed[j]] for j in joints)
@@ -364,7 +364,7 @@ class _Builder:
         names = self.motion.coordinates.independent
         results = {}
         for body in self.massive:
-            columns = {k: self._chassis_twist(body, k) for k in names}
+            columns = {k: self._ground_twist(body, k) for k in names}
             for row, label in enumerate(self._twist_labels(body)):
                 for k in names:
                     results[f"{label} by {k}"] = columns[k][row]
@@ -376,8 +376,8 @@ class _Builder:
             len(names),
         )
 
-    def _chassis_twist(self, body: str, coordinate: str) -> list[sp.Expr]:
-        """Return (omega, velocity of the centre of mass) per unit rate, in chassis axes."""
+    def _ground_twist(self, body: str, coordinate: str) -> list[sp.Expr]:
+        """Return (omega, velocity of the centre of mass) per unit rate, in ground axes."""
         placed = self.motion.placed[body]
         if coordinate not in placed.motion:
             return [sp.Integer(0)] * 6
@@ -424,7 +424,7 @@ class _Builder:
         )
 
     def _center(self, placed: BodyMotion) -> Vector:
-        """Return the centre of mass in chassis axes."""
+        """Return the centre of mass in ground axes."""
         part = self.motion.part_of[placed.body]
         local = part.local(placed, self.mechanism.body(placed.body).center)
         work = placed.origin + from_axes(placed.axes, local)
@@ -449,7 +449,7 @@ class _Builder:
         total: list[sp.Expr] = [sp.Integer(0)] * 6
         for coordinate in self.motion.placed[body].motion:
             rate = self.motion.coordinates.true_rate(coordinate)
-            column = self._chassis_twist(body, coordinate)
+            column = self._ground_twist(body, coordinate)
             total = [t + rate * c for t, c in zip(total, column, strict=True)]
         return total
 

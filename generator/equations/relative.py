@@ -140,25 +140,25 @@ class RelativeCoordinates:
         return self._shafts[name]
 
     def shaft_direction(self, joint: Universal) -> Vector:
-        """Return the unit vector of a shaft along the chassis axes that the first body carries."""
+        """Return the unit vector of a shaft along the ground axes that the first body carries."""
         direction = self.kin.on_line[joint.second].direction
         seen = self._in_first_body(self.kin.placed[joint.first], direction)
         return self.program.vector(f"shaft_{joint.name}", seen)
 
     def _in_first_body(self, parent: BodyMotion, work: Vector) -> Vector:
-        """Return components along the chassis axes as the first body carries them with it."""
+        """Return components along the ground axes as the first body carries them with it."""
         if parent.axes is IDENTITY:
             return self.kin.to_ground(work)
-        return from_axes(self._chassis_axes(parent), to_axes(parent.axes, work))
+        return from_axes(self._ground_axes(parent), to_axes(parent.axes, work))
 
-    def _chassis_axes(self, placed: BodyMotion) -> Axes:
-        """Return the body axes at the design position, in chassis axes."""
+    def _ground_axes(self, placed: BodyMotion) -> Axes:
+        """Return the body axes at the design position, in ground axes."""
         x, y, z = (self.kin.to_ground(axis) for axis in placed.design_axes)
         return x, y, z
 
     def _from_first_body(self, parent: BodyMotion, name: str, v: Vector) -> Vector:
         if parent.axes is not IDENTITY:
-            v = from_axes(parent.axes, to_axes(self._chassis_axes(parent), v))
+            v = from_axes(parent.axes, to_axes(self._ground_axes(parent), v))
             return self.program.vector(name, v)
         return self.program.vector(name, self.kin.to_work(v))
 
@@ -204,7 +204,7 @@ class RelativeCoordinates:
         Returns
         -------
         dict
-            Coordinate name to (angular, linear), in chassis axes. Where the report has several
+            Coordinate name to (angular, linear), in ground axes. Where the report has several
             copies of a coordinate, the first one is used.
         """
         placed = self.kin.placed[body]
@@ -422,7 +422,7 @@ class _Closure:
         return replaced
 
     def _from_driven(self, name: str, work: Vector) -> Vector:
-        """Return a work vector as a function of the given coordinates, in chassis axes."""
+        """Return a work vector as a function of the given coordinates, in ground axes."""
         given = Vector(*self.program.substitute(self._driven(), work, "given"))
         return self.program.vector(name, self.kin.to_ground(given))
 

@@ -56,7 +56,7 @@ class Kinematics:
     bodies
         Those to place, with the ground: all, or a part that can be solved by itself.
     origin
-        A point of the ground at which positions are best counted; None: the origin of the chassis.
+        A point of the ground at which positions are best counted; None: the origin of its axes.
 
     Notes
     -----
@@ -121,7 +121,7 @@ class Kinematics:
         self.placed[ground] = BodyMotion(ground)
 
     def _hinge_axes(self, hinge: Revolute) -> tuple[Vector, Vector]:
-        """Return the positive hinge axis and the reference of its angle, in chassis axes."""
+        """Return the positive hinge axis and the reference of its angle, in ground axes."""
         assert hinge.angle_to is not None
         axis = self.unit("hinge_axis", hinge.axis.vector)
         reference = hinge.angle_from.components
@@ -164,12 +164,12 @@ class Kinematics:
         offset = self.program.vector(f"offset_{point.name}", point.position - self.work_origin)
         return self.program.vector(f"design_{point.name}", self.to_work(offset))
 
-    def to_work(self, chassis: Vector) -> Vector:
-        """Return the work components of a vector in chassis axes."""
-        return to_axes(self.work_axes, chassis)
+    def to_work(self, ground: Vector) -> Vector:
+        """Return the work components of a vector in ground axes."""
+        return to_axes(self.work_axes, ground)
 
     def to_ground(self, work: Vector) -> Vector:
-        """Return the chassis components of a vector in work axes."""
+        """Return the ground components of a vector in work axes."""
         return from_axes(self.work_axes, work)
 
     def design_direction(self, direction: Direction) -> Vector:

@@ -48,7 +48,7 @@ if TYPE_CHECKING:
 
 
 ITERATIONS = 400
-"""Most iterations of a block. Within the travel of a suspension it takes five to seven."""
+"""Most iterations of a block. Within the usual travel of a mechanism it takes five to seven."""
 
 LIMITS = {
     "ITERATIONS": str(ITERATIONS),

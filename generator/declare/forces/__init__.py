@@ -18,4 +18,5 @@ KINDS = tuple(c for c in defined_in(__name__) if issubclass(c, _Force) and c is 
 if TYPE_CHECKING:
     Force = _Force
 else:
-    Force = Union[KINDS]  # noqa: UP007 (so that a refusal names every kind)
+    # a refusal names every kind; whoever declares a mechanism may have one of his own besides
+    Force = Union[(*KINDS, _Force)]
