@@ -102,7 +102,7 @@ def count(body: list[str]) -> Counter[str]:
     """
     total: Counter[str] = Counter()
     for statement in statements(body):
-        if "=" in statement and statement[0] in ("const", "out", "constants"):
+        if "=" in statement and statement[0] in ("const", "out", "state", "c"):
             total.update(_operations(statement[statement.index("=") + 1 :]))
     return total
 

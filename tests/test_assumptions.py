@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo.generated._support import ParameterError
+from kintrafo.equations.errors import ParameterError
 from kintrafo.generator import (
     FORWARD,
     UP,

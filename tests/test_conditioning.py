@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from kintrafo.generated._support import ModelError, ParameterError
+from kintrafo.equations.errors import ModelError, ParameterError
 from kintrafo.generator.mechanisms import MODELS
 from oracle.maximal import Motion
 from own_loops import KNEE

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from kintrafo import Model, SimulationError, System, equilibrium, simulate
+from kintrafo.equations.errors import ClosureError
 from kintrafo.generated import four_bar, slider_crank
-from kintrafo.generated._support import ClosureError
 from kintrafo.simulation.solvers import native_available, native_methods
 from kintrafo.study.excitation import Course, excitation
 from kintrafo.systems.compile.build import compile_mechanism

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from kintrafo.generated._support import ClosureError
+from kintrafo.equations.errors import ClosureError
 from kintrafo.generator import Model, Point, motion
 from kintrafo.generator.closed_forms.elbow import Elbow, PlaceElbow
 from kintrafo.generator.closed_forms.prismatic import PrismaticByLength

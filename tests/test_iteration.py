@@ -20,8 +20,9 @@ import numpy as np
 import own_models
 import pytest
 import sympy as sp
+from kintrafo.equations.errors import ClosureError, ModelError
+from kintrafo.equations.following import ITERATIONS
 from kintrafo.generated import double_wishbone
-from kintrafo.generated._support import ClosureError, ModelError
 from kintrafo.generator import Direction, Line, Point, RelativeCoordinate, Revolute
 from kintrafo.generator.backends.report.markdown import markdown
 from kintrafo.generator.equations.outputs import GeneratedModel, generate
@@ -29,7 +30,7 @@ from kintrafo.generator.loops.errors import NoClosedFormError
 from kintrafo.generator.mechanisms.multi_link import CONTROL_ARM, FIVE_LINK, MODELS
 from kintrafo.generator.planning.plan import Plan
 from kintrafo.generator.program import ConstantStage, Program
-from kintrafo.generator.program.newton import ITERATIONS, adjugate
+from kintrafo.generator.program.newton import adjugate
 from own_models import Built, needs_gcc, own
 from scipy.integrate import solve_ivp
 from scipy.optimize import root

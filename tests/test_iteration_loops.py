@@ -17,7 +17,7 @@ import numpy as np
 import own_loops
 import own_models
 import pytest
-from kintrafo.generated._support import ClosureError
+from kintrafo.equations.errors import ClosureError
 from kintrafo.generator.backends.report.markdown import markdown
 from kintrafo.generator.closed_forms.coupled_loops import MOST_UNKNOWNS, CoupledLoops, obstacle
 from kintrafo.generator.closed_forms.tree import JointOfTree

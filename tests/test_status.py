@@ -12,8 +12,8 @@ from c_text import functions
 from cases import MODELS, Instant, car_parameters, of_model
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from kintrafo.equations.errors import ClosureError, ModelError, ParameterError
 from kintrafo.generated import macpherson, macpherson_free_rack, macpherson_general
-from kintrafo.generated._support import ClosureError, ModelError, ParameterError
 from oracle.constraints import KNUCKLE, Array
 from oracle.newton import Mechanism, rotation_matrix
 from oracle.reference import (

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from kintrafo.generated._support import ClosureError
+from kintrafo.equations.errors import ClosureError
 from kintrafo.generator import AlongLine, Cylindrical, DeclarationError, Line, Parameter, Point
 from own_mechanisms import ball, cross, spatial_four_bar, turret
 from own_models import Built, own

@@ -6,13 +6,12 @@ from collections import Counter
 from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
-from ..program.functions import Iterated
-from .schedule import scheduled
+from .sharing import scheduled
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from ..program.function import Function
+    from ..program.function import Function, Stage
     from .schedule import Operation
 
 OPERATIONS = ("add", "multiply", "divide", "root", "trigonometric")
@@ -29,7 +28,7 @@ _COUNTED = {
     "function": "trigonometric",
 }
 
-_counts: WeakKeyDictionary[Function, Counter[str]] = WeakKeyDictionary()
+_counts: WeakKeyDictionary[Function | Stage, Counter[str]] = WeakKeyDictionary()
 
 
 def counted(operations: Iterable[Operation]) -> Counter[str]:
@@ -44,17 +43,17 @@ def counted(operations: Iterable[Operation]) -> Counter[str]:
     return total
 
 
-def operations_of(function: Function) -> Counter[str]:
+def operations_of(emitted: Function | Stage) -> Counter[str]:
     """Count the arithmetic operations of one call, exactly as they are written.
 
     Of a block that iterates, those of one iteration.
     """
-    if function not in _counts:
-        order = scheduled(function)
-        total = counted((*order.steps, *order.results))
-        blocks = {block.name: block for block in function.blocks}
-        for step in function.steps:
-            if isinstance(step.expression, Iterated):
-                total.update(operations_of(blocks[step.expression.args[0].name].once))
-        _counts[function] = total
-    return Counter(_counts[function])
+    if emitted not in _counts:
+        order = scheduled(emitted)
+        total = counted((*(step.value for step in order.steps), *order.results))
+        blocks = {block.name: block for block in emitted.blocks}
+        for step in order.steps:
+            if step.value.kind == "iterate":
+                total.update(operations_of(blocks[step.value.of].once))
+        _counts[emitted] = total
+    return Counter(_counts[emitted])

@@ -12,7 +12,6 @@ import heapq
 from dataclasses import dataclass, field
 from itertools import count
 from typing import TYPE_CHECKING, Any, TypeVar
-from weakref import WeakKeyDictionary
 
 import sympy as sp
 
@@ -68,28 +67,32 @@ class Operation:
     ready: int = 0
 
 
+@dataclass(frozen=True, slots=True)
+class Assignment:
+    """A value with a name, and the part of the derivation that it belongs to."""
+
+    name: str
+    value: Operation
+    section: str
+
+
 @dataclass(frozen=True)
 class Schedule:
-    """The operations of a function: of each of its steps, and of each of its results."""
+    """The operations of a function or of a stage: of its steps, and of each of its results."""
 
-    steps: tuple[Operation, ...]
+    steps: tuple[Assignment, ...]
     results: tuple[Operation, ...]
 
 
-_schedules: WeakKeyDictionary[Function, Schedule] = WeakKeyDictionary()
-
-
-def scheduled(function: Function) -> Schedule:
-    """Return the operations of a function; they are put in order once."""
-    if function not in _schedules:
-        ready: dict[sp.Symbol, int] = {}
-        steps = []
-        for step in function.steps:
-            steps.append(schedule(step.expression, ready))
-            ready[step.symbol] = steps[-1].ready
-        results = tuple(schedule(result, ready) for result in function.results)
-        _schedules[function] = Schedule(tuple(steps), results)
-    return _schedules[function]
+def ordered(function: Function) -> Schedule:
+    """Put the operations of a function in order."""
+    ready: dict[sp.Symbol, int] = {}
+    steps = []
+    for step in function.steps:
+        value = schedule(step.expression, ready)
+        steps.append(Assignment(step.symbol.name, value, step.section))
+        ready[step.symbol] = value.ready
+    return Schedule(tuple(steps), tuple(schedule(result, ready) for result in function.results))
 
 
 def schedule(expression: sp.Expr, ready: Mapping[sp.Symbol, int] | None = None) -> Operation:

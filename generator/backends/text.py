@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
-from .schedule import schedule, scheduled
+from .schedule import schedule
+from .sharing import scheduled
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from ..program.function import Function
+    from ..program.function import Function, Stage
     from .schedule import Operation
 
 # binding strength of a written operation, loosest first
@@ -59,14 +60,43 @@ def text_of(
     return _Writer(dialect, name).write(operation)[0]
 
 
-def written(function: Function, dialect: Dialect) -> tuple[list[str], list[str]]:
-    """Write the steps and the results of a function."""
-    order = scheduled(function)
-    steps, results = (
-        [text_of(operation, dialect) for operation in operations]
-        for operations in (order.steps, order.results)
-    )
-    return steps, results
+@dataclass(frozen=True)
+class Written:
+    """A step as text: name and value, the part of the derivation, and what kind of operation."""
+
+    name: str
+    text: str
+    section: str
+    kind: str
+    of: Any
+
+
+def written(
+    emitted: Function | Stage, dialect: Dialect, names: Mapping[str, str] | None = None
+) -> tuple[list[Written], list[str]]:
+    """Write the steps and the results of what is emitted.
+
+    Parameters
+    ----------
+    names
+        What is called otherwise than it is.
+    """
+    order, others = scheduled(emitted), names or {}
+
+    def name(symbol: sp.Symbol) -> str:
+        return others.get(symbol.name, symbol.name)
+
+    steps = [
+        Written(
+            others.get(step.name, step.name),
+            text_of(step.value, dialect, name),
+            step.section,
+            step.value.kind,
+            step.value.of,
+        )
+        for step in order.steps
+    ]
+    return steps, [text_of(result, dialect, name) for result in order.results]
 
 
 def formula(expression: sp.Expr, dialect: Dialect) -> str:

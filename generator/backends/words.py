@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from ...equations.following import CONVERGED, ITERATIONS
 from ..program.functions import Guarded, IsPositive, Positive, SignOf
-from ..program.newton import ITERATIONS, LIMITS
 from .counting import OPERATIONS, operations_of
 from .text import Dialect, written
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from ..equations.outputs import GeneratedModel
-    from ..program.function import Block, Function
+    from ..program.function import Block, Function, Stage
 
 GENERATOR_VERSION = "0.1.0"
 
@@ -37,7 +37,7 @@ FORMULA = Dialect(
 """For a person to read, and for what does not depend on a language."""
 
 
-def count_line(function: Function) -> str:
+def count_line(function: Function | Stage) -> str:
     """Describe the operations of a function in one line."""
     counts = operations_of(function)
     parts = ", ".join(f"{counts[name]} {name}" for name in OPERATIONS if counts[name])
@@ -55,12 +55,12 @@ def iteration_note(model: GeneratedModel) -> str:
     return (
         f"This model is not free of iteration. Newton's method finds {found}: in stages from the "
         f"design position on, in at most {ITERATIONS} iterations, until a correction is below "
-        f"{LIMITS['CONVERGED']}. A status bit says where that fails. Operations are counted for "
+        f"{CONVERGED}. A status bit says where that fails. Operations are counted for "
         "one iteration."
     )
 
 
-def blocks_of(functions: Iterable[Function]) -> list[Block]:
+def blocks_of(functions: Iterable[Function | Stage]) -> list[Block]:
     """Return the iterations of some functions, each once, and behind those that it calls."""
     found: dict[str, Block] = {}
     for block in (b for f in functions for b in f.blocks):
@@ -73,16 +73,16 @@ def mechanism_hash(model: GeneratedModel) -> str:
     digest = hashlib.sha256()
     blocks = blocks_of(model.functions.values())
     once = (block.once for block in blocks)
-    for function in (model.prepare, *once, *model.functions.values()):
+    for function in (model.prepare, model.design, *once, *model.emitted.values()):
         digest.update(function.name.encode())
         steps, results = written(function, FORMULA)
-        for step, text in zip(function.steps, steps, strict=True):
-            digest.update(f"{step.symbol}={text};".encode())
+        for step in steps:
+            digest.update(f"{step.name}={step.text};".encode())
         for text in results:
             digest.update(f"{text};".encode())
     return digest.hexdigest()[:16]
 
 
-def reads_given(function: Function) -> bool:
+def reads_given(function: Function | Stage) -> bool:
     """Tell whether a function takes relative coordinates as an argument of their own."""
     return any(s.name.startswith("given_") for s in function.free_symbols)

@@ -17,13 +17,14 @@ from typing import TYPE_CHECKING, ClassVar
 
 import sympy as sp
 
+from ...equations.following import ITERATIONS
 from ..declare.joints import Joint, Prismatic, Spherical
 from ..kinematics.hinge_angles import driven_coordinates
 from ..kinematics.motion import BodyMotion, PointMotion, from_axes
 from ..loops.errors import NoClosedFormError
 from ..loops.forms import Attempt, Iteration
 from ..program.function import LOST
-from ..program.newton import ITERATIONS, Matrix, named
+from ..program.newton import Matrix, named
 from ..program.vectors import ZERO, Twist, Vector
 from .carrier_equations import Pose, RodEquation, block, rotation, split, turned
 from .guided_pair import GuidedPair

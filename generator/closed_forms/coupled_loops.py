@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import sympy as sp
 
+from ...equations.following import ITERATIONS
 from ..declare.joints import Joint, Prismatic, Revolute, Spherical, Universal
 from ..kinematics.hinge_angles import (
     HingeDesign,
@@ -31,7 +32,7 @@ from ..loops.forms import Attempt, Iteration
 from ..loops.known import coordinates_of
 from ..loops.mobility import Mobility
 from ..program.function import LOST
-from ..program.newton import ITERATIONS, Matrix, named
+from ..program.newton import Matrix, named
 from ..program.vectors import NO_TWIST, UNIT_X, UNIT_Y, UNIT_Z, ZERO, Twist, Vector
 from .closure_equations import Geometry, Moving, Position, Screw, bases, block, position
 from .coupling import Coupling

@@ -13,9 +13,11 @@ from ..declare.joints import Free
 from ..kinematics.motion import IDENTITY, BodyMotion, from_axes
 from ..planning.plan import Plan
 from ..program.constants import ConstantStage
+from ..program.function import Stage
 from ..program.program import Program
 from ..program.vectors import ZERO, Vector
 from .assumptions import define_assumptions, find_assumptions
+from .design import design_state
 from .dynamics import Dynamics
 from .in_motion import InMotion
 from .relative import RelativeCoordinates
@@ -45,7 +47,37 @@ class Entry:
     meaning: str
 
 
-@dataclass
+TOGETHER = {
+    "dynamics": ("The parts of M q'' + B = Q (Eq. 3).", ("mass_matrix", "bias", "forces")),
+    "poses": (
+        "Where the bodies are, and how they move.",
+        ("relative_coordinates", "positions", "orientations", "velocities"),
+    ),
+    "jacobians": (
+        "Relative, absolute and global Jacobians.",
+        ("relative_jacobian", "absolute_jacobian", "global_jacobian"),
+    ),
+    "linearisation": (
+        "What linearises the equations beside the derivative of rhs with respect to the state.",
+        ("rhs_input_jacobian", "signals_jacobian", "signals_input_jacobian"),
+    ),
+}
+"""What is computed together, as far as a model has it: name, one line that says it, functions."""
+
+
+def staged(functions: dict[str, Function]) -> dict[str, Function | Stage]:
+    """Return what is emitted: functions by themselves, and stages of those that share steps."""
+    stages: dict[str, Function | Stage] = {}
+    taken = set()
+    for name, (doc, names) in TOGETHER.items():
+        members = tuple(functions[n] for n in names if n in functions)
+        if len(members) > 1:
+            stages[name] = Stage(name, doc, members)
+            taken |= {member.name for member in members}
+    return {n: f for n, f in functions.items() if n not in taken} | stages
+
+
+@dataclass(eq=False)
 class GeneratedModel:
     """Everything that the emitters need.
 
@@ -56,7 +88,11 @@ class GeneratedModel:
     relative
         The relative coordinates, in order.
     functions
-        The emitted functions by name; `prepare` computes the constants that the others read.
+        All functions by name; `prepare` computes the constants that the others read.
+    emitted
+        What is compiled: functions, and stages of several.
+    design
+        From the parameters to the state at the design position.
     guards
         All guards of the model; the bit of a guard in a status word is its position here.
     assumptions, conditions
@@ -74,7 +110,9 @@ class GeneratedModel:
     parameters: tuple[Entry, ...]
     relative: tuple[Entry, ...]
     functions: dict[str, Function]
+    emitted: dict[str, Function | Stage]
     prepare: Function
+    design: Function
     guards: tuple[Guard, ...]
     assumptions: tuple[Assumption, ...]
     conditions: tuple[Condition, ...]
@@ -166,7 +204,9 @@ class _Builder:
             parameters=tuple(Entry(p.name, p.unit, p.meaning) for p in self.mechanism.parameters),
             relative=tuple(Entry(c.name, c.unit, c.meaning) for c in self.mechanism.coordinates),
             functions=self.functions,
+            emitted=staged(self.functions),
             prepare=prepare,
+            design=design_state(self.model, [e.name for e in self._state_entries()]),
             guards=guards,
             assumptions=assumed,
             conditions=tuple(self.constants.conditions.values()),

@@ -52,11 +52,66 @@ class Function:
     blocks: tuple[Block, ...] = ()
 
     @property
+    def members(self) -> tuple[Function, ...]:
+        """The function itself, as of a stage that has no other."""
+        return (self,)
+
+    @property
+    def size(self) -> int:
+        """Number of results."""
+        return len(self.results)
+
+    @property
     def free_symbols(self) -> set[sp.Symbol]:
         """Symbols that the function reads: state, inputs, constants."""
         expressions = [step.expression for step in self.steps]
         used = set().union(*(e.free_symbols for e in (*expressions, *self.results)))
         return used - {step.symbol for step in self.steps}
+
+
+@dataclass(frozen=True, eq=False)
+class Stage:
+    """Functions that are computed together: what they share is computed once.
+
+    The program of each is that which it has by itself, so that its results are the same to the last
+    bit; who writes a stage carries out equal operations once.
+
+    Attributes
+    ----------
+    name, doc
+        As of a function.
+    members
+        The functions, whose results are returned one behind the other.
+    """
+
+    name: str
+    doc: str
+    members: tuple[Function, ...]
+
+    @property
+    def part(self) -> str:
+        """What the file that it is printed in adds to the model's name."""
+        return self.members[0].part
+
+    @property
+    def free_symbols(self) -> set[sp.Symbol]:
+        """Symbols that the functions read: state, inputs, constants."""
+        return set().union(*(member.free_symbols for member in self.members))
+
+    @property
+    def guards(self) -> tuple[Guard, ...]:
+        """The guards that act in one of the functions, in the order of the first that has each."""
+        return tuple(dict.fromkeys(guard for member in self.members for guard in member.guards))
+
+    @property
+    def blocks(self) -> tuple[Block, ...]:
+        """The iterations that are called."""
+        return tuple({block.name: block for m in self.members for block in m.blocks}.values())
+
+    @property
+    def size(self) -> int:
+        """Number of results of all functions."""
+        return sum(member.size for member in self.members)
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import BDF, DOP853, LSODA, RK45, OdeSolver, Radau
 
-from ..generated._support import ModelError
+from ..equations.errors import ModelError
 from .dead_points import LAPSE, LEFT, SMALLEST_PART, Approach, DeadPoint
 
 Array = NDArray[np.float64]

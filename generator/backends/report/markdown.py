@@ -262,12 +262,12 @@ def _zeros(model: GeneratedModel) -> list[str]:
 
 def _counts(model: GeneratedModel) -> str:
     rows = []
-    for function in (model.prepare, *model.functions.values()):
+    for function in (model.prepare, model.design, *model.emitted.values()):
         counts = operations_of(function)
         rows.append(
             (
                 f"`{function.name}`",
-                " x ".join(map(str, function.shape)),
+                ", ".join(" x ".join(map(str, member.shape)) for member in function.members),
                 str(counts.total()),
                 *(str(counts[name]) for name in OPERATIONS),
             )

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 from kintrafo import Model, SimulationError, System, simulate
+from kintrafo.equations.errors import ModelError
 from kintrafo.generated import (
     andrews,
     excavator,
@@ -27,7 +28,6 @@ from kintrafo.generated import (
     macpherson_free_rack,
     slider_crank,
 )
-from kintrafo.generated._support import ModelError
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.simulation.solvers import native_methods
 from own_models import Built
