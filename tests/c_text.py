@@ -102,7 +102,8 @@ def count(body: list[str]) -> Counter[str]:
     """
     total: Counter[str] = Counter()
     for statement in statements(body):
-        if "=" in statement and statement[0] in ("const", "out", "state", "c"):
+        pointer = "void" in statement  # to the constants: the star is none of a product
+        if "=" in statement and statement[0] in ("const", "out", "state", "c") and not pointer:
             total.update(_operations(statement[statement.index("=") + 1 :]))
     return total
 
