@@ -35,9 +35,7 @@ FORWARD = np.array([1.0, 0.0, 0.0])
 each_model = pytest.mark.parametrize("model", MODELS.values(), ids=MODELS.keys())
 
 # the functions with the common signature
-COMMON = {
-    name: [f for f in functions(name) if f not in ("prepare", "residuals")] for name in MODELS
-}
+COMMON = {name: list(model.equations.functions) for name, model in MODELS.items()}
 every_function = pytest.mark.parametrize(
     ("model", "function"),
     [(model, function) for name, model in MODELS.items() for function in COMMON[name]],
@@ -349,7 +347,7 @@ def reads(model: ModuleType, function: str) -> set[str]:
     """Return the state and inputs that a function depends on, as the C text shows it."""
     prefix = f"{model.NAME}_".upper()
     used = set()
-    for token in functions(model.NAME)[function]:
+    for token in functions(model.NAME)[getattr(model, function).stage]:
         for kind in ("STATE_", "INPUT_"):
             if token.startswith(prefix + kind):
                 used.add(token.removeprefix(prefix + kind).lower())
@@ -416,7 +414,7 @@ def test_nan_among_the_constants_is_no_silent_number(model, function: str) -> No
     """No constant that is read may vanish, as in a law that takes a NaN for "not touched"."""
     constants = model.prepare(car_parameters(1, model))
     arrays = Instant(BETA1_DESIGN, 0.2, 0.01, 1.0, 50.0, 0.1).arrays(model)
-    read = set(functions(model.NAME)[function])
+    read = set(functions(model.NAME)[getattr(model, function).stage])
     prefix = f"{model.NAME}_constant_"
     for index, name in enumerate(model.CONSTANTS):
         if f"{prefix}{name}".upper() in read:
