@@ -83,9 +83,9 @@ def test_equal_values_of_other_names_are_one() -> None:
 
 
 def test_a_result_refuses_for_its_own_guards_only() -> None:
-    """The coupler cannot reach: the derivative that is zero everywhere has no guard."""
+    """Where a crank too long cannot turn, the derivative that is zero everywhere has no guard."""
     parameters = {n: entry["default"] for n, entry in four_bar.PARAMETERS.items()}
-    constants = four_bar.prepare(parameters | {"rocker_bearing_x": 0.32, "rocker_bearing_y": 0.1})
+    constants = four_bar.prepare(parameters | {"crank_pin_y": 0.25})
     states = np.zeros((629, 2))
     states[:, 0] = 0.01 * np.arange(629)
     refused = []

@@ -167,19 +167,15 @@ def _text(value: Any, indent: int) -> str:
     line = json.dumps(value, ensure_ascii=False)
     if not isinstance(value, dict | list | tuple) or indent + len(line) <= WIDTH:
         return line
-    pad, opening, closing = " " * (indent + 1), *("{}" if isinstance(value, dict) else "[]")
+    pad = " " * (indent + 1)
     if isinstance(value, dict):
-        items = [f"{json.dumps(k)}: {_text(v, indent + len(k) + 5)}" for k, v in value.items()]
-        items = [
-            item if "\n" not in item else f"{json.dumps(k)}: {_text(v, indent + 1)}"
-            for item, (k, v) in zip(items, value.items(), strict=True)
-        ]
-        return f"{opening}\n{pad}" + f",\n{pad}".join(items) + f"\n{' ' * indent}{closing}"
-    lines: list[str] = [""]
-    for item in (_text(v, indent + 1) for v in value):
+        items = [f"{pad}{json.dumps(k)}: {_text(v, indent + 1)}" for k, v in value.items()]
+        return "{\n" + ",\n".join(items) + f"\n{' ' * indent}}}"
+    lines = [""]
+    for item in (_text(element, indent + 1) for element in value):
         alone = "\n" in item or "{" in item
         if lines[-1] and (alone or len(pad) + len(lines[-1]) + len(item) + 2 > WIDTH):
             lines.append("")
         lines[-1] += f" {item}," if lines[-1] else f"{item},"
     body = f"\n{pad}".join(lines).rstrip(",")
-    return f"{opening}\n{pad}{body}\n{' ' * indent}{closing}"
+    return f"[\n{pad}{body}\n{' ' * indent}]"
