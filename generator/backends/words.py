@@ -56,7 +56,7 @@ def mechanism_hash(model: GeneratedModel) -> str:
     for function in (model.prepare, *once, *model.functions.values()):
         digest.update(function.name.encode())
         for step, written in zip(function.steps, function.written.steps, strict=True):
-            digest.update(f"{step.symbol}={written.text};".encode())
+            digest.update(f"{step.symbol.name}={written.text};".encode())
         for written in function.written.results:
             digest.update(f"{written.text};".encode())
     return digest.hexdigest()[:16]

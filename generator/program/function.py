@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from sympy.core.symbol import Str
 
 from .functions import Iterated
+from .symbols import symbols_of
 from .writing import Written, write
 
 if TYPE_CHECKING:
@@ -63,11 +64,11 @@ class Function:
     part: str = ""
     blocks: tuple[Block, ...] = ()
 
-    @property
-    def free_symbols(self) -> set[sp.Symbol]:
+    @cached_property
+    def free_symbols(self) -> frozenset[sp.Symbol]:
         """Symbols that the function reads: state, inputs, constants."""
         expressions = [step.expression for step in self.steps]
-        used = set().union(*(e.free_symbols for e in (*expressions, *self.results)))
+        used = frozenset().union(*map(symbols_of, (*expressions, *self.results)))
         return used - {step.symbol for step in self.steps}
 
     def operations(self) -> Counter[str]:

@@ -22,6 +22,7 @@ from .function import Block, Function
 from .functions import Component, Guarded, Iterated
 from .sharing import drop_dead, share
 from .steps import Guard, Step, ancestors, first_free
+from .symbols import symbols_of
 from .vectors import Vector
 
 if TYPE_CHECKING:
@@ -169,7 +170,7 @@ class Program:
         needed = ancestors(self.steps, targets)
         replaced = dict(replacements)
         for step in [s for s in self.steps.values() if s.symbol in needed]:
-            if step.symbol in self.guards and step.expression.free_symbols & replaced.keys():
+            if step.symbol in self.guards and symbols_of(step.expression) & replaced.keys():
                 guard = self.guards[step.symbol]
                 new = self.guarded(
                     f"{step.symbol}__{label}",

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 import sympy as sp
 
 from .steps import Step
+from .symbols import symbols_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -14,12 +16,12 @@ if TYPE_CHECKING:
 
 def drop_dead(steps: list[Step], results: list[sp.Expr]) -> tuple[list[Step], list[sp.Expr]]:
     """Remove the steps that no result depends on."""
-    wanted = set().union(*(r.free_symbols for r in results), set())
+    wanted = set().union(*map(symbols_of, results))
     alive = []
     for step in reversed(steps):
         if step.symbol in wanted:
             alive.append(step)
-            wanted |= step.expression.free_symbols
+            wanted |= symbols_of(step.expression)
     return alive[::-1], results
 
 
@@ -38,7 +40,7 @@ def share(
     shared: list[Step] = []
 
     def place(expression: sp.Expr, section: str) -> None:
-        for symbol in sorted(expression.free_symbols & waiting.keys(), key=str):
+        for symbol in sorted(symbols_of(expression) & waiting.keys(), key=attrgetter("name")):
             if symbol in waiting:  # not placed meanwhile, with one that comes before it
                 definition = waiting.pop(symbol)
                 place(definition, section)

@@ -248,7 +248,8 @@ class CPrinter:
 
     def _prepare_body(self) -> str:
         prepare = self.model.prepare
-        read = [e.name for e in self.model.parameters if sp.Symbol(e.name) in prepare.free_symbols]
+        given = {s.name for s in prepare.free_symbols}
+        read = [e.name for e in self.model.parameters if e.name in given]
         lines = [
             (
                 f"int {self.prefix}_prepare(const double *restrict parameters, "
@@ -330,7 +331,7 @@ class CPrinter:
             if step.section != section:
                 section = step.section
                 lines += ["", f"    /* {section} */"]
-            text = f"{_type(step.expression)} {step.symbol} = {written.text};"
+            text = f"{_type(step.expression)} {step.symbol.name} = {written.text};"
             lines += textwrap.wrap(
                 text,
                 WIDTH,
