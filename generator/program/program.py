@@ -46,6 +46,7 @@ class Program:
     guards: dict[sp.Symbol, Guard] = field(default_factory=dict)
     _section: str = ""
     _known: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
+    _varying: set[sp.Expr] = field(default_factory=set)  # nothing in them can be hoisted
 
     def section(self, title: str) -> None:
         """Name the part of the derivation that the next steps belong to."""
@@ -228,6 +229,14 @@ class Program:
         """Move the parts that depend on parameters only into the constant stage."""
         if expression.is_Atom:
             return expression
+        if expression in self._varying:
+            return expression
+        hoisted = self._without_constant_parts(expression)
+        if hoisted == expression:
+            self._varying.add(expression)
+        return hoisted
+
+    def _without_constant_parts(self, expression: sp.Expr) -> sp.Expr:
         if self.constants.contains(expression):
             return self.constants.collect(expression)
         arguments = [self._hoist(a) for a in expression.args]

@@ -214,9 +214,11 @@ class _Writer:
 
 
 def _total(parts: Sequence[Written], **own: int) -> Counter[str]:
-    total = Counter({name: number for name, number in own.items() if number})
-    for part in parts:
-        total.update(part.operations)
+    total: Counter[str] = Counter()
+    for counts in (own, *(part.operations for part in parts)):
+        for name, number in counts.items():
+            if number:
+                total[name] += number
     return total
 
 
