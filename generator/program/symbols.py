@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
-import sympy as sp
+from typing import TYPE_CHECKING
+
 from sympy.core.cache import cacheit
+
+if TYPE_CHECKING:
+    import sympy as sp
 
 
 @cacheit  # type: ignore[untyped-decorator]  # SymPy has no types

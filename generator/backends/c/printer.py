@@ -8,8 +8,6 @@ from __future__ import annotations
 import textwrap
 from typing import TYPE_CHECKING
 
-import sympy as sp
-
 from ...program.floors import ROUNDING
 from ...program.functions import Iterated
 from ...program.newton import LIMITS
@@ -27,6 +25,8 @@ from ..words import (
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
+
+    import sympy as sp
 
     from ...equations.outputs import Entry, GeneratedModel
     from ...program.conditions import Assumption, Condition
