@@ -59,11 +59,14 @@ def shipped(model: Model) -> ModuleType:
 
 
 def derive(model: Model, *, derivatives: bool = True) -> GeneratedModel:
-    """Derive a model, once in a process."""
-    declared = repr(model), derivatives  # says everything
-    if declared not in _derived:
-        _derived[declared] = generate(model, derivatives=derivatives)
-    return _derived[declared]
+    """Derive a model, once in a process; what has derivatives serves who needs none, too."""
+    declared = repr(model)  # says everything
+    whole = _derived.get((declared, True))
+    if whole is not None:
+        return whole
+    if (declared, derivatives) not in _derived:
+        _derived[declared, derivatives] = generate(model, derivatives=derivatives)
+    return _derived[declared, derivatives]
 
 
 def own(model: Model, *, arrays: bool = not has_gcc, derivatives: bool = True) -> ModuleType:

@@ -55,7 +55,7 @@ TRAVEL = {ARM.name: 0.35, FIVE.name: 0.5, STRUT.name: 0.08}
 
 @pytest.fixture(scope="session")
 def derive() -> Callable[[str], GeneratedModel]:
-    return lambda name: own_models.derive(BY_NAME[name])
+    return lambda name: own_models.derive(BY_NAME[name], derivatives=False)
 
 
 @pytest.fixture(scope="session")

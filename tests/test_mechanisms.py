@@ -84,7 +84,7 @@ class At:
 
 @pytest.fixture(scope="session")
 def derive() -> Derived:
-    return lambda name: own_models.derive(MODELS[name])
+    return lambda name: own_models.derive(MODELS[name], derivatives=False)
 
 
 @pytest.fixture(scope="session")
