@@ -184,6 +184,8 @@ def test_linearisation_knows_the_wheel_hop_and_the_spinning_wheel():
 PAGE = (Path(__file__).parent.parent / "docs/double-wishbone.md").read_text(encoding="utf-8")
 
 
+# `test_characteristics` draws all curves, and a whole report is in test_double_wishbone_report.py
+@pytest.mark.usefixtures("coarse_report", "first_page_of_curves")
 def test_the_documented_commands_run(run):
     blocks = re.findall(r"```sh\n(.*?)```", PAGE, flags=re.DOTALL)
     commands = [line for block in blocks for line in block.splitlines()]

@@ -56,7 +56,7 @@ TRAVEL = {ARM.name: 0.35, FIVE.name: 0.5, STRUT.name: 0.08}
 
 @pytest.fixture(scope="session")
 def derive() -> Callable[[str], GeneratedModel]:
-    return lambda name: own_models.derive(BY_NAME[name])
+    return lambda name: own_models.derive(BY_NAME[name], derivatives=False)
 
 
 @pytest.fixture(scope="session")
@@ -468,7 +468,9 @@ def test_angles_of_the_links_can_be_reported() -> None:
             ),
         ),
     )
-    derived = generate(replace(ARM, mechanism=mechanism, massive=("carrier", "wheel"), held={}))
+    derived = generate(
+        replace(ARM, mechanism=mechanism, massive=("carrier", "wheel"), held={}), derivatives=False
+    )
     values = constants_of(derived, {p.name: p.default for p in mechanism.parameters})
     values |= {"arm_angle": 1.5, "rack_position": 0.02, "spin_angle": 0.1}
     shown = derived.functions["relative_coordinates"]

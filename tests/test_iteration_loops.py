@@ -68,16 +68,24 @@ SPANS = {
 }
 """How far the first coordinate goes from design, rad or m: nearly to the dead points."""
 
+DIFFERENTIATED = (SEVEN_HINGES, BRICARD, own_loops.PLATE_ON_A_SLOT, own_loops.BENNETT)
+"""Those whose derivatives are looked at; the others are derived without, in half of the time."""
+
 
 @pytest.fixture(scope="session")
 def derive() -> Callable[[Model], GeneratedModel]:
-    return own_models.derive
+    return lambda model: own_models.derive(model, derivatives=False)
 
 
 @pytest.fixture(scope="session")
 def built() -> Callable[[Model], Built]:
     """Return a compiled model."""
-    found = cache(lambda name: Built.of(MODELS[name], own(MODELS[name])))
+
+    @cache
+    def found(name: str) -> Built:
+        model = MODELS[name]
+        return Built.of(model, own(model, derivatives=model in DIFFERENTIATED))
+
     return lambda model: found(model.name)
 
 

@@ -2,13 +2,18 @@
 
 from collections.abc import Mapping
 
+import pytest
 import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo.generator.backends.counting import counted, operations_of
 from kintrafo.generator.backends.schedule import schedule
-from kintrafo.generator.program import ConstantStage, Function, Program
-from kintrafo.generator.program.functions import Guarded
+from kintrafo.generator.equations.outputs import GeneratedModel, generate
+from kintrafo.generator.mechanisms import MODELS
+from kintrafo.generator.program import ConstantStage, Function, Program, Step
+from kintrafo.generator.program.derivatives import chain_rule
+from kintrafo.generator.program.functions import Guarded, Positive
+from kintrafo.generator.program.sharing import share
 
 A, B = sp.symbols("a b")  # parameters
 X, Y = sp.symbols("x y")  # variables
@@ -258,3 +263,54 @@ def test_operations_of_a_function_are_those_of_its_steps() -> None:
     values = [*(s.expression for s in function.steps), *function.results]
     total = counted(map(schedule, values))
     assert operations_of(function) == total == {"multiply": 2, "add": 1, "trigonometric": 1}
+
+
+# -- against SymPy ---------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def four_bar() -> GeneratedModel:
+    return generate(next(model for model in MODELS if model.name == "four_bar"))
+
+
+def test_derivatives_are_those_of_sympy(four_bar: GeneratedModel) -> None:
+    x, y = sp.symbols("x y")
+    composed = [sp.sin(x * y) * sp.sqrt(x**2 + y), sp.atan2(y * x, x) / (1 + y) ** 3, Positive(x)]
+    steps = [step.expression for f in four_bar.functions.values() for step in f.steps]
+    for expression in {*composed, *steps}:
+        for symbol in expression.free_symbols:
+            found, expected = (
+                chain_rule(expression, {symbol: sp.Integer(1)}),
+                expression.diff(symbol),
+            )
+            assert found == expected or sp.simplify(found - expected) == 0, (expression, symbol)
+
+
+def test_what_is_common_is_what_sympy_finds() -> None:
+    """Names and what they stand for; with them every expression is what it was."""
+    a, b, c, d = sp.symbols("a b c d")
+    expressions = [
+        (a + b + c) * sp.sqrt(a + b),
+        (a + b) ** -2 + a * b * c,
+        a * b * d - sp.cos(c - d),
+        sp.sin(d - c) + b * a * (c - d),
+    ]
+    steps = [Step(sp.Symbol(f"step_{i}"), e, "") for i, e in enumerate(expressions)]
+    shared, _ = share(steps, [], sp.numbered_symbols("x"))
+    replacements, reduced = sp.cse(expressions, order="canonical")
+    found = {step.symbol: step.expression for step in shared}
+    expected = dict(replacements) | dict(zip((s.symbol for s in steps), reduced, strict=True))
+    assert found == expected
+    for step, expression in zip(steps, expressions, strict=True):
+        written = found[step.symbol]
+        while written.free_symbols & found.keys():
+            written = written.xreplace(found)
+        assert sp.expand(written - expression) == 0
+
+
+def test_without_derivatives_the_other_functions_are_the_same(four_bar: GeneratedModel) -> None:
+    bare = generate(four_bar.model, derivatives=False)
+    left_out = {"rhs_jacobian", "rhs_input_jacobian", "signals_jacobian", "signals_input_jacobian"}
+    assert four_bar.functions.keys() - bare.functions.keys() == left_out
+    for name, function in bare.functions.items():
+        assert operations_of(function) == operations_of(four_bar.functions[name]), name

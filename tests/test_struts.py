@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 def compiled(model: Model) -> Built:
     """Return a model with its default parameters."""
-    return Built.of(model, own(model))
+    return Built.of(model, own(model, derivatives=False))
 
 
 # -- struts ---------------------------------------------------------------------------------------

@@ -122,9 +122,19 @@ class GeneratedModel:
     held_inputs: dict[str, tuple[str, ...]] = field(default_factory=dict)
 
 
-def generate(model: Model) -> GeneratedModel:
-    """Derive a model and all of its functions."""
-    return _Builder(model).build()
+def generate(model: Model, *, derivatives: bool = True) -> GeneratedModel:
+    """Derive a model and its functions.
+
+    Parameters
+    ----------
+    model
+        Declaration.
+    derivatives
+        Also those of the right-hand side and of the signals by state and inputs, which take half
+        of the time. A linearisation needs them, and a solver of stiff equations; no simulation
+        with an explicit method does.
+    """
+    return _Builder(model, derivatives=derivatives).build()
 
 
 def _refuse_free(model: Model) -> None:
@@ -143,8 +153,9 @@ def _refuse_free(model: Model) -> None:
 class _Builder:
     """Collects the functions of one model from one program."""
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: Model, *, derivatives: bool) -> None:
         self.model = model
+        self.derivatives = derivatives
         self.mechanism: Mechanism = model.mechanism
         _refuse_free(model)
         self.plan = Plan.of(model)
@@ -330,6 +341,8 @@ class _Builder:
         by: str,
     ) -> None:
         """Add the exact derivatives of some results with respect to the state or the inputs."""
+        if not self.derivatives:
+            return
         program.section(f"derivatives {what}")
         values = list(values)
         symbols = (

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 from sympy.core.symbol import Str
 
+from .symbols import symbols_of
+
 if TYPE_CHECKING:
     import sympy as sp
 
@@ -61,11 +63,11 @@ class Function:
         """Number of results."""
         return len(self.results)
 
-    @property
-    def free_symbols(self) -> set[sp.Symbol]:
+    @cached_property
+    def free_symbols(self) -> frozenset[sp.Symbol]:
         """Symbols that the function reads: state, inputs, constants."""
         expressions = [step.expression for step in self.steps]
-        used = set().union(*(e.free_symbols for e in (*expressions, *self.results)))
+        used = frozenset().union(*map(symbols_of, (*expressions, *self.results)))
         return used - {step.symbol for step in self.steps}
 
 
