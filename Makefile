@@ -4,7 +4,7 @@
 	benchmark benchmark-andrews benchmark-bits benchmark-growth benchmark-loops benchmark-page benchmark-peers benchmark-speed format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
-EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/simulation/native/*.pyx runtime/simulation/native/*.[ch])
+EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/equations/*.pyx runtime/simulation/native/*.pyx runtime/simulation/native/*.[ch])
 
 help: ## Show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## /{printf "  make %-15s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -113,4 +113,4 @@ baseline: build ## Store the present operation counts as the baseline
 	@$(PYTHON) -m pytest -q tests/test_operation_counts.py --update-baseline
 
 clean: ## Remove everything that can be made again
-	rm -rf .venv build out dist *.egg-info generated/*.so runtime/simulation/native/*.so .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf .venv build out dist *.egg-info generated/*.so runtime/*/*.so runtime/simulation/native/*.so .pytest_cache .mypy_cache .ruff_cache .hypothesis

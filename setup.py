@@ -3,6 +3,7 @@
 Everything else is in pyproject.toml.
 """
 
+import json
 import os
 import re
 import shlex
@@ -32,16 +33,15 @@ LIBRARIES = ["cvode", "arkode", "nvecserial", "sunmatrixdense", "sunlinsoldense"
 
 
 def model_extension(wrapper: Path) -> Extension:
-    """Return an extension module: a Cython file, with the C sources of its model if it has any."""
+    """Return the extension module of a model: a Cython file, with the C files that it is about."""
     name = wrapper.stem.removeprefix("_")
-    parts = [SOURCES / f"{name}.c", SOURCES / f"{name}_derivatives.c"]
-    sources = [wrapper.as_posix(), *(part.as_posix() for part in parts if part.exists())]
-    headers = [path.as_posix() for path in [SOURCES / f"{name}.h"] if path.exists()]
+    manifest = json.loads((GENERATED / f"{name}.json").read_text(encoding="utf-8"))
+    files = [(SOURCES / source).as_posix() for source in manifest["sources"]]
     return Extension(
         f"kintrafo.generated.{wrapper.stem}",
-        sources,
+        [wrapper.as_posix(), *(file for file in files if file.endswith(".c"))],
         include_dirs=[SOURCES.as_posix()],
-        depends=headers,
+        depends=[file for file in files if file.endswith(".h")],
         extra_compile_args=FLAGS,
     )
 
@@ -145,7 +145,10 @@ class Build(build_ext):
 
 if not list(GENERATED.glob("*.pyx")):
     sys.exit("kintrafo: no generated models in generated/; run `make generate` first")
-EXTENSIONS = [model_extension(path) for path in sorted(GENERATED.glob("*.pyx"))]
+CALLS = Extension(
+    "kintrafo.equations._calls", ["runtime/equations/_calls.pyx"], extra_compile_args=FLAGS
+)
+EXTENSIONS = [CALLS, *(model_extension(path) for path in sorted(GENERATED.glob("*.pyx")))]
 SOLVER = solver_extension()
 MODULES = cythonize([*EXTENSIONS, *([SOLVER] if SOLVER else [])], build_dir="build/cython")
 for module in MODULES:

@@ -14,6 +14,7 @@ import typer
 from kintrafo import Simulation, System, simulate
 from kintrafo.generated import front_axle as equations
 from kintrafo.generator import Model
+from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import front_axle, macpherson
 from kintrafo.plots.figures import BLUE, ORANGE, STYLE
@@ -50,7 +51,7 @@ def operations(model: Model) -> dict[str, int]:
     """Return the number of operations of the functions of the table."""
     derived = generate(model)
     functions = derived.functions | {"prepare": derived.prepare}
-    return {name: functions[name].operations().total() for name in COUNTED}
+    return {name: operations_of(functions[name]).total() for name in COUNTED}
 
 
 def counts() -> str:

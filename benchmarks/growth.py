@@ -22,6 +22,7 @@ import numpy as np
 import typer
 from kintrafo import System, simulate
 from kintrafo.generator import Model
+from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.equations.outputs import GeneratedModel, generate
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.plots.figures import BLUE, STYLE
@@ -128,8 +129,8 @@ def measure(loops: int, compiler: Compiler, rounds: int, advance: Callable[[str]
         loops=loops,
         bodies=len(model.massive),
         derive=derive,
-        operations=derived.functions["rhs"].operations().total(),
-        jacobian_operations=derived.functions["rhs_jacobian"].operations().total(),
+        operations=operations_of(derived.functions["rhs"]).total(),
+        jacobian_operations=operations_of(derived.functions["rhs_jacobian"]).total(),
         compile=compiling,
         call=call.least / BATCH,
         evaluations=runs[0].nfev,

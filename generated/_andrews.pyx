@@ -5,80 +5,46 @@
 from libc.stdint cimport uintptr_t
 
 cdef extern from "andrews.h" nogil:
-    int andrews_prepare(const double *parameters, double *constants)
+    int andrews_prepare(const double *parameters, double *out)
+    int andrews_design_state(const double *parameters, double *out)
     int andrews_rhs(
         const double *constants, const double *state, const double *inputs,
         double *out)
     int andrews_rhs_jacobian(
         const double *constants, const double *state, const double *inputs,
         double *out)
-    int andrews_rhs_input_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int andrews_mass_matrix(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int andrews_bias(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int andrews_forces(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int andrews_relative_coordinates(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int andrews_relative_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
     int andrews_residuals(
         const double *constants, const double *state, const double *inputs, const double *given,
         double *out)
-    int andrews_absolute_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int andrews_global_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int andrews_positions(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int andrews_orientations(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int andrews_velocities(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
     int andrews_signals(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int andrews_signals_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int andrews_signals_input_jacobian(
         const double *constants, const double *state, const double *inputs,
         double *out)
     int andrews_margins(
         const double *constants, const double *state, const double *inputs,
         double *out)
+    int andrews_dynamics(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int andrews_poses(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int andrews_jacobians(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int andrews_linearisation(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
 
 ADDRESSES = {
     "prepare": <uintptr_t> &andrews_prepare,
+    "design_state": <uintptr_t> &andrews_design_state,
     "rhs": <uintptr_t> &andrews_rhs,
     "rhs_jacobian": <uintptr_t> &andrews_rhs_jacobian,
-    "rhs_input_jacobian": <uintptr_t> &andrews_rhs_input_jacobian,
-    "mass_matrix": <uintptr_t> &andrews_mass_matrix,
-    "bias": <uintptr_t> &andrews_bias,
-    "forces": <uintptr_t> &andrews_forces,
-    "relative_coordinates": <uintptr_t> &andrews_relative_coordinates,
-    "relative_jacobian": <uintptr_t> &andrews_relative_jacobian,
     "residuals": <uintptr_t> &andrews_residuals,
-    "absolute_jacobian": <uintptr_t> &andrews_absolute_jacobian,
-    "global_jacobian": <uintptr_t> &andrews_global_jacobian,
-    "positions": <uintptr_t> &andrews_positions,
-    "orientations": <uintptr_t> &andrews_orientations,
-    "velocities": <uintptr_t> &andrews_velocities,
     "signals": <uintptr_t> &andrews_signals,
-    "signals_jacobian": <uintptr_t> &andrews_signals_jacobian,
-    "signals_input_jacobian": <uintptr_t> &andrews_signals_input_jacobian,
     "margins": <uintptr_t> &andrews_margins,
+    "dynamics": <uintptr_t> &andrews_dynamics,
+    "poses": <uintptr_t> &andrews_poses,
+    "jacobians": <uintptr_t> &andrews_jacobians,
+    "linearisation": <uintptr_t> &andrews_linearisation,
 }

@@ -5,23 +5,12 @@
 from libc.stdint cimport uintptr_t
 
 cdef extern from "double_wishbone.h" nogil:
-    int double_wishbone_prepare(const double *parameters, double *constants)
+    int double_wishbone_prepare(const double *parameters, double *out)
+    int double_wishbone_design_state(const double *parameters, double *out)
     int double_wishbone_rhs(
         const double *constants, const double *state, const double *inputs,
         double *out)
     int double_wishbone_rhs_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int double_wishbone_rhs_input_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int double_wishbone_mass_matrix(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int double_wishbone_bias(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int double_wishbone_forces(
         const double *constants, const double *state, const double *inputs,
         double *out)
     int double_wishbone_rhs_rack_held(
@@ -30,59 +19,40 @@ cdef extern from "double_wishbone.h" nogil:
     int double_wishbone_rhs_jacobian_rack_held(
         const double *constants, const double *state, const double *inputs,
         double *out)
-    int double_wishbone_relative_coordinates(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int double_wishbone_relative_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
     int double_wishbone_residuals(
         const double *constants, const double *state, const double *inputs, const double *given,
         double *out)
-    int double_wishbone_global_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int double_wishbone_positions(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int double_wishbone_orientations(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int double_wishbone_velocities(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
     int double_wishbone_signals(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int double_wishbone_signals_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int double_wishbone_signals_input_jacobian(
         const double *constants, const double *state, const double *inputs,
         double *out)
     int double_wishbone_margins(
         const double *constants, const double *state, const double *inputs,
         double *out)
+    int double_wishbone_dynamics(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int double_wishbone_poses(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int double_wishbone_jacobians(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int double_wishbone_linearisation(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
 
 ADDRESSES = {
     "prepare": <uintptr_t> &double_wishbone_prepare,
+    "design_state": <uintptr_t> &double_wishbone_design_state,
     "rhs": <uintptr_t> &double_wishbone_rhs,
     "rhs_jacobian": <uintptr_t> &double_wishbone_rhs_jacobian,
-    "rhs_input_jacobian": <uintptr_t> &double_wishbone_rhs_input_jacobian,
-    "mass_matrix": <uintptr_t> &double_wishbone_mass_matrix,
-    "bias": <uintptr_t> &double_wishbone_bias,
-    "forces": <uintptr_t> &double_wishbone_forces,
     "rhs_rack_held": <uintptr_t> &double_wishbone_rhs_rack_held,
     "rhs_jacobian_rack_held": <uintptr_t> &double_wishbone_rhs_jacobian_rack_held,
-    "relative_coordinates": <uintptr_t> &double_wishbone_relative_coordinates,
-    "relative_jacobian": <uintptr_t> &double_wishbone_relative_jacobian,
     "residuals": <uintptr_t> &double_wishbone_residuals,
-    "global_jacobian": <uintptr_t> &double_wishbone_global_jacobian,
-    "positions": <uintptr_t> &double_wishbone_positions,
-    "orientations": <uintptr_t> &double_wishbone_orientations,
-    "velocities": <uintptr_t> &double_wishbone_velocities,
     "signals": <uintptr_t> &double_wishbone_signals,
-    "signals_jacobian": <uintptr_t> &double_wishbone_signals_jacobian,
-    "signals_input_jacobian": <uintptr_t> &double_wishbone_signals_input_jacobian,
     "margins": <uintptr_t> &double_wishbone_margins,
+    "dynamics": <uintptr_t> &double_wishbone_dynamics,
+    "poses": <uintptr_t> &double_wishbone_poses,
+    "jacobians": <uintptr_t> &double_wishbone_jacobians,
+    "linearisation": <uintptr_t> &double_wishbone_linearisation,
 }

@@ -5,7 +5,8 @@
 from libc.stdint cimport uintptr_t
 
 cdef extern from "excavator.h" nogil:
-    int excavator_prepare(const double *parameters, double *constants)
+    int excavator_prepare(const double *parameters, double *out)
+    int excavator_design_state(const double *parameters, double *out)
     int excavator_rhs(
         const double *constants, const double *state, const double *inputs,
         double *out)
@@ -15,58 +16,31 @@ cdef extern from "excavator.h" nogil:
     int excavator_rhs_input_jacobian(
         const double *constants, const double *state, const double *inputs,
         double *out)
-    int excavator_mass_matrix(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int excavator_bias(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int excavator_forces(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int excavator_relative_coordinates(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int excavator_relative_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
     int excavator_residuals(
         const double *constants, const double *state, const double *inputs, const double *given,
         double *out)
-    int excavator_absolute_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int excavator_global_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int excavator_positions(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int excavator_orientations(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int excavator_velocities(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
     int excavator_margins(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int excavator_dynamics(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int excavator_poses(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int excavator_jacobians(
         const double *constants, const double *state, const double *inputs,
         double *out)
 
 ADDRESSES = {
     "prepare": <uintptr_t> &excavator_prepare,
+    "design_state": <uintptr_t> &excavator_design_state,
     "rhs": <uintptr_t> &excavator_rhs,
     "rhs_jacobian": <uintptr_t> &excavator_rhs_jacobian,
     "rhs_input_jacobian": <uintptr_t> &excavator_rhs_input_jacobian,
-    "mass_matrix": <uintptr_t> &excavator_mass_matrix,
-    "bias": <uintptr_t> &excavator_bias,
-    "forces": <uintptr_t> &excavator_forces,
-    "relative_coordinates": <uintptr_t> &excavator_relative_coordinates,
-    "relative_jacobian": <uintptr_t> &excavator_relative_jacobian,
     "residuals": <uintptr_t> &excavator_residuals,
-    "absolute_jacobian": <uintptr_t> &excavator_absolute_jacobian,
-    "global_jacobian": <uintptr_t> &excavator_global_jacobian,
-    "positions": <uintptr_t> &excavator_positions,
-    "orientations": <uintptr_t> &excavator_orientations,
-    "velocities": <uintptr_t> &excavator_velocities,
     "margins": <uintptr_t> &excavator_margins,
+    "dynamics": <uintptr_t> &excavator_dynamics,
+    "poses": <uintptr_t> &excavator_poses,
+    "jacobians": <uintptr_t> &excavator_jacobians,
 }

@@ -5,7 +5,8 @@
 from libc.stdint cimport uintptr_t
 
 cdef extern from "excavator_lifting.h" nogil:
-    int excavator_lifting_prepare(const double *parameters, double *constants)
+    int excavator_lifting_prepare(const double *parameters, double *out)
+    int excavator_lifting_design_state(const double *parameters, double *out)
     int excavator_lifting_rhs(
         const double *constants, const double *state, const double *inputs,
         double *out)
@@ -15,66 +16,39 @@ cdef extern from "excavator_lifting.h" nogil:
     int excavator_lifting_rhs_input_jacobian(
         const double *constants, const double *state, const double *inputs,
         double *out)
-    int excavator_lifting_mass_matrix(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int excavator_lifting_bias(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int excavator_lifting_forces(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
     int excavator_lifting_rhs_cylinders_held(
         const double *constants, const double *state, const double *inputs,
         double *out)
     int excavator_lifting_rhs_jacobian_cylinders_held(
         const double *constants, const double *state, const double *inputs,
         double *out)
-    int excavator_lifting_relative_coordinates(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int excavator_lifting_relative_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
     int excavator_lifting_residuals(
         const double *constants, const double *state, const double *inputs, const double *given,
         double *out)
-    int excavator_lifting_absolute_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int excavator_lifting_global_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int excavator_lifting_positions(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int excavator_lifting_orientations(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int excavator_lifting_velocities(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
     int excavator_lifting_margins(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int excavator_lifting_dynamics(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int excavator_lifting_poses(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int excavator_lifting_jacobians(
         const double *constants, const double *state, const double *inputs,
         double *out)
 
 ADDRESSES = {
     "prepare": <uintptr_t> &excavator_lifting_prepare,
+    "design_state": <uintptr_t> &excavator_lifting_design_state,
     "rhs": <uintptr_t> &excavator_lifting_rhs,
     "rhs_jacobian": <uintptr_t> &excavator_lifting_rhs_jacobian,
     "rhs_input_jacobian": <uintptr_t> &excavator_lifting_rhs_input_jacobian,
-    "mass_matrix": <uintptr_t> &excavator_lifting_mass_matrix,
-    "bias": <uintptr_t> &excavator_lifting_bias,
-    "forces": <uintptr_t> &excavator_lifting_forces,
     "rhs_cylinders_held": <uintptr_t> &excavator_lifting_rhs_cylinders_held,
     "rhs_jacobian_cylinders_held": <uintptr_t> &excavator_lifting_rhs_jacobian_cylinders_held,
-    "relative_coordinates": <uintptr_t> &excavator_lifting_relative_coordinates,
-    "relative_jacobian": <uintptr_t> &excavator_lifting_relative_jacobian,
     "residuals": <uintptr_t> &excavator_lifting_residuals,
-    "absolute_jacobian": <uintptr_t> &excavator_lifting_absolute_jacobian,
-    "global_jacobian": <uintptr_t> &excavator_lifting_global_jacobian,
-    "positions": <uintptr_t> &excavator_lifting_positions,
-    "orientations": <uintptr_t> &excavator_lifting_orientations,
-    "velocities": <uintptr_t> &excavator_lifting_velocities,
     "margins": <uintptr_t> &excavator_lifting_margins,
+    "dynamics": <uintptr_t> &excavator_lifting_dynamics,
+    "poses": <uintptr_t> &excavator_lifting_poses,
+    "jacobians": <uintptr_t> &excavator_lifting_jacobians,
 }

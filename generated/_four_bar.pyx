@@ -5,80 +5,46 @@
 from libc.stdint cimport uintptr_t
 
 cdef extern from "four_bar.h" nogil:
-    int four_bar_prepare(const double *parameters, double *constants)
+    int four_bar_prepare(const double *parameters, double *out)
+    int four_bar_design_state(const double *parameters, double *out)
     int four_bar_rhs(
         const double *constants, const double *state, const double *inputs,
         double *out)
     int four_bar_rhs_jacobian(
         const double *constants, const double *state, const double *inputs,
         double *out)
-    int four_bar_rhs_input_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int four_bar_mass_matrix(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int four_bar_bias(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int four_bar_forces(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int four_bar_relative_coordinates(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int four_bar_relative_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
     int four_bar_residuals(
         const double *constants, const double *state, const double *inputs, const double *given,
         double *out)
-    int four_bar_absolute_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int four_bar_global_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int four_bar_positions(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int four_bar_orientations(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int four_bar_velocities(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
     int four_bar_signals(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int four_bar_signals_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int four_bar_signals_input_jacobian(
         const double *constants, const double *state, const double *inputs,
         double *out)
     int four_bar_margins(
         const double *constants, const double *state, const double *inputs,
         double *out)
+    int four_bar_dynamics(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int four_bar_poses(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int four_bar_jacobians(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int four_bar_linearisation(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
 
 ADDRESSES = {
     "prepare": <uintptr_t> &four_bar_prepare,
+    "design_state": <uintptr_t> &four_bar_design_state,
     "rhs": <uintptr_t> &four_bar_rhs,
     "rhs_jacobian": <uintptr_t> &four_bar_rhs_jacobian,
-    "rhs_input_jacobian": <uintptr_t> &four_bar_rhs_input_jacobian,
-    "mass_matrix": <uintptr_t> &four_bar_mass_matrix,
-    "bias": <uintptr_t> &four_bar_bias,
-    "forces": <uintptr_t> &four_bar_forces,
-    "relative_coordinates": <uintptr_t> &four_bar_relative_coordinates,
-    "relative_jacobian": <uintptr_t> &four_bar_relative_jacobian,
     "residuals": <uintptr_t> &four_bar_residuals,
-    "absolute_jacobian": <uintptr_t> &four_bar_absolute_jacobian,
-    "global_jacobian": <uintptr_t> &four_bar_global_jacobian,
-    "positions": <uintptr_t> &four_bar_positions,
-    "orientations": <uintptr_t> &four_bar_orientations,
-    "velocities": <uintptr_t> &four_bar_velocities,
     "signals": <uintptr_t> &four_bar_signals,
-    "signals_jacobian": <uintptr_t> &four_bar_signals_jacobian,
-    "signals_input_jacobian": <uintptr_t> &four_bar_signals_input_jacobian,
     "margins": <uintptr_t> &four_bar_margins,
+    "dynamics": <uintptr_t> &four_bar_dynamics,
+    "poses": <uintptr_t> &four_bar_poses,
+    "jacobians": <uintptr_t> &four_bar_jacobians,
+    "linearisation": <uintptr_t> &four_bar_linearisation,
 }

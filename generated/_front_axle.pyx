@@ -5,23 +5,12 @@
 from libc.stdint cimport uintptr_t
 
 cdef extern from "front_axle.h" nogil:
-    int front_axle_prepare(const double *parameters, double *constants)
+    int front_axle_prepare(const double *parameters, double *out)
+    int front_axle_design_state(const double *parameters, double *out)
     int front_axle_rhs(
         const double *constants, const double *state, const double *inputs,
         double *out)
     int front_axle_rhs_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int front_axle_rhs_input_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int front_axle_mass_matrix(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int front_axle_bias(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int front_axle_forces(
         const double *constants, const double *state, const double *inputs,
         double *out)
     int front_axle_rhs_rack_held(
@@ -30,63 +19,40 @@ cdef extern from "front_axle.h" nogil:
     int front_axle_rhs_jacobian_rack_held(
         const double *constants, const double *state, const double *inputs,
         double *out)
-    int front_axle_relative_coordinates(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int front_axle_relative_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
     int front_axle_residuals(
         const double *constants, const double *state, const double *inputs, const double *given,
         double *out)
-    int front_axle_absolute_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int front_axle_global_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int front_axle_positions(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int front_axle_orientations(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int front_axle_velocities(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
     int front_axle_signals(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int front_axle_signals_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int front_axle_signals_input_jacobian(
         const double *constants, const double *state, const double *inputs,
         double *out)
     int front_axle_margins(
         const double *constants, const double *state, const double *inputs,
         double *out)
+    int front_axle_dynamics(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int front_axle_poses(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int front_axle_jacobians(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int front_axle_linearisation(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
 
 ADDRESSES = {
     "prepare": <uintptr_t> &front_axle_prepare,
+    "design_state": <uintptr_t> &front_axle_design_state,
     "rhs": <uintptr_t> &front_axle_rhs,
     "rhs_jacobian": <uintptr_t> &front_axle_rhs_jacobian,
-    "rhs_input_jacobian": <uintptr_t> &front_axle_rhs_input_jacobian,
-    "mass_matrix": <uintptr_t> &front_axle_mass_matrix,
-    "bias": <uintptr_t> &front_axle_bias,
-    "forces": <uintptr_t> &front_axle_forces,
     "rhs_rack_held": <uintptr_t> &front_axle_rhs_rack_held,
     "rhs_jacobian_rack_held": <uintptr_t> &front_axle_rhs_jacobian_rack_held,
-    "relative_coordinates": <uintptr_t> &front_axle_relative_coordinates,
-    "relative_jacobian": <uintptr_t> &front_axle_relative_jacobian,
     "residuals": <uintptr_t> &front_axle_residuals,
-    "absolute_jacobian": <uintptr_t> &front_axle_absolute_jacobian,
-    "global_jacobian": <uintptr_t> &front_axle_global_jacobian,
-    "positions": <uintptr_t> &front_axle_positions,
-    "orientations": <uintptr_t> &front_axle_orientations,
-    "velocities": <uintptr_t> &front_axle_velocities,
     "signals": <uintptr_t> &front_axle_signals,
-    "signals_jacobian": <uintptr_t> &front_axle_signals_jacobian,
-    "signals_input_jacobian": <uintptr_t> &front_axle_signals_input_jacobian,
     "margins": <uintptr_t> &front_axle_margins,
+    "dynamics": <uintptr_t> &front_axle_dynamics,
+    "poses": <uintptr_t> &front_axle_poses,
+    "jacobians": <uintptr_t> &front_axle_jacobians,
+    "linearisation": <uintptr_t> &front_axle_linearisation,
 }

@@ -5,23 +5,12 @@
 from libc.stdint cimport uintptr_t
 
 cdef extern from "macpherson.h" nogil:
-    int macpherson_prepare(const double *parameters, double *constants)
+    int macpherson_prepare(const double *parameters, double *out)
+    int macpherson_design_state(const double *parameters, double *out)
     int macpherson_rhs(
         const double *constants, const double *state, const double *inputs,
         double *out)
     int macpherson_rhs_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_rhs_input_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_mass_matrix(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_bias(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_forces(
         const double *constants, const double *state, const double *inputs,
         double *out)
     int macpherson_rhs_rack_held(
@@ -30,63 +19,40 @@ cdef extern from "macpherson.h" nogil:
     int macpherson_rhs_jacobian_rack_held(
         const double *constants, const double *state, const double *inputs,
         double *out)
-    int macpherson_relative_coordinates(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_relative_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
     int macpherson_residuals(
         const double *constants, const double *state, const double *inputs, const double *given,
         double *out)
-    int macpherson_absolute_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_global_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_positions(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_orientations(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_velocities(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
     int macpherson_signals(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_signals_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_signals_input_jacobian(
         const double *constants, const double *state, const double *inputs,
         double *out)
     int macpherson_margins(
         const double *constants, const double *state, const double *inputs,
         double *out)
+    int macpherson_dynamics(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int macpherson_poses(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int macpherson_jacobians(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int macpherson_linearisation(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
 
 ADDRESSES = {
     "prepare": <uintptr_t> &macpherson_prepare,
+    "design_state": <uintptr_t> &macpherson_design_state,
     "rhs": <uintptr_t> &macpherson_rhs,
     "rhs_jacobian": <uintptr_t> &macpherson_rhs_jacobian,
-    "rhs_input_jacobian": <uintptr_t> &macpherson_rhs_input_jacobian,
-    "mass_matrix": <uintptr_t> &macpherson_mass_matrix,
-    "bias": <uintptr_t> &macpherson_bias,
-    "forces": <uintptr_t> &macpherson_forces,
     "rhs_rack_held": <uintptr_t> &macpherson_rhs_rack_held,
     "rhs_jacobian_rack_held": <uintptr_t> &macpherson_rhs_jacobian_rack_held,
-    "relative_coordinates": <uintptr_t> &macpherson_relative_coordinates,
-    "relative_jacobian": <uintptr_t> &macpherson_relative_jacobian,
     "residuals": <uintptr_t> &macpherson_residuals,
-    "absolute_jacobian": <uintptr_t> &macpherson_absolute_jacobian,
-    "global_jacobian": <uintptr_t> &macpherson_global_jacobian,
-    "positions": <uintptr_t> &macpherson_positions,
-    "orientations": <uintptr_t> &macpherson_orientations,
-    "velocities": <uintptr_t> &macpherson_velocities,
     "signals": <uintptr_t> &macpherson_signals,
-    "signals_jacobian": <uintptr_t> &macpherson_signals_jacobian,
-    "signals_input_jacobian": <uintptr_t> &macpherson_signals_input_jacobian,
     "margins": <uintptr_t> &macpherson_margins,
+    "dynamics": <uintptr_t> &macpherson_dynamics,
+    "poses": <uintptr_t> &macpherson_poses,
+    "jacobians": <uintptr_t> &macpherson_jacobians,
+    "linearisation": <uintptr_t> &macpherson_linearisation,
 }

@@ -5,80 +5,46 @@
 from libc.stdint cimport uintptr_t
 
 cdef extern from "macpherson_free_rack.h" nogil:
-    int macpherson_free_rack_prepare(const double *parameters, double *constants)
+    int macpherson_free_rack_prepare(const double *parameters, double *out)
+    int macpherson_free_rack_design_state(const double *parameters, double *out)
     int macpherson_free_rack_rhs(
         const double *constants, const double *state, const double *inputs,
         double *out)
     int macpherson_free_rack_rhs_jacobian(
         const double *constants, const double *state, const double *inputs,
         double *out)
-    int macpherson_free_rack_rhs_input_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_free_rack_mass_matrix(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_free_rack_bias(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_free_rack_forces(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_free_rack_relative_coordinates(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_free_rack_relative_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
     int macpherson_free_rack_residuals(
         const double *constants, const double *state, const double *inputs, const double *given,
         double *out)
-    int macpherson_free_rack_absolute_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_free_rack_global_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_free_rack_positions(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_free_rack_orientations(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_free_rack_velocities(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
     int macpherson_free_rack_signals(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_free_rack_signals_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_free_rack_signals_input_jacobian(
         const double *constants, const double *state, const double *inputs,
         double *out)
     int macpherson_free_rack_margins(
         const double *constants, const double *state, const double *inputs,
         double *out)
+    int macpherson_free_rack_dynamics(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int macpherson_free_rack_poses(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int macpherson_free_rack_jacobians(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int macpherson_free_rack_linearisation(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
 
 ADDRESSES = {
     "prepare": <uintptr_t> &macpherson_free_rack_prepare,
+    "design_state": <uintptr_t> &macpherson_free_rack_design_state,
     "rhs": <uintptr_t> &macpherson_free_rack_rhs,
     "rhs_jacobian": <uintptr_t> &macpherson_free_rack_rhs_jacobian,
-    "rhs_input_jacobian": <uintptr_t> &macpherson_free_rack_rhs_input_jacobian,
-    "mass_matrix": <uintptr_t> &macpherson_free_rack_mass_matrix,
-    "bias": <uintptr_t> &macpherson_free_rack_bias,
-    "forces": <uintptr_t> &macpherson_free_rack_forces,
-    "relative_coordinates": <uintptr_t> &macpherson_free_rack_relative_coordinates,
-    "relative_jacobian": <uintptr_t> &macpherson_free_rack_relative_jacobian,
     "residuals": <uintptr_t> &macpherson_free_rack_residuals,
-    "absolute_jacobian": <uintptr_t> &macpherson_free_rack_absolute_jacobian,
-    "global_jacobian": <uintptr_t> &macpherson_free_rack_global_jacobian,
-    "positions": <uintptr_t> &macpherson_free_rack_positions,
-    "orientations": <uintptr_t> &macpherson_free_rack_orientations,
-    "velocities": <uintptr_t> &macpherson_free_rack_velocities,
     "signals": <uintptr_t> &macpherson_free_rack_signals,
-    "signals_jacobian": <uintptr_t> &macpherson_free_rack_signals_jacobian,
-    "signals_input_jacobian": <uintptr_t> &macpherson_free_rack_signals_input_jacobian,
     "margins": <uintptr_t> &macpherson_free_rack_margins,
+    "dynamics": <uintptr_t> &macpherson_free_rack_dynamics,
+    "poses": <uintptr_t> &macpherson_free_rack_poses,
+    "jacobians": <uintptr_t> &macpherson_free_rack_jacobians,
+    "linearisation": <uintptr_t> &macpherson_free_rack_linearisation,
 }

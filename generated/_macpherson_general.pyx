@@ -5,23 +5,12 @@
 from libc.stdint cimport uintptr_t
 
 cdef extern from "macpherson_general.h" nogil:
-    int macpherson_general_prepare(const double *parameters, double *constants)
+    int macpherson_general_prepare(const double *parameters, double *out)
+    int macpherson_general_design_state(const double *parameters, double *out)
     int macpherson_general_rhs(
         const double *constants, const double *state, const double *inputs,
         double *out)
     int macpherson_general_rhs_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_general_rhs_input_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_general_mass_matrix(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_general_bias(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_general_forces(
         const double *constants, const double *state, const double *inputs,
         double *out)
     int macpherson_general_rhs_rack_held(
@@ -30,63 +19,40 @@ cdef extern from "macpherson_general.h" nogil:
     int macpherson_general_rhs_jacobian_rack_held(
         const double *constants, const double *state, const double *inputs,
         double *out)
-    int macpherson_general_relative_coordinates(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_general_relative_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
     int macpherson_general_residuals(
         const double *constants, const double *state, const double *inputs, const double *given,
         double *out)
-    int macpherson_general_absolute_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_general_global_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_general_positions(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_general_orientations(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_general_velocities(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
     int macpherson_general_signals(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_general_signals_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int macpherson_general_signals_input_jacobian(
         const double *constants, const double *state, const double *inputs,
         double *out)
     int macpherson_general_margins(
         const double *constants, const double *state, const double *inputs,
         double *out)
+    int macpherson_general_dynamics(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int macpherson_general_poses(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int macpherson_general_jacobians(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int macpherson_general_linearisation(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
 
 ADDRESSES = {
     "prepare": <uintptr_t> &macpherson_general_prepare,
+    "design_state": <uintptr_t> &macpherson_general_design_state,
     "rhs": <uintptr_t> &macpherson_general_rhs,
     "rhs_jacobian": <uintptr_t> &macpherson_general_rhs_jacobian,
-    "rhs_input_jacobian": <uintptr_t> &macpherson_general_rhs_input_jacobian,
-    "mass_matrix": <uintptr_t> &macpherson_general_mass_matrix,
-    "bias": <uintptr_t> &macpherson_general_bias,
-    "forces": <uintptr_t> &macpherson_general_forces,
     "rhs_rack_held": <uintptr_t> &macpherson_general_rhs_rack_held,
     "rhs_jacobian_rack_held": <uintptr_t> &macpherson_general_rhs_jacobian_rack_held,
-    "relative_coordinates": <uintptr_t> &macpherson_general_relative_coordinates,
-    "relative_jacobian": <uintptr_t> &macpherson_general_relative_jacobian,
     "residuals": <uintptr_t> &macpherson_general_residuals,
-    "absolute_jacobian": <uintptr_t> &macpherson_general_absolute_jacobian,
-    "global_jacobian": <uintptr_t> &macpherson_general_global_jacobian,
-    "positions": <uintptr_t> &macpherson_general_positions,
-    "orientations": <uintptr_t> &macpherson_general_orientations,
-    "velocities": <uintptr_t> &macpherson_general_velocities,
     "signals": <uintptr_t> &macpherson_general_signals,
-    "signals_jacobian": <uintptr_t> &macpherson_general_signals_jacobian,
-    "signals_input_jacobian": <uintptr_t> &macpherson_general_signals_input_jacobian,
     "margins": <uintptr_t> &macpherson_general_margins,
+    "dynamics": <uintptr_t> &macpherson_general_dynamics,
+    "poses": <uintptr_t> &macpherson_general_poses,
+    "jacobians": <uintptr_t> &macpherson_general_jacobians,
+    "linearisation": <uintptr_t> &macpherson_general_linearisation,
 }

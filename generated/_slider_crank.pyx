@@ -5,7 +5,8 @@
 from libc.stdint cimport uintptr_t
 
 cdef extern from "slider_crank.h" nogil:
-    int slider_crank_prepare(const double *parameters, double *constants)
+    int slider_crank_prepare(const double *parameters, double *out)
+    int slider_crank_design_state(const double *parameters, double *out)
     int slider_crank_rhs(
         const double *constants, const double *state, const double *inputs,
         double *out)
@@ -15,58 +16,31 @@ cdef extern from "slider_crank.h" nogil:
     int slider_crank_rhs_input_jacobian(
         const double *constants, const double *state, const double *inputs,
         double *out)
-    int slider_crank_mass_matrix(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int slider_crank_bias(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int slider_crank_forces(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int slider_crank_relative_coordinates(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int slider_crank_relative_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
     int slider_crank_residuals(
         const double *constants, const double *state, const double *inputs, const double *given,
         double *out)
-    int slider_crank_absolute_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int slider_crank_global_jacobian(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int slider_crank_positions(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int slider_crank_orientations(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
-    int slider_crank_velocities(
-        const double *constants, const double *state, const double *inputs,
-        double *out)
     int slider_crank_margins(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int slider_crank_dynamics(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int slider_crank_poses(
+        const double *constants, const double *state, const double *inputs,
+        double *out)
+    int slider_crank_jacobians(
         const double *constants, const double *state, const double *inputs,
         double *out)
 
 ADDRESSES = {
     "prepare": <uintptr_t> &slider_crank_prepare,
+    "design_state": <uintptr_t> &slider_crank_design_state,
     "rhs": <uintptr_t> &slider_crank_rhs,
     "rhs_jacobian": <uintptr_t> &slider_crank_rhs_jacobian,
     "rhs_input_jacobian": <uintptr_t> &slider_crank_rhs_input_jacobian,
-    "mass_matrix": <uintptr_t> &slider_crank_mass_matrix,
-    "bias": <uintptr_t> &slider_crank_bias,
-    "forces": <uintptr_t> &slider_crank_forces,
-    "relative_coordinates": <uintptr_t> &slider_crank_relative_coordinates,
-    "relative_jacobian": <uintptr_t> &slider_crank_relative_jacobian,
     "residuals": <uintptr_t> &slider_crank_residuals,
-    "absolute_jacobian": <uintptr_t> &slider_crank_absolute_jacobian,
-    "global_jacobian": <uintptr_t> &slider_crank_global_jacobian,
-    "positions": <uintptr_t> &slider_crank_positions,
-    "orientations": <uintptr_t> &slider_crank_orientations,
-    "velocities": <uintptr_t> &slider_crank_velocities,
     "margins": <uintptr_t> &slider_crank_margins,
+    "dynamics": <uintptr_t> &slider_crank_dynamics,
+    "poses": <uintptr_t> &slider_crank_poses,
+    "jacobians": <uintptr_t> &slider_crank_jacobians,
 }

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .core.errors import InputError, KintrafoError
-    from .generated._support import ClosureError, ModelError, ParameterError
+    from .equations.errors import ClosureError, ModelError, ParameterError
     from .simulation.events import SignalEvent
     from .simulation.interpolation import Samples
     from .simulation.result import Simulation, SimulationError
@@ -78,7 +78,7 @@ __all__ = [
 _MODULES = {
     ".core.errors": ("InputError", "KintrafoError"),
     ".simulation.events": ("SignalEvent",),
-    ".generated._support": ("ClosureError", "ModelError", "ParameterError"),
+    ".equations.errors": ("ClosureError", "ModelError", "ParameterError"),
     ".suspension.kinds": ("Suspension",),
     ".simulation.interpolation": ("Samples",),
     ".systems.linearisation": ("Linearisation", "linearise"),

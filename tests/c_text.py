@@ -94,6 +94,42 @@ def statements(body: list[str]) -> Iterator[list[str]]:
             start = index + 1
 
 
+def definitions(body: list[str]) -> dict[str, list[str]]:
+    """Return what each name, and each result, is computed from: the tokens behind its sign."""
+    found: dict[str, list[str]] = {}
+    for statement in statements(body):
+        part: list[str] = []
+        depth = 0
+        for token in [*statement, ","]:
+            depth += (token in "([") - (token in ")]")
+            if token != "," or depth:
+                part.append(token)
+                continue
+            if "=" in part:
+                at = part.index("=")
+                while "=" in part[at + 1 :]:  # several results that are zero
+                    at += 1 + part[at + 1 :].index("=")
+                for name in "".join(part[:at]).removeprefix("constdouble").split("="):
+                    found[name] = part[at + 1 :]
+            part = []
+    return found
+
+
+def sources_of(body: list[str], results: Iterable[str]) -> set[str]:
+    """Return the tokens on which some results depend, through all that is computed before."""
+    known, waiting, seen = definitions(body), list(results), set()
+    while waiting:
+        name = waiting.pop()
+        expression = known.get(name, [])
+        after, behind = [*expression[1:], ""], [*expression[2:], "", ""]
+        elements = zip(expression, after, behind, strict=False)
+        tokens_ = [f"{a}[{c}]" for a, b, c in elements if b == "["]
+        fresh = {*expression, *tokens_} - seen
+        seen |= fresh
+        waiting += fresh
+    return seen
+
+
 def count(body: list[str]) -> Counter[str]:
     """Count the operations of all assignments; comparisons and the status are none.
 
@@ -102,7 +138,8 @@ def count(body: list[str]) -> Counter[str]:
     """
     total: Counter[str] = Counter()
     for statement in statements(body):
-        if "=" in statement and statement[0] in ("const", "out", "constants"):
+        pointer = "void" in statement  # to the constants: the star is none of a product
+        if "=" in statement and statement[0] in ("const", "out", "state", "c") and not pointer:
             total.update(_operations(statement[statement.index("=") + 1 :]))
     return total
 

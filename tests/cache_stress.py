@@ -16,7 +16,8 @@ def old(folder, mark=None):
     if mark is not None:
         (folder / _MARK).write_bytes(mark)
     then = time.time() - 2.0 * _LONG_AGO_S
-    for path in (*folder.iterdir(), folder):
+    # the mark last: once it is old, another process may remove all of it
+    for path in sorted((folder, *folder.iterdir()), key=lambda path: path.name == _MARK):
         os.utime(path, (then, then))
     return folder
 

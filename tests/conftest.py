@@ -1,11 +1,20 @@
 """Options and fixtures of all tests."""
 
-from collections.abc import Callable
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
 
 import own_models
 import pytest
-from kintrafo.generator.equations.outputs import GeneratedModel
 from kintrafo.generator.mechanisms import MODELS
+from kintrafo.plots.curves import grouped
+from kintrafo.report.grid import Axis, Grid
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import xarray as xr
+    from kintrafo.generator.equations.outputs import GeneratedModel
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -43,3 +52,21 @@ def derived() -> Callable[[str], GeneratedModel]:
     """Derive a model that comes with the project, by name; each takes a few seconds, once."""
     models = {model.name: model for model in MODELS}
     return lambda name: own_models.derive(models[name])
+
+
+@pytest.fixture
+def coarse_report(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let reports have few positions, where the numbers between them do not matter."""
+    grid = Grid(Axis(-0.05, 0.025, 5), Axis(-0.04, 0.02, 5))
+    monkeypatch.setattr("kintrafo.report.page.reachable_grid", lambda _: grid)
+
+
+@pytest.fixture
+def first_page_of_curves(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let figures show the first group of curves only; drawing all of them takes ten seconds."""
+
+    def first(dataset: xr.Dataset) -> dict[str, tuple[str, ...]]:
+        name, variables = next(iter(grouped(dataset).items()))
+        return {name: variables}
+
+    monkeypatch.setattr("kintrafo.plots.curves.grouped", first)

@@ -388,6 +388,10 @@ FOUR_BAR_AT_ITS_KNEE = planar(
     ("coupler", (0.15, 0.3)),
 )
 """A four-bar linkage that is driven at the pin between crank and coupler."""
+KNEE = replace(
+    FOUR_BAR_AT_ITS_KNEE, allow_iteration=False, massive=FOUR_BAR_AT_ITS_KNEE.mechanism.bodies[1:]
+)
+"""The same without iteration, and with all its masses."""
 
 _SIX_BAR = [
     ("crank_hinge", "ground", "crank", (0.0, 0.0)),

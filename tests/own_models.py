@@ -50,7 +50,7 @@ FORGOTTEN_S = 7 * 24 * 3600.0
 has_gcc = shutil.which("gcc") is not None
 needs_gcc = pytest.mark.skipif(not has_gcc, reason="no gcc")
 
-_derived: dict[str, GeneratedModel] = {}
+_derived: dict[tuple[str, bool], GeneratedModel] = {}
 
 
 def shipped(model: Model) -> ModuleType:
@@ -58,15 +58,18 @@ def shipped(model: Model) -> ModuleType:
     return importlib.import_module(f"kintrafo.generated.{model.name}")
 
 
-def derive(model: Model) -> GeneratedModel:
-    """Derive a model, once in a process."""
+def derive(model: Model, *, derivatives: bool = True) -> GeneratedModel:
+    """Derive a model, once in a process; what has derivatives serves who needs none, too."""
     declared = repr(model)  # says everything
-    if declared not in _derived:
-        _derived[declared] = generate(model)
-    return _derived[declared]
+    whole = _derived.get((declared, True))
+    if whole is not None:
+        return whole
+    if (declared, derivatives) not in _derived:
+        _derived[declared, derivatives] = generate(model, derivatives=derivatives)
+    return _derived[declared, derivatives]
 
 
-def own(model: Model, *, arrays: bool = not has_gcc) -> ModuleType:
+def own(model: Model, *, arrays: bool = not has_gcc, derivatives: bool = True) -> ModuleType:
     """Return the module of any declared model; what was compiled before is not derived again.
 
     Parameters
@@ -75,13 +78,22 @@ def own(model: Model, *, arrays: bool = not has_gcc) -> ModuleType:
         Declaration.
     arrays
         Over NumPy arrays instead of compiled C.
+    derivatives
+        With those by state and inputs. They take half of the time: a test that does not use them
+        goes without.
     """
     built_by = "numpy" if arrays else " ".join((*COMPILER.command, _version()))
+    built_by += "" if derivatives else " without derivatives"
     target = KEPT / f"{model.name}-{fingerprint(repr(model), built_by=built_by)}"
     with _one_at_a_time(target.name):
         if damage(target):
             with appearing(target) as folder:
-                build(derive(model), folder, None if arrays else COMPILER, name=target.name)
+                build(
+                    derive(model, derivatives=derivatives),
+                    folder,
+                    None if arrays else COMPILER,
+                    name=target.name,
+                )
     return load(target)
 
 

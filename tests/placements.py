@@ -9,7 +9,7 @@ import numpy as np
 import sympy as sp
 from kintrafo.generator.backends.numpy import printer as arrays
 from kintrafo.generator.backends.words import blocks_of
-from kintrafo.generator.equations.parts import Parts
+from kintrafo.generator.equations.in_motion import InMotion
 from kintrafo.generator.kinematics.motion import from_axes, to_axes
 from kintrafo.generator.planning.plan import Plan
 from kintrafo.generator.program import ConstantStage, Program
@@ -52,23 +52,22 @@ class Placements:
         symbols = tuple(sp.Symbol(p.name) for p in model.mechanism.parameters)
         constants = ConstantStage(symbols)
         program = Program(constants)
-        kin = Parts(program, plan)
+        kin = InMotion.of(program, plan)
         places: dict[str, sp.Expr] = {}
         for body in model.mechanism.bodies[1:]:
-            part, placed = kin.of(body.name), kin.placed[body.name]
-            at = part.to_chassis(part.position(placed, body.center)) + part.work_origin
+            placed = kin.placed[body.name]
+            part = kin.part_of[body.name]
+            at = part.to_ground(part.position(placed, body.center)) + part.work_origin
             places |= {f"{body.name} {i}": value for i, value in enumerate(at)}
             for j, e in enumerate((UNIT_X, UNIT_Y, UNIT_Z)):
                 carried = from_axes(placed.axes, to_axes(placed.design_axes, part.to_work(e)))
                 places |= {
-                    f"{body.name} {i}{j}": value for i, value in enumerate(part.to_chassis(carried))
+                    f"{body.name} {i}{j}": value for i, value in enumerate(part.to_ground(carried))
                 }
         guards = {guard.name: guard.margin for guard in program.guards.values()}
         function = program.function("places", "", places | guards)
         prepare = constants.function([function])
-        names = tuple(
-            str(kin.parts[0].coordinates[kin.coordinate_of(joint)]) for joint in model.driven
-        )
+        names = tuple(str(kin.coordinates.symbol(joint)) for joint in model.driven)
         source = _printed(function, prepare, [str(s) for s in symbols], list(names))
         found: dict[str, Any] = {}
         exec(source, found)

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING
 import mpmath
 import numpy as np
 import pytest
+from kintrafo.equations.errors import ClosureError
 from kintrafo.generated import double_wishbone, macpherson
-from kintrafo.generated._support import ClosureError
 from kintrafo.generator.mechanisms import MODELS as SHIPPED
 from mpmath import mpf
 from own_mechanisms import moving_slider_crank, spatial_four_bar

@@ -69,6 +69,7 @@ PAGE = (ROOT / "docs/command-line.md").read_text(encoding="utf-8")
 LINES = commands_of(PAGE)
 
 
+@pytest.mark.usefixtures("coarse_report")  # `test_the_commands_about_the_report_run` has whole ones
 def test_the_documented_commands_run(kintrafo, tmp_path):
     (road,) = re.findall(r"```csv\n(.*?)```", PAGE, flags=re.DOTALL)
     (tmp_path / "road.csv").write_text(road, encoding="utf-8")
@@ -89,6 +90,8 @@ def test_the_documented_commands_run(kintrafo, tmp_path):
     assert not list(tmp_path.glob(".*"))
 
 
+# the commands of `test_the_documented_commands_run`, which draws all curves
+@pytest.mark.usefixtures("coarse_report", "first_page_of_curves")
 def test_the_tutorial_runs(kintrafo, tmp_path):
     page = (ROOT / "docs/tutorial.md").read_text(encoding="utf-8")
     (changed,) = re.findall(r"```toml\n(.*?)\n```", page, flags=re.DOTALL)

@@ -108,7 +108,7 @@ def test_a_mirror_image_moves_as_a_mirror_shows(name: str) -> None:
     state = np.concatenate((built.design + rng.uniform(-0.1, 0.1, size), rng.normal(size=size)))
     inputs = 0.02 * rng.standard_normal(len(built.module.INPUTS))
 
-    image = generate(image_of(model))
+    image = generate(image_of(model), derivatives=False)
     named = [e.name for e in (*image.state, *image.inputs)]
     values = dict(zip(named, [*state, *inputs], strict=True))
     values |= constants_of(image, built.parameters)
@@ -282,7 +282,7 @@ def pendulum(first: str, second: str) -> Model:
 def test_moments_between_hinges_are_those_of_their_angles(order: tuple[str, str]) -> None:
     """Both hinges are driven, so the moment acts on the coordinates as it is, with both signs."""
     model = pendulum(*order)
-    derived = generate(model)
+    derived = generate(model, derivatives=False)
     given = {p.name: p.default for p in model.mechanism.parameters}
     sense = 1.0 if order[1] == "elbow" else -1.0
     q, rates = np.array([1.2, 0.6]), np.array([1.5, -0.8])
@@ -331,7 +331,7 @@ def pair_of_pendulums(*, roped: bool) -> Model:
 
 def test_a_spring_between_parts_is_that_of_the_maximal_coordinates() -> None:
     model = pair_of_pendulums(roped=True)
-    derived = generate(model)
+    derived = generate(model, derivatives=False)
     given = {p.name: p.default for p in model.mechanism.parameters}
     state = [1.2, 0.6, 0.9, -0.4, 1.5, -0.8, 0.3, 2.0]
     values = dict(zip([e.name for e in derived.state], state, strict=True))

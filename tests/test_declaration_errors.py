@@ -21,6 +21,7 @@ from kintrafo.generator import (
     Model,
     Point,
     Prismatic,
+    RelativeCoordinate,
     Revolute,
     Rotor,
     Spherical,
@@ -239,6 +240,14 @@ class TestJoints:
     def test_of_a_body_with_itself(self):
         with pytest.raises(DeclarationError, match="connects 'ground' with itself"):
             replace(CRANK, second=GROUND)
+
+    def test_of_the_angles_of_a_ball_joint_none_can_be_reported(self):
+        with pytest.raises(DeclarationError, match=r"'turn':\n.*'C'.*its angles have no names"):
+            RelativeCoordinate("turn", BALL, "x", "turn")
+
+    def test_a_coordinate_is_one_of_its_joint(self):
+        with pytest.raises(DeclarationError, match=r"kind 'slide' is none of 'A'.*there are angle"):
+            RelativeCoordinate("slide", CRANK, "slide", "slide")
 
     def test_none_reported_at_the_ground(self, tmp_path):
         """A boom moved by its cylinder, of which the stroke alone is reported."""

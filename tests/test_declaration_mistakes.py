@@ -478,7 +478,7 @@ MISTAKES = {
     "no joints": (lambda: four_bar(joints=(), forces=(), coordinates=()), ["there is no ground"]),
     "no ground": (
         lambda: changed(FOUR_BAR, (bar.GROUND, Body("ground", 1.0, (0.0, 0.0, 0.0)))),
-        ["there is no ground; declare a Ground"],
+        ["there is no ground", "declare a Ground"],
     ),
     "two grounds": (
         lambda: instead(bar.D, first=Ground("floor")),

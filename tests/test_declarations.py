@@ -5,19 +5,22 @@ from dataclasses import replace
 import pytest
 from changes import changed
 from kintrafo.generator import (
+    Actuator,
     AlongLine,
     DamperRate,
     DeclarationError,
     ForceElement,
+    Input,
     JointForce,
     LinearSpring,
     LinearTyre,
     Weight,
 )
+from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import four_bar, macpherson
 from kintrafo.generator.mechanisms.macpherson import HG, OA
-from kintrafo.generator.mechanisms.suspension import RACK_FORCE, RACK_MOTION
+from kintrafo.generator.mechanisms.suspension import RACK_FORCE, RACK_MOTION, ROAD_VELOCITY
 from symbolic import constants_of, python
 
 MODEL, FREE, GENERAL = macpherson.MODELS
@@ -74,8 +77,11 @@ def test_a_free_slide_needs_a_telescope():
 
 
 def test_a_tyre_damps_against_the_rate_of_the_road():
+    damper = DamperRate("tyre_damper", 1.0, "damper")
     with pytest.raises(DeclarationError, match="give damper and road_velocity, or neither"):
-        replace(TYRE, damper=DamperRate("tyre_damper", 1.0, "damper"))
+        replace(TYRE, damper=damper)
+    with pytest.raises(DeclarationError, match="'road_velocity' is not the rate of the road"):
+        replace(TYRE, road=RACK_FORCE, damper=damper, road_velocity=ROAD_VELOCITY)
 
 
 def test_all_problems_are_listed():
@@ -136,7 +142,7 @@ def test_several_force_elements_of_a_kind_have_names_of_their_own():
         ),
     )
     mechanism = replace(MECHANISM, forces=(*MECHANISM.forces, second, line))
-    model = generate(replace(MODEL, mechanism=mechanism, held={}))
+    model = generate(replace(MODEL, mechanism=mechanism, held={}), derivatives=False)
     names = [entry.name for entry in model.signals]
     for name in ("strut_spring_force", "helper_spring_force", "coil_spring_force", "coil_length"):
         assert name in names
@@ -185,8 +191,8 @@ def test_parameter_with_the_name_of_an_internal_step(name):
     renamed = changed(model, (rate, replace(rate, name=name)))
     derived = generate(renamed)
     before = generate(model)
-    assert {k: f.operations() for k, f in derived.functions.items()} == {
-        k: f.operations() for k, f in before.functions.items()
+    assert {k: operations_of(f) for k, f in derived.functions.items()} == {
+        k: operations_of(f) for k, f in before.functions.items()
     }
     given, state = (
         defaults(renamed.mechanism),
@@ -202,3 +208,43 @@ def test_parameter_with_the_name_of_an_internal_step(name):
 def defaults(mechanism):
     """Return the values of all parameters."""
     return {p.name: p.default for p in mechanism.parameters}
+
+
+PULL = Input("pull", "N", "some force")
+
+
+def pulled_by(*inputs):
+    """Return the suspension with actuators in its strut."""
+    (strut,) = MECHANISM.elements
+    pulled = replace(strut, laws=(*strut.laws, *map(Actuator, inputs)))
+    return changed(MECHANISM, (strut, pulled))
+
+
+@pytest.mark.parametrize(
+    ("inputs", "words"),
+    [
+        ((PULL, replace(PULL, unit="kN")), "2 different inputs are named 'pull'"),
+        (
+            tuple(Input(f"rate_{i}", "N/s", "", derivative_of=PULL) for i in (1, 2)),
+            "'rate_1' and 'rate_2' are both the derivative of 'pull'",
+        ),
+    ],
+)
+def test_an_input_is_the_derivative_of_another_one_once(inputs, words):
+    with pytest.raises(DeclarationError, match=words):
+        pulled_by(*inputs)
+
+
+def test_what_an_input_is_the_derivative_of_is_an_input():
+    pulled = pulled_by(Input("jerk", "N/s", "how it changes", derivative_of=PULL))
+    assert {"pull", "jerk"} <= {*pulled.input_names}
+
+
+def test_a_prescribed_motion_has_its_rates():
+    position, velocity, acceleration = RACK_MOTION.inputs
+    assert position.derivative_of is None
+    assert velocity.derivative_of == position
+    assert acceleration.derivative_of == velocity
+    other = Input("rack_speed", "m/s", "", derivative_of=position)
+    with pytest.raises(DeclarationError, match="are both the derivative of 'rack_position'"):
+        replace(MODEL, mechanism=pulled_by(other))

@@ -44,8 +44,12 @@ def run(monkeypatch, capsys, tmp_path):
 
 def test_new_file_is_the_packaged_one(run, tmp_path):
     assert run("new", "mine.toml", "--suspension", "double_wishbone")[0] == 0
-    ends = dict.fromkeys(("damper.length_min_mm", "damper.length_max_mm"))
-    assert Suspension.load(tmp_path / "mine.toml").with_changes(ends) == Suspension.load(CAR)
+    mine = Suspension.load(tmp_path / "mine.toml").to_dict()
+    limits = [mine.pop(f"{side}_stop") for side in ("bump", "rebound")]
+    limits += [mine["damper"].pop(f"length_{end}_mm") for end in ("min", "max")]
+    assert all(limits)
+    assert mine["tyre"].pop("lifts_off")
+    assert Suspension.from_dict(mine) == Suspension.load(CAR)
     code, out, _ = run("check", "mine.toml")
     assert code == 0
     assert "No problems found." in out
@@ -180,6 +184,8 @@ def test_linearisation_knows_the_wheel_hop_and_the_spinning_wheel():
 PAGE = (Path(__file__).parent.parent / "docs/double-wishbone.md").read_text(encoding="utf-8")
 
 
+# `test_characteristics` draws all curves, and a whole report is in test_double_wishbone_report.py
+@pytest.mark.usefixtures("coarse_report", "first_page_of_curves")
 def test_the_documented_commands_run(run):
     blocks = re.findall(r"```sh\n(.*?)```", PAGE, flags=re.DOTALL)
     commands = [line for block in blocks for line in block.splitlines()]
@@ -190,10 +196,12 @@ def test_the_documented_commands_run(run):
 
 
 def test_the_documented_code_prints_what_it_says(capsys):
-    (block,) = re.findall(r"```python\n(.*?)```", PAGE, flags=re.DOTALL)
-    exec(compile(block, "double-wishbone.md", "exec"), {})
-    (said,) = re.findall(r"print.*# (.*)\n", block)
-    assert capsys.readouterr().out.strip() == said
+    blocks = re.findall(r"```python\n(.*?)```", PAGE, flags=re.DOTALL)
+    code = "".join(blocks)
+    exec(compile(code, "double-wishbone.md", "exec"), {})
+    said = re.findall(r"print.*# (.*)\n", code)
+    assert len(said) == len(blocks)
+    assert capsys.readouterr().out.splitlines() == said
 
 
 # -- handing over ---------------------------------------------------------------------------------

@@ -134,11 +134,25 @@ def test_metres():
     [
         ({"spring.rate_N_per_m": -1.0}, "[spring] rate_N_per_m = -1.0 N/m is out of range"),
         ({"damper.rate_N_s_per_m": -1.0}, "[damper] rate_N_s_per_m = -1.0 N s/m is out of range"),
-        ({"damper.velocity_m_per_s": [0.0]}, "velocity_m_per_s is not a known key"),
+        ({"damper.velocity_m_per_s": [0.0]}, "and velocity_m_per_s both describe the damper"),
+        (
+            {"damper.rate_N_s_per_m": None, "damper.velocity_m_per_s": [-1.0, 1.0]},
+            "rate_N_s_per_m is missing: rate of the damper, unless velocity_m_per_s and force_N",
+        ),
+        ({"damper.rate_N_s_per_m": None}, "Add a line `rate_N_s_per_m = ...`, in N s/m."),
+        (
+            {
+                "damper.rate_N_s_per_m": None,
+                "damper.velocity_m_per_s": [1.0, 0.0],
+                "damper.force_N": [9.0, 0.0],
+            },
+            "velocities must rise",
+        ),
+        ({"damper.friction_velocity_m_per_s": 0.0}, "more than 0 m/s"),
         ({"spring.free_length_mm": 530.0}, "both are given. Keep one."),
         ({"spring.force_at_design_N": None}, "neither is given. Keep one."),
         ({"spring.rate_N_per_m": 0.0}, "needs a spring, but rate_N_per_m = 0.0 N/m"),
-        ({"tyre.lifts_off": True}, "[tyre] lifts_off is not a known key"),
+        ({"tyre.lifts_off": 1}, "[tyre] lifts_off"),
         ({"bodies.tie_rod.mass_kg": 1.0}, "tie_rod.mass_kg = 1.0 kg"),
         ({"bodies.rack.mass_kg": 2.0}, "leave this body without mass; allowed is 0 kg"),
         ({"vehicle.side": "left"}, "a left wheel must have y above 1 mm"),

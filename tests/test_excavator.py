@@ -249,7 +249,7 @@ def test_angles_as_coordinates_give_the_same_motion() -> None:
     )
     hinges = tuple(map(EXCAVATOR.joint, ("boom_hinge", "arm_hinge", "bucket_hinge")))
     model = replace(MODELS[0], name="by_angles", mechanism=mechanism, independent=hinges)
-    derived = generate(model)
+    derived = generate(model, derivatives=False)
     strokes = [a for a in derived.plan.steps if isinstance(a, RPR)]
     assert [a.telescope.joint.name for a in strokes] == [f"{c}_bore" for c in CYLINDERS]
     names = list(excavator.RELATIVE_COORDINATES)

@@ -1,12 +1,25 @@
 """Force elements that can stand in for one another give the same equations."""
 
+import dataclasses
+
 import mpmath
 import numpy as np
 import pytest
 from changes import changed
-from kintrafo.generator import AlongLine, ForceElement, Length, LinearSpring
+from kintrafo.generator import (
+    Action,
+    AlongLine,
+    Body,
+    Force,
+    ForceElement,
+    ForceLevel,
+    Length,
+    LinearSpring,
+    Point,
+)
+from kintrafo.generator.declare.declared import declared
 from kintrafo.generator.equations.dynamics import Dynamics
-from kintrafo.generator.equations.parts import Parts
+from kintrafo.generator.equations.in_motion import InMotion
 from kintrafo.generator.mechanisms import macpherson
 from kintrafo.generator.planning.plan import Plan
 from kintrafo.generator.program import ConstantStage, Program
@@ -29,7 +42,7 @@ def accelerations(model, parameters):
     symbols = tuple(Symbol(p.name) for p in model.mechanism.parameters)
     constants = ConstantStage(symbols)
     program = Program(constants)
-    dynamics = Dynamics(Parts(program, Plan.of(model)))
+    dynamics = Dynamics(InMotion.of(program, Plan.of(model)))
     function = program.function("rhs", "", dict(dynamics.accelerations))
     prepare = constants.function([function])
     given = {name: mpmath.mpf(value) for name, value in parameters.items()}
@@ -58,3 +71,40 @@ def test_line_spring_along_the_strut_is_the_telescope_spring(seed):
     )
     # both are evaluated with 15 digits of mpmath; the forces are large differences of lengths
     assert by_line == pytest.approx(accelerations(model, parameters), rel=1e-11)
+
+
+@declared
+@dataclasses.dataclass(frozen=True)
+class Thrust(Force):
+    """A constant force upward at a point of a body: a kind that this project does not have."""
+
+    body: Body
+    point: Point
+    force: ForceLevel
+
+    @property
+    def identity(self):
+        return "thrust", self.body.name
+
+    def act(self, at):
+        body = self.body.name
+        local, up = at.local(body, self.point), at.up(body)
+        forces = {
+            k: self.force.symbol * up.dot(twist.linear + twist.angular.cross(local))
+            for k, twist in at.twists(body).items()
+        }
+        return Action(forces)
+
+
+def test_a_force_of_one_s_own_applies_itself():
+    """What lifts every body by its weight is worth as much as no gravity."""
+    model = macpherson.MODELS[0]
+    parameters = perturbed_parameters(np.random.default_rng(4))
+    lifts = {f"{b.name}_lift": b for b in model.massive}
+    forces = {n: parameters["gravity"] * parameters[f"{b.name}_mass"] for n, b in lifts.items()}
+    thrusts = (Thrust(b, b.center, ForceLevel(n, 0.0, "lift")) for n, b in lifts.items())
+    mechanism = dataclasses.replace(model.mechanism, forces=(*model.mechanism.forces, *thrusts))
+    lifted = accelerations(dataclasses.replace(model, mechanism=mechanism), parameters | forces)
+    weightless = accelerations(model, parameters | {"gravity": 0.0})
+    # both are evaluated with 15 digits of mpmath; the forces are large differences of lengths
+    assert lifted == pytest.approx(weightless, rel=1e-11)

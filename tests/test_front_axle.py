@@ -17,9 +17,10 @@ import pytest
 import sympy as sp
 from kintrafo import System, simulate
 from kintrafo.generated import front_axle, macpherson
+from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.equations.dynamics import Dynamics
+from kintrafo.generator.equations.in_motion import InMotion
 from kintrafo.generator.equations.outputs import generate
-from kintrafo.generator.equations.parts import Parts
 from kintrafo.generator.mechanisms import front_axle as declaration
 from kintrafo.generator.planning.plan import Plan
 from kintrafo.generator.program import ConstantStage, Program
@@ -406,7 +407,7 @@ def accelerations(model: Model, given: dict[str, float], values: dict[str, float
         derived={sp.Symbol(n): value for n, value in mechanism.derived.items()},
     )
     program = Program(constants)
-    dynamics = Dynamics(Parts(program, Plan.of(model)))
+    dynamics = Dynamics(InMotion.of(program, Plan.of(model)))
     function = program.function("rhs", "", dict(dynamics.accelerations))
     prepare = constants.function([function])
     known = dict(zip(prepare.labels, python(prepare)(given), strict=True))
@@ -465,12 +466,12 @@ def test_two_suspensions_in_one_cost_what_they_cost_alone_but_for_signs() -> Non
     page = PAGE.read_text(encoding="utf-8")
     functions = bare.functions | {"prepare": bare.prepare}
     for name, what in COUNTED.items():
-        assert cells(page, what)[2] == str(functions[name].operations().total())
-    held, one = functions["rhs_rack_held"].operations(), stored["rhs_rack_held"]
+        assert cells(page, what)[2] == str(operations_of(functions[name]).total())
+    held, one = operations_of(functions["rhs_rack_held"]), stored["rhs_rack_held"]
     for kind in ("multiply", "divide", "root", "trigonometric"):
         assert held[kind] == 2 * one[kind]
     # constants: those of one suspension, and the rack's direction in axes of the other side
-    assert functions["prepare"].operations().total() < 1.03 * sum(stored["prepare"].values())
+    assert operations_of(functions["prepare"]).total() < 1.03 * sum(stored["prepare"].values())
 
 
 def test_wheel_rates_on_the_page_are_the_present_ones() -> None:

@@ -18,7 +18,7 @@ COMMITTED = Path(generated.__file__).parent
 
 def read(folder: Path) -> dict[str, bytes]:
     """Return the bytes of all emitted files below a folder, without what a build adds."""
-    endings = {".py", ".pyx", ".pyi", ".md", ".c", ".h"}
+    endings = {".py", ".pyx", ".pyi", ".json", ".md", ".c", ".h"}
     files = (path for path in folder.rglob("*") if path.suffix in endings)
     return {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}
 

@@ -21,8 +21,9 @@ import own_models
 import pytest
 import sympy as sp
 from changes import changed
+from kintrafo.equations.errors import ClosureError, ModelError
+from kintrafo.equations.following import ITERATIONS
 from kintrafo.generated import double_wishbone
-from kintrafo.generated._support import ClosureError, ModelError
 from kintrafo.generator import Line, Revolute
 from kintrafo.generator.backends.report.markdown import markdown
 from kintrafo.generator.equations.outputs import GeneratedModel, generate
@@ -31,7 +32,7 @@ from kintrafo.generator.mechanisms import multi_link
 from kintrafo.generator.mechanisms.multi_link import CONTROL_ARM, FIVE_LINK, MODELS
 from kintrafo.generator.planning.plan import Plan
 from kintrafo.generator.program import ConstantStage, Program
-from kintrafo.generator.program.newton import ITERATIONS, adjugate
+from kintrafo.generator.program.newton import adjugate
 from own_models import Built, needs_gcc, own
 from scipy.integrate import solve_ivp
 from scipy.optimize import root
@@ -56,7 +57,7 @@ TRAVEL = {ARM.name: 0.35, FIVE.name: 0.5, STRUT.name: 0.08}
 
 @pytest.fixture(scope="session")
 def derive() -> Callable[[str], GeneratedModel]:
-    return lambda name: own_models.derive(BY_NAME[name])
+    return lambda name: own_models.derive(BY_NAME[name], derivatives=False)
 
 
 @pytest.fixture(scope="session")
@@ -465,7 +466,9 @@ def test_angles_of_the_links_can_be_reported() -> None:
     )
     mechanism = replace(CONTROL_ARM, coordinates=(*CONTROL_ARM.coordinates, *angles))
     massive = tuple(map(mechanism.body, ("carrier", "wheel")))
-    derived = generate(replace(ARM, mechanism=mechanism, massive=massive, held={}))
+    derived = generate(
+        replace(ARM, mechanism=mechanism, massive=massive, held={}), derivatives=False
+    )
     values = constants_of(derived, {p.name: p.default for p in mechanism.parameters})
     values |= {"arm_angle": 1.5, "rack_position": 0.02, "spin_angle": 0.1}
     shown = derived.functions["relative_coordinates"]

@@ -13,8 +13,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 from cases import At, Instant, counted_by, of_model
+from kintrafo.equations.errors import ClosureError
 from kintrafo.generated import macpherson_general
-from kintrafo.generated._support import ClosureError
 from oracle.constraints import Array, Pose
 from oracle.newton import AssemblyError, Mechanism, residual_norm, solve_pose
 from oracle.reference import (

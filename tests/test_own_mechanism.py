@@ -293,13 +293,14 @@ def test_numpy_computes_what_c_computes(model):
     random = np.random.default_rng(5)
     states = 0.05 * random.standard_normal((4, 3, len(system.state_names)))
     inputs = random.standard_normal((3, len(system.input_names)))
-    for name in shipped.equations.ADDRESSES.keys() - {"prepare", "residuals"}:
+    for name in shipped.equations.ADDRESSES.keys() - {"prepare", "design_state", "residuals"}:
         ours, theirs = (s.evaluate(name, states, inputs) for s in (system, shipped))
         # a last digit of a sine, magnified by what is small of large: a margin beside a squared
         # length, an acceleration beside what it is the difference of
         size = np.abs(theirs).max() + 1e-300
         assert np.abs(ours - theirs).max() <= 1e-12 * size, name
     np.testing.assert_array_equal(system.constants, shipped.constants)
+    np.testing.assert_allclose(system.design_state, shipped.design_state, rtol=1e-15)
     given = shipped.evaluate("relative_coordinates", states[0], inputs)
     closures = [
         s.equations.residuals(given, states[0], inputs, s.constants) for s in (system, shipped)

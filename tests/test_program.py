@@ -2,12 +2,18 @@
 
 from collections.abc import Mapping
 
+import pytest
 import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kintrafo.generator.program import ConstantStage, Function, Program
-from kintrafo.generator.program.functions import Guarded
-from kintrafo.generator.program.writing import write
+from kintrafo.generator.backends.counting import counted, operations_of
+from kintrafo.generator.backends.schedule import schedule
+from kintrafo.generator.equations.outputs import GeneratedModel, generate
+from kintrafo.generator.mechanisms import MODELS
+from kintrafo.generator.program import ConstantStage, Function, Program, Step
+from kintrafo.generator.program.derivatives import chain_rule
+from kintrafo.generator.program.functions import Guarded, Positive
+from kintrafo.generator.program.sharing import share
 
 A, B = sp.symbols("a b")  # parameters
 X, Y = sp.symbols("x y")  # variables
@@ -214,7 +220,7 @@ def test_substitution_repeats_the_steps(case: tuple[Program, list[sp.Symbol]]) -
 def test_common_subexpressions_are_computed_once() -> None:
     program = new_program()
     results = {"one": (X + Y) * sp.sin(X + Y), "two": (X + Y) ** 2}
-    counts = program.function("f", "Any.", results).operations()
+    counts = operations_of(program.function("f", "Any.", results))
     assert counts == {"add": 1, "multiply": 2, "trigonometric": 1}
 
 
@@ -222,10 +228,10 @@ def test_constant_parts_of_sums_and_products_are_computed_once() -> None:
     """Of a*b*x + a + b only one product and one sum are left for every call."""
     program = new_program(A, B)
     function = program.function("f", "Any.", {"value": A * B * X + A + B})
-    assert function.operations() == {"multiply": 1, "add": 1}
+    assert operations_of(function) == {"multiply": 1, "add": 1}
     prepare = program.constants.function([function])
     assert prepare.free_symbols == {A, B}
-    assert prepare.operations() == {"multiply": 1, "add": 1}
+    assert operations_of(prepare) == {"multiply": 1, "add": 1}
 
 
 def test_roots_are_not_taken_again_for_their_derivative() -> None:
@@ -233,7 +239,7 @@ def test_roots_are_not_taken_again_for_their_derivative() -> None:
     root = program.define("root", sp.sqrt(1 + X**2))
     (tangent,) = program.tangents(X, [root], "tangent")
     function = program.function("f", "Any.", {"root": root, "tangent": tangent})
-    assert function.operations()["root"] == 1
+    assert operations_of(function)["root"] == 1
 
 
 def test_guards_follow_what_they_guard() -> None:
@@ -254,9 +260,57 @@ def test_operations_of_a_function_are_those_of_its_steps() -> None:
     program = new_program()
     step = program.define("step", X * Y + X)
     function = program.function("f", "Any.", {"one": step * X, "two": sp.cos(step)})
-    total = sum(
-        (write(s.expression).operations for s in function.steps), start=type(write(X).operations)()
-    )
-    for result in function.results:
-        total.update(write(result).operations)
-    assert function.operations() == total == {"multiply": 2, "add": 1, "trigonometric": 1}
+    values = [*(s.expression for s in function.steps), *function.results]
+    total = counted(map(schedule, values))
+    assert operations_of(function) == total == {"multiply": 2, "add": 1, "trigonometric": 1}
+
+
+# -- against SymPy ---------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def four_bar() -> GeneratedModel:
+    return generate(next(model for model in MODELS if model.name == "four_bar"))
+
+
+def test_derivatives_are_those_of_sympy(four_bar: GeneratedModel) -> None:
+    x, y = sp.symbols("x y")
+    composed = [sp.sin(x * y) * sp.sqrt(x**2 + y), sp.atan2(y * x, x) / (1 + y) ** 3, Positive(x)]
+    steps = [step.expression for f in four_bar.functions.values() for step in f.steps]
+    for expression in {*composed, *steps}:
+        for symbol in expression.free_symbols:
+            found, expected = (
+                chain_rule(expression, {symbol: sp.Integer(1)}),
+                expression.diff(symbol),
+            )
+            assert found == expected or sp.simplify(found - expected) == 0, (expression, symbol)
+
+
+def test_what_is_common_is_what_sympy_finds() -> None:
+    """Names and what they stand for; with them every expression is what it was."""
+    a, b, c, d = sp.symbols("a b c d")
+    expressions = [
+        (a + b + c) * sp.sqrt(a + b),
+        (a + b) ** -2 + a * b * c,
+        a * b * d - sp.cos(c - d),
+        sp.sin(d - c) + b * a * (c - d),
+    ]
+    steps = [Step(sp.Symbol(f"step_{i}"), e, "") for i, e in enumerate(expressions)]
+    shared, _ = share(steps, [], sp.numbered_symbols("x"))
+    replacements, reduced = sp.cse(expressions, order="canonical")
+    found = {step.symbol: step.expression for step in shared}
+    expected = dict(replacements) | dict(zip((s.symbol for s in steps), reduced, strict=True))
+    assert found == expected
+    for step, expression in zip(steps, expressions, strict=True):
+        written = found[step.symbol]
+        while written.free_symbols & found.keys():
+            written = written.xreplace(found)
+        assert sp.expand(written - expression) == 0
+
+
+def test_without_derivatives_the_other_functions_are_the_same(four_bar: GeneratedModel) -> None:
+    bare = generate(four_bar.model, derivatives=False)
+    left_out = {"rhs_jacobian", "rhs_input_jacobian", "signals_jacobian", "signals_input_jacobian"}
+    assert four_bar.functions.keys() - bare.functions.keys() == left_out
+    for name, function in bare.functions.items():
+        assert operations_of(function) == operations_of(four_bar.functions[name]), name

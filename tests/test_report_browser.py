@@ -70,6 +70,25 @@ class Watched:
     def state(self):
         return self.page.evaluate("kintrafo.state()")
 
+    def start_again(self):
+        """Put back what a person can move."""
+        self.page.set_viewport_size(DESKTOP)
+        self.page.emulate_media(color_scheme="light")
+        self.page.mouse.move(0, 0)
+        self.page.locator("#speed").select_option("0.1")
+        self.page.evaluate(START_AGAIN)
+        self.complaints.clear()
+
+
+START_AGAIN = """() => {
+    kintrafo.pause();
+    kintrafo.set({ time: 0 });
+    kintrafo.set({ travel: 0, rack: 0 });
+    kintrafo.look("corner");
+    document.activeElement.blur();
+    window.scrollTo(0, 0);
+}"""
+
 
 @pytest.fixture
 def watch(browser, report):
@@ -84,9 +103,21 @@ def watch(browser, report):
         watched.context.close()
 
 
+@pytest.fixture(scope="module")
+def shared(browser, report):
+    """Return a page, and its state when it was loaded, which takes seconds."""
+    watched = Watched(browser, report, color_scheme="light")
+    yield watched, watched.state()
+    watched.context.close()
+
+
 @pytest.fixture
-def watched(watch):
-    return watch()
+def watched(shared):
+    """Return a page as it was when it was loaded."""
+    watched, loaded = shared
+    watched.start_again()
+    assert watched.state() == loaded
+    return watched
 
 
 def compiled_wheel_center(travel, rack):
@@ -123,7 +154,8 @@ def number(text):
     return float(re.match(r"[\u2212+]?[\d.]+", text).group().replace("\u2212", "-"))
 
 
-def test_loads_alone_and_without_complaint(watched, report):
+def test_loads_alone_and_without_complaint(watch, report):
+    watched = watch()
     watched.page.locator("#play").click()
     until(lambda: watched.state()["time"] > 0.01)
     for heading in watched.page.locator("h2").all():
@@ -277,7 +309,8 @@ def test_playing_ends_at_the_end_and_starts_again(watched):
     assert again["time"] < 0.5
 
 
-def test_keyboard_reaches_and_moves_everything(watched):
+def test_keyboard_reaches_and_moves_everything(watch):
+    watched = watch()  # where nothing has been clicked yet
     page = watched.page
     reached = []
     for _ in range(14):
@@ -299,16 +332,17 @@ def test_keyboard_reaches_and_moves_everything(watched):
     assert page.locator("#travel").get_attribute("aria-valuetext") == "\u22120.5\u00a0mm"
 
 
-@pytest.mark.parametrize("width", [390, 320])
-def test_phone_needs_no_sideways_scrolling(watch, width):
-    watched = watch(viewport={**PHONE, "width": width}, has_touch=True, is_mobile=True)
-    for details in watched.page.locator("details").all():
+def test_phone_needs_no_sideways_scrolling(watch):
+    page = watch(viewport=PHONE, has_touch=True, is_mobile=True).page
+    for details in page.locator("details").all():
         details.evaluate("d => d.open = true")
-    assert watched.page.evaluate("document.documentElement.scrollWidth") == width
-    # the sliders stay in sight
-    watched.page.locator("footer").scroll_into_view_if_needed()
-    assert watched.page.locator("#travel").is_visible()
-    assert 0 <= watched.page.locator("#travel").bounding_box()["y"] < PHONE["height"]
+    for width in (390, 320):
+        page.set_viewport_size({**PHONE, "width": width})
+        assert page.evaluate("document.documentElement.scrollWidth") == width
+        # the sliders stay in sight
+        page.locator("footer").scroll_into_view_if_needed()
+        assert page.locator("#travel").is_visible()
+        assert 0 <= page.locator("#travel").bounding_box()["y"] < PHONE["height"]
 
 
 def luminance(colour):
@@ -319,8 +353,9 @@ def luminance(colour):
 
 
 @pytest.mark.parametrize(("scheme", "background_is_light"), [("light", True), ("dark", False)])
-def test_text_can_be_read_in_both_schemes(watch, scheme, background_is_light):
-    page = watch(color_scheme=scheme).page
+def test_text_can_be_read_in_both_schemes(watched, scheme, background_is_light):
+    page = watched.page
+    page.emulate_media(color_scheme=scheme)
     background = luminance(page.evaluate("getComputedStyle(document.body).backgroundColor"))
     assert (background > 0.5) == background_is_light
     for text in ("h1", "p.muted", "figcaption output", ".within", "td.now", "summary"):

@@ -37,7 +37,9 @@ def without_rotor(model: Model) -> Model:
 @cache
 def unfolded(name: str) -> GeneratedModel:
     """Derive a model without the rotor."""
-    return generate(without_rotor(next(model for model in DECLARED if model.name == name)))
+    return generate(
+        without_rotor(next(model for model in DECLARED if model.name == name)), derivatives=False
+    )
 
 
 def with_tensor(parameters: Parameters, tensor: list[list]) -> Parameters:

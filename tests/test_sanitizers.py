@@ -147,7 +147,7 @@ def run_clean(folder, text, files, flags=(), compiler="gcc"):
 @pytest.mark.parametrize("name", sorted(MODELS))
 def test_generated_functions(tmp_path, name):
     model = MODELS[name]
-    sizes = {n: getattr(model, n) for n in model.ADDRESSES if n not in ("prepare", "residuals")}
+    sizes = {n: f for n, f in model.equations.functions.items() if n in model.ADDRESSES}
     calls = [
         CALL.format(name=name, function=n, size=len(function.labels))
         for n, function in sizes.items()

@@ -8,12 +8,12 @@ from types import ModuleType
 
 import numpy as np
 import pytest
-from c_text import functions
+from c_text import functions, sources_of
 from cases import MODELS, Instant, car_parameters, of_model
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from kintrafo.equations.errors import ClosureError, ModelError, ParameterError
 from kintrafo.generated import macpherson, macpherson_free_rack, macpherson_general
-from kintrafo.generated._support import ClosureError, ModelError, ParameterError
 from oracle.constraints import KNUCKLE, Array
 from oracle.newton import Mechanism, rotation_matrix
 from oracle.reference import (
@@ -35,9 +35,7 @@ FORWARD = np.array([1.0, 0.0, 0.0])
 each_model = pytest.mark.parametrize("model", MODELS.values(), ids=MODELS.keys())
 
 # the functions with the common signature
-COMMON = {
-    name: [f for f in functions(name) if f not in ("prepare", "residuals")] for name in MODELS
-}
+COMMON = {name: list(model.equations.functions) for name, model in MODELS.items()}
 every_function = pytest.mark.parametrize(
     ("model", "function"),
     [(model, function) for name, model in MODELS.items() for function in COMMON[name]],
@@ -345,15 +343,19 @@ def test_every_flat_wheel_is_refused() -> None:
 # -- numbers that are none ------------------------------------------------------------------------
 
 
+def depends_on(model: ModuleType, function: str) -> set[str]:
+    """Return the tokens on which the results of a function depend, as the C text shows it."""
+    call = getattr(model, function)
+    start = model.equations.manifest["functions"].get(function, {}).get("start", 0)
+    results = (f"out[{start + i}]" for i in range(len(call.labels)))
+    return sources_of(functions(model.NAME)[call.stage], results)
+
+
 def reads(model: ModuleType, function: str) -> set[str]:
     """Return the state and inputs that a function depends on, as the C text shows it."""
-    prefix = f"{model.NAME}_".upper()
-    used = set()
-    for token in functions(model.NAME)[function]:
-        for kind in ("STATE_", "INPUT_"):
-            if token.startswith(prefix + kind):
-                used.add(token.removeprefix(prefix + kind).lower())
-    return used
+    tokens = depends_on(model, function)
+    arrays = (("state", model.STATE), ("inputs", model.INPUTS))
+    return {n for kind, names in arrays for i, n in enumerate(names) if f"{kind}[{i}]" in tokens}
 
 
 @pytest.mark.parametrize("wrong", [np.nan, np.inf, -np.inf])
@@ -416,10 +418,10 @@ def test_nan_among_the_constants_is_no_silent_number(model, function: str) -> No
     """No constant that is read may vanish, as in a law that takes a NaN for "not touched"."""
     constants = model.prepare(car_parameters(1, model))
     arrays = Instant(BETA1_DESIGN, 0.2, 0.01, 1.0, 50.0, 0.1).arrays(model)
-    read = set(functions(model.NAME)[function])
-    prefix = f"{model.NAME}_constant_"
+    read = depends_on(model, function)
+    assert "c" in read
     for index, name in enumerate(model.CONSTANTS):
-        if f"{prefix}{name}".upper() in read:
+        if name in read:
             wrong = constants.copy()
             wrong[index] = np.nan
             with pytest.raises(ModelError):

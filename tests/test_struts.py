@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 from changes import changed, named
-from kintrafo.generated._support import ClosureError
+from kintrafo.equations.errors import ClosureError
 from kintrafo.generator import (
     AlongLine,
     Cylindrical,
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 def compiled(model: Model) -> Built:
     """Return a model with its default parameters."""
-    return Built.of(model, own(model))
+    return Built.of(model, own(model, derivatives=False))
 
 
 # -- struts ---------------------------------------------------------------------------------------

@@ -5,21 +5,41 @@ from __future__ import annotations
 import hashlib
 from typing import TYPE_CHECKING
 
-from ..program.newton import ITERATIONS, LIMITS
-from ..program.writing import OPERATIONS
+import sympy as sp
+
+from ...equations.following import CONVERGED, ITERATIONS
+from ..program.functions import Guarded, IsPositive, Positive, SignOf
+from .counting import OPERATIONS, operations_of
+from .text import Dialect, written
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from ..equations.outputs import GeneratedModel
-    from ..program.function import Block, Function
+    from ..program.function import Block, Function, Stage
 
 GENERATOR_VERSION = "0.1.0"
 
+FORMULA = Dialect(
+    {
+        sp.sin: "sin({})",
+        sp.cos: "cos({})",
+        sp.asin: "asin({})",
+        sp.atan2: "atan2({}, {})",
+        Guarded: "at_least({}, {})",
+        SignOf: "copysign(1.0, {})",
+        Positive: "at_least({}, 0.0)",
+        IsPositive: "(double)({} > 0.0)",
+    },
+    root="sqrt({})",
+    component="{}.at[{}]",
+)
+"""For a person to read, and for what does not depend on a language."""
 
-def count_line(function: Function) -> str:
+
+def count_line(function: Function | Stage) -> str:
     """Describe the operations of a function in one line."""
-    counts = function.operations()
+    counts = operations_of(function)
     parts = ", ".join(f"{counts[name]} {name}" for name in OPERATIONS if counts[name])
     line = f"{counts.total()} operations ({parts or 'none'})"
     iterating = "; iterates: " + ", ".join(block.name for block in function.blocks)
@@ -35,12 +55,12 @@ def iteration_note(model: GeneratedModel) -> str:
     return (
         f"This model is not free of iteration. Newton's method finds {found}: in stages from the "
         f"design position on, in at most {ITERATIONS} iterations, until a correction is below "
-        f"{LIMITS['CONVERGED']}. A status bit says where that fails. Operations are counted for "
+        f"{CONVERGED}. A status bit says where that fails. Operations are counted for "
         "one iteration."
     )
 
 
-def blocks_of(functions: Iterable[Function]) -> list[Block]:
+def blocks_of(functions: Iterable[Function | Stage]) -> list[Block]:
     """Return the iterations of some functions, each once, and behind those that it calls."""
     found: dict[str, Block] = {}
     for block in (b for f in functions for b in f.blocks):
@@ -53,15 +73,16 @@ def mechanism_hash(model: GeneratedModel) -> str:
     digest = hashlib.sha256()
     blocks = blocks_of(model.functions.values())
     once = (block.once for block in blocks)
-    for function in (model.prepare, *once, *model.functions.values()):
+    for function in (model.prepare, model.design, *once, *model.emitted.values()):
         digest.update(function.name.encode())
-        for step, written in zip(function.steps, function.written.steps, strict=True):
-            digest.update(f"{step.symbol}={written.text};".encode())
-        for written in function.written.results:
-            digest.update(f"{written.text};".encode())
+        steps, results = written(function, FORMULA)
+        for step in steps:
+            digest.update(f"{step.name}={step.text};".encode())
+        for text in results:
+            digest.update(f"{text};".encode())
     return digest.hexdigest()[:16]
 
 
-def reads_given(function: Function) -> bool:
+def reads_given(function: Function | Stage) -> bool:
     """Tell whether a function takes relative coordinates as an argument of their own."""
     return any(s.name.startswith("given_") for s in function.free_symbols)

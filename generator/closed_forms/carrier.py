@@ -17,13 +17,14 @@ from typing import TYPE_CHECKING, ClassVar
 
 import sympy as sp
 
+from ...equations.following import ITERATIONS
 from ..declare.joints import Joint, Prismatic, Spherical
 from ..kinematics.hinge_angles import driven_coordinates
 from ..kinematics.motion import BodyMotion, PointMotion, from_axes
 from ..loops.errors import NoClosedFormError
 from ..loops.forms import Attempt, Iteration
 from ..program.function import LOST
-from ..program.newton import ITERATIONS, Matrix, named
+from ..program.newton import Matrix, named
 from ..program.vectors import ZERO, Twist, Vector
 from .carrier_equations import Pose, RodEquation, block, rotation, split, turned
 from .guided_pair import GuidedPair
@@ -383,7 +384,9 @@ def _add_motion(kin: Kinematics, held: _Held, solved: _Solved, placed: BodyMotio
         twist = twist_of(solve(f"{body}_{k}", slips), base)
         placed.motion[k] = now = kin.define_twist(body, k, twist)
         for i, (rod, start) in enumerate(zip(held.rods, starts, strict=True)):
-            rates[i] += (now.linear - start + now.angular.cross(rod.equation.end)) * kin.rate(k)
+            rates[i] += (
+                now.linear - start + now.angular.cross(rod.equation.end)
+            ) * kin.coordinates.rate(k)
 
     def bias() -> Twist:
         omega = kin.total(placed).angular

@@ -2,26 +2,13 @@
 
 from __future__ import annotations
 
-import pkgutil
-from importlib import import_module
-from inspect import isabstract, isclass
+from inspect import isabstract
 
+from ..declare.kinds import defined_in
 from ..loops.forms import Catalogue, ClosedForm, Follower, Iteration, Leftover, PlannedStep
 
-
-def _defined() -> list[type]:
-    """Return the classes that the files of this folder define."""
-    package = __name__.rpartition(".")[0]
-    here = __name__.rpartition(".")[2]
-    files = (m.name for m in pkgutil.iter_modules(import_module(package).__path__))
-    modules = [import_module(f"{package}.{name}") for name in files if name != here]
-    return [
-        c for m in modules for c in vars(m).values() if isclass(c) and c.__module__ == m.__name__
-    ]
-
-
 STEPS: frozenset[type[PlannedStep]] = frozenset(
-    c for c in _defined() if issubclass(c, PlannedStep) and not isabstract(c)
+    c for c in defined_in(__package__) if issubclass(c, PlannedStep) and not isabstract(c)
 )
 """Every kind of step."""
 

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import sympy as sp
 
+from ...equations.following import ITERATIONS
 from ..declare.joints import Joint, Prismatic, Revolute, Spherical, Universal
 from ..kinematics.hinge_angles import (
     HingeDesign,
@@ -31,7 +32,7 @@ from ..loops.forms import Attempt, Iteration
 from ..loops.known import coordinates_of
 from ..loops.mobility import Mobility
 from ..program.function import LOST
-from ..program.newton import ITERATIONS, Matrix, named
+from ..program.newton import Matrix, named
 from ..program.vectors import NO_TWIST, UNIT_X, UNIT_Y, UNIT_Z, ZERO, Twist, Vector
 from .closure_equations import Geometry, Moving, Position, Screw, bases, block, position
 from .coupling import Coupling
@@ -239,7 +240,7 @@ def _driven_axis(kin: Kinematics, joint: Revolute | Prismatic) -> Vector:
 
 def _given(kin: Kinematics, joint: Revolute | Prismatic, size: sp.Expr) -> sp.Expr:
     """Return how far a driven coordinate is from its design position; a slide in units of c."""
-    coordinate = kin.coordinates[kin.coordinate_of(joint)]
+    coordinate = kin.coordinates.symbol(joint)
     if isinstance(joint, Prismatic):
         return kin.program.define(f"{joint.name}_given", coordinate / size)
     if joint.angle_to is None:
@@ -391,7 +392,9 @@ def _add_motion(kin: Kinematics, step: CoupledLoops, solved: _Solved) -> None:
             if body in step.bodies:
                 child = kin.placed[body]
                 child.motion[k] = kin.define_twist(body, k, _twist(child, moving))
-        rates = [rate + value * kin.rate(k) for rate, value in zip(rates, x, strict=True)]
+        rates = [
+            rate + value * kin.coordinates.rate(k) for rate, value in zip(rates, x, strict=True)
+        ]
     biases: dict[str, Twist] = {}
 
     def bias_of(body: str) -> Callable[[], Twist]:
@@ -437,14 +440,14 @@ def _biases(
 
 def _coordinates(kin: Kinematics, step: CoupledLoops, placed: Sequence[BodyMotion]) -> list[str]:
     """Return the coordinates that move the tree."""
-    own = [kin.coordinate_of(branch.joint) for branch in step.tree if branch.driven]
+    own = [kin.coordinates.of(branch.joint) for branch in step.tree if branch.driven]
     carrying = (k for base in placed for k in base.motion)
-    return list(dict.fromkeys([*carrying, *(k for k in own if k in kin.moving)]))
+    return list(dict.fromkeys([*carrying, *(k for k in own if k in kin.coordinates.moving)]))
 
 
 def _driven_rate(kin: Kinematics, solved: _Solved, branch: JointOfTree, k: str) -> sp.Expr:
     """Return the rate of a joint per unit rate of a coordinate, with the unknowns at rest."""
-    if not branch.driven or kin.coordinate_of(branch.joint) != k:
+    if not branch.driven or kin.coordinates.of(branch.joint) != k:
         return sp.Integer(0)
     return 1 / solved.size if isinstance(branch.joint, Prismatic) else sp.Integer(1)
 
@@ -453,7 +456,7 @@ def _driven_acceleration(kin: Kinematics, solved: _Solved, branch: JointOfTree) 
     """Return the acceleration of a joint that an input gives."""
     if not branch.driven:
         return sp.Integer(0)
-    given = kin.acceleration(kin.coordinate_of(branch.joint))
+    given = kin.coordinates.acceleration(kin.coordinates.of(branch.joint))
     return given / solved.size if isinstance(branch.joint, Prismatic) else given
 
 

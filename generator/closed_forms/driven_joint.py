@@ -85,8 +85,8 @@ class _HingeFrame:
 
 def _place_revolute(kin: Kinematics, joint: Revolute, parent_name: str, child: str) -> None:
     parent = kin.placed[parent_name]
-    coordinate = kin.coordinate_of(joint)
-    angle = kin.coordinates[coordinate]
+    coordinate = kin.coordinates.of(joint)
+    angle = kin.coordinates.symbols[coordinate]
     frame = _revolute_frame(kin, joint, parent, child)
     cosine = kin.program.define(f"cos_{angle}", sp.cos(angle))
     sine = kin.program.define(f"sin_{angle}", sp.sin(angle))
@@ -113,18 +113,26 @@ def _place_revolute(kin: Kinematics, joint: Revolute, parent_name: str, child: s
     for k, twist in parent.motion.items():
         velocity = twist.linear + twist.angular.cross(frame.origin)
         placed.motion[k] = kin.define_twist(child, k, Twist(turn(twist.angular), turn(velocity)))
-    if coordinate in kin.moving:  # where a closed form reads the angle, it moves the parent too
+    if (
+        coordinate in kin.coordinates.moving
+    ):  # where a closed form reads the angle, it moves the parent too
         carried = placed.motion.get(coordinate, NO_TWIST)
         placed.motion[coordinate] = carried + Twist(UNIT_X, ZERO)
 
     def bias() -> Twist:
-        if coordinate in kin.rotors and kin.pace_of(parent) != 1:
+        if coordinate in kin.coordinates.rotors and kin.coordinates.pace_of(parent) != 1:
             message = f"the bias of rotor {child!r} is not available at a unit rate"
             raise ValueError(message)
         carried = parent.bias()
         omega = turn(kin.total(parent).angular)
-        spin = UNIT_X * (kin.rate(coordinate) if coordinate in kin.moving else 0)
-        angular = turn(carried.angular) + omega.cross(spin) + UNIT_X * kin.acceleration(coordinate)
+        spin = UNIT_X * (
+            kin.coordinates.rate(coordinate) if coordinate in kin.coordinates.moving else 0
+        )
+        angular = (
+            turn(carried.angular)
+            + omega.cross(spin)
+            + UNIT_X * kin.coordinates.acceleration(coordinate)
+        )
         linear = turn(kin.point_bias(parent, frame.origin))
         return kin.define_bias(child, Twist(angular, linear))
 
@@ -196,8 +204,8 @@ def _beside(kin: Kinematics, joint: Revolute, child: str, axis: Vector) -> Vecto
 
 def _place_prismatic(kin: Kinematics, joint: Prismatic, parent_name: str, child: str) -> None:
     parent = kin.placed[parent_name]
-    coordinate = kin.coordinate_of(joint)
-    slide = kin.coordinates[coordinate]
+    coordinate = kin.coordinates.of(joint)
+    slide = kin.coordinates.symbols[coordinate]
     direction = kin.local_direction(parent, joint.direction)
     start = parent.design_origin
     offset = direction * slide
@@ -213,18 +221,20 @@ def _place_prismatic(kin: Kinematics, joint: Prismatic, parent_name: str, child:
     for k, twist in parent.motion.items():
         velocity = twist.linear + twist.angular.cross(offset)
         placed.motion[k] = kin.define_twist(child, k, Twist(twist.angular, velocity))
-    if coordinate in kin.moving:  # that of a strut turns its first link as well
+    if coordinate in kin.coordinates.moving:  # that of a strut turns its first link as well
         carried = placed.motion.get(coordinate, NO_TWIST)
         placed.motion[coordinate] = carried + Twist(ZERO, direction)
 
     def bias() -> Twist:
         carried = parent.bias()
         omega = kin.total(parent).angular
-        speed = direction * (kin.rate(coordinate) if coordinate in kin.moving else 0)
+        speed = direction * (
+            kin.coordinates.rate(coordinate) if coordinate in kin.coordinates.moving else 0
+        )
         linear = (
             kin.point_bias(parent, offset)
             + omega.cross(speed) * 2
-            + direction * kin.acceleration(coordinate)
+            + direction * kin.coordinates.acceleration(coordinate)
         )
         return kin.define_bias(child, Twist(carried.angular, linear))
 

@@ -33,14 +33,15 @@ import sympy as sp
 from ..declare.joints import Revolute
 from ..kinematics.extent import extent_squared, require
 from ..kinematics.hinge_angles import HingeDesign, positive_axis_at_design
-from ..kinematics.motion import Axes, BodyMotion, PointMotion, from_axes, to_axes
+from ..kinematics.motion import Axes, BodyMotion, PointMotion, to_axes
 from ..loops.forms import PlannedStep
 from ..program.floors import DIRECTION, LENGTH
 from ..program.functions import SignOf
 from ..program.vectors import UNIT_X, ZERO, Twist, Vector
 from .hinge import Hinge, report_angle
 from .leg import Leg, Rod
-from .lines import once, projector
+from .lines import once
+from .turning_body import TurningBody
 
 if TYPE_CHECKING:
     from typing import Self
@@ -155,13 +156,16 @@ class Elbow(Leg):
             f"{' and '.join(self.links)} coincide",
             "move one of the two",
         )
-        coordinate = kin.coordinate_of(self.pair.joint)
+        coordinate = kin.coordinates.of(self.pair.joint)
         stretch, bias = {}, sp.Integer(0)
-        if coordinate in kin.moving:
+        if coordinate in kin.coordinates.moving:
             slope = bend.skew * bend.cosine - reach * bend.sine
             slope = program.define(f"{name}_stretch", slope)
             stretch[coordinate] = slope
-            bias = slope * kin.acceleration(coordinate) - near * kin.rate(coordinate) ** 2
+            bias = (
+                slope * kin.coordinates.acceleration(coordinate)
+                - near * kin.coordinates.rate(coordinate) ** 2
+            )
         length = program.define(f"{name}_length_now", sp.sqrt(squared))
         return Rod(f"pair of {' and '.join(self.links)}", design, length, squared, stretch, bias)
 
@@ -246,7 +250,7 @@ class _Bend:
         v = program.vector(
             f"{joint.name}_second_way", kin.design(pair.end) - kin.design(pair.middle)
         )
-        angle = kin.coordinates[kin.coordinate_of(joint)]
+        angle = kin.coordinates.symbol(joint)
         if joint.angle_to is not None:
             start = HingeDesign.of(kin, joint).angle(program, joint.name)
             angle = program.define(f"{joint.name}_bent", angle - start)
@@ -319,39 +323,30 @@ def _place(
         carrier=(parent.body, kin.local(parent, hinge.through)),
         hinge=hinge.first_axis_of,
     )
-    to_body, coordinate = projector(kin, placed), kin.coordinate_of(pair.joint)
-    moves = coordinate in kin.moving
+    turning, coordinate = (
+        TurningBody(kin, placed, hinge.origin, end),
+        kin.coordinates.of(pair.joint),
+    )
+    moves = coordinate in kin.coordinates.moving
     grip = Vector(ZERO.x, -s.z, s.y)  # n x s
-
-    def carried(label: str, v: Vector) -> Vector:
-        return to_body(label, from_axes(parent.axes, v))
-
-    own = [coordinate] if moves else []
-    for k in dict.fromkeys([*hinge.origin.motion, *parent.motion, *end.motion, *own]):
-        base = to_body(f"velocity_{k}", hinge.origin.motion.get(k, ZERO))
-        swing = carried(f"carried_{k}", parent.motion[k].angular) if k in parent.motion else ZERO
-        target = to_body(f"target_{k}", end.motion.get(k, ZERO))
+    for k in turning.moved_by([coordinate] if moves else []):
+        given = turning.rates(k)
         bending = reach.swing if k == coordinate else ZERO
-        slip = target - base - swing.cross(s) - bending
+        slip = given.target - given.base - given.carried.cross(s) - bending
         turn = program.define(f"{body}_turn_{k}", grip.dot(slip) * inverse)
-        placed.motion[k] = Twist(
-            program.vector(f"{body}_omega_{k}", swing + UNIT_X * turn, "123"), base
-        )
+        omega = program.vector(f"{body}_omega_{k}", given.carried + UNIT_X * turn, "123")
+        placed.motion[k] = Twist(omega, given.base)
 
     def bias() -> Twist:
-        omega = kin.total(placed).angular
-        parent_omega = carried("carried_now", kin.total(parent).angular)
-        base = to_body("acceleration", hinge.origin.bias)
-        target = to_body("target_bias", end.bias)
-        spin = Vector(omega.x - parent_omega.x, ZERO.y, ZERO.z)
-        alpha = carried("carried_bias", parent.bias().angular) + parent_omega.cross(spin)
-        alpha = program.vector(f"{body}_alpha_carried", alpha, "123")
-        rate = kin.rate(coordinate) if moves else sp.Integer(0)
-        pull = target - base - omega.cross(omega.cross(s)) - alpha.cross(s)
-        pull -= omega.cross(reach.swing * rate) * 2 + reach.swing * kin.acceleration(coordinate)
+        given, omega = turning.biases(), kin.total(placed).angular
+        rate = kin.coordinates.rate(coordinate) if moves else sp.Integer(0)
+        pull = given.target - given.base - omega.cross(omega.cross(s)) - given.carried.cross(s)
+        pull -= omega.cross(reach.swing * rate) * 2 + reach.swing * kin.coordinates.acceleration(
+            coordinate
+        )
         pull -= reach.curl * rate**2
         turn = program.define(f"{body}_turn_bias", grip.dot(pull) * inverse)
-        return kin.define_bias(body, Twist(alpha + UNIT_X * turn, base))
+        return kin.define_bias(body, Twist(given.carried + UNIT_X * turn, given.base))
 
     placed.bias = once(bias)
     kin.placed[body] = placed

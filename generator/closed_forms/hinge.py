@@ -10,7 +10,8 @@ import sympy as sp
 from ..kinematics.motion import Axes, BodyMotion, PointMotion, from_axes, to_axes
 from ..program.vectors import UNIT_X, ZERO, Twist, Vector
 from .arm import Arm
-from .lines import once, projector
+from .lines import once
+from .turning_body import TurningBody
 
 if TYPE_CHECKING:
     from ..declare.geometry import Point
@@ -111,41 +112,27 @@ def place_on_hinge(kin: Kinematics, hinge: Hinge, axes: Axes, condition: Conditi
         carrier=(parent.body, kin.local(parent, hinge.through)),
         hinge=hinge.first_axis_of,
     )
-    to_body = projector(kin, placed)
+    turning = TurningBody(kin, placed, hinge.origin, condition.target)
     gap, hold = condition.gap, condition.hold
     rate: Vector = ZERO
-
-    def carried(label: str, v: Vector) -> Vector:
-        return to_body(label, from_axes(parent.axes, v))
-
-    stretching = condition.rod.stretch if condition.rod else {}
-    names = [*hinge.origin.motion, *parent.motion, *condition.target.motion, *stretching]
-    for k in dict.fromkeys(names):
-        base = to_body(f"velocity_{k}", hinge.origin.motion.get(k, ZERO))
-        swing = carried(f"carried_{k}", parent.motion[k].angular) if k in parent.motion else ZERO
-        target = to_body(f"target_{k}", condition.target.motion.get(k, ZERO))
-        slip = base - target + swing.cross(arm)
+    for k in turning.moved_by(condition.rod.stretch if condition.rod else ()):
+        given = turning.rates(k)
+        slip = given.base - given.target + given.carried.cross(arm)
         fitted = gap.dot(slip) - condition.stretch(k)
         turn = program.define(f"{body}_turn_{k}", fitted * hold)
-        omega = program.vector(f"{body}_omega_{k}", swing + UNIT_X * turn, "123")
-        placed.motion[k] = Twist(omega, base)
-        rate += (base - target + omega.cross(arm)) * kin.rate(k)
+        omega = program.vector(f"{body}_omega_{k}", given.carried + UNIT_X * turn, "123")
+        placed.motion[k] = Twist(omega, given.base)
+        rate += (given.base - given.target + omega.cross(arm)) * kin.coordinates.rate(k)
 
     def bias() -> Twist:
         now = program.vector(f"{body}_rod_rate", rate, "123")
-        omega = kin.total(placed).angular
-        parent_omega = carried("carried_now", kin.total(parent).angular)
-        base = to_body("acceleration", hinge.origin.bias)
-        target = to_body("target_bias", condition.target.bias)
-        spin = Vector(omega.x - parent_omega.x, ZERO.y, ZERO.z)
-        alpha = carried("carried_bias", parent.bias().angular) + parent_omega.cross(spin)
-        alpha = program.vector(f"{body}_alpha_carried", alpha, "123")
+        given, omega = turning.biases(), kin.total(placed).angular
         whirl = program.vector(f"{body}_whirl", omega.cross(arm), "123")
-        pull = base - target + omega.cross(whirl) + alpha.cross(arm)
+        pull = given.base - given.target + omega.cross(whirl) + given.carried.cross(arm)
         slack = now.dot(now) if gap.x != 0 or gap.y != 0 else sp.Integer(0)
         fitted = gap.dot(pull) + slack - condition.stretch_bias
         turn = program.define(f"{body}_turn_bias", fitted * hold)
-        return kin.define_bias(body, Twist(alpha + UNIT_X * turn, base))
+        return kin.define_bias(body, Twist(given.carried + UNIT_X * turn, given.base))
 
     placed.bias = once(bias)
     kin.placed[body] = placed

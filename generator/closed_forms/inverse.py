@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from ...equations.following import ITERATIONS
 from ..program.functions import Frozen, IsPositive
-from ..program.newton import ITERATIONS, Matrix, times
+from ..program.newton import Matrix, times
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -156,7 +156,7 @@ def line_alpha(kin: Kinematics, record: OnLine, omega: Vector, swing: Vector) ->
 
     The second derivative of ``span = length n``, in its two components across the line.
     """
-    rates = (motion * kin.rate(k) for k, motion in record.length_motion.items())
+    rates = (motion * kin.coordinates.rate(k) for k, motion in record.length_motion.items())
     twice = 2 * sum(rates, sp.Integer(0))
     return Vector(
         ZERO.x,

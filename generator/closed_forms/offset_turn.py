@@ -249,7 +249,7 @@ class _OffsetTurn:
             turn = program.define(f"{body}_turn_{k}", self.gap.dot(slip) * hold)
             omega = program.vector(f"{body}_omega_{k}", across + sway * turn, "123")
             self.placed.motion[k] = Twist(omega, base)
-            rod_rate += (base - anchor + omega.cross(self.arm)) * self.kin.rate(k)
+            rod_rate += (base - anchor + omega.cross(self.arm)) * self.kin.coordinates.rate(k)
 
         def bias() -> Twist:
             rate = program.vector(f"{body}_rod_rate", rod_rate, "123")
@@ -272,7 +272,9 @@ class _OffsetTurn:
         The second derivative of ``S = (h, o2, o3)``, in its two components across the axis.
         """
         record, inverse = self.record, self.record.inverse_reach
-        rates = (motion * self.kin.rate(k) for k, motion in record.length_motion.items())
+        rates = (
+            motion * self.kin.coordinates.rate(k) for k, motion in record.length_motion.items()
+        )
         twice = 2 * sum(rates, sp.Integer(0))
         spin = self.program.define(f"{self.body}_spin_on_span", omega.dot(self.span))
         square = self.program.define(f"{self.body}_omega_squared", omega.dot(omega))

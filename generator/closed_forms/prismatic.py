@@ -99,7 +99,7 @@ class PrismaticByLength(HeldOnJoint):
             speed = program.define(f"{body}_speed_{k}", fitted * hold)
             twist = kin.define_twist(body, k, Twist(carried.angular, base + local * speed))
             placed.motion[k] = twist
-            rate += (twist.linear - target + carried.angular.cross(arm)) * kin.rate(k)
+            rate += (twist.linear - target + carried.angular.cross(arm)) * kin.coordinates.rate(k)
 
         def bias() -> Twist:
             now = program.vector(f"{body}_rod_rate", rate, "123")

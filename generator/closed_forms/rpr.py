@@ -42,7 +42,8 @@ from ..program.functions import Positive, SignOf
 from ..program.vectors import UNIT_X, ZERO, Twist, Vector
 from .guided_pair import GuidedPair
 from .leg import Leg, Rod
-from .lines import once, projector
+from .lines import once
+from .turning_body import TurningBody
 
 if TYPE_CHECKING:
     from typing import Self
@@ -197,12 +198,12 @@ class PinnedTelescope(Leg):
         extension = guide.known_extension(kin, extent)
         beside = guide.start.x**2 + guide.start.z**2
         squared = kin.program.define(f"{near}_length_squared", extension**2 + beside)
-        coordinate = kin.coordinate_of(telescope.joint)
+        coordinate = kin.coordinates.of(telescope.joint)
         stretch, bias = {}, sp.Integer(0)
-        if coordinate in kin.moving:
+        if coordinate in kin.coordinates.moving:
             stretch[coordinate] = telescope.sense * extension
-            given = telescope.sense * kin.acceleration(coordinate)
-            bias = kin.rate(coordinate) ** 2 + extension * given
+            given = telescope.sense * kin.coordinates.acceleration(coordinate)
+            bias = kin.coordinates.rate(coordinate) ** 2 + extension * given
         name = f"telescope of {telescope.links}"
         return Rod(name, design, sp.sqrt(squared), squared, stretch, bias)
 
@@ -293,7 +294,7 @@ class _Guide:
     def known_extension(self, kin: Kinematics, extent: sp.Expr) -> sp.Expr:
         """Return c + x of a telescope of known slide x."""
         telescope = self.telescope
-        slide = kin.coordinates[kin.coordinate_of(telescope.joint)]
+        slide = kin.coordinates.symbol(telescope.joint)
         drawn = kin.program.guarded(
             f"{telescope.near}_extension",
             self.branch * (self.start.y + telescope.sense * slide),
@@ -363,38 +364,32 @@ def _place(kin: Kinematics, pins: _Pins, extension: sp.Expr) -> None:
         local={telescope.end: ZERO},
         carrier=(carrier.body, kin.local(carrier, telescope.end)),
     )
-    to_body = projector(kin, link)
+    turning = TurningBody(kin, link, pins.anchor, pins.end)
     hold = program.define(f"{near}_hold", -1 / extension)
     growth = sp.Integer(0)  # of the extension
 
-    def carried(label: str, v: Vector) -> Vector:
-        return to_body(label, from_axes(parent.axes, v))
-
-    for k in dict.fromkeys([*pins.anchor.motion, *parent.motion, *pins.end.motion]):
-        base = to_body(f"velocity_{k}", pins.anchor.motion.get(k, ZERO))
-        swing = carried(f"carried_{k}", parent.motion[k].angular) if k in parent.motion else ZERO
-        target = to_body(f"target_{k}", pins.end.motion.get(k, ZERO))
-        turn = program.define(f"{near}_turn_{k}", (base - target + swing.cross(arm)).z * hold)
-        omega = program.vector(f"{near}_omega_{k}", swing + UNIT_X * turn, "123")
+    for k in turning.moved_by():
+        given = turning.rates(k)
+        base, target = given.base, given.target
+        turn = program.define(
+            f"{near}_turn_{k}", (base - target + given.carried.cross(arm)).z * hold
+        )
+        omega = program.vector(f"{near}_omega_{k}", given.carried + UNIT_X * turn, "123")
         link.motion[k], other.motion[k] = Twist(omega, base), Twist(omega, target)
-        growth += (target - base - omega.cross(arm)).y * kin.rate(k)
+        growth += (target - base - omega.cross(arm)).y * kin.coordinates.rate(k)
 
     def bias() -> Twist:
-        omega = kin.total(link).angular
-        parent_omega = carried("carried_now", kin.total(parent).angular)
-        base = to_body("acceleration", pins.anchor.bias)
-        target = to_body("target_bias", pins.end.bias)
-        spin = Vector(omega.x - parent_omega.x, ZERO.y, ZERO.z)
-        alpha = carried("carried_bias", parent.bias().angular) + parent_omega.cross(spin)
-        alpha = program.vector(f"{near}_alpha_carried", alpha, "123")
+        given, omega = turning.biases(), kin.total(link).angular
         whirl = program.vector(f"{near}_whirl", omega.cross(arm), "123")
-        pull = base - target + omega.cross(whirl) + alpha.cross(arm)
+        pull = given.base - given.target + omega.cross(whirl) + given.carried.cross(arm)
         coriolis = 2 * omega.x * program.define(f"{near}_growth", growth)
         turn = program.define(f"{near}_turn_bias", (pull.z + coriolis) * hold)
-        return kin.define_bias(near, Twist(alpha + UNIT_X * turn, base))
+        return kin.define_bias(near, Twist(given.carried + UNIT_X * turn, given.base))
 
-    link.bias = once(bias)
-    other.bias = once(lambda: Twist(link.bias().angular, to_body("target_bias", pins.end.bias)))
+    def target_bias() -> Twist:
+        return Twist(link.bias().angular, turning.to_body("target_bias", pins.end.bias))
+
+    link.bias, other.bias = once(bias), once(target_bias)
     kin.placed[near], kin.placed[telescope.far] = link, other
 
 

@@ -144,7 +144,10 @@ class ScotchYoke(ClosedForm):
             target = to_base(f"{self.block}_pin_{k}", pin.motion.get(k, ZERO))
             slip = target - carried.linear - carried.angular.cross(q)
             v = axes.parts(kin, f"{self.yoke}_speed_{k}", slip)
-            speeds = speeds[0] + v[0] * kin.rate(k), speeds[1] + v[1] * kin.rate(k)
+            speeds = (
+                speeds[0] + v[0] * kin.coordinates.rate(k),
+                speeds[1] + v[1] * kin.coordinates.rate(k),
+            )
             for body, offset in offsets.items():
                 own = axes.along(v[0] if body == self.block else _NONE, v[1])
                 linear = carried.linear + carried.angular.cross(offset) + own

@@ -159,7 +159,7 @@ def _turn_motion(
         turn = program.define(f"{body}_turn_{k}", gap.dot(slip) * hold)
         omega = Vector(turn, across.y, across.z)
         placed.motion[k] = Twist(omega, base)
-        rod_rate += (base - anchor + omega.cross(arm)) * kin.rate(k)
+        rod_rate += (base - anchor + omega.cross(arm)) * kin.coordinates.rate(k)
 
     def bias() -> Twist:
         rate = program.vector(f"{body}_rod_rate", rod_rate, "123")

@@ -189,18 +189,20 @@ class Strut(Leg):
         """Append its length, l = l_0 + x or l_0 - x."""
         program, near, sense = kin.program, self.rod, _growth(self.strut)
         start = program.define(f"{near}_length_start", sp.sqrt(design.dot(design)))
-        coordinate = kin.coordinate_of(self.strut.joint)
+        coordinate = kin.coordinates.of(self.strut.joint)
         length = program.guarded(
             f"{near}_length",
-            start + sense * kin.coordinates[coordinate],
+            start + sense * kin.coordinates.symbols[coordinate],
             f"the strut of {self.strut.links} is drawn in until its ends meet",
             "m",
             LENGTH * sp.sqrt(extent),
         )
         stretch, bias = {}, sp.Integer(0)
-        if coordinate in kin.moving:
+        if coordinate in kin.coordinates.moving:
             stretch[coordinate] = sense * length
-            bias = kin.rate(coordinate) ** 2 + sense * length * kin.acceleration(coordinate)
+            bias = kin.coordinates.rate(
+                coordinate
+            ) ** 2 + sense * length * kin.coordinates.acceleration(coordinate)
         return Rod(f"strut {near}", design, length, length**2, stretch, bias)
 
 

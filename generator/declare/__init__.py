@@ -3,19 +3,16 @@
 from .bodies import Body, Ground, Rotor
 from .composition import Copy, combined
 from .declared import DeclarationError
-from .forces import (
-    AlongLine,
-    AlongTelescope,
-    ForceElement,
-    JointForce,
-    LinearTyre,
-    TwistOfHinges,
-    Weight,
-)
+from .forces.force import Action, Force
+from .forces.force_element import ForceElement
+from .forces.joint_force import JointForce
+from .forces.linear_tyre import LinearTyre
+from .forces.weight import Weight
 from .geometry import FORWARD, UP, Direction, Line, Point
 from .inputs import Input, Motion
 from .joints import (
     Cylindrical,
+    Free,
     Joint,
     Prismatic,
     RelativeCoordinate,
@@ -53,11 +50,18 @@ from .parameters import (
     TorsionProgression,
     TorsionRate,
 )
+from .paths import AlongLine, AlongTelescope, TwistOfHinges
+from .shown import Shown
+from .surroundings import Surroundings
+from .wheel import Wheel
+from .world import WORLD
 
 __all__ = [
     "FORWARD",
     "UP",
+    "WORLD",
     "AccelerationOf",
+    "Action",
     "Actuator",
     "AlongLine",
     "AlongTelescope",
@@ -74,9 +78,11 @@ __all__ = [
     "Displacement",
     "Distance",
     "DistanceBetween",
+    "Force",
     "ForceElement",
     "ForceLevel",
     "ForceOf",
+    "Free",
     "Friction",
     "Gravity",
     "Ground",
@@ -101,10 +107,12 @@ __all__ = [
     "Revolute",
     "Rotor",
     "Share",
+    "Shown",
     "Speed",
     "Spherical",
     "SpringRate",
     "Stop",
+    "Surroundings",
     "TorsionDamperRate",
     "TorsionProgression",
     "TorsionRate",
@@ -112,5 +120,6 @@ __all__ = [
     "Universal",
     "VelocityOf",
     "Weight",
+    "Wheel",
     "combined",
 ]

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from ...core.suggestions import suggestion
 from .bodies import Body, Ground
 from .declared import Name, declared, parts
-from .forces import Force, ForceElement, LinearTyre
+from .forces import Force
+from .forces.force_element import ForceElement
 from .inputs import Input
 from .joints import Cylindrical, Joint, RelativeCoordinate, Spherical, Universal
 from .outputs import Output
@@ -77,8 +78,13 @@ class Assembly:
 
     @property
     def ground(self) -> str:
-        """Name of the reference body."""
+        """Name of what all motion is relative to: the body that rests, or the world itself."""
         return self.bodies[0].name
+
+    @property
+    def moving(self) -> tuple[Body, ...]:
+        """The bodies that can move."""
+        return self.bodies[1:]
 
     @property
     def numbers(self) -> dict[str, int]:
@@ -103,20 +109,6 @@ class Assembly:
         """Return an input by its name."""
         return _named(self.inputs, name)
 
-    def prefix(self, tyre: LinearTyre) -> str:
-        """Return what begins the names of a tyre's signals: nothing, where it is alone."""
-        alone = sum(isinstance(f, LinearTyre) for f in self.forces) == 1
-        return "" if alone else f"{tyre.name}_"
-
-    def signal_name(self, element: ForceElement, signal: str) -> str:
-        """Return the name of a force signal, with the element's where others have it too.
-
-        That of a moment always has it: it is rarely the only thing that springs.
-        """
-        having = [e for e in self.elements if any(e.signal(law) == signal for law in e.laws)]
-        alone = len(having) == 1 and not element.turns
-        return signal if alone else f"{element.name}_{signal}"
-
     @property
     def elements(self) -> list[ForceElement]:
         """The springs, dampers and stops."""
@@ -135,7 +127,7 @@ class Assembly:
         """
         return tuple(
             body.name
-            for body in self.bodies[1:]
+            for body in self.moving
             if len(joints := self.joints_of(body.name)) == _ENDS
             and all(isinstance(joint, Spherical | Cylindrical) for joint in joints)
         )

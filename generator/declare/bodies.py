@@ -75,7 +75,7 @@ class Body:
     com
         Centre of mass at the design position: a point, or its default place [m].
     inertia
-        Default moments about the centre of mass, chassis axes at the design position [kg m^2]: xx,
+        Default moments about the centre of mass, world axes at the design position [kg m^2]: xx,
         yy, zz, and also xy, xz, yz where they are not zero. If the centre is in a plane, the one
         about the normal of the plane; it may be left out of a body that does not turn.
     """

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING
 from .bodies import Body, Ground
 from .declared import DeclarationError
 from .default_values import value_problems
-from .forces import ForceElement, JointForce, LinearTyre, Weight
-from .joints import Joint
+from .inputs import input_problems
+from .joints import Free, Joint
+from .known import repeated
 from .names import name_problems, text_problems
+from .world import WORLD
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable
@@ -24,6 +26,7 @@ def check_mechanism(mechanism: Assembly) -> None:
         *_ground_problems(mechanism),
         *_repeated_problems(mechanism),
         *_stranger_problems(mechanism),
+        *input_problems(mechanism.inputs),
         *name_problems(mechanism),
         *text_problems(mechanism),
     ]
@@ -34,18 +37,34 @@ def check_mechanism(mechanism: Assembly) -> None:
 
 
 def _ground_problems(mechanism: Assembly) -> list[str]:
+    """See that one body rests in the world, or that the world itself is what others move on."""
     grounds = [b.name for b in mechanism.bodies if isinstance(b, Ground)]
-    if len(grounds) == 1:
-        return []
+    fixed = [name for name in grounds if name != WORLD.name]
+    free = [j.name for j in mechanism.joints if isinstance(j, Free)]
+    if any(b.name == WORLD.name and b != WORLD for b in mechanism.bodies):
+        return [f"body {WORLD.name!r} has the name of the world; choose another one"]
     if not grounds:
-        return ["there is no ground; declare a Ground and join the bodies to it"]
-    return [f"there are several grounds, {', '.join(map(repr, grounds))}; leave one of them"]
+        problem = (
+            "there is no ground, so that nothing says where it is in the world: declare a Ground "
+            "and join the bodies to it, or let one move by a joint Free(name, body)"
+        )
+        return [problem]
+    if free and fixed:
+        return [
+            f"joint {name!r} is free, and moves in the world, while {fixed[0]!r} is fixed there; "
+            "leave one of the two out"
+            for name in free
+        ]
+    if len(grounds) > 1:
+        return [f"there are several grounds, {', '.join(map(repr, grounds))}; leave one of them"]
+    return []
 
 
 def _repeated_problems(mechanism: Assembly) -> list[str]:
     """Find different things of one name, and things that there must be once."""
-    forces = mechanism.forces
     problems = []
+    identities = [force.identity for force in mechanism.forces]
+    kinds = dict.fromkeys(kind for kind, _ in identities)
     for kind, names in (
         ("body", [b.name for b in mechanism.bodies]),
         ("joint", [j.name for j in dict.fromkeys(mechanism.joints)]),
@@ -63,12 +82,7 @@ def _repeated_problems(mechanism: Assembly) -> list[str]:
         ("joint", [j.name for j in mechanism.joints if mechanism.joints.count(j) > 1]),
         ("coordinate", [c.name for c in mechanism.coordinates]),
         ("output", [o.name for o in mechanism.outputs]),
-        ("weight", ["Weight" for f in forces if isinstance(f, Weight)]),
-        ("force", [f.name for f in forces if isinstance(f, ForceElement | LinearTyre)]),
-        (
-            "JointForce along",
-            [f"{f.joint.name} by {f.input.name}" for f in forces if isinstance(f, JointForce)],
-        ),
+        *((kind, [name for k, name in identities if k == kind]) for kind in kinds),
     ):
         problems += repeated(kind, listed)
     return problems
@@ -93,24 +107,6 @@ def _stranger_problems(mechanism: Assembly) -> list[str]:
         if body not in joined
     ]
     return problems
-
-
-def repeated(what: str, names: Iterable[str]) -> list[str]:
-    """Find what is named more than once."""
-    counts = Counter(names).items()
-    return [f"{what} {n!r} is declared {c} times; once is enough" for n, c in counts if c > 1]
-
-
-def strangers(
-    what: str, used: Iterable[Body | Joint], known: Collection[Body | Joint]
-) -> list[str]:
-    """Find what a model refers to and its mechanism does not have."""
-    names = ", ".join(thing.name for thing in known) or "none"
-    return [
-        f"{what} {thing.name!r} is none of its mechanism; there are {names}"
-        for thing in used
-        if thing not in known
-    ]
 
 
 def check_symbols(name: str, used: Iterable[str], declared: Collection[str]) -> None:

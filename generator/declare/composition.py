@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from ..program.vectors import Vector
 from .bodies import Body, Ground
 from .declared import DeclarationError
-from .forces import Weight
+from .forces.force import Force
 from .geometry import Direction, Line, Point
 from .inputs import Input, Motion
 from .joints import Joint, RelativeCoordinate, Revolute
@@ -34,7 +34,6 @@ from .parameters import Image, Owner, Parameter, next_order
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable
 
-    from .forces import Force
     from .outputs import Output
 
 Thing = TypeVar("Thing")
@@ -135,8 +134,10 @@ class Copy:
 
     def _is_common(self, thing: Any) -> bool:
         """Tell whether the copies have something in common."""
-        if isinstance(thing, Ground | Weight) or thing in self.shared:
+        if isinstance(thing, Ground) or thing in self.shared:
             return True
+        if isinstance(thing, Force):
+            return thing.in_common
         if isinstance(thing, Joint):
             return self._is_common(thing.first) and self._is_common(thing.second)
         return isinstance(thing, RelativeCoordinate) and self._is_common(thing.joint)

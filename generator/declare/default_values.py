@@ -8,9 +8,9 @@ import numpy as np
 
 from ...core.physical import inertia_of_no_body, out_of_range
 from .evaluation import AtDefaults
-from .forces import AlongLine
 from .geometry import Direction, Line, Point
 from .joints import Revolute
+from .paths import AlongLine
 from .ranges import described
 
 if TYPE_CHECKING:

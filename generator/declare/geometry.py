@@ -1,6 +1,6 @@
-"""Points, directions and lines of a mechanism at its design position, in chassis axes.
+"""Points, directions and lines of a mechanism at its design position, in the axes of the world.
 
-Chassis axes are ISO 8855: x forward, y left, z up. All components are parameters.
+They are those of ISO 8855: x forward, y left, z up. All components are parameters.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class Point(Owner):
     name
         Begins the names of its parameters, ``<name>_x`` and so on.
     place
-        Default coordinates at the design position, in chassis axes [m].
+        Default coordinates at the design position, axes of the world [m].
     meaning
         For the documentation of the generated code; without it, the name.
     flat
@@ -87,7 +87,7 @@ class Point(Owner):
 
     @cached_property
     def position(self) -> Vector:
-        """Coordinates at the design position, in chassis axes."""
+        """Coordinates at the design position, in the axes of the world."""
         symbols = dict(zip(self._axes, (p.symbol for p in self.numbers), strict=True))
         return Vector(*(symbols.get(axis, sp.Integer(0)) for axis in "xyz"))
 
@@ -106,7 +106,7 @@ class Direction(Owner):
     name
         Begins the names of its parameters, ``<name>_x`` and so on.
     along
-        Default components, of any length, in chassis axes.
+        Default components, of any length, in the axes of the world.
     meaning
         For the documentation of the generated code; without it, the name.
     fixed
@@ -150,7 +150,7 @@ class Direction(Owner):
 
     @cached_property
     def components(self) -> Vector:
-        """Components at the design position, in chassis axes, not normalised."""
+        """Components at the design position, in the axes of the world, not normalised."""
         if self.between is not None:
             start, end = self.between
             return end.position - start.position

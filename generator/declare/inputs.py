@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 from .declared import DeclarationError, Name, declared
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 
 @declared
@@ -18,7 +22,7 @@ class Input:
     unit, meaning
         For the documentation of the generated code.
     derivative_of
-        The input whose rate this one is.
+        The input whose rate this one is. Whoever simulates gives that one alone.
     """
 
     name: Name
@@ -54,7 +58,7 @@ class Motion:
     velocity: str = ""
     acceleration: str = ""
 
-    @property
+    @cached_property
     def inputs(self) -> tuple[Input, Input, Input]:
         """Position, velocity and acceleration."""
         name, unit = self.name, self.unit
@@ -63,3 +67,23 @@ class Motion:
         position = Input(f"{name}_position", unit, self.position)
         velocity = Input(f"{name}_velocity", f"{unit}/s", rate, position)
         return position, velocity, Input(f"{name}_acceleration", f"{unit}/s^2", change, velocity)
+
+    @property
+    def rates(self) -> tuple[str, str]:
+        """Names of velocity and acceleration: what is zero while the joint stands still."""
+        _, velocity, acceleration = self.inputs
+        return velocity.name, acceleration.name
+
+
+def input_problems(inputs: Iterable[Input]) -> list[str]:
+    """Find inputs that are rates of what has a rate already."""
+    rates: dict[Input, str] = {}
+    problems = []
+    for entry in inputs:
+        source = entry.derivative_of
+        if source is not None and rates.setdefault(source, entry.name) != entry.name:
+            problems.append(
+                f"inputs {rates[source]!r} and {entry.name!r} are both the derivative of "
+                f"{source.name!r}; leave one of them out"
+            )
+    return problems

@@ -6,13 +6,14 @@ motion of the second body relative to the first, along or about the axis of the 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import ClassVar
+from dataclasses import dataclass, field
+from typing import ClassVar, Literal
 
 from .bodies import Body
 from .declared import DeclarationError, Name, declared
 from .geometry import FORWARD, UP, Direction, Line, Point
 from .parameters import Distance
+from .world import WORLD
 
 
 @declared
@@ -199,6 +200,31 @@ class Universal(Joint):
 
 @declared
 @dataclass(frozen=True)
+class Free(Joint):
+    """No hold at all: the second body moves in the world, which is the first, with six freedoms.
+
+    Its coordinates are the position of the second body's centre of mass along the axes of the world
+    less that at design, and the angles of the body in the z-y-x sequence (yaw, pitch, roll).
+    """
+
+    first: Body = field(default=WORLD, init=False)
+
+    kind: ClassVar[str] = "free"
+    common: ClassVar[str] = "nothing"
+    coordinates: ClassVar[tuple[str, ...]] = ("x", "y", "z", "yaw", "pitch", "roll")
+
+    def coordinate(
+        self,
+        kind: Literal["x", "y", "z", "yaw", "pitch", "roll"],
+        name: Name,
+        meaning: str,
+    ) -> RelativeCoordinate:
+        """Report one of them [m or rad]."""
+        return self._coordinate(kind, name, meaning)
+
+
+@declared
+@dataclass(frozen=True)
 class Spherical(Joint):
     """A ball joint."""
 
@@ -232,7 +258,16 @@ class RelativeCoordinate:
     kind: str
     meaning: str
 
+    def __post_init__(self) -> None:
+        joint = self.joint
+        if self.kind in joint.coordinates and not isinstance(joint, Spherical):
+            return
+        problem = f"kind {self.kind!r} is none of {joint.name!r}, which is {joint.kind}"
+        known = ", ".join(() if isinstance(joint, Spherical) else joint.coordinates)
+        problem += f"; there are {known}" if known else "; its angles have no names to report"
+        raise DeclarationError(f"RelativeCoordinate {self.name!r}", [problem])
+
     @property
     def unit(self) -> str:
         """Of its value."""
-        return "m" if self.kind == "slide" else "rad"
+        return "m" if self.kind in ("slide", "x", "y", "z") else "rad"

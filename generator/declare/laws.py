@@ -6,6 +6,7 @@ of hinges, the moment. A law owns its parameters, whose types say which of the t
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, Literal
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from ..program.program import Program
+    from .paths import AnyPath
 
 
 @dataclass(frozen=True)
@@ -58,9 +60,35 @@ class Stretch:
     slide: sp.Expr | None = None
 
 
+class AnyLaw(ABC):
+    """What the laws have in common."""
+
+    from_outside: ClassVar[bool] = False
+    """Whether an input gives the force, which then is not shown."""
+
+    @property
+    @abstractmethod
+    def signal(self) -> str:
+        """Name of the signal that shows the force."""
+
+    @property
+    @abstractmethod
+    def meaning(self) -> str:
+        """What that signal is."""
+
+    @abstractmethod
+    def force(self, at: Stretch) -> sp.Expr:
+        """Return the force on the ends."""
+
+    def problems(self, path: AnyPath) -> list[str]:
+        """Say what of it cannot be on a path."""
+        del path
+        return []
+
+
 @declared
 @dataclass(frozen=True)
-class LinearSpring:
+class LinearSpring(AnyLaw):
     """Force ``rate (slide - free_slide)``, or ``rate (free_length - length)``.
 
     Parameters
@@ -80,8 +108,14 @@ class LinearSpring:
         if (self.free_slide is None) == (self.free_length is None):
             raise DeclarationError("LinearSpring", ["give it a free_slide or a free_length"])
 
-    signal: ClassVar[str] = "spring_force"
-    meaning: ClassVar[str] = "spring force"
+    signal = "spring_force"
+    meaning = "spring force"
+
+    def problems(self, path: AnyPath) -> list[str]:
+        """See that the path has the coordinate that it is free of force at."""
+        if self.free_slide is None or path.has_slide:
+            return []
+        return ["a free_slide needs a telescope; give its spring a free_length"]
 
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""
@@ -93,7 +127,7 @@ class LinearSpring:
 
 @declared
 @dataclass(frozen=True)
-class LinearDamper:
+class LinearDamper(AnyLaw):
     """Force ``-rate velocity``.
 
     Parameters
@@ -104,8 +138,8 @@ class LinearDamper:
 
     rate: DamperRate | TorsionDamperRate
 
-    signal: ClassVar[str] = "damper_force"
-    meaning: ClassVar[str] = "damper force"
+    signal = "damper_force"
+    meaning = "damper force"
 
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""
@@ -114,7 +148,7 @@ class LinearDamper:
 
 @declared
 @dataclass(frozen=True, kw_only=True)
-class DamperTable(Owner):
+class DamperTable(AnyLaw, Owner):
     r"""A curve of force over velocity, smooth, with its own shape in bump and in rebound.
 
     Let x be the compression velocity, k_0 < ... < k_n the knots, and p_i = max(x - k_i, 0). With
@@ -141,8 +175,8 @@ class DamperTable(Owner):
     name: Name
     segments: Count
 
-    signal: ClassVar[str] = "damper_force"
-    meaning: ClassVar[str] = "damper force"
+    signal = "damper_force"
+    meaning = "damper force"
 
     @cached_property
     def numbers(self) -> tuple[Parameter, ...]:
@@ -189,7 +223,7 @@ class DamperTable(Owner):
 
 @declared
 @dataclass(frozen=True)
-class Friction:
+class Friction(AnyLaw):
     """Coulomb friction, regularised: ``-force velocity / sqrt(velocity^2 + speed^2)``.
 
     Parameters
@@ -203,8 +237,8 @@ class Friction:
     level: ForceLevel | MomentLevel
     speed: Speed | AngularSpeed
 
-    signal: ClassVar[str] = "friction_force"
-    meaning: ClassVar[str] = "friction force"
+    signal = "friction_force"
+    meaning = "friction force"
 
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""
@@ -215,7 +249,7 @@ class Friction:
 
 @declared
 @dataclass(frozen=True, kw_only=True)
-class Stop:
+class Stop(AnyLaw):
     """A progressive stop: ``rate x + progression x^3``, x being how far it is pressed in.
 
     Parameters
@@ -256,7 +290,7 @@ class Stop:
 
 @declared
 @dataclass(frozen=True)
-class Actuator:
+class Actuator(AnyLaw):
     """A force that is given from outside.
 
     Parameters
@@ -267,8 +301,9 @@ class Actuator:
 
     input: Input
 
-    signal: ClassVar[str] = "actuator_force"
-    meaning: ClassVar[str] = "actuator force"
+    from_outside: ClassVar[bool] = True
+    signal = "actuator_force"
+    meaning = "actuator force"
 
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""

@@ -7,11 +7,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from .bodies import Body, Ground
-from .checks import repeated, strangers
 from .declared import DeclarationError, Name, declared
-from .forces import JointForce
-from .inputs import Input, Motion
-from .joints import Cylindrical, Joint, Prismatic, Revolute, Spherical, Universal
+from .inputs import Input, Motion, input_problems
+from .joints import Cylindrical, Free, Joint, Prismatic, Revolute, Spherical, Universal
+from .known import repeated, strangers
 from .mechanism import Mechanism
 from .names import input_name_problems, unwritable
 
@@ -24,6 +23,7 @@ DRIVABLE: dict[type[Joint], str] = {
     Cylindrical: "a guide and a hinge along its axis, with a link between them",
     Universal: "two hinges along the axes of the cross, with a link between them",
     Spherical: "three hinges through its centre, with two links between them",
+    Free: "three guides and three hinges, with links between them",
 }
 """What has the freedoms of a joint that cannot be driven, and can be."""
 
@@ -59,7 +59,7 @@ class Model:
 
     def __post_init__(self) -> None:
         if self.massive is _ALL_THAT_MOVE:
-            object.__setattr__(self, "massive", self.mechanism.bodies[1:])
+            object.__setattr__(self, "massive", self.mechanism.moving)
         _check(self)
 
     @property
@@ -68,9 +68,9 @@ class Model:
         return (*self.independent, *self.prescribed)
 
     @property
-    def motions(self) -> dict[str, str]:
-        """Name of the motion of each prescribed joint, by the joint's."""
-        return {joint.name: motion.name for joint, motion in self.prescribed.items()}
+    def motions(self) -> dict[str, Motion]:
+        """The motion of each prescribed joint, by the joint's name."""
+        return {joint.name: motion for joint, motion in self.prescribed.items()}
 
     @property
     def inputs(self) -> dict[str, Input]:
@@ -113,7 +113,17 @@ def _driven_problems(model: Model) -> list[str]:
         ]
     both = [j.name for j in model.independent if j in model.prescribed]
     problems += [f"joint {name!r} is both independent and prescribed" for name in both]
-    problems += [_undrivable("independent", j) for j in model.independent if _has_many(j)]
+    problems += [
+        f"joint {joint.name!r} is free, and nothing else says where {joint.second.name!r} is; make "
+        "it independent"
+        for joint in joints
+        if isinstance(joint, Free) and joint not in model.driven
+    ]
+    problems += [
+        _undrivable("independent", j)
+        for j in model.independent
+        if _has_many(j) and not isinstance(j, Free)
+    ]
     problems += [_undrivable("prescribed", j) for j in model.prescribed if _has_many(j)]
     reported = [c.joint for c in model.mechanism.coordinates]
     problems += [
@@ -128,11 +138,14 @@ def _driven_problems(model: Model) -> list[str]:
 
 def _input_problems(model: Model) -> list[str]:
     """Find motions that are given twice, and inputs of one name."""
-    problems = repeated("motion of prescribed joints", model.motions.values())
+    problems = repeated(
+        "motion of prescribed joints", [motion.name for motion in model.prescribed.values()]
+    )
     entries = [entry for motion in model.prescribed.values() for entry in motion.inputs]
     for entry in entries:
         same = [i for i in model.mechanism.inputs if i.name == entry.name and i != entry]
         problems += [f"{i.name!r} is an input of a force and of a motion; rename one" for i in same]
+    problems += input_problems(dict.fromkeys((*entries, *model.mechanism.inputs)))
     return problems + input_name_problems(model.mechanism, entries)
 
 
@@ -161,11 +174,11 @@ def _mass_problems(model: Model) -> list[str]:
 def _force_problems(model: Model) -> list[str]:
     """See that every force along a joint does work: there is none for a joint that follows."""
     return [
-        f"JointForce: {force.joint.name!r} is neither independent nor prescribed, and a JointForce "
-        "acts along such joints only. Make it independent, or let an Actuator in a ForceElement "
-        "push between two points"
-        for force in model.mechanism.forces
-        if isinstance(force, JointForce) and force.joint not in model.driven
+        f"{kind}: {joint.name!r} is neither independent nor prescribed, and a {kind} acts along "
+        "such joints only. Make it independent, or let an Actuator in a ForceElement push between "
+        "two points"
+        for kind, joint in ((type(f).__name__, f.along) for f in model.mechanism.forces)
+        if joint is not None and joint not in model.driven
     ]
 
 

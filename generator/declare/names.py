@@ -8,8 +8,6 @@ from __future__ import annotations
 import keyword
 from typing import TYPE_CHECKING
 
-from .forces import ForceElement, LinearTyre
-
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
@@ -63,13 +61,14 @@ _COUNTED = ("count",)  # an enumeration ends with the number of its elements
 def name_problems(mechanism: Assembly) -> list[str]:
     """Find names that code cannot have: reserved words, one name for two things."""
     coordinates = [c.name for c in mechanism.coordinates]
+    forces = [force.identity for force in mechanism.forces]
     kinds = {
         "body": [b.name for b in mechanism.bodies],
         "joint": [j.name for j in mechanism.joints],
         "parameter": [p.name for p in mechanism.parameters],
         "coordinate": coordinates,
         "input": mechanism.input_names,
-        "force": [f.name for f in mechanism.forces if isinstance(f, ForceElement | LinearTyre)],
+        "force": [name for kind, name in forces if kind == "force"],
         "output": [o.name for o in mechanism.outputs],
     }
     # what the code reads by its own name; other names have something before or behind them

@@ -1,6 +1,6 @@
 """What a person wants to see of a mechanism, beside the signals of its tyres and force elements.
 
-An output makes one signal or three; vectors are in chassis axes, with ``_x``, ``_y``, ``_z`` behind
+An output makes one signal or three; vectors are in world axes, with ``_x``, ``_y``, ``_z`` behind
 their names.
 """
 
@@ -11,7 +11,7 @@ from typing import ClassVar
 
 from .bodies import Body
 from .declared import DeclarationError, Name, declared
-from .forces import ForceElement
+from .forces.force_element import ForceElement
 from .geometry import Direction, Point
 
 

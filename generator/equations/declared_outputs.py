@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import sympy as sp
 
@@ -14,6 +14,7 @@ from ..declare.outputs import (
     PositionOf,
     VelocityOf,
 )
+from ..declare.shown import Shown
 from ..kinematics.motion import from_axes
 from ..program.floors import DIRECTION
 from ..program.vectors import ZERO
@@ -28,15 +29,6 @@ if TYPE_CHECKING:
     from .dynamics import Dynamics
 
 NONE = sp.Integer(0)
-
-
-class Shown(NamedTuple):
-    """A signal."""
-
-    name: str
-    value: sp.Expr
-    unit: str
-    meaning: str
 
 
 def signals_of(dynamics: Dynamics, output: Output) -> Iterator[Shown]:
@@ -54,7 +46,7 @@ def signals_of(dynamics: Dynamics, output: Output) -> Iterator[Shown]:
         yield Shown(output.name, _angle(dynamics, output), "rad", output.meaning)
     elif isinstance(output, ForceOf):
         unit = "N m" if output.element.turns else "N"
-        yield Shown(output.name, dynamics.totals[output.element.name], unit, output.meaning)
+        yield Shown(output.name, dynamics.total(output.element), unit, output.meaning)
 
 
 def _components(output: OfPoint, value: Vector, unit: str, what: str) -> Iterator[Shown]:
@@ -63,23 +55,23 @@ def _components(output: OfPoint, value: Vector, unit: str, what: str) -> Iterato
 
 
 def _position(dynamics: Dynamics, output: OfPoint) -> Vector:
-    part = dynamics.kin.of(output.body.name)
+    part = dynamics.part_of[output.body.name]
     work = part.point_motion(output.body.name, output.point).position
-    return part.to_chassis(work) + part.work_origin
+    return part.to_ground(work) + part.work_origin
 
 
 def _velocity(dynamics: Dynamics, output: OfPoint) -> Vector:
-    kin, part = dynamics.kin, dynamics.kin.of(output.body.name)
+    part, driven = dynamics.part_of[output.body.name], dynamics.coordinates
     motion = part.point_motion(output.body.name, output.point).motion
-    return part.to_chassis(_summed(motion, {k: kin.true_rate(k) for k in motion}))
+    return part.to_ground(_summed(motion, {k: driven.true_rate(k) for k in motion}))
 
 
 def _acceleration(dynamics: Dynamics, output: OfPoint) -> Vector:
-    kin, part = dynamics.kin, dynamics.kin.of(output.body.name)
+    part = dynamics.part_of[output.body.name]
     found = part.point_motion(output.body.name, output.point)
     rates = {k: dynamics.accelerations.get(k, NONE) for k in found.motion}
-    pace = kin.pace_of(kin.placed[output.body.name])
-    return part.to_chassis(_summed(found.motion, rates) + found.bias * pace**2)
+    pace = dynamics.coordinates.pace_of(dynamics.placed[output.body.name])
+    return part.to_ground(_summed(found.motion, rates) + found.bias * pace**2)
 
 
 def _summed(motion: dict[str, Vector], rates: dict[str, sp.Expr]) -> Vector:
@@ -87,17 +79,17 @@ def _summed(motion: dict[str, Vector], rates: dict[str, sp.Expr]) -> Vector:
 
 
 def _distance(dynamics: Dynamics, output: DistanceBetween) -> Iterator[Shown]:
-    program, kin, name = dynamics.program, dynamics.kin, output.name
+    program, name = dynamics.program, output.name
     (one, start), (other, end) = output.first, output.second
-    relative = kin.relative_motion((one.name, start), (other.name, end))
+    relative = dynamics.moving.relative_motion((one.name, start), (other.name, end))
     span = program.vector(f"{name}_span", relative.position)
-    places = kin.of(one.name).design(start), kin.of(other.name).design(end)
+    places = (dynamics.part_of[body.name].design(p) for body, p in (output.first, output.second))
     extent = program.define(f"{name}_extent_squared", sum((p.dot(p) for p in places), NONE))
     squared = program.guarded(
         f"{name}_squared", span.dot(span), f"the ends of {name} coincide", "m^2", DIRECTION * extent
     )
     length = program.define(f"{name}_now", sp.sqrt(squared))
-    rates = {k: kin.true_rate(k) for k in relative.motion}
+    rates = {k: dynamics.coordinates.true_rate(k) for k in relative.motion}
     rate = span.dot(_summed(relative.motion, rates)) / length
     yield Shown(name, length, "m", output.meaning)
     yield Shown(f"{name}_rate", rate, "m/s", f"rate of {name}")
@@ -112,8 +104,7 @@ def _angle(dynamics: Dynamics, output: AngleBetween) -> sp.Expr:
 
 
 def _now(dynamics: Dynamics, body: Body, direction: Direction) -> Vector:
-    """Return where a body has carried a unit direction, in chassis axes."""
-    kin, part = dynamics.kin, dynamics.kin.of(body.name)
-    placed = kin.placed[body.name]
-    work = from_axes(placed.axes, kin.local_direction(placed, direction))
-    return dynamics.program.vector(f"{body.name}_{direction.name}_now", part.to_chassis(work))
+    """Return where a body has carried a unit direction, in the axes of the world."""
+    part, placed = dynamics.part_of[body.name], dynamics.placed[body.name]
+    work = from_axes(placed.axes, part.local_direction(placed, direction))
+    return dynamics.program.vector(f"{body.name}_{direction.name}_now", part.to_ground(work))

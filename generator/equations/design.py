@@ -11,13 +11,34 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..declare.joints import Revolute
+from ..program.function import Function
 from ..program.functions import SignOf
+from ..program.steps import Step
 from ..program.vectors import Vector
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from ..declare.model import Model
 
 Steps = list[tuple[sp.Symbol, sp.Expr]]
+
+
+def design_state(model: Model, state: Sequence[str]) -> Function:
+    """Return the function from the parameters to the state at the design position, at rest.
+
+    Parameters
+    ----------
+    state
+        Names of the elements of the state, in order.
+    """
+    coordinates = design_coordinates(model)
+    steps = [Step(s, e, "design position") for found in coordinates.values() for s, e in found]
+    values = tuple(sp.Symbol(n) if n in coordinates else sp.Integer(0) for n in state)
+    doc = "State at the design position, at rest."
+    return Function(
+        "design_state", doc, tuple(steps), values, tuple(state), (len(values),), guards=()
+    )
 
 
 def design_coordinates(model: Model) -> dict[str, Steps]:

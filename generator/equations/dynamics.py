@@ -16,28 +16,22 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ..declare.forces import (
-    AlongLine,
-    AlongTelescope,
-    ForceElement,
-    JointForce,
-    LinearTyre,
-    TwistOfHinges,
-    Weight,
-)
-from ..declare.geometry import UP, Direction
+from ..declare.geometry import Direction
 from ..declare.joints import Revolute
-from ..declare.laws import Stretch
-from ..kinematics.hinge_angles import angle_of, positive_axis_at_design, turning_rates
+from ..kinematics.hinge_angles import positive_axis_at_design
 from ..kinematics.motion import BodyMotion, to_axes
-from ..program.floors import DIRECTION, POSITIVE
-from ..program.functions import IsPositive, Positive
+from ..program.floors import POSITIVE
 from ..program.vectors import ELEMENTS, SymmetricTensor, Twist, Vector
+from .surroundings import Seen
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from ..declare.bodies import Body
-    from ..declare.laws import Law
-    from .parts import Parts
+    from ..declare.forces.force import Action, Force
+    from ..declare.shown import Shown
+    from .in_motion import InMotion
+    from .surroundings import Momenta
 
 NONE = sp.Integer(0)
 
@@ -85,24 +79,22 @@ class Dynamics:
     ----------
     accelerations
         q'' by coordinate name.
-    signals
-        What the force elements show, by name.
     """
 
-    def __init__(self, kin: Parts) -> None:
-        self.kin = kin
-        self.program = kin.program
-        self.names = kin.independent
+    def __init__(self, moving: InMotion) -> None:
+        self.program, self.mechanism = moving.program, moving.mechanism
+        self.moving, self.placed, self.part_of = moving, moving.placed, moving.part_of
+        self.coordinates, self.names = moving.coordinates, moving.coordinates.independent
         self.inertia: dict[str, Inertia] = {}
         self.rotors: list[Rotor] = []
-        self.signals: dict[str, sp.Expr] = {}
-        self.totals: dict[str, sp.Expr] = {}  # of each element
+        self.accelerations: dict[str, sp.Expr] = {}
         self.program.section("inertia")
         self._gather_inertia()
         self._matrix: dict[tuple[str, str], sp.Expr] = {}
         self._bias: dict[str, sp.Expr] = dict.fromkeys(self.names, NONE)
         self._force: dict[str, sp.Expr] = dict.fromkeys(self.names, NONE)
-        self._momentum: dict[tuple[str, str], Vector] = {}
+        self._momentum: Momenta = {}
+        self._actions: list[Action] = []
         self._add_bodies()
         self._add_forces()
         self.accelerations = self._solve()
@@ -111,16 +103,16 @@ class Dynamics:
 
     def _gather_inertia(self) -> None:
         """Sum up inertia from the last placed body to the first, moving what can be moved."""
-        for name in reversed(self.kin.placed):
+        for name in reversed(self.placed):
             self.inertia.setdefault(name, Inertia.none())
-        rotors = {body.name: k for k, body in self.kin.rotors.items()}
-        for body in self.kin.model.massive:
+        rotors = {body.name: k for k, body in self.coordinates.rotors.items()}
+        for body in self.moving.model.massive:
             if body.name in rotors:
                 self._fold_rotor(rotors[body.name], body)
             else:
                 self._add_rigid(body)
-        for name in reversed(self.kin.placed):
-            placed, inertia = self.kin.placed[name], self.inertia[name]
+        for name in reversed(self.placed):
+            placed, inertia = self.placed[name], self.inertia[name]
             if placed.carrier is not None and inertia.mass != 0:
                 carrier, at = placed.carrier
                 self.inertia[carrier].add_point(inertia.mass, at)
@@ -129,20 +121,20 @@ class Dynamics:
             self._name_inertia(name, inertia)
 
     def _add_rigid(self, body: Body) -> None:
-        """Add a body given by mass, centre and tensor in chassis axes at the design position."""
-        placed = self.kin.placed[body.name]
+        """Add a body given by mass, centre and tensor in ground axes at the design position."""
+        placed = self.placed[body.name]
         mass = sp.Symbol(f"{body.name}_mass")
-        com = self.kin.local(placed, body.center)
+        com = self.part_of[placed.body].local(placed, body.center)
         own = self.inertia[body.name]
         own.add_point(mass, com)
-        own.tensor += self._own_tensor(body).in_axes(self._chassis_axes(placed))
+        own.tensor += self._own_tensor(body).in_axes(self._ground_axes(placed))
 
     def _own_tensor(self, body: Body) -> SymmetricTensor:
         if body.rotor_axis is None:
             return SymmetricTensor(*(sp.Symbol(f"{body.name}_inertia_{e}") for e in ELEMENTS))
         spin, across = self._rotor_moments(body)
-        part = self.kin.of(body.name)
-        axis = part.to_chassis(part.design_direction(body.rotor_axis))
+        part = self.part_of[body.name]
+        axis = part.to_ground(part.design_direction(body.rotor_axis))
         axis = self.program.vector(f"{body.name}_rotor_axis", axis)
         tensor = SymmetricTensor.transverse(across, axis)
         x, y, z = axis
@@ -156,24 +148,26 @@ class Dynamics:
             sp.Symbol(f"{body.name}_inertia_diametral"),
         )
 
-    def _chassis_axes(self, placed: BodyMotion) -> tuple[Vector, Vector, Vector]:
-        """Return the body axes at the design position, in chassis axes."""
-        names, part = ("first", "second", "third"), self.kin.of(placed.body)
+    def _ground_axes(self, placed: BodyMotion) -> tuple[Vector, Vector, Vector]:
+        """Return the body axes at the design position, in ground axes."""
+        names, part = ("first", "second", "third"), self.part_of[placed.body]
         x, y, z = (
-            self.program.vector(f"{placed.body}_{name}_in_chassis", part.to_chassis(axis))
+            self.program.vector(f"{placed.body}_{name}_in_chassis", part.to_ground(axis))
             for name, axis in zip(names, placed.design_axes, strict=True)
         )
         return x, y, z
 
     def _fold_rotor(self, coordinate: str, body: Body) -> None:
         """Give the carrier all but the momentum of a rotor about its own axis."""
-        joint = self.kin.mechanism.joints_of(body.name)[0]
-        carrier = self.kin.placed[joint.other(body.name)]
+        joint = self.mechanism.joints_of(body.name)[0]
+        carrier = self.placed[joint.other(body.name)]
         spin, across = self._rotor_moments(body)
         assert isinstance(joint, Revolute)
         axis = self._bearing_axis(joint, carrier)
         own = self.inertia[carrier.body]
-        own.add_point(sp.Symbol(f"{body.name}_mass"), self.kin.local(carrier, body.center))
+        own.add_point(
+            sp.Symbol(f"{body.name}_mass"), self.part_of[carrier.body].local(carrier, body.center)
+        )
         own.tensor += SymmetricTensor.transverse(across, axis)
         self.rotors.append(Rotor(coordinate, body, carrier, axis, spin))
 
@@ -183,8 +177,8 @@ class Dynamics:
         The axis of the rotor is the same line, but may point the other way.
         """
         if isinstance(joint.axis.towards, Direction) and joint.angle_to is None:
-            return self.kin.local_direction(carrier, joint.axis.towards)
-        positive = positive_axis_at_design(self.kin.of(carrier.body), joint)
+            return self.part_of[carrier.body].local_direction(carrier, joint.axis.towards)
+        positive = positive_axis_at_design(self.part_of[carrier.body], joint)
         n = to_axes(carrier.design_axes, positive)
         return self.program.vector(f"{joint.name}_axis_on_{carrier.body}", n, "123")
 
@@ -201,7 +195,7 @@ class Dynamics:
     # -- bodies ---------------------------------------------------------------------------------
 
     def _add_bodies(self) -> None:
-        for name, placed in self.kin.placed.items():
+        for name, placed in self.placed.items():
             if placed.motion and not self._is_rotor(name):
                 self.program.section(f"dynamics: {name}")
                 self._add_body(placed, self.inertia[name])
@@ -238,7 +232,7 @@ class Dynamics:
                     energy = one.angular.dot(angular[other]) + two.angular.dot(offset[k])
                 energy += inertia.mass * one.linear.dot(two.linear)
                 self._matrix[k, other] = self._matrix.get((k, other), NONE) + energy
-        if len(columns) == 1 and columns[0] in self.kin.alone:
+        if len(columns) == 1 and columns[0] in self.coordinates.alone:
             self._add_single_bias(placed, columns[0], angular[columns[0]])
         else:
             self._add_full_bias(placed, inertia, columns)
@@ -252,7 +246,7 @@ class Dynamics:
     def _add_full_bias(self, placed: BodyMotion, inertia: Inertia, columns: list[str]) -> None:
         """Newton-Euler at the bias acceleration, projected on each column."""
         body, program = placed.body, self.program
-        bias, omega = placed.bias(), self.kin.total(placed).angular
+        bias, omega = placed.bias(), self.part_of[placed.body].total(placed).angular
         whirl = program.vector(f"{body}_whirl_moment", omega.cross(inertia.moment), "123")
         spin = program.vector(f"{body}_spin_now", inertia.tensor @ omega, "123")
         force = program.vector(
@@ -271,10 +265,10 @@ class Dynamics:
 
     def _add_rotor(self, rotor: Rotor) -> None:
         """Gyroscopic part of a rotor on its carrier; the rest is in `_solve` and `full`."""
-        if self.kin.pace_of(rotor.carrier) != 1:
+        if self.coordinates.pace_of(rotor.carrier) != 1:
             return  # axis x omega is perpendicular to omega, the only direction of motion
-        omega = self.kin.total(rotor.carrier).angular
-        spin = self.kin.true_rate(rotor.coordinate) + rotor.axis.dot(omega)
+        omega = self.part_of[rotor.carrier.body].total(rotor.carrier).angular
+        spin = self.coordinates.true_rate(rotor.coordinate) + rotor.axis.dot(omega)
         momentum = self.program.define(f"{rotor.body.name}_spin_momentum", rotor.inertia * spin)
         swing = omega.cross(rotor.axis)
         couple = self.program.vector(f"{rotor.body.name}_gyroscopic", swing * momentum, "123")
@@ -287,166 +281,26 @@ class Dynamics:
     # -- forces ---------------------------------------------------------------------------------
 
     def _add_forces(self) -> None:
-        for force in self.kin.mechanism.forces:
+        at = Seen(self.moving, self._momentum, self.accelerations)
+        for force in self.mechanism.forces:
             self.program.section(f"forces: {type(force).__name__}")
-            if isinstance(force, Weight):
-                self._add_weight(force)
-            elif isinstance(force, ForceElement):
-                self._add_element(force)
-            elif isinstance(force, LinearTyre):
-                self._add_tyre(force)
-            elif isinstance(force, JointForce):
-                self._add_joint_force(force)
+            action = force.act(at)
+            self._actions.append(action)
+            for k in self.names:
+                if k in action.forces:
+                    self._force[k] += action.forces[k]
 
-    def up_in(self, placed: BodyMotion) -> Vector:
-        """Return the upward unit vector in body axes."""
-        up = to_axes(placed.axes, self.kin.of(placed.body).design_direction(UP))
-        return self.program.vector(f"{placed.body}_up", up, "123")
+    def signals(self) -> Iterator[Shown]:
+        """Yield what the forces show, force by force."""
+        at = Seen(self.moving, self._momentum, self.accelerations)
+        for force, action in zip(self.mechanism.forces, self._actions, strict=True):
+            yield from force.signals(at, action)
 
-    def _add_weight(self, force: Weight) -> None:
-        gravity = force.gravity.symbol
-        for (body, k), momentum in self._momentum.items():
-            up = self.up_in(self.kin.placed[body])
-            self._force[k] -= gravity * up.dot(momentum)
-
-    def _add_element(self, element: ForceElement) -> None:
-        """Sum up the laws of an element; what pushes its ends apart does work on its length."""
-        name, program = element.name, self.program
-        length, motion = self._path_of(element)
-        rates = [m * self.kin.true_rate(k) for k, m in motion.items()]
-        velocity = program.define(f"{name}_velocity", sum(rates, NONE))
-        slide = None
-        if isinstance(element.path, AlongTelescope):
-            slide = self.kin.slides[element.path.joint.name]
-        stretch = Stretch(program, name, length, velocity, slide)
-        names = ("angle", "angular_velocity") if element.turns else ("length", "velocity")
-        values = zip(names, (length, velocity), strict=True)
-        self.signals |= {f"{name}_{what}": value for what, value in values}
-        total = NONE
-        for signal, laws in self._by_signal(element).items():
-            shown = self.kin.mechanism.signal_name(element, signal)
-            own = sum((law.force(stretch) for law in laws), NONE)
-            self.signals[shown] = program.define(shown, own)
-            total += self.signals[shown]
-        total = program.define(f"{name}_total_force", total)
-        self.totals[name] = total
-        for k in self.names:
-            if k in motion:
-                self._force[k] += total * motion[k]
-
-    @staticmethod
-    def _by_signal(element: ForceElement) -> dict[str, list[Law]]:
-        groups: dict[str, list[Law]] = {}
-        for law in element.laws:
-            groups.setdefault(element.signal(law), []).append(law)
-        return groups
-
-    def _path_of(self, element: ForceElement) -> tuple[sp.Expr, dict[str, sp.Expr]]:
-        """Return the length of an element's path, and its rate per unit rate of each coordinate."""
-        if isinstance(element.path, AlongTelescope):
-            line = self.kin.telescopes[element.path.joint.name]
-            return line.length, line.length_motion
-        if isinstance(element.path, TwistOfHinges):
-            return self._twist_of(element.path)
-        program, name = self.program, element.name
-        relative = self.kin.relative_motion(*element.path.ends)
-        span = program.vector(f"{name}_span", relative.position)
-        squared = program.guarded(
-            f"{name}_length_squared",
-            span.dot(span),
-            f"the ends of {name} coincide",
-            "m^2",
-            DIRECTION * self._extent_squared(name, element.path),
-        )
-        length = program.define(f"{name}_length", sp.sqrt(squared))
-        direction = program.vector(f"{name}_direction", span * (1 / length))
-        motion = {
-            k: program.define(f"d_{name}_length_{k}", direction.dot(v))
-            for k, v in relative.motion.items()
-        }
-        return length, motion
-
-    def _extent_squared(self, name: str, path: AlongLine) -> sp.Expr:
-        """Return the square of the extent of two points at the design position."""
-        places = (self.kin.of(body).design(point) for body, point in path.ends)
-        return self.program.define(f"{name}_extent_squared", sum((p.dot(p) for p in places), NONE))
-
-    def _twist_of(self, path: TwistOfHinges) -> tuple[sp.Expr, dict[str, sp.Expr]]:
-        """Return the angle between two hinges, and its rate per unit rate of each coordinate."""
-        twist, motion = NONE, dict.fromkeys(self.kin.moving, NONE)
-        for sense, joint in ((-1, path.first), (1, path.second)):
-            part = self.kin.of_joint(joint)
-            twist += sense * angle_of(part, joint)
-            for k, rate in turning_rates(part, joint).items():
-                motion[k] += sense * rate
-        return twist, {k: rate for k, rate in motion.items() if rate != 0}
-
-    def _add_tyre(self, force: LinearTyre) -> None:
-        program, carrier = self.program, self.kin.placed[force.carrier.name]
-        prefix = self.kin.mechanism.prefix(force)
-        center = self.kin.local(carrier, force.center)
-        up = self.up_in(carrier)
-        axis = self.kin.local_direction(carrier, force.spin)
-        lean = program.define(f"{prefix}wheel_axis_up", axis.dot(up))
-        part = self.kin.of(carrier.body)
-        height_of_origin = carrier.origin.dot(part.design_direction(UP)) + part.work_origin.z
-        height = program.define(f"{prefix}wheel_height", height_of_origin + center.dot(up))
-        pull = program.vector(f"{prefix}tyre_pull", up - axis * lean, "123")
-        # not 1 - lean^2: of a wheel that lies flat, rounding would leave something positive
-        squared = program.guarded(
-            f"{prefix}cos_camber_squared",
-            pull.dot(pull),
-            "the wheel lies flat on the road",
-            "1",
-            DIRECTION,
-        )
-        deflection = force.free_height.symbol + sp.Symbol(force.road.name) - height
-        load = self._tyre_load(force, carrier, center, deflection)
-        load = program.define(f"{prefix}tyre_load", load / squared)
-        for k in self.names:
-            if k in carrier.motion:
-                velocity = self.wheel_velocity(carrier, center, k)
-                self._force[k] += load * pull.dot(velocity)
-        self.signals[f"{prefix}tyre_force"] = program.define(
-            f"{prefix}tyre_force", load * sp.sqrt(squared)
-        )
-
-    def _tyre_load(
-        self, force: LinearTyre, carrier: BodyMotion, center: Vector, deflection: sp.Expr
-    ) -> sp.Expr:
-        """Return the load of a tyre of some deflection: spring, damper, contact."""
-        program, prefix = self.program, self.kin.mechanism.prefix(force)
-        load = force.rate.symbol * deflection
-        if force.damper is not None:
-            up = self.up_in(carrier)
-            rise = sum(
-                (
-                    up.dot(self.wheel_velocity(carrier, center, k)) * self.kin.true_rate(k)
-                    for k in carrier.motion
-                ),
-                NONE,
-            )
-            assert force.road_velocity is not None  # declared with the damper
-            load += force.damper.symbol * (sp.Symbol(force.road_velocity.name) - rise)
-        if force.lifts_off is not None:
-            deflection = program.define(f"{prefix}tyre_deflection", deflection)
-            load = program.define(f"{prefix}tyre_bonded_load", load)
-            pressed = IsPositive(deflection) * Positive(load)
-            load += force.lifts_off.symbol * (pressed - load)
-        return load
-
-    def wheel_velocity(self, carrier: BodyMotion, center: Vector, k: str) -> Vector:
-        """Return the velocity of the wheel centre per unit rate, in the carrier's axes."""
-        twist = carrier.motion[k]
-        return self.program.vector(
-            f"{carrier.body}_wheel_velocity_{k}",
-            twist.linear + twist.angular.cross(center),
-            "123",
-        )
-
-    def _add_joint_force(self, force: JointForce) -> None:
-        if force.joint in self.kin.model.independent:
-            self._force[self.kin.coordinate_of(force.joint)] += sp.Symbol(force.input.name)
+    def total(self, force: Force) -> sp.Expr:
+        """Return with how much a force pushes two ends apart."""
+        found = self._actions[self.mechanism.forces.index(force)].total
+        assert found is not None  # of an element
+        return found
 
     # -- equations ------------------------------------------------------------------------------
 
@@ -487,7 +341,7 @@ class Dynamics:
         back = sum(
             (self._rotor_share(r, k) * self._force[r.coordinate] for r in self._driven_on(k)), NONE
         )
-        return self._force[k] - self._bias[k] * self.kin.pace(k) ** 2 - back
+        return self._force[k] - self._bias[k] * self.coordinates.pace(k) ** 2 - back
 
     def _driven_on(self, k: str) -> list[Rotor]:
         """Return the rotors with a torque on their bearing whose carrier a coordinate moves."""
@@ -497,7 +351,7 @@ class Dynamics:
     def _spin_bias(self, rotor: Rotor, accelerations: dict[str, sp.Expr]) -> sp.Expr:
         """Return the rate of ``axis . omega`` of the carrier."""
         carrier = rotor.carrier
-        total = rotor.axis.dot(carrier.bias().angular) * self.kin.pace_of(carrier) ** 2
+        total = rotor.axis.dot(carrier.bias().angular) * self.coordinates.pace_of(carrier) ** 2
         for k in self._carried(rotor):
             total += self._rotor_share(rotor, k) * accelerations.get(k, NONE)
         return total
@@ -559,7 +413,7 @@ class Dynamics:
 
     def full_bias(self) -> list[sp.Expr]:
         """Return B of all independent coordinates, rotors included."""
-        bias = {k: self._bias[k] * self.kin.pace(k) ** 2 for k in self.names}
+        bias = {k: self._bias[k] * self.coordinates.pace(k) ** 2 for k in self.names}
         for rotor in self.rotors:
             rate = self._spin_bias(rotor, {})
             for k, share in self._rotor_row(rotor).items():

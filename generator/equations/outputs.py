@@ -9,26 +9,25 @@ import sympy as sp
 
 from ..declare.checks import check_symbols
 from ..declare.declared import DeclarationError, parts
-from ..declare.forces import ForceElement, JointForce, LinearTyre
 from ..declare.inputs import Input
-from ..declare.laws import Actuator
+from ..declare.joints import Free
 from ..kinematics.motion import IDENTITY, BodyMotion, from_axes
 from ..planning.plan import Plan
 from ..program.constants import ConstantStage
-from ..program.functions import SignOf
+from ..program.function import Stage
 from ..program.program import Program
 from ..program.vectors import ZERO, Vector
 from .assumptions import define_assumptions, find_assumptions
 from .declared_outputs import signals_of
+from .design import design_state
 from .dynamics import Dynamics
-from .parts import Parts
+from .in_motion import InMotion
 from .relative import RelativeCoordinates
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
     from ..declare.joints import Joint
-    from ..declare.laws import Law
     from ..declare.mechanism import Mechanism
     from ..declare.model import Model
     from ..program.conditions import Assumption, Condition
@@ -50,7 +49,37 @@ class Entry:
     meaning: str
 
 
-@dataclass
+TOGETHER = {
+    "dynamics": ("The parts of M q'' + B = Q (Eq. 3).", ("mass_matrix", "bias", "forces")),
+    "poses": (
+        "Where the bodies are, and how they move.",
+        ("relative_coordinates", "positions", "orientations", "velocities"),
+    ),
+    "jacobians": (
+        "Relative, absolute and global Jacobians.",
+        ("relative_jacobian", "absolute_jacobian", "global_jacobian"),
+    ),
+    "linearisation": (
+        "What linearises the equations beside the derivative of rhs with respect to the state.",
+        ("rhs_input_jacobian", "signals_jacobian", "signals_input_jacobian"),
+    ),
+}
+"""What is computed together, as far as a model has it: name, one line that says it, functions."""
+
+
+def staged(functions: dict[str, Function]) -> dict[str, Function | Stage]:
+    """Return what is emitted: functions by themselves, and stages of those that share steps."""
+    stages: dict[str, Function | Stage] = {}
+    taken = set()
+    for name, (doc, names) in TOGETHER.items():
+        members = tuple(functions[n] for n in names if n in functions)
+        if len(members) > 1:
+            stages[name] = Stage(name, doc, members)
+            taken |= {member.name for member in members}
+    return {n: f for n, f in functions.items() if n not in taken} | stages
+
+
+@dataclass(eq=False)
 class GeneratedModel:
     """Everything that the emitters need.
 
@@ -61,7 +90,11 @@ class GeneratedModel:
     relative
         The relative coordinates, in order.
     functions
-        The emitted functions by name; `prepare` computes the constants that the others read.
+        All functions by name; `prepare` computes the constants that the others read.
+    emitted
+        What is compiled: functions, and stages of several.
+    design
+        From the parameters to the state at the design position.
     guards
         All guards of the model; the bit of a guard in a status word is its position here.
     assumptions, conditions
@@ -75,11 +108,13 @@ class GeneratedModel:
     model: Model
     plan: Plan
     state: tuple[Entry, ...]
-    inputs: tuple[Entry, ...]
+    inputs: tuple[Input, ...]
     parameters: tuple[Entry, ...]
     relative: tuple[Entry, ...]
     functions: dict[str, Function]
+    emitted: dict[str, Function | Stage]
     prepare: Function
+    design: Function
     guards: tuple[Guard, ...]
     assumptions: tuple[Assumption, ...]
     conditions: tuple[Condition, ...]
@@ -89,17 +124,42 @@ class GeneratedModel:
     held_inputs: dict[str, tuple[str, ...]] = field(default_factory=dict)
 
 
-def generate(model: Model) -> GeneratedModel:
-    """Derive a model and all of its functions."""
-    return _Builder(model).build()
+def generate(model: Model, *, derivatives: bool = True) -> GeneratedModel:
+    """Derive a model and its functions.
+
+    Parameters
+    ----------
+    model
+        Declaration.
+    derivatives
+        Also those of the right-hand side and of the signals by state and inputs, which take half
+        of the time. A linearisation needs them, and a solver of stiff equations; no simulation
+        with an explicit method does.
+    """
+    return _Builder(model, derivatives=derivatives).build()
+
+
+def _refuse_free(model: Model) -> None:
+    """See that the mechanism is fixed in the world: how it moves in it cannot be derived yet."""
+    problems = [
+        f"body {joint.second.name!r} moves freely in the world (joint {joint.name!r}), and there "
+        "are no equations for that yet. Leave the joint out and let the body rest there, "
+        f"Ground({joint.second.name!r}); topology and plan can be had as it is"
+        for joint in model.mechanism.joints
+        if isinstance(joint, Free)
+    ]
+    if problems:
+        raise DeclarationError(model.name, problems)
 
 
 class _Builder:
     """Collects the functions of one model from one program."""
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: Model, *, derivatives: bool) -> None:
         self.model = model
+        self.derivatives = derivatives
         self.mechanism: Mechanism = model.mechanism
+        _refuse_free(model)
         self.plan = Plan.of(model)
         self.assumed = find_assumptions(self.plan)
         self.constants = ConstantStage(
@@ -108,22 +168,24 @@ class _Builder:
             derived={sp.Symbol(n): value for n, value in self.mechanism.derived.items()},
         )
         self.program = Program(self.constants)
-        self.kin = Parts(self.program, self.plan)
-        self.moving = tuple(b.name for b in self.mechanism.bodies[1:])
+        self.motion = InMotion.of(self.program, self.plan)
+        self.moving = tuple(b.name for b in self.mechanism.moving)
         self.massive = tuple(b for b in self.moving if model.has_mass(b))
         self._check_masses()
-        self.dynamics = Dynamics(self.kin)
-        self.relative = {part: RelativeCoordinates(part) for part in self.kin.parts}
+        self.dynamics = Dynamics(self.motion)
+        self.relative = {part: RelativeCoordinates(part) for part in self.motion.parts}
         self.functions: dict[str, Function] = {}
         self.signals: list[Entry] = []
 
     def _check_masses(self) -> None:
         """See that every independent coordinate moves some mass: else it has no acceleration."""
-        moved = {k for body in self.massive for k in self.kin.placed[body].motion}
+        moved = {k for body in self.massive for k in self.motion.placed[body].motion}
         idle = [
             f"independent joint {joint.name!r} moves no body of massive; name one there that it "
             "moves"
-            for joint, k in zip(self.model.independent, self.kin.independent, strict=True)
+            for joint, k in zip(
+                self.model.independent, self.motion.coordinates.independent, strict=True
+            )
             if k not in moved
         ]
         if idle:
@@ -133,7 +195,7 @@ class _Builder:
         self._add_dynamics(self.dynamics, "")
         for variant, joints in self.model.held.items():
             names = [joint.name for joint in joints]
-            held = Dynamics(Parts(Program(self.constants), self.plan, names))
+            held = Dynamics(InMotion.of(Program(self.constants), self.plan, names))
             self._add_right_hand_side(held, f"_{variant}")
         self._add_relative()
         self._add_poses()
@@ -153,11 +215,13 @@ class _Builder:
             model=self.model,
             plan=self.plan,
             state=self._state_entries(),
-            inputs=tuple(self._input_entries()),
+            inputs=tuple(self._inputs()),
             parameters=tuple(Entry(p.name, p.unit, p.meaning) for p in self.mechanism.parameters),
             relative=tuple(Entry(c.name, c.unit, c.meaning) for c in self.mechanism.coordinates),
             functions=self.functions,
+            emitted=staged(self.functions),
             prepare=prepare,
+            design=design_state(self.model, [e.name for e in self._state_entries()]),
             guards=guards,
             assumptions=assumed,
             conditions=tuple(self.constants.conditions.values()),
@@ -180,7 +244,7 @@ class _Builder:
         states = {e.name for e in self._state_entries()}
         check_symbols(
             self.model.name,
-            varying - given - states - {e.name for e in self._input_entries()},
+            varying - given - states - {e.name for e in self._inputs()},
             [p.name for p in self.mechanism.parameters],
         )
 
@@ -196,28 +260,21 @@ class _Builder:
 
     def _state_entries(self) -> tuple[Entry, ...]:
         entries = {c.name: c for c in self.mechanism.coordinates}
-        positions = [entries[k] for k in self.kin.independent]
+        positions = [entries[k] for k in self.motion.coordinates.independent]
         return (
             *(Entry(c.name, c.unit, c.meaning) for c in positions),
             *(Entry(f"{c.name}_rate", f"{c.unit}/s", f"rate of {c.name}") for c in positions),
         )
 
-    def _input_entries(self) -> Iterator[Entry]:
-        """Yield what is given, but for forces along joints whose motion is."""
-        acting = tuple(
-            force
-            for force in self.mechanism.forces
-            if not isinstance(force, JointForce) or force.joint in self.model.independent
-        )
+    def _inputs(self) -> Iterator[Input]:
+        """Yield what is given, but for forces along joints whose motion is: they do no work."""
+        acting = tuple(f for f in self.mechanism.forces if f.along not in self.model.prescribed)
         read = {part.name for part in parts(acting) if isinstance(part, Input)}
         read |= {entry.name for motion in self.model.prescribed.values() for entry in motion.inputs}
-        for name, entry in self.model.inputs.items():
-            if name in read:
-                yield Entry(name, entry.unit, entry.meaning)
+        yield from (entry for name, entry in self.model.inputs.items() if name in read)
 
     def _rate_inputs(self, joints: Iterable[Joint]) -> tuple[str, ...]:
-        names = [self.model.prescribed[j].name for j in joints]
-        return tuple(f"{n}_{kind}" for n in names for kind in ("velocity", "acceleration"))
+        return tuple(rate for joint in joints for rate in self.model.prescribed[joint].rates)
 
     def _acting_guards(self) -> tuple[Guard, ...]:
         """Return the guards of all functions; variants have the same ones under the same names."""
@@ -225,7 +282,7 @@ class _Builder:
         return tuple(g for g in self.program.guards.values() if g.name in acting)
 
     def _state_symbols(self) -> list[sp.Symbol]:
-        names = self.kin.independent
+        names = self.motion.coordinates.independent
         return [sp.Symbol(n) for n in (*names, *(f"{n}_rate" for n in names))]
 
     def _add(self, name: str, doc: str, results: dict[str, sp.Expr], *shape: int) -> None:
@@ -235,7 +292,7 @@ class _Builder:
 
     def _add_dynamics(self, dynamics: Dynamics, suffix: str) -> None:
         self._add_right_hand_side(dynamics, suffix)
-        names = self.kin.independent
+        names = self.motion.coordinates.independent
         n = len(names)
         matrix = dynamics.full_mass_matrix()
         self._add(
@@ -261,7 +318,7 @@ class _Builder:
         )
 
     def _add_right_hand_side(self, dynamics: Dynamics, suffix: str) -> None:
-        names, program = self.kin.independent, dynamics.program
+        names, program = self.motion.coordinates.independent, dynamics.program
         rates = {f"d({k})/dt": sp.Symbol(f"{k}_rate") for k in names}
         rates |= {f"d({k}_rate)/dt": dynamics.accelerations[k] for k in names}
         what = "" if not suffix else f" with {suffix[1:].replace('_', ' ')}"
@@ -285,12 +342,12 @@ class _Builder:
         by: str,
     ) -> None:
         """Add the exact derivatives of some results with respect to the state or the inputs."""
+        if not self.derivatives:
+            return
         program.section(f"derivatives {what}")
         values = list(values)
         symbols = (
-            self._state_symbols()
-            if by == "state"
-            else [sp.Symbol(e.name) for e in self._input_entries()]
+            self._state_symbols() if by == "state" else [sp.Symbol(e.name) for e in self._inputs()]
         )
         columns = {s: program.tangents(s, values, str(s)) for s in symbols}
         entries = {
@@ -306,7 +363,7 @@ class _Builder:
 
     def _add_relative(self) -> None:
         values = self._in_order([relative.values for relative in self.relative.values()])
-        names = self.kin.independent
+        names = self.motion.coordinates.independent
         self._add("relative_coordinates", "Relative joint coordinates beta (Figure 3).", values)
         columns = [self.program.tangents(sp.Symbol(k), values.values(), f"by_{k}") for k in names]
         self._add(
@@ -325,7 +382,7 @@ class _Builder:
             "Closure residuals g(beta, q) of Eqs. 4 to 13 for given beta.",
             {f"g_{name}": left for name, left in self._residuals().items()},
         )
-        if all(self.relative[self.kin.of(body)].reaches(body) for body in self.massive):
+        if all(self.relative[self.motion.part_of[body]].reaches(body) for body in self.massive):
             self._add_absolute(list(values))
         self._add_global()
 
@@ -340,7 +397,7 @@ class _Builder:
     def _add_absolute(self, betas: list[str]) -> None:
         results = {}
         for body in self.massive:
-            columns = self.relative[self.kin.of(body)].absolute_jacobian(body)
+            columns = self.relative[self.motion.part_of[body]].absolute_jacobian(body)
             for row, label in enumerate(self._twist_labels(body)):
                 for beta in betas:
                     angular, linear = columns.get(beta, (ZERO, ZERO))
@@ -358,10 +415,10 @@ class _Builder:
         return [f"{body} omega_{a}" for a in AXES] + [f"{body} velocity_{a}" for a in AXES]
 
     def _add_global(self) -> None:
-        names = self.kin.independent
+        names = self.motion.coordinates.independent
         results = {}
         for body in self.massive:
-            columns = {k: self._chassis_twist(body, k) for k in names}
+            columns = {k: self._ground_twist(body, k) for k in names}
             for row, label in enumerate(self._twist_labels(body)):
                 for k in names:
                     results[f"{label} by {k}"] = columns[k][row]
@@ -373,16 +430,16 @@ class _Builder:
             len(names),
         )
 
-    def _chassis_twist(self, body: str, coordinate: str) -> list[sp.Expr]:
-        """Return (omega, velocity of the centre of mass) per unit rate, in chassis axes."""
-        placed = self.kin.placed[body]
+    def _ground_twist(self, body: str, coordinate: str) -> list[sp.Expr]:
+        """Return (omega, velocity of the centre of mass) per unit rate, in ground axes."""
+        placed = self.motion.placed[body]
         if coordinate not in placed.motion:
             return [sp.Integer(0)] * 6
         twist = placed.motion[coordinate]
-        center = self.kin.local(placed, self.mechanism.body(body).center)
+        center = self.motion.part_of[placed.body].local(placed, self.mechanism.body(body).center)
         velocity = twist.linear + twist.angular.cross(center)
         parts = (from_axes(placed.axes, v) for v in (twist.angular, velocity))
-        return [c for part in parts for c in self.kin.of(body).to_chassis(part)]
+        return [c for part in parts for c in self.motion.part_of[placed.body].to_ground(part)]
 
     # -- poses ----------------------------------------------------------------------------------
 
@@ -392,7 +449,7 @@ class _Builder:
         orientations: dict[str, sp.Expr] = {}
         velocities: dict[str, sp.Expr] = {}
         for body in self.moving:
-            placed = self.kin.placed[body]
+            placed = self.motion.placed[body]
             for axis, value in zip(AXES, self._center(placed), strict=True):
                 positions[f"{body} {axis}"] = value
             for label, value in self._orientation(placed).items():
@@ -421,18 +478,18 @@ class _Builder:
         )
 
     def _center(self, placed: BodyMotion) -> Vector:
-        """Return the centre of mass in chassis axes."""
-        local = self.kin.local(placed, self.mechanism.body(placed.body).center)
+        """Return the centre of mass in ground axes."""
+        part = self.motion.part_of[placed.body]
+        local = part.local(placed, self.mechanism.body(placed.body).center)
         work = placed.origin + from_axes(placed.axes, local)
-        part = self.kin.of(placed.body)
-        return part.to_chassis(work) + part.work_origin
+        return part.to_ground(work) + part.work_origin
 
     def _orientation(self, placed: BodyMotion) -> dict[str, sp.Expr]:
         if placed.axes is IDENTITY:
             return {f"R{a}{b}": sp.Integer(int(a == b)) for a in AXES for b in AXES}
-        part = self.kin.of(placed.body)
-        now = [part.to_chassis(axis) for axis in placed.axes]
-        design = [part.to_chassis(axis) for axis in placed.design_axes]
+        part = self.motion.part_of[placed.body]
+        now = [part.to_ground(axis) for axis in placed.axes]
+        design = [part.to_ground(axis) for axis in placed.design_axes]
         return {
             f"R{a}{b}": sum(
                 (getattr(n, a) * getattr(d, b) for n, d in zip(now, design, strict=True)),
@@ -444,9 +501,9 @@ class _Builder:
 
     def _velocity(self, body: str) -> list[sp.Expr]:
         total: list[sp.Expr] = [sp.Integer(0)] * 6
-        for coordinate in self.kin.placed[body].motion:
-            rate = self.kin.true_rate(coordinate)
-            column = self._chassis_twist(body, coordinate)
+        for coordinate in self.motion.placed[body].motion:
+            rate = self.motion.coordinates.true_rate(coordinate)
+            column = self._ground_twist(body, coordinate)
             total = [t + rate * c for t, c in zip(total, column, strict=True)]
         return total
 
@@ -455,14 +512,13 @@ class _Builder:
     def _add_signals(self) -> None:
         self.program.section("signals")
         results: dict[str, sp.Expr] = {}
-        for force in self.mechanism.forces:
-            if isinstance(force, LinearTyre):
-                self._add_wheel_signals(force, results)
-            elif isinstance(force, ForceElement):
-                self._add_element_signals(force, results)
-        for output in self.mechanism.outputs:
-            for shown in signals_of(self.dynamics, output):
-                self._signal(results, *shown)
+        declared = (s for o in self.mechanism.outputs for s in signals_of(self.dynamics, o))
+        for shown in (*self.dynamics.signals(), *declared):
+            if shown.name in results:
+                problem = f"two signals are named {shown.name!r}; give the output another name"
+                raise DeclarationError(self.model.name, [problem])
+            self.signals.append(Entry(shown.name, shown.unit, shown.meaning))
+            results[shown.name] = shown.value
         if not results:
             return
         self._add("signals", "Physical signals, see the enumeration of signals.", results)
@@ -470,118 +526,3 @@ class _Builder:
             self._add_derivatives(
                 self.program, name, "of the signals", results.values(), list(results), by
             )
-
-    def _signal(
-        self, results: dict[str, sp.Expr], name: str, value: sp.Expr, unit: str, meaning: str
-    ) -> None:
-        if name in results:
-            problem = f"two signals are named {name!r}; give the output another name"
-            raise DeclarationError(self.model.name, [problem])
-        self.signals.append(Entry(name, unit, meaning))
-        results[name] = value
-
-    def _add_wheel_signals(self, tyre: LinearTyre, results: dict[str, sp.Expr]) -> None:
-        prefix = self.mechanism.prefix(tyre)
-        carrier = self.kin.placed[tyre.carrier.name]
-        center = self.kin.local(carrier, tyre.center)
-        up = self.dynamics.up_in(carrier)
-        work = carrier.origin + from_axes(carrier.axes, center)
-        part = self.kin.of(carrier.body)
-        position = part.to_chassis(work) + part.work_origin
-        for axis, value in zip(AXES, position, strict=True):
-            self._signal(
-                results, f"{prefix}wheel_center_{axis}", value, "m", f"wheel centre, {axis}"
-            )
-        velocity = acceleration = sp.Integer(0)
-        for k in carrier.motion:
-            share = up.dot(self.dynamics.wheel_velocity(carrier, center, k))
-            velocity += share * self.kin.true_rate(k)
-            acceleration += share * self.dynamics.accelerations.get(k, sp.Integer(0))
-        own = up.dot(self.kin.point_bias(carrier, center))
-        acceleration += own * self.kin.pace_of(carrier) ** 2
-        self._signal(
-            results,
-            f"{prefix}wheel_velocity",
-            velocity,
-            "m/s",
-            "vertical velocity of the wheel centre, positive up",
-        )
-        self._signal(
-            results,
-            f"{prefix}wheel_acceleration",
-            acceleration,
-            "m/s^2",
-            "vertical acceleration of the wheel centre, positive up",
-        )
-        self._add_wheel_angles(tyre, carrier, results)
-        self._signal(
-            results,
-            f"{prefix}tyre_force",
-            self.dynamics.signals[f"{prefix}tyre_force"],
-            "N",
-            "tyre force in the wheel plane, positive in compression",
-        )
-
-    def _add_wheel_angles(
-        self, tyre: LinearTyre, carrier: BodyMotion, results: dict[str, sp.Expr]
-    ) -> None:
-        prefix = self.mechanism.prefix(tyre)
-        axis = from_axes(carrier.axes, self.kin.local_direction(carrier, tyre.spin))
-        part = self.kin.of(carrier.body)
-        a = self.program.vector(f"{prefix}spin_axis_now", part.to_chassis(axis))
-        side = self.program.define(f"{prefix}wheel_side", SignOf(tyre.center.position.y))
-        self._signal(
-            results,
-            f"{prefix}camber",
-            sp.atan2(-side * a.z, a.y),
-            "rad",
-            "camber, positive with the top of the wheel outboard",
-        )
-        self._signal(
-            results, f"{prefix}toe", sp.atan2(side * a.x, a.y), "rad", "toe angle, positive toe-in"
-        )
-        self._signal(
-            results,
-            f"{prefix}steer",
-            sp.atan2(-a.x, a.y),
-            "rad",
-            "steer angle, positive to the left",
-        )
-
-    def _add_element_signals(self, element: ForceElement, results: dict[str, sp.Expr]) -> None:
-        described = self._described_turning(element) if element.turns else self._described(element)
-        for signal, (unit, meaning) in described.items():
-            self._signal(results, signal, self.dynamics.signals[signal], unit, meaning)
-
-    def _described(self, element: ForceElement) -> dict[str, tuple[str, str]]:
-        """Return unit and meaning of each signal of an element that acts along a line."""
-        name = element.name
-        return {
-            f"{name}_length": ("m", f"length of the {name}"),
-            f"{name}_velocity": ("m/s", f"rate of the {name}'s length, positive in rebound"),
-        } | {
-            self._shown(element, law): (
-                "N",
-                f"{law.meaning}, positive when it pushes the ends apart",
-            )
-            for law in element.laws
-            if not isinstance(law, Actuator)
-        }
-
-    def _described_turning(self, element: ForceElement) -> dict[str, tuple[str, str]]:
-        """Return unit and meaning of each signal of an element that acts on an angle."""
-        name = element.name
-        return {
-            f"{name}_angle": ("rad", f"twist of the {name}"),
-            f"{name}_angular_velocity": ("rad/s", f"rate of the {name}'s twist"),
-        } | {
-            self._shown(element, law): (
-                "N m",
-                f"{law.meaning.replace('force', 'moment')}, positive when it increases the twist",
-            )
-            for law in element.laws
-            if not isinstance(law, Actuator)
-        }
-
-    def _shown(self, element: ForceElement, law: Law) -> str:
-        return self.mechanism.signal_name(element, element.signal(law))

@@ -108,8 +108,8 @@ class RelativeCoordinates:
 
     def _hinge_or_guide(self, joint: Revolute | Prismatic) -> sp.Expr:
         """Return the coordinate of a joint that is driven, solved, or between placed bodies."""
-        if self.kin.is_driven(joint):
-            return self.kin.coordinates[self.kin.coordinate_of(joint)]
+        if self.kin.coordinates.is_driven(joint):
+            return self.kin.coordinates.symbol(joint)
         if isinstance(joint, Prismatic):
             return self.kin.slides[joint.name]
         return angle_of(self.kin, joint)
@@ -140,25 +140,25 @@ class RelativeCoordinates:
         return self._shafts[name]
 
     def shaft_direction(self, joint: Universal) -> Vector:
-        """Return the unit vector of a shaft along the chassis axes that the first body carries."""
+        """Return the unit vector of a shaft along the ground axes that the first body carries."""
         direction = self.kin.on_line[joint.second.name].direction
         seen = self._in_first_body(self.kin.placed[joint.first.name], direction)
         return self.program.vector(f"shaft_{joint.name}", seen)
 
     def _in_first_body(self, parent: BodyMotion, work: Vector) -> Vector:
-        """Return components along the chassis axes as the first body carries them with it."""
+        """Return components along the ground axes as the first body carries them with it."""
         if parent.axes is IDENTITY:
-            return self.kin.to_chassis(work)
-        return from_axes(self._chassis_axes(parent), to_axes(parent.axes, work))
+            return self.kin.to_ground(work)
+        return from_axes(self._ground_axes(parent), to_axes(parent.axes, work))
 
-    def _chassis_axes(self, placed: BodyMotion) -> Axes:
-        """Return the body axes at the design position, in chassis axes."""
-        x, y, z = (self.kin.to_chassis(axis) for axis in placed.design_axes)
+    def _ground_axes(self, placed: BodyMotion) -> Axes:
+        """Return the body axes at the design position, in ground axes."""
+        x, y, z = (self.kin.to_ground(axis) for axis in placed.design_axes)
         return x, y, z
 
     def _from_first_body(self, parent: BodyMotion, name: str, v: Vector) -> Vector:
         if parent.axes is not IDENTITY:
-            v = from_axes(parent.axes, to_axes(self._chassis_axes(parent), v))
+            v = from_axes(parent.axes, to_axes(self._ground_axes(parent), v))
             return self.program.vector(name, v)
         return self.program.vector(name, self.kin.to_work(v))
 
@@ -206,7 +206,7 @@ class RelativeCoordinates:
         Returns
         -------
         dict
-            Coordinate name to (angular, linear), in chassis axes. Where the report has several
+            Coordinate name to (angular, linear), in ground axes. Where the report has several
             copies of a coordinate, the first one is used.
         """
         placed = self.kin.placed[body]
@@ -215,8 +215,8 @@ class RelativeCoordinates:
         for screw in self._chain(body):
             linear = screw.linear + screw.angular.cross(center - screw.through)
             columns[screw.coordinate] = (
-                self.kin.to_chassis(screw.angular),
-                self.kin.to_chassis(linear),
+                self.kin.to_ground(screw.angular),
+                self.kin.to_ground(linear),
             )
         return columns
 
@@ -346,8 +346,8 @@ class _Closure:
 
         The length of the rod for one that a rod holds, the meeting at the pin for a rod's own.
         """
-        if self.kin.is_driven(joint):
-            return given - self.kin.coordinates[self.kin.coordinate_of(joint)]
+        if self.kin.coordinates.is_driven(joint):
+            return given - self.kin.coordinates.symbol(joint)
         meeting = self.kin.meetings.get(joint.name)
         if meeting is None or (isinstance(joint, Revolute) and joint.angle_to is not None):
             return self._placed_residual(joint, given)
@@ -422,15 +422,15 @@ class _Closure:
         """Return what stands in for the driven coordinates: their given copies."""
         replaced = {}
         for coordinate in self.mechanism.coordinates:
-            if self.kin.is_driven(coordinate.joint):
-                symbol = self.kin.coordinates[self.kin.coordinate_of(coordinate.joint)]
+            if self.kin.coordinates.is_driven(coordinate.joint):
+                symbol = self.kin.coordinates.symbol(coordinate.joint)
                 replaced[symbol] = self._given(coordinate.name)
         return replaced
 
     def _from_driven(self, name: str, work: Vector) -> Vector:
-        """Return a work vector as a function of the given coordinates, in chassis axes."""
+        """Return a work vector as a function of the given coordinates, in ground axes."""
         given = Vector(*self.program.substitute(self._driven(), work, "given"))
-        return self.program.vector(name, self.kin.to_chassis(given))
+        return self.program.vector(name, self.kin.to_ground(given))
 
     def _telescope_span(self, joint: Cylindrical) -> Vector:
         line = self.kin.telescopes[joint.name]

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import networkx as nx
 import sympy as sp
 
 from ..declare.evaluation import AtDefaults
@@ -27,11 +26,11 @@ from .motion import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Iterator, Mapping
+    from collections.abc import Collection, Mapping
 
-    from ..declare.bodies import Body
-    from ..declare.model import Model
+    from ..declare.joints import RelativeCoordinate
     from ..program.program import Program
+    from .coordinates import Coordinates
 
 
 @dataclass(frozen=True)
@@ -50,24 +49,17 @@ class Kinematics:
     ----------
     program
         Receives the steps.
-    model
-        Whose bodies they are.
+    coordinates
+        Those of the model whose bodies they are.
     loops
         The loop that a step closes, by the step.
     bodies
         Those to place, with the ground: all, or a part that can be solved by itself.
     origin
-        A point of the ground at which positions are best counted; None: the origin of the chassis.
-    held
-        Prescribed joints that stand still in this variant.
+        A point of the ground at which positions are best counted; None: the origin of its axes.
 
     Notes
     -----
-    *Unit rate.* Bodies that hang together without the ground, and that a single coordinate moves
-    (rotors apart), have their biases computed for a unit rate of that coordinate; they are scaled
-    by the square of the true rate at the very end. `pace` is the true rate for such a coordinate,
-    and one for all others, whose biases are computed at the true rates.
-
     *Records.* `spans` and `turned` say which telescopes and rods placed a body, `meetings` what a
     hinge or guide was solved for, by the joint: the residuals are derived from them.
 
@@ -79,28 +71,17 @@ class Kinematics:
     def __init__(
         self,
         program: Program,
-        model: Model,
+        coordinates: Coordinates,
         loops: Mapping[object, Loop],
         bodies: Collection[str],
         origin: Point | None = None,
-        held: Iterable[str] = (),
     ) -> None:
         self.program = program
-        self.model = model
-        self.mechanism = model.mechanism
-        self._motions = model.motions
-        self._driven_names = frozenset(joint.name for joint in model.driven)
+        self.coordinates = coordinates
+        self.mechanism = coordinates.model.mechanism
         self._loops = loops
         self.at_defaults = AtDefaults(self.mechanism)
-        self.held = frozenset(held)
         self.bodies = frozenset(bodies)
-        self._graph = nx.Graph([joint.bodies for joint in self.mechanism.joints])
-        self.coordinates = {
-            self.coordinate_of(j): sp.Symbol(self._coordinate_symbol(j)) for j in self.driven
-        }
-        self.moving = [self.coordinate_of(j) for j in self.driven if j.name not in self.held]
-        self.rotors = self._rotors()
-        self.alone = frozenset(self._moving_alone())
         self.placed: dict[str, BodyMotion] = {}
         self.on_line: dict[str, OnLine] = {}
         self.off_line: dict[str, OffLine] = {}
@@ -115,86 +96,6 @@ class Kinematics:
         self._owners: dict[Point, str] = {}
         self._set_work_axes(origin)
 
-    # -- coordinates ----------------------------------------------------------------------------
-
-    @property
-    def driven(self) -> list[Joint]:
-        """The joints whose coordinates are independent or prescribed."""
-        return list(self.model.driven)
-
-    def coordinate_of(self, joint: Joint) -> str:
-        """Return the key of a driven coordinate: a reported name, or that of the input."""
-        if joint.name in self._motions:
-            return self._motions[joint.name]
-        return next(c.name for c in self.mechanism.coordinates if c.joint.name == joint.name)
-
-    def is_driven(self, joint: Joint) -> bool:
-        """Tell whether a joint's coordinate is independent or prescribed."""
-        return joint.name in self._driven_names
-
-    def _coordinate_symbol(self, joint: Joint) -> str:
-        name = self.coordinate_of(joint)
-        return f"{name}_position" if joint.name in self._motions else name
-
-    @property
-    def independent(self) -> list[str]:
-        """Names of the independent coordinates, in the order of the state."""
-        return [self.coordinate_of(joint) for joint in self.model.independent]
-
-    def true_rate(self, coordinate: str) -> sp.Symbol:
-        """Return the symbol of the rate of a coordinate."""
-        prescribed = coordinate in self._motions.values()
-        return sp.Symbol(f"{coordinate}_velocity" if prescribed else f"{coordinate}_rate")
-
-    def rate(self, coordinate: str) -> sp.Expr:
-        """Return the rate of a coordinate at which biases are computed."""
-        return sp.Integer(1) if coordinate in self.alone else self.true_rate(coordinate)
-
-    def pace(self, coordinate: str) -> sp.Expr:
-        """Return by whose square the biases of what a coordinate moves are to be scaled."""
-        return self.true_rate(coordinate) if coordinate in self.alone else sp.Integer(1)
-
-    def pace_of(self, placed: BodyMotion) -> sp.Expr:
-        """Return by whose square the bias of a body is to be scaled."""
-        alone = [k for k in placed.motion if k in self.alone]
-        return self.pace(alone[0]) if alone else sp.Integer(1)
-
-    def _moving_alone(self) -> Iterator[str]:
-        """Yield the independent coordinates that alone move bodies that hang together."""
-        moving = set(self._graph) - self._still()
-        drives = {
-            j.second.name: self.coordinate_of(j)
-            for j in self.driven
-            if self.coordinate_of(j) in self.moving and self.coordinate_of(j) not in self.rotors
-        }
-        for bodies in nx.connected_components(self._graph.subgraph(moving)):
-            pacing = [k for body, k in drives.items() if body in bodies]
-            if len(pacing) == 1 and pacing[0] in self.independent:
-                yield pacing[0]
-
-    def _still(self) -> set[str]:
-        """Return the ground, and the bodies that held joints tie to it."""
-        held = [self.mechanism.joint(name) for name in self.held]
-        tied = nx.Graph([joint.bodies for joint in held])
-        tied.add_node(self.mechanism.ground)
-        return set(nx.node_connected_component(tied, self.mechanism.ground))
-
-    def acceleration(self, coordinate: str) -> sp.Expr:
-        """Return the part of a coordinate's acceleration that is given: that of an input."""
-        if coordinate in self._motions.values() and coordinate in self.moving:
-            return sp.Symbol(f"{coordinate}_acceleration")
-        return sp.Integer(0)
-
-    def _rotors(self) -> dict[str, Body]:
-        """Return the bodies of revolution at the end of a chain, by their spin coordinate."""
-        rotors = {}
-        for joint in self.driven:
-            body = joint.second
-            leaf = len(self.mechanism.joints_of(body.name)) == 1
-            if isinstance(joint, Revolute) and leaf and body.rotor_axis is not None:
-                rotors[self.coordinate_of(joint)] = body
-        return rotors
-
     # -- design position ------------------------------------------------------------------------
 
     def _set_work_axes(self, origin: Point | None) -> None:
@@ -202,7 +103,7 @@ class Kinematics:
         self.work_hinge = next(
             (
                 j
-                for j in self.driven
+                for j in self.coordinates.driven
                 if isinstance(j, Revolute) and j.first.name == self.mechanism.ground and j.angle_to
                 if j.second.name in self.bodies
             ),
@@ -220,7 +121,7 @@ class Kinematics:
         self.placed[ground] = BodyMotion(ground)
 
     def _hinge_axes(self, hinge: Revolute) -> tuple[Vector, Vector]:
-        """Return the positive hinge axis and the reference of its angle, in chassis axes."""
+        """Return the positive hinge axis and the reference of its angle, in ground axes."""
         assert hinge.angle_to is not None
         axis = self.unit("hinge_axis", hinge.axis.vector)
         reference = hinge.angle_from.components
@@ -263,12 +164,12 @@ class Kinematics:
         offset = self.program.vector(f"offset_{point.name}", point.position - self.work_origin)
         return self.program.vector(f"design_{point.name}", self.to_work(offset))
 
-    def to_work(self, chassis: Vector) -> Vector:
-        """Return the work components of a vector in chassis axes."""
-        return to_axes(self.work_axes, chassis)
+    def to_work(self, ground: Vector) -> Vector:
+        """Return the work components of a vector in ground axes."""
+        return to_axes(self.work_axes, ground)
 
-    def to_chassis(self, work: Vector) -> Vector:
-        """Return the chassis components of a vector in work axes."""
+    def to_ground(self, work: Vector) -> Vector:
+        """Return the ground components of a vector in work axes."""
         return from_axes(self.work_axes, work)
 
     def design_direction(self, direction: Direction) -> Vector:
@@ -317,7 +218,7 @@ class Kinematics:
         """Return the twist at the rates at which biases are computed."""
         twist = NO_TWIST
         for coordinate, motion in placed.motion.items():
-            twist += motion * self.rate(coordinate)
+            twist += motion * self.coordinates.rate(coordinate)
         return self.define_twist(placed.body, "now", twist)
 
     def define_twist(self, body: str, label: str, twist: Twist) -> Twist:

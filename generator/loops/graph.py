@@ -63,8 +63,8 @@ class Topology:
     mechanism: Mechanism
 
     def __post_init__(self) -> None:
-        names = [b.name for b in self.mechanism.bodies]
-        unreached = set(names) - set(nx.node_connected_component(self.graph, names[0]))
+        reached = nx.node_connected_component(self.graph, self.mechanism.ground)
+        unreached = {b.name for b in self.mechanism.bodies} - set(reached)
         if unreached:
             message = f"no joint path leads from the ground to {', '.join(sorted(unreached))}"
             raise TopologyError(message)
@@ -96,7 +96,7 @@ class Topology:
         A planar loop closes with three equations; the spatial count of six would take its mechanism
         for over-constrained.
         """
-        moving = len(self.mechanism.bodies) - 1
+        moving = len(self.mechanism.moving)
         spatial = 6 * moving - sum(6 - j.freedoms for j in self.mechanism.joints)
         return spatial + 3 * self.planar_loop_count
 
@@ -112,7 +112,7 @@ class Topology:
     @property
     def loop_count(self) -> int:
         """Number of independent loops (section 4)."""
-        return len(self.mechanism.joints) - (len(self.mechanism.bodies) - 1)
+        return len(self.mechanism.joints) - len(self.mechanism.moving)
 
     # -- paths ----------------------------------------------------------------------------------
 

@@ -20,7 +20,7 @@ import networkx as nx
 import numpy as np
 
 from ..declare.evaluation import AtDefaults
-from ..declare.joints import Cylindrical, Prismatic, Revolute, Spherical, Universal
+from ..declare.joints import Cylindrical, Free, Prismatic, Revolute, Spherical, Universal
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable
@@ -128,13 +128,16 @@ class _Screws:
             first = self._unit(joint.first_axis.components)
             second = np.cross(first, self._unit(joint.shaft.vector))
             return [(False, first), (False, second / np.linalg.norm(second))]
+        turns = [(False, axis) for axis in np.eye(3)]
+        if isinstance(joint, Free):
+            return [(True, axis) for axis in np.eye(3)] + turns
         assert isinstance(joint, Spherical)
-        return [(False, axis) for axis in np.eye(3)]
+        return turns
 
     def _turn(self, axis: Array, joint: Joint) -> Array:
         point = _reference(joint)
-        assert point is not None
-        place = (self._number(point) - self._middle) / self._size
+        origin = self._middle if point is None else self._number(point)
+        place = (origin - self._middle) / self._size
         return np.concatenate((axis, np.cross(place, axis)))
 
     def _slide(self, axis: Array) -> Array:
@@ -163,8 +166,7 @@ def _vectors(joint: Joint) -> list[Vector]:
         return [joint.axis.through.position, joint.axis.vector]
     if isinstance(joint, Universal):
         return [joint.at.position, joint.shaft.vector, joint.first_axis.components]
-    assert isinstance(joint, Spherical)
-    return [joint.at.position]
+    return [] if joint.center is None else [joint.center.position]
 
 
 def _rank(matrix: Array) -> int:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from itertools import permutations
 from typing import TYPE_CHECKING, ClassVar, Self
 
-from ..declare.joints import Joint, Prismatic, Revolute, Spherical, Universal
+from ..declare.joints import Free, Joint, Prismatic, Revolute, Spherical, Universal
 from ..declare.model import DRIVABLE
 from ..kinematics.kinematics import Loop
 from .cut import PairCandidate, pair_candidates, views
@@ -353,7 +353,7 @@ class Plan:
         here, there = sorted(joint.bodies, key=self._known.placed.__contains__, reverse=True)
         if here not in self._known.placed or there in self._known.placed:
             return ""
-        if isinstance(joint, Revolute | Prismatic):
+        if isinstance(joint, Revolute | Prismatic | Free):
             return f"declare joint {joint.name!r} independent or prescribed"
         if (
             isinstance(joint, Universal)

@@ -7,8 +7,14 @@ are this project's own: a front right corner, ISO 8855 axes, ground at z = 0.
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
 from .. import declare as d
-from .suspension import RACK_FORCE, RACK_MOTION, ROAD_HEIGHT
+from .suspension import RACK_FORCE, RACK_MOTION, ROAD_HEIGHT, further_laws, of_rubber
+
+if TYPE_CHECKING:
+    from ..declare.laws import Law
 
 LOWER_FRONT = d.Point("lower_arm_front", (0.16, -0.36, 0.20), "front bush of the lower arm")
 LOWER_REAR = d.Point("lower_arm_rear", (-0.20, -0.36, 0.19), "rear bush of the lower arm")
@@ -72,6 +78,21 @@ ACTUATOR = d.Actuator(
     )
 )
 
+TYRE = d.LinearTyre(
+    name="front",
+    wheel=d.Wheel(KNUCKLE, WHEEL_CENTER, SPIN_AXIS),
+    rate=TYRE_RATE,
+    free_height=TYRE_HEIGHT,
+    road=ROAD_HEIGHT,
+)
+
+
+def _forces(laws: tuple[Law, ...], tyre: d.LinearTyre) -> tuple[d.Force, ...]:
+    path = d.AlongLine((CHASSIS, SPRING_TOP), (LOWER_ARM, SPRING_SEAT))
+    element = d.ForceElement("spring", path, laws)
+    return WEIGHT, element, tyre, d.JointForce(RACK_GUIDE, RACK_FORCE)
+
+
 DOUBLE_WISHBONE = d.Mechanism(
     name="double_wishbone",
     title="Double wishbone suspension with tie rod",
@@ -85,24 +106,7 @@ DOUBLE_WISHBONE = d.Mechanism(
         RACK_GUIDE,
         BEARING,
     ),
-    forces=(
-        WEIGHT,
-        d.ForceElement(
-            "spring",
-            d.AlongLine((CHASSIS, SPRING_TOP), (LOWER_ARM, SPRING_SEAT)),
-            (SPRING, DAMPER, ACTUATOR),
-        ),
-        d.LinearTyre(
-            name="front",
-            carrier=KNUCKLE,
-            center=WHEEL_CENTER,
-            spin=SPIN_AXIS,
-            rate=TYRE_RATE,
-            free_height=TYRE_HEIGHT,
-            road=ROAD_HEIGHT,
-        ),
-        d.JointForce(RACK_GUIDE, RACK_FORCE),
-    ),
+    forces=_forces((SPRING, DAMPER, ACTUATOR), TYRE),
     coordinates=(
         LOWER_HINGE.angle(
             "arm_angle",
@@ -119,14 +123,34 @@ DOUBLE_WISHBONE = d.Mechanism(
     ),
 )
 
-MODELS = (
-    d.Model(
-        name="double_wishbone",
-        title="Double wishbone suspension, rack prescribed",
-        mechanism=DOUBLE_WISHBONE,
+# what cars have beyond it
+GENERAL = replace(
+    DOUBLE_WISHBONE,
+    name="double_wishbone_general",
+    title="Double wishbone suspension with stops",
+    forces=_forces(
+        (SPRING, DAMPER, *further_laws("damper", 1.0), ACTUATOR),
+        of_rubber(TYRE),
+    ),
+)
+
+
+def _model(mechanism: d.Mechanism, title: str) -> d.Model:
+    return d.Model(
+        name=mechanism.name,
+        title=title,
+        mechanism=mechanism,
         independent=(LOWER_HINGE, BEARING),
         prescribed={RACK_GUIDE: RACK_MOTION},
         massive=(LOWER_ARM, KNUCKLE, UPPER_ARM, WHEEL),
         held={"rack_held": (RACK_GUIDE,)},
+    )
+
+
+MODELS = (
+    _model(DOUBLE_WISHBONE, "Double wishbone suspension, rack prescribed"),
+    _model(
+        GENERAL,
+        "Double wishbone suspension with a damper curve, friction, stops; rack prescribed",
     ),
 )

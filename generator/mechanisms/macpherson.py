@@ -6,11 +6,8 @@ values are this project's reference car (front right, ISO 8855 axes, ground at z
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import Literal
-
 from .. import declare as d
-from .suspension import RACK_FORCE, RACK_MOTION, ROAD_HEIGHT, ROAD_VELOCITY
+from .suspension import RACK_FORCE, RACK_MOTION, ROAD_HEIGHT, further_laws, of_rubber
 
 # -- points, directions and numbers ---------------------------------------------------------------
 
@@ -106,9 +103,7 @@ SPRING = d.LinearSpring(
 )
 TYRE = d.LinearTyre(
     name="front",
-    carrier=KNUCKLE,
-    center=WHEEL_CENTER,
-    spin=SPIN_AXIS,
+    wheel=d.Wheel(KNUCKLE, WHEEL_CENTER, SPIN_AXIS),
     rate=TYRE_RATE,
     free_height=TYRE_HEIGHT,
     road=ROAD_HEIGHT,
@@ -138,28 +133,6 @@ SEATED_SPRING = d.LinearSpring(
         "distance of the spring's seats at which it is free of force",
     ),
 )
-DAMPER_TABLE = d.DamperTable(name="damper_table", segments=10)
-FRICTION = d.Friction(
-    level=d.ForceLevel("strut_friction", 0.0, "friction of the strut in full sliding"),
-    speed=d.Speed(
-        "strut_friction_speed", 0.01, "velocity at which 71 % of the friction is reached"
-    ),
-)
-
-
-def _stop(side: Literal["bump", "rebound"], touched: float) -> d.Stop:
-    length = f"strut length at which the {side} stop is touched"
-    return d.Stop(
-        side=side,
-        length=d.Length(f"{side}_stop_length", touched, length),
-        rate=d.SpringRate(f"{side}_stop_rate", 0.0, f"rate of the {side} stop at first touch"),
-        progression=d.Progression(
-            f"{side}_stop_progression", 0.0, f"cubic term of the {side} stop"
-        ),
-    )
-
-
-BUMP_STOP, REBOUND_STOP = _stop("bump", 0.0), _stop("rebound", 0.85)
 GENERAL_FORCES = (
     WEIGHT,
     d.ForceElement(
@@ -168,16 +141,9 @@ GENERAL_FORCES = (
     d.ForceElement(
         "strut",
         d.AlongTelescope(OFFSET_BC),
-        (DAMPER, DAMPER_TABLE, FRICTION, BUMP_STOP, REBOUND_STOP, d.Actuator(STRUT_FORCE)),
+        (DAMPER, *further_laws("strut", 0.85), d.Actuator(STRUT_FORCE)),
     ),
-    replace(
-        TYRE,
-        damper=d.DamperRate("tyre_damper_rate", 0.0, "radial damping of the tyre"),
-        road_velocity=ROAD_VELOCITY,
-        lifts_off=d.Share(
-            "tyre_lifts_off", 0.0, "1: the tyre can leave the road; 0: it holds on to it"
-        ),
-    ),
+    of_rubber(TYRE),
     d.JointForce(Y, RACK_FORCE),
 )
 

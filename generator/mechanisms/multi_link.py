@@ -87,9 +87,7 @@ _DAMPER = d.LinearDamper(
 _WEIGHT = d.Weight()
 _TYRE = d.LinearTyre(
     name="rear",
-    carrier=CARRIER,
-    center=WHEEL_CENTER,
-    spin=SPIN_AXIS,
+    wheel=d.Wheel(CARRIER, WHEEL_CENTER, SPIN_AXIS),
     rate=d.SpringRate("tyre_rate", 200000.0, "radial rate of the tyre"),
     free_height=d.Displacement(
         "tyre_free_height", 0.329, "height of the wheel centre at which the tyre is free of force"

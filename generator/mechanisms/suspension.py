@@ -1,6 +1,19 @@
-"""What the declarations of suspensions share: their inputs."""
+"""What the declarations of suspensions share: inputs, and what cars have beyond plain springs.
+
+The latter costs a fifth of an evaluation, so that it is in variants of its own: a damper with a
+curve, friction, stops, and a tyre that damps and lifts off. With the defaults of all these a
+variant is the plain suspension.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Literal
 
 from .. import declare as d
+
+if TYPE_CHECKING:
+    from ..declare.laws import Law
 
 RACK_MOTION = d.Motion(
     "rack",
@@ -12,3 +25,47 @@ RACK_MOTION = d.Motion(
 RACK_FORCE = d.Input("rack_force", "N", "force on the rack along its axis")
 ROAD_HEIGHT = d.Input("road_height", "m", "height of the road under the tyre, positive up")
 ROAD_VELOCITY = d.Input("road_velocity", "m/s", "rate of the road's height", ROAD_HEIGHT)
+
+
+def further_laws(damper: str, longest: float) -> tuple[Law, ...]:
+    """Return what acts along a damper besides its linear part: a curve, friction, two stops.
+
+    Parameters
+    ----------
+    damper
+        What the damper is called.
+    longest
+        A length that it does not exceed [m].
+    """
+    table = d.DamperTable(name="damper_table", segments=10)
+    friction = d.Friction(
+        level=d.ForceLevel(f"{damper}_friction", 0.0, f"friction of the {damper} in full sliding"),
+        speed=d.Speed(
+            f"{damper}_friction_speed", 0.01, "velocity at which 71 % of the friction is reached"
+        ),
+    )
+    return table, friction, _stop("bump", damper, 0.0), _stop("rebound", damper, longest)
+
+
+def _stop(side: Literal["bump", "rebound"], damper: str, touched: float) -> d.Stop:
+    length = f"{damper} length at which the {side} stop is touched"
+    return d.Stop(
+        side=side,
+        length=d.Length(f"{side}_stop_length", touched, length),
+        rate=d.SpringRate(f"{side}_stop_rate", 0.0, f"rate of the {side} stop at first touch"),
+        progression=d.Progression(
+            f"{side}_stop_progression", 0.0, f"cubic term of the {side} stop"
+        ),
+    )
+
+
+def of_rubber(tyre: d.LinearTyre) -> d.LinearTyre:
+    """Return a tyre that also damps and lifts off."""
+    return replace(
+        tyre,
+        damper=d.DamperRate("tyre_damper_rate", 0.0, "radial damping of the tyre"),
+        road_velocity=ROAD_VELOCITY,
+        lifts_off=d.Share(
+            "tyre_lifts_off", 0.0, "1: the tyre can leave the road; 0: it holds on to it"
+        ),
+    )

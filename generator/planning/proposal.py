@@ -14,8 +14,7 @@ from math import comb
 from time import monotonic
 from typing import TYPE_CHECKING
 
-from ..declare.forces import JointForce
-from ..declare.joints import Prismatic, Revolute
+from ..declare.joints import Free, Prismatic, Revolute
 from ..declare.model import Model
 from ..loops.errors import NoClosedFormError
 from ..loops.graph import Topology
@@ -115,11 +114,12 @@ class Search:
         self._model = model
         mechanism = model.mechanism
         self.mobility = Topology(mechanism).mobility - len(mechanism.idle_links)
-        self.count = self.mobility - len(model.prescribed)
         given = model.motions
+        self._free = _free(mechanism)
+        self.count = self.mobility - sum(j.freedoms for j in self._free) - len(given)
         self.candidates = [j.name for j in _candidates(mechanism) if j.name not in given]
-        forces = [f.joint.name for f in mechanism.forces if isinstance(f, JointForce)]
-        self._pushed = {name for name in forces if name not in given}
+        pushed = {force.along.name for force in mechanism.forces if force.along is not None}
+        self._pushed = pushed.difference(given)
         self._tried = 0
         self._nearest: tuple[tuple[str, ...], NoClosedFormError] | None = None
 
@@ -159,8 +159,9 @@ class Search:
 
     def model(self, independent: tuple[str, ...], *, allow_iteration: bool = False) -> Model:
         """Return the model with some independent joints, by their names."""
-        joints = tuple(map(self._model.mechanism.joint, independent))
-        return replace(self._model, independent=joints, allow_iteration=allow_iteration)
+        joints = map(self._model.mechanism.joint, independent)
+        every = (*self._free, *joints)
+        return replace(self._model, independent=every, allow_iteration=allow_iteration)
 
     def refusal(self) -> str:
         """Say why nothing was found, by the trial that came nearest, and what would help."""
@@ -228,9 +229,14 @@ def _bare(mechanism: Mechanism) -> Model:
         name=mechanism.name,
         title=mechanism.title,
         mechanism=mechanism,
-        independent=_candidates(mechanism),
-        massive=mechanism.bodies[1:],
+        independent=(*_free(mechanism), *_candidates(mechanism)),
+        massive=mechanism.moving,
     )
+
+
+def _free(mechanism: Mechanism) -> tuple[Joint, ...]:
+    """Return the joints that must be independent: those of bodies that move in the world."""
+    return tuple(joint for joint in mechanism.joints if isinstance(joint, Free))
 
 
 def _candidates(mechanism: Mechanism) -> tuple[Joint, ...]:

@@ -11,6 +11,7 @@ import sympy as sp
 from .function import Block, Function
 from .functions import SignOf
 from .steps import Step, ancestors, first_free
+from .symbols import symbols_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -50,7 +51,7 @@ class ConstantStage:
 
     def contains(self, expression: sp.Expr) -> bool:
         """Tell whether an expression depends on parameters only."""
-        return all(s in self.steps or s in self._given for s in expression.free_symbols)
+        return all(s in self.steps or s in self._given for s in symbols_of(expression))
 
     @cached_property
     def _given(self) -> frozenset[sp.Symbol]:
@@ -58,7 +59,7 @@ class ConstantStage:
 
     def insert_derived(self, expression: sp.Expr) -> sp.Expr:
         """Write an expression without derived symbols."""
-        if self.derived.keys().isdisjoint(expression.free_symbols):
+        if self.derived.keys().isdisjoint(symbols_of(expression)):
             return expression
         return expression.xreplace(self.derived)
 
@@ -120,9 +121,9 @@ class ConstantStage:
         how much it is off.
         """
         used = set().union(*(f.free_symbols for f in functions))
-        used = used.union(*(a.quantity.free_symbols | a.scale.free_symbols for a in assumptions))
+        used = used.union(*(symbols_of(a.quantity) | symbols_of(a.scale) for a in assumptions))
         kept = self.conditions.values()
-        used = used.union(*(c.quantity.free_symbols | c.least.free_symbols for c in kept))
+        used = used.union(*(symbols_of(c.quantity) | symbols_of(c.least) for c in kept))
         results = [s for s in (*self.parameters, *self.steps) if s in used]
         needed = ancestors(self.steps, results)
         return Function(

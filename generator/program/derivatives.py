@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 import sympy as sp
+
+from .symbols import symbols_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -36,7 +39,32 @@ def _partials(
     """
     having: dict[sp.Symbol, list[sp.Expr]] = {}
     for term in sp.Add.make_args(expression):
-        for s in term.free_symbols & moving.keys():
+        for s in symbols_of(term) & moving.keys():
             having.setdefault(s, []).append(term)
-    for s in sorted(having, key=str):
-        yield s, sp.Add(*(term.diff(s) for term in having[s]))
+    for s in sorted(having, key=attrgetter("name")):
+        yield s, sp.Add(*(_partial(term, s) for term in having[s]))
+
+
+def _partial(expression: sp.Expr, s: sp.Symbol) -> sp.Expr:
+    """Return the derivative of an expression that has a symbol by that symbol.
+
+    SymPy's ``diff`` gives the same, but differentiates what has no such symbol as well: it spends
+    its time on products with zero.
+    """
+    if expression == s:
+        return sp.Integer(1)
+    if expression.is_Pow and expression.exp.is_Number:
+        base, exponent = expression.args
+        return expression * (_partial(base, s) * exponent / base)
+    arguments = expression.args
+    having = [(place, a) for place, a in enumerate(arguments) if s in symbols_of(a)]
+    if expression.is_Add:
+        return sp.Add(*(_partial(a, s) for _, a in having))
+    if expression.is_Mul:
+        return sp.Add(
+            *(
+                sp.Mul(*arguments[:place], _partial(a, s), *arguments[place + 1 :])
+                for place, a in having
+            )
+        )
+    return sp.Add(*(expression.fdiff(place + 1) * _partial(a, s) for place, a in having))

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from sympy.core.symbol import Str
 
-from .functions import Iterated
-from .writing import Written, write
+from .symbols import symbols_of
 
 if TYPE_CHECKING:
     import sympy as sp
@@ -21,17 +19,9 @@ LOST = "lost"
 """Result of a block: one where it has not arrived, else zero."""
 
 
-@dataclass(frozen=True)
-class WrittenFunction:
-    """The steps and the results of a function as text."""
-
-    steps: tuple[Written, ...]
-    results: tuple[Written, ...]
-
-
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Function:
-    """An emitted function: the pruned program of some results.
+    """An emitted function: the pruned program of some results, in no language.
 
     Attributes
     ----------
@@ -64,35 +54,66 @@ class Function:
     blocks: tuple[Block, ...] = ()
 
     @property
-    def free_symbols(self) -> set[sp.Symbol]:
-        """Symbols that the function reads: state, inputs, constants."""
-        expressions = [step.expression for step in self.steps]
-        used = set().union(*(e.free_symbols for e in (*expressions, *self.results)))
-        return used - {step.symbol for step in self.steps}
+    def members(self) -> tuple[Function, ...]:
+        """The function itself, as of a stage that has no other."""
+        return (self,)
 
-    def operations(self) -> Counter[str]:
-        """Count the arithmetic operations of one call, exactly as they are printed.
-
-        Of a block that iterates, those of one iteration.
-        """
-        total: Counter[str] = Counter()
-        for written in (*self.written.steps, *self.written.results):
-            total.update(written.operations)
-        blocks = {block.name: block for block in self.blocks}
-        for step in self.steps:
-            if isinstance(step.expression, Iterated):
-                total.update(blocks[step.expression.args[0].name].once.operations())
-        return total
+    @property
+    def size(self) -> int:
+        """Number of results."""
+        return len(self.results)
 
     @cached_property
-    def written(self) -> WrittenFunction:
-        """The text of every step and result in C."""
-        ready: dict[sp.Symbol, int] = {}
-        steps = []
-        for step in self.steps:
-            steps.append(write(step.expression, ready=ready))
-            ready[step.symbol] = steps[-1].ready
-        return WrittenFunction(tuple(steps), tuple(write(r, ready=ready) for r in self.results))
+    def free_symbols(self) -> frozenset[sp.Symbol]:
+        """Symbols that the function reads: state, inputs, constants."""
+        expressions = [step.expression for step in self.steps]
+        used = frozenset().union(*map(symbols_of, (*expressions, *self.results)))
+        return used - {step.symbol for step in self.steps}
+
+
+@dataclass(frozen=True, eq=False)
+class Stage:
+    """Functions that are computed together: what they share is computed once.
+
+    The program of each is that which it has by itself, so that its results are the same to the last
+    bit; who writes a stage carries out equal operations once.
+
+    Attributes
+    ----------
+    name, doc
+        As of a function.
+    members
+        The functions, whose results are returned one behind the other.
+    """
+
+    name: str
+    doc: str
+    members: tuple[Function, ...]
+
+    @property
+    def part(self) -> str:
+        """What the file that it is printed in adds to the model's name."""
+        return self.members[0].part
+
+    @property
+    def free_symbols(self) -> set[sp.Symbol]:
+        """Symbols that the functions read: state, inputs, constants."""
+        return set().union(*(member.free_symbols for member in self.members))
+
+    @property
+    def guards(self) -> tuple[Guard, ...]:
+        """The guards that act in one of the functions, in the order of the first that has each."""
+        return tuple(dict.fromkeys(guard for member in self.members for guard in member.guards))
+
+    @property
+    def blocks(self) -> tuple[Block, ...]:
+        """The iterations that are called."""
+        return tuple({block.name: block for m in self.members for block in m.blocks}.values())
+
+    @property
+    def size(self) -> int:
+        """Number of results of all functions."""
+        return sum(member.size for member in self.members)
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,8 @@ A *block* is a function of its own that follows a solution: from the design posi
 zero, to the coordinates of a call. What it repeats is straight-line code, written by the same
 printers as everything else: residuals g and their Jacobian J at one estimate, for one position of
 the driven coordinates, with all that is placed before the loops (`Block.once`). Around it is one
-loop that all blocks share, with a bounded number of iterations (``backends/*/templates/follow.*``).
+loop that all blocks share, with a bounded number of iterations (``follow.c``, and
+`kintrafo.equations.following`).
 
 *The way* goes straight from the coordinates of the design position to those of the call, in stages.
 Where a hinge is further than a full turn from its design position, a turn alone is followed first;
@@ -46,21 +47,6 @@ from .steps import ancestors
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
-
-ITERATIONS = 400
-"""Most iterations of a block. Within the travel of a suspension it takes five to seven."""
-
-LIMITS = {
-    "ITERATIONS": str(ITERATIONS),
-    "CONVERGED": "1.0e-13",
-    "STALLED": "1.0e-6",
-    "LONGEST": "0.5",
-    "TURNED": "0.5",
-    "CLOSE": "0.1",
-    "SHORTEST": "1.0e-9",
-    "CLOSED": "1.0e-6",
-}
-"""Numbers of `follow`: what each is, is said where they are printed."""
 
 Matrix = list[list[sp.Expr]]
 

@@ -22,6 +22,7 @@ from .function import Block, Function
 from .functions import Component, Guarded, Iterated
 from .sharing import drop_dead, share
 from .steps import Guard, Step, ancestors, first_free
+from .symbols import symbols_of
 from .vectors import Vector
 
 if TYPE_CHECKING:
@@ -45,6 +46,7 @@ class Program:
     guards: dict[sp.Symbol, Guard] = field(default_factory=dict)
     _section: str = ""
     _known: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
+    _varying: set[sp.Expr] = field(default_factory=set)  # nothing in them can be hoisted
 
     def section(self, title: str) -> None:
         """Name the part of the derivation that the next steps belong to."""
@@ -169,7 +171,7 @@ class Program:
         needed = ancestors(self.steps, targets)
         replaced = dict(replacements)
         for step in [s for s in self.steps.values() if s.symbol in needed]:
-            if step.symbol in self.guards and step.expression.free_symbols & replaced.keys():
+            if step.symbol in self.guards and symbols_of(step.expression) & replaced.keys():
                 guard = self.guards[step.symbol]
                 new = self.guarded(
                     f"{step.symbol}__{label}",
@@ -227,6 +229,14 @@ class Program:
         """Move the parts that depend on parameters only into the constant stage."""
         if expression.is_Atom:
             return expression
+        if expression in self._varying:
+            return expression
+        hoisted = self._without_constant_parts(expression)
+        if hoisted == expression:
+            self._varying.add(expression)
+        return hoisted
+
+    def _without_constant_parts(self, expression: sp.Expr) -> sp.Expr:
         if self.constants.contains(expression):
             return self.constants.collect(expression)
         arguments = [self._hoist(a) for a in expression.args]

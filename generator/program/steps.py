@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from .symbols import symbols_of
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
@@ -48,11 +50,11 @@ def first_free(name: str, taken: Callable[[str], bool]) -> sp.Symbol:
 
 def ancestors(steps: Mapping[sp.Symbol, Step], expressions: Iterable[sp.Expr]) -> set[sp.Symbol]:
     """Return the steps that some expressions depend on."""
-    waiting = [s for e in expressions for s in e.free_symbols if s in steps]
+    waiting = [s for e in expressions for s in symbols_of(e) if s in steps]
     found: set[sp.Symbol] = set()
     while waiting:
         symbol = waiting.pop()
         if symbol not in found:
             found.add(symbol)
-            waiting += [s for s in steps[symbol].expression.free_symbols if s in steps]
+            waiting += [s for s in symbols_of(steps[symbol].expression) if s in steps]
     return found

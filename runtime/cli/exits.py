@@ -88,7 +88,7 @@ def _explained(error: Exception) -> tuple[str, Exit] | None:
     from ..core.errors import InputError, KintrafoError
     from ..core.files import reason
     from ..core.optional import MissingPackageError
-    from ..generated._support import ParameterError
+    from ..equations.errors import ParameterError
 
     if isinstance(error, MissingPackageError):
         return str(error), Exit.MISSING

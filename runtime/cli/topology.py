@@ -1,15 +1,17 @@
 """``kintrafo topology``: bodies, joints, mobility, loops and how they were solved."""
 
-import re
 from itertools import islice
 from types import ModuleType
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.table import Table
 
 from .console import console, print_json, say
 from .options import Json, complete_file, load
+
+if TYPE_CHECKING:
+    from ..systems.topology import Topology
 
 EXAMPLES = (
     "kintrafo topology",
@@ -64,9 +66,25 @@ def command(
     for choice in choices or ():
         needs = ", if loops may be solved by iteration" if choice["iterates"] else ""
         say(f"Can be independent: {', '.join(choice['independent'])}{needs}")
-    for text in (found.sections["Cycles"], found.sections["Kinematic transformers"]):
-        # the tables and boxes are drawn in text, and only the fences around them are Markdown
-        say("\n" + re.sub(r"^```.*\n?", "", text, flags=re.MULTILINE).replace("### ", ""))
+    _show_loops(found)
+
+
+def _show_loops(found: "Topology") -> None:
+    cycles = Table("bodies", "length", title="Cycles")
+    for bodies, length in found.cycles:
+        cycles.add_row(bodies, str(length))
+    console.print(cycles)
+    for number, (loop, pairs) in enumerate(zip(found.transformers, found.pairs, strict=True), 1):
+        say(f"\nTransformer {number}: {' - '.join(loop['bodies'])} (length {loop['length']})")
+        say(f"  from      {', '.join(loop['inputs'])}")
+        say(f"  to        {', '.join(loop['outputs'])}")
+        say(f"  equation  {loop['equation']}")
+        say(f"  solution  {loop['solution']}")
+        tried = Table(*(pairs[0] if pairs else ()))
+        for pair in pairs:
+            tried.add_row(*pair.values())
+        if pairs:
+            console.print(tried)
 
 
 def _equations(file: str) -> ModuleType:

@@ -10,7 +10,7 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from ..generated._support import ClosureError
+from ..equations.errors import ClosureError
 from ..systems.system import System
 
 Array = NDArray[np.float64]

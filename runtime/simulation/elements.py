@@ -16,8 +16,8 @@ NAMED = {
     "wheel_leaves_ground": "the tyre force falls through zero",
     "wheel_touches_ground": "the tyre force rises through zero",
     "strut_fully_extended": "the strut reaches its greatest length",
-    "strut_reaches_bump_stop": "the strut becomes as short as its bump stop allows freely",
-    "strut_reaches_rebound_stop": "the strut becomes as long as its rebound stop allows freely",
+    "strut_reaches_bump_stop": "strut or damper becomes as short as its bump stop allows freely",
+    "strut_reaches_rebound_stop": "strut or damper becomes as long as its rebound stop allows",
 }
 _AT_THE_GROUND = {"wheel_leaves_ground": -1.0, "wheel_touches_ground": 1.0}
 # Which stop, and the sense of the strut's length when it touches.
@@ -51,8 +51,8 @@ def named_event(model: System, name: str) -> SignalEvent:
     if name == "strut_fully_extended" and "strut_length_max" in model.parameters:
         length = model.parameters["strut_length_max"]
         return SignalEvent("strut_length", length, direction=+1.0, terminal=True)
-    if name in _AT_A_STOP and "strut_length" in model.signal_names:
-        return _touching(model, *_AT_A_STOP[name])
+    if name in _AT_A_STOP and (stopped := _stopped(model)):
+        return _touching(model, stopped, *_AT_A_STOP[name])
     if name in NAMED:
         problem = f"event {name!r} belongs to a strut, which {model.equations.NAME} has not."
         raise InputError([problem], "events")
@@ -60,12 +60,18 @@ def named_event(model: System, name: str) -> SignalEvent:
     raise InputError([problem], "events")
 
 
-def _touching(model: System, side: str, direction: float) -> SignalEvent:
-    """Return the event of the strut touching one of its stops."""
+def _stopped(model: System) -> str:
+    """Return the length that stops limit: of a strut, or of a damper on its spring's axis."""
+    lengths = ("strut_length", "spring_length")
+    return next((name for name in lengths if name in model.signal_names), "")
+
+
+def _touching(model: System, length: str, side: str, direction: float) -> SignalEvent:
+    """Return the event of a length at which one of the stops is touched."""
     if not model.parameters.get(f"{side}_stop_rate"):
         problem = f"there is no {side} stop. Give the suspension's file a [{side}_stop]."
         raise InputError([problem], "events")
-    return SignalEvent("strut_length", model.parameters[f"{side}_stop_length"], direction)
+    return SignalEvent(length, model.parameters[f"{side}_stop_length"], direction)
 
 
 def bounds_of(model: System) -> Iterator[Bound]:

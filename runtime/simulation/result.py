@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import OptimizeResult
 
 from ..core.errors import KintrafoError
-from ..generated._support import ModelError
+from ..equations.errors import ModelError
 from ..systems.system import System
 from .elements import bounds_of
 from .validity import Excursion, excursions

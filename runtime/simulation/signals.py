@@ -19,7 +19,7 @@ from scipy.interpolate import CubicHermiteSpline, CubicSpline, PPoly
 from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..core.suggestions import suggestion
-from ..systems.inputs import derived_inputs, may_jump, rates_of, what_moves
+from ..systems.inputs import Inputs, derived_inputs, may_jump, rates_of
 from ..systems.system import System
 from .courses import Signal, course
 from .interpolation import Eased
@@ -145,29 +145,29 @@ def time_inputs(
     -------
     TimeInputs
     """
-    names = model.input_names
-    derived = derived_inputs(names)
+    names, inputs = model.input_names, model.equations.INPUTS
+    derived = derived_inputs(inputs)
     with Arguments("inputs") as given:
         given.mapping("inputs", {} if signals is None else signals, "input names, what they do")
     collected = _Collected(np.zeros(len(names)) if held is None else held.copy())
     for name, signal in (signals or {}).items():
         if name not in names or name in derived:
             raise InputError([_refusal(name, names, derived)], "inputs")
-        rates = len(rates_of(name, names))
+        rates = len(rates_of(name, inputs))
         found = course(name, signal, t_span, max_step=max_step, rates=rates)
         if isinstance(found, float):
             collected.constant[names.index(name)] = found
         else:
             _collect(collected, name, found, rates)
     return TimeInputs(
-        collected.constant, _segments(collected, names, t_span), _variant(model, collected)
+        collected.constant, _segments(collected, inputs, t_span), _variant(model, collected)
     )
 
 
 def _variant(model: System, collected: _Collected) -> str:
     """Return the ending of the shortest functions that have all that moves."""
-    names = model.input_names
-    moving = {rate for name in collected.curves for rate in rates_of(name, names)}
+    inputs = model.equations.INPUTS
+    moving = {rate for name in collected.curves for rate in rates_of(name, inputs)}
     for variant, still in model.equations.HELD_VARIANTS.items():
         if moving.isdisjoint(still):
             return f"_{variant}"
@@ -185,7 +185,7 @@ def _refusal(name: str, names: tuple[str, ...], derived: dict[str, str]) -> str:
 
 
 def _segments(
-    collected: _Collected, names: tuple[str, ...], t_span: tuple[float, float]
+    collected: _Collected, inputs: Inputs, t_span: tuple[float, float]
 ) -> tuple[Segment, ...]:
     """Cut the time where the integration begins anew, and give each part its splines."""
     first, last = (float(t) for t in t_span)
@@ -197,7 +197,7 @@ def _segments(
     for start, end in pairwise(borders):
         middle = (start + end) / 2
         splines = [
-            Spline(_covering(curves, middle), _targets(name, names))
+            Spline(_covering(curves, middle), _targets(name, inputs))
             for name, curves in collected.curves.items()
         ]
         near = _RESOLVED * max(abs(start), abs(end))
@@ -215,9 +215,10 @@ def _covering(curves: list[PPoly], time: float) -> PPoly:
     return next(c for c in curves if c.x[0] <= time <= c.x[-1])
 
 
-def _targets(name: str, names: tuple[str, ...]) -> tuple[int, int, int]:
+def _targets(name: str, inputs: Inputs) -> tuple[int, int, int]:
     """Return where a value and its two derivatives go; -1 for what the model does not take."""
-    first, second, *_ = (*(names.index(rate) for rate in rates_of(name, names)), -1, -1)
+    names = list(inputs)
+    first, second, *_ = (*(names.index(rate) for rate in rates_of(name, inputs)), -1, -1)
     return names.index(name), first, second
 
 
@@ -246,13 +247,12 @@ def _collect(collected: _Collected, name: str, found: Sequence[PPoly], rates: in
 
 def _check_jump(name: str, time: float, order: int, rates: int) -> None:
     """Refuse the jump of a position, or of its velocity, where the model takes what is infinite."""
-    if may_jump(name) or order >= rates:
+    if may_jump(rates) or order >= rates:
         return
     what, needs = (("", "velocity"), ("the velocity of ", "acceleration"))[order]
     problem = (
-        f"{what}{name!r} jumps at t = {time:g} s: the {what_moves(name)} "
-        f"would need an infinite {needs} there. Give one value for each time, and a smooth way "
-        "between them."
+        f"{what}{name!r} jumps at t = {time:g} s: what it moves would need an infinite {needs} "
+        "there. Give one value for each time, and a smooth way between them."
     )
     raise InputError([problem], "inputs")
 

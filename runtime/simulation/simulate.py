@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..core.arguments import Arguments, shown
 from ..core.errors import InputError
-from ..generated._support import ModelError
+from ..equations.errors import ModelError
 from ..systems.state import inputs_of
 from ..systems.system import System
 from .courses import Signal

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-from ..generated._support import ModelError
+from ..equations.errors import ModelError
 from ..systems.system import System
 from .dead_points import Approach, DeadPoint, meanings
 from .events import Events

@@ -8,15 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import BDF, DOP853, LSODA, RK45, OdeSolver, Radau
 
-from ..generated._support import ModelError
+from ..equations.errors import ModelError
 from .dead_points import LAPSE, LEFT, SMALLEST_PART, Approach, DeadPoint
 
 Array = NDArray[np.float64]
 
 _METHODS = {"RK45": RK45, "DOP853": DOP853, "Radau": Radau, "BDF": BDF, "LSODA": LSODA}
-# Part of the whole time: a shorter step gains nothing. Steps grow tenfold at most, so that a first
-# one that is too short takes some tens of them.
-_NO_GAIN, _MOST_IDLE = 1e-20, 1000
+# So many steps that gain less than this part of the whole time, all together, gain nothing: 1e11 of
+# that kind would be needed. It happens where the error of a step is that of rounding, close to a
+# dead point. Steps grow tenfold at most, so that a first one that is too short takes some tens.
+_LOOKED_AT_EVERY, _NO_GAIN = 1000, 1e-8
 # As in ``native/integrate.c``: parts of the whole time and of the longest step.
 _SMALLEST_OF_TIME, _SMALLEST_OF_STEP = 1e-9, 1e-6
 _NEAR = 1e-3
@@ -70,7 +71,8 @@ class _Steps(OdeSolver):
         self._given, self._end, self._options = fun, t_bound, options
         self._goals = [*self.watch.milestones.tolist(), t_bound]
         super().__init__(fun, t0, y0, t_bound, **options)
-        self._whole, self._longest, self._stuck, self._idled = abs(t_bound - t0), 0.0, 0, 0
+        self._whole, self._longest, self._stuck = abs(t_bound - t0), 0.0, 0
+        self._taken, self._noted = 0, t0
         self._look(_SMALLEST_OF_STEP * self._whole)
 
     def step(self) -> str | None:
@@ -84,7 +86,7 @@ class _Steps(OdeSolver):
             if self.status == "failed":
                 return message
             step = abs(self.t - time)
-            if self._idle(step):
+            if self._idle():
                 self.status = "failed"
                 return "its steps became too small, since the error stays too large"
             lapse = LAPSE * step
@@ -98,10 +100,13 @@ class _Steps(OdeSolver):
                 raise DeadPoint(guard, time, state)
             self._anew(time, state, step)
 
-    def _idle(self, step: float) -> bool:
-        """Tell whether step after step gains nothing: near time zero nothing else ends them."""
-        self._idled = self._idled + 1 if step < _NO_GAIN * self._whole else 0
-        return self._idled > _MOST_IDLE
+    def _idle(self) -> bool:
+        """Tell whether many steps, one after the other, have gained nothing."""
+        self._taken += 1
+        if self._taken % _LOOKED_AT_EVERY:
+            return False
+        gained, self._noted = abs(self.t - self._noted), self.t
+        return gained < _NO_GAIN * self._whole
 
     def _limited(self) -> str | None:
         """Take a step that is no longer than what is trusted."""

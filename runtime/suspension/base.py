@@ -26,9 +26,11 @@ from .drawing import Drawing
 from .facts import Allowed, Extended, Names
 from .geometry import geometry_problems
 from .input.bodies import Bodies
+from .input.damper import NO_CURVE, Damper
 from .input.hardpoints import Hardpoints
 from .input.messages import messages_of
 from .input.section import Section
+from .input.stop import NO_STOP, Stop
 from .input.toml_file import read_toml
 from .input.units import in_metres
 from .input.vectors import components, unit_vector
@@ -73,6 +75,8 @@ class Suspension(Section):
         The packaged data set that a new file is copied from.
     PAGE : str
         What the page of the input file says of the kind: the end of a sentence, and more of them.
+    STOPPED : str
+        The element of its equations whose length the stops limit.
 
     Examples
     --------
@@ -90,6 +94,7 @@ class Suspension(Section):
     NAMES: ClassVar[Names]
     STARTER: ClassVar[str]
     PAGE: ClassVar[str]
+    STOPPED: ClassVar[str]
 
     suspension: str = Field(description="the kind of suspension")
     vehicle: Vehicle = Field(description="where the suspension is mounted")
@@ -99,6 +104,8 @@ class Suspension(Section):
     rack: Steering = Field(description="the steering rack")
     gravity: Gravity = Field(description="gravity")
     bodies: Bodies = Field(description="masses and inertia")
+    bump_stop: Stop | None = Field(default=None, description="the stop in bump")
+    rebound_stop: Stop | None = Field(default=None, description="the stop in rebound")
 
     def __init__(self, /, **data: Any) -> None:
         problems = []
@@ -315,14 +322,18 @@ class Suspension(Section):
         """Return the stroke of the damper at many positions."""
 
     def stops_at(self, strokes: Strokes) -> tuple[Spring, ...]:
-        """Return what else pushes by its position, at many positions: no stops."""
-        del strokes
-        return ()
+        """Return what else pushes by its position, at many positions: the stops."""
+        return tuple(strokes.spring(f"{side}_stop_force", self.STOPPED) for side in _sides(strokes))
 
     def gaps_at(self, strokes: Strokes) -> tuple[Array, ...]:
         """Return what is open of each stop [m]: where it closes, the stop begins to act."""
-        del strokes
-        return ()
+        sense = {"bump": 1.0, "rebound": -1.0}
+        length = strokes.stroke(self.STOPPED).length
+        return tuple(
+            sense[side] * (length - strokes.parameters[f"{side}_stop_length"])
+            for side in _sides(strokes)
+            if strokes.parameters[f"{side}_stop_rate"]
+        )
 
     def extended(self) -> Extended | None:
         """Return what the wheel hangs on drawn out; None where the equations have no such end."""
@@ -387,6 +398,34 @@ class Suspension(Section):
             **self.bodies.parameters(self.hardpoints),
         }
 
+    def extras(self) -> list[str]:
+        """Return what this suspension has that plain equations leave out: sections and keys."""
+        present = {
+            "[bump_stop]": self.bump_stop is not None,
+            "[rebound_stop]": self.rebound_stop is not None,
+            "[tyre] damper_rate_N_s_per_m": self.tyre.damper_rate_N_s_per_m > 0.0,
+            "[tyre] lifts_off": self.tyre.lifts_off,
+        }
+        return [name for name, is_present in present.items() if is_present]
+
+    def parameters_of_extras(self, length: float, curve: Damper | None) -> dict[str, float]:
+        """Return what only equations with everything take, but for the friction, in SI units.
+
+        Parameters
+        ----------
+        length : float
+            Of what the stops limit, at the design position [m].
+        curve : Damper or None
+            That of the damper, where it has one.
+        """
+        values = (curve or NO_CURVE).parameters()
+        for side, stop in (("bump", self.bump_stop), ("rebound", self.rebound_stop)):
+            values |= (stop or NO_STOP).parameters(side, length)
+        return values | {
+            "tyre_damper_rate": self.tyre.damper_rate_N_s_per_m,
+            "tyre_lifts_off": float(self.tyre.lifts_off),
+        }
+
     @classmethod
     def further_problems(cls, sections: Mapping[str, Any]) -> list[str]:
         """Say what is wrong among sections of this kind of suspension.
@@ -402,6 +441,11 @@ class Suspension(Section):
         """
         del sections  # nothing that every kind has
         return []
+
+
+def _sides(strokes: Strokes) -> tuple[str, ...]:
+    """Return the sides on which the equations can have a stop."""
+    return tuple(side for side in ("bump", "rebound") if f"{side}_stop_force" in strokes)
 
 
 SuspensionT = TypeVar("SuspensionT", bound=Suspension)

@@ -1,63 +1,51 @@
-"""Which inputs of some equations are the time derivatives of another one.
+"""Which inputs of some equations are the time derivatives of another one, as the equations say."""
 
-The equations do not say it themselves, so that it is read from the names: here, and nowhere else.
-"""
+from collections.abc import Mapping
+from typing import Any
 
-from functools import cache
-
-# What follows by differentiation in time from an input that ends so, where the equations take it.
-_RATES = {
-    "_position": ("_velocity", "_acceleration"),
-    "_height": ("_velocity",),
-}
-# A jump of a road passes the tyre's damper without a blow; nothing else may jump whose rate counts.
-_MAY_JUMP = "_height"
+Inputs = Mapping[str, Mapping[str, Any]]
+"""The table ``INPUTS`` of some equations."""
 
 
-@cache
-def rates_of(name: str, names: tuple[str, ...]) -> tuple[str, ...]:
+def rates_of(name: str, inputs: Inputs) -> tuple[str, ...]:
     """Return the inputs that are the derivatives of another one, in order.
 
     Parameters
     ----------
     name : str
         The other one.
-    names : tuple of str
-        All inputs of the equations.
+    inputs : mapping
+        All inputs of the equations, with what each is the derivative of.
 
     Examples
     --------
-    >>> rates_of("rack_position", ("rack_position", "rack_velocity", "road_height"))
-    ('rack_velocity',)
+    >>> from kintrafo.generated import macpherson
+    >>> rates_of("rack_position", macpherson.INPUTS)
+    ('rack_velocity', 'rack_acceleration')
     """
-    stem, rates = _split(name)
-    return tuple(stem + rate for rate in rates if stem + rate in names)
+    rates = []
+    while found := [n for n, entry in inputs.items() if entry["derivative_of"] == name]:
+        (name,) = found
+        rates.append(name)
+    return tuple(rates)
 
 
-def derived_inputs(names: tuple[str, ...]) -> dict[str, str]:
-    """Return the inputs that follow from another one, and from which.
+def derived_inputs(inputs: Inputs) -> dict[str, str]:
+    """Return the inputs that follow from another one, and from which: none that follows itself.
 
     Parameters
     ----------
-    names : tuple of str
-        All inputs of the equations.
+    inputs : mapping
+        All inputs of the equations, with what each is the derivative of.
     """
-    return {rate: name for name in names for rate in rates_of(name, names)}
+    given = [name for name, entry in inputs.items() if entry["derivative_of"] is None]
+    return {rate: name for name in given for rate in rates_of(name, inputs)}
 
 
-def may_jump(name: str) -> bool:
-    """Return whether an input may jump although the equations take its rate."""
-    return name.endswith(_MAY_JUMP)
+def may_jump(rates: int) -> bool:
+    """Return whether an input may jump of which the equations take so many derivatives.
 
-
-def what_moves(name: str) -> str:
-    """Return what an input moves, as the subject of a sentence: "rack" of "rack_position"."""
-    return _split(name)[0]
-
-
-def _split(name: str) -> tuple[str, tuple[str, ...]]:
-    """Return the name without its ending, and how the names of its derivatives end."""
-    for ending, rates in _RATES.items():
-        if name.endswith(ending):
-            return name.removesuffix(ending), rates
-    return name, ()
+    Where they take an acceleration, something with mass follows the input. A rate alone is what a
+    damper takes, which a jump of a road passes without a blow.
+    """
+    return rates < 2

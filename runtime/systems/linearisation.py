@@ -10,7 +10,7 @@ are those of the motion. About any other state the matrices are exact as well, b
 motion only as long as the state stays near: the modes are those of frozen coefficients.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -54,6 +54,8 @@ class Linearisation:
         Derivatives of rate and outputs by state and inputs, exact; SI units.
     state_names, input_names, output_names : tuple of str
     state_units, input_units, output_units : tuple of str
+    input_rates : mapping
+        Of each input, those that are its derivatives, in order.
     """
 
     state: Array
@@ -70,6 +72,7 @@ class Linearisation:
     state_units: tuple[str, ...]
     input_units: tuple[str, ...]
     output_units: tuple[str, ...]
+    input_rates: Mapping[str, tuple[str, ...]]
 
     @property
     def steady(self) -> bool:
@@ -157,7 +160,7 @@ class Linearisation:
         """Return the amplitudes of all inputs while one of them moves with amplitude one."""
         column = np.zeros((*s.shape[:-1], len(self.input_names)), dtype=np.complex128)
         column[..., self.input_names.index(source)] = 1.0
-        for order, rate in enumerate(rates_of(source, self.input_names), 1):
+        for order, rate in enumerate(self.input_rates[source], 1):
             column[..., self.input_names.index(rate)] = s[..., 0] ** order
         return column
 
@@ -233,4 +236,5 @@ def linearise(
         state_units=tuple(entry["unit"] for entry in described.STATE.values()),
         input_units=tuple(entry["unit"] for entry in described.INPUTS.values()),
         output_units=tuple(described.SIGNALS[name]["unit"] for name in names),
+        input_rates={name: rates_of(name, described.INPUTS) for name in described.INPUTS},
     )

@@ -1,18 +1,16 @@
 """What the generator found out about a compiled mechanism: bodies, joints, loops, transformers.
 
-It is read from the report that was packaged with the model, so that nothing is derived again and
-SymPy is not needed.
+It is read from the manifest that comes with the model, so that nothing is derived again and SymPy
+is not needed.
 """
 
-import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
-from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 from .. import generated
-
-_RULE = re.compile(r"\|[-|]+\|")
 
 
 @dataclass(frozen=True)
@@ -29,21 +27,25 @@ class Topology:
         Name, type, the two bodies, number of freedoms, what the bodies have in common.
     mobility : int
         Number of independent coordinates (Grübler).
+    cycles : tuple of tuple
+        The bodies of each simple cycle that may be chosen, and its length.
     loops : tuple of tuple of str
         The bodies of each independent loop, in the order in which the loops are solved.
     pairs : tuple of tuple of dict
         For each loop, the pairs of joints that were tried, and which one was chosen.
-    sections : dict
-        The whole report: heading to Markdown text.
+    transformers : tuple of dict
+        For each loop ``inputs`` and ``outputs``, the ``equation`` that closes it, and its
+        ``solution``.
     """
 
     title: str
     bodies: tuple[str, ...]
     joints: tuple[dict[str, str], ...]
     mobility: int
+    cycles: tuple[tuple[str, int], ...]
     loops: tuple[tuple[str, ...], ...]
     pairs: tuple[tuple[dict[str, str], ...], ...]
-    sections: dict[str, str]
+    transformers: tuple[dict[str, Any], ...]
 
 
 def topology(model: str | ModuleType = "macpherson") -> Topology:
@@ -69,39 +71,41 @@ def topology(model: str | ModuleType = "macpherson") -> Topology:
     equations = model
     if not isinstance(equations, ModuleType):
         equations = import_module(f".{model}", generated.__name__)
-    report = Path(str(equations.__file__)).with_suffix(".md").read_text(encoding="utf-8")
-    title = report.partition("\n")[0].removeprefix("# ")
-    sections = _sections(report, "## ")
-    transformers = _sections(sections["Kinematic transformers"], "### ")
+    manifest = equations.equations.manifest
+    numbers = manifest["numbers"]
+    transformers = manifest["transformers"]
     return Topology(
-        title=title,
-        bodies=tuple(equations.BODIES),
-        joints=_table(sections["Bodies and joints"]),
-        mobility=equations.MOBILITY,
-        loops=tuple(tuple(loop) for loop in equations.LOOPS),
-        pairs=tuple(_table(text) for text in transformers.values()),
-        sections=sections,
+        title=manifest["title"],
+        bodies=tuple(manifest["bodies"]),
+        joints=tuple(_joint(joint, numbers) for joint in manifest["joints"]),
+        mobility=manifest["mobility"],
+        cycles=tuple((_named(c["bodies"], numbers), c["length"]) for c in manifest["cycles"]),
+        loops=tuple(tuple(t["bodies"]) for t in transformers),
+        pairs=tuple(tuple(map(_pair, t["pairs"])) for t in transformers),
+        transformers=tuple(transformers),
     )
 
 
-def _sections(text: str, mark: str) -> dict[str, str]:
-    """Return the text below each heading of one level."""
-    parts = re.split(rf"^{mark}(.+)\n", text, flags=re.MULTILINE)
-    return {heading: body.strip() for heading, body in zip(parts[1::2], parts[2::2], strict=True)}
+def _named(bodies: Sequence[str], numbers: Mapping[str, int]) -> str:
+    return " - ".join(f"{numbers[body]} {body}" for body in bodies)
 
 
-def _table(text: str) -> tuple[dict[str, str], ...]:
-    """Return the rows of the first Markdown table in a text, by column name."""
-    lines = text.splitlines()
-    rule = next(i for i, line in enumerate(lines) if _RULE.fullmatch(line))
-    names = _cells(lines[rule - 1])
-    rows = []
-    for line in lines[rule + 1 :]:
-        if not line.startswith("|"):
-            break
-        rows.append(dict(zip(names, _cells(line), strict=True)))
-    return tuple(rows)
+def _joint(joint: Mapping[str, Any], numbers: Mapping[str, int]) -> dict[str, str]:
+    first, second = joint["bodies"]
+    return {
+        "joint": joint["name"],
+        "type": joint["type"],
+        "first body": f"{numbers[first]} {first}",
+        "second body": f"{numbers[second]} {second}",
+        "freedoms": str(joint["freedoms"]),
+        "leaves in common": joint["common"],
+    }
 
 
-def _cells(line: str) -> list[str]:
-    return [cell.strip() for cell in line.strip("|").split("|")]
+def _pair(pair: Mapping[str, Any]) -> dict[str, str]:
+    return {
+        "pair with a common distance": ", ".join(pair["joints"]),
+        "unknowns eliminated": str(pair["eliminated"]),
+        "equations left": str(pair["equations"]),
+        "": "chosen" if pair["chosen"] else "",
+    }

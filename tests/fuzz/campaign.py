@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import subprocess
 import sys
 from collections import Counter
@@ -97,7 +98,7 @@ def _worked(name: str, first: int, count: int) -> Iterator[Tried]:
         complaints.seek(0)
         last_words = complaints.read().strip()
     if seed < first + count:
-        hung = "Timeout (" in last_words
+        hung = process.returncode == -signal.SIGPROF or "Timeout (" in last_words
         yield Tried(
             seed, "hung" if hung else "raw", f"exit code {process.returncode}: {last_words[-2000:]}"
         )

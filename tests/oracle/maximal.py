@@ -446,7 +446,7 @@ class Oracle:
                 return np.zeros(6 * self.size)
             return inputs[force.input.name] * self.driven(motion, force.joint.name).rows[0]
         assert isinstance(force, LinearTyre)
-        center = self.point(motion, force.carrier.name, self.place(force.center))
+        center = self.point(motion, force.wheel.carrier.name, self.place(force.wheel.center))
         return self._tyre(force, motion, center, inputs) @ center.rows
 
     def length(self, motion: Motion, element: ForceElement) -> Jet:
@@ -516,10 +516,11 @@ class Oracle:
         deflection = given[tyre.free_height.name] + inputs[tyre.road.name] - center.value[2]
         load = given[tyre.rate.name] * deflection
         if tyre.damper is not None:
-            load += given[tyre.damper.name] * (inputs[tyre.road_velocity.name] - center.rate[2])
+            (rising,) = (i.name for i in self.mechanism.inputs if i.derivative_of == tyre.road)
+            load += given[tyre.damper.name] * (inputs[rising] - center.rate[2])
         if self._lifts_off(tyre) and min(deflection, load) < 0.0:
             load = 0.0
-        axis = self.vector(motion, tyre.carrier.name, self.along(tyre.spin)).value
+        axis = self.vector(motion, tyre.wheel.carrier.name, self.along(tyre.wheel.spin)).value
         return load * (UP - axis * axis[2]) / (1.0 - axis[2] ** 2)
 
     def _lifts_off(self, tyre: LinearTyre) -> bool:

@@ -466,10 +466,26 @@ def general_parameters(rng: np.random.Generator, offset: float = 0.06) -> Parame
     for name, place in (("strut_lower", lower), ("spring_seat", seat), ("spring_top", upper_seat)):
         set_vector(parameters, name, place)
     length = float(np.linalg.norm(top - lower))
-    parameters |= {
-        "spring_free_length": float(np.linalg.norm(upper_seat - seat)) + rng.uniform(0.08, 0.16),
-        "strut_friction": rng.uniform(30.0, 90.0),
-        "strut_friction_speed": rng.uniform(0.02, 0.08),
+    seats = float(np.linalg.norm(upper_seat - seat))
+    parameters["spring_free_length"] = seats + rng.uniform(0.08, 0.16)
+    return completed(parameters | further_parameters(rng, "strut", length))
+
+
+def further_parameters(rng: np.random.Generator, damper: str, length: float) -> Parameters:
+    """Return what cars have beyond plain springs: friction, stops, damper curve, a lifting tyre.
+
+    Parameters
+    ----------
+    rng : numpy.random.Generator
+        Source of the random numbers.
+    damper : str
+        What the damper is called.
+    length : float
+        Its length at the design position, m.
+    """
+    parameters: Parameters = {
+        f"{damper}_friction": rng.uniform(30.0, 90.0),
+        f"{damper}_friction_speed": rng.uniform(0.02, 0.08),
         "tyre_damper_rate": rng.uniform(1000.0, 3000.0),
         "tyre_lifts_off": 1.0,
     }
@@ -484,7 +500,7 @@ def general_parameters(rng: np.random.Generator, offset: float = 0.06) -> Parame
     rises[DAMPER_SEGMENTS // 2] = -30.0  # not at the ends, where the slopes would be zero
     forces = np.cumsum(rises) - 1000.0
     set_damper_curve(parameters, PchipInterpolator(knots, forces))
-    return completed(parameters)
+    return parameters
 
 
 def offset_from_ball_joint(ball: Array, top: Array, offset: float, angle: float) -> Array:

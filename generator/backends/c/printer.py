@@ -6,16 +6,15 @@ No allocation, no global state, no ``pow``; every function returns a status word
 from __future__ import annotations
 
 import textwrap
+from itertools import groupby
 from typing import TYPE_CHECKING
 
-import sympy as sp
-
+from ....equations import following
+from ....equations.status import NOT_FINITE_BIT, bit_of
 from ...program.floors import ROUNDING
-from ...program.functions import Iterated
-from ...program.newton import LIMITS
-from ...program.status import LAST_GUARD_BIT, NOT_FINITE_BIT
-from ...program.writing import write
+from ..schedule import schedule
 from ..templates import template
+from ..text import Written, text_of, written
 from ..words import (
     GENERATOR_VERSION,
     blocks_of,
@@ -24,13 +23,18 @@ from ..words import (
     mechanism_hash,
     reads_given,
 )
+from .dialect import C
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
+    import sympy as sp
+
+    from ...declare.inputs import Input
     from ...equations.outputs import Entry, GeneratedModel
     from ...program.conditions import Assumption, Condition
-    from ...program.function import Block, Function
+    from ...program.function import Block, Function, Stage
+    from ...program.steps import Guard
 
 WIDTH = 100
 ARGUMENTS = "const double *restrict constants, const double *restrict state,"
@@ -92,11 +96,7 @@ class CPrinter:
             self._plain_enum(
                 "massive", "Order of the bodies in the Jacobians.", self.model.massive_bodies
             ),
-            self._plain_enum(
-                "constant",
-                "Constants of one parameter set, computed by prepare.",
-                self.model.prepare.labels,
-            ),
+            self._constants(),
             self._status(),
             *self._prototypes(),
             f"#ifdef __cplusplus\n#undef restrict\n}}\n#endif\n\n#endif /* {guard} */",
@@ -125,7 +125,7 @@ class CPrinter:
         note = iteration_note(self.model)
         return f"\n\n{textwrap.fill(note, WIDTH - 4)}" if note else ""
 
-    def _enum(self, kind: str, title: str, entries: Sequence[Entry]) -> str:
+    def _enum(self, kind: str, title: str, entries: Sequence[Entry | Input]) -> str:
         described = [(e.name, f"[{e.unit}] {e.meaning}") for e in entries]
         return self._print_enum(kind, title, described)
 
@@ -140,6 +140,20 @@ class CPrinter:
         lines += [f"    {self.upper}_{kind.upper()}_COUNT = {len(entries)}", "};"]
         return "\n".join(lines)
 
+    def _constants(self) -> str:
+        names = textwrap.fill(
+            ", ".join(self.model.prepare.labels),
+            WIDTH,
+            initial_indent=" " * 8,
+            subsequent_indent=" " * 8,
+        )
+        count = len(self.model.prepare.labels)
+        return (
+            "/* Constants of one parameter set, computed by prepare: an array of that many. */"
+            f"\nenum {{ {self.upper}_CONSTANT_COUNT = {count} }};\n#ifndef __cplusplus\n"
+            f"struct {self.prefix}_constants {{\n    double\n{names};\n}};\n#endif"
+        )
+
     def enumerator(self, kind: str, name: str) -> str:
         """Return the C name of an index."""
         return f"{self.upper}_{kind.upper()}_{name.upper()}"
@@ -148,7 +162,7 @@ class CPrinter:
         lines = ["/* Status bits. */", f"enum {self.prefix}_status {{"]
         for bit, guard in enumerate(self.model.guards):
             name = self.enumerator("status", guard.name)
-            place = min(bit, LAST_GUARD_BIT)
+            place = bit_of(bit)
             lines.append(f"    {name} = 1 << {place}, /* {guard.meaning} */")
         lines.append(
             f"    {self.enumerator('status', 'not_finite')} = 1 << {NOT_FINITE_BIT} "
@@ -159,11 +173,18 @@ class CPrinter:
     def _prototypes(self) -> list[str]:
         prepare = (
             "/*\n * Compute the constants of one parameter set.\n"
-            f"{self._prepare_returns()} */\n"
-            f"int {self.prefix}_prepare(const double *restrict parameters, "
-            "double *restrict constants);"
+            f"{self._prepare_returns()} */\n{self._from_parameters('prepare', 'constants')};"
         )
-        return [prepare, *(self._prototype(f) for f in self.model.functions.values())]
+        design = (
+            f"{self._comment(self.model.design, self.model.design.doc)}\n"
+            f"{self._from_parameters('design_state', 'state')};"
+        )
+        return [prepare, design, *(self._prototype(f) for f in self.model.emitted.values())]
+
+    def _from_parameters(self, name: str, out: str) -> str:
+        return (
+            f"int {self.prefix}_{name}(const double *restrict parameters, double *restrict {out})"
+        )
 
     def _prepare_returns(self) -> str:
         first = " * Returns 0, or one plus the index of the first constant that is not finite"
@@ -185,13 +206,19 @@ class CPrinter:
             ]
         )
 
-    def _prototype(self, function: Function) -> str:
-        shape = " x ".join(str(n) for n in function.shape)
-        comment = f"/* {function.doc} out: {shape}. {count_line(function)}. */"
-        comment = "\n".join(textwrap.wrap(comment, WIDTH, subsequent_indent="   "))
+    def _prototype(self, function: Function | Stage) -> str:
+        shapes = [(m.name, " x ".join(map(str, m.shape))) for m in function.members]
+        out = ", ".join(f"{name} {shape}" for name, shape in shapes)
+        out = out if len(shapes) > 1 else shapes[0][1]
+        comment = self._comment(function, f"{function.doc} out: {out}.")
         return f"{comment}\n{self._signature(function)};"
 
-    def _signature(self, function: Function) -> str:
+    @staticmethod
+    def _comment(function: Function | Stage, text: str) -> str:
+        comment = f"/* {text} {count_line(function)}. */"
+        return "\n".join(textwrap.wrap(comment, WIDTH, subsequent_indent="   "))
+
+    def _signature(self, function: Function | Stage) -> str:
         name = f"int {self.prefix}_{function.name}("
         given = "const double *restrict given, " if reads_given(function) else ""
         indent = " " * len(name)
@@ -205,7 +232,7 @@ class CPrinter:
     @property
     def parts(self) -> list[str]:
         """The source files of the model, by what their names add to the model's."""
-        return list(dict.fromkeys(["", *(f.part for f in self.model.functions.values())]))
+        return list(dict.fromkeys(["", *(f.part for f in self.model.emitted.values())]))
 
     def file_name(self, part: str) -> str:
         """Return the name of a source file."""
@@ -213,7 +240,7 @@ class CPrinter:
 
     def source(self, part: str = "") -> str:
         """Return the text of a source file."""
-        functions = [f for f in self.model.functions.values() if f.part == part]
+        functions = [f for f in self.model.emitted.values() if f.part == part]
         text_functions = "\n#include <string.h>" if blocks_of(functions) else ""
         blocks = [
             self._banner(),
@@ -221,7 +248,7 @@ class CPrinter:
             AT_LEAST,
             NOT_FINITE,
             *self._blocks(blocks_of(functions)),
-            *([] if part else [*self._rounding(), self._prepare_body()]),
+            *([] if part else [*self._rounding(), self._prepare_body(), self._design_body()]),
             *(self._body(f) for f in functions),
         ]
         return "\n\n".join(blocks) + "\n"
@@ -243,28 +270,24 @@ class CPrinter:
             "elements": max(len(block.elements) for block in blocks),
             "driven": max(1, *(len(block.driven) for block in blocks)),
         }
-        text = template("c", "follow.c").substitute(LIMITS, **sizes).strip()
+        text = template("c", "follow.c").substitute(vars(following), **sizes).strip()
         return [text, *(part for block in blocks for part in (_once(self, block), _call(block)))]
 
     def _prepare_body(self) -> str:
-        prepare = self.model.prepare
-        read = [e.name for e in self.model.parameters if sp.Symbol(e.name) in prepare.free_symbols]
+        prepare, count = self.model.prepare, f"{self.upper}_CONSTANT_COUNT"
+        values = [e.name for e in self.model.parameters]
+        kept = set(prepare.labels)
+        c = self._pointer(prepare)
+        read = {s.name for s in prepare.free_symbols}
         lines = [
-            (
-                f"int {self.prefix}_prepare(const double *restrict parameters, "
-                "double *restrict constants)"
-            ),
+            self._from_parameters("prepare", "constants"),
             "{",
-            *self._loads("parameter", "parameters", read),
-            *self.steps(prepare),
+            f"    struct {self.prefix}_constants *const {c} = (void *)constants;",
+            *declared([f"{n} = parameters[{i}]" for i, n in enumerate(values) if n in read - kept]),
+            *(f"    {c}->{n} = parameters[{i}];" for i, n in enumerate(values) if n in kept),
+            *self.steps(prepare, {name: f"{c}->{name}" for name in kept}),
             "",
-        ]
-        for label, result in zip(prepare.labels, prepare.results, strict=True):
-            lines.append(f"    constants[{self.enumerator('constant', label)}] = {result};")
-        count = f"{self.upper}_CONSTANT_COUNT"
-        lines += [
-            "",
-            *self._assumptions(),
+            *self._assumptions(c),
             f"    for (int i = 0; i < {count}; ++i) {{",
             "        if (!isfinite(constants[i])) {",
             "            return i + 1;",
@@ -275,15 +298,48 @@ class CPrinter:
         ]
         return "\n".join(lines)
 
-    def _assumptions(self) -> list[str]:
+    def _design_body(self) -> str:
+        design = self.model.design
+        read = {s.name for s in design.free_symbols}
+        values = [e.name for e in self.model.parameters]
+        loads = [f"{n} = parameters[{i}]" for i, n in enumerate(values) if n in read]
+        return "\n".join(
+            [
+                self._from_parameters("design_state", "state"),
+                "{",
+                *(declared(loads) or ["    (void)parameters;"]),
+                *self.steps(design),
+                "",
+                *(f"    state[{i}] = {value};" for i, value in enumerate(written(design, C)[1])),
+                "    return 0;",
+                "}",
+            ]
+        )
+
+    @staticmethod
+    def _pointer(function: Function | Stage) -> str:
+        """Return a name for the constants that nothing else in a function has."""
+        steps, _ = written(function, C)
+        taken = {step.name for step in steps} | {s.name for s in function.free_symbols}
+        return next(name for name in ("c", "c_", "c__") if name not in taken)
+
+    def _assumptions(self, c: str) -> list[str]:
         """Return the checks of what must be zero, and of what must not; a NaN is found later."""
         lines = []
+
+        def constant(expression: sp.Expr) -> str:
+            return text_of(schedule(expression), C, lambda symbol: f"{c}->{symbol.name}")
+
         tests = [
             *(
-                f"fabs({a.quantity}) > ROUNDING{'' if a.scale == 1 else f' * {a.scale}'}"
+                f"fabs({constant(a.quantity)}) > ROUNDING"
+                + ("" if a.scale == 1 else f" * {constant(a.scale)}")
                 for a in self.model.assumptions
             ),
-            *(f"fabs({c.quantity}) <= {write(c.least).text}" for c in self.model.conditions),
+            *(
+                f"fabs({constant(k.quantity)}) <= {constant(k.least)}"
+                for k in self.model.conditions
+            ),
         ]
         for number, test in enumerate(tests, 1):
             lines += [
@@ -293,66 +349,98 @@ class CPrinter:
             ]
         return lines
 
-    def _body(self, function: Function) -> str:
-        read = {s.name for s in function.free_symbols}
-        constants = [n for n in self.model.prepare.labels if n in read]
-        state = [e.name for e in self.model.state if e.name in read]
-        inputs = [e.name for e in self.model.inputs if e.name in read]
-        given = [e.name for e in self.model.relative if f"given_{e.name}" in read]
-        lines = [self._signature(function), "{"]
-        for kind, array, names in (
-            ("constant", "constants", constants),
-            ("state", "state", state),
-            ("input", "inputs", inputs),
-        ):
-            lines += self._loads(kind, array, names) or [f"    (void){array};"]
+    def _body(self, function: Function | Stage) -> str:
+        read, c = {s.name for s in function.free_symbols}, self._pointer(function)
+        constants = read.intersection(self.model.prepare.labels)
+        pointer = f"    const struct {self.prefix}_constants *const {c} = (const void *)constants;"
+        lines = [self._signature(function), "{", *([pointer] if constants else [])]
+        arrays = {
+            "constants": [],
+            "state": [e.name for e in self.model.state],
+            "inputs": [e.name for e in self.model.inputs],
+        }
+        if reads_given(function):
+            arrays["given"] = [f"given_{e.name}" for e in self.model.relative]
+        taken = {
+            array: [f"{name} = {array}[{i}]" for i, name in enumerate(names) if name in read]
+            for array, names in arrays.items()
+        }
+        unused = [array for array, found in taken.items() if not found]
         lines += [
-            f"    const double given_{n} = given[{self.enumerator('relative', n)}];" for n in given
+            f"    (void){array};" for array in unused if array != "constants" or not constants
         ]
-        lines += self.steps(function)
-        lines.append("")
-        for index, (label, result) in enumerate(
-            zip(function.labels, function.written.results, strict=True)
-        ):
-            text = f"    out[{index}] = {result.text};"
-            lines.append(f"{text:<70} /* {label} */")
-        lines += ["", *self._return(function)]
+        lines += declared([text for found in taken.values() for text in found])
+        names = {name: f"{c}->{name}" for name in constants}
+        lines += self.steps(function, names)
+        texts, start = written(function, C, names)[1], 0
+        for member in function.members:
+            lines += self._results(member, texts[start : start + member.size], start)
+            start += member.size
+        lines += ["", *self._return(function, names)]
         return "\n".join([*lines, "}"])
 
-    def _loads(self, kind: str, array: str, names: Iterable[str]) -> list[str]:
-        return [f"    const double {n} = {array}[{self.enumerator(kind, n)}];" for n in names]
-
     @staticmethod
-    def steps(function: Function) -> list[str]:
-        """Return the assignments of a function, with the parts of the derivation in between."""
-        lines, section = [], None
-        for step, written in zip(function.steps, function.written.steps, strict=True):
-            if step.section != section:
-                section = step.section
-                lines += ["", f"    /* {section} */"]
-            text = f"{_type(step.expression)} {step.symbol} = {written.text};"
+    def _results(part: Function, texts: Sequence[str], start: int) -> list[str]:
+        """Return the assignments of an array: row by row, and then what is zero."""
+        rows = [label.partition(" by ") for label in part.labels]
+        columns = dict.fromkeys(column for _, _, column in rows if column)
+        title = f"/* {part.name}{' by ' if columns else ''}{', '.join(columns)} */"
+        lines = [
+            "",
+            *textwrap.wrap(title, WIDTH, initial_indent="    ", subsequent_indent="       "),
+        ]
+        zeros, last = [], ""
+        for place, ((row, by, _), value) in enumerate(zip(rows, texts, strict=True), start):
+            if value == "0.0":
+                zeros.append(f"out[{place}]")
+                continue
+            text = f"out[{place}] = {value};"
+            lines += _wrapped(text if by and row == last else f"{text} /* {row} */", 4)
+            last = row
+        if zeros:
             lines += textwrap.wrap(
-                text,
+                f"{' = '.join(zeros)} = 0.0;",
                 WIDTH,
                 initial_indent="    ",
                 subsequent_indent="        ",
-                break_long_words=False,
-                break_on_hyphens=False,
             )
         return lines
 
-    def _return(self, function: Function) -> list[str]:
+    @staticmethod
+    def steps(function: Function | Stage, names: Mapping[str, str] | None = None) -> list[str]:
+        """Return the assignments of a function, with the parts of the derivation in between.
+
+        Parameters
+        ----------
+        names
+            What is called otherwise than it is: constants, by way of a pointer to all of them.
+        """
+        lines: list[str] = []
+        names = names or {}
+        values = written(function, C, names)[0]
+        for section, group in groupby(values, key=lambda step: step.section):
+            lines += ["", f"    /* {section} */"]
+            for kind, run in groupby(group, key=_kind):
+                texts = [f"{step.name} = {step.text}" for step in run]
+                lines += declared(texts) if kind == "const double" else _each(kind, texts)
+        return lines
+
+    def _return(self, function: Function | Stage, names: Mapping[str, str]) -> list[str]:
         """Collect the status: comparisons only, no branch.
 
         A NaN or infinity that goes in comes out as one, or is caught by a guard.
         """
+
+        def floor(guard: Guard) -> str:
+            return text_of(schedule(guard.floor), C, lambda s: names.get(s.name, s.name))
+
         bits = [
-            (f"!({g.quantity} > {write(g.floor).text})", self.enumerator("status", g.name))
+            (f"!({g.quantity} > {floor(g)})", self.enumerator("status", g.name))
             for g in self.model.guards
             if g in function.guards
         ]
         finite = self.enumerator("status", "not_finite")
-        bits.append((f"not_finite(out, {len(function.results)})", finite))
+        bits.append((f"not_finite(out, {function.size})", finite))
         lines = [f"    unsigned status = {bits[0][0]} * {bits[0][1]};"]
         lines += [f"    status |= {test} * {bit};" for test, bit in bits[1:]]
         return [*lines, "    return (int)status;"]
@@ -383,9 +471,9 @@ def _once(printer: CPrinter, block: Block) -> str:
         lines += loads or [f"    (void){array};"]
     lines += [*printer.steps(block.once), ""]
     for i, (label, result) in enumerate(
-        zip(block.once.labels, block.once.written.results, strict=True)
+        zip(block.once.labels, written(block.once, C)[1], strict=True)
     ):
-        text = f"    out[{i}] = {result.text};"
+        text = f"    out[{i}] = {result};"
         lines.append(f"{text:<70} /* {label} */")
     return "\n".join([*lines, "}"])
 
@@ -431,8 +519,33 @@ _KEPT = "\N{NO-BREAK SPACE}"
 """Stands for a space at which no line is broken."""
 
 
-def _type(expression: sp.Expr) -> str:
-    """Return the type of a step: a number, or what an iteration returns."""
-    if isinstance(expression, Iterated):
-        return f"const struct {expression.args[0].name}"
-    return "const double"
+def declared(assignments: Sequence[str]) -> list[str]:
+    """Return the declaration of some numbers, one on a line."""
+    if not assignments:
+        return []
+    texts = [f"{text}," for text in assignments[:-1]] + [f"{assignments[-1]};"]
+    return ["    const double", *(line for text in texts for line in _wrapped(text, 8))]
+
+
+def _each(kind: str, assignments: Sequence[str]) -> list[str]:
+    """Return assignments that are statements of their own."""
+    start = f"{kind} " if kind else ""
+    return [line for text in assignments for line in _wrapped(f"{start}{text};", 4)]
+
+
+def _wrapped(text: str, indent: int) -> list[str]:
+    return textwrap.wrap(
+        text,
+        WIDTH,
+        initial_indent=" " * indent,
+        subsequent_indent=" " * (indent + 4),
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
+
+
+def _kind(step: Written) -> str:
+    """Return how a step is declared: a number, what an iteration returns, or an element."""
+    if step.kind == "iterate":
+        return f"const struct {step.of}"
+    return "" if "->" in step.name else "const double"

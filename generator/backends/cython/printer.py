@@ -9,7 +9,7 @@ from ..words import reads_given
 
 if TYPE_CHECKING:
     from ...equations.outputs import GeneratedModel
-    from ...program.function import Function
+    from ...program.function import Function, Stage
 
 
 class CythonPrinter:
@@ -17,15 +17,18 @@ class CythonPrinter:
 
     def __init__(self, model: GeneratedModel) -> None:
         self.name = model.model.name
-        self._functions = model.functions.values()
+        self._functions = model.emitted.values()
 
     def addresses(self) -> str:
         """Return the text of the ``.pyx`` file."""
-        prepare = f"    int {self.name}_prepare(const double *parameters, double *constants)"
-        names = ["prepare", *(f.name for f in self._functions)]
+        of_parameters = [
+            f"    int {self.name}_{function}(const double *parameters, double *out)"
+            for function in ("prepare", "design_state")
+        ]
+        names = ["prepare", "design_state", *(f.name for f in self._functions)]
         return template("cython", "addresses.pyx").substitute(
             name=self.name,
-            declarations="\n".join([prepare, *map(self._declaration, self._functions)]),
+            declarations="\n".join([*of_parameters, *map(self._declaration, self._functions)]),
             addresses="\n".join(f'    "{n}": <uintptr_t> &{self.name}_{n},' for n in names),
         )
 
@@ -33,7 +36,7 @@ class CythonPrinter:
         """Return the text of the ``.pyi`` file beside it."""
         return template("cython", "addresses.pyi").template
 
-    def _declaration(self, function: Function) -> str:
+    def _declaration(self, function: Function | Stage) -> str:
         given = ", const double *given" if reads_given(function) else ""
         return (
             f"    int {self.name}_{function.name}(\n"

@@ -9,18 +9,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ...program.floors import ROUNDING
-from ...program.newton import LIMITS
-from ...program.writing import NUMPY, write
 from ..templates import template
+from ..text import formula, written
 from ..words import blocks_of, reads_given
+from .dialect import NUMPY
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    import sympy as sp
-
     from ...equations.outputs import GeneratedModel
-    from ...program.function import Block, Function
+    from ...program.function import Block, Function, Stage
 
 
 class ArraysPrinter:
@@ -31,15 +29,16 @@ class ArraysPrinter:
 
     def source(self) -> str:
         """Return the text of the file that stands in for the addresses of the C functions."""
-        names = ["prepare", *self.model.functions]
+        names = ["prepare", "design_state", *self.model.emitted]
         return template("numpy", "arrays.py").substitute(
             name=self.model.model.name,
             rounding=ROUNDING,
             functions="\n\n\n".join(
                 [
-                    *printed_blocks(blocks_of(self.model.functions.values())),
+                    *printed_blocks(blocks_of(self.model.emitted.values())),
                     self._prepare(),
-                    *map(self._body, self.model.functions.values()),
+                    self._design(),
+                    *map(self._body, self.model.emitted.values()),
                 ]
             ),
             table="\n".join(f'    "{name}": {name},' for name in names),
@@ -52,15 +51,17 @@ class ArraysPrinter:
                 f"not abs({a.quantity}) > ROUNDING{'' if a.scale == 1 else f' * {a.scale}'}"
                 for a in self.model.assumptions
             ),
-            *(
-                f"not abs({c.quantity}) <= {write(c.least, NUMPY).text}"
-                for c in self.model.conditions
-            ),
+            *(f"not abs({c.quantity}) <= {formula(c.least, NUMPY)}" for c in self.model.conditions),
         ]
         holds = [f"{place}: {test}" for place, test in enumerate(tests)]
         return definition(self.model.prepare, "parameters", loads, holds)
 
-    def _body(self, function: Function) -> str:
+    def _design(self) -> str:
+        design = self.model.design
+        loads = loaded("parameters", [e.name for e in self.model.parameters], design)
+        return definition(design, "parameters", loads)
+
+    def _body(self, function: Function | Stage) -> str:
         loads = [
             *loaded("constants", self.model.prepare.labels, function),
             *loaded("state", [e.name for e in self.model.state], function),
@@ -72,7 +73,7 @@ class ArraysPrinter:
             names = [f"given_{e.name}" for e in self.model.relative]
             loads += loaded("given", names, function)
         holds = [
-            f"{place}: {guard.quantity} > {write(guard.floor, NUMPY).text}"
+            f"{place}: {guard.quantity} > {formula(guard.floor, NUMPY)}"
             for place, guard in enumerate(self.model.guards)
             if guard in function.guards
         ]
@@ -80,7 +81,7 @@ class ArraysPrinter:
 
 
 def definition(
-    function: Function, arguments: str, loads: Sequence[str], holds: Sequence[str] = ()
+    function: Function | Stage, arguments: str, loads: Sequence[str], holds: Sequence[str] = ()
 ) -> str:
     """Return a function: what it reads, its steps, its results and what its guards say."""
     steps, results = _written(function)
@@ -96,10 +97,8 @@ def definition(
 
 
 def printed_blocks(blocks: Sequence[Block]) -> list[str]:
-    """Return what follows loops, and the equations of each."""
-    if not blocks:
-        return []
-    return [template("numpy", "follow.py").substitute(LIMITS).strip(), *map(_block, blocks)]
+    """Return the equations of loops that are followed, and the call that follows them."""
+    return [_block(block) for block in blocks]
 
 
 def _block(block: Block) -> str:
@@ -140,18 +139,13 @@ def _block(block: Block) -> str:
     return "\n".join(lines)
 
 
-def loaded(array: str, names: Iterable[str], function: Function) -> list[str]:
+def loaded(array: str, names: Iterable[str], function: Function | Stage) -> list[str]:
     """Return the lines that give the elements of an array, as far as they are read, their names."""
     read = {s.name for s in function.free_symbols}
     return [f"{n} = {array}[..., {i}]" for i, n in enumerate(names) if n in read]
 
 
-def _written(function: Function) -> tuple[list[str], list[str]]:
+def _written(function: Function | Stage) -> tuple[list[str], list[str]]:
     """Write steps and results in the order of operations that the C code has."""
-    ready: dict[sp.Symbol, int] = {}
-    steps = []
-    for step in function.steps:
-        written = write(step.expression, NUMPY, ready)
-        ready[step.symbol] = written.ready
-        steps.append(f"{step.symbol} = {written.text}")
-    return steps, [write(result, NUMPY, ready).text for result in function.results]
+    steps, results = written(function, NUMPY)
+    return [f"{step.name} = {step.text}" for step in steps], results

@@ -5,13 +5,16 @@ from __future__ import annotations
 from itertools import zip_longest
 from typing import TYPE_CHECKING
 
+from ...declare.world import WORLD
 from ...program.floors import ROUNDING
-from ...program.writing import OPERATIONS, write
-from ..words import iteration_note, mechanism_hash
+from ..counting import OPERATIONS, operations_of
+from ..text import formula
+from ..words import FORMULA, iteration_note, mechanism_hash
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from ...declare.mechanism import Mechanism
     from ...equations.outputs import GeneratedModel
     from ...loops.graph import Cycle, Topology
     from ...loops.planner import Transformer
@@ -31,19 +34,22 @@ def table(header: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> str:
 
 def bodies_of(topology: Topology, cycle: Cycle) -> str:
     """Return a cycle as the numbers and names of its bodies."""
-    numbers = topology.mechanism.numbers
-    named = (f"{numbers[body]} {body}" for body in cycle.bodies)
-    return " - ".join(named)
+    return " - ".join(_numbered(topology.mechanism, body) for body in cycle.bodies)
+
+
+def _numbered(mechanism: Mechanism, body: str) -> str:
+    """Return the number and the name of a body; the world has no number."""
+    return body if body == WORLD.name else f"{mechanism.numbers[body]} {body}"
 
 
 def joint_rows(topology: Topology) -> list[tuple[str, ...]]:
     """Return the rows of the joint table (Table 1)."""
-    mechanism, numbers = topology.mechanism, topology.mechanism.numbers
+    mechanism = topology.mechanism
     return [
         (
             j.name,
             j.kind,
-            *(f"{numbers[body]} {body}" for body in j.bodies),
+            *(_numbered(mechanism, body) for body in j.bodies),
             str(j.freedoms),
             j.common,
         )
@@ -67,7 +73,7 @@ def path_rows(topology: Topology) -> list[tuple[str, ...]]:
 
 def mobility_line(topology: Topology) -> str:
     """Return Eq. 1 with the numbers of the mechanism."""
-    moving = len(topology.mechanism.bodies) - 1
+    moving = len(topology.mechanism.moving)
     closed = [str(6 - j.freedoms) for j in topology.mechanism.joints]
     planar = topology.planar_loop_count
     extra = f" + 3 x {planar} planar loops" if planar else ""
@@ -184,7 +190,10 @@ def markdown(model: GeneratedModel) -> str:
         "Each function reports, by a status bit, which of these has left its range:",
         table(
             ("quantity", "floor", "unit", "meaning when it is not over the floor"),
-            [(f"`{g.name}`", f"`{write(g.floor).text}`", g.unit, g.meaning) for g in model.guards],
+            [
+                (f"`{g.name}`", f"`{formula(g.floor, FORMULA)}`", g.unit, g.meaning)
+                for g in model.guards
+            ],
         ),
         *_assumptions(model),
     ]
@@ -227,7 +236,7 @@ def _conditions(model: GeneratedModel) -> list[str]:
         table(
             ("quantity", "least", "unit", "meaning when it is less"),
             [
-                (f"`{c.quantity}`", f"`{write(c.least).text}`", c.unit, c.meaning)
+                (f"`{c.quantity}`", f"`{formula(c.least, FORMULA)}`", c.unit, c.meaning)
                 for c in model.conditions
             ],
         ),
@@ -251,12 +260,12 @@ def _zeros(model: GeneratedModel) -> list[str]:
 
 def _counts(model: GeneratedModel) -> str:
     rows = []
-    for function in (model.prepare, *model.functions.values()):
-        counts = function.operations()
+    for function in (model.prepare, model.design, *model.emitted.values()):
+        counts = operations_of(function)
         rows.append(
             (
                 f"`{function.name}`",
-                " x ".join(map(str, function.shape)),
+                ", ".join(" x ".join(map(str, member.shape)) for member in function.members),
                 str(counts.total()),
                 *(str(counts[name]) for name in OPERATIONS),
             )

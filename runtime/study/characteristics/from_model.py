@@ -129,7 +129,7 @@ def _motion(
     elif model.free_rack:
         states[..., model.state_names.index(f"{model.names.rack}_rate")] = 1.0
     else:
-        velocity_input, *_ = rates_of("rack_position", model.input_names)
+        velocity_input, *_ = rates_of("rack_position", model.equations.INPUTS)
         inputs[..., model.input_names.index(velocity_input)] = 1.0
     twist = model.evaluate("velocities", states, inputs)[..., _knuckle(model), :]
     turning, velocity = twist[..., :3], twist[..., 3:]

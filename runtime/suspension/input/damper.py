@@ -20,6 +20,36 @@ def _numbers(value: Any) -> Any:
 Numbers = Annotated[tuple[Number, ...], BeforeValidator(_numbers)]
 
 
+def curve_problems(v: tuple[float, ...], force: tuple[float, ...]) -> list[str]:
+    """Say why velocities [m/s] and forces [N] are no curve of a damper that takes energy."""
+    if len(v) != len(force):
+        problem = (
+            f"velocity_m_per_s has {len(v)} values and force_N {len(force)}; as many are "
+            "needed. Give one force for each velocity."
+        )
+        return [problem]
+    if not 2 <= len(v) <= SEGMENTS + 1:
+        problem = (
+            f"velocity_m_per_s has {len(v)} values; allowed are 2 to {SEGMENTS + 1}. Leave out "
+            "points where the curve is nearly straight."
+        )
+        return [problem]
+    falling = [(a, b) for a, b in pairwise(v) if not b > a]
+    if falling:
+        a, b = falling[0]
+        problem = (
+            f"velocity_m_per_s: {b} m/s follows {a} m/s; velocities must rise. Sort the points "
+            "and keep one force for each velocity."
+        )
+        return [problem]
+    wrong = [(a, f) for a, f in ((v[0], force[0]), (v[-1], force[-1])) if a * f < 0.0]
+    return [
+        f"force_N = {f} N at {a} m/s pushes along with the motion; a damper resists it. Enter "
+        "forces that are positive in bump and negative in rebound, as the velocities are."
+        for a, f in wrong
+    ]
+
+
 class Damper(Section):
     """A curve through measured points.
 
@@ -34,33 +64,7 @@ class Damper(Section):
 
     def problems(self) -> list[str]:
         """See that the points are a curve, and that the damper takes energy."""
-        v, force = self.velocity_m_per_s, self.force_N
-        if len(v) != len(force):
-            problem = (
-                f"velocity_m_per_s has {len(v)} values and force_N {len(force)}; as many are "
-                "needed. Give one force for each velocity."
-            )
-            return [problem]
-        if not 2 <= len(v) <= SEGMENTS + 1:
-            problem = (
-                f"velocity_m_per_s has {len(v)} values; allowed are 2 to {SEGMENTS + 1}. Leave out "
-                "points where the curve is nearly straight."
-            )
-            return [problem]
-        falling = [(a, b) for a, b in pairwise(v) if not b > a]
-        if falling:
-            a, b = falling[0]
-            problem = (
-                f"velocity_m_per_s: {b} m/s follows {a} m/s; velocities must rise. Sort the points "
-                "and keep one force for each velocity."
-            )
-            return [problem]
-        wrong = [(a, f) for a, f in ((v[0], force[0]), (v[-1], force[-1])) if a * f < 0.0]
-        return [
-            f"force_N = {f} N at {a} m/s pushes along with the motion; a damper resists it. Enter "
-            "forces that are positive in bump and negative in rebound, as the velocities are."
-            for a, f in wrong
-        ]
+        return curve_problems(self.velocity_m_per_s, self.force_N)
 
     def parameters(self) -> dict[str, float]:
         """Return the coefficients of the curve by the names in the equations, in SI units.
@@ -92,3 +96,7 @@ class Damper(Section):
             values |= dict.fromkeys((f"{key}_{i}" for key in table if key != "knot"), 0.0)
             values[f"knot_{i + 1}"] = v[-1]
         return {f"damper_table_{key}": float(x) for key, x in values.items()}
+
+
+NO_CURVE = Damper(velocity_m_per_s=(-1.0, 1.0), force_N=(0.0, 0.0))
+"""A curve without force, for equations that have one all the same."""

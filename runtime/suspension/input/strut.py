@@ -1,4 +1,4 @@
-"""Spring, damper and stops of the strut, as a file describes them."""
+"""Spring and damper of the strut, as a file describes them."""
 
 from pydantic import Field
 
@@ -127,28 +127,4 @@ class Strut(Section):
             "strut_length_max": self.length_max,
             "spring_rate": self.spring_rate_N_per_m,
             "damper_rate": 0.0 if linear is None or damper is not None else linear,
-        }
-
-
-class Stop(Section):
-    """A progressive stop in the strut: ``rate x + progression x^3``, x being how far it is pressed.
-
-    The clearance is travel of the strut from the design position until the stop is touched.
-    """
-
-    clearance_mm: Number = Field(description="travel of the strut from design until first touch")
-    rate_N_per_m: NonNegative = Field(  # noqa: N815
-        description="rate at first touch"
-    )
-    progression_N_per_mm3: NonNegative = Field(  # noqa: N815
-        default=0.0, description="cubic term: force / (distance pressed in)^3"
-    )
-
-    def parameters(self, side: str, design_length: float) -> dict[str, float]:
-        """Return the parameters of the stop of one side, "bump" or "rebound", in SI units."""
-        sense = -1.0 if side == "bump" else 1.0
-        return {
-            f"{side}_stop_length": design_length + sense * in_metres(self.clearance_mm, "mm"),
-            f"{side}_stop_rate": self.rate_N_per_m,
-            f"{side}_stop_progression": self.progression_N_per_mm3 * 1e9,
         }

@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from .section import NonNegative, Number, Positive, Range, Section, Triple
+from .section import Flag, NonNegative, Number, Positive, Range, Section, Triple
 from .units import in_metres
 from .vectors import Vector, unit_vector
 
@@ -78,7 +78,7 @@ class Wheel(Section):
 
 
 class Tyre(Section):
-    """The tyre as a vertical spring in the plane of the wheel."""
+    """The tyre as a vertical spring in the plane of the wheel; it may damp, and leave the road."""
 
     rate_N_per_m: NonNegative = Field(  # noqa: N815 (N is the newton)
         description="rate of the tyre"
@@ -88,6 +88,13 @@ class Tyre(Section):
         default=None,
         description="radius of the wheel as a thin disc that touches the ground; only for "
         "characteristics, left out: the height of wheel_center above z = 0",
+    )
+    damper_rate_N_s_per_m: NonNegative = Field(  # noqa: N815 (N is the newton)
+        default=0.0, description="radial damping of the tyre"
+    )
+    lifts_off: Flag = Field(
+        default=False,
+        description="true: the tyre can leave the road; false, as in the paper: it holds on to it",
     )
 
     def parameters(self) -> dict[str, float]:

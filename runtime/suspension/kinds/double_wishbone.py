@@ -6,19 +6,20 @@ characteristics are computed from, and how it is drawn.
 
 from collections.abc import Mapping
 from types import ModuleType
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, Self
 
 import numpy as np
 from pydantic import Field
 
 from ...core.errors import InputError
-from ...generated import double_wishbone
+from ...generated import double_wishbone, double_wishbone_general
 from ..base import Suspension
 from ..corner import Array, Plane, Stroke
 from ..corner import Spring as SpringStroke
 from ..drawing import Axis, Drawing
 from ..facts import Allowed, Names
 from ..input.bodies import Bodies, Rack, RigidBody, TieRod
+from ..input.damper import Damper, Numbers, curve_problems
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
 from ..input.section import NonNegative, Number, Positive, Section, Triple
 from ..input.units import in_metres
@@ -198,11 +199,30 @@ class Spring(Section):
         return in_metres(self.free_length_mm, "mm")
 
 
-class LinearDamper(Section):
-    """The damper, between the same two points as the spring; the same in bump and rebound."""
+class CoilDamper(Section):
+    """The damper, between the same two points as the spring.
 
-    rate_N_s_per_m: NonNegative = Field(  # noqa: N815 (N is the newton)
-        description="rate of the damper"
+    It has a rate, or a curve through measured points: velocities are positive in bump, forces where
+    they resist bump (see `input.damper.Damper`). Its friction is ``friction v / sqrt(v^2 +
+    friction_velocity^2)``.
+    """
+
+    rate_N_s_per_m: NonNegative | None = Field(  # noqa: N815 (N is the newton)
+        default=None,
+        description="rate of a linear damper, the same in bump and rebound; or else a curve",
+    )
+    velocity_m_per_s: Numbers | None = Field(
+        default=None, description="of a curve instead: velocities, rising; positive in bump"
+    )
+    force_N: Numbers | None = Field(  # noqa: N815
+        default=None,
+        description="forces at these velocities; positive where they resist bump",
+    )
+    friction_N: NonNegative = Field(  # noqa: N815
+        default=0.0, description="friction of the damper in full sliding"
+    )
+    friction_velocity_m_per_s: Positive = Field(
+        default=0.01, description="velocity at which 71 % of the friction is reached"
     )
     length_min_mm: Positive | None = Field(
         default=None,
@@ -212,6 +232,34 @@ class LinearDamper(Section):
     length_max_mm: Positive | None = Field(
         default=None, description="the same with the damper drawn out as far as it goes"
     )
+
+    @property
+    def curve(self) -> Damper | None:
+        """The curve; None where the damper has a rate."""
+        if self.velocity_m_per_s is None or self.force_N is None:
+            return None
+        return Damper(velocity_m_per_s=self.velocity_m_per_s, force_N=self.force_N)
+
+    def problems(self) -> list[str]:
+        """See that the damper is given once, and as a curve by both of its keys."""
+        by_curve = [
+            key for key in ("velocity_m_per_s", "force_N") if getattr(self, key) is not None
+        ]
+        if self.rate_N_s_per_m is not None and by_curve:
+            problem = (
+                f"rate_N_s_per_m = {self.rate_N_s_per_m} N s/m and {by_curve[0]} both describe the "
+                "damper; one is allowed. Remove the other."
+            )
+            return [problem]
+        if self.velocity_m_per_s is not None and self.force_N is not None:
+            return curve_problems(self.velocity_m_per_s, self.force_N)
+        if self.rate_N_s_per_m is None:
+            problem = (
+                "rate_N_s_per_m is missing: rate of the damper, unless velocity_m_per_s and "
+                "force_N give its curve. Add a line `rate_N_s_per_m = ...`, in N s/m."
+            )
+            return [problem]
+        return []
 
     def length_problems(self, at_design: float) -> list[str]:
         """Say why the damper cannot be as long as it is at the design position [m]."""
@@ -289,15 +337,17 @@ class DoubleWishbone(Suspension):
         "arm_angle", "spin_angle", "rack_displacement", "spring_actuator"
     )
     STARTER: ClassVar[str] = "double_wishbone_car"
+    STOPPED: ClassVar[str] = "spring"
     PAGE: ClassVar[str] = """.
 
 Where the spring is free of force is said by the distance of its ends (`free_length_mm`) or by its
-force at the design position (`force_at_design_N`). Spring and damper are on the lower arm."""
+force at the design position (`force_at_design_N`). Spring and damper are on the lower arm. The
+damper has a rate or a curve; the stops are touched by its length."""
 
     suspension: Literal["double_wishbone"] = Field(description="the kind of suspension")
     hardpoints: DoubleWishboneHardpoints = Field(description="the points that define the geometry")
     spring: Spring = Field(description="the spring, between chassis and lower arm")
-    damper: LinearDamper = Field(description="the damper, on the spring's axis")
+    damper: CoilDamper = Field(description="the damper, on the spring's axis")
     bodies: DoubleWishboneBodies = Field(description="masses and inertia")
 
     # -- its equations --------------------------------------------------------------------------
@@ -307,7 +357,32 @@ force at the design position (`force_at_design_N`). Spring and damper are on the
         if free_rack:
             problem = f"free_rack=True: the rack of a {self.TITLE} is prescribed. Leave that out."
             raise InputError([problem], "Model")
-        return double_wishbone
+        return double_wishbone_general if self.beyond_the_plain() else double_wishbone
+
+    def without_friction(self) -> Self:
+        """Return the same suspension without the friction of its damper."""
+        return self.with_changes({"damper.friction_N": 0.0}) if self.damper.friction_N else self
+
+    def beyond_the_plain(self) -> list[str]:
+        """Return what this suspension has that the plain equations leave out.
+
+        Returns
+        -------
+        list of str
+            Sections and keys; empty for spring and damper alone.
+
+        Examples
+        --------
+        >>> from kintrafo import Suspension
+        >>> car = Suspension.load("double_wishbone_car")
+        >>> car.beyond_the_plain(), car.with_changes({"tyre.lifts_off": True}).beyond_the_plain()
+        ([], ['[tyre] lifts_off'])
+        """
+        own = {
+            "[damper] friction_N": self.damper.friction_N > 0.0,
+            "[damper] velocity_m_per_s": self.damper.curve is not None,
+        }
+        return [name for name, is_present in own.items() if is_present] + self.extras()
 
     def parameters(self) -> dict[str, float]:
         """Return everything that the equations of motion need, in SI units.
@@ -316,13 +391,22 @@ force at the design position (`force_at_design_N`). Spring and damper are on the
         -------
         dict of str to float
             Besides `shared_parameters`: ``spring_rate`` in N/m, ``spring_free_length`` in m and
-            ``damper_rate`` in N s/m.
+            ``damper_rate`` in N s/m; with anything of `beyond_the_plain` what
+            ``generated.double_wishbone_general`` lists besides.
         """
-        return self.shared_parameters() | {
+        length, damper = self.hardpoints.distance(*_SPRING), self.damper
+        values = self.shared_parameters() | {
             "spring_rate": self.spring.rate_N_per_m,
-            "spring_free_length": self.spring.free_length(self.hardpoints.distance(*_SPRING)),
-            "damper_rate": self.damper.rate_N_s_per_m,
+            "spring_free_length": self.spring.free_length(length),
+            "damper_rate": damper.rate_N_s_per_m or 0.0,
         }
+        if not self.beyond_the_plain():
+            return values
+        friction = {
+            "damper_friction": damper.friction_N,
+            "damper_friction_speed": damper.friction_velocity_m_per_s,
+        }
+        return values | friction | self.parameters_of_extras(length, damper.curve)
 
     # -- its geometry ---------------------------------------------------------------------------
 

@@ -22,15 +22,11 @@ from ..facts import Allowed, Extended, Names
 from ..input.bodies import Bodies, Rack, RigidBody, TieRod
 from ..input.damper import Damper
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
-from ..input.section import Flag, NonNegative, Number, Triple
-from ..input.strut import Stop, Strut
+from ..input.section import Number, Triple
+from ..input.strut import Strut
 from ..input.units import in_metres
 from ..input.vectors import Vector, unit_vector
-from ..input.vehicle import Tyre
 from ..strokes import Strokes
-
-NO_DAMPER = Damper(velocity_m_per_s=(-1.0, 1.0), force_N=(0.0, 0.0))
-NO_STOP = Stop(clearance_mm=0.0, rate_N_per_m=0.0)
 
 # Where the knuckle's centre of mass lies on the strut axis, above the ball joint, if not given.
 _DEFAULT_COM_ALONG_STRUT_MM = 120.0
@@ -158,18 +154,6 @@ class MacPhersonHardpoints(Hardpoints):
         return [problem]
 
 
-class DampedTyre(Tyre):
-    """A tyre that may also damp, and leave the road."""
-
-    damper_rate_N_s_per_m: NonNegative = Field(  # noqa: N815 (N is the newton)
-        default=0.0, description="radial damping of the tyre"
-    )
-    lifts_off: Flag = Field(
-        default=False,
-        description="true: the tyre can leave the road; false, as in the paper: it holds on to it",
-    )
-
-
 class ControlArm(RigidBody):
     """The control arm."""
 
@@ -230,6 +214,7 @@ class MacPherson(Suspension):
     # the equations of the paper's suspension, whatever was added to it, keep the paper's names
     NAMES: ClassVar[Names] = Names("beta1", "beta5", "beta9", "strut_force")
     STARTER: ClassVar[str] = "reference_car"
+    STOPPED: ClassVar[str] = "strut"
     PAGE: ClassVar[str] = """, which may be left out.
 
 Where the spring is free of force is said in one of four ways: by the slide of the strut
@@ -242,11 +227,8 @@ the strut extended (`spring_preload_N`), or by its force at the design position
     )
     hardpoints: MacPhersonHardpoints = Field(description="the points that define the geometry")
     strut: Strut = Field(description="spring and damper")
-    tyre: DampedTyre = Field(description="the tyre")
     bodies: MacPhersonBodies = Field(description="masses and inertia")
     damper: Damper | None = Field(default=None, description="a damper curve instead of a rate")
-    bump_stop: Stop | None = Field(default=None, description="the strut's stop in bump")
-    rebound_stop: Stop | None = Field(default=None, description="the strut's stop in rebound")
 
     # -- its equations --------------------------------------------------------------------------
 
@@ -292,15 +274,9 @@ the strut extended (`spring_preload_N`), or by its force at the design position
     def _general_parameters(self) -> dict[str, float]:
         """Return what only the equations of the general suspension take, in SI units."""
         length = self.hardpoints.distance("strut_lower", "strut_top")
-        stops = {"bump": self.bump_stop, "rebound": self.rebound_stop}
-        values = (self.damper or NO_DAMPER).parameters()
-        for side, stop in stops.items():
-            values |= (stop or NO_STOP).parameters(side, length)
-        return values | {
+        return self.parameters_of_extras(length, self.damper) | {
             "strut_friction": self.strut.friction_N,
             "strut_friction_speed": self.strut.friction_velocity_m_per_s,
-            "tyre_damper_rate": self.tyre.damper_rate_N_s_per_m,
-            "tyre_lifts_off": float(self.tyre.lifts_off),
         }
 
     # -- its geometry ---------------------------------------------------------------------------
@@ -363,20 +339,6 @@ the strut extended (`spring_preload_N`), or by its force at the design position
         """Return the spring, which may have an axis of its own."""
         return strokes.spring("spring_force", "spring" if "spring_length" in strokes else "strut")
 
-    def stops_at(self, strokes: Strokes) -> tuple[Spring, ...]:
-        """Return the stops that the equations have."""
-        return tuple(strokes.spring(f"{side}_stop_force", "strut") for side in _sides(strokes))
-
-    def gaps_at(self, strokes: Strokes) -> tuple[Array, ...]:
-        """Return how far the strut is from touching each of its stops [m]."""
-        sense = {"bump": 1.0, "rebound": -1.0}
-        length = strokes.stroke("strut").length
-        return tuple(
-            sense[side] * (length - strokes.parameters[f"{side}_stop_length"])
-            for side in _sides(strokes)
-            if strokes.parameters[f"{side}_stop_rate"]
-        )
-
     def damper_at(self, strokes: Strokes) -> Stroke:
         """Return the stroke of the damper: that of the strut."""
         return strokes.stroke("strut")
@@ -398,17 +360,12 @@ the strut extended (`spring_preload_N`), or by its force at the design position
         >>> car.beyond_the_paper(), car.with_changes({"tyre.lifts_off": True}).beyond_the_paper()
         ([], ['[tyre] lifts_off'])
         """
-        strut, tyre = self.strut, self.tyre
-        present = {
+        own = {
             **{f"[hardpoints] {name}": True for name in self.hardpoints.given_optional()},
-            "[strut] friction_N": strut.friction_N > 0.0,
+            "[strut] friction_N": self.strut.friction_N > 0.0,
             "[damper]": self.damper is not None,
-            "[bump_stop]": self.bump_stop is not None,
-            "[rebound_stop]": self.rebound_stop is not None,
-            "[tyre] damper_rate_N_s_per_m": tyre.damper_rate_N_s_per_m > 0.0,
-            "[tyre] lifts_off": tyre.lifts_off,
         }
-        return [name for name, is_present in present.items() if is_present]
+        return [name for name, is_present in own.items() if is_present] + self.extras()
 
     @classmethod
     def further_problems(cls, sections: Mapping[str, Any]) -> list[str]:
@@ -432,11 +389,6 @@ def _general_free_rack() -> ModuleType:
     from ...generator.mechanisms.macpherson import GENERAL_FREE_RACK  # noqa: PLC0415 (an extra)
 
     return compile_mechanism(GENERAL_FREE_RACK)
-
-
-def _sides(strokes: Strokes) -> tuple[str, ...]:
-    """Return the sides on which the equations can have a stop."""
-    return tuple(side for side in ("bump", "rebound") if f"{side}_stop_force" in strokes)
 
 
 def _strut_too_short(strut: Strut, hardpoints: MacPhersonHardpoints) -> list[str]:

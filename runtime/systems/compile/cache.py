@@ -54,12 +54,13 @@ def fingerprint(declared: str, *, built_by: str) -> str:
 
 @cache
 def _generator_hash() -> str:
-    """Return a hash of everything that derives and emits."""
+    """Return a hash of everything that derives, emits, and reads what was emitted."""
     import sympy
 
     digest = hashlib.sha256(sympy.__version__.encode())
-    for name, content in sorted(_contents(files("kintrafo.generator"), "")):
-        digest.update(name.encode() + b"\0" + content)
+    for package in ("kintrafo.generator", "kintrafo.equations"):  # what emits, and what reads it
+        for name, content in sorted(_contents(files(package), "")):
+            digest.update(name.encode() + b"\0" + content)
     return digest.hexdigest()
 
 

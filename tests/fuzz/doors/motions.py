@@ -18,15 +18,16 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 from kintrafo import Model, SimulationError, System, simulate
+from kintrafo.equations.errors import ModelError
 from kintrafo.generated import (
     andrews,
     excavator,
+    excavator_lifting,
     four_bar,
     front_axle,
     macpherson_free_rack,
     slider_crank,
 )
-from kintrafo.generated._support import ModelError
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.simulation.solvers import native_methods
 from own_models import Built
@@ -42,7 +43,15 @@ if TYPE_CHECKING:
 SHORT = 8
 SECONDS = 60.0
 
-_MODULES = (four_bar, slider_crank, andrews, excavator, front_axle, macpherson_free_rack)
+_MODULES = (
+    four_bar,
+    slider_crank,
+    andrews,
+    excavator,
+    excavator_lifting,
+    front_axle,
+    macpherson_free_rack,
+)
 _CARS = ("reference_car", "double_wishbone_car", "offset_strut_car")
 METHODS = tuple(dict.fromkeys([*native_methods(), "Radau", "LSODA", "RK45", "DOP853"]))
 

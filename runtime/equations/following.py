@@ -1,21 +1,49 @@
+"""How functions over NumPy arrays follow loops that are solved by iteration.
 
-# Limits of `follow`; the C code says what each is.
-ITERATIONS = $ITERATIONS
-CONVERGED = $CONVERGED
-STALLED = $STALLED
-LONGEST = $LONGEST
-TURNED = $TURNED
-CLOSE = $CLOSE
-SHORTEST = $SHORTEST
-CLOSED = $CLOSED
-FULL_TURN = 6.28318530717958647693
+It is what ``follow.c`` does, for all states at a time. The limits are those of both.
+"""
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+ITERATIONS = 400
+"""Most iterations of a call. Within the travel of a suspension it takes five to seven."""
+CONVERGED = 1e-13
+"""Length of a correction that ends the iterations: that of its rounding."""
+STALLED = 1e-6
+"""Greatest length that rounding may have next to a dead point."""
+LONGEST = 0.5
+"""Farthest that a coordinate, or all unknowns together, may go in a stage."""
+TURNED = 0.5
+"""Most that J may change in a stage, of itself."""
+CLOSE = 0.1
+"""Longest correction with which a stage ends, of the stage; the last one converges."""
+SHORTEST = 1e-9
+"""Shortest stage, of the way: where it ends, so does the branch."""
+CLOSED = 1e-6
+"""How far from the design position a full turn ends that leads back to it."""
+
+_FULL_TURN = 2.0 * np.pi
 
 
-def square(values):
+def _square(values: Array) -> Any:
     return sum(v * v for v in values)
 
 
-def follow(once, unknowns, elements, given, start, end, unit):
+def _follow(
+    once: Callable[..., Any],
+    unknowns: int,
+    elements: int,
+    given: Array,
+    start: Array,
+    end: Array,
+    unit: Array,
+) -> tuple[Array, NDArray[np.bool_]]:
     """Follow loops straight from the design position to other coordinates, all states at a time.
 
     Everything is an array with a column for each state. Return what is found, and in which states
@@ -35,7 +63,7 @@ def follow(once, unknowns, elements, given, start, end, unit):
         out = once(given[:, at], now, move[:, at], step[:, at], held[:, at])
         out = np.array([np.broadcast_to(value, at.shape) for value in out])
         correction, changed = out[place + 2 : -1], out[-1]
-        change, way = square(correction), square(gone[:, at])
+        change, way = _square(correction), _square(gone[:, at])
         enough = np.where(t < 1.0, CLOSE * CLOSE * way, 0.0)
         close = change <= np.fmax(enough, CONVERGED * CONVERGED)
         stalled = (change <= STALLED * STALLED) & (change > before[at] / 4.0)
@@ -75,30 +103,52 @@ def follow(once, unknowns, elements, given, start, end, unit):
     return found, arrived
 
 
-def follow_turns(once, unknowns, elements, turns, given, along):
-    """Do the same, but for whole turns of an angle that lead back to the design position.
+def follow_turns(
+    once: Callable[..., Any],
+    unknowns: int,
+    elements: int,
+    turns: Sequence[bool],
+    given: Sequence[Any],
+    along: Sequence[tuple[Any, Any, Any]],
+) -> tuple[Array, ...]:
+    """Follow loops to other coordinates, without whole turns that lead back to the design position.
 
-    ``along`` has start, end and unit of every coordinate. The last thing found is where the loops
-    have not arrived.
+    Parameters
+    ----------
+    once : callable
+        One iteration.
+    unknowns, elements : int
+        How many unknowns the loops have, and elements the inverse of their Jacobian.
+    turns : sequence of bool
+        Which coordinates are angles.
+    given : sequence of array_like
+        Constants.
+    along : sequence of tuple
+        Start, end and unit of every coordinate.
+
+    Returns
+    -------
+    tuple of ndarray
+        What is found; the last is one where the loops have not arrived, else zero.
     """
     shape = np.broadcast_shapes(*map(np.shape, (*given, *(v for values in along for v in values))))
 
-    def columns(values):
+    def columns(values: Sequence[Any]) -> Array:
         flat = [np.broadcast_to(v, shape).ravel() for v in values]
         return np.array(flat).reshape(len(flat), int(np.prod(shape)))
 
-    given = columns(given)
+    rows = columns(given)
     start, end, unit = (columns([values[k] for values in along]) for k in range(3))
     for c in np.flatnonzero(turns):
-        whole = np.trunc((end[c] - start[c]) / FULL_TURN)
+        whole = np.trunc((end[c] - start[c]) / _FULL_TURN)
         some = np.flatnonzero(whole)
         if some.size:
             turned = start[:, some]
-            turned[c] += np.copysign(FULL_TURN, whole[some])
-            ends = given[:, some], start[:, some], turned, unit[:, some]
-            found, arrived = follow(once, unknowns, elements, *ends)
+            turned[c] += np.copysign(_FULL_TURN, whole[some])
+            ends = rows[:, some], start[:, some], turned, unit[:, some]
+            found, arrived = _follow(once, unknowns, elements, *ends)
             back = some[arrived & (found[-1] <= CLOSED * CLOSED)]
-            end[c, back] -= whole[back] * FULL_TURN
-    found, arrived = follow(once, unknowns, elements, given, start, end, unit)
+            end[c, back] -= whole[back] * _FULL_TURN
+    found, arrived = _follow(once, unknowns, elements, rows, start, end, unit)
     found[-1] = ~arrived
     return tuple(row.reshape(shape) for row in found)

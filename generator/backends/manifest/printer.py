@@ -1,0 +1,185 @@
+"""Print what is known of a model as one JSON file: `kintrafo.equations.Equations` reads it."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+from ...declare.ranges import described as parameters_of
+from ..counting import OPERATIONS, operations_of
+from ..text import formula
+from ..words import FORMULA, GENERATOR_VERSION, iteration_note, mechanism_hash
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from ...declare.inputs import Input
+    from ...equations.outputs import Entry, GeneratedModel
+    from ...loops.planner import Transformer
+    from ...program.function import Function, Stage
+
+WIDTH = 100
+
+
+def manifest(model: GeneratedModel) -> str:
+    """Return the text of the file."""
+    return f"{_text(_facts(model), 0)}\n"
+
+
+def _facts(model: GeneratedModel) -> dict[str, Any]:
+    topology = model.plan.topology
+    name = model.model.name
+    parts = dict.fromkeys(f.part for f in model.emitted.values())
+    return {
+        "name": name,
+        "title": model.model.title,
+        "written_by": f"kintrafo {GENERATOR_VERSION}; do not edit: `make generate` writes it anew",
+        "mechanism": mechanism_hash(model),
+        "note": iteration_note(model),
+        "sources": [f"{name}.h", *(f"{'_'.join(filter(None, (name, p)))}.c" for p in parts)],
+        "parameters": parameters_of(model.model.mechanism),
+        "state": _described(model.state),
+        "inputs": _inputs(model.inputs),
+        "relative_coordinates": _described(model.relative),
+        "signals": _described(model.signals),
+        "bodies": model.moving_bodies,
+        "massive_bodies": model.massive_bodies,
+        "constants": model.prepare.labels,
+        "guards": [{"name": g.name, "unit": g.unit, "meaning": g.meaning} for g in model.guards],
+        "assumptions": _assumptions(model),
+        "held_variants": model.held_inputs,
+        "prepare": {"operations": _counts(model.prepare)},
+        "stages": {
+            stage.name: {"doc": stage.doc, "size": stage.size, "operations": _counts(stage)}
+            for stage in model.emitted.values()
+            if stage.name not in model.functions
+        },
+        "functions": _functions(model),
+        "mobility": topology.mobility,
+        "numbers": topology.mechanism.numbers,
+        "joints": [
+            {
+                "name": joint.name,
+                "type": joint.kind,
+                "bodies": joint.bodies,
+                "freedoms": joint.freedoms,
+                "common": joint.common,
+            }
+            for joint in topology.mechanism.joints
+        ],
+        "cycles": [
+            {"bodies": cycle.bodies, "length": cycle.length} for cycle in topology.candidate_cycles
+        ],
+        "transformers": [_transformer(t) for t in model.plan.transformers],
+    }
+
+
+def _described(entries: Iterable[Entry]) -> dict[str, dict[str, str]]:
+    return {e.name: {"unit": e.unit, "meaning": e.meaning} for e in entries}
+
+
+def _inputs(entries: Iterable[Input]) -> dict[str, dict[str, str | None]]:
+    return {
+        e.name: {
+            "unit": e.unit,
+            "meaning": e.meaning,
+            "derivative_of": e.derivative_of and e.derivative_of.name,
+        }
+        for e in entries
+    }
+
+
+def _assumptions(model: GeneratedModel) -> list[dict[str, str]]:
+    """Return what is checked of a parameter set, in the order in which it is."""
+    zero = [
+        {"quantity": str(a.quantity), "unit": a.unit, "meaning": a.meaning, "remedy": a.remedy}
+        for a in model.assumptions
+    ]
+    not_zero = [
+        {
+            "quantity": str(c.quantity),
+            "least": formula(c.least, FORMULA),
+            "unit": c.unit,
+            "meaning": c.meaning,
+            "remedy": c.remedy,
+        }
+        for c in model.conditions
+    ]
+    return zero + not_zero
+
+
+def _functions(model: GeneratedModel) -> dict[str, dict[str, Any]]:
+    """Return what is known of every array, and of what computes it."""
+    found = {}
+    for emitted in model.emitted.values():
+        start = 0
+        for function in emitted.members:
+            own: dict[str, Any] = {"operations": _counts(function)}
+            if emitted.name != function.name:
+                own = {"stage": emitted.name, "start": start}
+            found[function.name] = _function(model, function) | own
+            start += function.size
+    return {name: found[name] for name in model.functions}
+
+
+def _function(model: GeneratedModel, function: Function) -> dict[str, Any]:
+    places = {guard.name: place for place, guard in enumerate(model.guards)}
+    rows, columns = _split(function.labels)
+    described: dict[str, Any] = {"doc": function.doc, "shape": function.shape, "labels": rows}
+    described |= {"by": columns} if columns else {}
+    return described | {"guards": sorted(places[guard.name] for guard in function.guards)}
+
+
+def _split(labels: tuple[str, ...]) -> tuple[list[str], list[str]]:
+    """Return the rows and the columns of a matrix of derivatives; of all else, labels alone."""
+    pairs = [label.partition(" by ") for label in labels]
+    rows = list(dict.fromkeys(row for row, _, _ in pairs))
+    columns = list(dict.fromkeys(column for _, by, column in pairs if by))
+    if [f"{row} by {column}" for row in rows for column in columns] == list(labels):
+        return rows, columns
+    return list(labels), []
+
+
+def _counts(function: Function | Stage) -> dict[str, int]:
+    counts = operations_of(function)
+    return {"total": counts.total()} | {name: counts[name] for name in OPERATIONS}
+
+
+def _transformer(transformer: Transformer) -> dict[str, Any]:
+    closure, solution = transformer.step.words(transformer.closing)
+    return {
+        "bodies": transformer.cycle.bodies,
+        "length": transformer.cycle.length,
+        "inputs": transformer.inputs,
+        "outputs": transformer.outputs,
+        "equation": closure,
+        "solution": solution,
+        "pairs": [
+            {
+                "joints": [joint.name for joint in pair.joints],
+                "eliminated": pair.eliminated,
+                "equations": pair.equations,
+                "chosen": pair == transformer.pair,
+            }
+            for pair in transformer.candidates
+        ],
+    }
+
+
+def _text(value: Any, indent: int) -> str:
+    """Return JSON text: what fits into a line stands in one."""
+    line = json.dumps(value, ensure_ascii=False)
+    if not isinstance(value, dict | list | tuple) or indent + len(line) <= WIDTH:
+        return line
+    pad = " " * (indent + 1)
+    if isinstance(value, dict):
+        items = [f"{pad}{json.dumps(k)}: {_text(v, indent + 1)}" for k, v in value.items()]
+        return "{\n" + ",\n".join(items) + f"\n{' ' * indent}}}"
+    lines = [""]
+    for item in (_text(element, indent + 1) for element in value):
+        alone = "\n" in item or "{" in item
+        if lines[-1] and (alone or len(pad) + len(lines[-1]) + len(item) + 2 > WIDTH):
+            lines.append("")
+        lines[-1] += f" {item}," if lines[-1] else f"{item},"
+    body = f"\n{pad}".join(lines).rstrip(",")
+    return f"[\n{pad}{body}\n{' ' * indent}]"

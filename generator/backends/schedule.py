@@ -1,0 +1,240 @@
+"""The operations of an expression in the order in which they are carried out.
+
+An expression of SymPy has no order: a sum is a set of terms. Here it becomes a tree of operations
+of one or two operands, which is what all back ends write and what is counted. Sums and products are
+put together in the order in which their parts become known, since a compiler must not change it.
+There is no ``pow``: integer powers are products, half-integer ones are roots.
+"""
+
+from __future__ import annotations
+
+import heapq
+from dataclasses import dataclass, field
+from itertools import count
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import sympy as sp
+
+from ..program.functions import Component, Frozen, Guarded, IsPositive, Iterated, Positive, SignOf
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    from ..program.function import Function
+
+T = TypeVar("T", "Operation", "tuple[Operation, bool]")
+
+SELECTIONS = (Guarded, SignOf, Positive, IsPositive)
+"""Comparisons, not arithmetic."""
+
+# About how many cycles the result of an operation is waited for on present processors. Only the
+# order of operations follows from these numbers, never their count.
+_LATENCY = {
+    "add": 4,
+    "subtract": 4,
+    "negate": 4,
+    "multiply": 4,
+    "divide": 14,
+    "root": 18,
+    "selection": 4,
+    "function": 45,
+    "iterate": 500,
+}
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Operation:
+    """An operation and its operands.
+
+    Attributes
+    ----------
+    kind
+        ``add``, ``subtract``, ``negate``, ``multiply``, ``divide``, ``root``; ``function`` and
+        ``selection`` (a call); ``iterate`` (the call of a block) and ``component`` (one of its
+        results); ``symbol`` and ``number``.
+    operands
+        What it is carried out on.
+    of
+        What it is beside its kind: the symbol, the number, the class of the function, the name of
+        the block, the place of the component.
+    ready
+        When the result is there, in cycles from the start of the function.
+    """
+
+    kind: str
+    operands: tuple[Operation, ...] = ()
+    of: Any = None
+    ready: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Assignment:
+    """A value with a name, and the part of the derivation that it belongs to."""
+
+    name: str
+    value: Operation
+    section: str
+
+
+@dataclass(frozen=True)
+class Schedule:
+    """The operations of a function or of a stage: of its steps, and of each of its results."""
+
+    steps: tuple[Assignment, ...]
+    results: tuple[Operation, ...]
+
+
+def ordered(function: Function) -> Schedule:
+    """Put the operations of a function in order."""
+    ready: dict[sp.Symbol, int] = {}
+    steps = []
+    for step in function.steps:
+        value = schedule(step.expression, ready)
+        steps.append(Assignment(step.symbol.name, value, step.section))
+        ready[step.symbol] = value.ready
+    return Schedule(tuple(steps), tuple(schedule(result, ready) for result in function.results))
+
+
+def schedule(expression: sp.Expr, ready: Mapping[sp.Symbol, int] | None = None) -> Operation:
+    """Put the operations of an expression in order.
+
+    Parameters
+    ----------
+    ready
+        When each symbol is there, in cycles; zero for those that are left out. Of several terms or
+        factors, those that are there first are put together first: a compiler must not change the
+        order, and the longest chain of operations is what a call takes.
+
+    Raises
+    ------
+    ValueError
+        If a power has no product of roots and factors.
+    """
+    return _Scheduler(ready or {}).operation(expression)
+
+
+@dataclass(frozen=True)
+class _Scheduler:
+    """Puts expressions in order, given when their symbols are there."""
+
+    ready: Mapping[sp.Symbol, int] = field(default_factory=dict)
+
+    def operation(self, expression: sp.Expr) -> Operation:
+        if expression.is_Symbol:
+            return Operation("symbol", of=expression, ready=self.ready.get(expression, 0))
+        if expression.is_Number or expression is sp.pi:
+            return Operation("number", of=expression)
+        if expression.is_Add:
+            return self._sum(expression)
+        if expression.is_Mul:
+            return self._product(expression)
+        if expression.is_Pow:
+            return self._power(expression)
+        return self._function(expression)
+
+    def _function(self, expression: sp.Expr) -> Operation:
+        if isinstance(expression, Frozen):
+            return self.operation(expression.args[0])
+        if isinstance(expression, Component):
+            results, place = expression.args
+            return Operation("component", (self.operation(results),), int(place), self._at(results))
+        if isinstance(expression, Iterated):
+            block, *given = expression.args
+            return _after("iterate", *map(self.operation, given), of=block.name)
+        kind = "selection" if isinstance(expression, SELECTIONS) else "function"
+        return _after(kind, *map(self.operation, expression.args), of=type(expression))
+
+    def _at(self, symbol: sp.Symbol) -> int:
+        return self.ready.get(symbol, 0)
+
+    def _sum(self, expression: sp.Expr) -> Operation:
+        """Add the terms that are there first, and subtract rather than put a sign in front."""
+        terms = [
+            (self.operation(magnitude), negative)
+            for negative, magnitude in _signed_terms(expression)
+        ]
+        if all(negative for _, negative in terms):  # the sign goes to what waits anyway
+            first = min(range(len(terms)), key=lambda i: terms[i][0].ready)
+            terms[first] = _after("negate", terms[first][0]), False
+        total, _ = _join(terms, _add)
+        return total
+
+    def _product(self, expression: sp.Expr) -> Operation:
+        negative, magnitude = _signed(expression)
+        if negative:
+            return _after("negate", self.operation(magnitude))
+        coefficient, factors = magnitude.as_coeff_mul()
+        above = [self.operation(f) for f in factors if not _is_reciprocal(f)]
+        below = [self.operation(1 / f) for f in factors if _is_reciprocal(f)]
+        if coefficient != 1:
+            above.insert(0, self.operation(coefficient))
+        if not below:
+            return _join(above, _multiply)
+        return _after("divide", _join(above, _multiply) if above else _ONE, _join(below, _multiply))
+
+    def _power(self, expression: sp.Expr) -> Operation:
+        base, exponent = expression.base, expression.exp
+        if exponent.is_negative:
+            return _after("divide", _ONE, self.operation(1 / expression))
+        whole, half = divmod(exponent, 1)
+        if half not in (0, sp.Rational(1, 2)) or whole > 4:
+            message = f"the power {expression} has no product of roots and factors"
+            raise ValueError(message)
+        factor = self.operation(base)
+        factors = [factor] * int(whole)
+        if half:
+            factors.append(_after("root", factor))
+        return _join(factors, _multiply)
+
+
+_ONE = Operation("number", of=sp.Integer(1))
+
+
+def _after(kind: str, *operands: Operation, of: Any = None) -> Operation:
+    """Return an operation that starts when its operands are there."""
+    start = max((operand.ready for operand in operands), default=0)
+    return Operation(kind, operands, of, start + _LATENCY[kind])
+
+
+def _join(parts: Sequence[T], together: Callable[[T, T], T]) -> T:
+    """Put parts together, always the two that are there first; equals in their order."""
+    waiting = [(_ready(part), place, part) for place, part in enumerate(parts)]
+    heapq.heapify(waiting)
+    places = count(len(waiting))
+    while len(waiting) > 1:
+        (_, _, first), (_, _, second) = heapq.heappop(waiting), heapq.heappop(waiting)
+        joined = together(first, second)
+        heapq.heappush(waiting, (_ready(joined), next(places), joined))
+    return waiting[0][2]
+
+
+def _ready(part: Operation | tuple[Operation, bool]) -> int:
+    return part.ready if isinstance(part, Operation) else part[0].ready
+
+
+def _multiply(one: Operation, two: Operation) -> Operation:
+    return _after("multiply", one, two)
+
+
+def _add(one: tuple[Operation, bool], two: tuple[Operation, bool]) -> tuple[Operation, bool]:
+    """Add two terms, each with whether it is negative; only a sum of two negatives stays so."""
+    if one[1] and not two[1]:
+        one, two = two, one
+    (first, negative), (second, subtract) = one, two
+    kind = "subtract" if subtract and not negative else "add"
+    return _after(kind, first, second), negative
+
+
+def _signed_terms(expression: sp.Expr) -> list[tuple[bool, sp.Expr]]:
+    """Return the terms of a sum as (is negative, magnitude), positive ones first."""
+    return sorted((_signed(term) for term in expression.args), key=lambda term: term[0])
+
+
+def _signed(term: sp.Expr) -> tuple[bool, sp.Expr]:
+    """Split a term into (is negative, magnitude)."""
+    negative = bool(term.as_coeff_Mul()[0].is_negative)
+    return negative, -term if negative else term
+
+
+def _is_reciprocal(factor: sp.Expr) -> bool:
+    return bool(factor.is_Pow and factor.exp.is_negative)

@@ -1,0 +1,186 @@
+"""Operations as text, in the words of a target language."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import sympy as sp
+
+from .schedule import schedule
+from .sharing import scheduled
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from ..program.function import Function, Stage
+    from .schedule import Operation
+
+# binding strength of a written operation, loosest first
+_SUM, _NEGATIVE, _PRODUCT, _ATOM = range(4)
+
+
+@dataclass(frozen=True)
+class Dialect:
+    """How a target language spells what is not the same in all of them.
+
+    Attributes
+    ----------
+    functions
+        By class of SymPy, with a brace for each argument.
+    root, component
+        The square root, and one of several results.
+    """
+
+    functions: Mapping[type, str]
+    root: str
+    component: str
+
+
+def _named(symbol: sp.Symbol) -> str:
+    name: str = symbol.name
+    return name
+
+
+def text_of(
+    operation: Operation, dialect: Dialect, name: Callable[[sp.Symbol], str] = _named
+) -> str:
+    """Write an operation.
+
+    Parameters
+    ----------
+    name
+        What a symbol is called; by default its own name.
+
+    Raises
+    ------
+    ValueError
+        If the dialect has no spelling for a function.
+    """
+    return _Writer(dialect, name).write(operation)[0]
+
+
+@dataclass(frozen=True)
+class Written:
+    """A step as text: name and value, the part of the derivation, and what kind of operation."""
+
+    name: str
+    text: str
+    section: str
+    kind: str
+    of: Any
+
+
+def written(
+    emitted: Function | Stage, dialect: Dialect, names: Mapping[str, str] | None = None
+) -> tuple[list[Written], list[str]]:
+    """Write the steps and the results of what is emitted.
+
+    Parameters
+    ----------
+    names
+        What is called otherwise than it is.
+    """
+    order, others = scheduled(emitted), names or {}
+
+    def name(symbol: sp.Symbol) -> str:
+        return others.get(symbol.name, symbol.name)
+
+    steps = [
+        Written(
+            others.get(step.name, step.name),
+            text_of(step.value, dialect, name),
+            step.section,
+            step.value.kind,
+            step.value.of,
+        )
+        for step in order.steps
+    ]
+    return steps, [text_of(result, dialect, name) for result in order.results]
+
+
+def formula(expression: sp.Expr, dialect: Dialect) -> str:
+    """Write an expression that stands alone, where it does not matter what is there first."""
+    return text_of(schedule(expression), dialect)
+
+
+@dataclass(frozen=True)
+class _Writer:
+    dialect: Dialect
+    name: Callable[[sp.Symbol], str]
+
+    def write(self, operation: Operation) -> tuple[str, int]:
+        """Return the text, and how strongly it binds."""
+        kind, of = operation.kind, operation.of
+        if kind == "symbol":
+            return self.name(of), _ATOM
+        if kind == "number":
+            return number_text(of)
+        parts = [self.write(operand) for operand in operation.operands]
+        if kind in _OPERATORS:
+            return _OPERATORS[kind](*parts)
+        return self._call(operation, [text for text, _ in parts]), _ATOM
+
+    def _call(self, operation: Operation, arguments: list[str]) -> str:
+        kind, of = operation.kind, operation.of
+        if kind == "iterate":
+            return f"{of}({', '.join(arguments)})"
+        if kind == "component":
+            return self.dialect.component.format(*arguments, of)
+        if kind == "root":
+            return self.dialect.root.format(*arguments)
+        if of not in self.dialect.functions:
+            message = f"{of.__name__} of {', '.join(arguments)} has no spelling"
+            raise ValueError(message)
+        return self.dialect.functions[of].format(*arguments)
+
+
+def _inside(part: tuple[str, int], strength: int) -> str:
+    """Return a text, in parentheses where its surroundings bind more strongly."""
+    text, own = part
+    return text if own >= strength else f"({text})"
+
+
+def _sum(first: tuple[str, int], second: tuple[str, int]) -> tuple[str, int]:
+    """Write a sum; a term with no sign and no parentheses of its own stands behind."""
+    if second[1] < _PRODUCT <= first[1]:
+        first, second = second, first
+    return f"{first[0]} + {_inside(second, _PRODUCT)}", _SUM
+
+
+def _difference(first: tuple[str, int], second: tuple[str, int]) -> tuple[str, int]:
+    return f"{first[0]} - {_inside(second, _PRODUCT)}", _SUM
+
+
+def _negative(part: tuple[str, int]) -> tuple[str, int]:
+    return f"-{_inside(part, _PRODUCT)}", _NEGATIVE
+
+
+def _product(one: tuple[str, int], two: tuple[str, int]) -> tuple[str, int]:
+    """Write a product; of two factors, one that is a product itself stands in front."""
+    if two[1] == _PRODUCT and one[1] != _PRODUCT:
+        one, two = two, one
+    return f"{_inside(one, _PRODUCT)}*{_inside(two, _ATOM)}", _PRODUCT
+
+
+def _quotient(above: tuple[str, int], below: tuple[str, int]) -> tuple[str, int]:
+    return f"{_inside(above, _PRODUCT)}/{_inside(below, _ATOM)}", _PRODUCT
+
+
+_OPERATORS: dict[str, Callable[..., tuple[str, int]]] = {
+    "add": _sum,
+    "subtract": _difference,
+    "negate": _negative,
+    "multiply": _product,
+    "divide": _quotient,
+}
+
+
+def number_text(number: sp.Expr) -> tuple[str, int]:
+    """Write a number in double precision, and say how strongly it binds."""
+    if number == sp.pi:
+        return "3.14159265358979323846", _ATOM
+    value = sp.Rational(number)
+    if value.q & (value.q - 1):  # not exact in binary: let the compiler divide
+        return f"({value.p}.0/{value.q}.0)", _ATOM
+    return repr(float(value)), _ATOM if value >= 0 else _NEGATIVE

@@ -1,0 +1,22 @@
+"""What acts on the bodies: a file for each kind of force, which is all there is to do for another.
+
+Whatever is defined in this folder is found here.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Union
+
+from ..kinds import defined_in
+from .force import Force as _Force
+
+__all__ = ["KINDS", "Force"]
+
+KINDS = tuple(c for c in defined_in(__name__) if issubclass(c, _Force) and c is not _Force)
+"""Every kind of force."""
+
+if TYPE_CHECKING:
+    Force = _Force
+else:
+    # a refusal names every kind; whoever declares a mechanism may have one of his own besides
+    Force = Union[(*KINDS, _Force)]

@@ -1,0 +1,68 @@
+"""What a force says of itself: how it acts, what it shows."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, ClassVar
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    import sympy as sp
+
+    from ..joints import Joint
+    from ..shown import Shown
+    from ..surroundings import Surroundings
+
+
+@dataclass(frozen=True)
+class Action:
+    """What a force does at an instant.
+
+    Attributes
+    ----------
+    forces
+        Generalised force [N or N m] by the name of the coordinate. What is along a prescribed
+        coordinate does no work on the others, and does not count.
+    values
+        What its signals will show, by name.
+    total
+        Of what pushes two ends apart: with how much [N or N m].
+    """
+
+    forces: dict[str, sp.Expr]
+    values: dict[str, sp.Expr] = field(default_factory=dict)
+    total: sp.Expr | None = None
+
+
+class Force(ABC):
+    """Something that acts on the bodies of a mechanism: a dataclass with a decorator, `declared`.
+
+    Bodies, inputs and parameters in its fields are those of the mechanism. Copies are made field by
+    field; `turns_about` names the fields that are axes of rotation. Derivatives need no formulas: a
+    force writes steps of a program, which are differentiated.
+    """
+
+    turns_about: ClassVar[tuple[str, ...]] = ()
+    in_common: ClassVar[bool] = False
+    """Whether it acts on all bodies there are, so that copies of a mechanism have one of it."""
+
+    @property
+    @abstractmethod
+    def identity(self) -> tuple[str, str]:
+        """Kind and name, by which one of them is told from another; each is there once."""
+
+    @property
+    def along(self) -> Joint | None:
+        """The joint whose coordinate it acts along, so that this must be driven."""
+        return None
+
+    @abstractmethod
+    def act(self, at: Surroundings) -> Action:
+        """Append what it does."""
+
+    def signals(self, at: Surroundings, action: Action) -> Iterator[Shown]:
+        """Yield its signals, which may read the accelerations."""
+        del at, action
+        yield from ()

@@ -1,0 +1,133 @@
+"""Springs, dampers and stops along a path."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ..declared import DeclarationError, Name, declared
+from ..laws import Law, Stretch
+from ..parameters import Parameter
+from ..paths import Path
+from ..shown import Shown
+from .force import Action, Force
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from ..surroundings import Surroundings
+    from ..whole import Whole
+
+
+@declared
+@dataclass(frozen=True)
+class ForceElement(Force):
+    """Springs, dampers and stops that act along one path between two bodies (Eq. 23).
+
+    Parameters
+    ----------
+    name
+        Begins the names of its signals: ``<name>_length``, ``<name>_velocity``; of a twist,
+        ``<name>_angle`` and ``<name>_angular_velocity``.
+    path
+        What it acts along.
+    laws
+        What it does; the forces add up.
+    """
+
+    name: Name
+    path: Path
+    laws: tuple[Law, ...]
+
+    def __post_init__(self) -> None:
+        problems = [
+            f"law {law!r} is declared twice; once is enough"
+            for i, law in enumerate(self.laws)
+            if law in self.laws[:i]
+        ]
+        problems += [problem for law in self.laws for problem in law.problems(self.path)]
+        wanted = "an angle or a moment" if self.turns else "a length or a force"
+        problems += [
+            f"{number.name!r} is in {number.unit}; {type(self.path).__name__} needs what is about "
+            f"{wanted}"
+            for law in self.laws
+            for number in vars(law).values()
+            if isinstance(number, Parameter) and number.of_angle != self.turns
+        ]
+        if problems:
+            raise DeclarationError(f"ForceElement {self.name!r}", problems)
+
+    @property
+    def identity(self) -> tuple[str, str]:
+        """Its name."""
+        return "force", self.name
+
+    @property
+    def turns(self) -> bool:
+        """Whether it acts on an angle, by moments."""
+        return self.path.words.force == "moment"
+
+    def signal(self, law: Law) -> str:
+        """Return what the signal of one of its laws is called, without the element's name."""
+        return law.signal.replace("force", self.path.words.force)
+
+    def shown_as(self, law: Law, mechanism: Whole) -> str:
+        """Return the name of a law's signal, with the element's where others have it too.
+
+        That of a moment always has it: it is rarely the only thing that springs.
+        """
+        signal = self.signal(law)
+        having = [
+            force
+            for force in mechanism.forces
+            if isinstance(force, ForceElement) and signal in map(force.signal, force.laws)
+        ]
+        alone = len(having) == 1 and not self.turns
+        return signal if alone else f"{self.name}_{signal}"
+
+    def act(self, at: Surroundings) -> Action:
+        """Sum up the laws; what pushes the ends apart does work on the length."""
+        program, name = at.program, self.name
+        course = self.path.course(at, name)
+        rates = [m * at.rate(k) for k, m in course.motion.items()]
+        velocity = program.define(f"{name}_velocity", sum(rates, sp.Integer(0)))
+        stretch = Stretch(program, name, course.length, velocity, course.slide)
+        values, total = {self._of_length: course.length, self._of_rate: velocity}, sp.Integer(0)
+        for shown, laws in self._by_signal(at.mechanism).items():
+            own = sum((law.force(stretch) for law in laws), sp.Integer(0))
+            values[shown] = program.define(shown, own)
+            total += values[shown]
+        total = program.define(f"{name}_total_force", total)
+        return Action({k: total * m for k, m in course.motion.items()}, values, total)
+
+    def _by_signal(self, mechanism: Whole) -> dict[str, list[Law]]:
+        """Return the laws by the names of their signals; those of one name are shown together."""
+        groups: dict[str, list[Law]] = {}
+        for law in self.laws:
+            groups.setdefault(self.shown_as(law, mechanism), []).append(law)
+        return groups
+
+    @property
+    def _of_length(self) -> str:
+        return f"{self.name}_{self.path.words.length[0]}"
+
+    @property
+    def _of_rate(self) -> str:
+        return f"{self.name}_{self.path.words.rate[0]}"
+
+    def signals(self, at: Surroundings, action: Action) -> Iterator[Shown]:
+        """Yield length and rate, then the force of each law that is not given from outside."""
+        words, described = self.path.words, {}
+        for name, (_, unit, meaning) in (
+            (self._of_length, words.length),
+            (self._of_rate, words.rate),
+        ):
+            described[name] = unit, meaning.format(self.name)
+        for law in self.laws:
+            if not law.from_outside:
+                meaning = f"{law.meaning.replace('force', words.force)}, {words.sense}"
+                described[self.shown_as(law, at.mechanism)] = words.unit, meaning
+        for name, (unit, meaning) in described.items():
+            yield Shown(name, action.values[name], unit, meaning)

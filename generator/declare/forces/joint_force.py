@@ -1,0 +1,39 @@
+"""A force along the coordinate of a joint."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ..declared import declared
+from ..inputs import Input
+from ..joints import Prismatic, Revolute
+from .force import Action, Force
+
+if TYPE_CHECKING:
+    from ..surroundings import Surroundings
+
+
+@declared
+@dataclass(frozen=True)
+class JointForce(Force):
+    """A force (or moment) along an independent joint coordinate, given as an input."""
+
+    joint: Revolute | Prismatic
+    input: Input
+
+    @property
+    def identity(self) -> tuple[str, str]:
+        """Joint and input: several may push along one joint."""
+        return "JointForce along", f"{self.joint.name} by {self.input.name}"
+
+    @property
+    def along(self) -> Revolute | Prismatic:
+        """The joint."""
+        return self.joint
+
+    def act(self, at: Surroundings) -> Action:
+        """Append the force; it does its work on the coordinate."""
+        return Action({at.coordinate(self.joint.name): sp.Symbol(self.input.name)})

@@ -1,0 +1,136 @@
+"""A tyre: a radial spring in the plane of its wheel."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ...program.floors import DIRECTION
+from ...program.functions import IsPositive, Positive
+from ..declared import DeclarationError, Name, declared
+from ..inputs import Input
+from ..parameters import DamperRate, Displacement, Share, SpringRate
+from ..shown import Shown
+from ..wheel import Wheel
+from .force import Action, Force
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from ..surroundings import Surroundings
+    from ..whole import Whole
+
+
+@declared
+@dataclass(frozen=True, kw_only=True)
+class LinearTyre(Force):
+    """A radial tyre spring in the wheel plane (Eq. 24 of the paper).
+
+    With ``a`` the spin axis and ``e_z`` up, the force on the wheel at its centre is
+    ``load (e_z - a a_z) / (1 - a_z^2)``, with ``load = rate x``, x = free_height + road - height.
+
+    With a damper the load is ``rate x + damper x'``. A tyre that lifts off neither pulls nor damps
+    in the air: its load is zero where x or the load itself would be negative; one that does not
+    holds on to the road, as in the paper.
+
+    Parameters
+    ----------
+    name
+        Begins the names of its signals, and those of the wheel, where there are several tyres.
+    wheel
+        What it is on; the force acts at its centre.
+    rate, free_height
+        [N/m]; height of the wheel centre at which the tyre is free of force [m].
+    road
+        Height of the road under the tyre in the world [m].
+    damper, road_velocity
+        [N s/m], and the input that is the derivative of the road [m/s]; both or neither.
+    lifts_off
+        1 if the tyre can leave the road, 0 if not; None: it cannot.
+    """
+
+    name: Name
+    wheel: Wheel
+    rate: SpringRate
+    free_height: Displacement
+    road: Input
+    damper: DamperRate | None = None
+    road_velocity: Input | None = None
+    lifts_off: Share | None = None
+
+    def __post_init__(self) -> None:
+        problems = []
+        if (self.damper is None) != (self.road_velocity is None):
+            problems.append("give damper and road_velocity, or neither")
+        elif self.road_velocity is not None and self.road_velocity.derivative_of != self.road:
+            rate, road = self.road_velocity.name, self.road.name
+            problems.append(
+                f"road_velocity {rate!r} is not the rate of the road {road!r}; give "
+                f"Input({rate!r}, unit, meaning, derivative_of=the road)"
+            )
+        if problems:
+            raise DeclarationError(f"LinearTyre {self.name!r}", problems)
+
+    @property
+    def identity(self) -> tuple[str, str]:
+        """Its name."""
+        return "force", self.name
+
+    def prefix(self, mechanism: Whole) -> str:
+        """Return what begins the names of its signals: nothing, where it is alone."""
+        alone = sum(isinstance(f, LinearTyre) for f in mechanism.forces) == 1
+        return "" if alone else f"{self.name}_"
+
+    def act(self, at: Surroundings) -> Action:
+        """Append the force at the centre of the wheel."""
+        program, prefix, body = at.program, self.prefix(at.mechanism), self.wheel.carrier.name
+        center, up = at.local(body, self.wheel.center), at.up(body)
+        axis = at.direction(body, self.wheel.spin)
+        lean = program.define(f"{prefix}wheel_axis_up", axis.dot(up))
+        height = program.define(f"{prefix}wheel_height", at.height(body, center))
+        pull = program.vector(f"{prefix}tyre_pull", up - axis * lean, "123")
+        # not 1 - lean^2: of a wheel that lies flat, rounding would leave something positive
+        squared = program.guarded(
+            f"{prefix}cos_camber_squared",
+            pull.dot(pull),
+            "the wheel lies flat on the road",
+            "1",
+            DIRECTION,
+        )
+        deflection = self.free_height.symbol + sp.Symbol(self.road.name) - height
+        load = self._contact(at, prefix, deflection, self._bonded(at, deflection))
+        load = program.define(f"{prefix}tyre_load", load / squared)
+        moving = [k for k in at.independent if k in at.twists(body)]
+        forces = {k: load * pull.dot(self.wheel.velocity(at, k)) for k in moving}
+        shown = program.define(f"{prefix}tyre_force", load * sp.sqrt(squared))
+        return Action(forces, {f"{prefix}tyre_force": shown})
+
+    def _bonded(self, at: Surroundings, deflection: sp.Expr) -> sp.Expr:
+        """Return the load of spring and damper on a road that it holds on to."""
+        load = self.rate.symbol * deflection
+        if self.damper is None or self.road_velocity is None:
+            return load
+        body = self.wheel.carrier.name
+        up, rise = at.up(body), sp.Integer(0)
+        for k in at.twists(body):
+            rise += up.dot(self.wheel.velocity(at, k)) * at.rate(k)
+        return load + self.damper.symbol * (sp.Symbol(self.road_velocity.name) - rise)
+
+    def _contact(
+        self, at: Surroundings, prefix: str, deflection: sp.Expr, load: sp.Expr
+    ) -> sp.Expr:
+        """Return the load of a tyre that may leave the road."""
+        if self.lifts_off is None:
+            return load
+        deflection = at.program.define(f"{prefix}tyre_deflection", deflection)
+        load = at.program.define(f"{prefix}tyre_bonded_load", load)
+        pressed = IsPositive(deflection) * Positive(load)
+        return load + self.lifts_off.symbol * (pressed - load)
+
+    def signals(self, at: Surroundings, action: Action) -> Iterator[Shown]:
+        """Yield those of the wheel, then the force."""
+        yield from self.wheel.signals(at, self.prefix(at.mechanism))
+        meaning = "tyre force in the wheel plane, positive in compression"
+        yield from (Shown(name, value, "N", meaning) for name, value in action.values.items())

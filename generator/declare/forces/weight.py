@@ -1,0 +1,46 @@
+"""Weight."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, ClassVar
+
+import sympy as sp
+
+from ..declared import declared
+from ..parameters import Gravity
+from .force import Action, Force
+
+if TYPE_CHECKING:
+    from ..surroundings import Surroundings
+
+
+@declared
+@dataclass(frozen=True)
+class Weight(Force):
+    """The weight of every body that carries mass, downward in the world.
+
+    Parameters
+    ----------
+    gravity
+        [m/s^2].
+    """
+
+    gravity: Gravity = field(
+        default_factory=lambda: Gravity("gravity", 9.81, "acceleration of gravity")
+    )
+
+    in_common: ClassVar[bool] = True
+
+    @property
+    def identity(self) -> tuple[str, str]:
+        """There is one."""
+        return "weight", "Weight"
+
+    def act(self, at: Surroundings) -> Action:
+        """Append the work of gravity on the momentum per unit rate."""
+        gravity = self.gravity.symbol
+        forces: dict[str, sp.Expr] = {}
+        for body, k, momentum in at.momenta():
+            forces[k] = forces.get(k, sp.Integer(0)) - gravity * at.up(body).dot(momentum)
+        return Action(forces)

@@ -1,0 +1,33 @@
+"""What is there twice, and what is not there at all."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterable
+
+
+class Named(Protocol):
+    """Something with a name."""
+
+    @property
+    def name(self) -> str:
+        """The name."""
+
+
+def repeated(what: str, names: Iterable[str]) -> list[str]:
+    """Find what is named more than once."""
+    counts = Counter(names).items()
+    return [f"{what} {n!r} is declared {c} times; once is enough" for n, c in counts if c > 1]
+
+
+def strangers(what: str, used: Iterable[Named], known: Collection[Named]) -> list[str]:
+    """Find what a model refers to and its mechanism does not have."""
+    names = ", ".join(thing.name for thing in known) or "none"
+    return [
+        f"{what} {thing.name!r} is none of its mechanism; there are {names}"
+        for thing in used
+        if thing not in known
+    ]

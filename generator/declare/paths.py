@@ -1,0 +1,198 @@
+"""Paths that a force element acts along: how long one is, and how fast that changes.
+
+What is a length of most paths is an angle of a `TwistOfHinges`, and what is a force is a moment.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
+
+import sympy as sp
+
+from ..program.floors import DIRECTION
+from .bodies import Body
+from .declared import DeclarationError, declared
+from .geometry import Point
+from .joints import Cylindrical, Revolute
+
+if TYPE_CHECKING:
+    from .surroundings import Surroundings
+
+
+class Course(NamedTuple):
+    """Where a path is at an instant.
+
+    Attributes
+    ----------
+    length
+        [m], or an angle [rad].
+    motion
+        Its rate per unit rate of each coordinate that changes it.
+    slide
+        Coordinate of a telescope, positive in compression [m]; None for other paths.
+    """
+
+    length: sp.Expr
+    motion: dict[str, sp.Expr]
+    slide: sp.Expr | None = None
+
+
+class Words(NamedTuple):
+    """What the signals of an element on a path are called, with units and meanings.
+
+    Attributes
+    ----------
+    length, rate
+        End of the name, unit, and meaning with ``{}`` for the element's name.
+    force, unit, sense
+        What acts, its unit, and when it is positive.
+    """
+
+    length: tuple[str, str, str]
+    rate: tuple[str, str, str]
+    force: str
+    unit: str
+    sense: str
+
+
+_OF_A_LINE = Words(
+    ("length", "m", "length of the {}"),
+    ("velocity", "m/s", "rate of the {}'s length, positive in rebound"),
+    "force",
+    "N",
+    "positive when it pushes the ends apart",
+)
+_OF_A_TWIST = Words(
+    ("angle", "rad", "twist of the {}"),
+    ("angular_velocity", "rad/s", "rate of the {}'s twist"),
+    "moment",
+    "N m",
+    "positive when it increases the twist",
+)
+
+
+class AnyPath(ABC):
+    """What the paths have in common."""
+
+    words: ClassVar[Words] = _OF_A_LINE
+    has_slide: ClassVar[bool] = False
+
+    @abstractmethod
+    def course(self, at: Surroundings, name: str) -> Course:
+        """Append its length and the rate of that; `name` begins the names of the steps."""
+
+
+@declared
+@dataclass(frozen=True)
+class AlongTelescope(AnyPath):
+    """From one end of a telescope to the other.
+
+    Parameters
+    ----------
+    joint
+        The telescope.
+    """
+
+    joint: Cylindrical
+
+    has_slide: ClassVar[bool] = True
+
+    def course(self, at: Surroundings, name: str) -> Course:
+        """Return the length of the telescope."""
+        del name
+        return Course(*at.telescope(self.joint.name))
+
+
+@declared
+@dataclass(frozen=True)
+class AlongLine(AnyPath):
+    """From a point of one body to a point of another.
+
+    Parameters
+    ----------
+    first, second
+        Body and point at either end.
+    """
+
+    first: tuple[Body, Point]
+    second: tuple[Body, Point]
+
+    def __post_init__(self) -> None:
+        (one, _), (other, _) = self.first, self.second
+        if one == other:
+            problem = f"both ends are on {one.name!r}, so its length never changes; give two bodies"
+            raise DeclarationError("AlongLine", [problem])
+
+    @property
+    def ends(self) -> tuple[tuple[str, Point], tuple[str, Point]]:
+        """Name of the body and point at either end."""
+        (one, start), (other, end) = self.first, self.second
+        return (one.name, start), (other.name, end)
+
+    def course(self, at: Surroundings, name: str) -> Course:
+        """Append the distance of the two points."""
+        program = at.program
+        way, rates = at.between(*self.ends)
+        span = program.vector(f"{name}_span", way)
+        squared = program.guarded(
+            f"{name}_length_squared",
+            span.dot(span),
+            f"the ends of {name} coincide",
+            "m^2",
+            DIRECTION * self._extent_squared(at, name),
+        )
+        length = program.define(f"{name}_length", sp.sqrt(squared))
+        direction = program.vector(f"{name}_direction", span * (1 / length))
+        motion = {
+            k: program.define(f"d_{name}_length_{k}", direction.dot(v)) for k, v in rates.items()
+        }
+        return Course(length, motion)
+
+    def _extent_squared(self, at: Surroundings, name: str) -> sp.Expr:
+        """Append the square of the extent of the two points at the design position."""
+        places = (at.extent(*end) for end in self.ends)
+        squared = sum((p.dot(p) for p in places), sp.Integer(0))
+        return at.program.define(f"{name}_extent_squared", squared)
+
+
+@declared
+@dataclass(frozen=True)
+class TwistOfHinges(AnyPath):
+    """The angle of one hinge less that of another: what twists a bar between them.
+
+    What elsewhere is a length is an angle here [rad], and what is a force is a moment [N m]: it
+    acts with its sign on the second hinge and against it on the first, so that its power is that
+    of the moment at the rate of the twist.
+
+    Parameters
+    ----------
+    first, second
+        The two hinges.
+    """
+
+    first: Revolute
+    second: Revolute
+
+    words: ClassVar[Words] = _OF_A_TWIST
+
+    def __post_init__(self) -> None:
+        if self.first == self.second:
+            name = self.first.name
+            problem = f"the angle of {name!r} less itself is always zero; give two hinges"
+            raise DeclarationError("TwistOfHinges", [problem])
+
+    def course(self, at: Surroundings, name: str) -> Course:
+        """Return the angle between the hinges."""
+        del name
+        twist, motion = sp.Integer(0), dict.fromkeys(at.coordinates, sp.Integer(0))
+        for sense, hinge in ((-1, self.first), (1, self.second)):
+            angle, rates = at.hinge(hinge.name)
+            twist += sense * angle
+            for k, rate in rates.items():
+                motion[k] += sense * rate
+        return Course(twist, {k: rate for k, rate in motion.items() if rate != 0})
+
+
+Path = AlongTelescope | AlongLine | TwistOfHinges

@@ -1,0 +1,99 @@
+"""What a force sees of the mechanism in motion."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+
+    import sympy as sp
+
+    from ..program.program import Program
+    from ..program.vectors import Twist, Vector
+    from .geometry import Direction, Point
+    from .whole import Whole
+
+Motion = dict[str, "sp.Expr"]
+"""The rate of something per unit rate of each coordinate that moves it."""
+
+
+class Surroundings(Protocol):
+    """Places, twists and directions of the bodies, in program steps.
+
+    Vectors are in the axes of the body that is named, or in those of the world: x forward, y left,
+    z up. Coordinates are those that are independent or prescribed.
+
+    """
+
+    @property
+    def program(self) -> Program:
+        """What receives the steps."""
+
+    @property
+    def mechanism(self) -> Whole:
+        """Whose bodies they are."""
+
+    @property
+    def independent(self) -> Sequence[str]:
+        """Names of the independent coordinates."""
+
+    @property
+    def coordinates(self) -> Sequence[str]:
+        """Names of all coordinates that move."""
+
+    # -- coordinates --
+
+    def coordinate(self, joint: str) -> str:
+        """Return the coordinate of a driven joint."""
+
+    def rate(self, coordinate: str) -> sp.Expr:
+        """Return the rate of a coordinate."""
+
+    def acceleration(self, coordinate: str) -> sp.Expr:
+        """Return the acceleration of a coordinate; signals may ask for it, forces may not."""
+
+    # -- bodies --
+
+    def local(self, body: str, point: Point) -> Vector:
+        """Return the constant coordinates of a point, in body axes."""
+
+    def direction(self, body: str, direction: Direction) -> Vector:
+        """Return the constant components of a direction fixed in a body, in body axes."""
+
+    def up(self, body: str) -> Vector:
+        """Return the upward unit vector of the world, in body axes."""
+
+    def twists(self, body: str) -> Mapping[str, Twist]:
+        """Return the twist per unit rate of each coordinate that moves a body, in body axes."""
+
+    def momenta(self) -> Iterator[tuple[str, str, Vector]]:
+        """Yield body, coordinate and linear momentum per unit rate, in body axes, where mass is."""
+
+    def height(self, body: str, local: Vector) -> sp.Expr:
+        """Return the height of a point of a body in the world."""
+
+    def place(self, body: str, local: Vector) -> Vector:
+        """Return the position of a point of a body in the world."""
+
+    def in_world(self, body: str, vector: Vector) -> Vector:
+        """Return the components in the world of a vector in body axes."""
+
+    def rising(self, body: str, local: Vector) -> sp.Expr:
+        """Return the upward acceleration of a point that the coordinates' own leave over."""
+
+    # -- paths --
+
+    def telescope(self, joint: str) -> tuple[sp.Expr, Motion, sp.Expr]:
+        """Return length of a telescope, its rate per unit rate, and its slide."""
+
+    def hinge(self, joint: str) -> tuple[sp.Expr, Motion]:
+        """Return the angle of a hinge, and its rate per unit rate of each coordinate."""
+
+    def between(
+        self, first: tuple[str, Point], second: tuple[str, Point]
+    ) -> tuple[Vector, Mapping[str, Vector]]:
+        """Return the way from one point to another, and its rate per unit rate, in equal axes."""
+
+    def extent(self, body: str, point: Point) -> Vector:
+        """Return where a point is at the design position: a measure of size."""

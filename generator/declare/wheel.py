@@ -1,0 +1,94 @@
+"""Wheels: where one is, and the signals that show how it stands and moves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+import sympy as sp
+
+from ..program.functions import SignOf
+from .bodies import Body
+from .declared import declared
+from .geometry import Direction, Point
+from .shown import Shown
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from ..program.vectors import Vector
+    from .surroundings import Surroundings
+
+
+@declared
+@dataclass(frozen=True)
+class Wheel:
+    """A wheel, which may spin: what a tyre is on.
+
+    Parameters
+    ----------
+    carrier
+        Body that carries the wheel's bearing.
+    center
+        The wheel centre.
+    spin
+        Direction of the spin axis, fixed in the carrier; it points to the left.
+    """
+
+    carrier: Body
+    center: Point
+    spin: Direction
+
+    turns_about: ClassVar[tuple[str, ...]] = ("spin",)
+
+    @property
+    def _body(self) -> str:
+        return self.carrier.name
+
+    def velocity(self, at: Surroundings, coordinate: str) -> Vector:
+        """Return the velocity of the centre per unit rate, in the carrier's axes."""
+        twist, center = at.twists(self._body)[coordinate], at.local(self._body, self.center)
+        return at.program.vector(
+            f"{self._body}_wheel_velocity_{coordinate}",
+            twist.linear + twist.angular.cross(center),
+            "123",
+        )
+
+    def signals(self, at: Surroundings, prefix: str) -> Iterator[Shown]:
+        """Yield how the wheel stands and moves, its names with something in front."""
+        yield from self._motion(at, prefix)
+        yield from self._angles(at, prefix)
+
+    def _motion(self, at: Surroundings, prefix: str) -> Iterator[Shown]:
+        center, up = at.local(self._body, self.center), at.up(self._body)
+        for axis, value in zip("xyz", at.place(self._body, center), strict=True):
+            yield Shown(f"{prefix}wheel_center_{axis}", value, "m", f"wheel centre, {axis}")
+        velocity = acceleration = sp.Integer(0)
+        for k in at.twists(self._body):
+            share = up.dot(self.velocity(at, k))
+            velocity += share * at.rate(k)
+            acceleration += share * at.acceleration(k)
+        acceleration += at.rising(self._body, center)
+        yield Shown(
+            f"{prefix}wheel_velocity",
+            velocity,
+            "m/s",
+            "vertical velocity of the wheel centre, positive up",
+        )
+        yield Shown(
+            f"{prefix}wheel_acceleration",
+            acceleration,
+            "m/s^2",
+            "vertical acceleration of the wheel centre, positive up",
+        )
+
+    def _angles(self, at: Surroundings, prefix: str) -> Iterator[Shown]:
+        axis = at.in_world(self._body, at.direction(self._body, self.spin))
+        a = at.program.vector(f"{prefix}spin_axis_now", axis)
+        side = at.program.define(f"{prefix}wheel_side", SignOf(self.center.position.y))
+        camber, toe = sp.atan2(-side * a.z, a.y), sp.atan2(side * a.x, a.y)
+        top = "camber, positive with the top of the wheel outboard"
+        yield Shown(f"{prefix}camber", camber, "rad", top)
+        yield Shown(f"{prefix}toe", toe, "rad", "toe angle, positive toe-in")
+        steer = sp.atan2(-a.x, a.y)
+        yield Shown(f"{prefix}steer", steer, "rad", "steer angle, positive to the left")

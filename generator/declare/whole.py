@@ -1,0 +1,16 @@
+"""What a force asks of the mechanism that it is part of."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+
+class Whole(Protocol):
+    """A mechanism, as its forces see it."""
+
+    @property
+    def forces(self) -> Sequence[object]:
+        """All forces."""

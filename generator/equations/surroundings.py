@@ -1,0 +1,142 @@
+"""What a force sees of the mechanism in motion, in the steps of its kinematics."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ..declare.geometry import UP
+from ..declare.joints import Revolute
+from ..kinematics.hinge_angles import angle_of, turning_rates
+from ..kinematics.motion import from_axes, to_axes
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from ..declare.geometry import Direction, Point
+    from ..declare.surroundings import Motion
+    from ..kinematics.kinematics import Kinematics
+    from ..program.vectors import Twist, Vector
+    from .in_motion import InMotion
+
+Momenta = dict[tuple[str, str], "Vector"]
+"""Linear momentum per unit rate, in body axes, by body and coordinate."""
+
+
+class Seen:
+    """The surroundings of all forces of a model; see `declare.surroundings.Surroundings`.
+
+    Parameters
+    ----------
+    moving
+        The bodies in motion.
+    momenta
+        Those of the bodies that carry mass.
+    accelerations
+        Of the independent coordinates; empty until they are known.
+    """
+
+    def __init__(
+        self, moving: InMotion, momenta: Momenta, accelerations: Mapping[str, sp.Expr]
+    ) -> None:
+        self._moving, self._placed, self._part_of = moving, moving.placed, moving.part_of
+        self._driven = moving.coordinates
+        self.program, self.mechanism = moving.program, moving.mechanism
+        self.independent, self.coordinates = self._driven.independent, self._driven.moving
+        self._momenta, self._accelerations = momenta, accelerations
+
+    # -- coordinates ------------------------------------------------------------------------------
+
+    def coordinate(self, joint: str) -> str:
+        """Return the coordinate of a driven joint."""
+        return self._driven.of(self.mechanism.joint(joint))
+
+    def rate(self, coordinate: str) -> sp.Expr:
+        """Return the rate of a coordinate."""
+        return self._driven.true_rate(coordinate)
+
+    def acceleration(self, coordinate: str) -> sp.Expr:
+        """Return the acceleration of a coordinate; that of a prescribed one is in the bias."""
+        return self._accelerations.get(coordinate, sp.Integer(0))
+
+    # -- bodies -----------------------------------------------------------------------------------
+
+    def local(self, body: str, point: Point) -> Vector:
+        """Return the constant coordinates of a point, in body axes."""
+        placed = self._placed[body]
+        return self._part_of[body].local(placed, point)
+
+    def direction(self, body: str, direction: Direction) -> Vector:
+        """Return the constant components of a direction fixed in a body, in body axes."""
+        placed = self._placed[body]
+        return self._part_of[body].local_direction(placed, direction)
+
+    def up(self, body: str) -> Vector:
+        """Return the upward unit vector of the world, in body axes."""
+        placed = self._placed[body]
+        up = to_axes(placed.axes, self._part_of[body].design_direction(UP))
+        return self.program.vector(f"{body}_up", up, "123")
+
+    def twists(self, body: str) -> Mapping[str, Twist]:
+        """Return the twist per unit rate of each coordinate that moves a body, in body axes."""
+        return self._placed[body].motion
+
+    def momenta(self) -> Iterator[tuple[str, str, Vector]]:
+        """Yield body, coordinate and linear momentum per unit rate, in body axes, where mass is."""
+        yield from ((*key, momentum) for key, momentum in self._momenta.items())
+
+    def height(self, body: str, local: Vector) -> sp.Expr:
+        """Return the height of a point of a body in the world."""
+        placed, part = self._placed[body], self._part_of[body]
+        origin = placed.origin.dot(part.design_direction(UP)) + part.work_origin.z
+        return origin + local.dot(self.up(body))
+
+    def place(self, body: str, local: Vector) -> Vector:
+        """Return the position of a point of a body in the world."""
+        placed, part = self._placed[body], self._part_of[body]
+        work = placed.origin + from_axes(placed.axes, local)
+        return part.to_ground(work) + part.work_origin
+
+    def in_world(self, body: str, vector: Vector) -> Vector:
+        """Return the components in the world of a vector in body axes."""
+        placed = self._placed[body]
+        return self._part_of[body].to_ground(from_axes(placed.axes, vector))
+
+    def rising(self, body: str, local: Vector) -> sp.Expr:
+        """Return the upward acceleration of a point that the coordinates' own leave over."""
+        placed = self._placed[body]
+        own = self.up(body).dot(self._part_of[body].point_bias(placed, local))
+        return own * self._driven.pace_of(placed) ** 2
+
+    # -- paths ------------------------------------------------------------------------------------
+
+    def telescope(self, joint: str) -> tuple[sp.Expr, Motion, sp.Expr]:
+        """Return length of a telescope, its rate per unit rate, and its slide."""
+        part = self._with_joint(joint)
+        line = part.telescopes[joint]
+        return line.length, line.length_motion, part.slides[joint]
+
+    def hinge(self, joint: str) -> tuple[sp.Expr, Motion]:
+        """Return the angle of a hinge, and its rate per unit rate of each coordinate."""
+        hinge = self.mechanism.joint(joint)
+        assert isinstance(hinge, Revolute)  # checked with the mechanism
+        part = self._with_joint(joint)
+        return angle_of(part, hinge), turning_rates(part, hinge)
+
+    def _with_joint(self, joint: str) -> Kinematics:
+        """Return the part that a joint belongs to: nothing closes between two parts."""
+        part = self._moving.part_with(*self.mechanism.joint(joint).bodies)
+        assert part is not None
+        return part
+
+    def between(
+        self, first: tuple[str, Point], second: tuple[str, Point]
+    ) -> tuple[Vector, Mapping[str, Vector]]:
+        """Return the way from one point to another, and its rate per unit rate, in equal axes."""
+        relative = self._moving.relative_motion(first, second)
+        return relative.position, relative.motion
+
+    def extent(self, body: str, point: Point) -> Vector:
+        """Return where a point is at the design position: a measure of size."""
+        return self._part_of[body].design(point)

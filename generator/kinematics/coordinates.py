@@ -1,0 +1,140 @@
+"""The driven coordinates of a model: which there are, how fast they are, what each moves."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import networkx as nx
+import sympy as sp
+
+from ..declare.joints import Revolute
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from ..declare.bodies import Body
+    from ..declare.joints import Joint
+    from ..declare.model import Model
+    from .motion import BodyMotion
+
+
+class Coordinates:
+    """The coordinates that are independent or prescribed.
+
+    Parameters
+    ----------
+    model
+        Whose coordinates they are.
+    held
+        Prescribed joints that stand still in this variant.
+
+    Attributes
+    ----------
+    symbols
+        The symbol of each coordinate by its name: a reported name, or that of a motion.
+    moving
+        The names of those that move.
+    independent
+        The names of the independent ones, in the order of the state.
+
+    Notes
+    -----
+    *Unit rate.* Bodies that hang together without the ground, and that a single coordinate moves
+    (rotors apart), have their biases computed for a unit rate of that coordinate; they are scaled
+    by the square of the true rate at the very end. `pace` is the true rate for such a coordinate,
+    and one for all others, whose biases are computed at the true rates.
+    """
+
+    def __init__(self, model: Model, held: Iterable[str] = ()) -> None:
+        self.model = model
+        self._mechanism = model.mechanism
+        self._motions = {motion.name: motion for motion in model.prescribed.values()}
+        self._motion_of = {name: motion.name for name, motion in model.motions.items()}
+        self._held = frozenset(held)
+        self.driven = model.driven
+        self._driven_names = frozenset(joint.name for joint in self.driven)
+        self.symbols = {self.of(j): sp.Symbol(self._symbol(j)) for j in self.driven}
+        self.moving = [self.of(j) for j in self.driven if j.name not in self._held]
+        self.independent = [self.of(j) for j in model.independent]
+
+    def of(self, joint: Joint) -> str:
+        """Return the name of a driven joint's coordinate."""
+        if joint.name in self._motion_of:
+            return self._motion_of[joint.name]
+        return next(c.name for c in self._mechanism.coordinates if c.joint.name == joint.name)
+
+    def symbol(self, joint: Joint) -> sp.Symbol:
+        """Return the symbol of a driven joint's coordinate."""
+        return self.symbols[self.of(joint)]
+
+    def is_driven(self, joint: Joint) -> bool:
+        """Tell whether a joint's coordinate is independent or prescribed."""
+        return joint.name in self._driven_names
+
+    def _symbol(self, joint: Joint) -> str:
+        name = self.of(joint)
+        return self._motions[name].inputs[0].name if name in self._motions else name
+
+    # -- rates ------------------------------------------------------------------------------------
+
+    def true_rate(self, coordinate: str) -> sp.Symbol:
+        """Return the symbol of the rate of a coordinate."""
+        motion = self._motions.get(coordinate)
+        return sp.Symbol(f"{coordinate}_rate" if motion is None else motion.rates[0])
+
+    def rate(self, coordinate: str) -> sp.Expr:
+        """Return the rate of a coordinate at which biases are computed."""
+        return sp.Integer(1) if coordinate in self.alone else self.true_rate(coordinate)
+
+    def pace(self, coordinate: str) -> sp.Expr:
+        """Return by whose square the biases of what a coordinate moves are to be scaled."""
+        return self.true_rate(coordinate) if coordinate in self.alone else sp.Integer(1)
+
+    def pace_of(self, placed: BodyMotion) -> sp.Expr:
+        """Return by whose square the bias of a body is to be scaled."""
+        alone = [k for k in placed.motion if k in self.alone]
+        return self.pace(alone[0]) if alone else sp.Integer(1)
+
+    def acceleration(self, coordinate: str) -> sp.Expr:
+        """Return the part of a coordinate's acceleration that is given: that of an input."""
+        if coordinate in self._motions and coordinate in self.moving:
+            return sp.Symbol(self._motions[coordinate].rates[1])
+        return sp.Integer(0)
+
+    # -- what they move ---------------------------------------------------------------------------
+
+    @cached_property
+    def rotors(self) -> dict[str, Body]:
+        """The bodies of revolution at the end of a chain, by their spin coordinate."""
+        rotors = {}
+        for joint in self.driven:
+            body = joint.second
+            leaf = len(self._mechanism.joints_of(body.name)) == 1
+            if isinstance(joint, Revolute) and leaf and body.rotor_axis is not None:
+                rotors[self.of(joint)] = body
+        return rotors
+
+    @cached_property
+    def alone(self) -> frozenset[str]:
+        """The independent coordinates that alone move bodies that hang together."""
+        return frozenset(self._moving_alone())
+
+    def _moving_alone(self) -> Iterator[str]:
+        graph = nx.Graph([joint.bodies for joint in self._mechanism.joints])
+        drives = {
+            j.second.name: self.of(j)
+            for j in self.driven
+            if self.of(j) in self.moving and self.of(j) not in self.rotors
+        }
+        for bodies in nx.connected_components(graph.subgraph(set(graph) - self._still())):
+            pacing = [k for body, k in drives.items() if body in bodies]
+            if len(pacing) == 1 and pacing[0] in self.independent:
+                yield pacing[0]
+
+    def _still(self) -> set[str]:
+        """Return the ground, and the bodies that held joints tie to it."""
+        held = [self._mechanism.joint(name) for name in self._held]
+        tied = nx.Graph([joint.bodies for joint in held])
+        tied.add_node(self._mechanism.ground)
+        return set(nx.node_connected_component(tied, self._mechanism.ground))

@@ -1,0 +1,346 @@
+"""Everything that one manifest describes, ready to be called."""
+
+import json
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..core.physical import inertia_of_no_body, out_of_range
+from .errors import ClosureError, ModelError, ParameterError, place_of
+from .residuals import Residuals
+from .status import LAST_GUARD_BIT, NOT_FINITE, bit_of, mask_of
+
+Array = NDArray[np.float64]
+Code = Mapping[str, int | Callable[..., Any]]
+"""The functions by name: addresses of C functions, or functions over NumPy arrays."""
+
+# Whose guards an integration has to know: what it evaluates, what it puts out, what places bodies.
+_OF_A_SIMULATION = ("rhs", "signals", "positions", "orientations")
+
+
+class Equations:
+    """The compiled equations of one mechanism: what its manifest says, and calls of its functions.
+
+    Several results may come from one compiled function, which computes what they share once: the
+    poses together, mass matrix with bias and forces, and so on. Each is offered by itself, and
+    refuses a state for nothing but its own guards.
+
+    Parameters
+    ----------
+    manifest : mapping
+        What ``NAME.json`` holds.
+    code : mapping
+        The functions that the manifest names.
+
+    Attributes
+    ----------
+    manifest : mapping
+    name : str
+    parameter_names, state_names, input_names, relative_names, constant_names : tuple of str
+    guards : tuple of dict
+        ``name``, ``meaning`` and ``unit`` of each.
+    addresses : dict
+        Addresses of the C functions, for native callers; empty where there is no C.
+    default_constants : ndarray
+        Those of the default parameters.
+    functions : dict
+        Every result by its name, and every stage with all of its results, ready to be called with
+        arrays of states.
+    """
+
+    def __init__(self, manifest: Mapping[str, Any], code: Code) -> None:
+        self.manifest = manifest
+        self.name: str = manifest["name"]
+        self.parameter_names = tuple(manifest["parameters"])
+        self.state_names = tuple(manifest["state"])
+        self.input_names = tuple(manifest["inputs"])
+        self.relative_names = tuple(manifest["relative_coordinates"])
+        self.constant_names = tuple(manifest["constants"])
+        self.guards = tuple(manifest["guards"])
+        self.addresses = {n: at for n, at in code.items() if isinstance(at, int)}
+        self._code = code
+        if self.addresses:
+            from . import _calls as calls  # noqa: PLC0415 (only where C is there to be called)
+        else:
+            from . import arrays as calls  # type: ignore[no-redef]  # noqa: PLC0415
+        self._calls: Any = calls
+        self.widths = (len(self.constant_names), len(self.state_names), len(self.input_names))
+        self.no_inputs = np.zeros(len(self.input_names))
+        self.default_constants = self.prepare(
+            {key: entry["default"] for key, entry in manifest["parameters"].items()}
+        )
+        self._acting = {n: tuple(f["guards"]) for n, f in manifest["functions"].items()}
+        self._acting |= {name: self._acting_in(name) for name in manifest["stages"]}
+        names = [*manifest["functions"], *manifest["stages"]]
+        self.functions = {name: self._function(name) for name in names if name != "residuals"}
+        self.residuals = Residuals(self)
+
+    @classmethod
+    def beside(cls, module: str, code: Code) -> "Equations":
+        """Return the equations whose manifest lies beside a module.
+
+        Parameters
+        ----------
+        module : str
+            ``__file__`` of the module.
+        code : mapping
+            The functions that the manifest names.
+        """
+        text = Path(module).with_suffix(".json").read_text(encoding="utf-8")
+        return cls(json.loads(text), code)
+
+    def __repr__(self) -> str:
+        return f"<Equations of {self.name}>"
+
+    # -- what a module of equations has -----------------------------------------------------------
+
+    def names(self) -> dict[str, Any]:
+        """Return what the module of the mechanism offers, by name."""
+        manifest = self.manifest
+        functions = manifest["functions"]
+        return {
+            "NAME": self.name,
+            "MECHANISM_HASH": manifest["mechanism"],
+            "ADDRESSES": self.addresses,
+            "DEFAULT_CONSTANTS": self.default_constants,
+            "PARAMETERS": manifest["parameters"],
+            "STATE": manifest["state"],
+            "INPUTS": manifest["inputs"],
+            "RELATIVE_COORDINATES": manifest["relative_coordinates"],
+            "SIGNALS": manifest["signals"],
+            "BODIES": tuple(manifest["bodies"]),
+            "MASSIVE_BODIES": tuple(manifest["massive_bodies"]),
+            "CONSTANTS": self.constant_names,
+            "GUARDS": tuple((g["name"], g["meaning"]) for g in self.guards),
+            "GUARD_UNITS": {g["name"]: g["unit"] for g in self.guards},
+            "ACTING_GUARDS": {
+                name: tuple(functions[name]["guards"])
+                for name in _OF_A_SIMULATION
+                if name in functions
+            },
+            "HELD_VARIANTS": {k: tuple(v) for k, v in manifest["held_variants"].items()},
+            "MOBILITY": manifest["mobility"],
+            "LOOPS": tuple(tuple(t["bodies"]) for t in manifest["transformers"]),
+            "ClosureError": ClosureError,
+            "ModelError": ModelError,
+            "ParameterError": ParameterError,
+            "prepare": self.prepare,
+            "design_state": self.design_state,
+            **self.functions,
+            "residuals": self.residuals,
+            "__doc__": "\n".join(self._described()),
+        }
+
+    def _described(self) -> Iterator[str]:
+        """Yield the lines that describe the module."""
+        manifest, (constants, states, inputs) = self.manifest, self.widths
+        yield f"{manifest['title']}."
+        yield from ("", manifest["note"], "") if manifest["note"] else ("",)
+        yield f"Every function takes\n\nstate : array_like, shape (..., {states})"
+        yield f"    {', '.join(self.state_names)}"
+        yield f"inputs : array_like, shape (..., {inputs}), optional"
+        yield f"    {', '.join(self.input_names) or 'none'}; zero by default."
+        yield f"constants : array_like, shape (..., {constants}), optional"
+        yield "    From `prepare`; those of the default parameters if left out."
+        yield "\nand returns a new array that has the broadcast leading dimensions of the three in"
+        yield "front. All quantities are in SI units, axes are ISO 8855 (x forward, y left, z up);"
+        yield "`STATE`, `INPUTS`, `PARAMETERS`, `SIGNALS` and `RELATIVE_COORDINATES` give unit,"
+        yield "meaning and sign of every element. A state at which a loop cannot close raises"
+        yield "`ClosureError`; there is no silent NaN.\n\nFunctions\n---------"
+        for name, function in manifest["functions"].items():
+            yield f"``{name}``\n    {function['doc']}"
+
+    # -- functions --------------------------------------------------------------------------------
+
+    def _parts_of(self, stage: str) -> dict[str, Mapping[str, Any]]:
+        """Return the results that come from one compiled function, in their order."""
+        functions = self.manifest["functions"]
+        return {n: f for n, f in functions.items() if f.get("stage", n) == stage}
+
+    def _acting_in(self, stage: str) -> tuple[int, ...]:
+        """Return the places of the guards that act in a compiled function."""
+        return tuple(sorted({g for part in self._parts_of(stage) for g in self._acting[part]}))
+
+    def _function(self, name: str) -> Any:
+        """Return one of the results, or all of a stage, ready to be called with arrays."""
+        stages = self.manifest["stages"]
+        described = stages[name] if name in stages else self.manifest["functions"][name]
+        stage: str = described.get("stage", name)
+        labels = tuple(labels_of(described))
+        if name in stages:
+            parts = self._parts_of(name).items()
+            labels = tuple(f"{part} {label}" for part, f in parts for label in labels_of(f))
+        return self._calls.Function(
+            self,
+            name,
+            self._code[stage],
+            tuple(described.get("shape", [len(labels)])),
+            labels,
+            stages.get(stage, described)["operations"],
+            described["doc"],
+            stage,
+            described.get("start", 0),
+            stages[stage]["size"] if stage in stages else len(labels),
+            mask_of(self._acting[name]),
+        )
+
+    def design_state(self, parameters: Mapping[str, float]) -> Array:
+        """Return the state at the design position of some parameters, at rest.
+
+        Parameters
+        ----------
+        parameters : mapping
+            Values by name, SI units.
+        """
+        given = np.array([parameters[name] for name in self.parameter_names], dtype=np.float64)
+        state = np.empty(len(self.state_names))
+        self._calls.call_prepare(self._code["design_state"], given, state)
+        return state
+
+    def prepare(self, parameters: Mapping[str, float] | ArrayLike) -> Array:
+        """Return the constants of one parameter set.
+
+        Parameters
+        ----------
+        parameters : mapping or array_like
+            Values by name, or in the order of ``PARAMETERS``, in SI units.
+
+        Returns
+        -------
+        ndarray
+            Read-only; one element for each of ``CONSTANTS``.
+
+        Raises
+        ------
+        ParameterError
+            If a name is unknown or missing, a value is not finite or out of its range, an inertia
+            is that of no body, or the geometry is degenerate.
+        """
+        values = self._ordered(parameters) if isinstance(parameters, Mapping) else parameters
+        given = np.ascontiguousarray(values, dtype=np.float64)
+        if given.shape != (len(self.parameter_names),):
+            message = (
+                f"{self.name}: {len(self.parameter_names)} parameters expected, "
+                f"an array of shape {given.shape} given"
+            )
+            raise ParameterError(message)
+        bad = [n for n, v in zip(self.parameter_names, given, strict=True) if not np.isfinite(v)]
+        if bad:
+            message = f"{self.name}: parameters that are NaN or infinite: {', '.join(bad)}"
+            raise ParameterError(message)
+        named = dict(zip(self.parameter_names, given.tolist(), strict=True))
+        problems = out_of_range(named, self.manifest["parameters"]) or inertia_of_no_body(named)
+        if problems:
+            raise ParameterError(f"{self.name}: {'; '.join(problems)}")
+        constants = np.empty(len(self.constant_names))
+        failed = self._calls.call_prepare(self._code["prepare"], given, constants)
+        if failed:
+            raise ParameterError(f"{self.name}: {self._unusable(failed, constants)}")
+        constants.flags.writeable = False
+        return constants
+
+    def _ordered(self, parameters: Mapping[str, float]) -> list[float]:
+        unknown = sorted(set(parameters) - set(self.parameter_names))
+        missing = [name for name in self.parameter_names if name not in parameters]
+        if unknown or missing:
+            parts = [f"unknown parameters: {', '.join(unknown)}"] * bool(unknown)
+            parts += [f"missing parameters: {', '.join(missing)}"] * bool(missing)
+            message = f"{self.name}: {'; '.join(parts)}"
+            raise ParameterError(message)
+        return [parameters[name] for name in self.parameter_names]
+
+    def _unusable(self, failed: int, constants: Array) -> str:
+        """Say what `prepare` has found wrong with the constants."""
+        if failed <= len(self.constant_names):
+            return (
+                f"the constant {self.constant_names[failed - 1]!r} is not finite: the geometry at "
+                "the design position is degenerate (coincident points, or a point on a line that "
+                "it must lie beside)"
+            )
+        broken = self.manifest["assumptions"][failed - len(self.constant_names) - 1]
+        meaning, remedy, unit = broken["meaning"], broken["remedy"], broken["unit"]
+        value = float(abs(constants[self.constant_names.index(broken["quantity"])]))
+        least = broken.get("least")
+        if least is None:
+            return f"{meaning}: it is off by {_amount_off(value, unit)}; {remedy}"
+        known = least in self.constant_names
+        needed = float(constants[self.constant_names.index(least)] if known else least)
+        return (
+            f"{meaning}: {_amount_off(value, unit)}, and more than {_amount_off(needed, unit)} "
+            f"is needed; {remedy}"
+        )
+
+    def call_residuals(
+        self, constants: Array, state: Array, inputs: Array, given: Array, out: Array
+    ) -> int:
+        """Fill the closure residuals of one state and return the status word."""
+        status: int = self._calls.call_residuals(
+            self._code["residuals"], constants, state, inputs, given, out
+        )
+        return status
+
+    # -- errors -----------------------------------------------------------------------------------
+
+    def refuse(
+        self,
+        function: str,
+        status: int,
+        constants: Array,
+        state: Array,
+        inputs: Array,
+        index: tuple[int, ...],
+    ) -> None:
+        """Raise the error of a status word, with the quantities that explain it.
+
+        It returns where the status is about a guard that does not act in the function, but shares
+        the last bit with one that does.
+        """
+        where = f"{self.name}.{function}"
+        names = (*self.state_names, *self.input_names)
+        coordinates = dict(zip(names, map(float, (*state, *inputs)), strict=True))
+        bad = [n for n, v in coordinates.items() if not np.isfinite(v)]
+        bad += [
+            n for n, v in zip(self.constant_names, constants, strict=True) if not np.isfinite(v)
+        ]
+        if bad:
+            message = f"{where}: NaN or infinite: {', '.join(bad)}{place_of(index)}"
+            raise ModelError(message)
+        margins = np.empty(len(self.guards))
+        self._calls.call_margins(self._code["margins"], constants, state, inputs, margins)
+        hit = [
+            place
+            for place in self._acting[function]
+            if status >> bit_of(place) & 1 and (place < LAST_GUARD_BIT or not margins[place] > 0.0)
+        ]
+        if not hit and not status & NOT_FINITE:
+            return
+        if not hit:
+            shown = ", ".join(f"{name} = {value:.6g}" for name, value in coordinates.items())
+            message = f"{where}: the result overflows double precision, at {shown}{place_of(index)}"
+            raise ModelError(message)
+        raise ClosureError(
+            where,
+            [self.guards[place]["meaning"] for place in hit],
+            {self.guards[place]["name"]: float(margins[place]) for place in hit},
+            coordinates,
+            index,
+            {guard["name"]: guard["unit"] for guard in self.guards},
+        )
+
+
+def labels_of(described: Mapping[str, Any]) -> list[str]:
+    """Return one label for each element of a result, row-major."""
+    if "by" in described:
+        return [f"{row} by {column}" for row in described["labels"] for column in described["by"]]
+    labels: list[str] = described.get("labels", [])
+    return labels
+
+
+def _amount_off(value: float, unit: str) -> str:
+    """Return a distance, or an angle given by its sine, as a person reads it."""
+    if unit == "m":
+        return f"{1e3 * value:.3g} mm"
+    return f"{np.degrees(np.arcsin(min(value, 1.0))):.3g} degrees"

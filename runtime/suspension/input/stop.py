@@ -1,0 +1,36 @@
+"""Stops at the ends of a strut or a damper, as a file describes them."""
+
+from pydantic import Field
+
+from .section import NonNegative, Number, Section
+from .units import in_metres
+
+
+class Stop(Section):
+    """A progressive stop: ``rate x + progression x^3``, x being how far it is pressed in.
+
+    The clearance is travel of the strut, or of the damper, from the design position until the stop
+    is touched.
+    """
+
+    clearance_mm: Number = Field(
+        description="travel of strut or damper from design until first touch"
+    )
+    rate_N_per_m: NonNegative = Field(  # noqa: N815
+        description="rate at first touch"
+    )
+    progression_N_per_mm3: NonNegative = Field(  # noqa: N815
+        default=0.0, description="cubic term: force / (distance pressed in)^3"
+    )
+
+    def parameters(self, side: str, design_length: float) -> dict[str, float]:
+        """Return the parameters of the stop of one side, "bump" or "rebound", in SI units."""
+        sense = -1.0 if side == "bump" else 1.0
+        return {
+            f"{side}_stop_length": design_length + sense * in_metres(self.clearance_mm, "mm"),
+            f"{side}_stop_rate": self.rate_N_per_m,
+            f"{side}_stop_progression": self.progression_N_per_mm3 * 1e9,
+        }
+
+
+NO_STOP = Stop(clearance_mm=0.0, rate_N_per_m=0.0)

@@ -1,0 +1,116 @@
+"""Functions that are computed together: the same bits as alone, the same refusals, less work."""
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+import pytest
+import sympy as sp
+from kintrafo.equations.errors import ClosureError
+from kintrafo.equations.status import LAST_GUARD_BIT, NOT_FINITE, bit_of, mask_of
+from kintrafo.generated import four_bar
+from kintrafo.generator.backends.counting import operations_of
+from kintrafo.generator.backends.numpy.dialect import NUMPY
+from kintrafo.generator.backends.schedule import Schedule, ordered
+from kintrafo.generator.backends.sharing import scheduled
+from kintrafo.generator.backends.text import text_of
+from kintrafo.generator.equations.outputs import TOGETHER, GeneratedModel
+from kintrafo.generator.mechanisms import MODELS
+from kintrafo.generator.program.function import Function, Stage
+
+each_model = pytest.mark.parametrize("name", [model.name for model in MODELS])
+
+
+def stages(model: GeneratedModel) -> Iterator[Stage]:
+    return (emitted for emitted in model.emitted.values() if isinstance(emitted, Stage))
+
+
+def evaluated(schedule: Schedule, values: dict[str, float]) -> list[float]:
+    """Return the results of a schedule, step by step in double precision."""
+    names = {"np": np} | values
+    for step in schedule.steps:
+        names[step.name] = eval(text_of(step.value, NUMPY), names)
+    return [float(eval(text_of(result, NUMPY), names)) for result in schedule.results]
+
+
+@each_model
+def test_same_bits_as_alone(derived: Callable[[str], GeneratedModel], name: str) -> None:
+    model, random = derived(name), np.random.default_rng(3)
+    for stage in stages(model):
+        assert not stage.blocks
+        values = {s.name: float(random.uniform(0.5, 1.5)) for s in stage.free_symbols}
+        with np.errstate(all="ignore"):  # what closes no loop has bits, too
+            alone = [r for member in stage.members for r in evaluated(ordered(member), values)]
+            np.testing.assert_array_equal(evaluated(scheduled(stage), values), alone)
+
+
+@each_model
+def test_less_work_than_alone(derived: Callable[[str], GeneratedModel], name: str) -> None:
+    model = derived(name)
+    for stage in stages(model):
+        alone = sum(operations_of(member).total() for member in stage.members)
+        assert operations_of(stage).total() < alone, stage.name
+    together = {member for _, members in TOGETHER.values() for member in members}
+    assert together <= model.functions.keys() | {"absolute_jacobian", "signals_jacobian"} | {
+        "signals_input_jacobian"
+    }
+
+
+def function(name: str, steps: dict[str, sp.Expr], *results: sp.Expr) -> Function:
+    from kintrafo.generator.program import Step
+
+    made = tuple(Step(sp.Symbol(n), e, "") for n, e in steps.items())
+    labels = tuple(map(str, range(len(results))))
+    return Function(name, "", made, results, labels, (len(results),), ())
+
+
+def test_a_name_of_two_values_is_told_apart() -> None:
+    """What is put together in another order has other bits, so that it is another value."""
+    x, y, z, a, b = sp.symbols("x y z a b")
+    one = function("one", {"b": x + y, "a": b * z}, a)
+    other = function("other", {"shared_1": y * z, "a": x * sp.Symbol("shared_1")}, a, -a)
+    order = scheduled(Stage("both", "", (one, other)))
+    assert [step.name for step in order.steps] == ["b", "a", "a_2"]
+    assert [text_of(result, NUMPY) for result in order.results] == ["a", "a_2", "-a_2"]
+
+
+def test_equal_values_of_other_names_are_one() -> None:
+    x, y, p, q = sp.symbols("x y p q")
+    one = function("one", {"p": x * y, "r": p + 1}, sp.Symbol("r"))
+    other = function("other", {"q": y * x}, q, sp.sin(q))
+    order = scheduled(Stage("both", "", (one, other)))
+    assert [step.name for step in order.steps] == ["p", "r"]
+    assert [text_of(result, NUMPY) for result in order.results] == ["r", "p", "np.sin(p)"]
+
+
+def test_a_result_refuses_for_its_own_guards_only() -> None:
+    """Where a crank too long cannot turn, the derivative that is zero everywhere has no guard."""
+    parameters = {n: entry["default"] for n, entry in four_bar.PARAMETERS.items()}
+    constants = four_bar.prepare(parameters | {"crank_pin_y": 0.25})
+    states = np.zeros((629, 2))
+    states[:, 0] = 0.01 * np.arange(629)
+    refused = []
+    for state in states:
+        try:
+            four_bar.rhs_input_jacobian(state, None, constants)
+        except ClosureError:
+            refused.append(state)
+    assert 0 < len(refused) < len(states)
+    assert not four_bar.signals_input_jacobian(refused, None, constants).any()
+    with pytest.raises(ClosureError, match=r"four_bar\.linearisation: "):
+        four_bar.linearisation(refused[0], None, constants)
+
+
+def test_parts_are_slices_of_the_stage() -> None:
+    states, inputs = np.array([[0.1, 2.0], [-0.2, 1.0]]), np.array([0.5])
+    whole = four_bar.dynamics(states, inputs)
+    parts = [four_bar.mass_matrix, four_bar.bias, four_bar.forces]
+    alone = [part(states, inputs).reshape(2, -1) for part in parts]
+    np.testing.assert_array_equal(whole, np.concatenate(alone, axis=1))
+    assert {part.stage for part in parts} == {"dynamics"}
+    assert all(part.operations == four_bar.dynamics.operations for part in parts)
+
+
+def test_status_bits() -> None:
+    assert [bit_of(guard) for guard in (0, 28, 29, 30, 90)] == [0, 28, 29, 29, 29]
+    assert mask_of([]) == NOT_FINITE
+    assert mask_of([0, 3, 40]) == NOT_FINITE | 0b1001 | 1 << LAST_GUARD_BIT

@@ -1,0 +1,162 @@
+"""World and chassis are two things: a mechanism is fixed in the world, or free in it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from changes import changed
+from kintrafo.generator import (
+    Body,
+    Copy,
+    DeclarationError,
+    Free,
+    Ground,
+    Model,
+    Spherical,
+    combined,
+)
+from kintrafo.generator.backends.report.markdown import joint_rows, mobility_line
+from kintrafo.generator.closed_forms.free import PlaceFree
+from kintrafo.generator.equations.outputs import generate
+from kintrafo.generator.loops.graph import Topology
+from kintrafo.generator.loops.mobility import Mobility
+from kintrafo.generator.mechanisms.double_wishbone import (
+    CHASSIS,
+    DOUBLE_WISHBONE,
+    KNUCKLE,
+    MODELS,
+    RACK,
+)
+from kintrafo.generator.mechanisms.suspension import RACK_MOTION
+from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.proposal import Search, proposals
+
+FIXED = MODELS[0]
+MOVING = Body("chassis", 300.0, (0.0, 0.0, 0.5), (30.0, 30.0, 30.0), order=CHASSIS.order)
+"""What is the ground of the double wishbone, as a body that moves."""
+BODY = Free("body", MOVING)
+
+
+def instead(*pairs, more=()):
+    """Return the double wishbone with other bodies for some, and more joints."""
+    parts = ("joints", "forces", "coordinates")
+    given = {name: changed(getattr(DOUBLE_WISHBONE, name), *pairs) for name in parts}
+    return replace(DOUBLE_WISHBONE, **given | {"joints": (*given["joints"], *more)})
+
+
+def freed():
+    """Return the double wishbone on a chassis that moves in the world."""
+    return instead((CHASSIS, MOVING), more=(BODY,))
+
+
+def on_it(parts):
+    """Return parts of the double wishbone at the chassis that moves."""
+    return changed(parts, (CHASSIS, MOVING))
+
+
+def free_model(**changes) -> Model:
+    """Return its model, with the six coordinates of the chassis."""
+    given = {
+        "mechanism": freed(),
+        "independent": (BODY, *on_it(FIXED.independent)),
+        "prescribed": on_it(FIXED.prescribed),
+        "held": on_it(FIXED.held),
+        "massive": (MOVING, *FIXED.massive),
+    }
+    return replace(FIXED, **given | changes)
+
+
+def test_a_free_body_has_six_freedoms_more():
+    fixed, free = Topology(DOUBLE_WISHBONE), Topology(freed())
+    assert free.mobility == fixed.mobility + 6
+    assert free.loop_count == fixed.loop_count
+    assert {c.key for c in free.candidate_cycles} == {c.key for c in fixed.candidate_cycles}
+    assert freed().moving[0].name == "chassis"
+    assert len(DOUBLE_WISHBONE.moving) == len(DOUBLE_WISHBONE.bodies) - 1
+
+
+def test_its_loops_are_solved_as_on_a_fixed_body():
+    fixed, free = Plan.of(FIXED), Plan.of(free_model())
+    steps = tuple(t.step for t in fixed.transformers)
+    assert tuple(t.step for t in free.transformers) == on_it(steps)
+    first, *rest = free.steps
+    assert first == PlaceFree(BODY)
+    assert tuple(rest) == on_it(tuple(fixed.steps))
+
+
+def test_all_that_is_driven_can_move_whatever_the_others_do():
+    model = free_model()
+    mobility = Mobility(Topology(model.mechanism), [joint.name for joint in model.driven])
+    assert mobility.is_known
+    assert mobility.driven_move()
+
+
+def test_its_tables_name_the_world():
+    topology = Topology(freed())
+    assert joint_rows(topology)[-1] == ("body", "free", "world", "1 chassis", "6", "nothing")
+    assert mobility_line(topology).endswith(f"= {topology.mobility}")
+
+
+def test_proposals_keep_the_free_body():
+    found = next(proposals(free_model()))
+    assert set(found.independent) == {joint.name for joint in FIXED.independent}
+    model = Search(free_model()).model(found.independent)
+    assert [joint.name for joint in model.independent] == ["body", *found.independent]
+
+
+def test_its_equations_are_refused_for_now():
+    with pytest.raises(DeclarationError, match="'chassis' moves freely in the world") as refused:
+        generate(free_model())
+    assert "no equations for that yet" in str(refused.value)
+    assert "Ground('chassis')" in str(refused.value)
+
+
+def test_a_free_body_that_nobody_drives_has_no_pose():
+    with pytest.raises(DeclarationError, match="nothing else says where 'chassis' is; make it"):
+        free_model(independent=on_it(FIXED.independent))
+
+
+def test_a_free_body_cannot_be_prescribed():
+    with pytest.raises(DeclarationError, match="prescribed joint 'body' is free, with 6 coord"):
+        free_model(independent=on_it(FIXED.independent), prescribed={BODY: RACK_MOTION}, held={})
+
+
+def test_a_pair_of_copies_shares_the_free_body():
+    sides = [
+        Copy(freed(), prefix, mirrored=prefix == "left_", shared=(MOVING,))
+        for prefix in ("right_", "left_")
+    ]
+    whole = combined("pair", "two sides", sides)
+    assert [b.name for b in whole.bodies].count("chassis") == 1
+    assert [j for j in whole.joints if isinstance(j, Free)] == [BODY]
+    assert Topology(whole).mobility == 6 + 2 * Topology(DOUBLE_WISHBONE).mobility
+
+
+@pytest.mark.parametrize(
+    ("pairs", "more", "words"),
+    [
+        ([(CHASSIS, MOVING)], (), "where it is in the world: declare a Ground .* a joint Free"),
+        ([], (Free("body", CHASSIS),), "joint 'body' is free, .* while 'chassis' is fixed there"),
+        ([(CHASSIS, replace(MOVING, name="world"))], (), "body 'world' has the name of the world"),
+        ([(CHASSIS, Ground("world", 1))], (), "body 'world' has the name of the world"),
+    ],
+)
+def test_a_mechanism_is_somewhere_in_the_world_once(pairs, more, words):
+    with pytest.raises(DeclarationError, match=words):
+        instead(*pairs, more=more)
+
+
+def test_a_free_joint_begins_at_the_world():
+    assert BODY.bodies == ("world", "chassis")
+    with pytest.raises(DeclarationError, match="first"):
+        Free(name="body", first=RACK, second=MOVING)
+
+
+def test_any_body_can_rest_in_the_world():
+    """What is fixed need not be what is fixed in a car: the mechanism held at its knuckle."""
+    bench = instead((CHASSIS, MOVING), (KNUCKLE, Ground("knuckle")))
+    assert "chassis" in [b.name for b in bench.moving]
+    assert Topology(bench).mobility == Topology(DOUBLE_WISHBONE).mobility
+    ball = next(j for j in bench.joints if isinstance(j, Spherical))
+    assert "knuckle" in ball.bodies
+    assert np.isfinite(Topology(bench).loop_count)
