@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import own_models
 import pytest
+from hypothesis import HealthCheck, settings
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.plots.curves import grouped
 from kintrafo.report.grid import Axis, Grid
@@ -15,6 +16,11 @@ if TYPE_CHECKING:
 
     import xarray as xr
     from kintrafo.generator.equations.outputs import GeneratedModel
+
+
+# How long an example takes is the machine's affair, and that of what else it does.
+settings.register_profile("calm", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("calm")
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import sympy as sp
+from kintrafo.equations.following import follow_turns
 from kintrafo.generator.backends.numpy import printer as arrays
 from kintrafo.generator.backends.words import blocks_of
 from kintrafo.generator.equations.in_motion import InMotion
@@ -72,7 +73,7 @@ class Placements:
             for joint in (*model.independent, *model.prescribed)
         )
         source = _printed(function, prepare, [str(s) for s in symbols], list(names))
-        found: dict[str, Any] = {}
+        found: dict[str, Any] = {"follow_turns": follow_turns}
         exec(source, found)
         return cls(model, names, found["prepare"], found["places"], prepare.labels)
 
