@@ -111,6 +111,7 @@ def _printed(function: Function, prepare: Function, parameters: list[str], names
     loads += [f"{n} = coordinates[:, {i}]" for i, n in enumerate(names) if n in read]
     texts = [
         "import numpy as np",
+        "from kintrafo.equations.following import follow_turns",
         *arrays.printed_blocks(blocks_of([function])),
         arrays.definition(prepare, "parameters", arrays.loaded("parameters", parameters, prepare)),
         arrays.definition(function, "constants, coordinates", loads),
