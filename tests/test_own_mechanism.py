@@ -95,7 +95,7 @@ class TestExample:
             state = system.state(arm_angle=angle)
             rocker = system.evaluate("relative_coordinates", state)[1]
             solved = rocker_by_bisection(system.parameters, angle, rocker)
-            # bisection goes down to half an ulp of 0.5 rad; the closed form rounds some twenty times
+            # bisection goes down to half an ulp of 0.5 rad; the closed form rounds twenty times
             assert rocker == pytest.approx(solved, abs=20 * 2.2e-16)
 
     def test_energy_is_kept_without_damping(self, pushrod):
