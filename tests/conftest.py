@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import own_models
 import pytest
+from hypothesis import HealthCheck, settings
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.plots.curves import grouped
 from kintrafo.report.grid import Axis, Grid
@@ -15,6 +16,13 @@ if TYPE_CHECKING:
 
     import xarray as xr
     from kintrafo.generator.equations.outputs import GeneratedModel
+
+_SHIPPED = {model.name: model for model in MODELS}
+
+
+# How long an example takes is the machine's affair, and that of what else it does.
+settings.register_profile("calm", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("calm")
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -49,9 +57,14 @@ def _compares(item: pytest.Item) -> bool:
 
 @pytest.fixture(scope="session")
 def derived() -> Callable[[str], GeneratedModel]:
-    """Derive a model that comes with the project, by name; each takes a few seconds, once."""
-    models = {model.name: model for model in MODELS}
-    return lambda name: own_models.derive(models[name])
+    """Derive a model that comes with the project, by name: once for all tests and later runs."""
+    return lambda name: own_models.derive(_SHIPPED[name])
+
+
+@pytest.fixture(scope="session")
+def derived_anew() -> Callable[[str], GeneratedModel]:
+    """Derive it here and now, even if it was before."""
+    return lambda name: own_models.derive(_SHIPPED[name], anew=True)
 
 
 @pytest.fixture

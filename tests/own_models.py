@@ -1,8 +1,8 @@
 """Any declared model, compiled, with numbers: those that come with the project, and a user's own.
 
 A model of one's own is derived, emitted and compiled here, with the very module text that the
-shipped ones have. What was compiled is kept below build/ for all processes and later runs, under a
-name that depends on declaration, generator, compiler and its options, as in
+shipped ones have. What was derived and compiled is kept below build/ for all processes and later
+runs, under a name that depends on declaration, generator, compiler and its options, as in
 `kintrafo.systems.compile.cache`.
 """
 
@@ -10,8 +10,10 @@ from __future__ import annotations
 
 import fcntl
 import importlib
+import pickle
 import shutil
 import subprocess
+import sys
 import time
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -43,7 +45,7 @@ UNOPTIMISED = "-O0"
 COMPILER = Compiler(("gcc", *FLAGS, UNOPTIMISED, *STRICT), "of the tests")
 
 KEPT = Path(__file__).parents[1] / "build" / "tests"
-"""Where what was compiled is kept."""
+"""Where what was derived and compiled is kept."""
 FORGOTTEN_S = 7 * 24 * 3600.0
 """What was not used for so long is removed: the generator has changed since."""
 
@@ -58,15 +60,45 @@ def shipped(model: Model) -> ModuleType:
     return importlib.import_module(f"kintrafo.generated.{model.name}")
 
 
-def derive(model: Model, *, derivatives: bool = True) -> GeneratedModel:
-    """Derive a model, once in a process; what has derivatives serves who needs none, too."""
+def derive(model: Model, *, derivatives: bool = True, anew: bool = False) -> GeneratedModel:
+    """Derive a model, once for all processes; what has derivatives serves who needs none, too.
+
+    Parameters
+    ----------
+    model
+        Declaration.
+    derivatives
+        With those by state and inputs.
+    anew
+        Even if it was derived before; the others get this one.
+    """
     declared = repr(model)  # says everything
-    whole = _derived.get((declared, True))
-    if whole is not None:
-        return whole
-    if (declared, derivatives) not in _derived:
-        _derived[declared, derivatives] = generate(model, derivatives=derivatives)
-    return _derived[declared, derivatives]
+    found = _derived.get((declared, True)) or _derived.get((declared, derivatives))
+    if found is None or anew:
+        found = _kept_or_derived(model, derivatives=derivatives, anew=anew)
+        _derived[declared, derivatives] = found
+    return found
+
+
+def _kept_or_derived(model: Model, *, derivatives: bool, anew: bool) -> GeneratedModel:
+    whole, wanted = (_file_of(model, derivatives=with_them) for with_them in (True, derivatives))
+    with _one_at_a_time(wanted.parent.name):
+        for file in () if anew else (whole, wanted):
+            if file.exists():
+                kept: GeneratedModel = pickle.loads(file.read_bytes())
+                return kept
+        made = generate(model, derivatives=derivatives)
+        wanted.parent.mkdir(exist_ok=True)
+        temporary = wanted.with_suffix(".new")  # a process that is stopped leaves no half
+        temporary.write_bytes(pickle.dumps(made))
+        temporary.replace(wanted)
+        return made
+
+
+def _file_of(model: Model, *, derivatives: bool) -> Path:
+    """Return where a derived model is kept."""
+    built_by = f"{sys.version} derived" + ("" if derivatives else " without derivatives")
+    return KEPT / f"{model.name}-{fingerprint(repr(model), built_by=built_by)}" / "derived.pickle"
 
 
 def own(model: Model, *, arrays: bool = not has_gcc, derivatives: bool = True) -> ModuleType:

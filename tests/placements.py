@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import sympy as sp
+from kintrafo.equations.following import follow_turns
 from kintrafo.generator.backends.numpy import printer as arrays
 from kintrafo.generator.backends.words import blocks_of
 from kintrafo.generator.equations.in_motion import InMotion
@@ -69,7 +70,7 @@ class Placements:
         prepare = constants.function([function])
         names = tuple(str(kin.coordinates.symbol(joint)) for joint in model.driven)
         source = _printed(function, prepare, [str(s) for s in symbols], list(names))
-        found: dict[str, Any] = {}
+        found: dict[str, Any] = {"follow_turns": follow_turns}
         exec(source, found)
         return cls(model, names, found["prepare"], found["places"], prepare.labels)
 
@@ -107,6 +108,7 @@ def _printed(function: Function, prepare: Function, parameters: list[str], names
     loads += [f"{n} = coordinates[:, {i}]" for i, n in enumerate(names) if n in read]
     texts = [
         "import numpy as np",
+        "from kintrafo.equations.following import follow_turns",
         *arrays.printed_blocks(blocks_of([function])),
         arrays.definition(prepare, "parameters", arrays.loaded("parameters", parameters, prepare)),
         arrays.definition(function, "constants, coordinates", loads),

@@ -4,7 +4,9 @@ import itertools
 import re
 import shutil
 import subprocess
+from collections import Counter
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import mpmath
@@ -22,17 +24,6 @@ POINTS = 2  # for each car
 
 each_model = pytest.mark.parametrize("name", EMITTED)
 each_suspension = pytest.mark.parametrize("name", MODELS)
-every_function = pytest.mark.parametrize(
-    ("name", "function"),
-    [(name, function) for name in EMITTED for function in functions(name)],
-    ids=lambda value: value,
-)
-
-every_equation = pytest.mark.parametrize(
-    ("name", "function"),
-    [(name, f) for name in EMITTED for f in functions(name) if f != "prepare"],
-    ids=lambda value: value,
-)
 
 
 def compare(label: str, exact: list[Rounded], found: np.ndarray, size: mpmath.mpf) -> None:
@@ -152,34 +143,35 @@ LIBRARY = {"sqrt", "sin", "cos", "asin", "atan2", "at_least", "copysign", "isfin
 OWN = {"not_finite"}  # looks at the results, after the arithmetic
 
 
-@every_function
-def test_straight_line(name: str, function: str) -> None:
+@each_model
+def test_straight_line(name: str) -> None:
     """No branch and no loop, but for the checks of parameters and constants that end prepare."""
-    body = functions(name)[function]
-    if function == "prepare":
-        check = min(body.index(word) for word in ("if", "for"))
-        assert {"if", "return"} <= set(body[check:])
-        body = body[:check]
-    assert not BRANCHES & set(body)
+    for function, body in functions(name).items():
+        check = len(body)
+        if function == "prepare":
+            check = min(body.index(word) for word in ("if", "for"))
+            assert {"if", "return"} <= set(body[check:])
+        assert not BRANCHES & set(body[:check]), function
 
 
-@every_function
-def test_calls_only_cheap_functions(name: str, function: str) -> None:
+@each_model
+def test_calls_only_cheap_functions(name: str) -> None:
     """Of the C library only these: no pow above all, and nothing that keeps a state."""
-    body = functions(name)[function]
-    called = {f for f, after in itertools.pairwise(body) if after == "(" and f.isidentifier()}
-    checks = {"fabs"} if function == "prepare" else set()
-    assert called - {"return", "for", "if"} <= LIBRARY | OWN | checks
+    for function, body in functions(name).items():
+        called = {f for f, after in itertools.pairwise(body) if after == "(" and f.isidentifier()}
+        checks = {"fabs"} if function == "prepare" else set()
+        assert called - {"return", "for", "if"} <= LIBRARY | OWN | checks, function
 
 
-@every_function
-def test_every_step_is_used(name: str, function: str) -> None:
+@each_model
+def test_every_step_is_used(name: str) -> None:
     """The program is pruned: what is computed has an effect."""
-    body = functions(name)[function]
-    places = (i for i, token in enumerate(body) if token == "=" and body[i - 2] != "->")
-    names = [body[i - 1] for i in places if body[i - 1].isidentifier()]
-    assert names or function.endswith("_jacobian") or function == "design_state"
-    assert [n for n in names if body.count(n) < 2] == []
+    for function, body in functions(name).items():
+        places = (i for i, token in enumerate(body) if token == "=" and body[i - 2] != "->")
+        names = [body[i - 1] for i in places if body[i - 1].isidentifier()]
+        assert names or function.endswith("_jacobian") or function == "design_state", function
+        times = Counter(body)
+        assert [n for n in names if times[n] < 2] == [], function
 
 
 COUNTED = re.compile(r"(\d+) operations? \(([^)]*)\)")
@@ -195,17 +187,20 @@ def described_counts(text: str) -> dict[str, int]:
     return kinds | {"total": int(match[1])}
 
 
+@cache
 def counted(name: str, function: str) -> dict[str, int]:
     """Return the counts of the C text, as `described_counts` does."""
     counts = count(functions(name)[function])
     return dict(counts) | {"total": counts.total()}
 
 
-@every_equation
-def test_counts_in_the_header(name: str, function: str) -> None:
-    match = re.search(rf"/\*((?:(?!\*/).)*)\*/\s*int {name}_{function}\(", header(name), re.DOTALL)
-    assert match is not None
-    assert described_counts(match[1]) == counted(name, function)
+@each_model
+def test_counts_in_the_header(name: str) -> None:
+    for function in functions(name).keys() - {"prepare"}:
+        comment = rf"/\*((?:(?!\*/).)*)\*/\s*int {name}_{function}\("
+        match = re.search(comment, header(name), re.DOTALL)
+        assert match is not None, function
+        assert described_counts(match[1]) == counted(name, function), function
 
 
 @each_model
@@ -215,55 +210,53 @@ def test_count_at_the_head_of_the_files(name: str) -> None:
         assert described_counts(head.split("rhs:")[1]) == counted(name, "rhs")
 
 
-@pytest.mark.parametrize(
-    ("name", "result"),
-    [(name, result) for name, m in EMITTED.items() for result in m.equations.functions],
-    ids=lambda value: value,
-)
-def test_counts_in_python(name: str, result: str) -> None:
+@each_model
+def test_counts_in_python(name: str) -> None:
     """Those of the compiled function that computes it, beside what else that returns."""
-    call = getattr(EMITTED[name], result)
-    found = {kind: n for kind, n in call.operations.items() if n or kind == "total"}
-    assert found == counted(name, call.stage)
-
-
-@every_function
-def test_counts_in_the_report(name: str, function: str) -> None:
-    report = (FOLDER.parent / f"{name}.md").read_text(encoding="utf-8")
-    table = report.split("## Functions")[1]
-    columns, row = (
-        [cell.strip() for cell in line.strip("|").split("|")]
-        for line in table.splitlines()
-        if line.startswith(("| function", f"| `{function}`"))
-    )
-    cells = dict(zip(columns, row, strict=True))
-    counts = counted(name, function)
-    expected = {column: counts.get(column, 0) for column in columns[3:]}
-    assert {column: int(cells[column]) for column in columns[3:]} == expected
-    assert int(cells["operations"]) == counts["total"]
+    for result in EMITTED[name].equations.functions:
+        call = getattr(EMITTED[name], result)
+        found = {kind: n for kind, n in call.operations.items() if n or kind == "total"}
+        assert found == counted(name, call.stage), result
 
 
 @each_model
-@pytest.mark.parametrize(
-    ("kind", "table"),
-    [
-        ("parameter", "PARAMETERS"),
-        ("state", "STATE"),
-        ("input", "INPUTS"),
-        ("relative", "RELATIVE_COORDINATES"),
-        ("signal", "SIGNALS"),
-        ("body", "BODIES"),
-        ("massive", "MASSIVE_BODIES"),
-    ],
-)
-def test_enums_are_the_order_of_the_arrays(name: str, kind: str, table: str) -> None:
-    entries = getattr(EMITTED[name], table)
-    match = re.search(rf"enum {name}_{kind} \{{(.*?)\}};", header(name), re.DOTALL)
-    assert match is not None
-    found = re.findall(r"(\w+) = (\d+)", re.sub(r"/\*.*?\*/", "", match[1], flags=re.DOTALL))
-    prefix = f"{name}_{kind}_".upper()
-    expected = [(f"{prefix}{entry.upper()}", str(i)) for i, entry in enumerate(entries)]
-    assert found == [*expected, (f"{prefix}COUNT", str(len(entries)))]
-    if isinstance(entries, dict):  # units and meanings stand beside the indices
-        for entry in entries.values():
-            assert f"/* [{entry['unit']}] {entry['meaning']} */" in match[1]
+def test_counts_in_the_report(name: str) -> None:
+    report = (FOLDER.parent / f"{name}.md").read_text(encoding="utf-8")
+    table = report.split("## Functions")[1]
+    for function in functions(name):
+        columns, row = (
+            [cell.strip() for cell in line.strip("|").split("|")]
+            for line in table.splitlines()
+            if line.startswith(("| function", f"| `{function}`"))
+        )
+        cells = dict(zip(columns, row, strict=True))
+        counts = counted(name, function)
+        expected = {column: counts.get(column, 0) for column in columns[3:]}
+        assert {column: int(cells[column]) for column in columns[3:]} == expected, function
+        assert int(cells["operations"]) == counts["total"], function
+
+
+TABLES = {
+    "parameter": "PARAMETERS",
+    "state": "STATE",
+    "input": "INPUTS",
+    "relative": "RELATIVE_COORDINATES",
+    "signal": "SIGNALS",
+    "body": "BODIES",
+    "massive": "MASSIVE_BODIES",
+}
+
+
+@each_model
+def test_enums_are_the_order_of_the_arrays(name: str) -> None:
+    for kind, table in TABLES.items():
+        entries = getattr(EMITTED[name], table)
+        match = re.search(rf"enum {name}_{kind} \{{(.*?)\}};", header(name), re.DOTALL)
+        assert match is not None, kind
+        found = re.findall(r"(\w+) = (\d+)", re.sub(r"/\*.*?\*/", "", match[1], flags=re.DOTALL))
+        prefix = f"{name}_{kind}_".upper()
+        expected = [(f"{prefix}{entry.upper()}", str(i)) for i, entry in enumerate(entries)]
+        assert found == [*expected, (f"{prefix}COUNT", str(len(entries)))]
+        if isinstance(entries, dict):  # units and meanings stand beside the indices
+            for entry in entries.values():
+                assert f"/* [{entry['unit']}] {entry['meaning']} */" in match[1]

@@ -28,7 +28,8 @@ from oracle.reference import (
 MODEL = macpherson_general
 GUARDS = [name for name, _ in MODEL.GUARDS]
 
-# Four times the worst of some 1400 poses (2.4e-15): coordinates and sines of order one.
+# Joints compare places that follow from each other by some ninety operations on coordinates and
+# sines of order one, each of which is off by half of 2.2e-16 at most.
 ROUNDING = 1e-14
 
 TURN = -0.1  # of the arm, rad, where the rack is moved up to the dead point

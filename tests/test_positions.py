@@ -441,3 +441,19 @@ def test_two_positions_of_rest_within_a_step_are_seen(gap):
 
     root = _stable_root(moment, reach, high)
     assert root == pytest.approx(middle, abs=1e-12)
+
+
+def test_a_table_that_is_remembered_is_nobodys_to_change() -> None:
+    first = branch(MODEL, [0.01])
+    expected = first.angle.copy(), first.height.copy()
+    first.angle[:], first.height[:] = 0.0, 0.0
+    again = branch(MODEL, [0.01])
+    np.testing.assert_array_equal((again.angle, again.height), expected)
+
+
+def test_the_mirror_image_is_made_once() -> None:
+    image = MODEL.mirror_image
+    assert image is MODEL.mirror_image
+    assert image.suspension == MODEL.suspension.mirrored()
+    free = Model("reference_car", free_rack=True).mirror_image
+    assert free.free_rack

@@ -15,11 +15,12 @@ import pytest
 from cases import MODELS, Instant, car_parameters, counted_by, random_instants
 from changes import changed, named
 from kintrafo.generator import Body, Model, Rotor
-from kintrafo.generator.equations.outputs import GeneratedModel, generate
+from kintrafo.generator.equations.outputs import GeneratedModel
 from kintrafo.generator.mechanisms import MODELS as DECLARED
 from oracle.constraints import WHEEL, Array
 from oracle.newton import Mechanism
 from oracle.reference import INERTIA_ELEMENTS, Parameters, inertia
+from own_models import derive
 from symbolic import constants_of, python
 
 SEEDS = range(3)  # 0 is the reference car
@@ -37,7 +38,7 @@ def without_rotor(model: Model) -> Model:
 @cache
 def unfolded(name: str) -> GeneratedModel:
     """Derive a model without the rotor."""
-    return generate(
+    return derive(
         without_rotor(next(model for model in DECLARED if model.name == name)), derivatives=False
     )
 

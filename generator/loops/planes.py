@@ -7,7 +7,6 @@ stays so is one of the `assumptions`.
 
 from __future__ import annotations
 
-from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -35,7 +34,7 @@ class Planes:
 
     def __init__(self, mechanism: Mechanism) -> None:
         self._at_defaults = AtDefaults(mechanism)
-        self._unit = cache(self._unit_vector)
+        self._units: dict[Vector, Array] = {}
 
     def normal(self, joints: Sequence[Joint]) -> Direction | None:
         """Return the direction of the hinges of a loop that moves in a plane; of others, none.
@@ -61,10 +60,12 @@ class Planes:
         in_plane = all(amount <= float(ROUNDING) for amount in off)  # not so if one is NaN
         return _direction(hinges[0].name, hinges[0].axis) if in_plane else None
 
-    def _unit_vector(self, vector: Vector) -> Array:
-        v = np.array([self._at_defaults(component) for component in vector])
-        size = np.linalg.norm(v)
-        return v / size if size > 0.0 else np.full(3, np.nan)
+    def _unit(self, vector: Vector) -> Array:
+        if vector not in self._units:
+            v = np.array([self._at_defaults(component) for component in vector])
+            size = np.linalg.norm(v)
+            self._units[vector] = v / size if size > 0.0 else np.full(3, np.nan)
+        return self._units[vector]
 
 
 def _direction(name: str, line: Line) -> Direction:

@@ -21,6 +21,20 @@ Code = Mapping[str, int | Callable[..., Any]]
 _OF_A_SIMULATION = ("rhs", "signals", "positions", "orientations")
 
 
+def _result(
+    shape: tuple[int, ...], operations: Mapping[str, int], described: Mapping[str, Any]
+) -> str:
+    """Say of what shape the result of a function is, and what a call of it costs."""
+    kinds = ", ".join(f"{n} {kind}" for kind, n in operations.items() if n and kind != "total")
+    text = f"Result (..., {', '.join(map(str, shape))}); {operations['total']} operations"
+    text += f" ({kinds or 'none'})"
+    if "stage" in described:
+        text += f", with all that {described['stage']} computes"
+    if "iterates" in described:
+        text += f"; iterates: {', '.join(described['iterates'])}"
+    return f"{text}."
+
+
 class Equations:
     """The compiled equations of one mechanism: what its manifest says, and calls of its functions.
 
@@ -173,14 +187,16 @@ class Equations:
         if name in stages:
             parts = self._parts_of(name).items()
             labels = tuple(f"{part} {label}" for part, f in parts for label in labels_of(f))
+        shape = tuple(described.get("shape", [len(labels)]))
+        operations = stages.get(stage, described)["operations"]
         return self._calls.Function(
             self,
             name,
             self._code[stage],
-            tuple(described.get("shape", [len(labels)])),
+            shape,
             labels,
-            stages.get(stage, described)["operations"],
-            described["doc"],
+            operations,
+            f"{described['doc']}\n\n{_result(shape, operations, described)}",
             stage,
             described.get("start", 0),
             stages[stage]["size"] if stage in stages else len(labels),

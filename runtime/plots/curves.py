@@ -27,7 +27,7 @@ from ..core.files import Paths, refuse, replacing
 from ..core.legible import legible
 from ..core.quantities import bracketed, display_of, displayed, long_name
 from ..study.characteristics.groups import ORDER, group_of
-from .figures import BLUE, GREEN, METADATA, ORANGE, STYLE, save
+from .figures import BLUE, GREEN, METADATA, ORANGE, STYLE, lay_out, save
 
 Array = NDArray[np.float64]
 
@@ -167,7 +167,7 @@ def write_overview(
         with PdfPages(drawn, metadata=METADATA["pdf"]) as document:
             for group, variables in pages.items():
                 heading = ": ".join(text for text in (title, group) if text)
-                document.savefig(figure(dataset, variables, title=heading, alone=False))
+                document.savefig(lay_out(figure(dataset, variables, title=heading, alone=False)))
     with replacing(path, force=force, inputs=inputs) as temporary:
         temporary.write_bytes(drawn.getvalue())
     return Path(path)

@@ -65,10 +65,20 @@ def save(figure: Figure, path: str | Path, *, force: bool = False, inputs: Paths
     """
     ending = Path(path).suffix.lower().removeprefix(".")
     drawn = BytesIO()  # what cannot be written later leaves no open file behind
+    lay_out(figure)
     figure.savefig(drawn, dpi=160, format=ending, metadata=METADATA.get(ending))
     with replacing(path, force=force, inputs=inputs) as temporary:
         temporary.write_bytes(drawn.getvalue())
     return Path(path)
+
+
+def lay_out(figure: Figure) -> Figure:
+    """Find the places of all that is drawn, once: else each file is drawn twice for them."""
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        engine.execute(figure)
+        figure.set_layout_engine(None)
+    return figure
 
 
 def figure_files(folder: Path) -> list[Path]:

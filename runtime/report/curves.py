@@ -155,7 +155,7 @@ def _stacked(
         _curve(
             variable,
             over,
-            np.stack([np.asarray(cut[name], dtype=np.float64) for cut in cuts], axis=axis),
+            np.stack([cut.variables[name].values for cut in cuts], axis=axis),
         )
         for name, variable in cuts[0].data_vars.items()
         if variable.dims == (coordinate,) and np.issubdtype(variable.dtype, np.floating)

@@ -1,6 +1,6 @@
 """A suspension together with its compiled equations of motion."""
 
-from functools import partial
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
@@ -58,6 +58,11 @@ class Model(System):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return partial(Model, free_rack=self.free_rack), (self.suspension,)
+
+    @cached_property
+    def mirror_image(self) -> "Model":
+        """The model of the same suspension on the other side of the vehicle."""
+        return Model(self.suspension.mirrored(), free_rack=self.free_rack)
 
     def __repr__(self) -> str:
         side = self.suspension.vehicle.side

@@ -7,6 +7,7 @@ angles that are looked at is missed.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,6 +26,7 @@ _STEPS = 45
 # clear of its rounding, and the wheel is less than a nanometre from its last position.
 _CLEARANCE = 1e-12
 _CHUNK = 500  # racks that are looked at together, to bound the memory
+_KEPT = 8  # tables, of so many racks each, that are remembered
 _PROBES = 9  # racks that show how much of the reach is of interest
 
 _RACK_STEP = 0.002  # in which the rack goes from its middle to where it is wanted [m]
@@ -154,7 +156,7 @@ def branch(
     if covering is not None and racks.size > _CHUNK:
         steps = _steps_to(model, racks, covering)
     chunks = [
-        _tabulate(model, racks[i : i + _CHUNK], steps, to_the_end=to_the_end)
+        _tabulated(model, racks[i : i + _CHUNK].tobytes(), steps, to_the_end=to_the_end)
         for i in range(0, racks.size, _CHUNK)
     ]
     return Branch(
@@ -170,6 +172,12 @@ def _steps_to(model: Model, racks: Array, covering: tuple[float, float]) -> tupl
     below = (heights[:, _STEPS::-1] > covering[0]).sum(axis=1).max()
     above = (heights[:, _STEPS:] < covering[1]).sum(axis=1).max()
     return min(int(below) + 1, _STEPS), min(int(above) + 1, _STEPS)
+
+
+@lru_cache(maxsize=_KEPT)
+def _tabulated(model: Model, racks: bytes, steps: tuple[int, int], *, to_the_end: bool) -> Branch:
+    """Look at steps of the arm once: a report asks for the same racks at a hundred heights."""
+    return _tabulate(model, np.frombuffer(racks), steps, to_the_end=to_the_end)
 
 
 def _tabulate(model: Model, racks: Array, steps: tuple[int, int], *, to_the_end: bool) -> Branch:

@@ -127,6 +127,7 @@ def _function(model: GeneratedModel, function: Function) -> dict[str, Any]:
     rows, columns = _split(function.labels)
     described: dict[str, Any] = {"doc": function.doc, "shape": function.shape, "labels": rows}
     described |= {"by": columns} if columns else {}
+    described |= {"iterates": [b.name for b in function.blocks]} if function.blocks else {}
     return described | {"guards": sorted(places[guard.name] for guard in function.guards)}
 
 

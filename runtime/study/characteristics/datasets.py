@@ -120,7 +120,7 @@ def steering(model: Model, rack: ArrayLike | None = None, *, travel: float = 0.0
             rack = given.array("rack", rack, "m", dimensions=[1])
     racks = usual_rack(model, travel=travel) if rack is None else rack
     own = _at_height(model, travel, racks)
-    other = _at_height(Model(model.suspension.mirrored(), free_rack=model.free_rack), travel, racks)
+    other = _at_height(model.mirror_image, travel, racks)
     data = _evaluated(catalogue.CORNER + catalogue.STEERING, own) | _both_sides(own, other)
     return _dataset(data, _RACK, racks, {_TRAVEL: travel})
 

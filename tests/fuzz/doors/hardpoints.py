@@ -16,7 +16,7 @@ from kintrafo.suspension.positions import PositionError
 
 from ..attempts import WrongError
 
-SHORT = 30
+SHORT = 15
 # Promised, as a part of the size; the file's own rounding is far less.
 PROMISED = 1e-9
 CARS = {

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import numpy as np
 
 SECONDS = 120.0  # deriving is a part of the first attempt at each family
-SHORT = 4
+SHORT = 2
 
 _QUICK = [family for family in FAMILIES if family.quick]
 

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-SHORT = 8
+SHORT = 4
 SECONDS = 60.0
 
 _MODULES = (
