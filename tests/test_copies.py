@@ -16,7 +16,18 @@ import own_mechanisms
 import own_yokes
 import pytest
 import sympy as sp
-from kintrafo.generator import Copy, Model, Revolute, combined
+from kintrafo.generator import (
+    FORWARD,
+    Body,
+    Copy,
+    Ground,
+    Line,
+    Mechanism,
+    Model,
+    Point,
+    Revolute,
+    combined,
+)
 from kintrafo.generator.closed_forms.catalogue import STEPS
 from kintrafo.generator.closed_forms.free import PlaceFree
 from kintrafo.generator.closed_forms.idle import PlaceIdle
@@ -32,7 +43,6 @@ from symbolic import python
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from kintrafo.generator import Mechanism
     from kintrafo.generator.program.newton import Block
 
 DIGITS = 40
@@ -212,3 +222,11 @@ def test_a_step_does_not_take_the_name_of_a_parameter_of_a_copy() -> None:
     step = program.define("a_rod_end_x", sp.sin(angle))
     doubled = program.define("doubled", 2 * step)
     assert program.steps[doubled].expression == 2 * step
+
+
+def test_a_copy_and_its_mirror_image_tell_themselves_apart_where_their_defaults_do_not():
+    ground, arm = Ground("ground"), Body("arm", 1.0, (0.0, 0.0, 1.0), (1.0, 1.0, 1.0))
+    hinge = Revolute("hinge", ground, arm, Line(Point("pivot", (0.0, 0.0, 0.0)), FORWARD))
+    flat = Mechanism("flat", "Flat", (hinge,), coordinates=(hinge.angle("turn", "angle"),))
+    same, image = (Copy(flat, "one_", mirrored=mirrored).mechanism for mirrored in (False, True))
+    assert repr(same) != repr(image)  # what is compiled is kept under it

@@ -34,7 +34,8 @@ class Assembly:
     """The parts of a mechanism, before anything is checked that several of them must fulfil.
 
     Bodies, inputs and parameters are those that joints, forces, coordinates and outputs refer to,
-    in the order in which they were written; the ground is the first body.
+    in the order in which they were written; the ground is the first body. `derived` are names that
+    equations read like parameters, and that are expressions in parameters.
     """
 
     name: Name
@@ -46,6 +47,7 @@ class Assembly:
     bodies: tuple[Body, ...] = field(init=False)
     inputs: tuple[Input, ...] = field(init=False)
     parameters: tuple[Parameter, ...] = field(init=False)
+    derived: dict[str, Any] = field(init=False, compare=False)
 
     def __post_init__(self) -> None:
         bodies = sorted(self.every(Body), key=lambda b: (not isinstance(b, Ground), b.order))
@@ -53,6 +55,7 @@ class Assembly:
         object.__setattr__(self, "bodies", tuple(dict.fromkeys(bodies)))
         object.__setattr__(self, "inputs", tuple(self.every(Input)))
         object.__setattr__(self, "parameters", tuple(dict.fromkeys(numbers)))
+        object.__setattr__(self, "derived", self._derived())
 
     def every(self, kind: type[Any] | tuple[type[Any], ...]) -> list[Any]:
         """Return what there is of a kind in all that is declared, each once."""
@@ -70,9 +73,8 @@ class Assembly:
             dict.fromkeys(parts((self.joints, self.forces, self.coordinates, self.outputs)))
         )
 
-    @property
-    def derived(self) -> dict[str, sp.Expr]:
-        """Names that equations read like parameters, and that are expressions in parameters."""
+    def _derived(self) -> dict[str, sp.Expr]:
+        """Return what the names of copies stand for: expressions in parameters."""
         owners: list[Owner] = self.every(Owner)
         return {name: value for owner in owners for name, value in owner.derived.items()}
 
