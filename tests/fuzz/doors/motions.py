@@ -352,7 +352,7 @@ def _judge_states(motion: Motion, result: Any) -> None:
         axes = at.rotation @ np.swapaxes(at.rotation, 1, 2) - np.eye(3)
         if gap > 1e-9 or np.abs(axes).max() > 1e-9:
             _wrong(motion, f"joints {gap:.3g} m open, axes {np.abs(axes).max():.3g} off")
-        given = dict.fromkeys(built.model.prescribed, 0.0)  # nothing is driven
+        given = dict.fromkeys(built.model.motions, 0.0)  # nothing is driven
         expected = built.oracle.reduced(at, built.named(inputs), given).accelerations
         found = system.evaluate("rhs", state, inputs)[built.size :]
         # centripetal accelerations are what roundings are a part of, where they cancel
