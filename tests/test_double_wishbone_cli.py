@@ -53,6 +53,7 @@ def test_new_file_is_the_packaged_one(run, tmp_path):
     code, out, _ = run("check", "mine.toml")
     assert code == 0
     assert "No problems found." in out
+    assert "[damper]" in out  # what limits the travel: not taken for mark-up
 
 
 def test_what_is_wrong_in_a_file_is_told(run, tmp_path):

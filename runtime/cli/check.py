@@ -50,7 +50,7 @@ def command(file: File, *, json: Json = False) -> None:
 def _table(found: "Checkup", file: str) -> Table:
     table = Table(title=f"{escape(file)}: {found.side} {found.title}", show_header=False)
     for name, text in {**_geometry(found), **_travel(found), **_rest(found)}.items():
-        table.add_row(name, text)
+        table.add_row(name, escape(text))
     return table
 
 
