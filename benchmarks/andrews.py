@@ -18,6 +18,7 @@ import typer
 from kintrafo import System, simulate
 from kintrafo.generated import andrews
 from kintrafo.plots.figures import BLUE, GREEN, ORANGE, STYLE
+from kintrafo.simulation.simulate import Method
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 from rich.console import Console
@@ -109,7 +110,7 @@ def book_angles(beta: float) -> Array:
     return np.array(START) + np.array([turned[name] for name in ANGLES])
 
 
-def ours(method: str) -> Solver:
+def ours(method: Method) -> Solver:
     """Return `kintrafo.simulate` with the compiled model."""
     system = System(andrews)
 
@@ -120,7 +121,7 @@ def ours(method: str) -> Solver:
                 (0.0, END),
                 system.state(),
                 inputs={"drive_torque": TORQUE},
-                method=method,  # type: ignore[arg-type]  # a name from a list
+                method=method,
                 rtol=tolerance,
                 atol=tolerance,
                 t_eval=[END],
@@ -206,7 +207,8 @@ def radau() -> Solver:
 
 def solvers() -> Iterator[Solver]:
     """Yield everything that is compared."""
-    yield from (ours(method) for method in ("DormandPrince", "Verner", "BDF"))
+    methods: tuple[Method, ...] = ("DormandPrince", "Verner", "BDF")
+    yield from map(ours, methods)
     yield idas()
     yield radau()
 

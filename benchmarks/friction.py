@@ -8,11 +8,13 @@ changes with v0, so accuracy asks for the same steps, and stability does not.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 from kintrafo import Model, Simulation, Suspension, simulate, state_at_height
 from kintrafo.plots.figures import STYLE
+from kintrafo.simulation.simulate import Method
 from kintrafo.simulation.solvers import native_available
 from kintrafo.study.paper import DURATION, SPIN_RATE, START_HEIGHT, rest
 from matplotlib import rc_context
@@ -55,7 +57,7 @@ class Point:
     seconds: Timing
 
 
-def methods() -> tuple[str, ...]:
+def methods() -> tuple[Method, ...]:
     """Return the methods that are compared, Gear's first."""
     return ("BDF", "DormandPrince", "Verner") if native_available() else ("BDF", "RK45")
 
@@ -83,8 +85,7 @@ def measure(
             result = _simulate(model, start, method, RTOL)
             error = np.max(np.abs(_arm_angle(result) - reference)) / np.ptp(reference)
             seconds = [
-                seconds_of(lambda m=model, y=start, by=method: _simulate(m, y, by, RTOL))  # type: ignore[misc]
-                for _ in range(rounds)
+                seconds_of(partial(_simulate, model, start, method, RTOL)) for _ in range(rounds)
             ]
             points.append(
                 Point(
@@ -101,12 +102,12 @@ def measure(
     return points
 
 
-def _simulate(model: Model, start: Array, method: str, rtol: float) -> Simulation:
+def _simulate(model: Model, start: Array, method: Method, rtol: float) -> Simulation:
     return simulate(
         model,
         (0.0, DURATION),
         start,
-        method=method,  # type: ignore[arg-type]  # a name from a list
+        method=method,
         rtol=rtol,
         atol=rtol * ATOL_PER_RTOL,
         t_eval=np.linspace(0.0, DURATION, ERROR_POINTS),

@@ -12,17 +12,17 @@ import sympy as sp
 from c_text import count, tokens
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from kintrafo.generator.backends.c.dialect import C
 from kintrafo.generator.backends.counting import counted
 from kintrafo.generator.backends.numpy.dialect import NUMPY
 from kintrafo.generator.backends.schedule import schedule
 from kintrafo.generator.backends.text import Dialect, text_of
+from kintrafo.generator.backends.words import FORMULA
 from kintrafo.generator.program.functions import Guarded, IsPositive, Positive, SignOf
 
 SYMBOLS = sp.symbols("x y z")
 
 
-def write(expression: sp.Expr, dialect: Dialect = C) -> str:
+def write(expression: sp.Expr, dialect: Dialect = FORMULA) -> str:
     """Write an expression that stands alone."""
     return text_of(schedule(expression), dialect)
 
@@ -302,10 +302,10 @@ def test_no_number_goes_through_a_kink_unseen() -> None:
 
 def test_what_is_there_first_is_put_together_first() -> None:
     late = schedule(x + y + z * x, {y: 40})
-    assert text_of(late, C) == "x + x*z + y"
+    assert text_of(late, FORMULA) == "x + x*z + y"
     assert late.ready == 44  # y waits for nothing but its own addition
     product = schedule(x * y * z, {x: 40})
-    assert text_of(product, C) == "y*z*x"
+    assert text_of(product, FORMULA) == "y*z*x"
     # y, and then x*y, wait for one addition each; in any order of terms, whatever is printed first
     assert schedule(x + y + z + x * y, {y: 100}).ready == 100 + 4 + 4
     assert schedule(1 / sp.sqrt(x), {x: 10}).ready > schedule(sp.sqrt(x), {x: 10}).ready > 10

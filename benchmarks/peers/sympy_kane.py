@@ -178,7 +178,7 @@ def _kane(c: SimpleNamespace, q: Any, u: Any) -> tuple[Any, Any]:
     gaps = [*loop.to_matrix(f.world), (rod.dot(rod) - c.rod_length_squared) / 2]
     closing = points.ball_speed - points.arm_ball_speed
     closing_rates = [*closing.to_matrix(f.world), rod.dot(points.rod_speed)]
-    kinematic = [a.diff(me.dynamicsymbols._t) - b for a, b in zip(q, u, strict=True)]  # noqa: SLF001
+    kinematic = [a.diff(me.dynamicsymbols._t) - b for a, b in zip(q, u, strict=True)]  # noqa: SLF001 (time has no public name there)
     method = me.KanesMethod(
         f.world,
         q_ind=q[:2],

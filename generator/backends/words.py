@@ -34,7 +34,7 @@ FORMULA = Dialect(
     root="sqrt({})",
     component="{}.at[{}]",
 )
-"""For a person to read, and for what does not depend on a language."""
+"""As C writes it: for a person to read as well, and for what depends on no back end."""
 
 
 def count_line(function: Function | Stage) -> str:

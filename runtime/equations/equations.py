@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Callable, Iterator, Mapping
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -76,11 +77,8 @@ class Equations:
         self.guards = tuple(manifest["guards"])
         self.addresses = {n: at for n, at in code.items() if isinstance(at, int)}
         self._code = code
-        if self.addresses:
-            from . import _calls as calls  # noqa: PLC0415 (only where C is there to be called)
-        else:
-            from . import arrays as calls  # type: ignore[no-redef]  # noqa: PLC0415
-        self._calls: Any = calls
+        # the compiled one only where C is there to be called
+        self._calls: Any = import_module("._calls" if self.addresses else ".arrays", __package__)
         self.widths = (len(self.constant_names), len(self.state_names), len(self.input_names))
         self.no_inputs = np.zeros(len(self.input_names))
         self.default_constants = self.prepare(

@@ -16,6 +16,7 @@ from ..schedule import schedule
 from ..templates import template
 from ..text import Written, text_of, written
 from ..words import (
+    FORMULA,
     GENERATOR_VERSION,
     blocks_of,
     count_line,
@@ -23,7 +24,6 @@ from ..words import (
     mechanism_hash,
     reads_given,
 )
-from .dialect import C
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
@@ -310,7 +310,10 @@ class CPrinter:
                 *(declared(loads) or ["    (void)parameters;"]),
                 *self.steps(design),
                 "",
-                *(f"    state[{i}] = {value};" for i, value in enumerate(written(design, C)[1])),
+                *(
+                    f"    state[{i}] = {value};"
+                    for i, value in enumerate(written(design, FORMULA)[1])
+                ),
                 "    return 0;",
                 "}",
             ]
@@ -319,7 +322,7 @@ class CPrinter:
     @staticmethod
     def _pointer(function: Function | Stage) -> str:
         """Return a name for the constants that nothing else in a function has."""
-        steps, _ = written(function, C)
+        steps, _ = written(function, FORMULA)
         taken = {step.name for step in steps} | {s.name for s in function.free_symbols}
         return next(name for name in ("c", "c_", "c__") if name not in taken)
 
@@ -328,7 +331,7 @@ class CPrinter:
         lines = []
 
         def constant(expression: sp.Expr) -> str:
-            return text_of(schedule(expression), C, lambda symbol: f"{c}->{symbol.name}")
+            return text_of(schedule(expression), FORMULA, lambda symbol: f"{c}->{symbol.name}")
 
         tests = [
             *(
@@ -372,7 +375,7 @@ class CPrinter:
         lines += declared([text for found in taken.values() for text in found])
         names = {name: f"{c}->{name}" for name in constants}
         lines += self.steps(function, names)
-        texts, start = written(function, C, names)[1], 0
+        texts, start = written(function, FORMULA, names)[1], 0
         for member in function.members:
             lines += self._results(member, texts[start : start + member.size], start)
             start += member.size
@@ -417,7 +420,7 @@ class CPrinter:
         """
         lines: list[str] = []
         names = names or {}
-        values = written(function, C, names)[0]
+        values = written(function, FORMULA, names)[0]
         for section, group in groupby(values, key=lambda step: step.section):
             lines += ["", f"    /* {section} */"]
             for kind, run in groupby(group, key=_kind):
@@ -432,7 +435,7 @@ class CPrinter:
         """
 
         def floor(guard: Guard) -> str:
-            return text_of(schedule(guard.floor), C, lambda s: names.get(s.name, s.name))
+            return text_of(schedule(guard.floor), FORMULA, lambda s: names.get(s.name, s.name))
 
         bits = [
             (f"!({g.quantity} > {floor(g)})", self.enumerator("status", g.name))
@@ -471,7 +474,7 @@ def _once(printer: CPrinter, block: Block) -> str:
         lines += loads or [f"    (void){array};"]
     lines += [*printer.steps(block.once), ""]
     for i, (label, result) in enumerate(
-        zip(block.once.labels, written(block.once, C)[1], strict=True)
+        zip(block.once.labels, written(block.once, FORMULA)[1], strict=True)
     ):
         text = f"    out[{i}] = {result};"
         lines.append(f"{text:<70} /* {label} */")
