@@ -13,7 +13,7 @@ import numpy as np
 import typer
 from kintrafo import Simulation, System, simulate
 from kintrafo.generated import front_axle as equations
-from kintrafo.generator import Model
+from kintrafo.generator import Formulation
 from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import front_axle, macpherson
@@ -46,7 +46,7 @@ WITHOUT, WITH = {"bar_rate": 0.0}, {}
 # -- operations -----------------------------------------------------------------------------------
 
 
-def operations(model: Model) -> dict[str, int]:
+def operations(model: Formulation) -> dict[str, int]:
     """Return the number of operations of the functions of the table."""
     derived = generate(model)
     functions = derived.emitted | {"prepare": derived.prepare}

@@ -21,9 +21,9 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 from kintrafo import System, simulate
-from kintrafo.generator import Model
+from kintrafo.generator import Formulation
 from kintrafo.generator.backends.counting import operations_of
-from kintrafo.generator.equations.outputs import GeneratedModel, generate
+from kintrafo.generator.equations.outputs import Derivation, generate
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.plots.figures import BLUE, STYLE
 from kintrafo.systems.compile.build import build
@@ -101,7 +101,7 @@ class Point:
 def measure(loops: int, compiler: Compiler, rounds: int, advance: Callable[[str], None]) -> Point:
     """Derive, compile and run a chain of some length."""
     model = n_four_bar(loops)
-    found: list[GeneratedModel] = []
+    found: list[Derivation] = []
     clear_cache()  # shorter chains are parts of this one, and SymPy remembers them
     advance(f"N = {loops}: deriving")
     derive = seconds_of(lambda: found.append(generate(model)))
@@ -149,7 +149,7 @@ def _simulated(system: System, start: Array) -> Any:
     return simulate(system, (0.0, DURATION), start, rtol=TOLERANCE, atol=TOLERANCE)
 
 
-def hanging(model: Model) -> dict[str, float]:
+def hanging(model: Formulation) -> dict[str, float]:
     """Return the parameters of a chain whose rockers hang from their hinges at the start."""
     given = {p.name: p.default for p in model.mechanism.parameters}
     return {name: -value if name.endswith("_z") else value for name, value in given.items()}

@@ -51,7 +51,7 @@ TYRE = g.LinearTyre(
     road=g.Input("road_height", "m", "height of the road under the tyre, positive up"),
 )
 
-MODEL = g.Model(
+MODEL = g.Formulation(
     name="pushrod_suspension",
     title="Pushrod suspension, one degree of freedom",
     mechanism=g.Mechanism(

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     import xarray as xr
-    from kintrafo.generator.equations.outputs import GeneratedModel
+    from kintrafo.generator.equations.outputs import Derivation
 
 _SHIPPED = {model.name: model for model in MODELS}
 
@@ -56,13 +56,13 @@ def _compares(item: pytest.Item) -> bool:
 
 
 @pytest.fixture(scope="session")
-def derived() -> Callable[[str], GeneratedModel]:
+def derived() -> Callable[[str], Derivation]:
     """Derive a model that comes with the project, by name: once for all tests and later runs."""
     return lambda name: own_models.derive(_SHIPPED[name])
 
 
 @pytest.fixture(scope="session")
-def derived_anew() -> Callable[[str], GeneratedModel]:
+def derived_anew() -> Callable[[str], Derivation]:
     """Derive it here and now, even if it was before."""
     return lambda name: own_models.derive(_SHIPPED[name], anew=True)
 

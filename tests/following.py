@@ -25,7 +25,7 @@ from scipy.spatial.transform import Rotation
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
-    from kintrafo.generator import Model
+    from kintrafo.generator import Formulation
     from kintrafo.generator.declare.joints import Joint
     from oracle.constraints import Array
 
@@ -58,7 +58,7 @@ class Follower:
         The least singular value of the equations so far, of the greatest.
     """
 
-    def __init__(self, model: Model, parameters: Mapping[str, float]) -> None:
+    def __init__(self, model: Formulation, parameters: Mapping[str, float]) -> None:
         self._oracle = oracle = Oracle(model, parameters)
         self._centers = oracle.centers
         count = len(oracle.bodies)
@@ -234,7 +234,7 @@ class Family:
     """
 
     title: str
-    model: Model
+    model: Formulation
     vary: Callable[[Random], dict[str, float]]
     reach: tuple[float, ...]
     quick: bool = True
@@ -260,7 +260,7 @@ def _plane(names: list[str], size: float) -> Callable[[Random], dict[str, float]
     return lambda random: named({f"{n}_at": askew(*random.uniform(0.0, size, 2)) for n in names})
 
 
-def _near(model: Model, spread: float) -> Callable[[Random], dict[str, float]]:
+def _near(model: Formulation, spread: float) -> Callable[[Random], dict[str, float]]:
     """Draw pins of a planar mechanism not far from the declared ones, in the plane."""
     defaults = {p.name: p.default for p in model.mechanism.parameters}
     x, y = (np.array(askew(*e)) - askew(0.0, 0.0) for e in ((1.0, 0.0), (0.0, 1.0)))
@@ -276,7 +276,7 @@ def _near(model: Model, spread: float) -> Callable[[Random], dict[str, float]]:
     return vary
 
 
-def _pins(model: Model) -> list[str]:
+def _pins(model: Formulation) -> list[str]:
     return [joint.name for joint in model.mechanism.joints]
 
 

@@ -13,10 +13,10 @@ from own_models import Built
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from kintrafo.generator import Model
+    from kintrafo.generator import Formulation
 
 
-def check_with_the_oracle(model: Model, folder: Path, reach: float, count: int = 10) -> Built:
+def check_with_the_oracle(model: Formulation, folder: Path, reach: float, count: int = 10) -> Built:
     """See that loops close, that rates keep them closed, and that accelerations are the oracle's.
 
     Parameters

@@ -23,7 +23,7 @@ from own_mechanisms import (
 )
 
 if TYPE_CHECKING:
-    from kintrafo.generator import Model
+    from kintrafo.generator import Formulation
     from own_mechanisms import Sketch
 
 BODIES = ["ground", "one", "two", "three", "four", "five", "six"]
@@ -43,7 +43,7 @@ def ring(
     places: list[Place],
     axes: list[Place],
     driven: str | None = None,
-) -> Model:
+) -> Formulation:
     """Return a closed chain with a spring to its second body; some joint drives: the first."""
     bodies = BODIES[1 : len(joints)]
     middles = {
@@ -101,7 +101,7 @@ BALL_RING = ring(
 # -- chains that move although they should not ----------------------------------------------------
 
 
-def bennett(length: float, twist: float, other: float, angle: float) -> Model:
+def bennett(length: float, twist: float, other: float, angle: float) -> Formulation:
     """Return Bennett's chain of four hinges: one freedom, where Grübler counts -2.
 
     Parameters
@@ -145,7 +145,7 @@ BENNETT = bennett(0.3, *BENNETT_TWISTS, BENNETT_ANGLE)
 # -- loops that hold each other -------------------------------------------------------------------
 
 
-def plate(name: str, last: str) -> Model:
+def plate(name: str, last: str) -> Formulation:
     """Return a plate in an oblique plane that a rod, a bar with a wheel and a slotted block hold.
 
     Parameters
@@ -307,7 +307,7 @@ DRIVEN_GUIDE = ring(
 # -- all axes through a point -------------------------------------------------------------------
 
 
-def around_a_point(name: str, axes: list[Place]) -> Model:
+def around_a_point(name: str, axes: list[Place]) -> Formulation:
     """Return a ring of hinges whose axes meet in a point: five equations, two unknowns for four."""
     places = [tuple((0.2 * np.array(a) / np.linalg.norm(a)).tolist()) for a in axes]
     return ring(name, in_a_ring(len(axes)), places, axes)
@@ -342,7 +342,7 @@ def planar(
     hinges: list[tuple[str, str, str, tuple[float, float]]],
     driven: tuple[str, ...],
     seat: tuple[str, tuple[float, float]],
-) -> Model:
+) -> Formulation:
     """Return a linkage of pins in an oblique plane.
 
     Parameters

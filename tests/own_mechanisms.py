@@ -17,6 +17,7 @@ from kintrafo.generator import (
     DamperRate,
     Direction,
     ForceElement,
+    Formulation,
     Ground,
     Input,
     JointForce,
@@ -25,7 +26,6 @@ from kintrafo.generator import (
     LinearDamper,
     LinearSpring,
     Mechanism,
-    Model,
     Motion,
     Point,
     Prismatic,
@@ -149,7 +149,7 @@ def declare(
     prescribed: Mapping[str, str] | None = None,
     wheel: tuple[str, Place] | None = None,
     **more: object,
-) -> Model:
+) -> Formulation:
     """Return a model with weight, a spring with a damper, and a force on every coordinate.
 
     Parameters
@@ -190,7 +190,7 @@ def declare(
     )
     given = {named[j]: motion_of(named[j], motion) for j, motion in (prescribed or {}).items()}
     massive = more.pop("massive", bodies)
-    return Model(
+    return Formulation(
         name=name,
         title=name,
         mechanism=mechanism,
@@ -247,7 +247,7 @@ NORMAL: Place = tuple((2.0 * _NORMAL).tolist())
 # -- a spatial four-bar: hinge, rod with a cross and a ball joint, hinge on a skew axis ------------
 
 
-def spatial_four_bar(name: str, *, cross_at_rocker: bool = False) -> Model:
+def spatial_four_bar(name: str, *, cross_at_rocker: bool = False) -> Formulation:
     """Return hinge - rod - hinge on skew axes; the rod's cross at either of its ends."""
     if cross_at_rocker:
         rod = (
@@ -289,7 +289,7 @@ def spatial_four_bar(name: str, *, cross_at_rocker: bool = False) -> Model:
 # -- a spatial slider-crank between two bodies that both turn --------------------------------------
 
 
-def moving_slider_crank(name: str, *, prescribed: bool = False) -> Model:
+def moving_slider_crank(name: str, *, prescribed: bool = False) -> Formulation:
     """Return crank, rod and slider; the crank's bearing and the slider's guide move by themselves.
 
     The guide is declared from the slider to its table: the slide counts the other way round.
@@ -336,7 +336,7 @@ def moving_slider_crank(name: str, *, prescribed: bool = False) -> Model:
 # -- planar loops in an oblique plane, on a base that turns ----------------------------------------
 
 
-def oblique_four_bar() -> Model:
+def oblique_four_bar() -> Formulation:
     """Return a planar four-bar on a base that turns, with a rotor on its coupler.
 
     Its hinges' points lie at different heights over the plane, as in a real mechanism.
@@ -374,7 +374,7 @@ def oblique_four_bar() -> Model:
     )
 
 
-def oblique_slider_crank(name: str, *, driven: str) -> Model:
+def oblique_slider_crank(name: str, *, driven: str) -> Formulation:
     """Return a planar slider-crank on a base that turns; the crank or the piston is driven."""
     return declare(
         name,
@@ -405,7 +405,7 @@ def oblique_slider_crank(name: str, *, driven: str) -> Model:
     )
 
 
-def oblique_trammel() -> Model:
+def oblique_trammel() -> Formulation:
     """Return two sliders on guides of one base, joined by a rod: Archimedes' trammel."""
     return declare(
         "oblique_trammel",
@@ -443,7 +443,7 @@ def oblique_trammel() -> Model:
 # -- telescopes in an oblique plane, on a base that turns ------------------------------------------
 
 
-def given_telescope() -> Model:
+def given_telescope() -> Formulation:
     """Return a boom held by a cylinder of given stroke, whose guide passes beside both pins."""
     return declare(
         "given_telescope",
@@ -475,7 +475,7 @@ def given_telescope() -> Model:
     )
 
 
-def inverted_slider_crank() -> Model:
+def inverted_slider_crank() -> Formulation:
     """Return a crank whose pin carries a block that slides along a rocker.
 
     All joints but the driven ones are declared from the far body to the near one.
@@ -509,7 +509,7 @@ def inverted_slider_crank() -> Model:
     )
 
 
-def pushed_slider() -> Model:
+def pushed_slider() -> Formulation:
     """Return a slider on a guide, pushed by a cylinder whose stroke is driven."""
     return declare(
         "pushed_slider",
@@ -539,7 +539,7 @@ def pushed_slider() -> Model:
 # -- one loop after another ------------------------------------------------------------------------
 
 
-def chain() -> Model:
+def chain() -> Formulation:
     """Return a planar four-bar whose rocker drives a spatial one, which drives a slider."""
     return declare(
         "chain",
@@ -591,7 +591,7 @@ def chain() -> Model:
 # -- a boom on a turret, held by a cylinder in space -----------------------------------------------
 
 
-def turret(name: str, driven: str, *, carriage: bool = False, reverse: bool = False) -> Model:
+def turret(name: str, driven: str, *, carriage: bool = False, reverse: bool = False) -> Formulation:
     """Return turret, boom and cylinder: guide between a cross and a ball joint.
 
     Parameters

@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from kintrafo.generator.equations.outputs import GeneratedModel, generate
+from kintrafo.generator.equations.outputs import Derivation, generate
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.cache import appearing, damage, fingerprint
 from kintrafo.systems.compile.compiler import FLAGS, Compiler
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
     from types import ModuleType
 
-    from kintrafo.generator import Model
+    from kintrafo.generator import Formulation
     from oracle.constraints import Array
 
 # Emitted code gives no warning.
@@ -52,15 +52,15 @@ FORGOTTEN_S = 7 * 24 * 3600.0
 has_gcc = shutil.which("gcc") is not None
 needs_gcc = pytest.mark.skipif(not has_gcc, reason="no gcc")
 
-_derived: dict[tuple[str, bool], GeneratedModel] = {}
+_derived: dict[tuple[str, bool], Derivation] = {}
 
 
-def shipped(model: Model) -> ModuleType:
+def shipped(model: Formulation) -> ModuleType:
     """Return the compiled module of a model that comes with the project."""
     return importlib.import_module(f"kintrafo.generated.{model.name}")
 
 
-def derive(model: Model, *, derivatives: bool = True, anew: bool = False) -> GeneratedModel:
+def derive(model: Formulation, *, derivatives: bool = True, anew: bool = False) -> Derivation:
     """Derive a model, once for all processes; what has derivatives serves who needs none, too.
 
     Parameters
@@ -80,12 +80,12 @@ def derive(model: Model, *, derivatives: bool = True, anew: bool = False) -> Gen
     return found
 
 
-def _kept_or_derived(model: Model, *, derivatives: bool, anew: bool) -> GeneratedModel:
+def _kept_or_derived(model: Formulation, *, derivatives: bool, anew: bool) -> Derivation:
     whole, wanted = (_file_of(model, derivatives=with_them) for with_them in (True, derivatives))
     with _one_at_a_time(wanted.parent.name):
         for file in () if anew else (whole, wanted):
             if file.exists():
-                kept: GeneratedModel = pickle.loads(file.read_bytes())
+                kept: Derivation = pickle.loads(file.read_bytes())
                 return kept
         made = generate(model, derivatives=derivatives)
         wanted.parent.mkdir(exist_ok=True)
@@ -95,13 +95,13 @@ def _kept_or_derived(model: Model, *, derivatives: bool, anew: bool) -> Generate
         return made
 
 
-def _file_of(model: Model, *, derivatives: bool) -> Path:
+def _file_of(model: Formulation, *, derivatives: bool) -> Path:
     """Return where a derived model is kept."""
     built_by = f"{sys.version} derived" + ("" if derivatives else " without derivatives")
     return KEPT / f"{model.name}-{fingerprint(repr(model), built_by=built_by)}" / "derived.pickle"
 
 
-def own(model: Model, *, arrays: bool = not has_gcc, derivatives: bool = True) -> ModuleType:
+def own(model: Formulation, *, arrays: bool = not has_gcc, derivatives: bool = True) -> ModuleType:
     """Return the module of any declared model; what was compiled before is not derived again.
 
     Parameters
@@ -166,12 +166,14 @@ class Built:
         Value of every parameter, SI units.
     """
 
-    model: Model
+    model: Formulation
     module: Any
     parameters: Mapping[str, float]
 
     @classmethod
-    def of(cls, model: Model, module: Any, changes: Mapping[str, float] | None = None) -> Built:
+    def of(
+        cls, model: Formulation, module: Any, changes: Mapping[str, float] | None = None
+    ) -> Built:
         """Take the default parameters but for some."""
         defaults = {p.name: p.default for p in model.mechanism.parameters}
         return cls(model, module, defaults | dict(changes or {}))

@@ -5,18 +5,18 @@ from __future__ import annotations
 from kintrafo.generator import (
     Body,
     Direction,
+    Formulation,
     Ground,
     Input,
     JointForce,
     Mechanism,
-    Model,
     Prismatic,
 )
 from kintrafo.generator.mechanisms.planar import flat, hinge
 from own_mechanisms import reported
 
 
-def yoke(name: str, *, turned: bool = False, carried: bool = False) -> Model:
+def yoke(name: str, *, turned: bool = False, carried: bool = False) -> Formulation:
     """Return a Scotch yoke in a plane.
 
     Parameters
@@ -55,7 +55,7 @@ def yoke(name: str, *, turned: bool = False, carried: bool = False) -> Model:
         forces=(JointForce(driving, Input("torque", "N m", "torque on the crank")),),
         coordinates=reported(joints),
     )
-    return Model(name, "Scotch yoke", mechanism, joints[: 2 if carried else 1])
+    return Formulation(name, "Scotch yoke", mechanism, joints[: 2 if carried else 1])
 
 
 SCOTCH_YOKE = yoke("scotch_yoke")

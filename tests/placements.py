@@ -19,7 +19,7 @@ from kintrafo.generator.program.vectors import UNIT_X, UNIT_Y, UNIT_Z
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from kintrafo.generator import Model
+    from kintrafo.generator import Formulation
     from kintrafo.generator.program import Function
     from oracle.constraints import Array
 
@@ -34,21 +34,21 @@ class Placements:
         Symbols of the driven coordinates, in the order of the independent and prescribed joints.
     """
 
-    model: Model
+    model: Formulation
     names: tuple[str, ...]
     _prepare: Any
     _places: Any
     _constants: tuple[str, ...]
 
     @classmethod
-    def of(cls, model: Model) -> Placements:
+    def of(cls, model: Formulation) -> Placements:
         """Derive them; those of a name once."""
         if model.name not in _DERIVED:
             _DERIVED[model.name] = cls._derived(model)
         return _DERIVED[model.name]
 
     @classmethod
-    def _derived(cls, model: Model) -> Placements:
+    def _derived(cls, model: Formulation) -> Placements:
         plan = Plan.of(model)
         symbols = tuple(sp.Symbol(p.name) for p in model.mechanism.parameters)
         constants = ConstantStage(symbols)

@@ -17,7 +17,7 @@ from sympy.printing.pycode import MpmathPrinter
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from kintrafo.generator.equations.outputs import GeneratedModel
+    from kintrafo.generator.equations.outputs import Derivation
     from kintrafo.generator.program import Function
     from kintrafo.generator.program.newton import Block
 
@@ -224,7 +224,7 @@ def python(function: Function) -> Any:
     return names["run"]
 
 
-def constants_of(model: GeneratedModel, parameters: Mapping[str, float]) -> dict[str, mpmath.mpf]:
+def constants_of(model: Derivation, parameters: Mapping[str, float]) -> dict[str, mpmath.mpf]:
     """Return the constants of a parameter set by name, in mpmath's precision."""
     values = {name: mpmath.mpf(value) for name, value in parameters.items()}
     return dict(zip(model.prepare.labels, python(model.prepare)(values), strict=True))

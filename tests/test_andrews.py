@@ -21,7 +21,7 @@ import numpy as np
 import pytest
 import sympy as sp
 from kintrafo.generated import andrews as compiled
-from kintrafo.generator.equations.outputs import GeneratedModel
+from kintrafo.generator.equations.outputs import Derivation
 from kintrafo.generator.mechanisms import andrews
 from mpmath import mpf
 from scipy.integrate import solve_ivp
@@ -170,7 +170,7 @@ def _book_constraints(
 class ExactModel:
     """The program of the model with the exact numbers of the test set, in mpmath's precision."""
 
-    def __init__(self, derived: GeneratedModel) -> None:
+    def __init__(self, derived: Derivation) -> None:
         self.derived = derived
         exact = {
             f"{name}_{axis}": mpf(str(sp.N(value, 38)))
@@ -247,7 +247,7 @@ def _midpoint(
 
 
 @pytest.fixture(scope="module")
-def exact(derived: Callable[[str], GeneratedModel]) -> ExactModel:
+def exact(derived: Callable[[str], Derivation]) -> ExactModel:
     with mpmath.workdps(DIGITS):
         return ExactModel(derived("andrews"))
 

@@ -19,11 +19,11 @@ from kintrafo.generator import (
     Body,
     DeclarationError,
     Direction,
+    Formulation,
     Ground,
     Joint,
     Line,
     Mechanism,
-    Model,
     Point,
     Revolute,
     Rotor,
@@ -49,7 +49,7 @@ from own_models import Built, has_gcc, own
 Place = tuple[float, float, float]
 
 
-def make(model: Model) -> list[Any]:
+def make(model: Formulation) -> list[Any]:
     """Build a model over NumPy arrays, and as C where there is a compiler."""
     return [
         own(model, arrays=arrays, derivatives=False)
@@ -57,7 +57,7 @@ def make(model: Model) -> list[Any]:
     ]
 
 
-def numbers(model: Model) -> dict[str, float]:
+def numbers(model: Formulation) -> dict[str, float]:
     """Return the default parameters."""
     return {p.name: p.default for p in model.mechanism.parameters}
 
@@ -102,7 +102,7 @@ def amount(text: str, unit: str) -> float:
     return float(found[1])
 
 
-def with_joint(model: Model, joint: Joint) -> Model:
+def with_joint(model: Formulation, joint: Joint) -> Formulation:
     """Return a model with another joint of the same name."""
     return changed(model, (model.mechanism.joint(joint.name), joint))
 
@@ -113,7 +113,7 @@ def declared(
     points: Mapping[str, Place],
     directions: Mapping[str, Place],
     independent: tuple[str, ...],
-) -> Model:
+) -> Formulation:
     """Return a model of the bodies that some joints connect, each with its centre of mass."""
     bodies: dict[str, Body] = {"ground": Ground("ground")}
     for body in (b for joint in joints for b in (joint.first, joint.second)):
@@ -126,25 +126,25 @@ def declared(
     )
     built = tuple(sketch.of(parts) for sketch in joints)
     mechanism = Mechanism(name, name, built, coordinates=reported(built))
-    return Model(name, name, mechanism, independent=tuple(map(mechanism.joint, independent)))
+    return Formulation(name, name, mechanism, independent=tuple(map(mechanism.joint, independent)))
 
 
-def by_directions(model: Model) -> Model:
+def by_directions(model: Formulation) -> Formulation:
     """Give every hinge a direction of its own, every other one the other way round."""
     return _lines(model, lambda joint, place: Direction(f"{joint.name}_line", place))
 
 
-def by_points(model: Model) -> Model:
+def by_points(model: Formulation) -> Formulation:
     """Make every hinge a line through two points, every other one the other way round."""
     return _lines(model, lambda joint, place: Point(f"{joint.name}_line", place), by_points=True)
 
 
 def _lines(
-    model: Model,
+    model: Formulation,
     towards: Callable[[Joint, Place], Point | Direction],
     *,
     by_points: bool = False,
-) -> Model:
+) -> Formulation:
     values, normal = numbers(model), np.array(NORMAL)
     hinges = [j for j in model.mechanism.joints if isinstance(j, Revolute)]
     for i, joint in enumerate(hinges):
@@ -156,7 +156,7 @@ def _lines(
     return model
 
 
-def by_the_oracle(model: Model, module: Any, values: Mapping[str, float]) -> None:
+def by_the_oracle(model: Formulation, module: Any, values: Mapping[str, float]) -> None:
     """Compare poses and accelerations with those in maximal coordinates."""
     built = Built.of(model, module, values)
     state = np.array([0.4, -0.7, 1.1, 0.8])
@@ -223,7 +223,7 @@ def test_equations_do_not_read_what_must_be_zero() -> None:
         assert assumption.quantity not in function.free_symbols
 
 
-def crane(*, reverse: bool = False) -> Model:
+def crane(*, reverse: bool = False) -> Formulation:
     """Return a boom and a cylinder in an oblique plane; the guide is declared from pin to pin."""
     pins = ("barrel_pin", "piston_pin") if reverse else ("piston_pin", "barrel_pin")
     return declared(
@@ -276,7 +276,7 @@ def test_defaults_that_leave_the_plane_are_refused_before_anything_is_compiled(
 # -- shafts of crosses ----------------------------------------------------------------------------
 
 
-def spatial_four_bar(*, cross_at_rocker: bool) -> Model:
+def spatial_four_bar(*, cross_at_rocker: bool) -> Formulation:
     """Return hinge - rod - hinge on skew axes; the rod's cross at either of its ends."""
     if cross_at_rocker:
         rod = (
@@ -337,7 +337,7 @@ def test_a_shaft_that_is_not_the_line_of_its_rod_is_refused(*, at_rocker: bool) 
 # -- rotors ---------------------------------------------------------------------------------------
 
 
-def fan(*, axis: Place = (0.3, 0.9, -0.2), center: Place = (0.1, 0.2, 0.3)) -> Model:
+def fan(*, axis: Place = (0.3, 0.9, -0.2), center: Place = (0.1, 0.2, 0.3)) -> Formulation:
     """Return a rotor in a bearing on an arm; the axis and the centre of the rotor are free."""
     foot, bearing = Point("foot", (0.0, 0.0, 0.0)), Point("bearing", (0.1, 0.2, 0.3))
     arm = Body("arm", 1.0, (0.05, 0.1, 0.1), (0.01, 0.01, 0.01))
@@ -355,7 +355,7 @@ def fan(*, axis: Place = (0.3, 0.9, -0.2), center: Place = (0.1, 0.2, 0.3)) -> M
     spin = Revolute("spin", arm, blades, Line(bearing, spin_line), angle_from=FORWARD)
     joints = (swing, spin)
     mechanism = Mechanism("fan", "Fan", joints, (Weight(),), reported(joints))
-    return Model("fan", "Fan", mechanism, independent=joints)
+    return Formulation("fan", "Fan", mechanism, independent=joints)
 
 
 def test_a_rotor_beside_its_bearing_is_refused() -> None:
@@ -396,7 +396,7 @@ def test_all_that_is_wrong_with_the_defaults_is_told_at_once() -> None:
 EDGE_AT = Point("edge_at", (0.9, 0.4, 0.1))
 
 
-def gate(line: Place, **flap: Any) -> Model:
+def gate(line: Place, **flap: Any) -> Formulation:
     """Return a leaf on a post with a flap at its end; no angle counts from or to anything."""
     model = declared(
         "gate",
@@ -452,7 +452,7 @@ def test_an_angle_that_counts_from_along_its_hinge_is_refused_by_name() -> None:
 # -- hinges that are parallel by their numbers ----------------------------------------------------
 
 
-def four_bar() -> Model:
+def four_bar() -> Formulation:
     """Return a four-bar in an oblique plane, its points at different heights."""
     return declared(
         "four_bar",
@@ -473,7 +473,7 @@ def four_bar() -> Model:
     )
 
 
-def driven_crane() -> Model:
+def driven_crane() -> Formulation:
     """Return the crane with the stroke of its cylinder given."""
     model = crane()
     return replace(model, independent=(model.mechanism.joint("bore"),))
@@ -482,7 +482,7 @@ def driven_crane() -> Model:
 @pytest.mark.parametrize("lines", [by_directions, by_points])
 @pytest.mark.parametrize("declare", [four_bar, lambda: SLIDER_CRANK, crane, driven_crane])
 def test_hinges_parallel_or_opposite_by_their_numbers_make_a_plane(
-    declare: Callable[[], Model], lines: Callable[[Model], Model]
+    declare: Callable[[], Formulation], lines: Callable[[Formulation], Formulation]
 ) -> None:
     """Angles are right-handed about the axis of their own hinge, wherever that points."""
     model = lines(declare())
@@ -505,7 +505,9 @@ def test_hinges_parallel_or_opposite_by_their_numbers_make_a_plane(
 
 
 @pytest.mark.parametrize("lines", [by_directions, by_points])
-def test_a_hinge_that_leaves_the_others_is_refused(lines: Callable[[Model], Model]) -> None:
+def test_a_hinge_that_leaves_the_others_is_refused(
+    lines: Callable[[Formulation], Formulation],
+) -> None:
     model = lines(four_bar())
     modules, values = make(model), numbers(model)
     along = vector(values, "c_line")

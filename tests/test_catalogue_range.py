@@ -25,7 +25,7 @@ from own_models import Built, own
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
-    from kintrafo.generator import Model
+    from kintrafo.generator import Formulation
     from oracle.constraints import Array
 
 BY_NAME = {model.name: model for model in SHIPPED}
@@ -256,7 +256,7 @@ def upper_arm(built: Built) -> Loop:
     )
 
 
-def compiled(model: Model) -> Built:
+def compiled(model: Formulation) -> Built:
     """Return a model with its default parameters."""
     return Built.of(model, own(model))
 

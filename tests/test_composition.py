@@ -23,6 +23,7 @@ from kintrafo.generator import (
     DeclarationError,
     Direction,
     ForceElement,
+    Formulation,
     Friction,
     Ground,
     Input,
@@ -32,7 +33,6 @@ from kintrafo.generator import (
     LinearDamper,
     LinearSpring,
     Mechanism,
-    Model,
     MomentLevel,
     Point,
     Revolute,
@@ -54,7 +54,7 @@ from own_models import Built, shipped
 from symbolic import constants_of, python
 
 if TYPE_CHECKING:
-    from kintrafo.generator.equations.outputs import GeneratedModel
+    from kintrafo.generator.equations.outputs import Derivation
     from oracle.constraints import Array
 
 IMAGE = np.diag([1.0, -1.0, 1.0])
@@ -69,7 +69,7 @@ DECLARED = {
 }
 
 
-def image_of(model: Model) -> Model:
+def image_of(model: Formulation) -> Formulation:
     """Return the mirror image of a model, under other names."""
     image = Copy(model.mechanism, "m_", mirrored=True)
     return replace(
@@ -82,7 +82,7 @@ def image_of(model: Model) -> Model:
     )
 
 
-def parameters_of(model: Model) -> dict[str, float]:
+def parameters_of(model: Formulation) -> dict[str, float]:
     """Return the declared parameters, or for a general strut those of a car that uses them all."""
     names = [p.name for p in model.mechanism.parameters]
     if model.name.startswith("macpherson"):
@@ -91,7 +91,7 @@ def parameters_of(model: Model) -> dict[str, float]:
     return {p.name: p.default for p in model.mechanism.parameters}
 
 
-def evaluated(derived: GeneratedModel, function: str, values: dict[str, float]) -> Array:
+def evaluated(derived: Derivation, function: str, values: dict[str, float]) -> Array:
     """Evaluate a function of the symbolic program."""
     return np.array([float(x) for x in python(derived.functions[function])(values)])
 
@@ -259,7 +259,7 @@ LAWS = (
 )
 
 
-def pendulum(first: str, second: str) -> Model:
+def pendulum(first: str, second: str) -> Formulation:
     """Return a double pendulum about oblique axes, with everything between its two hinges."""
     shoulder, elbow = HINGES.values()
     mechanism = Mechanism(
@@ -275,7 +275,7 @@ def pendulum(first: str, second: str) -> Model:
             elbow.angle("q2", "angle of the elbow"),
         ),
     )
-    return Model("pendulum", "Double pendulum", mechanism, (shoulder, elbow))
+    return Formulation("pendulum", "Double pendulum", mechanism, (shoulder, elbow))
 
 
 @pytest.mark.parametrize("order", [("shoulder", "elbow"), ("elbow", "shoulder")])
@@ -310,7 +310,7 @@ def test_moments_between_hinges_are_those_of_their_angles(order: tuple[str, str]
 # -- parts in axes of their own --------------------------------------------------------------------
 
 
-def pair_of_pendulums(*, roped: bool) -> Model:
+def pair_of_pendulums(*, roped: bool) -> Formulation:
     """Return a double pendulum and its mirror image, also with a spring from tip to tip."""
     one = pendulum("shoulder", "elbow")
     a, b = Copy(one.mechanism, "a_"), Copy(one.mechanism, "b_", mirrored=True)
@@ -326,7 +326,7 @@ def pair_of_pendulums(*, roped: bool) -> Model:
     )
     both = combined("pendulums", "Two pendulums", (a, b), forces=(rope,) if roped else ())
     joints = a.of(one.independent) + b.of(one.independent)
-    return Model("pendulums", "Two pendulums", both, joints)
+    return Formulation("pendulums", "Two pendulums", both, joints)
 
 
 def test_a_spring_between_parts_is_that_of_the_maximal_coordinates() -> None:

@@ -20,17 +20,17 @@ from kintrafo.generator import (
     FORWARD,
     Body,
     Copy,
+    Formulation,
     Ground,
     Line,
     Mechanism,
-    Model,
     Point,
     Revolute,
     combined,
 )
 from kintrafo.generator.closed_forms.catalogue import STEPS
 from kintrafo.generator.closed_forms.free import PlaceFree
-from kintrafo.generator.closed_forms.idle import PlaceIdle
+from kintrafo.generator.closed_forms.passive_turn import PlacePassive
 from kintrafo.generator.equations.design import _angle, design_coordinates
 from kintrafo.generator.equations.dynamics import Dynamics
 from kintrafo.generator.equations.in_motion import InMotion
@@ -92,13 +92,13 @@ SAMPLE = (
 class Moving:
     """The accelerations of a model; to derive its other functions takes most of the time."""
 
-    model: Model
+    model: Formulation
     coordinates: tuple[str, ...]
     constants: tuple[Step, ...]
     accelerations: Function
 
     @classmethod
-    def of(cls, model: Model) -> Moving:
+    def of(cls, model: Formulation) -> Moving:
         """Derive them."""
         mechanism, plan = model.mechanism, Plan.of(model)
         driven = [c.name for c in mechanism.coordinates if c.joint in model.independent]
@@ -165,13 +165,13 @@ def _derived(mechanism: Mechanism) -> tuple[Step, ...]:
     return tuple(Step(sp.Symbol(n), e, "") for n, e in mechanism.derived.items())
 
 
-def in_company(model: Model) -> Model:
+def in_company(model: Formulation) -> Formulation:
     """Return a copy of a model beside its mirror image."""
     one, two = (
         Copy(model.mechanism, prefix, mirrored=mirrored and model.name not in NOT_MIRRORED)
         for prefix, mirrored in zip(COPIES, (False, True), strict=True)
     )
-    return Model(
+    return Formulation(
         name="pair",
         title="Two of them",
         mechanism=combined("pair", "Two of them", (one, two)),
@@ -182,7 +182,7 @@ def in_company(model: Model) -> Model:
     )
 
 
-def check_in_company(model: Model, random: np.random.Generator) -> None:
+def check_in_company(model: Formulation, random: np.random.Generator) -> None:
     """See that a copy of a model and its image have the accelerations of the original."""
     one, two = Moving.of(model), Moving.of(in_company(model))
     with mpmath.workdps(DIGITS):
@@ -209,7 +209,7 @@ def test_a_copy_and_an_image_move_as_the_original_does(name: str) -> None:
 def test_the_sample_has_every_step_of_the_catalogue() -> None:
     found = {type(action) for name in SAMPLE for action in Plan.of(EVERY[name]).steps}
     # the one is in no model but test_struts', the other has no equations yet
-    assert found >= STEPS - {PlaceIdle, PlaceFree}
+    assert found >= STEPS - {PlacePassive, PlaceFree}
 
 
 def test_a_step_does_not_take_the_name_of_a_parameter_of_a_copy() -> None:

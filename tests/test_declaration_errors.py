@@ -13,12 +13,12 @@ from kintrafo.generator import (
     DeclarationError,
     Direction,
     Distance,
+    Formulation,
     Ground,
     Input,
     JointForce,
     Line,
     Mechanism,
-    Model,
     Point,
     Prismatic,
     RelativeCoordinate,
@@ -75,7 +75,9 @@ def spatial(*joints, reported=("A", "D"), **changes):
 def model(mechanism, *independent, **changes):
     """Return a model of a mechanism, all bodies massive."""
     joints = tuple(mechanism.joint(name) for name in independent)
-    return Model(mechanism.name, mechanism.title, mechanism, **{"independent": joints} | changes)
+    return Formulation(
+        mechanism.name, mechanism.title, mechanism, **{"independent": joints} | changes
+    )
 
 
 RUSR = spatial(CRANK, CROSS, BALL, ROCKER)
@@ -414,7 +416,7 @@ class TestRefusals:
             kintrafo.compile(MULTI_LINKS[0].mechanism)
         message = str(caught.value)
         names = "('lower_hinge', 'rack_guide', 'bearing')"
-        assert f"declare a Model with independent={names} and allow_iteration=True" in message
+        assert f"declare a Formulation with independent={names} and allow_iteration=True" in message
         assert "the loop chassis - lower_arm - carrier - upper_link (joints lower_hinge" in message
         assert "lower_ball/upper_link_ball leaves 1 equation(s) in 2 unknown(s)" in message
         assert "carrier is held by upper_link, camber_link, toe_link together" in message

@@ -30,6 +30,7 @@ from kintrafo.generator import (
     DeclarationError,
     Direction,
     ForceElement,
+    Formulation,
     Friction,
     Ground,
     Input,
@@ -39,7 +40,6 @@ from kintrafo.generator import (
     LinearDamper,
     LinearSpring,
     LinearTyre,
-    Model,
     MomentLevel,
     Motion,
     Parameter,
@@ -202,7 +202,7 @@ MISTAKES = {
     ),
     "model for a mechanism": (
         lambda: model(mechanism=FOUR),
-        ["Model 'four_bar'", "mechanism", "a Mechanism is needed"],
+        ["Formulation 'four_bar'", "mechanism", "a Mechanism is needed"],
     ),
     "one independent joint without brackets": (
         lambda: model(independent=bar.A),
@@ -358,7 +358,10 @@ MISTAKES = {
         lambda: replace(TYRE, name="front-left"),
         ["LinearTyre 'front-left'", "cannot be written in C"],
     ),
-    "dash in a model's name": (lambda: model(name="four-bar"), ["Model", "'four-bar' cannot"]),
+    "dash in a model's name": (
+        lambda: model(name="four-bar"),
+        ["Formulation", "'four-bar' cannot"],
+    ),
     **{
         f"parameter {name}": (
             lambda name=name: instead(RATE, name=name),
@@ -501,13 +504,13 @@ MISTAKES = {
         ["'D' is neither independent nor prescribed", "Actuator"],
     ),
     "one motion for two joints": (
-        lambda: Model(
+        lambda: Formulation(
             "m", "m", four_bar(forces=()), (), prescribed=dict.fromkeys((bar.A, bar.D), DRIVE)
         ),
         ["motion of prescribed joints 'drive' is declared 2 times"],
     ),
     "motion named as a parameter": (
-        lambda: Model(
+        lambda: Formulation(
             "m",
             "m",
             instead(RATE, name="drive_velocity"),

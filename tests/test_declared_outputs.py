@@ -32,13 +32,13 @@ from own_models import Built
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from kintrafo.generator import Model
+    from kintrafo.generator import Formulation
 
 POINT = Point("mark", (0.2, 0.15, 0.25))
 LINE, HINGE = Direction("line", (0.4, -0.3, 0.8)), Direction("about", (0.2, 0.9, 0.3))
 
 
-def declared() -> Model:
+def declared() -> Formulation:
     """Return the tilted slider-crank, whose table is prescribed, with every kind of output."""
     model = moving_slider_crank("shown_crank", prescribed=True)
     mechanism = model.mechanism

@@ -11,9 +11,9 @@ import pytest
 import xarray as xr
 from kintrafo import InputError, Model, Suspension, cli
 from kintrafo.plots.overview import write_overview
+from kintrafo.study import scenario
 from kintrafo.study.checkup import checkup
 from kintrafo.study.compare import compare
-from kintrafo.study.scenario import Scenario, play
 from kintrafo.suspension.toml_writer import toml_text, write_toml
 from matplotlib.image import imread
 
@@ -154,7 +154,9 @@ def test_measured_actuator(run, tmp_path):
 
 
 def test_scenario_starts_at_rest_with_its_actuator():
-    result, motion = play(MODEL, Scenario(duration=0.1, inputs={"spring_actuator": 300.0}))
+    result, motion = scenario.run(
+        MODEL, scenario.Scenario(duration=0.1, inputs={"spring_actuator": 300.0})
+    )
     moved = float(motion["wheel_center_z"].max() - motion["wheel_center_z"].min())
     assert moved < 1e-9
     assert result.success

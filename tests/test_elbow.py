@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from changes import changed, named
 from kintrafo.equations.errors import ClosureError
-from kintrafo.generator import Model, Motion, Point
+from kintrafo.generator import Formulation, Motion, Point
 from kintrafo.generator.closed_forms.elbow import Elbow, PlaceElbow
 from kintrafo.generator.closed_forms.prismatic import PrismaticByLength
 from kintrafo.generator.closed_forms.revolute import RevoluteByLength
@@ -22,14 +22,14 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 
-def other_way_round(model: Model) -> Model:
+def other_way_round(model: Formulation) -> Formulation:
     """Declare the driven hinge from the coupler to the crank, which the coupler then carries."""
     knee = model.mechanism.joint("knee")
     turned = replace(knee, first=knee.second, second=knee.first)
     return replace(changed(model, (knee, turned)), name="turned_knee")
 
 
-def driven_slider() -> Model:
+def driven_slider() -> Formulation:
     """Push the piston of a slider-crank by the hinge between crank and rod."""
     (model,) = SLIDER_CRANKS
     mechanism = replace(model.mechanism, forces=())
@@ -37,7 +37,7 @@ def driven_slider() -> Model:
     return replace(model, name="knee_slider", mechanism=mechanism, independent=(driving,))
 
 
-def counted_to_a_point() -> Model:
+def counted_to_a_point() -> Formulation:
     """Count the angle of the driven hinge from a direction of the crank to the rocker's pin."""
     knee = KNEE.mechanism.joint("knee")
     counted = replace(knee, angle_to=named(KNEE, Point, "knuckle_at"))
@@ -54,7 +54,7 @@ def counted_to_a_point() -> Model:
     ],
     ids=lambda value: getattr(value, "name", ""),
 )
-def test_it_moves_as_the_oracle_says(model: Model, form: type, tmp_path: Path) -> None:
+def test_it_moves_as_the_oracle_says(model: Formulation, form: type, tmp_path: Path) -> None:
     plan = Plan.of(model)
     (transformer,) = plan.transformers
     assert isinstance(transformer.step, form)

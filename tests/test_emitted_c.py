@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from c_text import EMITTED, FOLDER, count, functions, header, sources
 from cases import MODELS, car_parameters, random_instants
-from kintrafo.generator.equations.outputs import GeneratedModel
+from kintrafo.generator.equations.outputs import Derivation
 from oracle.newton import Mechanism
 from symbolic import Rounded, python
 
@@ -49,7 +49,7 @@ def given_names(compiled) -> list[str]:
 @pytest.mark.parametrize("seed", SEEDS)
 @each_suspension
 def test_functions_against_the_symbolic_program(
-    derived: Callable[[str], GeneratedModel], name: str, seed: int
+    derived: Callable[[str], Derivation], name: str, seed: int
 ) -> None:
     model, compiled = derived(name), MODELS[name]
     parameters = car_parameters(seed, compiled)
@@ -83,7 +83,7 @@ def test_functions_against_the_symbolic_program(
 @pytest.mark.parametrize("seed", SEEDS)
 @each_suspension
 def test_constants_against_the_symbolic_program(
-    derived: Callable[[str], GeneratedModel], name: str, seed: int
+    derived: Callable[[str], Derivation], name: str, seed: int
 ) -> None:
     parameters = car_parameters(seed, MODELS[name])
     found = MODELS[name].prepare(parameters)

@@ -33,7 +33,7 @@ from symbolic import python
 from benchmarks.front_axle import COUNTED, WITH, WITHOUT, rates, wheel_rate
 
 if TYPE_CHECKING:
-    from kintrafo.generator import Model
+    from kintrafo.generator import Formulation
     from oracle.constraints import Array
 
 SIDES = ("right", "left")
@@ -399,7 +399,9 @@ def test_a_free_rack_couples_the_sides() -> None:
     assert np.abs(oracle.mass_matrix[4, :4]).min() > 1e-3  # the rack moves both sides
 
 
-def accelerations(model: Model, given: dict[str, float], values: dict[str, float]) -> list[float]:
+def accelerations(
+    model: Formulation, given: dict[str, float], values: dict[str, float]
+) -> list[float]:
     """Derive the accelerations of a model and evaluate them, without its other functions."""
     mechanism = model.mechanism
     constants = ConstantStage(

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from kintrafo import generated
 from kintrafo.generator.backends.files import project_files, shared_files
-from kintrafo.generator.equations.outputs import GeneratedModel
+from kintrafo.generator.equations.outputs import Derivation
 from kintrafo.generator.mechanisms import MODELS
 
 COMMITTED = Path(generated.__file__).parent
@@ -40,7 +40,7 @@ def encoded(texts: dict[str, str]) -> dict[str, bytes]:
 
 
 @pytest.fixture(scope="module")
-def files(derived_anew: Callable[[str], GeneratedModel]) -> dict[str, dict[str, bytes]]:
+def files(derived_anew: Callable[[str], Derivation]) -> dict[str, dict[str, bytes]]:
     """Return what each model emits that is derived here and now, and serves the other tests."""
     return {model.name: encoded(project_files(derived_anew(model.name))) for model in MODELS}
 

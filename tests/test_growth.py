@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from kintrafo.generator.backends.counting import operations_of
 from kintrafo.generator.backends.numpy.printer import ArraysPrinter
-from kintrafo.generator.equations.outputs import GeneratedModel, generate
+from kintrafo.generator.equations.outputs import Derivation, generate
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.generator.planning.plan import Plan
 from own_models import Built, derive, needs_gcc, own
@@ -19,7 +19,7 @@ LONG = 16  # loops: more guards than a status word has bits
 
 
 @pytest.fixture(scope="module")
-def long_chain() -> GeneratedModel:
+def long_chain() -> Derivation:
     return derive(n_four_bar(LONG), derivatives=False)
 
 
@@ -64,7 +64,7 @@ def test_the_loop_that_cannot_close_is_named(chain: Built, loop: int) -> None:
     assert error.value.margins[first] < 0.0
 
 
-def test_arrays_share_the_last_bit_too(long_chain: GeneratedModel) -> None:
+def test_arrays_share_the_last_bit_too(long_chain: Derivation) -> None:
     source = ArraysPrinter(long_chain).source()
     assert len(long_chain.guards) > 32
     assert f"{len(long_chain.guards) - 1}: " in source

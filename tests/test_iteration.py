@@ -26,7 +26,7 @@ from kintrafo.equations.following import ITERATIONS
 from kintrafo.generated import double_wishbone
 from kintrafo.generator import Line, Revolute
 from kintrafo.generator.backends.report.markdown import markdown
-from kintrafo.generator.equations.outputs import GeneratedModel, generate
+from kintrafo.generator.equations.outputs import Derivation, generate
 from kintrafo.generator.loops.errors import NoClosedFormError
 from kintrafo.generator.mechanisms import multi_link
 from kintrafo.generator.mechanisms.multi_link import CONTROL_ARM, FIVE_LINK, MODELS
@@ -56,7 +56,7 @@ TRAVEL = {ARM.name: 0.35, FIVE.name: 0.5, STRUT.name: 0.08}
 
 
 @pytest.fixture(scope="session")
-def derive() -> Callable[[str], GeneratedModel]:
+def derive() -> Callable[[str], Derivation]:
     return lambda name: own_models.derive(BY_NAME[name], derivatives=False)
 
 
@@ -301,7 +301,7 @@ def test_jacobians_are_exact(
     name: str,
     by: str,
     built: Callable[[str], Built],
-    derive: Callable[[str], GeneratedModel],
+    derive: Callable[[str], Derivation],
 ) -> None:
     # central differences in 50 digits: every perturbed state is solved anew, to 50 digits as well
     model, derived = built(name), derive(name)
@@ -449,7 +449,7 @@ def test_documents_say_that_it_iterates(built: Callable[[str], Built]) -> None:
 
 
 def test_report_names_the_equations_of_the_loops(
-    derive: Callable[[str], GeneratedModel],
+    derive: Callable[[str], Derivation],
 ) -> None:
     text = markdown(derive(ARM.name))
     assert "This model is not free of iteration." in text
@@ -487,7 +487,7 @@ def test_angles_of_the_links_can_be_reported() -> None:
     assert float(beta["link_azimuth"]) == pytest.approx(np.arctan2(-x, y), abs=1e-14)
 
 
-def design_angle(derived: GeneratedModel) -> float:
+def design_angle(derived: Derivation) -> float:
     """Return the angle of the arm at the design position."""
     parameters = {p.name: p.default for p in derived.model.mechanism.parameters}
     return float(Built(derived.model, None, parameters).design[0])

@@ -17,11 +17,11 @@ from placements import Placements
 from scipy.spatial.transform import Rotation
 
 if TYPE_CHECKING:
-    from kintrafo.generator import Model
+    from kintrafo.generator import Formulation
     from oracle.constraints import Array
 
 
-def turned(model: Model, inputs: Array) -> tuple[Array, Array]:
+def turned(model: Formulation, inputs: Array) -> tuple[Array, Array]:
     """Return where the first hinge of a ring is answered, and how far its last body has turned.
 
     The turn is that about the axis of the last hinge, which is on the ground.

@@ -36,8 +36,8 @@ from symbolic import constants_of, python
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from kintrafo.generator import Model
-    from kintrafo.generator.equations.outputs import GeneratedModel
+    from kintrafo.generator import Formulation
+    from kintrafo.generator.equations.outputs import Derivation
     from oracle.constraints import Array
 
 MODELS = {
@@ -74,12 +74,12 @@ DIFFERENTIATED = (SEVEN_HINGES, BRICARD, own_loops.PLATE_ON_A_SLOT, own_loops.BE
 
 
 @pytest.fixture(scope="session")
-def derive() -> Callable[[Model], GeneratedModel]:
+def derive() -> Callable[[Formulation], Derivation]:
     return lambda model: own_models.derive(model, derivatives=False)
 
 
 @pytest.fixture(scope="session")
-def built() -> Callable[[Model], Built]:
+def built() -> Callable[[Formulation], Built]:
     """Return a compiled model."""
 
     @cache
@@ -123,7 +123,7 @@ def path(built: Built, step: float) -> Array:
     return found
 
 
-def each(*models: Model) -> pytest.MarkDecorator:
+def each(*models: Formulation) -> pytest.MarkDecorator:
     """Return the mark of a test of some models."""
     return pytest.mark.parametrize("model", models, ids=[m.name for m in models])
 
@@ -135,7 +135,9 @@ EVERY = each(*MODELS.values())
 
 
 @EVERY
-def test_loops_close_and_accelerate(model: Model, built: Callable[[Model], Built]) -> None:
+def test_loops_close_and_accelerate(
+    model: Formulation, built: Callable[[Formulation], Built]
+) -> None:
     compiled = built(model)
     inputs = given(compiled)
     named = compiled.named(inputs)
@@ -164,7 +166,7 @@ def test_loops_close_and_accelerate(model: Model, built: Callable[[Model], Built
 
 @EVERY
 def test_motion_is_continuous_over_the_whole_span(
-    model: Model, built: Callable[[Model], Built]
+    model: Formulation, built: Callable[[Formulation], Built]
 ) -> None:
     """No state of the span is on another branch: every step goes along the tangents."""
     compiled = built(model)
@@ -187,9 +189,9 @@ def test_motion_is_continuous_over_the_whole_span(
 
 @each(SEVEN_HINGES, BRICARD, own_loops.PLATE_ON_A_SLOT)
 def test_jacobians_are_exact(
-    model: Model,
-    built: Callable[[Model], Built],
-    derive: Callable[[Model], GeneratedModel],
+    model: Formulation,
+    built: Callable[[Formulation], Built],
+    derive: Callable[[Formulation], Derivation],
 ) -> None:
     # central differences in 50 digits: every perturbed state is solved anew, to 50 digits as well
     compiled, derived = built(model), derive(model)
@@ -216,7 +218,7 @@ def test_jacobians_are_exact(
 # -- published relations --------------------------------------------------------------------------
 
 
-def test_bennett(built: Callable[[Model], Built]) -> None:
+def test_bennett(built: Callable[[Formulation], Built]) -> None:
     """tan(a/2) tan(b/2) of neighbouring angles stays, opposite angles are opposite (Bennett)."""
     model = own_loops.BENNETT
     compiled = built(model)
@@ -233,7 +235,7 @@ def test_bennett(built: Callable[[Model], Built]) -> None:
     np.testing.assert_allclose(two, -four, rtol=0.0, atol=1e-14)
 
 
-def test_bricard(built: Callable[[Model], Built]) -> None:
+def test_bricard(built: Callable[[Formulation], Built]) -> None:
     """Opposite angles of the line-symmetric chain are equal."""
     compiled = built(BRICARD)
     names = list(compiled.module.RELATIVE_COORDINATES)
@@ -267,7 +269,9 @@ def seven_angles(driven: float, before: Array) -> Array:
     return np.array(found.x)
 
 
-def test_seven_hinges_are_where_a_root_finder_puts_them(built: Callable[[Model], Built]) -> None:
+def test_seven_hinges_are_where_a_root_finder_puts_them(
+    built: Callable[[Formulation], Built],
+) -> None:
     model = SEVEN_HINGES
     compiled = built(model)
     for end in SPANS[model.name]:
@@ -285,7 +289,9 @@ def test_seven_hinges_are_where_a_root_finder_puts_them(built: Callable[[Model],
 
 
 @EVERY
-def test_anywhere_it_closes_or_says_so(model: Model, built: Callable[[Model], Built]) -> None:
+def test_anywhere_it_closes_or_says_so(
+    model: Formulation, built: Callable[[Formulation], Built]
+) -> None:
     compiled, rng = built(model), np.random.default_rng(1)
     outcomes = set()
     for _ in range(60):
@@ -304,7 +310,7 @@ def test_anywhere_it_closes_or_says_so(model: Model, built: Callable[[Model], Bu
 
 
 def test_a_chain_that_moves_by_its_dimensions_alone_is_refused_with_others(
-    built: Callable[[Model], Built],
+    built: Callable[[Formulation], Built],
 ) -> None:
     """Where Bricard's symmetry is broken, the design position is the only one that closes."""
     compiled = built(BRICARD)
@@ -316,7 +322,7 @@ def test_a_chain_that_moves_by_its_dimensions_alone_is_refused_with_others(
 
 
 @needs_gcc
-def test_c_computes_what_numpy_computes(built: Callable[[Model], Built]) -> None:
+def test_c_computes_what_numpy_computes(built: Callable[[Formulation], Built]) -> None:
     model = own_loops.BENNETT
     compiled = built(model)
     arrays = replace(compiled, module=own(model, arrays=True))
@@ -331,7 +337,7 @@ def test_c_computes_what_numpy_computes(built: Callable[[Model], Built]) -> None
     assert text.count("for (int i = 0; i < ITERATIONS; ++i)") == 1
 
 
-def test_report_names_joints_and_equations(derive: Callable[[Model], GeneratedModel]) -> None:
+def test_report_names_joints_and_equations(derive: Callable[[Formulation], Derivation]) -> None:
     text = markdown(derive(own_loops.PLATE_ON_A_PIN))
     assert "This model is not free of iteration." in text
     assert "bar and plate have an axis in common at plate_pin: 2 equations" in text
@@ -351,7 +357,7 @@ def test_report_names_joints_and_equations(derive: Callable[[Model], GeneratedMo
         (own_loops.BALL_RING, r"ball_2, 1 loop\(s\) leave 3 equations for the 3 unknown"),
     ],
 )
-def test_without_permission_the_loop_is_refused(model: Model, words: str) -> None:
+def test_without_permission_the_loop_is_refused(model: Formulation, words: str) -> None:
     with pytest.raises(NoClosedFormError, match=words) as told:
         Plan.of(replace(model, allow_iteration=False))
     assert "declared with allow_iteration=True" in str(told.value)

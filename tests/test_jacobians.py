@@ -12,7 +12,7 @@ import mpmath
 import numpy as np
 import pytest
 from cases import MODELS, At, Instant, car_parameters, is_prescribed, random_instants
-from kintrafo.generator.equations.outputs import GeneratedModel
+from kintrafo.generator.equations.outputs import Derivation
 from oracle.constraints import BODIES, Array
 from oracle.multipliers import reduced_equations, solve_twist
 from oracle.newton import Mechanism
@@ -86,7 +86,7 @@ def gradient(function: Callable[[Array], Array], steps: Array) -> Array:
     return np.stack(columns, axis=-1)
 
 
-def gradient_of_program(model: GeneratedModel, function: str, at: At, names: list[str]) -> Array:
+def gradient_of_program(model: Derivation, function: str, at: At, names: list[str]) -> Array:
     """Differentiate the symbolic program of a function by elements of state or inputs."""
     run = python(model.functions[function])
     values: dict[str, mpmath.mpf] = {}
@@ -105,7 +105,7 @@ def gradient_of_program(model: GeneratedModel, function: str, at: At, names: lis
 
 
 def test_derivatives_of_the_program(
-    derived: Callable[[str], GeneratedModel], jacobian_and_places: tuple[str, list[At]]
+    derived: Callable[[str], Derivation], jacobian_and_places: tuple[str, list[At]]
 ) -> None:
     jacobian, at_places = jacobian_and_places
     for at in at_places:
@@ -157,7 +157,7 @@ def test_derivatives_of_the_compiled_functions(
     ],
 )
 def test_derivatives_on_both_sides_of_a_kink(
-    derived: Callable[[str], GeneratedModel], parameter: str, signal: str
+    derived: Callable[[str], Derivation], parameter: str, signal: str
 ) -> None:
     """A nanometre from first touch, or from the air, the derivative is that of its own side."""
     name, touch = "macpherson_general", {"tyre_damper_rate": 0.0}

@@ -16,8 +16,8 @@ import own_mechanisms
 import own_models
 import pytest
 from changes import changed
-from kintrafo.generator import FORWARD, AlongLine, Model
-from kintrafo.generator.equations.outputs import GeneratedModel, generate
+from kintrafo.generator import FORWARD, AlongLine, Formulation
+from kintrafo.generator.equations.outputs import Derivation, generate
 from kintrafo.generator.mechanisms import MODELS as SHIPPED
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from oracle.constraints import Array
@@ -33,7 +33,7 @@ OWN = {m.name for m in COMPILED_HERE}
 SEEDS = range(3)  # 0 is the declaration's own geometry
 STATES = 4  # for each geometry
 
-Derived = Callable[[str], GeneratedModel]
+Derived = Callable[[str], Derivation]
 Modules = Callable[[str], Any]
 
 SCALES = {
@@ -118,7 +118,7 @@ def _places(name: str, seed: int, found: Any) -> list[At]:
     return [random_place(built, rng) for _ in range(STATES)]
 
 
-def geometry(model: Model, found: Any, rng: np.random.Generator) -> Built:
+def geometry(model: Formulation, found: Any, rng: np.random.Generator) -> Built:
     """Return a model of other dimensions; its loops are about as far from dead points."""
     reference = margins(Built.of(model, found))
     for _ in range(100):
@@ -128,7 +128,7 @@ def geometry(model: Model, found: Any, rng: np.random.Generator) -> Built:
     raise AssertionError(f"{model.name}: no other geometry found")
 
 
-def other_values(model: Model, rng: np.random.Generator) -> dict[str, float]:
+def other_values(model: Formulation, rng: np.random.Generator) -> dict[str, float]:
     """Return other values of all parameters that may be chosen freely."""
     if model.name.startswith("macpherson"):
         car = completed(general_parameters(rng, offset=rng.uniform(0.0, 0.08)))
@@ -451,7 +451,7 @@ def kinetic_energy(built: Built, state: Array) -> float:
 # -- what declarations may say ---------------------------------------------------------------------
 
 
-def four_bar(name: str, **changes: Any) -> Model:
+def four_bar(name: str, **changes: Any) -> Formulation:
     """Return the four-bar that ships, declared otherwise."""
     model = MODELS["four_bar"]
     return replace(model, name=name, mechanism=replace(model.mechanism, name=name, **changes))
@@ -500,7 +500,7 @@ def test_every_angle_of_a_planar_loop_can_be_reported(joint: str, *, counted: bo
         assert whole_turns_off(expected, float(angle)) < 1e-13
 
 
-def motion_of(derived: GeneratedModel, values: dict[str, Any]) -> Motion:
+def motion_of(derived: Derivation, values: dict[str, Any]) -> Motion:
     """Return poses and twists of all bodies, from the symbolic program."""
 
     def found(name: str, *shape: int) -> Array:

@@ -18,10 +18,10 @@ from changes import changed, named
 from kintrafo.generator import (
     Body,
     Direction,
+    Formulation,
     Ground,
     Joint,
     Mechanism,
-    Model,
     Point,
     Prismatic,
     Revolute,
@@ -48,7 +48,7 @@ BOOM, BASE = (
 )  # from the boom's hinge to the cylinder's pin on it, and to that on the ground
 
 
-def crane(driven: str) -> Model:
+def crane(driven: str) -> Formulation:
     """Return the crane with the boom's hinge or the bore of the cylinder driven."""
     ground = Ground("ground")
     foot, low, high = (
@@ -80,7 +80,7 @@ def crane(driven: str) -> Model:
             bore.slide("stroke", "stroke"),
         ),
     )
-    return Model(mechanism.name, "Crane", mechanism, independent=(mechanism.joint(driven),))
+    return Formulation(mechanism.name, "Crane", mechanism, independent=(mechanism.joint(driven),))
 
 
 WAY = {"x": -0.5, "y": 0.7, "z": 0.0}
@@ -333,7 +333,7 @@ ANSWERS: dict[str, list[type]] = {
 }
 
 
-def sliding(driven: str) -> Model:
+def sliding(driven: str) -> Formulation:
     """Return the slider-crank without forces, its crank or its piston driven."""
     model = SLIDER_CRANKS[0]
     still = replace(model.mechanism, forces=())

@@ -19,7 +19,7 @@ import own_loops
 import pytest
 from changes import with_default
 from kintrafo.cli import app
-from kintrafo.generator import JointForce, Mechanism, Model, Motion
+from kintrafo.generator import Formulation, JointForce, Mechanism, Motion
 from kintrafo.generator.mechanisms.andrews import MODELS as ANDREWS
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.generator.mechanisms.four_bar import MODELS as FOUR_BAR_MODELS
@@ -414,7 +414,7 @@ class TestMistakes:
             ("x = (\n", "Line 1: '(' was never closed"),
             ("\nimport math\nx = math.sqrt(-1.0)\n", "Line 3: ValueError: math domain error"),
             ("def f():\n    return 1 / 0\n\nf()\n", "Line 2: ZeroDivisionError"),
-            ("x = 1\n", "defines no Model and no Mechanism"),
+            ("x = 1\n", "defines no Formulation and no Mechanism"),
             (f"{IMPORTS}second = replace(first, name='other')\n", "defines four_bar, other. Say"),
         ],
     )
@@ -470,4 +470,4 @@ def test_which_of_several_models(tmp_path):
 
 def test_declarations_can_be_imported_from_one_place():
     assert Mechanism.__module__ == "kintrafo.generator.declare.mechanism"
-    assert Model.__module__ == "kintrafo.generator.declare.model"
+    assert Formulation.__module__ == "kintrafo.generator.declare.formulation"

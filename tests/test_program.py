@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo.generator.backends.counting import counted, operations_of
 from kintrafo.generator.backends.schedule import schedule
-from kintrafo.generator.equations.outputs import GeneratedModel, generate
+from kintrafo.generator.equations.outputs import Derivation, generate
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.program import ConstantStage, Function, Program, Step
 from kintrafo.generator.program.derivatives import chain_rule
@@ -269,11 +269,11 @@ def test_operations_of_a_function_are_those_of_its_steps() -> None:
 
 
 @pytest.fixture(scope="module")
-def four_bar() -> GeneratedModel:
+def four_bar() -> Derivation:
     return generate(next(model for model in MODELS if model.name == "four_bar"))
 
 
-def test_derivatives_are_those_of_sympy(four_bar: GeneratedModel) -> None:
+def test_derivatives_are_those_of_sympy(four_bar: Derivation) -> None:
     x, y = sp.symbols("x y")
     composed = [sp.sin(x * y) * sp.sqrt(x**2 + y), sp.atan2(y * x, x) / (1 + y) ** 3, Positive(x)]
     steps = [step.expression for f in four_bar.functions.values() for step in f.steps]
@@ -308,7 +308,7 @@ def test_what_is_common_is_what_sympy_finds() -> None:
         assert sp.expand(written - expression) == 0
 
 
-def test_without_derivatives_the_other_functions_are_the_same(four_bar: GeneratedModel) -> None:
+def test_without_derivatives_the_other_functions_are_the_same(four_bar: Derivation) -> None:
     bare = generate(four_bar.model, derivatives=False)
     left_out = {"rhs_jacobian", "rhs_input_jacobian", "signals_jacobian", "signals_input_jacobian"}
     assert four_bar.functions.keys() - bare.functions.keys() == left_out

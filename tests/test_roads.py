@@ -11,7 +11,7 @@ from kintrafo import InputError, Model
 from kintrafo.simulation.roads import sine, step
 from kintrafo.study.excitation import Course, excitation
 from kintrafo.study.measurement import measured
-from kintrafo.study.scenario import Scenario, play
+from kintrafo.study.scenario import Scenario, run
 from kintrafo.study.sweep import grid
 
 MODEL = Model("reference_car")
@@ -53,7 +53,7 @@ def test_a_slow_sine_carries_the_suspension_along():
     """At 0.05 Hz, far below the wheel hop, the wheel is where statics puts it."""
     from kintrafo import equilibrium
 
-    _, motion = play(
+    _, motion = run(
         MODEL, Scenario(duration=5.0, inputs={"road_height": sine(0.01, 0.05, end=5.0)})
     )
     top = motion["wheel_center_z"].sel(time=5.0)
@@ -64,7 +64,7 @@ def test_a_slow_sine_carries_the_suspension_along():
 
 def test_motion_starts_at_rest_on_the_road_as_it_is():
     road = {"road_height": 0.03, "rack_position": 0.02}
-    _, motion = play(MODEL, Scenario(duration=0.2, inputs=road))
+    _, motion = run(MODEL, Scenario(duration=0.2, inputs=road))
     assert float(np.ptp(motion["wheel_center_z"].values)) < 1e-9
     assert float(abs(motion["steer"][0])) > 0.1
 

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 from cases import MODELS, Instant, car_parameters, counted_by, random_instants
 from changes import changed, named
-from kintrafo.generator import Body, Model, Rotor
-from kintrafo.generator.equations.outputs import GeneratedModel
+from kintrafo.generator import Body, Formulation, Rotor
+from kintrafo.generator.equations.outputs import Derivation
 from kintrafo.generator.mechanisms import MODELS as DECLARED
 from oracle.constraints import WHEEL, Array
 from oracle.newton import Mechanism
@@ -29,14 +29,14 @@ POINTS = 2  # for each car
 pytestmark = pytest.mark.slow
 
 
-def without_rotor(model: Model) -> Model:
+def without_rotor(model: Formulation) -> Formulation:
     """Return a model whose wheel is a body with a full inertia tensor."""
     wheel = named(model, Rotor, "wheel")
     return changed(model, (wheel, Body("wheel", wheel.mass.default, wheel.center, (0.0, 0.0, 0.0))))
 
 
 @cache
-def unfolded(name: str) -> GeneratedModel:
+def unfolded(name: str) -> Derivation:
     """Derive a model without the rotor."""
     return derive(
         without_rotor(next(model for model in DECLARED if model.name == name)), derivatives=False
@@ -62,7 +62,7 @@ def exact_tensor(parameters: Parameters) -> list[list[mpmath.mpf]]:
 
 
 def evaluate(
-    model: GeneratedModel, function: str, parameters: Parameters, state: Array, inputs: Array
+    model: Derivation, function: str, parameters: Parameters, state: Array, inputs: Array
 ) -> list[mpmath.mpf]:
     """Evaluate a function of a derived model in mpmath's precision."""
     values = constants_of(model, parameters)
@@ -81,7 +81,7 @@ def instants(name: str, seed: int) -> tuple[Parameters, list[Instant]]:
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("name", MODELS)
 def test_folding_is_exact(
-    derived: Callable[[str], GeneratedModel],
+    derived: Callable[[str], Derivation],
     name: str,
     function: str,
     seed: int,

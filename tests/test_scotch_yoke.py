@@ -16,7 +16,7 @@ from own_yokes import yoke
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from kintrafo.generator import Model
+    from kintrafo.generator import Formulation
 
 
 CASES = (
@@ -27,7 +27,7 @@ CASES = (
 
 
 @pytest.mark.parametrize("model", CASES, ids=lambda model: model.name)
-def test_it_moves_as_the_oracle_says_all_around(model: Model, tmp_path: Path) -> None:
+def test_it_moves_as_the_oracle_says_all_around(model: Formulation, tmp_path: Path) -> None:
     (transformer,) = Plan.of(model).transformers
     assert type(transformer.step) is ScotchYoke
     built = check_with_the_oracle(model, tmp_path, np.pi)

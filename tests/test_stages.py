@@ -13,14 +13,14 @@ from kintrafo.generator.backends.numpy.dialect import NUMPY
 from kintrafo.generator.backends.schedule import Schedule, ordered
 from kintrafo.generator.backends.sharing import scheduled
 from kintrafo.generator.backends.text import text_of
-from kintrafo.generator.equations.outputs import TOGETHER, GeneratedModel
+from kintrafo.generator.equations.outputs import TOGETHER, Derivation
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.program.function import Function, Stage
 
 each_model = pytest.mark.parametrize("name", [model.name for model in MODELS])
 
 
-def stages(model: GeneratedModel) -> Iterator[Stage]:
+def stages(model: Derivation) -> Iterator[Stage]:
     return (emitted for emitted in model.emitted.values() if isinstance(emitted, Stage))
 
 
@@ -33,7 +33,7 @@ def evaluated(schedule: Schedule, values: dict[str, float]) -> list[float]:
 
 
 @each_model
-def test_same_bits_as_alone(derived: Callable[[str], GeneratedModel], name: str) -> None:
+def test_same_bits_as_alone(derived: Callable[[str], Derivation], name: str) -> None:
     model, random = derived(name), np.random.default_rng(3)
     for stage in stages(model):
         assert not stage.blocks
@@ -44,7 +44,7 @@ def test_same_bits_as_alone(derived: Callable[[str], GeneratedModel], name: str)
 
 
 @each_model
-def test_less_work_than_alone(derived: Callable[[str], GeneratedModel], name: str) -> None:
+def test_less_work_than_alone(derived: Callable[[str], Derivation], name: str) -> None:
     model = derived(name)
     for stage in stages(model):
         alone = sum(operations_of(member).total() for member in stage.members)

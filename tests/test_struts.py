@@ -24,10 +24,10 @@ from own_mechanisms import spatial_four_bar, turret
 from own_models import Built, own
 
 if TYPE_CHECKING:
-    from kintrafo.generator import Model
+    from kintrafo.generator import Formulation
 
 
-def compiled(model: Model) -> Built:
+def compiled(model: Formulation) -> Built:
     """Return a model with its default parameters."""
     return Built.of(model, own(model, derivatives=False))
 
@@ -79,7 +79,7 @@ def test_ends_that_meet_are_named() -> None:
 # -- telescopes that may also turn ----------------------------------------------------------------
 
 
-def telescope(name: str, *, ball_at_boom: bool) -> Model:
+def telescope(name: str, *, ball_at_boom: bool) -> Formulation:
     """Return the turret with a telescope that may turn about its axis, from a cross to the boom."""
     model = turret(name, "lift")
     foot, eye, seat = (named(model, Point, name) for name in ("foot", "eye", "piston_seat"))
@@ -92,7 +92,7 @@ def telescope(name: str, *, ball_at_boom: bool) -> Model:
         axis = named(model, Direction, "slew_line")
         pin = Universal("pin", boom, piston, at=eye, shaft=Line(eye, foot), first_axis=axis)
         mechanism = changed(mechanism, (mechanism.joint("pin"), pin))
-    massive = tuple(b for b in model.massive if b.name not in mechanism.idle_links)
+    massive = tuple(b for b in model.massive if b.name not in mechanism.passive_links)
     return replace(model, mechanism=mechanism, massive=massive)
 
 
@@ -126,7 +126,7 @@ def test_a_piston_without_mass_may_turn_as_it_likes() -> None:
 # -- rods on two ball joints ----------------------------------------------------------------------
 
 
-def on_two_balls(massive: tuple[str, ...]) -> Model:
+def on_two_balls(massive: tuple[str, ...]) -> Formulation:
     """Return a spatial four-bar whose rod has a ball joint in place of its cross."""
     model = spatial_four_bar("two_balls")
     cross = model.mechanism.joint("cross")

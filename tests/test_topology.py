@@ -16,11 +16,11 @@ from kintrafo.generator import (
     Cylindrical,
     Direction,
     Distance,
+    Formulation,
     Ground,
     Joint,
     Line,
     Mechanism,
-    Model,
     Point,
     Prismatic,
     Revolute,
@@ -300,7 +300,7 @@ def test_two_joints_between_the_same_bodies() -> None:
         Topology(replace(SUSPENSION, joints=(*SUSPENSION.joints, second)))
 
 
-def loop_of(*kinds: type[Joint]) -> Model:
+def loop_of(*kinds: type[Joint]) -> Formulation:
     """Return a single loop whose first joint is driven."""
     count = len(kinds)
     joints = [
@@ -309,7 +309,7 @@ def loop_of(*kinds: type[Joint]) -> Model:
     ]
     driven = joints[0]
     mechanism = replace(mechanism_of(joints), coordinates=(driven.angle("q", "drive"),))
-    return Model("loop", "loop", mechanism, independent=(driven,), massive=())
+    return Formulation("loop", "loop", mechanism, independent=(driven,), massive=())
 
 
 def test_loop_without_closed_form() -> None:

@@ -9,9 +9,9 @@ from kintrafo.generator import (
     Body,
     Copy,
     DeclarationError,
+    Formulation,
     Free,
     Ground,
-    Model,
     Spherical,
     combined,
 )
@@ -54,7 +54,7 @@ def on_it(parts):
     return changed(parts, (CHASSIS, MOVING))
 
 
-def free_model(**changes) -> Model:
+def free_model(**changes) -> Formulation:
     """Return its model, with the six coordinates of the chassis."""
     given = {
         "mechanism": freed(),

@@ -12,7 +12,7 @@ from .python.printer import addresses_in, module
 from .report.markdown import markdown
 
 if TYPE_CHECKING:
-    from ..equations.outputs import GeneratedModel
+    from ..equations.outputs import Derivation
 
 _PACKAGE = '''"""Compiled models. Written by ``make generate``; do not edit.
 
@@ -26,7 +26,7 @@ def shared_files() -> dict[str, str]:
     return {"__init__.py": _PACKAGE}
 
 
-def project_files(model: GeneratedModel) -> dict[str, str]:
+def project_files(model: Derivation) -> dict[str, str]:
     """Return the files of a model that is built with this project, by Cython."""
     name = model.model.name
     c, cython = CPrinter(model), CythonPrinter(model)
@@ -39,7 +39,7 @@ def project_files(model: GeneratedModel) -> dict[str, str]:
     }
 
 
-def own_files(model: GeneratedModel, library: str | None) -> dict[str, str]:
+def own_files(model: Derivation, library: str | None) -> dict[str, str]:
     """Return the files of a model that is a package of its own.
 
     Parameters
@@ -59,7 +59,7 @@ def own_files(model: GeneratedModel, library: str | None) -> dict[str, str]:
     }
 
 
-def _facts(model: GeneratedModel) -> dict[str, str]:
+def _facts(model: Derivation) -> dict[str, str]:
     """Return what a model is: as data, as a module, and for a person to read."""
     name = model.model.name
     return {

@@ -15,7 +15,7 @@ from .text import Dialect, written
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from ..equations.outputs import GeneratedModel
+    from ..equations.outputs import Derivation
     from ..program.function import Block, Function, Stage
 
 GENERATOR_VERSION = "0.1.0"
@@ -46,7 +46,7 @@ def count_line(function: Function | Stage) -> str:
     return line + iterating if function.blocks else line
 
 
-def iteration_note(model: GeneratedModel) -> str:
+def iteration_note(model: Derivation) -> str:
     """Say which loops of a model are solved by iteration; nothing where all have a closed form."""
     blocks = blocks_of(model.functions.values())
     if not blocks:
@@ -68,7 +68,7 @@ def blocks_of(functions: Iterable[Function | Stage]) -> list[Block]:
     return list(found.values())
 
 
-def mechanism_hash(model: GeneratedModel) -> str:
+def mechanism_hash(model: Derivation) -> str:
     """Return a hash of everything that the emitted arithmetic depends on."""
     digest = hashlib.sha256()
     blocks = blocks_of(model.functions.values())

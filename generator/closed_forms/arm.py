@@ -108,8 +108,8 @@ class Fit:
     """The solution: body axes, D - E in them, the factor of the turning rate, and the rod."""
 
     axes: Axes
-    gap: Vector
-    hold: sp.Expr
+    rod_vector: Vector
+    inverse_lever: sp.Expr
     rod: Rod
 
 
@@ -150,9 +150,9 @@ def fit_rod(kin: Kinematics, step: Spanning, leg: Leg, arm: Arm, line: Vector, r
         program.vector(f"{body}_normal", reach.normal * cosine - reach.across * sine),
     )
     height = program.define(f"{body}_rod_height", branch * root)
-    gap = program.vector(f"{body}_rod", Vector(-reach.axial, rho - k, height), "123")
-    hold = program.define(f"{body}_hold", -branch / (rho * root))
-    return Fit(axes, gap, hold, rod)
+    rod_vector = program.vector(f"{body}_rod", Vector(-reach.axial, rho - k, height), "123")
+    inverse_lever = program.define(f"{body}_inverse_lever", -branch / (rho * root))
+    return Fit(axes, rod_vector, inverse_lever, rod)
 
 
 def solution_for(leg: Leg) -> str:

@@ -280,7 +280,7 @@ class _Solved:
     """The pose, the ways along the rods from their starts to their ends, J and its inverse."""
 
     pose: Pose
-    gaps: list[Vector]
+    rod_vectors: list[Vector]
     rows: Matrix
     inverse: Inverse
 
@@ -303,7 +303,9 @@ def _corrected(kin: Kinematics, held: _Held) -> _Solved:
     axes = rotation(program, f"{body}_found", u)
     start = Pose(axes, program.vector(f"{body}_found_shift", sigma * held.size))
     left = [
-        program.define(f"{rod.entry.rod}_misfit", rod.equation.misfit(rod.equation.gap(start)))
+        program.define(
+            f"{rod.entry.rod}_residual", rod.equation.residual(rod.equation.rod_vector(start))
+        )
         for rod in held.rods
     ]
     places = range(1, count + 1)
@@ -327,11 +329,14 @@ def _corrected(kin: Kinematics, held: _Held) -> _Solved:
     names = (f"{body}_forward", f"{body}_side", f"{body}_top")
     moved = start.shift + from_axes(axes, way * held.size)
     pose = Pose(program.axes(names, turned(axes, turn)), program.vector(f"{body}_shift", moved))
-    gaps = [
-        program.vector(f"{rod.entry.rod}_gap", rod.equation.gap(pose), "123") for rod in held.rods
+    rod_vectors = [
+        program.vector(f"{rod.entry.rod}_rod_vector", rod.equation.rod_vector(pose), "123")
+        for rod in held.rods
     ]
-    rows = [rod.equation.row(gap) for rod, gap in zip(held.rods, gaps, strict=True)]
-    return _Solved(pose, gaps, named(program, f"{body}_row", rows), inverse)
+    rows = [
+        rod.equation.row(rod_vector) for rod, rod_vector in zip(held.rods, rod_vectors, strict=True)
+    ]
+    return _Solved(pose, rod_vectors, named(program, f"{body}_row", rows), inverse)
 
 
 # -- motion ---------------------------------------------------------------------------------------
@@ -362,8 +367,8 @@ def _add_motion(kin: Kinematics, held: _Held, solved: _Solved, placed: BodyMotio
     body, to_body = placed.body, projector(kin, placed)
     rates = [ZERO for _ in held.rods]  # of the ends of the rods, as seen from where they start
 
-    def solve(name: str, slips: Sequence[sp.Expr]) -> list[sp.Expr]:
-        return solved.inverse.solve(kin, name, solved.rows, held.scaled(slips))
+    def solve(name: str, residual_rates: Sequence[sp.Expr]) -> list[sp.Expr]:
+        return solved.inverse.solve(kin, name, solved.rows, held.scaled(residual_rates))
 
     def twist_of(x: Sequence[sp.Expr], base: Vector) -> Twist:
         """Return a twist (or a bias) from the solution, and from the base where that is known."""
@@ -377,11 +382,11 @@ def _add_motion(kin: Kinematics, held: _Held, solved: _Solved, placed: BodyMotio
             for rod in held.rods
         ]
         growths = [rod.rod.stretch.get(k, sp.Integer(0)) for rod in held.rods]
-        slips = [
-            growth - gap.dot(base - start)
-            for growth, gap, start in zip(growths, solved.gaps, starts, strict=True)
+        residual_rates = [
+            growth - rod_vector.dot(base - start)
+            for growth, rod_vector, start in zip(growths, solved.rod_vectors, starts, strict=True)
         ]
-        twist = twist_of(solve(f"{body}_{k}", slips), base)
+        twist = twist_of(solve(f"{body}_{k}", residual_rates), base)
         placed.motion[k] = now = kin.define_twist(body, k, twist)
         for i, (rod, start) in enumerate(zip(held.rods, starts, strict=True)):
             rates[i] += (
@@ -391,13 +396,13 @@ def _add_motion(kin: Kinematics, held: _Held, solved: _Solved, placed: BodyMotio
     def bias() -> Twist:
         omega = kin.total(placed).angular
         base = to_body("acceleration", held.base.bias) if held.base else ZERO
-        slips = []
-        for rod, gap, rate in zip(held.rods, solved.gaps, rates, strict=True):
+        residual_rates = []
+        for rod, rod_vector, rate in zip(held.rods, solved.rod_vectors, rates, strict=True):
             now = kin.program.vector(f"{rod.entry.rod}_rate", rate, "123")
             start = to_body(f"{rod.entry.rod}_start_bias", rod.anchor.bias)
             pull = base - start + omega.cross(omega.cross(rod.equation.end))
-            slips.append(rod.rod.stretch_bias - gap.dot(pull) - now.dot(now))
-        return kin.define_bias(body, twist_of(solve(f"{body}_bias", slips), base))
+            residual_rates.append(rod.rod.stretch_bias - rod_vector.dot(pull) - now.dot(now))
+        return kin.define_bias(body, twist_of(solve(f"{body}_bias", residual_rates), base))
 
     placed.bias = once(bias)
 

@@ -74,18 +74,18 @@ class RodEquation:
         """What may move of it."""
         return [*self.anchor, self.squared]
 
-    def gap(self, pose: Pose) -> Vector:
+    def rod_vector(self, pose: Pose) -> Vector:
         """Return the way from the start of the rod to its end, in body axes."""
         return self.end - to_axes(pose.axes, self.anchor - pose.shift)
 
-    def misfit(self, gap: Vector) -> sp.Expr:
+    def residual(self, rod_vector: Vector) -> sp.Expr:
         """Return g_i."""
-        return (gap.dot(gap) - self.squared) * (self.scale / 2)
+        return (rod_vector.dot(rod_vector) - self.squared) * (self.scale / 2)
 
-    def row(self, gap: Vector) -> list[sp.Expr]:
+    def row(self, rod_vector: Vector) -> list[sp.Expr]:
         """Return the row of J."""
-        turn = self.end.cross(gap) * self.scale
-        return [*turn] if self.size is None else [*turn, *(gap * (self.scale * self.size))]
+        turn = self.end.cross(rod_vector) * self.scale
+        return [*turn] if self.size is None else [*turn, *(rod_vector * (self.scale * self.size))]
 
 
 def rotation(program: Program, name: str, u: Vector) -> Axes:
@@ -154,12 +154,15 @@ def block(
         sigma = own.vector("shift", sigma + from_axes(before, way))
         pose = Pose(axes, own.vector("moved", sigma * size))
         own.section("what the rods leave of their lengths")
-        gaps = [own.vector(f"gap_{i}", e.gap(pose), "123") for i, e in enumerate(equations, 1)]
-        left = [
-            own.define(f"misfit_{i}", e.misfit(gap))
-            for i, (e, gap) in enumerate(zip(equations, gaps, strict=True), 1)
+        rod_vectors = [
+            own.vector(f"rod_vector_{i}", e.rod_vector(pose), "123")
+            for i, e in enumerate(equations, 1)
         ]
-        rows = [e.row(gap) for e, gap in zip(equations, gaps, strict=True)]
+        left = [
+            own.define(f"residual_{i}", e.residual(rod_vector))
+            for i, (e, rod_vector) in enumerate(zip(equations, rod_vectors, strict=True), 1)
+        ]
+        rows = [e.row(rod_vector) for e, rod_vector in zip(equations, rod_vectors, strict=True)]
         return Found([*u, *([] if pinned else sigma)], left, rows, u.dot(u) + sigma.dot(sigma))
 
     unknowns = [f"{kind}_{a}" for kind in ("turn", "shift")[: 1 if pinned else 2] for a in "xyz"]

@@ -126,16 +126,16 @@ class _Equation:
     first: str
     second: str
 
-    def misfit(self) -> sp.Expr:
+    def residual(self) -> sp.Expr:
         """Return what the position leaves of the equation."""
         raise NotImplementedError
 
     def rate(self, one: Moving, two: Moving) -> sp.Expr:
-        """Return how fast the misfit changes with the motions of both bodies."""
+        """Return how fast the residual changes with the motions of both bodies."""
         raise NotImplementedError
 
     def acceleration(self, one: Moving, two: Moving) -> sp.Expr:
-        """Return the second derivative of the misfit, where misfit and rate are zero."""
+        """Return the second derivative of the residual, where residual and rate are zero."""
         raise NotImplementedError
 
 
@@ -148,7 +148,7 @@ class _Meeting(_Equation):
     along: Vector
     scale: sp.Expr
 
-    def misfit(self) -> sp.Expr:
+    def residual(self) -> sp.Expr:
         return self.along.dot(self.p2 - self.p1) * self.scale
 
     def rate(self, one: Moving, two: Moving) -> sp.Expr:
@@ -185,7 +185,7 @@ class _Square(_Equation):
     a1: Vector
     b2: Vector
 
-    def misfit(self) -> sp.Expr:
+    def residual(self) -> sp.Expr:
         return self.a1.dot(self.b2)
 
     def rate(self, one: Moving, two: Moving) -> sp.Expr:
@@ -202,22 +202,22 @@ class _Square(_Equation):
 class _Distance(_Equation):
     """A rod keeps its length l; ``scale`` is 1 / (l c)."""
 
-    gap: Vector
+    rod_vector: Vector
     p1: Vector
     p2: Vector
     squared: sp.Expr
     scale: sp.Expr
 
-    def misfit(self) -> sp.Expr:
-        return (self.gap.dot(self.gap) - self.squared) * (self.scale / 2)
+    def residual(self) -> sp.Expr:
+        return (self.rod_vector.dot(self.rod_vector) - self.squared) * (self.scale / 2)
 
     def rate(self, one: Moving, two: Moving) -> sp.Expr:
-        return self.gap.dot(self._rate(one, two)) * self.scale
+        return self.rod_vector.dot(self._rate(one, two)) * self.scale
 
     def acceleration(self, one: Moving, two: Moving) -> sp.Expr:
         rate = self._rate(one, two)
         pull = two.acceleration_of(self.p2) - one.acceleration_of(self.p1)
-        return (self.gap.dot(pull) + rate.dot(rate)) * self.scale
+        return (self.rod_vector.dot(pull) + rate.dot(rate)) * self.scale
 
     def _rate(self, one: Moving, two: Moving) -> Vector:
         return two.velocity_of(self.p2) - one.velocity_of(self.p1)
@@ -246,7 +246,7 @@ class Position:
     equations: list[_Equation]
 
     def jacobian(self) -> Matrix:
-        """Return how the misfits change with the unknowns."""
+        """Return how the residuals change with the unknowns."""
         return [
             [
                 self._element(equation, place)
@@ -313,9 +313,9 @@ def position(
         one, two = frames[held.anchor_body], frames[held.body]
         p1 = program.vector(f"{label}{held.rod}_anchor", one.at(geometry[f"{held.rod}_anchor"]))
         p2 = program.vector(f"{label}{held.rod}_end", two.at(geometry[f"{held.rod}_end"]))
-        gap = program.vector(f"{label}{held.rod}_gap", p2 - p1)
+        rod_vector = program.vector(f"{label}{held.rod}_rod_vector", p2 - p1)
         squared, scale = geometry[f"{held.rod}_squared"].x, geometry[f"{held.rod}_scale"].x
-        equations.append(_Distance(held.anchor_body, held.body, gap, p1, p2, squared, scale))
+        equations.append(_Distance(held.anchor_body, held.body, rod_vector, p1, p2, squared, scale))
     return Position(tree, frames, screws, equations)
 
 
@@ -419,7 +419,7 @@ def block(
         now = position(own, "", tree, here, x)
         own.section("what is left of the equations")
         left = [
-            own.define(f"misfit_{i}", equation.misfit())
+            own.define(f"residual_{i}", equation.residual())
             for i, equation in enumerate(now.equations, 1)
         ]
         apart = [

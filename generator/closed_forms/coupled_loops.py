@@ -310,9 +310,9 @@ class _Solved:
         tree = self.position.tree.tree
         return [x if b.driven else next(rest) for b, x in zip(tree, driven, strict=True)]
 
-    def solve(self, kin: Kinematics, name: str, slips: Sequence[sp.Expr]) -> list[sp.Expr]:
-        """Append the rates, or accelerations, of the unknowns that make up for some slips."""
-        return self.inverse.solve(kin, name, self.rows, [-slip for slip in slips])
+    def solve(self, kin: Kinematics, name: str, residual_rates: Sequence[sp.Expr]) -> list[sp.Expr]:
+        """Append the rates, or accelerations, of the unknowns that make up for residual rates."""
+        return self.inverse.solve(kin, name, self.rows, [-rate for rate in residual_rates])
 
 
 def _corrected(kin: Kinematics, step: CoupledLoops, geometry: Geometry) -> _Solved:
@@ -325,7 +325,7 @@ def _corrected(kin: Kinematics, step: CoupledLoops, geometry: Geometry) -> _Solv
     found = list(results.values())[:count]
     start = position(program, f"{name}_found_", step, geometry, found)
     left = [
-        program.define(f"{name}_misfit_{i}", equation.misfit())
+        program.define(f"{name}_residual_{i}", equation.residual())
         for i, equation in enumerate(start.equations, 1)
     ]
     matrix = [
@@ -384,8 +384,10 @@ def _add_motion(kin: Kinematics, step: CoupledLoops, solved: _Solved) -> None:
         given = {p.body: _in_motion(p, p.motion.get(k, NO_TWIST)) for p in placed}
         driven = [_driven_rate(kin, solved, branch, k) for branch in step.tree]
         carried = _velocities(kin, solved, f"{k}_carried", given, driven)
-        slips = [e.rate(carried[e.first], carried[e.second]) for e in solved.position.equations]
-        x = solved.solve(kin, f"{name}_{k}", slips)
+        residual_rates = [
+            e.rate(carried[e.first], carried[e.second]) for e in solved.position.equations
+        ]
+        x = solved.solve(kin, f"{name}_{k}", residual_rates)
         x = [program.define(f"{name}_{k}_{i}", value) for i, value in enumerate(x, 1)]
         x = solved.filled(driven, x)
         for body, moving in _velocities(kin, solved, k, given, x).items():
@@ -427,8 +429,8 @@ def _biases(
     driven = [_driven_acceleration(kin, solved, branch) for branch in step.tree]
     coasting = _accelerations(kin, solved, "coasting", now, rates, driven)
     equations = solved.position.equations
-    slips = [e.acceleration(coasting[e.first], coasting[e.second]) for e in equations]
-    x = solved.filled(driven, solved.solve(kin, f"{name}_bias", slips))
+    residual_rates = [e.acceleration(coasting[e.first], coasting[e.second]) for e in equations]
+    x = solved.filled(driven, solved.solve(kin, f"{name}_bias", residual_rates))
     moving = _accelerations(kin, solved, "bias", now, rates, x)
     found = {}
     for body in step.bodies:
@@ -481,9 +483,9 @@ def _velocities(
     """Append the velocities of the tree from those of placed bodies and the rates of unknowns."""
     found = dict(given)
     for (branch, screw), rate in zip(solved.joints, rates, strict=True):
-        name, parent, turn, slip = branch.child, found[branch.parent], *screw.at_rate(rate)
+        name, parent, turn, sliding = branch.child, found[branch.parent], *screw.at_rate(rate)
         omega = kin.program.vector(f"{name}_turning_{label}", parent.omega + turn)
-        velocity = parent.velocity_of(screw.through) + slip
+        velocity = parent.velocity_of(screw.through) + sliding
         velocity = kin.program.vector(f"{name}_moving_{label}", velocity)
         found[name] = Moving(screw.through, omega, velocity)
     return found
@@ -500,10 +502,10 @@ def _accelerations(
     """Append the same for accelerations; velocities are given for all bodies."""
     found = dict(now)
     for (branch, screw), rate, change in zip(solved.joints, rates, accelerations, strict=True):
-        name, parent, turn, slip = branch.child, found[branch.parent], *screw.at_rate(rate)
+        name, parent, turn, sliding = branch.child, found[branch.parent], *screw.at_rate(rate)
         faster, further = screw.at_rate(change)
         alpha = parent.alpha + parent.omega.cross(turn) + faster
-        pull = parent.acceleration_of(screw.through) + parent.omega.cross(slip) * 2 + further
+        pull = parent.acceleration_of(screw.through) + parent.omega.cross(sliding) * 2 + further
         found[name] = replace(
             now[name],
             alpha=kin.program.vector(f"{name}_alpha_{label}", alpha),

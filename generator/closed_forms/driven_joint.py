@@ -120,7 +120,7 @@ def _place_revolute(kin: Kinematics, joint: Revolute, parent_name: str, child: s
         placed.motion[coordinate] = carried + Twist(UNIT_X, ZERO)
 
     def bias() -> Twist:
-        if coordinate in kin.coordinates.rotors and kin.coordinates.pace_of(parent) != 1:
+        if coordinate in kin.coordinates.rotors and kin.coordinates.rate_scale_of(parent) != 1:
             message = f"the bias of rotor {child!r} is not available at a unit rate"
             raise ValueError(message)
         carried = parent.bias()

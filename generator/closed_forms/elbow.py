@@ -126,7 +126,7 @@ class Elbow(Leg):
         """What its length is, for the report."""
         return f"{' and '.join(self.links)} at {self.pair.joint.name}.angle"
 
-    def hold(self, known: Known, joint: Joint) -> set[Coordinate]:
+    def record(self, known: Known, joint: Joint) -> set[Coordinate]:
         """Record the joint that it drives, and its own."""
         place = PlaceElbow(self.pair)
         known.steps.append(place)
@@ -332,8 +332,8 @@ def _place(
     for k in turning.moved_by([coordinate] if moves else []):
         given = turning.rates(k)
         bending = reach.swing if k == coordinate else ZERO
-        slip = given.target - given.base - given.carried.cross(s) - bending
-        turn = program.define(f"{body}_turn_{k}", grip.dot(slip) * inverse)
+        relative_velocity = given.target - given.base - given.carried.cross(s) - bending
+        turn = program.define(f"{body}_turn_{k}", grip.dot(relative_velocity) * inverse)
         omega = program.vector(f"{body}_omega_{k}", given.carried + UNIT_X * turn, "123")
         placed.motion[k] = Twist(omega, given.base)
 

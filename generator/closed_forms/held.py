@@ -91,7 +91,7 @@ class HeldOnJoint(HeldByLeg):
     def accept(self, known: Known) -> set[Coordinate]:
         """Record the body that the leg drives, and the leg."""
         known.placed.add(self.leg.body)
-        return self.leg.hold(known, self.joint)
+        return self.leg.record(known, self.joint)
 
     def meet(self, kin: Kinematics) -> None:
         """Record which points the leg keeps apart, for the residual."""

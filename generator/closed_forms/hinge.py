@@ -79,14 +79,14 @@ class Hinge:
 
 @dataclass(frozen=True)
 class Condition:
-    """What determines the rate of the angle: ``gap . (v_D - v_E) = l l'`` for a target E.
+    """What determines the rate of the angle: ``rod_vector . (v_D - v_E) = l l'`` for a target E.
 
     Without a rod the right side is zero.
     """
 
     target: PointMotion
-    gap: Vector
-    hold: sp.Expr
+    rod_vector: Vector
+    inverse_lever: sp.Expr
     rod: Rod | None = None
 
     def stretch(self, coordinate: str) -> sp.Expr:
@@ -113,13 +113,13 @@ def place_on_hinge(kin: Kinematics, hinge: Hinge, axes: Axes, condition: Conditi
         hinge=hinge.first_axis_of,
     )
     turning = TurningBody(kin, placed, hinge.origin, condition.target)
-    gap, hold = condition.gap, condition.hold
+    rod_vector, inverse_lever = condition.rod_vector, condition.inverse_lever
     rate: Vector = ZERO
     for k in turning.moved_by(condition.rod.stretch if condition.rod else ()):
         given = turning.rates(k)
-        slip = given.base - given.target + given.carried.cross(arm)
-        fitted = gap.dot(slip) - condition.stretch(k)
-        turn = program.define(f"{body}_turn_{k}", fitted * hold)
+        relative_velocity = given.base - given.target + given.carried.cross(arm)
+        fitted = rod_vector.dot(relative_velocity) - condition.stretch(k)
+        turn = program.define(f"{body}_turn_{k}", fitted * inverse_lever)
         omega = program.vector(f"{body}_omega_{k}", given.carried + UNIT_X * turn, "123")
         placed.motion[k] = Twist(omega, given.base)
         rate += (given.base - given.target + omega.cross(arm)) * kin.coordinates.rate(k)
@@ -129,9 +129,9 @@ def place_on_hinge(kin: Kinematics, hinge: Hinge, axes: Axes, condition: Conditi
         given, omega = turning.biases(), kin.total(placed).angular
         whirl = program.vector(f"{body}_whirl", omega.cross(arm), "123")
         pull = given.base - given.target + omega.cross(whirl) + given.carried.cross(arm)
-        slack = now.dot(now) if gap.x != 0 or gap.y != 0 else sp.Integer(0)
-        fitted = gap.dot(pull) + slack - condition.stretch_bias
-        turn = program.define(f"{body}_turn_bias", fitted * hold)
+        slack = now.dot(now) if rod_vector.x != 0 or rod_vector.y != 0 else sp.Integer(0)
+        fitted = rod_vector.dot(pull) + slack - condition.stretch_bias
+        turn = program.define(f"{body}_turn_bias", fitted * inverse_lever)
         return kin.define_bias(body, Twist(given.carried + UNIT_X * turn, given.base))
 
     placed.bias = once(bias)

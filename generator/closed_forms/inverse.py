@@ -91,11 +91,13 @@ def guarded_factor(
     program = kin.program
     squares = sum((g * g for g in left), sp.Integer(0))
     excess = program.define(f"{name}_excess", squares / _TOLERANCE**2 + lost / _TOLERANCE)
-    hold = program.guarded(
+    arrived = program.guarded(
         f"{name}_closure",
         (found - excess) / (1 + excess),
         meaning.format(iterations=ITERATIONS),
         "1",
     )
-    held_at_all = IsPositive(hold.args[0])  # else no correction: what was found last stays finite
-    return program.define(f"{name}_hold", Frozen(held_at_all / hold))
+    held_at_all = IsPositive(
+        arrived.args[0]
+    )  # else no correction: what was found last stays finite
+    return program.define(f"{name}_arrived", Frozen(held_at_all / arrived))

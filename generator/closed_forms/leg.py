@@ -96,7 +96,7 @@ class Leg(ABC):
         """Its links, from the anchor to the end."""
 
     @abstractmethod
-    def hold(self, known: Known, joint: Joint) -> set[Coordinate]:
+    def record(self, known: Known, joint: Joint) -> set[Coordinate]:
         """Record that it holds a body on a joint; return the coordinates that were not known."""
 
     @property

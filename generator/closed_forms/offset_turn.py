@@ -189,7 +189,7 @@ class _OffsetTurn:
             carrier=self._carrier(),
         )
         seen = program.vector(f"{body}_reach_seen", self._to_body(w), "123")
-        self.gap = program.vector(f"{body}_rod", self.arm - seen, "123")
+        self.rod_vector = program.vector(f"{body}_rod", self.arm - seen, "123")
 
     def _axes(self, arm: Vector, along_span: sp.Expr) -> Axes:
         """Return the body axes from S, D - B and their product, in work and in body axes."""
@@ -234,7 +234,9 @@ class _OffsetTurn:
             program.define(f"{body}_sway_2", self.offset.y * inverse),
             program.define(f"{body}_sway_3", self.offset.z * inverse),
         )
-        hold = program.define(f"{body}_hold", -record.reach / (self.height * self.normal_squared))
+        inverse_lever = program.define(
+            f"{body}_inverse_lever", -record.reach / (self.height * self.normal_squared)
+        )
         rod_rate = ZERO
         names = dict.fromkeys(
             [*record.end_motion.motion, *record.relative.motion, *self.rod_anchor.motion]
@@ -245,8 +247,10 @@ class _OffsetTurn:
             across = Vector(ZERO.x, -swing.z * inverse, swing.y * inverse)
             across = program.vector(f"{body}_across_{k}", across, "123")
             anchor = to_body(f"rod_anchor_{k}", self.rod_anchor.motion.get(k, ZERO))
-            slip = base - anchor + across.cross(self.arm)
-            turn = program.define(f"{body}_turn_{k}", self.gap.dot(slip) * hold)
+            relative_velocity = base - anchor + across.cross(self.arm)
+            turn = program.define(
+                f"{body}_turn_{k}", self.rod_vector.dot(relative_velocity) * inverse_lever
+            )
             omega = program.vector(f"{body}_omega_{k}", across + sway * turn, "123")
             self.placed.motion[k] = Twist(omega, base)
             rod_rate += (base - anchor + omega.cross(self.arm)) * self.kin.coordinates.rate(k)
@@ -260,7 +264,9 @@ class _OffsetTurn:
             across = self._across_bias(omega, swing)
             whirl = program.vector(f"{body}_whirl", omega.cross(self.arm), "123")
             pull = base - anchor + omega.cross(whirl) + across.cross(self.arm)
-            turn = program.define(f"{body}_turn_bias", (self.gap.dot(pull) + rate.dot(rate)) * hold)
+            turn = program.define(
+                f"{body}_turn_bias", (self.rod_vector.dot(pull) + rate.dot(rate)) * inverse_lever
+            )
             alpha = program.vector(f"{body}_alpha", across + sway * turn, "123")
             return Twist(alpha, base)
 

@@ -87,16 +87,18 @@ class PrismaticByLength(HeldOnJoint):
         kin.placed[body] = placed
         to_body = projector(kin, placed)
         arm = kin.local(placed, leg.end)
-        gap = program.vector(f"{body}_rod", to_body("rod_now", d * (branch * root) - across), "123")
-        hold = program.define(f"{body}_hold", -branch / root)
+        rod_vector = program.vector(
+            f"{body}_rod", to_body("rod_now", d * (branch * root) - across), "123"
+        )
+        inverse_lever = program.define(f"{body}_inverse_lever", -branch / root)
         rate = ZERO
         for k in dict.fromkeys([*parent.motion, *anchor.motion, *rod.stretch]):
             carried = parent.motion.get(k, Twist(ZERO, ZERO))
             base = carried.linear + carried.angular.cross(offset)
             target = to_body(f"target_{k}", anchor.motion.get(k, ZERO))
-            slip = base - target + carried.angular.cross(arm)
-            fitted = gap.dot(slip) - rod.stretch.get(k, sp.Integer(0))
-            speed = program.define(f"{body}_speed_{k}", fitted * hold)
+            relative_velocity = base - target + carried.angular.cross(arm)
+            fitted = rod_vector.dot(relative_velocity) - rod.stretch.get(k, sp.Integer(0))
+            speed = program.define(f"{body}_speed_{k}", fitted * inverse_lever)
             twist = kin.define_twist(body, k, Twist(carried.angular, base + local * speed))
             placed.motion[k] = twist
             rate += (twist.linear - target + carried.angular.cross(arm)) * kin.coordinates.rate(k)
@@ -104,14 +106,14 @@ class PrismaticByLength(HeldOnJoint):
         def bias() -> Twist:
             now = program.vector(f"{body}_rod_rate", rate, "123")
             carried, omega = parent.bias(), kin.total(parent).angular
-            pace = kin.total(placed).linear - (
+            relative_velocity_now = kin.total(placed).linear - (
                 kin.total(parent).linear + omega.cross(offset)
             )  # of the slide
-            base = kin.point_bias(parent, offset) + omega.cross(pace) * 2
+            base = kin.point_bias(parent, offset) + omega.cross(relative_velocity_now) * 2
             target = to_body("target_bias", anchor.bias)
             pull = base - target + carried.angular.cross(arm) + omega.cross(omega.cross(arm))
-            fitted = gap.dot(pull) + now.dot(now) - rod.stretch_bias
-            speed = program.define(f"{body}_speed_bias", fitted * hold)
+            fitted = rod_vector.dot(pull) + now.dot(now) - rod.stretch_bias
+            speed = program.define(f"{body}_speed_bias", fitted * inverse_lever)
             return kin.define_bias(body, Twist(carried.angular, base + local * speed))
 
         placed.bias = once(bias)

@@ -50,7 +50,9 @@ class RevoluteByLength(HeldOnJoint):
             program.vector(f"{body}_reach_normal", hinge.axis.cross(e)),
         )
         fit = fit_rod(kin, self, leg, hinge.arm, hinge.axis, reach)
-        place_on_hinge(kin, hinge, fit.axes, Condition(anchor, fit.gap, fit.hold, fit.rod))
+        place_on_hinge(
+            kin, hinge, fit.axes, Condition(anchor, fit.rod_vector, fit.inverse_lever, fit.rod)
+        )
         report_angle(kin, hinge, fit.axes)
         if not leg.pinned:
             place_rod(kin, leg, anchor, fit.rod.length)

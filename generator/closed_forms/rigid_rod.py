@@ -57,7 +57,7 @@ class RigidRod(Leg):
         """Whether it is placed by its pins; others are free to turn about their line."""
         return self.hinge is not None
 
-    def hold(self, known: Known, joint: Joint) -> set[Coordinate]:
+    def record(self, known: Known, joint: Joint) -> set[Coordinate]:
         """Record the body that it drives, and the rod: placed by its hinge, or on its line."""
         at_rod = known.mechanism.joints_of(self.rod)
         self.settle(known)

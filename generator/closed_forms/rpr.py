@@ -185,7 +185,7 @@ class PinnedTelescope(Leg):
         """What its length is, for the report."""
         return f"{self.telescope.links} at {self.telescope.joint.name}.slide"
 
-    def hold(self, known: Known, joint: Joint) -> set[Coordinate]:
+    def record(self, known: Known, joint: Joint) -> set[Coordinate]:
         """Record the joint that it drives, and its own."""
         place = PlaceTelescope(self.telescope)
         known.steps.append(place)
@@ -365,14 +365,14 @@ def _place(kin: Kinematics, pins: _Pins, extension: sp.Expr) -> None:
         carrier=(carrier.body, kin.local(carrier, telescope.end)),
     )
     turning = TurningBody(kin, link, pins.anchor, pins.end)
-    hold = program.define(f"{near}_hold", -1 / extension)
+    inverse_lever = program.define(f"{near}_inverse_lever", -1 / extension)
     growth = sp.Integer(0)  # of the extension
 
     for k in turning.moved_by():
         given = turning.rates(k)
         base, target = given.base, given.target
         turn = program.define(
-            f"{near}_turn_{k}", (base - target + given.carried.cross(arm)).z * hold
+            f"{near}_turn_{k}", (base - target + given.carried.cross(arm)).z * inverse_lever
         )
         omega = program.vector(f"{near}_omega_{k}", given.carried + UNIT_X * turn, "123")
         link.motion[k], other.motion[k] = Twist(omega, base), Twist(omega, target)
@@ -383,7 +383,7 @@ def _place(kin: Kinematics, pins: _Pins, extension: sp.Expr) -> None:
         whirl = program.vector(f"{near}_whirl", omega.cross(arm), "123")
         pull = given.base - given.target + omega.cross(whirl) + given.carried.cross(arm)
         coriolis = 2 * omega.x * program.define(f"{near}_growth", growth)
-        turn = program.define(f"{near}_turn_bias", (pull.z + coriolis) * hold)
+        turn = program.define(f"{near}_turn_bias", (pull.z + coriolis) * inverse_lever)
         return kin.define_bias(near, Twist(given.carried + UNIT_X * turn, given.base))
 
     def target_bias() -> Twist:

@@ -142,8 +142,8 @@ class ScotchYoke(ClosedForm):
         for k in dict.fromkeys([*base.motion, *pin.motion]):
             carried = base.motion.get(k, NO_TWIST)
             target = to_base(f"{self.block}_pin_{k}", pin.motion.get(k, ZERO))
-            slip = target - carried.linear - carried.angular.cross(q)
-            v = axes.parts(kin, f"{self.yoke}_speed_{k}", slip)
+            relative_velocity = target - carried.linear - carried.angular.cross(q)
+            v = axes.parts(kin, f"{self.yoke}_speed_{k}", relative_velocity)
             speeds = (
                 speeds[0] + v[0] * kin.coordinates.rate(k),
                 speeds[1] + v[1] * kin.coordinates.rate(k),

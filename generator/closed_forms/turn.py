@@ -147,7 +147,7 @@ def _turn_motion(
     """Velocities and bias: the line turns with its points, the rod keeps its length."""
     body, program = placed.body, kin.program
     to_body = projector(kin, placed)
-    gap, hold = fit.gap, fit.hold
+    rod_vector, inverse_lever = fit.rod_vector, fit.inverse_lever
     rod_rate = ZERO
     names = dict.fromkeys([*base_point.motion.motion, *record.relative.motion, *rod_anchor.motion])
     for k in names:
@@ -155,8 +155,8 @@ def _turn_motion(
         across = line_omega(record, to_body(f"swing_{k}", record.relative.motion.get(k, ZERO)))
         across = program.vector(f"{body}_omega_{k}", across, "123")
         anchor = to_body(f"rod_anchor_{k}", rod_anchor.motion.get(k, ZERO))
-        slip = base - anchor + across.cross(arm)
-        turn = program.define(f"{body}_turn_{k}", gap.dot(slip) * hold)
+        relative_velocity = base - anchor + across.cross(arm)
+        turn = program.define(f"{body}_turn_{k}", rod_vector.dot(relative_velocity) * inverse_lever)
         omega = Vector(turn, across.y, across.z)
         placed.motion[k] = Twist(omega, base)
         rod_rate += (base - anchor + omega.cross(arm)) * kin.coordinates.rate(k)
@@ -170,7 +170,9 @@ def _turn_motion(
         alpha = program.vector(f"{body}_alpha", alpha, "123")
         whirl = program.vector(f"{body}_whirl", omega.cross(arm), "123")
         pull = base - anchor + omega.cross(whirl) + alpha.cross(arm)
-        turn = program.define(f"{body}_turn_bias", (gap.dot(pull) + rate.dot(rate)) * hold)
+        turn = program.define(
+            f"{body}_turn_bias", (rod_vector.dot(pull) + rate.dot(rate)) * inverse_lever
+        )
         return Twist(Vector(turn, alpha.y, alpha.z), base)
 
     placed.bias = once(bias)

@@ -181,7 +181,7 @@ class Strut(Leg):
         """What its length is, for the report."""
         return f"{self.strut.links} at {self.strut.joint.name}.slide"
 
-    def hold(self, known: Known, joint: Joint) -> set[Coordinate]:
+    def record(self, known: Known, joint: Joint) -> set[Coordinate]:
         """Record the joint that it drives, and its own."""
         return known.add_all([joint]) | _accept(known, self.strut)
 

@@ -8,6 +8,7 @@ from .forces.force_element import ForceElement
 from .forces.joint_force import JointForce
 from .forces.linear_tyre import LinearTyre
 from .forces.weight import Weight
+from .formulation import Formulation
 from .geometry import FORWARD, UP, Direction, Line, Point
 from .inputs import Input, Motion
 from .joints import (
@@ -22,7 +23,6 @@ from .joints import (
 )
 from .laws import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
 from .mechanism import Mechanism
-from .model import Model
 from .outputs import (
     AccelerationOf,
     AngleBetween,
@@ -82,6 +82,7 @@ __all__ = [
     "ForceElement",
     "ForceLevel",
     "ForceOf",
+    "Formulation",
     "Free",
     "Friction",
     "Gravity",
@@ -95,7 +96,6 @@ __all__ = [
     "LinearSpring",
     "LinearTyre",
     "Mechanism",
-    "Model",
     "MomentLevel",
     "Motion",
     "Parameter",

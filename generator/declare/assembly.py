@@ -121,7 +121,7 @@ class Assembly:
         return [j for j in self.joints if body in j.bodies]
 
     @property
-    def idle_links(self) -> tuple[str, ...]:
+    def passive_links(self) -> tuple[str, ...]:
         """Links that may turn about their line as they like, since only two joints hold them.
 
         Both are ball joints, or one of them is that of a telescope. The turn moves nothing else,

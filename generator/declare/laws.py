@@ -243,8 +243,10 @@ class Friction(AnyLaw):
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""
         v = at.velocity
-        pace = at.program.define(f"{at.name}_sliding_pace", sp.sqrt(v**2 + self.speed.symbol**2))
-        return -self.level.symbol * v / pace
+        smoothed = at.program.define(
+            f"{at.name}_sliding_speed", sp.sqrt(v**2 + self.speed.symbol**2)
+        )
+        return -self.level.symbol * v / smoothed
 
 
 @declared

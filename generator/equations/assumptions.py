@@ -23,9 +23,9 @@ from ..program.floors import ROUNDING
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
+    from ..declare.formulation import Formulation
     from ..declare.geometry import Line, Point
     from ..declare.mechanism import Mechanism
-    from ..declare.model import Model
     from ..loops.graph import Cycle
     from ..loops.planner import Plan
     from ..program.program import Program
@@ -58,7 +58,7 @@ def define_assumptions(program: Program, assumed: Iterable[Assumption]) -> tuple
     return tuple(named.values())
 
 
-def _check_defaults(model: Model, found: list[Assumption]) -> None:
+def _check_defaults(model: Formulation, found: list[Assumption]) -> None:
     at_defaults = AtDefaults(model.mechanism)
     problems = []
     for assumption in found:
@@ -155,7 +155,7 @@ def _of_shaft(joint: Universal, ends: Sequence[Point]) -> Iterator[Assumption]:
 # -- rotors ---------------------------------------------------------------------------------------
 
 
-def _of_rotors(model: Model) -> Iterator[Assumption]:
+def _of_rotors(model: Formulation) -> Iterator[Assumption]:
     """Yield what leaves the inertia of a rotor unchanged by its spin."""
     for joint in _bearings(model):
         body, axis = joint.second, joint.axis.vector
@@ -186,7 +186,7 @@ def _of_rotors(model: Model) -> Iterator[Assumption]:
             )
 
 
-def _bearings(model: Model) -> Iterator[Revolute]:
+def _bearings(model: Formulation) -> Iterator[Revolute]:
     """Yield the hinges of known angle that carry a rotor and nothing behind it."""
     mechanism: Mechanism = model.mechanism
     for joint in model.driven:

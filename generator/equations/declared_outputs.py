@@ -70,8 +70,8 @@ def _acceleration(dynamics: Dynamics, output: OfPoint) -> Vector:
     part = dynamics.part_of[output.body.name]
     found = part.point_motion(output.body.name, output.point)
     rates = {k: dynamics.accelerations.get(k, NONE) for k in found.motion}
-    pace = dynamics.coordinates.pace_of(dynamics.placed[output.body.name])
-    return part.to_ground(_summed(found.motion, rates) + found.bias * pace**2)
+    rate_scale = dynamics.coordinates.rate_scale_of(dynamics.placed[output.body.name])
+    return part.to_ground(_summed(found.motion, rates) + found.bias * rate_scale**2)
 
 
 def _summed(motion: dict[str, Vector], rates: dict[str, sp.Expr]) -> Vector:

@@ -19,12 +19,12 @@ from ..program.vectors import Vector
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from ..declare.model import Model
+    from ..declare.formulation import Formulation
 
 Steps = list[tuple[sp.Symbol, sp.Expr]]
 
 
-def design_state(model: Model, state: Sequence[str]) -> Function:
+def design_state(model: Formulation, state: Sequence[str]) -> Function:
     """Return the function from the parameters to the state at the design position, at rest.
 
     Parameters
@@ -41,7 +41,7 @@ def design_state(model: Model, state: Sequence[str]) -> Function:
     )
 
 
-def design_coordinates(model: Model) -> dict[str, Steps]:
+def design_coordinates(model: Formulation) -> dict[str, Steps]:
     """Return the steps to each coordinate that is not zero at design, by its name.
 
     The last step of each is the coordinate itself [rad].

@@ -232,7 +232,7 @@ class Dynamics:
                     energy = one.angular.dot(angular[other]) + two.angular.dot(offset[k])
                 energy += inertia.mass * one.linear.dot(two.linear)
                 self._matrix[k, other] = self._matrix.get((k, other), NONE) + energy
-        if len(columns) == 1 and columns[0] in self.coordinates.alone:
+        if len(columns) == 1 and columns[0] in self.coordinates.single_coordinate:
             self._add_single_bias(placed, columns[0], angular[columns[0]])
         else:
             self._add_full_bias(placed, inertia, columns)
@@ -265,7 +265,7 @@ class Dynamics:
 
     def _add_rotor(self, rotor: Rotor) -> None:
         """Gyroscopic part of a rotor on its carrier; the rest is in `_solve` and `full`."""
-        if self.coordinates.pace_of(rotor.carrier) != 1:
+        if self.coordinates.rate_scale_of(rotor.carrier) != 1:
             return  # axis x omega is perpendicular to omega, the only direction of motion
         omega = self.part_of[rotor.carrier.body].total(rotor.carrier).angular
         spin = self.coordinates.true_rate(rotor.coordinate) + rotor.axis.dot(omega)
@@ -341,7 +341,7 @@ class Dynamics:
         back = sum(
             (self._rotor_share(r, k) * self._force[r.coordinate] for r in self._driven_on(k)), NONE
         )
-        return self._force[k] - self._bias[k] * self.coordinates.pace(k) ** 2 - back
+        return self._force[k] - self._bias[k] * self.coordinates.rate_scale(k) ** 2 - back
 
     def _driven_on(self, k: str) -> list[Rotor]:
         """Return the rotors with a torque on their bearing whose carrier a coordinate moves."""
@@ -351,7 +351,9 @@ class Dynamics:
     def _spin_bias(self, rotor: Rotor, accelerations: dict[str, sp.Expr]) -> sp.Expr:
         """Return the rate of ``axis . omega`` of the carrier."""
         carrier = rotor.carrier
-        total = rotor.axis.dot(carrier.bias().angular) * self.coordinates.pace_of(carrier) ** 2
+        total = (
+            rotor.axis.dot(carrier.bias().angular) * self.coordinates.rate_scale_of(carrier) ** 2
+        )
         for k in self._carried(rotor):
             total += self._rotor_share(rotor, k) * accelerations.get(k, NONE)
         return total
@@ -413,7 +415,7 @@ class Dynamics:
 
     def full_bias(self) -> list[sp.Expr]:
         """Return B of all independent coordinates, rotors included."""
-        bias = {k: self._bias[k] * self.coordinates.pace(k) ** 2 for k in self.names}
+        bias = {k: self._bias[k] * self.coordinates.rate_scale(k) ** 2 for k in self.names}
         for rotor in self.rotors:
             rate = self._spin_bias(rotor, {})
             for k, share in self._rotor_row(rotor).items():

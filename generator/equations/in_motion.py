@@ -21,9 +21,9 @@ from ..kinematics.motion import BodyMotion, PointMotion
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from ..declare.formulation import Formulation
     from ..declare.geometry import Point
     from ..declare.mechanism import Mechanism
-    from ..declare.model import Model
     from ..loops.planner import Plan
     from ..program.program import Program
 
@@ -69,7 +69,7 @@ class InMotion:
         return cls(program, coordinates, parts, placed, part_of)
 
     @property
-    def model(self) -> Model:
+    def model(self) -> Formulation:
         """Whose bodies they are."""
         return self.coordinates.model
 

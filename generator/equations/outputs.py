@@ -27,9 +27,9 @@ from .relative import RelativeCoordinates
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
+    from ..declare.formulation import Formulation
     from ..declare.joints import Joint
     from ..declare.mechanism import Mechanism
-    from ..declare.model import Model
     from ..program.conditions import Assumption, Condition
     from ..program.function import Function
     from ..program.steps import Guard
@@ -80,7 +80,7 @@ def staged(functions: dict[str, Function]) -> dict[str, Function | Stage]:
 
 
 @dataclass(eq=False)
-class GeneratedModel:
+class Derivation:
     """Everything that the emitters need.
 
     Attributes
@@ -105,7 +105,7 @@ class GeneratedModel:
         The elements of the ``signals`` function.
     """
 
-    model: Model
+    model: Formulation
     plan: Plan
     state: tuple[Entry, ...]
     inputs: tuple[Input, ...]
@@ -124,7 +124,7 @@ class GeneratedModel:
     held_inputs: dict[str, tuple[str, ...]] = field(default_factory=dict)
 
 
-def generate(model: Model, *, derivatives: bool = True) -> GeneratedModel:
+def generate(model: Formulation, *, derivatives: bool = True) -> Derivation:
     """Derive a model and its functions.
 
     Parameters
@@ -139,7 +139,7 @@ def generate(model: Model, *, derivatives: bool = True) -> GeneratedModel:
     return _Builder(model, derivatives=derivatives).build()
 
 
-def _refuse_free(model: Model) -> None:
+def _refuse_free(model: Formulation) -> None:
     """See that the mechanism is fixed in the world: how it moves in it cannot be derived yet."""
     problems = [
         f"body {joint.second.name!r} moves freely in the world (joint {joint.name!r}), and there "
@@ -155,7 +155,7 @@ def _refuse_free(model: Model) -> None:
 class _Builder:
     """Collects the functions of one model from one program."""
 
-    def __init__(self, model: Model, *, derivatives: bool) -> None:
+    def __init__(self, model: Formulation, *, derivatives: bool) -> None:
         self.model = model
         self.derivatives = derivatives
         self.mechanism: Mechanism = model.mechanism
@@ -191,7 +191,7 @@ class _Builder:
         if idle:
             raise DeclarationError(self.model.name, idle)
 
-    def build(self) -> GeneratedModel:
+    def build(self) -> Derivation:
         self._add_dynamics(self.dynamics, "")
         for variant, joints in self.model.held.items():
             names = [joint.name for joint in joints]
@@ -211,7 +211,7 @@ class _Builder:
         assumed = define_assumptions(self.program, self.assumed)
         prepare = self.constants.function(self.functions.values(), assumed)
         self._check_symbols(prepare)
-        return GeneratedModel(
+        return Derivation(
             model=self.model,
             plan=self.plan,
             state=self._state_entries(),

@@ -330,8 +330,8 @@ class _Closure:
             return self._solved_residual(joint, given)
         offset = self._offset_telescope(joint)
         if offset is not None and coordinate.kind in _AXIS_OF_CLOSURE:
-            gap = self._gap_at_end(offset)
-            return dict(zip("xyz", gap, strict=True))[_AXIS_OF_CLOSURE[coordinate.kind]]
+            opening = self._opening_at_end(offset)
+            return dict(zip("xyz", opening, strict=True))[_AXIS_OF_CLOSURE[coordinate.kind]]
         if isinstance(joint, Universal):
             return self._shaft_residual(joint, coordinate.kind, given)
         assert isinstance(joint, Cylindrical)
@@ -358,11 +358,11 @@ class _Closure:
         target = self.kin.point_motion(meeting.target_body, meeting.target).position
         local = self.kin.local(parent, meeting.point)
         moved = self._moved(joint, parent, local, sense * given)
-        gap = parent.origin + from_axes(parent.axes, moved) - target
-        gap = self.program.vector(f"given_gap_{joint.name}", gap)
+        opening = parent.origin + from_axes(parent.axes, moved) - target
+        opening = self.program.vector(f"given_opening_{joint.name}", opening)
         if meeting.rod is None:
-            return gap.dot(self.kin.placed[meeting.body].axes[2])
-        return sp.sqrt(gap.dot(gap)) - self.kin.rod_lengths[meeting.rod]
+            return opening.dot(self.kin.placed[meeting.body].axes[2])
+        return sp.sqrt(opening.dot(opening)) - self.kin.rod_lengths[meeting.rod]
 
     def _placed_residual(self, joint: Revolute | Prismatic, given: sp.Symbol) -> sp.Expr:
         """Return how far a given coordinate is from that of the poses; of an angle, the sine."""
@@ -498,14 +498,14 @@ class _Closure:
                 return ends
         return None
 
-    def _gap_at_end(self, telescope: TelescopeEnds) -> Vector:
+    def _opening_at_end(self, telescope: TelescopeEnds) -> Vector:
         """Return how far the chain through a telescope ends from the point it should reach."""
         end = self._from_driven(
             f"given_{telescope.end.name}",
             self.kin.point_motion(telescope.end_body, telescope.end).position,
         )
-        gap = self._by_chain(telescope, telescope.end, self._first) - end
-        return self.program.vector(f"given_gap_{telescope.end.name}", gap)
+        opening = self._by_chain(telescope, telescope.end, self._first) - end
+        return self.program.vector(f"given_opening_{telescope.end.name}", opening)
 
     def _in_marker_axes(self, joint: Cylindrical, point: Point) -> Vector:
         """Return a point's body coordinates along (x'', line, marker): those of zero angle."""

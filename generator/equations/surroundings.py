@@ -107,7 +107,7 @@ class Seen:
         """Return the upward acceleration of a point that the coordinates' own leave over."""
         placed = self._placed[body]
         own = self.up(body).dot(self._part_of[body].point_bias(placed, local))
-        return own * self._driven.pace_of(placed) ** 2
+        return own * self._driven.rate_scale_of(placed) ** 2
 
     # -- paths ------------------------------------------------------------------------------------
 

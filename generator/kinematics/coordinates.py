@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from ..declare.bodies import Body
+    from ..declare.formulation import Formulation
     from ..declare.joints import Joint
-    from ..declare.model import Model
     from .motion import BodyMotion
 
 
@@ -42,11 +42,11 @@ class Coordinates:
     -----
     *Unit rate.* Bodies that hang together without the ground, and that a single coordinate moves
     (rotors apart), have their biases computed for a unit rate of that coordinate; they are scaled
-    by the square of the true rate at the very end. `pace` is the true rate for such a coordinate,
-    and one for all others, whose biases are computed at the true rates.
+    by the square of the true rate at the very end. `rate_scale` is the true rate for such a
+    coordinate, and one for all others, whose biases are computed at the true rates.
     """
 
-    def __init__(self, model: Model, held: Iterable[str] = ()) -> None:
+    def __init__(self, model: Formulation, held: Iterable[str] = ()) -> None:
         self.model = model
         self._mechanism = model.mechanism
         self._motions = {motion.name: motion for motion in model.prescribed.values()}
@@ -85,16 +85,16 @@ class Coordinates:
 
     def rate(self, coordinate: str) -> sp.Expr:
         """Return the rate of a coordinate at which biases are computed."""
-        return sp.Integer(1) if coordinate in self.alone else self.true_rate(coordinate)
+        return sp.Integer(1) if coordinate in self.single_coordinate else self.true_rate(coordinate)
 
-    def pace(self, coordinate: str) -> sp.Expr:
+    def rate_scale(self, coordinate: str) -> sp.Expr:
         """Return by whose square the biases of what a coordinate moves are to be scaled."""
-        return self.true_rate(coordinate) if coordinate in self.alone else sp.Integer(1)
+        return self.true_rate(coordinate) if coordinate in self.single_coordinate else sp.Integer(1)
 
-    def pace_of(self, placed: BodyMotion) -> sp.Expr:
+    def rate_scale_of(self, placed: BodyMotion) -> sp.Expr:
         """Return by whose square the bias of a body is to be scaled."""
-        alone = [k for k in placed.motion if k in self.alone]
-        return self.pace(alone[0]) if alone else sp.Integer(1)
+        single = [k for k in placed.motion if k in self.single_coordinate]
+        return self.rate_scale(single[0]) if single else sp.Integer(1)
 
     def acceleration(self, coordinate: str) -> sp.Expr:
         """Return the part of a coordinate's acceleration that is given: that of an input."""
@@ -116,7 +116,7 @@ class Coordinates:
         return rotors
 
     @cached_property
-    def alone(self) -> frozenset[str]:
+    def single_coordinate(self) -> frozenset[str]:
         """The independent coordinates that alone move bodies that hang together."""
         return frozenset(self._moving_alone())
 

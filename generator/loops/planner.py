@@ -13,8 +13,8 @@ from dataclasses import dataclass, field
 from itertools import permutations
 from typing import TYPE_CHECKING, ClassVar, Self
 
+from ..declare.formulation import DRIVABLE
 from ..declare.joints import Free, Joint, Prismatic, Revolute, Spherical, Universal
-from ..declare.model import DRIVABLE
 from ..kinematics.kinematics import Loop
 from .cut import PairCandidate, pair_candidates, views
 from .errors import NoClosedFormError
@@ -24,8 +24,8 @@ from .known import Known, coordinates_of
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from ..declare.formulation import Formulation
     from ..declare.mechanism import Mechanism
-    from ..declare.model import Model
     from ..kinematics.step import Step
     from .forms import Attempt, Catalogue, ClosedForm, Closing, Iteration, PlannedStep, Solution
     from .known import Coordinate
@@ -99,7 +99,7 @@ class Plan:
 
     catalogue: ClassVar[Catalogue]
 
-    model: Model
+    model: Formulation
     topology: Topology
     transformers: list[Transformer] = field(default_factory=list)
     _known: Known = field(init=False, repr=False)
@@ -108,7 +108,7 @@ class Plan:
         self._known = Known(self._mechanism, self.topology)
 
     @classmethod
-    def of(cls, model: Model) -> Self:
+    def of(cls, model: Formulation) -> Self:
         """Analyse a model: choose the basis, the pairs and the order."""
         plan = cls(model, Topology(model.mechanism))
         plan._known.placed.add(plan._mechanism.ground)
@@ -310,7 +310,7 @@ class Plan:
     def _miscounted(self) -> str:
         """Say by how much the driven coordinates differ from the degrees of freedom."""
         driven = sum(j.freedoms for j in self.model.driven)
-        mobility = self.topology.mobility - len(self._mechanism.idle_links)
+        mobility = self.topology.mobility - len(self._mechanism.passive_links)
         if driven == mobility:
             return ""
         if mobility < 0:

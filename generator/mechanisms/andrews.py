@@ -142,7 +142,7 @@ SQUEEZER = d.Mechanism(
 )
 
 MODELS = (
-    d.Model(
+    d.Formulation(
         name="andrews",
         title="Andrews' squeezer mechanism, driven by a torque on its crank",
         mechanism=SQUEEZER,

@@ -18,7 +18,7 @@ from .. import declare as d
 Place = tuple[float, float, float]
 
 
-def ring(name: str, title: str, places: list[Place], axes: list[Place]) -> d.Model:
+def ring(name: str, title: str, places: list[Place], axes: list[Place]) -> d.Formulation:
     """Return a closed chain of hinges, each body hinged to the next and the last to the ground.
 
     Parameters
@@ -53,7 +53,7 @@ def ring(name: str, title: str, places: list[Place], axes: list[Place]) -> d.Mod
             for hinge in hinges
         ),
     )
-    return d.Model(
+    return d.Formulation(
         name=name,
         title=title,
         mechanism=mechanism,

@@ -135,8 +135,8 @@ GENERAL = replace(
 )
 
 
-def _model(mechanism: d.Mechanism, title: str) -> d.Model:
-    return d.Model(
+def _model(mechanism: d.Mechanism, title: str) -> d.Formulation:
+    return d.Formulation(
         name=mechanism.name,
         title=title,
         mechanism=mechanism,

@@ -162,14 +162,14 @@ LIFTING = d.Mechanism(
 )
 
 MODELS = (
-    d.Model(
+    d.Formulation(
         name="excavator",
         title="Planar excavator, three degrees of freedom, moved by the forces of its cylinders",
         mechanism=EXCAVATOR,
         independent=tuple(BORES.values()),
         massive=tuple(_BODIES.values()),
     ),
-    d.Model(
+    d.Formulation(
         name="excavator_lifting",
         title="Planar excavator, strokes prescribed, with a load that swings on its bucket",
         mechanism=LIFTING,

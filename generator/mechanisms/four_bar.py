@@ -53,4 +53,6 @@ FOUR_BAR = d.Mechanism(
     ),
 )
 
-MODELS = (d.Model("four_bar", "Planar four-bar linkage, one degree of freedom", FOUR_BAR, (A,)),)
+MODELS = (
+    d.Formulation("four_bar", "Planar four-bar linkage, one degree of freedom", FOUR_BAR, (A,)),
+)

@@ -80,7 +80,9 @@ def without_bar() -> d.Mechanism:
     return d.combined("front_axle", title, sides(macpherson.mechanism()))
 
 
-def model(declared: d.Mechanism, massive: tuple[d.Body, ...] = (ARM, KNUCKLE, WHEEL)) -> d.Model:
+def model(
+    declared: d.Mechanism, massive: tuple[d.Body, ...] = (ARM, KNUCKLE, WHEEL)
+) -> d.Formulation:
     """Return the equations of an axle with prescribed rack.
 
     Parameters
@@ -91,7 +93,7 @@ def model(declared: d.Mechanism, massive: tuple[d.Body, ...] = (ARM, KNUCKLE, WH
         Bodies of a side that have mass; the bar may be one of them.
     """
     both = ("right_", "left_")
-    return d.Model(
+    return d.Formulation(
         name=declared.name,
         title=declared.title + "; rack prescribed",
         mechanism=declared,

@@ -176,10 +176,10 @@ def general(*, free_rack: bool = False) -> d.Mechanism:
     )
 
 
-def _steered(name: str, title: str, declared: d.Mechanism) -> d.Model:
+def _steered(name: str, title: str, declared: d.Mechanism) -> d.Formulation:
     """Return the equations with a prescribed rack: arm, knuckle and wheel carry mass."""
     massive, held = (ARM, KNUCKLE, WHEEL), {"rack_held": (Y,)}
-    return d.Model(name, title, declared, (OA, HG), massive, {Y: RACK_MOTION}, held)
+    return d.Formulation(name, title, declared, (OA, HG), massive, {Y: RACK_MOTION}, held)
 
 
 MODELS = (
@@ -188,7 +188,7 @@ MODELS = (
         "MacPherson suspension, rack prescribed: arm, knuckle and wheel carry mass",
         mechanism(),
     ),
-    d.Model(
+    d.Formulation(
         "macpherson_free_rack",
         "MacPherson suspension, rack free: every moving body carries mass",
         mechanism(free_rack=True),
@@ -202,7 +202,7 @@ MODELS = (
 )
 
 # Seldom wanted, and as long as all others together: `kintrafo.Model` compiles it when it is needed.
-GENERAL_FREE_RACK = d.Model(
+GENERAL_FREE_RACK = d.Formulation(
     "macpherson_general_free_rack",
     "MacPherson suspension with an offset strut, spring seats, stops; rack free",
     general(free_rack=True),

@@ -198,9 +198,9 @@ STRUT = _suspension(
 )
 
 
-def _model(mechanism: d.Mechanism, driving: d.Joint) -> d.Model:
+def _model(mechanism: d.Mechanism, driving: d.Joint) -> d.Formulation:
     """Return the model with a prescribed rack; everything but the rack has mass."""
-    return d.Model(
+    return d.Formulation(
         name=mechanism.name,
         title=f"{mechanism.title}, rack prescribed",
         mechanism=mechanism,

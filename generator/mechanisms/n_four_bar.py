@@ -17,7 +17,7 @@ def _bar(name: str, x: float, z: float) -> d.Body:
     return d.Body(name, 1.0, flat(f"{name}_com", (x, z), f"centre of {name}", "y"), 1.0 / 12.0)
 
 
-def n_four_bar(count: int) -> d.Model:
+def n_four_bar(count: int) -> d.Formulation:
     """Return the chain of some number of four-bar linkages."""
     ground = d.Ground("ground")
     rockers, feet, tops = [], [], []
@@ -45,7 +45,7 @@ def n_four_bar(count: int) -> d.Model:
         ),
         coordinates=(crank.angle("crank_angle", "angle from upright"),),
     )
-    return d.Model(
+    return d.Formulation(
         name=mechanism.name,
         title=mechanism.title,
         mechanism=mechanism,

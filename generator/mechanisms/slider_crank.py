@@ -42,4 +42,4 @@ SLIDER_CRANK = d.Mechanism(
     ),
 )
 
-MODELS = (d.Model("slider_crank", "Slider-crank, one degree of freedom", SLIDER_CRANK, (A,)),)
+MODELS = (d.Formulation("slider_crank", "Slider-crank, one degree of freedom", SLIDER_CRANK, (A,)),)

@@ -14,8 +14,8 @@ from math import comb
 from time import monotonic
 from typing import TYPE_CHECKING
 
+from ..declare.formulation import Formulation
 from ..declare.joints import Free, Prismatic, Revolute
-from ..declare.model import Model
 from ..loops.errors import NoClosedFormError
 from ..loops.graph import Topology
 from .plan import Plan
@@ -40,14 +40,14 @@ class Proposal:
     independent
         Names of the joints.
     iterates
-        Whether a loop is left to an iteration, which `Model.allow_iteration` must permit.
+        Whether a loop is left to an iteration, which `Formulation.allow_iteration` must permit.
     """
 
     independent: tuple[str, ...]
     iterates: bool = False
 
 
-def model_of(mechanism: Mechanism) -> Model:
+def model_of(mechanism: Mechanism) -> Formulation:
     """Return a model of a mechanism with the first proposed coordinates, all bodies massive.
 
     Parameters
@@ -67,13 +67,15 @@ def model_of(mechanism: Mechanism) -> Model:
     return search.model(closed.independent)
 
 
-def proposals(declared: Mechanism | Model, seconds: float | None = None) -> Iterator[Proposal]:
+def proposals(
+    declared: Mechanism | Formulation, seconds: float | None = None
+) -> Iterator[Proposal]:
     """Yield sets of joints whose coordinates can be independent, in the order of preference.
 
     Those from which every loop closes in closed form come first. Of a model, what it prescribes
     stays prescribed. Each of the two searches ends after some time, if it is given.
     """
-    search = Search(declared if isinstance(declared, Model) else _bare(declared))
+    search = Search(declared if isinstance(declared, Formulation) else _bare(declared))
     closed = set()
     for proposal in search.closed(seconds):
         closed.add(proposal.independent)
@@ -81,7 +83,7 @@ def proposals(declared: Mechanism | Model, seconds: float | None = None) -> Iter
     yield from (p for p in search.iterated(seconds) if p.independent not in closed)
 
 
-def advice(refused: Model) -> str:
+def advice(refused: Formulation) -> str:
     """Name other choices of independent coordinates for a model whose loops do not close.
 
     Returns
@@ -110,10 +112,10 @@ class Search:
         What it says of independent coordinates does not count.
     """
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: Formulation) -> None:
         self._model = model
         mechanism = model.mechanism
-        self.mobility = Topology(mechanism).mobility - len(mechanism.idle_links)
+        self.mobility = Topology(mechanism).mobility - len(mechanism.passive_links)
         given = model.motions
         self._free = _free(mechanism)
         self.count = self.mobility - sum(j.freedoms for j in self._free) - len(given)
@@ -131,14 +133,14 @@ class Search:
         if self.count < 0 or self.mobility <= 0:
             return (
                 f"{what}: counting the freedoms of its joints leaves nothing to move. If special "
-                "dimensions let it move all the same, declare a Model that says which joints are "
-                "independent"
+                "dimensions let it move all the same, declare a Formulation that says which "
+                "joints are independent"
             )
         if len(self.candidates) < self.count:
             return (
                 f"{what}: {self.count} coordinate(s) must be independent; of hinges and guides it "
                 f"reports {reported}. Report more of them among the coordinates, or declare a "
-                "Model with prescribed joints"
+                "Formulation with prescribed joints"
             )
         if not self._pushed <= set(self.candidates) or len(self._pushed) > self.count:
             return (
@@ -157,7 +159,7 @@ class Search:
         for independent in self._closing(seconds, allow_iteration=True):
             yield Proposal(independent, iterates=True)
 
-    def model(self, independent: tuple[str, ...], *, allow_iteration: bool = False) -> Model:
+    def model(self, independent: tuple[str, ...], *, allow_iteration: bool = False) -> Formulation:
         """Return the model with some independent joints, by their names."""
         joints = map(self._model.mechanism.joint, independent)
         every = (*self._free, *joints)
@@ -172,15 +174,15 @@ class Search:
         iterated = next(self.iterated(_SECONDS_TO_FIND), None)
         if iterated is not None:
             text += (
-                " With iteration it does: declare a Model with "
+                " With iteration it does: declare a Formulation with "
                 f"independent={iterated.independent} and allow_iteration=True."
             )
         if self._nearest is not None:
             independent, refusal = self._nearest
             text += f" Nearest came independent={independent}: {refusal}"
         return (
-            f"{text.removesuffix('.')}. Otherwise report more coordinates, or declare a Model "
-            "with the independent and the prescribed joints that you mean"
+            f"{text.removesuffix('.')}. Otherwise report more coordinates, or declare a "
+            "Formulation with the independent and the prescribed joints that you mean"
         )
 
     def summary(self) -> str:
@@ -223,9 +225,9 @@ def _either(choices: Iterable[Proposal]) -> str:
     return " or ".join(f"independent={choice.independent}" for choice in choices)
 
 
-def _bare(mechanism: Mechanism) -> Model:
+def _bare(mechanism: Mechanism) -> Formulation:
     """Return a model of a mechanism in which everything is independent that could be."""
-    return Model(
+    return Formulation(
         name=mechanism.name,
         title=mechanism.title,
         mechanism=mechanism,

@@ -181,11 +181,11 @@ def _played(
     """Simulate; where that cannot be finished, write the motion up to there."""
     from ..simulation.result import SimulationError
     from ..study.recording import dataset_of
-    from ..study.scenario import play
+    from ..study.scenario import run
 
     try:
         with problems.status("integrating"):
-            return play(model, scenario, **options)
+            return run(model, scenario, **options)
     except SimulationError as error:
         if error.partial is not None and error.partial.t.size > 1:
             motion = dataset_of(model, error.partial)

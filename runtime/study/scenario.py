@@ -81,7 +81,7 @@ class Scenario:
         )
 
 
-def play(model: Model, scenario: Scenario, **options: Any) -> tuple[Simulation, xr.Dataset]:
+def run(model: Model, scenario: Scenario, **options: Any) -> tuple[Simulation, xr.Dataset]:
     """Simulate a scenario.
 
     Parameters
@@ -108,7 +108,7 @@ def play(model: Model, scenario: Scenario, **options: Any) -> tuple[Simulation, 
     --------
     >>> from kintrafo import roads
     >>> bump = roads.step(0.02, at=0.1, end=1.0)
-    >>> result, motion = play(Model("reference_car"), Scenario(inputs={"road_height": bump}))
+    >>> result, motion = run(Model("reference_car"), Scenario(inputs={"road_height": bump}))
     >>> round(float(motion["wheel_center_z"][-1] - motion["wheel_center_z"][0]), 4)
     0.0178
     """

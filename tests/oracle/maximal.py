@@ -49,7 +49,7 @@ from oracle.constraints import Array, perpendiculars, skew, unit
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from kintrafo.generator import Body, Direction, Line, Model, Point
+    from kintrafo.generator import Body, Direction, Formulation, Line, Point
     from kintrafo.generator.declare.forces import Force
     from kintrafo.generator.declare.joints import Joint
     from kintrafo.generator.declare.laws import Law
@@ -196,7 +196,7 @@ class Oracle:
         Value of every parameter by name, SI units.
     """
 
-    def __init__(self, model: Model, parameters: Mapping[str, float]) -> None:
+    def __init__(self, model: Formulation, parameters: Mapping[str, float]) -> None:
         self.model = model
         self.mechanism = model.mechanism
         self.parameters = dict(parameters) | {

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     import sympy as sp
 
     from ...declare.inputs import Input
-    from ...equations.outputs import Entry, GeneratedModel
+    from ...equations.outputs import Derivation, Entry
     from ...program.conditions import Assumption, Condition
     from ...program.function import Block, Function, Stage
     from ...program.steps import Guard
@@ -61,7 +61,7 @@ static unsigned not_finite(const double *values, int count)
 class CPrinter:
     """Prints the header and the source of one model."""
 
-    def __init__(self, model: GeneratedModel) -> None:
+    def __init__(self, model: Derivation) -> None:
         self.model = model
         self.prefix = model.model.name
         self.upper = self.prefix.upper()

@@ -8,14 +8,14 @@ from ..templates import template
 from ..words import reads_given
 
 if TYPE_CHECKING:
-    from ...equations.outputs import GeneratedModel
+    from ...equations.outputs import Derivation
     from ...program.function import Function, Stage
 
 
 class CythonPrinter:
     """Prints the addresses of the C functions of one model."""
 
-    def __init__(self, model: GeneratedModel) -> None:
+    def __init__(self, model: Derivation) -> None:
         self.name = model.model.name
         self._functions = model.emitted.values()
 

@@ -14,19 +14,19 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from ...declare.inputs import Input
-    from ...equations.outputs import Entry, GeneratedModel
+    from ...equations.outputs import Derivation, Entry
     from ...loops.planner import Transformer
     from ...program.function import Function, Stage
 
 WIDTH = 100
 
 
-def manifest(model: GeneratedModel) -> str:
+def manifest(model: Derivation) -> str:
     """Return the text of the file."""
     return f"{_text(_facts(model), 0)}\n"
 
 
-def _facts(model: GeneratedModel) -> dict[str, Any]:
+def _facts(model: Derivation) -> dict[str, Any]:
     topology = model.plan.topology
     name = model.model.name
     parts = dict.fromkeys(f.part for f in model.emitted.values())
@@ -89,7 +89,7 @@ def _inputs(entries: Iterable[Input]) -> dict[str, dict[str, str | None]]:
     }
 
 
-def _assumptions(model: GeneratedModel) -> list[dict[str, str]]:
+def _assumptions(model: Derivation) -> list[dict[str, str]]:
     """Return what is checked of a parameter set, in the order in which it is."""
     zero = [
         {"quantity": str(a.quantity), "unit": a.unit, "meaning": a.meaning, "remedy": a.remedy}
@@ -108,7 +108,7 @@ def _assumptions(model: GeneratedModel) -> list[dict[str, str]]:
     return zero + not_zero
 
 
-def _functions(model: GeneratedModel) -> dict[str, dict[str, Any]]:
+def _functions(model: Derivation) -> dict[str, dict[str, Any]]:
     """Return what is known of every array, and of what computes it."""
     found = {}
     for emitted in model.emitted.values():
@@ -122,7 +122,7 @@ def _functions(model: GeneratedModel) -> dict[str, dict[str, Any]]:
     return {name: found[name] for name in model.functions}
 
 
-def _function(model: GeneratedModel, function: Function) -> dict[str, Any]:
+def _function(model: Derivation, function: Function) -> dict[str, Any]:
     places = {guard.name: place for place, guard in enumerate(model.guards)}
     rows, columns = _split(function.labels)
     described: dict[str, Any] = {"doc": function.doc, "shape": function.shape, "labels": rows}

@@ -17,14 +17,14 @@ from .dialect import NUMPY
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from ...equations.outputs import GeneratedModel
+    from ...equations.outputs import Derivation
     from ...program.function import Block, Function, Stage
 
 
 class ArraysPrinter:
     """Prints the functions of one model as Python over arrays."""
 
-    def __init__(self, model: GeneratedModel) -> None:
+    def __init__(self, model: Derivation) -> None:
         self.model = model
 
     def source(self) -> str:

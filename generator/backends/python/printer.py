@@ -11,16 +11,16 @@ from typing import TYPE_CHECKING
 from ..templates import template
 
 if TYPE_CHECKING:
-    from ...equations.outputs import GeneratedModel
+    from ...equations.outputs import Derivation
 
 
-def module(model: GeneratedModel) -> str:
+def module(model: Derivation) -> str:
     """Return the text of the ``.py`` file."""
     names = {"name": model.model.name, "title": model.model.title}
     return template("python", "model.py").substitute(names)
 
 
-def addresses_in(model: GeneratedModel, library: str) -> str:
+def addresses_in(model: Derivation, library: str) -> str:
     """Return the text of a ``.py`` file that finds the functions in a library beside it."""
     names = ["prepare", "design_state", *model.emitted]
     return template("python", "addresses.py").substitute(

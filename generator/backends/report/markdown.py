@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from ...declare.mechanism import Mechanism
-    from ...equations.outputs import GeneratedModel
+    from ...equations.outputs import Derivation
     from ...loops.graph import Cycle, Topology
     from ...loops.planner import Transformer
 
@@ -144,7 +144,7 @@ def preference(topology: Topology, transformer: Transformer) -> str:
     )
 
 
-def markdown(model: GeneratedModel) -> str:
+def markdown(model: Derivation) -> str:
     """Return the whole report."""
     topology = model.plan.topology
     sections = [
@@ -200,7 +200,7 @@ def markdown(model: GeneratedModel) -> str:
     return "\n\n".join(sections) + "\n"
 
 
-def _transformer_sections(model: GeneratedModel) -> list[str]:
+def _transformer_sections(model: Derivation) -> list[str]:
     topology = model.plan.topology
     sections = []
     for transformer in model.plan.transformers:
@@ -224,11 +224,11 @@ def _transformer_sections(model: GeneratedModel) -> list[str]:
     return sections
 
 
-def _assumptions(model: GeneratedModel) -> list[str]:
+def _assumptions(model: Derivation) -> list[str]:
     return [*_zeros(model), *_conditions(model)]
 
 
-def _conditions(model: GeneratedModel) -> list[str]:
+def _conditions(model: Derivation) -> list[str]:
     if not model.conditions:
         return []
     return [
@@ -243,7 +243,7 @@ def _conditions(model: GeneratedModel) -> list[str]:
     ]
 
 
-def _zeros(model: GeneratedModel) -> list[str]:
+def _zeros(model: Derivation) -> list[str]:
     if not model.assumptions:
         return []
     return [
@@ -258,7 +258,7 @@ def _zeros(model: GeneratedModel) -> list[str]:
     ]
 
 
-def _counts(model: GeneratedModel) -> str:
+def _counts(model: Derivation) -> str:
     rows = []
     for function in (model.prepare, model.design, *model.emitted.values()):
         counts = operations_of(function)

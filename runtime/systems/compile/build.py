@@ -12,12 +12,12 @@ from ...core.optional import require
 from ...core.suggestions import suggestion
 from .cache import appearing, cache_folder, damage, fingerprint, seal
 from .compiler import Compiler, CompilerError, find_compiler
-from .declaration import model_of, telling
+from .declaration import model_of, translated_errors
 from .loader import load, refuse_damaged
 
 if TYPE_CHECKING:
-    from ...generator import Mechanism, Model
-    from ...generator.equations.outputs import GeneratedModel
+    from ...generator import Formulation, Mechanism
+    from ...generator.equations.outputs import Derivation
 
 Backend = Literal["auto", "c", "numpy"]
 Report = Callable[[str], None]
@@ -27,7 +27,7 @@ _told = False
 
 
 def compile_mechanism(
-    declared: "Model | Mechanism | str | Path",
+    declared: "Formulation | Mechanism | str | Path",
     *,
     name: str | None = None,
     backend: Backend = "auto",
@@ -42,7 +42,7 @@ def compile_mechanism(
 
     Parameters
     ----------
-    declared : Model, Mechanism, str or Path
+    declared : Formulation, Mechanism, str or Path
         A declaration, see `kintrafo.generator`, or a Python file with one at its top level. Of a
         mechanism alone, a model with all bodies massive and the first independent coordinates is
         made from which every loop closes in closed form.
@@ -104,7 +104,7 @@ def compile_mechanism(
         report = progress or (lambda _: None)
         with appearing(target) as temporary:
             report("deriving the equations")
-            with telling(model):
+            with translated_errors(model):
                 derived = generate(model)
             report("compiling" if compiler else "writing the functions")
             build(derived, temporary, compiler, name=target.name)
@@ -158,13 +158,13 @@ def _tell_once() -> None:
 
 
 def build(
-    derived: "GeneratedModel", folder: Path, compiler: Compiler | None, *, name: str | None = None
+    derived: "Derivation", folder: Path, compiler: Compiler | None, *, name: str | None = None
 ) -> None:
     """Write the package of a derived model into a folder, and compile it.
 
     Parameters
     ----------
-    derived : GeneratedModel
+    derived : Derivation
         From `kintrafo.generator.equations.outputs.generate`.
     folder : Path
         An empty folder; `kintrafo.systems.compile.loader.load` makes a module of it.

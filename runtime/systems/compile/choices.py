@@ -4,18 +4,18 @@ from typing import TYPE_CHECKING
 
 from ...core.arguments import Arguments
 from .build import require_generator
-from .declaration import given_by, telling
+from .declaration import given_by, translated_errors
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from ...generator import Mechanism, Model
+    from ...generator import Formulation, Mechanism
     from ...generator.planning.proposal import Proposal
 
 
 def proposals(
-    declared: "Model | Mechanism | str | Path",
+    declared: "Formulation | Mechanism | str | Path",
     *,
     name: str | None = None,
     seconds: float | None = None,
@@ -24,12 +24,13 @@ def proposals(
 
     Sets of reported angles and slides are tried, as many at a time as there are degrees of freedom,
     joints on the ground before others. Those from which every loop closes in closed form come
-    first, and behind them those that need an iteration (`Model.allow_iteration`). A trial takes
-    milliseconds and compiles nothing; where there are many sets, take the first few.
+    first, and behind them those that need an iteration, which `Formulation.allow_iteration`
+    permits. A trial takes milliseconds and compiles nothing; where there are many sets, take the
+    first few.
 
     Parameters
     ----------
-    declared : Model, Mechanism, str or Path
+    declared : Formulation, Mechanism, str or Path
         A declaration, or a Python file with one at its top level. What a model prescribes stays
         prescribed; its own choice of independent joints does not count.
     name : str, optional
@@ -67,8 +68,8 @@ def proposals(
     return _tried(given_by(declared, name), seconds)
 
 
-def _tried(given: "Model | Mechanism", seconds: float | None) -> "Iterator[Proposal]":
+def _tried(given: "Formulation | Mechanism", seconds: float | None) -> "Iterator[Proposal]":
     from ...generator.planning.proposal import proposals as found
 
-    with telling():
+    with translated_errors():
         yield from found(given, seconds)

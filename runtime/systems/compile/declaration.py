@@ -14,7 +14,7 @@ from ...core.files import told
 from ...core.suggestions import suggestion
 
 if TYPE_CHECKING:
-    from ...generator import Mechanism, Model
+    from ...generator import Formulation, Mechanism
 
 
 class MechanismError(KintrafoError, ValueError):
@@ -22,12 +22,12 @@ class MechanismError(KintrafoError, ValueError):
 
 
 @contextmanager
-def telling(model: "Model | None" = None) -> Iterator[None]:
+def translated_errors(model: "Formulation | None" = None) -> Iterator[None]:
     """Turn the generator's refusals into errors of this package.
 
     Parameters
     ----------
-    model : Model, optional
+    model : Formulation, optional
         What is being derived: where a loop does not close, the error names other choices of
         independent coordinates.
     """
@@ -45,12 +45,14 @@ def telling(model: "Model | None" = None) -> Iterator[None]:
         raise MechanismError(str(error)) from error
 
 
-def model_of(declared: "Model | Mechanism | str | Path", name: str | None = None) -> "Model":
+def model_of(
+    declared: "Formulation | Mechanism | str | Path", name: str | None = None
+) -> "Formulation":
     """Return the model that is meant.
 
     Parameters
     ----------
-    declared : Model, Mechanism, str or Path
+    declared : Formulation, Mechanism, str or Path
         A model; a mechanism, of which a model with proposed coordinates is made; or a Python file
         with one of these.
     name : str, optional
@@ -58,7 +60,7 @@ def model_of(declared: "Model | Mechanism | str | Path", name: str | None = None
 
     Returns
     -------
-    Model
+    Formulation
 
     Raises
     ------
@@ -72,12 +74,14 @@ def model_of(declared: "Model | Mechanism | str | Path", name: str | None = None
 
     given = given_by(declared, name)
     if isinstance(given, Mechanism):
-        with telling():
+        with translated_errors():
             return proposed(given)
     return given
 
 
-def given_by(declared: "Model | Mechanism | str | Path", name: str | None) -> "Model | Mechanism":
+def given_by(
+    declared: "Formulation | Mechanism | str | Path", name: str | None
+) -> "Formulation | Mechanism":
     """Return what was declared, the file having been run if it is one.
 
     Raises
@@ -87,19 +91,19 @@ def given_by(declared: "Model | Mechanism | str | Path", name: str | None) -> "M
     MechanismError
         If the declaration contradicts itself.
     """
-    from ...generator import Mechanism, Model
+    from ...generator import Formulation, Mechanism
 
     with Arguments("compile") as checked:
         if name is not None:
             checked.kind("name", name, str, "the name of a model or a mechanism is needed")
     given: Any = declared
     if isinstance(declared, str | Path):
-        with telling():
+        with translated_errors():
             given = _chosen(_run(Path(declared)), str(declared), name)
-    if isinstance(given, Model | Mechanism):
+    if isinstance(given, Formulation | Mechanism):
         return given
     problem = (
-        "a Model, a Mechanism (kintrafo.generator) or the path of a Python file with one "
+        "a Formulation, a Mechanism (kintrafo.generator) or the path of a Python file with one "
         f"is needed, not {shown(declared)}."
     )
     raise InputError([problem], "compile")
@@ -166,21 +170,21 @@ def _line(error: BaseException, path: Path) -> str:
     return f"Line {lines[-1]}: " if lines else ""
 
 
-def _chosen(module: ModuleType, path: str, name: str | None) -> "Model | Mechanism":
+def _chosen(module: ModuleType, path: str, name: str | None) -> "Formulation | Mechanism":
     """Return the model of a file or, where it has none, the mechanism."""
-    from ...generator import Mechanism, Model
+    from ...generator import Formulation, Mechanism
 
-    defined = [v for v in vars(module).values() if isinstance(v, Model | Mechanism)]
+    defined = [v for v in vars(module).values() if isinstance(v, Formulation | Mechanism)]
     listed = [m for v in vars(module).values() if isinstance(v, tuple | list) for m in v]
-    defined += [m for m in listed if isinstance(m, Model | Mechanism)]
-    models = [m for m in defined if isinstance(m, Model)]
-    found: dict[str, Model | Mechanism] = {m.name: m for m in models or defined}
+    defined += [m for m in listed if isinstance(m, Formulation | Mechanism)]
+    models = [m for m in defined if isinstance(m, Formulation)]
+    found: dict[str, Formulation | Mechanism] = {m.name: m for m in models or defined}
     if name is not None and name in found:
         return found[name]
     if name is not None:
         raise InputError([f"{name!r} is not defined. {suggestion(name, found)}"], path)
     if not found:
-        problem = "defines no Model and no Mechanism. Assign one to a name at its top level."
+        problem = "defines no Formulation and no Mechanism. Assign one to a name at its top level."
         raise InputError([problem], path)
     if len(found) > 1:
         problem = f"defines {', '.join(found)}. Say which one is meant: --model {next(iter(found))}"

@@ -22,7 +22,7 @@ from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.mechanisms import double_wishbone, four_bar, slider_crank
 from kintrafo.generator.planning.plan import Plan
 from kintrafo.systems.compile.build import build
-from kintrafo.systems.compile.declaration import given_by, telling
+from kintrafo.systems.compile.declaration import given_by, translated_errors
 from kintrafo.systems.compile.loader import load
 from own_mechanisms import spatial_four_bar
 from own_models import Built
@@ -59,7 +59,7 @@ def attempt(random):
     for _ in range(random.integers(1, 3)):
         model = _mistaken(model, random, words)
     try:
-        with telling():
+        with translated_errors():
             plan = Plan.of(model)
     except KintrafoError as error:
         _judge(error)
@@ -190,7 +190,7 @@ def _judge(error):
 
 def _compare(model, random):
     """Hold a derived model against the same mechanism in maximal coordinates."""
-    with telling(model):
+    with translated_errors(model):
         derived = generate(model)
     with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
         warnings.simplefilter("error")

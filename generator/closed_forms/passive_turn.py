@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class PlaceIdle(Leftover):
+class PlacePassive(Leftover):
     """A link of known line, without mass, that may turn about that line: it gets some turn."""
 
     body: str
@@ -30,7 +30,7 @@ class PlaceIdle(Leftover):
     @classmethod
     def left(cls, known: Known, massive: Collection[str]) -> Iterator[Self]:
         """Yield the links without mass that nothing keeps from turning about their line."""
-        for body in known.mechanism.idle_links:
+        for body in known.mechanism.passive_links:
             if body in known.on_line and body not in massive:
                 yield cls(body)
 
@@ -42,7 +42,7 @@ class PlaceIdle(Leftover):
     @property
     def title(self) -> str:
         """What the derivation calls this step."""
-        return f"{self.body}: idle turn about its line"
+        return f"{self.body}: passive turn about its line"
 
     def accept(self, known: Known) -> set[Coordinate]:
         """Record the link."""
@@ -55,7 +55,7 @@ class PlaceIdle(Leftover):
         parent = kin.placed[record.anchor_body]
         n = kin.unit(f"{body}_line_design", kin.design(record.end) - kin.design(record.anchor))
         axis, _ = kin.across(body, n)
-        local = kin.program.vector(f"{body}_idle", to_axes(parent.design_axes, axis), "123")
+        local = kin.program.vector(f"{body}_passive", to_axes(parent.design_axes, axis), "123")
         meaning = (
             f"the turn of {body} about its own line, which nothing holds, is not defined: the line "
             f"has turned by 90 degrees as seen from {record.anchor_body}"

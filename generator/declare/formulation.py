@@ -30,7 +30,7 @@ DRIVABLE: dict[type[Joint], str] = {
 
 @declared
 @dataclass(frozen=True)
-class Model:
+class Formulation:
     """One set of equations derived from a mechanism.
 
     Attributes
@@ -83,7 +83,7 @@ class Model:
         return any(body == massive.name for massive in self.massive)
 
 
-def _check(model: Model) -> None:
+def _check(model: Formulation) -> None:
     """Raise `DeclarationError` if a model contradicts its mechanism or itself."""
     problems = unwritable("title of the model", model.title)
     problems += [
@@ -95,12 +95,12 @@ def _check(model: Model) -> None:
     problems += _input_problems(model)
     problems += _mass_problems(model)
     problems += _force_problems(model)
-    problems += _idle_problems(model)
+    problems += _passive_problems(model)
     if problems:
         raise DeclarationError(model.name, problems)
 
 
-def _driven_problems(model: Model) -> list[str]:
+def _driven_problems(model: Formulation) -> list[str]:
     joints = model.mechanism.joints
     problems = repeated("independent joint", [j.name for j in model.independent])
     problems += strangers("independent joint", model.independent, joints)
@@ -136,7 +136,7 @@ def _driven_problems(model: Model) -> list[str]:
     return problems
 
 
-def _input_problems(model: Model) -> list[str]:
+def _input_problems(model: Formulation) -> list[str]:
     """Find motions that are given twice, and inputs of one name."""
     problems = repeated(
         "motion of prescribed joints", [motion.name for motion in model.prescribed.values()]
@@ -160,7 +160,7 @@ def _undrivable(how: str, joint: Joint) -> str:
     )
 
 
-def _mass_problems(model: Model) -> list[str]:
+def _mass_problems(model: Formulation) -> list[str]:
     problems = strangers("massive body", model.massive, model.mechanism.bodies)
     problems += repeated("massive body", [b.name for b in model.massive])
     problems += [
@@ -171,7 +171,7 @@ def _mass_problems(model: Model) -> list[str]:
     return problems
 
 
-def _force_problems(model: Model) -> list[str]:
+def _force_problems(model: Formulation) -> list[str]:
     """See that every force along a joint does work: there is none for a joint that follows."""
     return [
         f"{kind}: {joint.name!r} is neither independent nor prescribed, and a {kind} acts along "
@@ -182,10 +182,10 @@ def _force_problems(model: Model) -> list[str]:
     ]
 
 
-def _idle_problems(model: Model) -> list[str]:
+def _passive_problems(model: Formulation) -> list[str]:
     """See that nothing with mass can spin about itself: nothing would determine its turn."""
     problems = []
-    for body in model.mechanism.idle_links:
+    for body in model.mechanism.passive_links:
         if model.has_mass(body):
             first, second = (j.name for j in model.mechanism.joints_of(body))
             problems.append(
