@@ -124,7 +124,7 @@ def test_stops_are_part_of_the_wheel_rate():
 def test_events_of_the_stops():
     model = Model(with_sections(**STOPS))
     start = kintrafo.state_at_height(model, 0.2)
-    events = ("strut_reaches_bump_stop", "strut_reaches_rebound_stop")
+    events = ("spring_reaches_bump_stop", "spring_reaches_rebound_stop")
     result = kintrafo.simulate(model, (0.0, 0.5), start, events=events)
     design = float(model.signal("spring_length", model.design_state))
     for times, states, reached in zip(

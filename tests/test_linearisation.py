@@ -59,7 +59,7 @@ def test_state_matrix_is_that_of_the_oracle(model):
 
 def test_wheel_hop_of_the_reference_car():
     linear = linearise(HELD, REST)
-    hop = linear.wheel_hop
+    hop = linear.mode_of("beta1")
     # eight decimals are stored
     assert hop.eigenvalues == pytest.approx(EIGENVALUES_AT_REST, abs=1e-8)
     assert linear.eigenvalues[0] == pytest.approx(EIGENVALUES_AT_REST[0], abs=1e-8)
@@ -82,7 +82,7 @@ def test_the_other_modes_are_the_zeros_of_the_spin():
 @pytest.mark.parametrize("model", [HELD, FREE], ids=["held", "free"])
 def test_mode_shapes_are_eigenvectors(model):
     linear = linearise(model, equilibrium(model, spin_rate=SPIN_RATE))
-    modes = [*linear.modes, linear.wheel_hop]
+    modes = [*linear.modes, linear.mode_of("beta1")]
     assert sum(len(mode.eigenvalues) for mode in modes[:-1]) == len(linear.A)
     for mode in modes:
         residual = linear.A @ mode.shape - mode.eigenvalues[0] * mode.shape
@@ -93,7 +93,7 @@ def test_mode_shapes_are_eigenvectors(model):
 
 def test_wheel_hop_with_a_free_rack_is_not_the_steering_mode():
     linear = linearise(FREE, equilibrium(FREE, spin_rate=SPIN_RATE))
-    hop = linear.wheel_hop
+    hop = linear.mode_of("beta1")
     # gyroscopic coupling and the rack's mass change it by less than 1 %
     assert hop.natural_frequency == pytest.approx(12.35, rel=0.01)
     steering = [mode for mode in linear.modes if mode.oscillates and mode.natural_frequency < 5.0]
@@ -107,7 +107,7 @@ def test_wheel_hop_with_a_free_rack_is_not_the_steering_mode():
 def test_wheel_hop_is_found_among_overdamped_modes():
     stiff = Model(CAR.with_changes({"strut.damper_rate_N_s_per_m": 20e3}))
     linear = linearise(stiff, equilibrium(stiff))
-    hop = linear.wheel_hop
+    hop = linear.mode_of("beta1")
     assert not hop.oscillates
     assert sorted(v.real for v in hop.eigenvalues) == sorted(np.linalg.eigvals(linear.A).real)[:2]
     assert hop.damping_ratio > 1.0
@@ -119,7 +119,7 @@ def test_mode_of_states_does_not_depend_on_units():
     units = np.diag([1e3, 1.0, 1e-3, 1e3, 1.0, 1e-3])  # mrad, rad, km
     scaled = units @ linear.A @ np.linalg.inv(units)
     found = mode_of_states(scaled, linear.state_names, ("beta1", "beta1_rate"))
-    assert found.eigenvalues == pytest.approx(linear.wheel_hop.eigenvalues, rel=1e-9)
+    assert found.eigenvalues == pytest.approx(linear.mode_of("beta1").eigenvalues, rel=1e-9)
 
 
 def test_a_small_perturbation_moves_as_the_linear_equations_say():
@@ -166,7 +166,7 @@ def test_a_small_harmonic_road_is_followed_as_the_frequency_response_says():
         atol=1e-14,
         max_step=1e-3,
     )
-    response = linear.frequency_response(frequency)
+    response = linear.frequency_response(frequency, "road_height")
     for name, expected in response.items():
         values = result.signals[name] - linear.outputs[linear.output_names.index(name)]
         # the discrete Fourier coefficient of one period, of a sine that began at t = 0
@@ -253,7 +253,7 @@ def test_frequency_of_a_quarter_car():
     model = Model(Suspension.from_dict(data))
     state = equilibrium(model)
     assert float(model.signal("wheel_center_z", state)) == pytest.approx(0.3, abs=1e-12)
-    hop = linearise(model, state).wheel_hop
+    hop = linearise(model, state).mode_of("beta1")
     frequency = np.sqrt((rate + tyre) / mass) / (2 * np.pi)
     damping = 900.0 / (2.0 * np.sqrt((rate + tyre) * mass))
     # the knuckle tilts with the strut by (0.5 m / 19 m) of the arm's turn, once squared in the
@@ -319,7 +319,7 @@ def test_unknown_source_and_resonance_of_the_spin_are_refused():
     with pytest.raises(InputError, match=r"'road' is not known. Did you mean road_height"):
         linear.frequency_response([1.0], "road")
     with pytest.raises(InputError, match="0 Hz"):
-        linear.frequency_response([0.0])
+        linear.frequency_response([0.0], "road_height")
 
 
 def test_instants_and_models_name_the_same_states():

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from kintrafo import InputError, Model, SimulationError, System, simulate, state_at_height
 from kintrafo.cli import app
-from kintrafo.generated import slider_crank
+from kintrafo.generated import front_axle, slider_crank
 from kintrafo.simulation import solvers
-from kintrafo.simulation.elements import bounds_of
 from kintrafo.simulation.solvers import native_available, native_methods
+from kintrafo.simulation.validity import bounds_of
 from typer.testing import CliRunner
 
 needs_sundials = pytest.mark.skipif(not native_available(), reason="built without SUNDIALS")
@@ -118,6 +118,27 @@ def test_bounds_are_those_of_the_data():
     assert bounds["strut_velocity", False].possible
     assert bounds["strut_velocity", True].limit > 0.0
     assert not bounds["strut_length", True].possible
+
+
+def test_either_side_of_an_axle_has_its_bounds_and_events():
+    axle = System(front_axle)
+    sides = ("right_", "left_")
+    assert set(axle.event_names) == {
+        f"{side}{event}"
+        for side in sides
+        for event in (
+            "strut_fully_extended",
+            "front_wheel_leaves_ground",
+            "front_wheel_touches_ground",
+        )
+    }
+    bounds = {(b.signal, b.above): b for b in bounds_of(axle)}
+    for side in sides:
+        longest = bounds[f"{side}strut_length", True]
+        assert longest.limit == axle.parameters["strut_length_max"]
+        assert longest.words == f"the {side.rstrip('_')} strut is longer than it can be"
+        assert bounds[f"{side}strut_length", False].limit == 0.0
+        assert bounds[f"{side}front_tyre_force", False].limit < 0.0
 
 
 @needs_sundials

@@ -33,6 +33,7 @@ from .parameters import (
     TorsionProgression,
     TorsionRate,
 )
+from .shown import Event, Range, words_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -75,6 +76,15 @@ class AnyLaw(ABC):
     @abstractmethod
     def meaning(self) -> str:
         """What that signal is."""
+
+    def ranges_of_rate(self) -> tuple[Range, ...]:
+        """Return where it knows its force, by the rate of the length."""
+        return ()
+
+    def events_of_length(self, element: str) -> tuple[Event, ...]:
+        """Return what happens at certain lengths of an element of this name."""
+        del element
+        return ()
 
     @abstractmethod
     def force(self, at: Stretch) -> sp.Expr:
@@ -197,6 +207,13 @@ class DamperTable(AnyLaw, Owner):
             for power in ("linear", "quadratic", "cubic"):
                 yield f"{power}_{i}", 0.0, "N", f"{power} coefficient of segment {i}"
 
+    def ranges_of_rate(self) -> tuple[Range, ...]:
+        """Return the ends of the table; the knots of segments without need are the last one."""
+        first, last = (sp.Symbol(f"{self.name}_knot_{i}") for i in (0, self.segments))
+        words = "the damper is faster in {} than its table goes, and is taken to go on straight"
+        below, above = words.format("bump"), words.format("rebound")
+        return (Range(-last, -first, below, above, possible=True),)
+
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""
         program, x = at.program, -at.velocity
@@ -279,6 +296,12 @@ class Stop(AnyLaw):
     def meaning(self) -> str:
         """What that signal is."""
         return f"force of the {self.side} stop"
+
+    def events_of_length(self, element: str) -> tuple[Event, ...]:
+        """Return when it is touched."""
+        name, rising = f"{element}_reaches_{self.side}_stop", self.side == "rebound"
+        meaning = f"{words_of(element)} touches its {self.side} stop"
+        return (Event(name, self.length.symbol, rising, meaning, needs=self.rate),)
 
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""

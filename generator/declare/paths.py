@@ -16,6 +16,8 @@ from .bodies import Body
 from .declared import DeclarationError, declared
 from .geometry import Point
 from .joints import Cylindrical, Revolute
+from .parameters import Distance, Length
+from .shown import Event, Range, words_of
 
 if TYPE_CHECKING:
     from .surroundings import Surroundings
@@ -79,6 +81,16 @@ class AnyPath(ABC):
     words: ClassVar[Words] = _OF_A_LINE
     has_slide: ClassVar[bool] = False
 
+    def ranges_of_length(self, name: str) -> tuple[Range, ...]:
+        """Return how long an element of this name can be."""
+        del name
+        return ()
+
+    def events_of_length(self, name: str) -> tuple[Event, ...]:
+        """Return what happens at certain lengths of an element of this name."""
+        del name
+        return ()
+
     @abstractmethod
     def course(self, at: Surroundings, name: str) -> Course:
         """Append its length and the rate of that; `name` begins the names of the steps."""
@@ -93,11 +105,32 @@ class AlongTelescope(AnyPath):
     ----------
     joint
         The telescope.
+    longest
+        The length at which it comes apart [m]; None: nobody asks.
     """
 
     joint: Cylindrical
+    longest: Length | Distance | None = None
 
     has_slide: ClassVar[bool] = True
+
+    def ranges_of_length(self, name: str) -> tuple[Range, ...]:
+        """Return how long it can be."""
+        most = self.longest and self.longest.symbol
+        below, above = (
+            f"{words_of(name)} is {than} than it can be" for than in ("shorter", "longer")
+        )
+        return (Range(0.0, most, below, above),)
+
+    def events_of_length(self, name: str) -> tuple[Event, ...]:
+        """Return when it comes apart."""
+        if self.longest is None:
+            return ()
+        meaning = f"{words_of(name)} reaches its greatest length"
+        level = self.longest.symbol
+        return (
+            Event(f"{name}_fully_extended", level, rising=True, meaning=meaning, terminal=True),
+        )
 
     def course(self, at: Surroundings, name: str) -> Course:
         """Return the length of the telescope."""

@@ -1,12 +1,74 @@
-"""Signals: what a mechanism shows of itself."""
+"""Signals: what a mechanism shows of itself, with what can be said of their values."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
+
+import sympy as sp
 
 if TYPE_CHECKING:
-    import sympy as sp
+    from .parameters import Parameter
+
+Level: TypeAlias = float | sp.Expr
+"""A number in SI units, or a parameter's symbol with its sign."""
+
+
+def words_of(name: str) -> str:
+    """Return the name of an element as a sentence has it."""
+    return f"the {name.replace('_', ' ')}"
+
+
+@dataclass(frozen=True)
+class Range:
+    """Where the values of a signal mean something. With ``least >= most`` it says nothing.
+
+    Attributes
+    ----------
+    least, most
+        Its ends, None for none.
+    below, above
+        What is the case beyond either end, ready for a sentence.
+    possible
+        Whether things can go there, and only the data end.
+    unless
+        Where this parameter is not zero, the range is none.
+    """
+
+    least: Level | None = None
+    most: Level | None = None
+    below: str = ""
+    above: str = ""
+    possible: bool = False
+    unless: Parameter | None = None
+
+
+@dataclass(frozen=True)
+class Event:
+    """A signal passes a level.
+
+    Attributes
+    ----------
+    name
+        By which a simulation is told to watch for it.
+    level
+        What is passed.
+    rising
+        Whether upwards; else downwards.
+    meaning
+        What happens, ready for a sentence.
+    terminal
+        Whether a simulation ends there.
+    needs
+        Where this parameter is zero, there is no such event.
+    """
+
+    name: str
+    level: Level
+    rising: bool
+    meaning: str
+    terminal: bool = False
+    needs: Parameter | None = None
 
 
 @dataclass(frozen=True)
@@ -17,3 +79,5 @@ class Shown:
     value: sp.Expr
     unit: str
     meaning: str
+    ranges: tuple[Range, ...] = ()
+    events: tuple[Event, ...] = ()

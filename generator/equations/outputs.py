@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from ..declare.formulation import Formulation
     from ..declare.joints import Joint
     from ..declare.mechanism import Mechanism
+    from ..declare.shown import Shown
     from ..program.conditions import Assumption, Condition
     from ..program.function import Function
     from ..program.steps import Guard
@@ -102,7 +103,7 @@ class Derivation:
     moving_bodies, massive_bodies
         Names in the order of the arrays of poses and of Jacobians.
     signals
-        The elements of the ``signals`` function.
+        The elements of the ``signals`` function, with their ranges and events.
     """
 
     model: Formulation
@@ -120,7 +121,7 @@ class Derivation:
     conditions: tuple[Condition, ...]
     moving_bodies: tuple[str, ...]
     massive_bodies: tuple[str, ...]
-    signals: tuple[Entry, ...]
+    signals: tuple[Shown, ...]
     held_inputs: dict[str, tuple[str, ...]] = field(default_factory=dict)
 
 
@@ -175,7 +176,7 @@ class _Builder:
         self.dynamics = Dynamics(self.motion)
         self.relative = {part: RelativeCoordinates(part) for part in self.motion.parts}
         self.functions: dict[str, Function] = {}
-        self.signals: list[Entry] = []
+        self.signals: list[Shown] = []
 
     def _check_masses(self) -> None:
         """See that every independent coordinate moves some mass: else it has no acceleration."""
@@ -517,7 +518,7 @@ class _Builder:
             if shown.name in results:
                 problem = f"two signals are named {shown.name!r}; give the output another name"
                 raise DeclarationError(self.model.name, [problem])
-            self.signals.append(Entry(shown.name, shown.unit, shown.meaning))
+            self.signals.append(shown)
             results[shown.name] = shown.value
         if not results:
             return

@@ -110,7 +110,9 @@ TYRE = d.LinearTyre(
 )
 FORCES = (
     WEIGHT,
-    d.ForceElement("strut", d.AlongTelescope(BC), (SPRING, DAMPER, d.Actuator(STRUT_FORCE))),
+    d.ForceElement(
+        "strut", d.AlongTelescope(BC, STRUT_LENGTH), (SPRING, DAMPER, d.Actuator(STRUT_FORCE))
+    ),
     TYRE,
     d.JointForce(Y, RACK_FORCE),
 )
@@ -140,7 +142,7 @@ GENERAL_FORCES = (
     ),
     d.ForceElement(
         "strut",
-        d.AlongTelescope(OFFSET_BC),
+        d.AlongTelescope(OFFSET_BC, STRUT_LENGTH),
         (DAMPER, *further_laws("strut", 0.85), d.Actuator(STRUT_FORCE)),
     ),
     of_rubber(TYRE),

@@ -4,8 +4,7 @@
 `signals`        what an input does over time, cut where it jumps
 `courses`, `fitting`, `interpolation`, `turning`    curves over time, and where they turn
 `roads`          inputs from a formula
-`events`         at which level of a signal something happens
-`elements`       the events and bounds of struts, tyres and dampers
+`events`         at which level of a signal something happens; `levels` reads what forces declare
 `solvers`        the integration methods; `native` has those of SUNDIALS
 `dead_points`, `watched`    how near a motion is to a dead point, for the methods of SciPy
 `result`         what a simulation gives; `validity` says where it has no meaning

@@ -6,7 +6,9 @@ from typing import Any
 
 from ..core.arguments import Arguments, shown
 from ..core.errors import InputError
+from ..core.suggestions import suggestion
 from ..systems.system import System
+from .levels import parameter_of
 
 
 @dataclass(frozen=True)
@@ -73,19 +75,45 @@ class Events:
         return len(self.order)
 
 
-def events_of(
-    model: System,
-    given: Event | Sequence[Event] | None,
-    named: Callable[[System, str], SignalEvent],
-) -> Events:
+def named_event(model: System, name: str) -> SignalEvent:
+    """Return an event that the forces of a model have, by its name.
+
+    Raises
+    ------
+    InputError
+        If there is no such event, or the model has not what it is of.
+    """
+    known = {
+        event: (signal, entry)
+        for signal, described in model.equations.SIGNALS.items()
+        for event, entry in described.get("events", {}).items()
+    }
+    if name not in known:
+        problem = (
+            f"event {name!r} is not known: {model.equations.NAME} has no force that it comes with. "
+            f"{suggestion(name, known)}"
+        )
+        raise InputError([problem], "events")
+    signal, entry = known[name]
+    needed = entry.get("needs")
+    if needed is not None and not parameter_of(model, needed):
+        problem = (
+            f"event {name!r} cannot happen: {needed} is zero. Give it, or leave the event out."
+        )
+        raise InputError([problem], "events")
+    level = parameter_of(model, entry["level"])
+    return SignalEvent(
+        signal, level, 1.0 if "rising" in entry else -1.0, terminal="terminal" in entry
+    )
+
+
+def events_of(model: System, given: Event | Sequence[Event] | None) -> Events:
     """Sort the events that a caller gave.
 
     Parameters
     ----------
     model : System or Model
     given : str, SignalEvent, callable, or sequence of these
-    named : callable
-        Takes the model and a name; returns the event of this name.
 
     Returns
     -------
@@ -98,7 +126,7 @@ def events_of(
     functions: list[tuple[int, _CheckedFunction]] = []
     for index, event in enumerate(listed):
         if isinstance(event, str):
-            signal.append((index, _checked(model, named(model, event))))
+            signal.append((index, _checked(model, named_event(model, event))))
         elif isinstance(event, SignalEvent):
             signal.append((index, _checked(model, event)))
         elif callable(event):

@@ -10,8 +10,7 @@ from scipy.optimize import OptimizeResult
 from ..core.errors import KintrafoError
 from ..equations.errors import ModelError
 from ..systems.system import System
-from .elements import bounds_of
-from .validity import Excursion, excursions
+from .validity import Excursion, bounds_of, excursions
 
 Array = NDArray[np.float64]
 

@@ -15,7 +15,6 @@ from ..systems.state import inputs_of
 from ..systems.system import System
 from .courses import Signal
 from .dead_points import refuse
-from .elements import named_event
 from .events import Event, Events, events_of
 from .result import DenseOutput, Signals, Simulation, SimulationError
 from .signals import Segment, TimeInputs, time_inputs
@@ -98,9 +97,9 @@ def simulate(
     dense_output : bool, optional
         Whether to keep the solution as a function of time, ``sol``.
     events : str, SignalEvent, callable, or sequence of these, optional
-        'wheel_leaves_ground', 'wheel_touches_ground', 'strut_fully_extended',
-        'strut_reaches_bump_stop', 'strut_reaches_rebound_stop'; a signal and a level;
-        or a function of time and state with SciPy's attributes ``terminal`` and ``direction``.
+        One of ``model.event_names``, such as 'wheel_leaves_ground' or 'strut_fully_extended'; a
+        signal and a level; or a function of time and state with SciPy's attributes ``terminal``
+        and ``direction``.
     stop_at_outputs : bool, optional
         Whether to step onto every output time instead of interpolating. SUNDIALS only.
     backend : str, optional
@@ -153,7 +152,7 @@ def simulate(
     )  # fmt: skip
     held = inputs_of(y0, model.names_of_states)
     given = time_inputs(model, inputs, t_span, held=held, max_step=options.max_step)
-    watched = events_of(model, events, named_event)
+    watched = events_of(model, events)
     solve = _choose_backend(model, backend, options)
     return _Run(model, given, options, watched, times, solve).over(state)
 

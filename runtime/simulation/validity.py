@@ -3,14 +3,16 @@
 The equations go on there, and what they give has no meaning for the car.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..core.quantities import attributes, display_of
 from ..systems.system import System
+from .levels import parameter_of
 
 Array = NDArray[np.float64]
 
@@ -37,6 +39,29 @@ class Bound:
     above: bool
     words: str
     possible: bool = False
+
+
+def bounds_of(model: System) -> Iterator[Bound]:
+    """Yield what the signals of a model must not pass, as its forces were declared."""
+    for signal, described in model.equations.SIGNALS.items():
+        for entry in described.get("ranges", ()):
+            unless = entry.get("unless")
+            if unless is None or not parameter_of(model, unless):
+                yield from _ends(model, signal, entry)
+
+
+def _ends(model: System, signal: str, entry: Mapping[str, Any]) -> Iterator[Bound]:
+    """Yield the ends of a range that is not empty."""
+    least, most = (
+        parameter_of(model, entry[end]) if end in entry else None for end in ("least", "most")
+    )
+    if least is not None and most is not None and least >= most:
+        return
+    possible = entry.get("possible", False)
+    if most is not None:
+        yield Bound(signal, most, above=True, words=entry["above"], possible=possible)
+    if least is not None:
+        yield Bound(signal, least, above=False, words=entry["below"], possible=possible)
 
 
 @dataclass(frozen=True)

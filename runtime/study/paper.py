@@ -153,4 +153,4 @@ def rest(model: Model) -> Rest:
     """
     state = equilibrium(model, spin_rate=SPIN_RATE)
     height = float(model.signal("wheel_center_z", state))
-    return Rest(state, height, linearise(model, state).wheel_hop)
+    return Rest(state, height, linearise(model, state).mode_of(model.names.arm))

@@ -418,7 +418,7 @@ class Suspension(Section):
         curve : Damper or None
             That of the damper, where it has one.
         """
-        values = (curve or NO_CURVE).parameters()
+        values = dict(NO_CURVE) if curve is None else curve.parameters()
         for side, stop in (("bump", self.bump_stop), ("rebound", self.rebound_stop)):
             values |= (stop or NO_STOP).parameters(side, length)
         return values | {

@@ -78,7 +78,7 @@ class Linearisation:
     def steady(self) -> bool:
         """Whether nothing changes at the point but what no equation depends on.
 
-        That is the angle of a spinning wheel: it looks the same at every angle.
+        That is the angle of a spinning rotor: it looks the same at every angle.
         """
         changing = self.A.any(axis=0)
         # the size of what has to cancel: a state off by 1e-6 rad or m, or so
@@ -95,16 +95,30 @@ class Linearisation:
         """The modes: one for each conjugate pair and for each real eigenvalue."""
         return modes_of(self.A, self.state_names)
 
-    @property
-    def wheel_hop(self) -> Mode:
-        """The mode of the first coordinate, which of a suspension is the angle of its arm.
+    def mode_of(self, coordinate: str) -> Mode:
+        """Return the mode of a coordinate.
 
-        It is the pair of eigenvalues in which this coordinate and its rate take part most (see
-        `mode_of_states`): wheel and knuckle between spring and tyre. The two zeros of the spin have
-        no part of the arm: a wheel may stand at any angle, and roll at any speed.
+        Parameters
+        ----------
+        coordinate : str
+            The first half of `state_names`; the other half are their rates.
+
+        Returns
+        -------
+        Mode
+            The pair of eigenvalues in which the coordinate and its rate take part most, see
+            `mode_of_states`.
+
+        Raises
+        ------
+        InputError
+            If there is no such coordinate.
         """
-        names = self.state_names
-        return mode_of_states(self.A, names, (names[0], names[len(names) // 2]))
+        half = len(self.state_names) // 2
+        with Arguments("mode") as given:
+            given.among("coordinate", coordinate, self.state_names[:half])
+        rate = self.state_names[half + self.state_names.index(coordinate)]
+        return mode_of_states(self.A, self.state_names, (coordinate, rate))
 
     def state_space(self) -> "StateSpace":
         """Return the matrices as SciPy's ``StateSpace``."""
@@ -112,18 +126,16 @@ class Linearisation:
 
         return StateSpace(self.A, self.B, self.C, self.D)
 
-    def frequency_response(
-        self, frequency: ArrayLike, source: str = "road_height"
-    ) -> dict[str, Complex]:
+    def frequency_response(self, frequency: ArrayLike, source: str) -> dict[str, Complex]:
         """Return how the outputs follow a small harmonic input.
 
         Parameters
         ----------
         frequency : array_like
             [Hz].
-        source : str, optional
+        source : str
             An input. Where the model takes the rates of it as inputs of their own (the position of
-            a prescribed rack, with its velocity and acceleration), they move along.
+            what is prescribed, with its velocity and acceleration), they move along.
 
         Returns
         -------
@@ -149,8 +161,8 @@ class Linearisation:
             states = np.linalg.solve(moved, (column @ self.B.T)[..., None])[..., 0]
         except np.linalg.LinAlgError as error:
             problem = (
-                "frequency: an undamped mode lies on one of the frequencies (0 Hz: the wheel's "
-                "spin), where the response is infinite. Leave that frequency out."
+                "frequency: an undamped mode lies on one of the frequencies (at 0 Hz what turns "
+                "freely), where the response is infinite. Leave that frequency out."
             )
             raise InputError([problem], "frequency response") from error
         response = states @ self.C.T + column @ self.D.T
@@ -198,7 +210,7 @@ def linearise(
     >>> from kintrafo import Model, equilibrium
     >>> model = Model("reference_car")
     >>> linear = linearise(model, equilibrium(model), outputs=["tyre_force"])
-    >>> linear.steady, linear.wheel_hop.text
+    >>> linear.steady, linear.mode_of("beta1").text
     (True, '12.35 Hz, damping ratio 0.233')
     """
     with Arguments("linearise") as checked:

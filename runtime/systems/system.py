@@ -99,6 +99,12 @@ class System:
         """Names of the physical signals, in order."""
         return tuple(self.equations.SIGNALS)
 
+    @property
+    def event_names(self) -> tuple[str, ...]:
+        """Names of the events that a simulation can watch for, in the order of their signals."""
+        described = self.equations.SIGNALS.values()
+        return tuple(name for signal in described for name in signal.get("events", {}))
+
     # -- building arrays --------------------------------------------------------------------------
 
     def state(self, **values: float) -> Array:

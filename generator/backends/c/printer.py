@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     import sympy as sp
 
     from ...declare.inputs import Input
+    from ...declare.shown import Shown
     from ...equations.outputs import Derivation, Entry
     from ...program.conditions import Assumption, Condition
     from ...program.function import Block, Function, Stage
@@ -125,7 +126,7 @@ class CPrinter:
         note = iteration_note(self.model)
         return f"\n\n{textwrap.fill(note, WIDTH - 4)}" if note else ""
 
-    def _enum(self, kind: str, title: str, entries: Sequence[Entry | Input]) -> str:
+    def _enum(self, kind: str, title: str, entries: Sequence[Entry | Input | Shown]) -> str:
         described = [(e.name, f"[{e.unit}] {e.meaning}") for e in entries]
         return self._print_enum(kind, title, described)
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
+import sympy as sp
+
 from ...declare.ranges import described as parameters_of
 from ..counting import OPERATIONS, operations_of
 from ..text import formula
@@ -14,6 +16,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from ...declare.inputs import Input
+    from ...declare.mechanism import Mechanism
+    from ...declare.parameters import Parameter
+    from ...declare.shown import Level, Shown
     from ...equations.outputs import Derivation, Entry
     from ...loops.planner import Transformer
     from ...program.function import Function, Stage
@@ -41,7 +46,7 @@ def _facts(model: Derivation) -> dict[str, Any]:
         "state": _described(model.state),
         "inputs": _inputs(model.inputs),
         "relative_coordinates": _described(model.relative),
-        "signals": _described(model.signals),
+        "signals": {s.name: _signal(model.model.mechanism, s) for s in model.signals},
         "bodies": model.moving_bodies,
         "massive_bodies": model.massive_bodies,
         "constants": model.prepare.labels,
@@ -76,6 +81,60 @@ def _facts(model: Derivation) -> dict[str, Any]:
 
 def _described(entries: Iterable[Entry]) -> dict[str, dict[str, str]]:
     return {e.name: {"unit": e.unit, "meaning": e.meaning} for e in entries}
+
+
+def _signal(mechanism: Mechanism, shown: Shown) -> dict[str, Any]:
+    """Return unit and meaning of a signal, its ranges and its events."""
+    described: dict[str, Any] = {"unit": shown.unit, "meaning": shown.meaning}
+
+    def level(of: Parameter | None) -> float | str | None:
+        return _level(mechanism, of and of.symbol)
+
+    if shown.ranges:
+        described["ranges"] = [
+            _given(
+                least=_level(mechanism, limits.least),
+                most=_level(mechanism, limits.most),
+                below=limits.below,
+                above=limits.above,
+                possible=limits.possible,
+                unless=level(limits.unless),
+            )
+            for limits in shown.ranges
+        ]
+    if shown.events:
+        described["events"] = {
+            event.name: _given(
+                level=_level(mechanism, event.level),
+                rising=event.rising,
+                meaning=event.meaning,
+                terminal=event.terminal,
+                needs=level(event.needs),
+            )
+            for event in shown.events
+        }
+    return described
+
+
+def _given(**facts: Any) -> dict[str, Any]:
+    """Return what says something."""
+    return {
+        name: fact for name, fact in facts.items() if fact not in (None, "") and fact is not False
+    }
+
+
+def _level(mechanism: Mechanism, level: Level | None) -> float | str | None:
+    """Return a number as it is, a parameter by its name, with a minus before it if it has one.
+
+    A copy's parameters are those of what it is a copy of.
+    """
+    if level is None or isinstance(level, float):
+        return level
+    sign, symbol = level.as_coeff_Mul()
+    factor, root = sp.sympify(mechanism.derived.get(symbol.name, symbol)).as_coeff_Mul()
+    assert sign * factor in (1, -1), level  # mirrors only turn round
+    assert root.is_Symbol, level
+    return f"{'-' if sign * factor < 0 else ''}{root.name}"
 
 
 def _inputs(entries: Iterable[Input]) -> dict[str, dict[str, str | None]]:

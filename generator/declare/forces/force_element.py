@@ -11,7 +11,7 @@ from ..declared import DeclarationError, Name, declared
 from ..laws import Law, Stretch
 from ..parameters import Parameter
 from ..paths import Path
-from ..shown import Shown
+from ..shown import Event, Range, Shown
 from .force import Action, Force
 
 if TYPE_CHECKING:
@@ -129,5 +129,19 @@ class ForceElement(Force):
             if not law.from_outside:
                 meaning = f"{law.meaning.replace('force', words.force)}, {words.sense}"
                 described[self.shown_as(law, at.mechanism)] = words.unit, meaning
+        ranges, events = self._ranges, {self._of_length: self._events}
         for name, (unit, meaning) in described.items():
-            yield Shown(name, action.values[name], unit, meaning)
+            limits = ranges.get(name, ()), events.get(name, ())
+            yield Shown(name, action.values[name], unit, meaning, *limits)
+
+    @property
+    def _ranges(self) -> dict[str, tuple[Range, ...]]:
+        """Where length and rate mean something."""
+        of_rate = tuple(r for law in self.laws for r in law.ranges_of_rate())
+        return {self._of_length: self.path.ranges_of_length(self.name), self._of_rate: of_rate}
+
+    @property
+    def _events(self) -> tuple[Event, ...]:
+        """What happens at certain lengths."""
+        of_laws = (event for law in self.laws for event in law.events_of_length(self.name))
+        return (*self.path.events_of_length(self.name), *of_laws)

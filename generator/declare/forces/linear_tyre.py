@@ -12,7 +12,7 @@ from ...program.functions import IsPositive, Positive
 from ..declared import DeclarationError, Name, declared
 from ..inputs import Input
 from ..parameters import DamperRate, Displacement, Share, SpringRate
-from ..shown import Shown
+from ..shown import Event, Range, Shown
 from ..wheel import Wheel
 from .force import Action, Force
 
@@ -21,6 +21,10 @@ if TYPE_CHECKING:
 
     from ..surroundings import Surroundings
     from ..whole import Whole
+
+
+# Force at which a tyre touches, and below which its pull is rounding [N]: nanometres of deflection.
+_TOUCH = 1e-3
 
 
 @declared
@@ -133,4 +137,21 @@ class LinearTyre(Force):
         """Yield those of the wheel, then the force."""
         yield from self.wheel.signals(at, self.prefix(at.mechanism))
         meaning = "tyre force in the wheel plane, positive in compression"
-        yield from (Shown(name, value, "N", meaning) for name, value in action.values.items())
+        limits = self._ranges, self._events(self.prefix(at.mechanism))
+        for name, value in action.values.items():
+            yield Shown(name, value, "N", meaning, *limits)
+
+    @property
+    def _ranges(self) -> tuple[Range, ...]:
+        """What it can do: a tyre that never lifts off would have to pull."""
+        return (Range(-_TOUCH, below="the tyre pulls at the road", unless=self.lifts_off),)
+
+    @staticmethod
+    def _events(prefix: str) -> tuple[Event, ...]:
+        """When the wheel leaves the road, and meets it."""
+        # in the air the force of a tyre that lifts off is zero, all the time
+        leaves, touches = (f"{prefix}wheel_{what}_ground" for what in ("leaves", "touches"))
+        return (
+            Event(leaves, _TOUCH, rising=False, meaning="the tyre force falls to nothing"),
+            Event(touches, _TOUCH, rising=True, meaning="the tyre force rises from nothing"),
+        )

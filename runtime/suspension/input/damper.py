@@ -98,5 +98,5 @@ class Damper(Section):
         return {f"damper_table_{key}": float(x) for key, x in values.items()}
 
 
-NO_CURVE = Damper(velocity_m_per_s=(-1.0, 1.0), force_N=(0.0, 0.0))
-"""A curve without force, for equations that have one all the same."""
+NO_CURVE = dict.fromkeys(Damper(velocity_m_per_s=(0.0, 1.0), force_N=(0.0, 0.0)).parameters(), 0.0)
+"""The coefficients of none: no force at any velocity, and knots between which nothing lies."""
