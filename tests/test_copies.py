@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import mpmath
 import numpy as np
+import own_forces
 import own_loops
 import own_mechanisms
 import own_yokes
@@ -65,6 +66,8 @@ EVERY = {
         own_loops.DRIVEN_GUIDE,
         own_loops.FOUR_BAR_AT_ITS_KNEE,
         own_yokes.SCOTCH_YOKE,
+        own_forces.loaded_crank(),
+        own_forces.loaded_bar(),
     )
 }
 NOT_MIRRORED = ("rockers",)
@@ -84,6 +87,7 @@ SAMPLE = (
     "plate_on_a_pin",
     "knee_bar",
     "scotch_yoke",
+    "loaded_crank",
 )
 """Mechanisms with every step of the catalogue; all of them are tried by the fuzzer."""
 

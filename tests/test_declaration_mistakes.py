@@ -178,7 +178,7 @@ MISTAKES = {
     "text for a law": (lambda: replace(COIL, laws=("spring",)), ["laws[0] is 'spring'"]),
     "path without its class": (
         lambda: replace(COIL, path=((ONE, A), (TWO, B))),
-        ["path", "an AlongTelescope, an AlongLine or a TwistOfHinges is needed"],
+        ["path", "an AlongTelescope, an AlongLine, an AlongHinge, an AlongGuide or a"],
     ),
     "one joint without brackets": (
         lambda: four_bar(joints=bar.A),

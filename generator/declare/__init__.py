@@ -3,6 +3,8 @@
 from .bodies import Body, Ground, Rotor
 from .composition import Copy, combined
 from .declared import DeclarationError
+from .forces.applied_force import AppliedForce
+from .forces.applied_moment import AppliedMoment
 from .forces.force import Action, Force
 from .forces.force_element import ForceElement
 from .forces.joint_force import JointForce
@@ -50,7 +52,7 @@ from .parameters import (
     TorsionProgression,
     TorsionRate,
 )
-from .paths import AlongLine, AlongTelescope, TwistOfHinges
+from .paths import AlongGuide, AlongHinge, AlongLine, AlongTelescope, TwistOfHinges
 from .shown import Shown
 from .surroundings import Surroundings
 from .wheel import Wheel
@@ -63,11 +65,15 @@ __all__ = [
     "AccelerationOf",
     "Action",
     "Actuator",
+    "AlongGuide",
+    "AlongHinge",
     "AlongLine",
     "AlongTelescope",
     "Angle",
     "AngleBetween",
     "AngularSpeed",
+    "AppliedForce",
+    "AppliedMoment",
     "Body",
     "Copy",
     "Cylindrical",

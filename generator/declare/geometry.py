@@ -19,7 +19,7 @@ from .parameters import Displacement, Owner, Parameter
 
 
 def _vector(given: Any) -> Any:
-    """Take three numbers for a vector, but not zeros."""
+    """Take three numbers for a vector, but not zeros, and return the unit vector along it."""
     components = given if isinstance(given, Vector | tuple) else ()
     try:
         vector = Vector.of(*components)
@@ -29,7 +29,13 @@ def _vector(given: Any) -> Any:
     if not usable or vector.is_zero:
         problem = "is no direction; give three numbers, not all of them zero"
         raise PydanticCustomError("declared", problem)
-    return vector
+    norm = sp.sqrt(vector.dot(vector))
+    return Vector(*(c if norm == 1 else _written_out(c / norm) for c in vector))
+
+
+def _written_out(number: sp.Expr) -> sp.Expr:
+    """Return a number that C can be told: a ratio of integers, or a double."""
+    return number if number.is_Rational else sp.Float(float(number))
 
 
 @declared
@@ -110,7 +116,7 @@ class Direction(Owner):
     meaning
         For the documentation of the generated code; without it, the name.
     fixed
-        In the place of `along`: components that are no parameters.
+        In the place of `along`: components that are no parameters, of any length.
     between
         In the place of `along`: two points; from the first to the second at the design position.
     axial

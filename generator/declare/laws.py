@@ -112,7 +112,7 @@ class LinearSpring(AnyLaw):
 
     rate: SpringRate | TorsionRate
     free_slide: Displacement | None = None
-    free_length: Length | Angle | None = None
+    free_length: Length | Displacement | Angle | None = None
 
     def __post_init__(self) -> None:
         if (self.free_slide is None) == (self.free_length is None):
@@ -283,7 +283,7 @@ class Stop(AnyLaw):
     """
 
     side: Literal["bump", "rebound"]
-    length: Length | Angle
+    length: Length | Displacement | Angle
     rate: SpringRate | TorsionRate
     progression: Progression | TorsionProgression
 

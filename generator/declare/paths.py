@@ -15,7 +15,7 @@ from ..program.floors import DIRECTION
 from .bodies import Body
 from .declared import DeclarationError, declared
 from .geometry import Point
-from .joints import Cylindrical, Revolute
+from .joints import Cylindrical, Prismatic, Revolute
 from .parameters import Distance, Length
 from .shown import Event, Range, words_of
 
@@ -72,6 +72,18 @@ _OF_A_TWIST = Words(
     "moment",
     "N m",
     "positive when it increases the twist",
+)
+
+
+_OF_A_HINGE = _OF_A_TWIST._replace(
+    length=("angle", "rad", "angle of the {}"),
+    rate=("angular_velocity", "rad/s", "rate of the {}'s angle"),
+    sense="positive when it increases the angle",
+)
+_OF_A_GUIDE = _OF_A_LINE._replace(
+    length=("slide", "m", "slide of the {}"),
+    rate=("velocity", "m/s", "rate of the {}'s slide"),
+    sense="positive when it increases the slide",
 )
 
 
@@ -228,4 +240,50 @@ class TwistOfHinges(AnyPath):
         return Course(twist, {k: rate for k, rate in motion.items() if rate != 0})
 
 
-Path = AlongTelescope | AlongLine | TwistOfHinges
+@declared
+@dataclass(frozen=True)
+class AlongHinge(AnyPath):
+    """The angle of a hinge [rad]: for a torsion spring, a rotary damper, a stop, a motor.
+
+    A moment acts with its sign on the hinge's second body and against it on the first.
+
+    Parameters
+    ----------
+    hinge
+        The hinge.
+    """
+
+    hinge: Revolute
+
+    words: ClassVar[Words] = _OF_A_HINGE
+
+    def course(self, at: Surroundings, name: str) -> Course:
+        """Return the angle of the hinge."""
+        del name
+        return Course(*at.hinge(self.hinge.name))
+
+
+@declared
+@dataclass(frozen=True)
+class AlongGuide(AnyPath):
+    """The slide of a guide [m], zero at the design position and of either sign.
+
+    A force acts with its sign on the guide's second body and against it on the first.
+
+    Parameters
+    ----------
+    guide
+        The guide.
+    """
+
+    guide: Prismatic
+
+    words: ClassVar[Words] = _OF_A_GUIDE
+
+    def course(self, at: Surroundings, name: str) -> Course:
+        """Return the slide of the guide."""
+        del name
+        return Course(*at.guide(self.guide.name))
+
+
+Path = AlongTelescope | AlongLine | AlongHinge | AlongGuide | TwistOfHinges

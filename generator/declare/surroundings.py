@@ -61,6 +61,9 @@ class Surroundings(Protocol):
     def direction(self, body: str, direction: Direction) -> Vector:
         """Return the constant components of a direction fixed in a body, in body axes."""
 
+    def line(self, body: str, direction: Direction, follows: bool) -> Vector:
+        """Return a unit vector in body axes, fixed in the body if it follows, or in the world."""
+
     def up(self, body: str) -> Vector:
         """Return the upward unit vector of the world, in body axes."""
 
@@ -89,6 +92,9 @@ class Surroundings(Protocol):
 
     def hinge(self, joint: str) -> tuple[sp.Expr, Motion]:
         """Return the angle of a hinge, and its rate per unit rate of each coordinate."""
+
+    def guide(self, joint: str) -> tuple[sp.Expr, Motion]:
+        """Return the slide of a guide, and its rate per unit rate of each coordinate."""
 
     def between(
         self, first: tuple[str, Point], second: tuple[str, Point]

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..declare.geometry import UP
-from ..declare.joints import Revolute
+from ..declare.joints import Prismatic, Revolute
+from ..kinematics.guide_slides import slide_of, sliding_rates
 from ..kinematics.hinge_angles import angle_of, turning_rates
 from ..kinematics.motion import from_axes, to_axes
 
@@ -72,11 +73,18 @@ class Seen:
         placed = self._placed[body]
         return self._part_of[body].local_direction(placed, direction)
 
+    def line(self, body: str, direction: Direction, follows: bool) -> Vector:
+        """Return a unit vector in body axes, fixed in the body if it follows, or in the world."""
+        if follows:
+            return self.direction(body, direction)
+        placed = self._placed[body]
+        line = to_axes(placed.axes, self._part_of[body].design_direction(direction))
+        name = "up" if direction == UP else f"{direction.name}_in_world"
+        return self.program.vector(f"{body}_{name}", line, "123")
+
     def up(self, body: str) -> Vector:
         """Return the upward unit vector of the world, in body axes."""
-        placed = self._placed[body]
-        up = to_axes(placed.axes, self._part_of[body].design_direction(UP))
-        return self.program.vector(f"{body}_up", up, "123")
+        return self.line(body, UP, follows=False)
 
     def twists(self, body: str) -> Mapping[str, Twist]:
         """Return the twist per unit rate of each coordinate that moves a body, in body axes."""
@@ -123,6 +131,13 @@ class Seen:
         assert isinstance(hinge, Revolute)  # checked with the mechanism
         part = self._with_joint(joint)
         return angle_of(part, hinge), turning_rates(part, hinge)
+
+    def guide(self, joint: str) -> tuple[sp.Expr, Motion]:
+        """Return the slide of a guide, and its rate per unit rate of each coordinate."""
+        guide = self.mechanism.joint(joint)
+        assert isinstance(guide, Prismatic)  # checked with the mechanism
+        part = self._with_joint(joint)
+        return slide_of(part, guide), sliding_rates(part, guide)
 
     def _with_joint(self, joint: str) -> Kinematics:
         """Return the part that a joint belongs to: nothing closes between two parts."""

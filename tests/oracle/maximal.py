@@ -26,8 +26,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from kintrafo.generator import (
     Actuator,
+    AlongGuide,
+    AlongHinge,
     AlongLine,
     AlongTelescope,
+    AppliedForce,
+    AppliedMoment,
     Cylindrical,
     DamperTable,
     ForceElement,
@@ -435,8 +439,11 @@ class Oracle:
     def _wrench_of(self, force: Force, motion: Motion, inputs: Mapping[str, float]) -> Array:
         if isinstance(force, Weight):
             pull = np.zeros((self.size, 6))
-            pull[:, 2] = -self.mass[1:] * self.parameters[force.gravity.name]
+            weight = self.mass[1:] * self.parameters[force.gravity.name]
+            pull[:, :3] = -np.outer(weight, self.along(force.upward))
             return pull.ravel()
+        if isinstance(force, AppliedForce | AppliedMoment):
+            return inputs[force.input.name] * self._of_outside(motion, force)
         if isinstance(force, ForceElement):
             length = self.length(motion, force)
             push = sum(self._push(force, law, length, inputs) for law in force.laws)
@@ -449,6 +456,17 @@ class Oracle:
         center = self.point(motion, force.wheel.carrier.name, self.place(force.wheel.center))
         return self._tyre(force, motion, center, inputs) @ center.rows
 
+    def _of_outside(self, motion: Motion, force: AppliedForce | AppliedMoment) -> Array:
+        """Return what acts from outside, for a unit input."""
+        line, body = self.along(force.direction), force.body.name
+        if force.follows:
+            line = self.vector(motion, body, line).value
+        if isinstance(force, AppliedForce):
+            return line @ self.point(motion, body, self.place(force.point)).rows
+        turned = np.zeros((self.size, 6))
+        turned[self.index[body] - 1, 3:] = line
+        return turned.ravel()
+
     def length(self, motion: Motion, element: ForceElement) -> Jet:
         """Return the length of an element's path, or its twist."""
         if isinstance(element.path, AlongLine):
@@ -458,6 +476,10 @@ class Oracle:
             return (second - first).norm()
         if isinstance(element.path, AlongTelescope):
             return self.telescope_length(motion, element.path.joint)
+        if isinstance(element.path, AlongHinge):
+            return self._hinge_angle(motion, element.path.hinge)
+        if isinstance(element.path, AlongGuide):
+            return self.coordinate(motion, element.path.guide, "slide")
         first, second = (
             self._hinge_angle(motion, hinge) for hinge in (element.path.first, element.path.second)
         )

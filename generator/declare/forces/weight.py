@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 import sympy as sp
 
 from ..declared import declared
+from ..geometry import UP, Direction
 from ..parameters import Gravity
 from .force import Action, Force
 
@@ -18,17 +19,21 @@ if TYPE_CHECKING:
 @declared
 @dataclass(frozen=True)
 class Weight(Force):
-    """The weight of every body that carries mass, downward in the world.
+    """The weight of every body that carries mass.
 
     Parameters
     ----------
     gravity
         [m/s^2].
+    upward
+        Against which it pulls: a direction in the world, of any length.
     """
 
     gravity: Gravity = field(
         default_factory=lambda: Gravity("gravity", 9.81, "acceleration of gravity")
     )
+
+    upward: Direction = UP
 
     in_common: ClassVar[bool] = True
 
@@ -42,5 +47,6 @@ class Weight(Force):
         gravity = self.gravity.symbol
         forces: dict[str, sp.Expr] = {}
         for body, k, momentum in at.momenta():
-            forces[k] = forces.get(k, sp.Integer(0)) - gravity * at.up(body).dot(momentum)
+            up = at.line(body, self.upward, follows=False)
+            forces[k] = forces.get(k, sp.Integer(0)) - gravity * up.dot(momentum)
         return Action(forces)

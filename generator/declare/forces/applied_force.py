@@ -1,0 +1,57 @@
+"""A force at a point of a body, given from outside."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ..bodies import Body
+from ..declared import declared
+from ..geometry import Direction, Point
+from ..inputs import Input
+from .force import Action, Force
+
+if TYPE_CHECKING:
+    from ..surroundings import Surroundings
+
+
+@declared
+@dataclass(frozen=True)
+class AppliedForce(Force):
+    """A force along a direction at a point of a body; an input says how much [N].
+
+    Parameters
+    ----------
+    body, point
+        Where it acts: the point by its place at the design position.
+    direction
+        Along which the force is positive; its length does not count.
+    input
+        The force.
+    follows
+        Whether the direction turns with the body; else it stays as it is in the world.
+    """
+
+    body: Body
+    point: Point
+    direction: Direction
+    input: Input
+    follows: bool = False
+
+    @property
+    def identity(self) -> tuple[str, str]:
+        """Body and input: several may push at one body."""
+        return "AppliedForce at", f"{self.body.name} by {self.input.name}"
+
+    def act(self, at: Surroundings) -> Action:
+        """Append its power on the velocity of the point."""
+        body, force = self.body.name, sp.Symbol(self.input.name)
+        local, line = at.local(body, self.point), at.line(body, self.direction, self.follows)
+        return Action(
+            {
+                k: force * line.dot(twist.linear + twist.angular.cross(local))
+                for k, twist in at.twists(body).items()
+            }
+        )

@@ -1,0 +1,57 @@
+"""A moment on a body, given from outside."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+import sympy as sp
+
+from ..bodies import Body
+from ..declared import declared
+from ..geometry import Direction
+from ..inputs import Input
+from .force import Action, Force
+
+if TYPE_CHECKING:
+    from ..surroundings import Surroundings
+
+
+@declared
+@dataclass(frozen=True)
+class AppliedMoment(Force):
+    """A moment about a direction on a body; an input says how much [N m].
+
+    Parameters
+    ----------
+    body
+        On which it acts.
+    direction
+        About which the moment is positive; its length does not count.
+    input
+        The moment.
+    follows
+        Whether the direction turns with the body; else it stays as it is in the world.
+    """
+
+    body: Body
+    direction: Direction
+    input: Input
+    follows: bool = False
+
+    turns_about: ClassVar[tuple[str, ...]] = ("direction",)
+
+    @property
+    def identity(self) -> tuple[str, str]:
+        """Body and input: several may turn one body."""
+        return "AppliedMoment on", f"{self.body.name} by {self.input.name}"
+
+    def act(self, at: Surroundings) -> Action:
+        """Append its power on the turning of the body."""
+        moment, line = (
+            sp.Symbol(self.input.name),
+            at.line(self.body.name, self.direction, self.follows),
+        )
+        return Action(
+            {k: moment * line.dot(t.angular) for k, t in at.twists(self.body.name).items()}
+        )

@@ -1,0 +1,43 @@
+"""Slides of guides, and how fast they change, from the poses of two placed bodies."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from .motion import from_axes, to_axes
+
+if TYPE_CHECKING:
+    from ..declare.joints import Prismatic
+    from .kinematics import Kinematics
+
+
+def slide_of(kin: Kinematics, joint: Prismatic) -> sp.Expr:
+    """Return the slide of a guide [m]: driven or solved."""
+    if kin.coordinates.is_driven(joint):
+        return kin.coordinates.symbol(joint)
+    return kin.program.define(f"slide_{joint.name}", kin.slides[joint.name])
+
+
+def sliding_rates(kin: Kinematics, joint: Prismatic) -> dict[str, sp.Expr]:
+    """Return the rate of a guide's slide per unit rate of each coordinate that changes it.
+
+    The guide's direction d turns with the first body, and both bodies turn alike: ``d . v`` of the
+    second body's origin, less that of what the first has there.
+    """
+    if kin.coordinates.is_driven(joint):
+        own = kin.coordinates.of(joint)
+        return {own: sp.Integer(1)} if own in kin.coordinates.moving else {}
+    first, second = kin.placed[joint.first.name], kin.placed[joint.second.name]
+    local = kin.local_direction(first, joint.direction)
+    way = to_axes(first.axes, second.origin - first.origin)
+    rates: dict[str, sp.Expr] = {}
+    for k, twist in second.motion.items():
+        rates[k] = local.dot(to_axes(first.axes, from_axes(second.axes, twist.linear)))
+    for k, twist in first.motion.items():
+        carried = local.dot(twist.linear + twist.angular.cross(way))
+        rates[k] = rates.get(k, sp.Integer(0)) - carried
+    return {
+        k: kin.program.define(f"slide_rate_{joint.name}_{k}", rate) for k, rate in rates.items()
+    }
