@@ -114,9 +114,13 @@ _INTERFACES = {
     "export": ".study.export",
     "measurement": ".study.measurement",
     "plots": ".plots",
+    "report": ".report",
     "roads": ".simulation.roads",
     "scenario": ".study.scenario",
+    "schema": ".suspension.schema",
+    "starter": ".suspension.starter",
     "sweep": ".study.sweep",
+    "topology": ".systems.topology",
 }
 
 

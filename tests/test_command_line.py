@@ -1,5 +1,8 @@
 """``kintrafo paper`` and ``python -m kintrafo.generator``: what they write and say."""
 
+import re
+import subprocess
+import sys
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
@@ -114,3 +117,26 @@ def test_topology_command_prints_tables_and_draws_the_graph(tmp_path):
     ):
         assert word in words, word
     assert imread(picture).std() > 0.01
+
+
+@pytest.mark.parametrize("name", [command.name for command in cli.app.registered_commands])
+def test_help_says_all_that_the_function_does(name, monkeypatch):
+    """What is in brackets is not taken for mark-up, and lines break where the terminal ends."""
+    monkeypatch.setenv("COLUMNS", "400")
+    shown = CliRunner().invoke(cli.app, [name, "--help"], env={"COLUMNS": "400"}).output
+    (command,) = (c for c in cli.app.registered_commands if c.name == name)
+    for paragraph in command.callback.__doc__.split("\n\n"):
+        assert " ".join(paragraph.split()) in " ".join(shown.split())
+
+
+def test_what_documents_name_is_there_after_one_import():
+    documents = [
+        *(Path(__file__).parent.parent / "docs").glob("*.md"),
+        REFERENCE.parents[3] / "README.md",
+    ]
+    named = {
+        n for d in documents for n in re.findall(r"`(kintrafo(?:\.\w+)+)", d.read_text("utf-8"))
+    }
+    assert "kintrafo.report.write" in named
+    script = "import sys, kintrafo\nfor name in sys.argv[1:]: eval(name)"
+    subprocess.run([sys.executable, "-c", script, *sorted(named)], check=True)

@@ -402,3 +402,30 @@ def test_wheel_rate_jumps_where_the_stops_begin_to_act(browser, tmp_path_factory
     assert np.abs(np.array(shown) - 1e-3 * exact.values).max() < 0.05  # N/mm
     assert not watched.complaints
     watched.context.close()
+
+
+def test_a_printed_report_has_a_picture_and_all_charts(watch):
+    watched = watch(color_scheme="dark")
+    page = watched.page
+    slide(page, "#travel", 30.0)
+    pdf = page.pdf()
+    assert b"/Subtype /Image" in pdf  # of the mechanism
+    assert page.locator("#picture-position").text_content().startswith("Wheel travel +30.0\u00a0mm")
+    lines = page.locator("figure[data-curve] .printed .line")
+    drawn = lines.evaluate_all("lines => lines.map((line) => line.getAttribute('d'))")
+    assert len(drawn) == page.locator("figure[data-curve]").count() > 40
+    # of 41 samples at least; a swing arm is drawn where it is not endless
+    assert min(d.count("L") for d in drawn) > 15
+    places = [float(x) for x in re.findall(r"[ML]([\d.]+) ", drawn[0])]  # from -100 mm to 100 mm
+    circle = page.locator("figure[data-curve] .printed .at").first
+    expected = places[0] + 130.0 / 200.0 * (places[-1] - places[0])
+    assert float(circle.get_attribute("cx")) == pytest.approx(expected, abs=0.1)
+    assert page.evaluate("document.documentElement.className") == "alive"  # as on the screen again
+    assert watched.complaints == []
+
+
+def test_design_position_is_before_anything_has_moved(watched):
+    watched.page.evaluate("kintrafo.set({ time: 0.4 })")
+    watched.page.locator("#design").click()
+    state = watched.state()
+    assert (state["time"], state["travel"], state["rack"]) == (0.0, 0.0, 0.0)

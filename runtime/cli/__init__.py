@@ -3,6 +3,7 @@
 from typing import Annotated
 
 import typer
+from rich.markup import escape
 
 from . import (
     characteristics,
@@ -37,6 +38,13 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
+
+def _flowing(docstring: str) -> str:
+    """Return the paragraphs of a docstring in a line each; what is in brackets is no markup."""
+    paragraphs = (" ".join(paragraph.split()) for paragraph in docstring.split("\n\n"))
+    return escape("\n\n".join(paragraphs))
+
+
 # In the order in which an engineer needs them.
 _PANELS = {
     "Begin": (new, import_chrono, schema, check, topology),
@@ -47,7 +55,8 @@ for panel, modules in _PANELS.items():
     for module in modules:
         name = module.__name__.rpartition(".")[2].replace("_", "-")
         examples = "\n\n".join(("Examples:", *module.EXAMPLES))
-        app.command(name, epilog=examples, rich_help_panel=panel)(module.command)
+        words = _flowing(module.command.__doc__ or "")
+        app.command(name, help=words, epilog=examples, rich_help_panel=panel)(module.command)
 
 
 def _show_version(*, wanted: bool) -> None:

@@ -4,9 +4,11 @@
 import uPlot from "uplot";
 
 import { inUnit, number, quantity, reading } from "./format.js";
+import { drawing } from "./print.js";
 import { colour, onSchemeChange } from "./theme.js";
 
 const HEIGHT = 172;
+const PRINTED = 330; // width on paper, where two charts are beside each other
 const MARGIN = 0.07; // above and below a curve, as part of its range
 const MOST_FLATTENED = 2.5; // by what a curve may be flattened to show the reference beside it
 const NEXT_TO = 1e-9; // how far from a jump its two sides are drawn [m]
@@ -119,6 +121,16 @@ class Chart {
     if (this.#visible) this.#draw();
   }
 
+  /** Leave a drawing of the chart for the printer, wherever it is on the page. */
+  print() {
+    this.rebuild();
+    this.#draw(PRINTED);
+    this.host.querySelector(".printed")?.remove();
+    const { line, reference } = this;
+    const at = this.marker.hidden ? null : this.#markerPlace();
+    this.host.append(drawing(this.#plot, { lines: { reference, line }, marker: at }));
+  }
+
   #look(visible) {
     this.#visible = visible;
     if (visible && this.position) this.#draw();
@@ -131,8 +143,8 @@ class Chart {
     this.#place();
   }
 
-  #draw() {
-    if (!this.#plot) this.#build();
+  #draw(width = this.host.clientWidth) {
+    if (!this.#plot) this.#build(width);
     const { moving, places, line } = this.samples;
     const at = moving ? this.position[moving] : 0;
     if (at !== this.#drawnAt) {
@@ -143,7 +155,7 @@ class Chart {
       // where the curve moves, the one at design stays behind it, faintly
       this.reference = moving ? drawn({ travel: 0, rack: 0, time: 0 }) : this.line.map(() => null);
       const abscissas = Array.from(where, (v) => v * this.along.factor);
-      this.#plot.setData([abscissas, this.reference, this.line]);
+      this.#plot.batch(() => this.#plot.setData([abscissas, this.reference, this.line]));
     }
     this.shown = this.samples.value(this.position);
     this.output.textContent = reading(this.curve, this.shown);
@@ -156,7 +168,7 @@ class Chart {
     return value >= low && value <= high ? value : null;
   }
 
-  #build() {
+  #build(width) {
     const nothing = this.along.values.map(() => null);
     const axis = {
       stroke: colour("muted"),
@@ -169,7 +181,7 @@ class Chart {
     [this.line, this.reference] = [[], []];
     this.#plot = new uPlot(
       {
-        width: Math.max(this.host.clientWidth, 1),
+        width: Math.max(width, 1),
         height: HEIGHT,
         padding: [8, 10, 0, 0],
         legend: { show: false },
@@ -232,12 +244,16 @@ class Chart {
 
   #place() {
     if (!this.#plot || !this.position) return;
-    const x = this.position[this.along.key] * this.along.factor;
     const inside = this.#inRange(this.shown) !== null;
     this.marker.hidden = !inside;
     if (!inside) return;
-    const [left, top] = [this.#plot.valToPos(x, "x"), this.#plot.valToPos(this.shown, "y")];
+    const [left, top] = this.#markerPlace();
     this.marker.style.transform = `translate(${left}px, ${top}px)`;
+  }
+
+  #markerPlace() {
+    const x = this.position[this.along.key] * this.along.factor;
+    return [this.#plot.valToPos(x, "x"), this.#plot.valToPos(this.shown, "y")];
   }
 
   #hover() {

@@ -22,7 +22,7 @@ export function connectControls(position, player) {
   const { grid } = position;
   const showTravel = slider("travel", grid.travel, (travel) => position.setByHand({ travel }));
   const showRack = slider("rack", grid.rack, (rack) => position.setByHand({ rack }));
-  byId("design").addEventListener("click", () => position.setByHand({ travel: 0, rack: 0 }));
+  byId("design").addEventListener("click", () => position.toDesign());
   position.onChange(() => {
     showTravel(position.travel);
     showRack(position.rack);

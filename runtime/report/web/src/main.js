@@ -14,6 +14,7 @@ import { Axis, Grid } from "./grid.js";
 import { readPayload } from "./payload.js";
 import { Player } from "./player.js";
 import { Position } from "./position.js";
+import { connectPrinting } from "./print.js";
 import { View, hasWebGL } from "./view.js";
 
 const data = readPayload();
@@ -23,11 +24,12 @@ const player = new Player(position);
 const view = makeView();
 
 connectControls(position, player);
-connectCharts(data, position, (key, value) => {
+const charts = connectCharts(data, position, (key, value) => {
   if (key === "time") position.setTime(value);
   else position.setByHand({ [key]: value });
 });
 connectTable();
+connectPrinting({ view, charts, position });
 position.setByHand({});
 document.documentElement.classList.add("alive");
 

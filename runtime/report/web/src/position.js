@@ -24,6 +24,12 @@ export class Position {
     this.#tell();
   }
 
+  /** The design position, before anything has moved. */
+  toDesign() {
+    Object.assign(this, { time: 0, spin: 0 });
+    this.setByHand({ travel: 0, rack: 0 });
+  }
+
   setTime(time) {
     const { axis, travel, rack, spin } = this.motion;
     this.time = axis.clamp(time);

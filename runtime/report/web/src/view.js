@@ -50,7 +50,7 @@ export class View {
     this.#listen();
     this.look("corner");
     position.onChange(() => this.update());
-    onSchemeChange(() => this.#recolour());
+    onSchemeChange(() => this.recolour());
     new ResizeObserver(() => this.#resize()).observe(host);
   }
 
@@ -150,10 +150,31 @@ export class View {
     this.scene.add(this.floor);
   }
 
-  #recolour() {
+  /** Take the colours of the present scheme. */
+  recolour() {
     this.mechanism.recolour();
     this.#ground();
     this.render();
+  }
+
+  /** The view as it is, as the address of a picture of so many pixels. */
+  picture({ width, height }) {
+    const { aspect } = this.camera;
+    const ratio = this.renderer.getPixelRatio();
+    const shown = this.renderer.getSize(new Vector2());
+    this.recolour();
+    this.renderer.setPixelRatio(1);
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.renderer.render(this.scene, this.camera);
+    const address = this.renderer.domElement.toDataURL();
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(shown.x, shown.y);
+    this.camera.aspect = aspect;
+    this.camera.updateProjectionMatrix();
+    this.render();
+    return address;
   }
 
   #resize() {

@@ -1,0 +1,90 @@
+// A printed report is a document: a picture of the mechanism and every chart, at the position that
+// is shown, in light colours. What is on the screen comes back afterwards.
+
+import { quantity } from "./format.js";
+
+const PICTURE = { width: 1500, height: 1000 }; // sharp on paper, half a page high [px]
+
+export function connectPrinting({ view, charts, position }) {
+  const root = document.documentElement;
+  const closed = [...document.querySelectorAll("details.more:not([open])")];
+  window.addEventListener("beforeprint", () => {
+    root.classList.add("printing"); // light colours, which all that is drawn asks for
+    for (const details of closed) details.open = true;
+    showPicture(view, position);
+    for (const chart of charts) chart.print();
+  });
+  window.addEventListener("afterprint", () => {
+    root.classList.remove("printing");
+    for (const details of closed) details.open = false;
+    view?.recolour();
+    for (const chart of charts) chart.rebuild();
+  });
+}
+
+function showPicture(view, { travel, rack, time, byHand }) {
+  const place = (value) => quantity(value * 1e3, 1, "mm", { signed: true });
+  const when = byHand ? "" : `, ${quantity(time, 3, "s")} after the release`;
+  document.getElementById("picture-position").textContent =
+    `Wheel travel ${place(travel)}, rack displacement ${place(rack)}${when}.`;
+  const image = document.getElementById("picture");
+  image.hidden = view === null;
+  if (view) image.src = view.picture(PICTURE);
+}
+
+/** A chart as a drawing that keeps its lines sharp on paper, in the size of what was plotted. */
+export function drawing(plot, { lines, marker }) {
+  const { width, height } = plot;
+  const [left, right] = plot.scales.x.range(plot).map((value) => plot.valToPos(value, "x"));
+  const { offsetLeft, offsetTop, clientHeight: bottom } = plot.over;
+  const svg = element("svg", { viewBox: `0 0 ${width} ${height}`, class: "printed" });
+  const area = element("g", { transform: `translate(${offsetLeft} ${offsetTop})` });
+  for (const [at, text] of ticks(plot, 1)) {
+    area.append(element("path", { class: "grid", d: `M${left} ${at}H${right}` }));
+    area.append(label(left - 6, at + 3.5, "end", text));
+  }
+  for (const [at, text] of ticks(plot, 0)) {
+    area.append(element("path", { class: "grid", d: `M${at} 0V${bottom}` }));
+    area.append(label(at, bottom + 14, "middle", text));
+  }
+  area.append(label((left + right) / 2, bottom + 30, "middle", plot.axes[0].label));
+  for (const [name, values] of Object.entries(lines)) {
+    area.append(element("path", { class: name, d: path(plot, values) }));
+  }
+  if (marker) area.append(element("circle", { class: "at", cx: marker[0], cy: marker[1], r: 3.5 }));
+  svg.append(area);
+  return svg;
+}
+
+/** Place and text of each tick of an axis. */
+function ticks(plot, index) {
+  const axis = plot.axes[index];
+  return axis._splits.map((value, i) => [plot.valToPos(value, axis.scale), axis._values[i]]);
+}
+
+function path(plot, values) {
+  let pen = "M"; // a line that is interrupted begins anew
+  return plot.data[0]
+    .map((x, i) => {
+      if (values[i] === null) {
+        pen = "M";
+        return "";
+      }
+      const place = `${pen}${plot.valToPos(x, "x").toFixed(2)} ${plot.valToPos(values[i], "y").toFixed(2)}`;
+      pen = "L";
+      return place;
+    })
+    .join("");
+}
+
+function label(x, y, anchor, text) {
+  const made = element("text", { x, y, "text-anchor": anchor });
+  made.textContent = text;
+  return made;
+}
+
+function element(name, attributes) {
+  const made = document.createElementNS("http://www.w3.org/2000/svg", name);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+  return made;
+}
