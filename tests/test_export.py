@@ -163,6 +163,14 @@ def test_constants_and_poles_get_sensible_axes():
     assert figure.axes[2].texts[0].get_text() == "not defined"
 
 
+def test_nothing_connects_the_branches_of_a_pole():
+    travel = np.linspace(-1.0, 1.0, 200)  # which passes over zero
+    data = xr.Dataset({"pole": ("wheel_travel", 1.0 / travel)}, {"wheel_travel": travel})
+    (line, *_) = plots.figure(data, ["pole"], alone=False).axes[0].get_lines()
+    (gap,) = np.flatnonzero(np.isnan(line.get_ydata()))
+    assert travel[gap] < 0.0 < travel[gap + 1]
+
+
 # -- comparison -----------------------------------------------------------------------------------
 
 

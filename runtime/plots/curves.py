@@ -280,8 +280,10 @@ def _draw(axes: Axes, data: xr.DataArray) -> str:
     along, lines = _lines(data)
     position = displayed(data[along])
     styles = _styles(data, len(lines))
-    for (_, values), (colour, dashes) in zip(lines, styles, strict=True):
-        axes.plot(position, values, dashes, color=colour)
+    curves = [
+        axes.plot(position, values, dashes, color=colour)[0]
+        for (_, values), (colour, dashes) in zip(lines, styles, strict=True)
+    ]
     if along in _WITH_DESIGN:
         axes.axvline(0.0, color="#888888", linewidth=0.8, zorder=1)
         for (_, values), (colour, _) in zip(lines, styles, strict=True):
@@ -291,6 +293,8 @@ def _draw(axes: Axes, data: xr.DataArray) -> str:
     axes.margins(x=0.02)
     _limit(axes, np.concatenate([v for _, v in lines]), may_have_pole=along in _WITH_DESIGN)
     low, high = axes.get_ylim()
+    for curve, (_, values) in zip(curves, lines, strict=True):
+        curve.set_ydata(_without_leaps(values, low, high))
     if low < 0.0 < high:
         axes.axhline(0.0, color="#888888", linewidth=0.8, zorder=1)
     for axis in (axes.xaxis, axes.yaxis):
@@ -306,10 +310,8 @@ def _describe_alone(axes: Axes, data: xr.DataArray) -> None:
 
 
 def _describe_panel(axes: Axes, data: xr.DataArray) -> None:
-    sign = str(data.attrs.get("sign", ""))
-    axes.set_title(fill(_typeset(bracketed(long_name(data), data.attrs)), 40), fontsize=9.5)
-    if sign:
-        axes.set_ylabel(fill(sign, 34), fontsize=8, color="#555555")
+    axes.set_ylabel(fill(_typeset(bracketed(long_name(data), data.attrs)), 26), fontsize=9.5)
+    axes.set_title(fill(str(data.attrs.get("sign", "")), 46), fontsize=8, color="#555555")
 
 
 def _styles(data: xr.DataArray, count: int) -> list[tuple[Any, str]]:
@@ -364,6 +366,18 @@ def _limit(axes: Axes, values: Array, *, may_have_pole: bool) -> None:
             axes.set_ylim(1.5 * low - 0.5 * high, 1.5 * high - 0.5 * low)
 
 
+def _without_leaps(values: Array, low: float, high: float) -> Array:
+    """Return a curve that ends where it leaves what is drawn, to come back from the other side.
+
+    That is a pole, of whose two branches nothing connects the ends.
+    """
+    side = np.sign(values - 0.5 * (low + high)) * ((values < low) | (values > high))
+    leaps = np.flatnonzero(side[:-1] * side[1:] < 0.0)
+    cut = values.copy()
+    cut[leaps] = np.nan
+    return cut
+
+
 def _with_sign(data: xr.DataArray) -> str:
     sign = str(data.attrs.get("sign", ""))
     label = _typeset(bracketed(long_name(data), data.attrs))
@@ -375,21 +389,26 @@ def _typeset(text: str) -> str:
 
 
 def _legend(result: Figure, axes: Axes, data: xr.DataArray, *, alone: bool) -> None:
-    """Name the lines once, below the figure, where there are several."""
+    """Name the lines once, where there are several: below a curve, or in the first of a page."""
     if data.ndim == 1:
         return
     along, lines = _lines(data)
     across = next(d for d in data.dims if d != along)
     handles = [line for line in axes.get_lines() if line.get_linestyle() != "None"][: len(lines)]
-    result.legend(
-        handles,
-        [label for label, _ in lines],
-        title=None if across == _FAMILY else long_name(data[across]),
-        loc="outside lower center",
-        ncols=4 if alone else _MOST_LINES,
-        frameon=False,
-        fontsize=9,
-    )
+    labels = [label for label, _ in lines]
+    title = None if across == _FAMILY else long_name(data[across])
+    if alone:
+        result.legend(
+            handles,
+            labels,
+            title=title,
+            loc="outside lower center",
+            ncols=4,
+            frameon=False,
+            fontsize=9,
+        )
+    else:
+        axes.legend(handles, labels, title=title, loc="best", fontsize=8, title_fontsize=8)
 
 
 def _held(dataset: xr.Dataset) -> str:
