@@ -262,7 +262,8 @@ def _told(result: "Simulation") -> list[str]:
     if len(left):
         times = ", ".join(f"{time:.4g} s" for time in left[:5])
         more = ", ..." if len(left) > 5 else ""
-        lines.append(f"The wheel leaves the ground {len(left)} times: {times}{more}")
+        often = "once" if len(left) == 1 else f"{len(left)} times"
+        lines.append(f"The wheel leaves the ground {often}: {times}{more}")
     return lines
 
 

@@ -286,7 +286,9 @@ def _refuse_out_of_reach(
     beyond = _beyond(heights, table, index)
     if not beyond.any():
         return
-    height, rack = float(heights[beyond][0]), float(racks[beyond][0])
+    # the one that somebody asked for is at the end of a range, not the first one beyond
+    worst = np.abs(heights[beyond] - design_height(model)).argmax()
+    height, rack = float(heights[beyond][worst]), float(racks[beyond][worst])
     reach = travel_range(model, rack)
     ends = _rounded_inward(reach.height)
     travels = _rounded_inward([end - design_height(model) for end in reach.height])
