@@ -33,6 +33,7 @@ from kintrafo.generator.closed_forms.telescope import Telescope
 from kintrafo.generator.closed_forms.turn import TurnByLength
 from kintrafo.generator.loops.errors import NoClosedFormError, TopologyError
 from kintrafo.generator.loops.graph import Cycle, Topology
+from kintrafo.generator.loops.tilted import tilted
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.generator.planning.plan import Plan
@@ -374,3 +375,16 @@ def test_directions_and_points_are_values() -> None:
     assert Direction("d", (1, 2, 3)) == Direction("d", (1.0, 2.0, 3.0))
     assert Line(P, Q).contains(Q)
     assert not Line(P, Q).contains(Point("r", (2.0, 0.0, 0.0)))
+
+
+@pytest.mark.parametrize("degrees", [0.06, 1e-6])
+def test_a_hinge_that_is_nearly_parallel_is_named(degrees):
+    bar = BY_NAME["four_bar"].mechanism
+    line = Direction("off", (np.sin(np.radians(degrees)), 0.0, np.cos(np.radians(degrees))))
+    (c,) = (joint for joint in bar.joints if joint.name == "C")
+    other = changed(bar, (c, replace(c, axis=replace(c.axis, towards=line))))
+    told = tilted(other)
+    assert told.startswith(f"Joint 'C' is tilted by {degrees:.3g} degrees from A, B, D")
+    with pytest.raises(NoClosedFormError, match="Joint 'C' is tilted"):
+        Plan.of(replace(BY_NAME["four_bar"], mechanism=other))
+    assert tilted(bar) == ""

@@ -20,6 +20,7 @@ from .cut import PairCandidate, pair_candidates, views
 from .errors import NoClosedFormError
 from .graph import Cycle, MinimalBasis, Topology
 from .known import Known, coordinates_of
+from .tilted import tilted
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -242,7 +243,10 @@ class Plan:
         if attempt is None or attempt.obstacle or not self.model.allow_iteration:
             cycle = (attempt.cycles if attempt else cycles)[0]
             message = self._refusal(cycle, pair_candidates(self._known, cycle))
-            if attempt is None or attempt.obstacle:
+            hint = tilted(self._mechanism)
+            if hint:
+                message += f" {hint}."
+            elif attempt is None or attempt.obstacle:
                 message += self._miscounted()
             raise NoClosedFormError(message + self._remedy(attempt), len(self.transformers))
         solved = [offer for offer in waiting if offer[0] in attempt.cycles]

@@ -18,6 +18,7 @@ from ..declare.formulation import Formulation
 from ..declare.joints import Free, Prismatic, Revolute
 from ..loops.errors import NoClosedFormError
 from ..loops.graph import Topology
+from ..loops.tilted import tilted
 from .plan import Plan
 
 if TYPE_CHECKING:
@@ -131,10 +132,13 @@ class Search:
         mechanism, reported = self._model.mechanism, ", ".join(self.candidates) or "none"
         what = f"mechanism {mechanism.name!r} with mobility {self.mobility}"
         if self.count < 0 or self.mobility <= 0:
+            special = (
+                "If special dimensions let it move all the same, declare a Formulation that says "
+                "which joints are independent"
+            )
             return (
-                f"{what}: counting the freedoms of its joints leaves nothing to move. If special "
-                "dimensions let it move all the same, declare a Formulation that says which "
-                "joints are independent"
+                f"{what}: counting the freedoms of its joints leaves nothing to move. "
+                f"{tilted(mechanism) or special}"
             )
         if len(self.candidates) < self.count:
             return (
