@@ -111,17 +111,19 @@ class Lanes(Extension):
             depends=[source, *fixed, *depends, *headers],
             optional=True,  # without it, everything but ensembles works
         )
-        self.source, self.renamed, self.fixed = source, renamed, fixed
+        self.source, self.renamed = source, renamed
+        self.fixed = [*fixed, (LANES / "module.c").as_posix()]
 
     def compile(self, compiler: Any, folder: str) -> list[str]:
         """Compile everything, and return the objects."""
+        module = self.name.rpartition(".")[2]
 
         def objects(source: str, width: int, flags: list[str]) -> list[str]:
             names = [(function, f"{function}_{width}") for function in self.renamed]
             return compiler.compile(
                 [source],
                 output_dir=f"{folder}/{self.name}/{width}",
-                macros=[*self.define_macros, *names, ("WIDTH", str(width))],
+                macros=[*self.define_macros, *names, ("WIDTH", str(width)), ("MODULE", module)],
                 include_dirs=self.include_dirs,
                 extra_postargs=[*FLAGS, *flags],
             )

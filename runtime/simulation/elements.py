@@ -4,13 +4,19 @@ The equations do not say which of their signals is the length of a strut or the 
 that it is read from the names: here, and nowhere else below what knows suspensions.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
 
 from ..core.errors import InputError
 from ..core.suggestions import suggestion
 from ..systems.system import System
 from .events import SignalEvent
 from .validity import Bound
+
+Values = float | NDArray[np.float64]
 
 NAMED = {
     "wheel_leaves_ground": "the tyre force falls through zero",
@@ -75,52 +81,97 @@ def _touching(model: System, length: str, side: str, direction: float) -> Signal
 
 
 def bounds_of(model: System) -> Iterator[Bound]:
-    """Yield what the signals of a model must not pass.
+    """Yield what the signals of a model must not pass."""
+    for found in limits_of(model.signal_names, model.parameters):
+        if np.isfinite(found.limit):
+            limit = float(found.limit)
+            yield Bound(found.signal, limit, found.above, found.words, found.possible)
 
-    Whoever has a new bound writes a function like those in `_BOUNDS`.
+
+@dataclass(frozen=True)
+class Limit:
+    """What a signal must not pass, in one system or in each of many.
+
+    Attributes
+    ----------
+    signal : str
+    limit : float or ndarray
+        SI units; infinite where there is none.
+    above, words, possible
+        As of `Bound`.
     """
-    for signal in model.signal_names:
-        for ending, kind in _BOUNDS.items():
+
+    signal: str
+    limit: Values
+    above: bool
+    words: str
+    possible: bool = False
+
+
+def limits_of(signals: tuple[str, ...], parameters: Mapping[str, Values]) -> Iterator[Limit]:
+    """Yield what signals must not pass.
+
+    Whoever has a new bound writes a function like those in `_LIMITS`.
+
+    Parameters
+    ----------
+    signals : tuple of str
+    parameters : mapping
+        By name: one value, or those of many systems; SI units.
+    """
+    seen = _Seen(signals, parameters)
+    for signal in signals:
+        for ending, kind in _LIMITS.items():
             if signal == ending or signal.endswith(f"_{ending}"):
-                yield from kind(model, signal, signal.removesuffix(ending))
+                yield from kind(seen, signal, signal.removesuffix(ending))
 
 
-def _strut_length(model: System, signal: str, prefix: str) -> Iterator[Bound]:
-    greatest = _parameter(model, prefix, "strut_length_max")
-    if greatest:
-        yield Bound(signal, greatest, above=True, words="the strut is longer than it can be")
-    least = _parameter(model, prefix, "strut_length_min") or 0.0
-    yield Bound(signal, least, above=False, words="the strut is shorter than it can be")
+@dataclass(frozen=True)
+class _Seen:
+    """What the bounds follow from."""
+
+    signals: tuple[str, ...]
+    parameters: Mapping[str, Values]
+
+    def parameter(self, prefix: str, name: str) -> Values:
+        """Return a parameter of this side, or the common one; zero where there is neither."""
+        return self.parameters.get(f"{prefix}{name}", self.parameters.get(name, 0.0))
 
 
-def _tyre_force(model: System, signal: str, prefix: str) -> Iterator[Bound]:
-    if not _parameter(model, prefix, "tyre_lifts_off"):
-        yield Bound(signal, -_TOUCH, above=False, words="the tyre pulls at the road")
+def _strut_length(seen: _Seen, signal: str, prefix: str) -> Iterator[Limit]:
+    greatest = seen.parameter(prefix, "strut_length_max")
+    limit = np.where(greatest, greatest, np.inf)
+    yield Limit(signal, limit, above=True, words="the strut is longer than it can be")
+    least = seen.parameter(prefix, "strut_length_min")
+    yield Limit(signal, least, above=False, words="the strut is shorter than it can be")
 
 
-def _compression(model: System, signal: str, prefix: str) -> Iterator[Bound]:
+def _tyre_force(seen: _Seen, signal: str, prefix: str) -> Iterator[Limit]:
+    limit = np.where(seen.parameter(prefix, "tyre_lifts_off"), -np.inf, -_TOUCH)
+    yield Limit(signal, limit, above=False, words="the tyre pulls at the road")
+
+
+def _compression(seen: _Seen, signal: str, prefix: str) -> Iterator[Limit]:
     """Yield the ends of a damper's table, which is one of velocities in bump."""
-    if signal.endswith("spring_velocity") and f"{prefix}strut_velocity" in model.signal_names:
+    if signal.endswith("spring_velocity") and f"{prefix}strut_velocity" in seen.signals:
         return
     table = {
         name.removeprefix(prefix): value
-        for name, value in model.parameters.items()
+        for name, value in seen.parameters.items()
         if name.removeprefix(prefix).startswith("damper_table_")
     }
-    knots = [value for name, value in table.items() if "_knot_" in name]
-    if not knots or max(knots) <= min(knots):
+    knots = np.broadcast_arrays(*(value for name, value in table.items() if "_knot_" in name))
+    if not knots:
         return
+    first, last = np.min(knots, axis=0), np.max(knots, axis=0)
     words = "the damper is faster in {} than its table goes, and is taken to go on straight"
-    yield Bound(signal, -max(knots), above=False, words=words.format("bump"), possible=True)
-    yield Bound(signal, -min(knots), above=True, words=words.format("rebound"), possible=True)
+    for limit, above, where in ((-last, False, "bump"), (-first, True, "rebound")):
+        none = np.inf if above else -np.inf
+        there = np.where(last > first, limit, none)
+        yield Limit(signal, there, above, words=words.format(where), possible=True)
 
 
-def _parameter(model: System, prefix: str, name: str) -> float | None:
-    """Return a parameter of this side, or the common one; None where there is neither."""
-    return model.parameters.get(f"{prefix}{name}", model.parameters.get(name))
-
-
-_BOUNDS: dict[str, Callable[[System, str, str], Iterator[Bound]]] = {
+_LIMITS: dict[str, Callable[[_Seen, str, str], Iterator[Limit]]] = {
     "strut_length": _strut_length,
     "tyre_force": _tyre_force,
     "strut_velocity": _compression,

@@ -27,12 +27,16 @@ typedef struct {
     const kt_segment *segments;
 } kt_drive;
 
-/* What is kept of a signal on its way: a sum over the outputs, which stand for times of these weights. */
-enum kt_reduction_kind { KT_GREATEST, KT_LEAST, KT_SUM, KT_SQUARES, KT_ABOVE };
+/*
+ * What is kept of a signal on its way. Each output stands for a time, its weight. Sums are those of how
+ * much it differs from its first value, so that little is lost where it changes little.
+ */
+enum kt_reduction_kind { KT_GREATEST, KT_LEAST, KT_FIRST, KT_SUM, KT_SQUARES, KT_ABOVE };
 
 typedef struct {
     int item; /* of the items */
     int kind;
+    int origin;   /* of a sum: the reduction that keeps the first value, which comes before */
     double level; /* of KT_ABOVE */
 } kt_reduction;
 
@@ -58,7 +62,7 @@ typedef struct {
     int varied_count;
     const int *varied;      /* which parameters are not */
     const double *variants; /* systems x varied */
-    const double *states;   /* null: each in its design position */
+    const double *states;   /* at the start; NaN: that of the design position */
     long state_stride;
     const double *inputs; /* values of those that do not vary with time */
     long input_stride;
@@ -78,9 +82,9 @@ typedef struct {
     long max_steps;
 
     /* what is wanted: signals, and behind the last of them elements of the state */
-    int item_count;
     const int *items;
-    double *samples; /* systems x items x times; may be null */
+    int sample_count; /* so many of the items are kept at all times */
+    double *samples;  /* systems x sample_count x times */
     int reduction_count;
     const kt_reduction *reductions;
     const double *weights; /* of the times */

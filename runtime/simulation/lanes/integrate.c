@@ -129,7 +129,8 @@ static void begin_system(crew *w, int lane)
         w->constants[i][lane] = q->constants[i][from];
     }
     for (int i = 0; i < p->state_count; ++i) {
-        w->state[i][lane] = p->states ? p->states[p->state_stride * system + i] : q->state[i][from];
+        double given = p->states[p->state_stride * system + i];
+        w->state[i][lane] = isnan(given) ? q->state[i][from] : given;
     }
     for (int i = 0; i < p->input_count; ++i) {
         w->inputs[i][lane] = p->inputs[p->input_stride * system + i];

@@ -3,8 +3,7 @@
 import ctypes
 from collections.abc import Callable, Mapping
 from functools import cache
-from importlib.util import find_spec
-from pathlib import Path
+from importlib import import_module
 from types import ModuleType
 
 from ...core.errors import InputError
@@ -72,11 +71,10 @@ def _address(library: ctypes.CDLL, name: str) -> int:
 
 
 @cache
-def _library(module: str) -> ctypes.CDLL | None:
-    """Load a library that lies where an extension module would; None where there is none."""
+def _library(name: str) -> ctypes.CDLL | None:
+    """Load a library; None where there is none."""
     try:
-        spec = find_spec(module)
-    except ModuleNotFoundError:  # no package: what is compiled by itself
+        module = import_module(name)
+    except ModuleNotFoundError:
         return None
-    path = Path(spec.origin) if spec and spec.origin else None
-    return ctypes.CDLL(str(path)) if path and path.suffix != ".py" else None
+    return ctypes.CDLL(module.__file__)

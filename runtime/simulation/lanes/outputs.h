@@ -14,8 +14,8 @@ static double due_time(const kt_problem *p, long output)
 static void begin_outputs(crew *w, int lane)
 {
     static const double nothing[] = {
-        [KT_GREATEST] = -INFINITY, [KT_LEAST] = INFINITY, [KT_SUM] = 0.0, [KT_SQUARES] = 0.0,
-        [KT_ABOVE] = 0.0,
+        [KT_GREATEST] = -INFINITY, [KT_LEAST] = INFINITY, [KT_FIRST] = NAN, [KT_SUM] = 0.0,
+        [KT_SQUARES] = 0.0, [KT_ABOVE] = 0.0,
     };
     const kt_problem *p = w->p;
     w->output[lane] = 0;
@@ -89,12 +89,14 @@ static void reduce(crew *w, bits lanes)
     real weight = p->reduction_count ? weights_now(w, lanes) : (real){0.0};
     for (int i = 0; i < p->reduction_count; ++i) {
         const kt_reduction *r = &p->reductions[i];
-        real value = w->shown[p->items[r->item]], kept = w->kept[i], next = kept;
+        real value = w->shown[p->items[r->item]], kept = w->kept[i], next;
+        real moved = value - w->kept[r->origin];
         switch (r->kind) {
         case KT_GREATEST: next = greater(kept, value); break;
         case KT_LEAST: next = lesser(kept, value); break;
-        case KT_SUM: next = kept + weight * value; break;
-        case KT_SQUARES: next = kept + weight * (value * value); break;
+        case KT_FIRST: next = choose(kept == kept, kept, value); break;
+        case KT_SUM: next = kept + weight * moved; break;
+        case KT_SQUARES: next = kept + weight * (moved * moved); break;
         default: next = choose(value > r->level, kept + weight, kept);
         }
         w->kept[i] = choose(lanes, next, kept);
@@ -121,8 +123,8 @@ static void keep(crew *w, bits lanes)
         if (!lanes[l]) {
             continue;
         }
-        for (int i = 0; p->samples && i < p->item_count; ++i) {
-            long row = w->system[l] * p->item_count + i;
+        for (int i = 0; i < p->sample_count; ++i) {
+            long row = w->system[l] * p->sample_count + i;
             p->samples[row * p->time_count + w->output[l]] = w->shown[p->items[i]][l];
         }
         w->due[l] = due_time(p, ++w->output[l]);

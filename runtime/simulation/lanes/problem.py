@@ -4,7 +4,7 @@ import ctypes
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,9 +35,30 @@ class Kind(IntEnum):
 
     GREATEST = 0
     LEAST = 1
-    SUM = 2
-    SQUARES = 3
-    ABOVE = 4
+    FIRST = 2
+    SUM = 3
+    SQUARES = 4
+    ABOVE = 5
+
+
+class Reduction(NamedTuple):
+    """What is kept of one signal on its way.
+
+    Attributes
+    ----------
+    item : int
+        Place among the items.
+    kind : Kind
+    origin : int
+        Of a sum: place of the reduction that keeps the first value, which comes before.
+    level : float
+        Of `Kind.ABOVE`.
+    """
+
+    item: int
+    kind: Kind
+    origin: int = 0
+    level: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -52,8 +73,8 @@ class Systems:
     varied : ndarray
         Places of those that each has for itself.
     variants : ndarray, shape (count, number of varied)
-    states : ndarray, shape (count or 1, number of state elements), or None
-        None: each in its design position.
+    states : ndarray, shape (count or 1, number of state elements)
+        At the start; NaN for that of the design position.
     inputs : ndarray, shape (count or 1, number of inputs)
         Values of those that do not vary with time.
     drives : sequence of TimeInputs
@@ -68,7 +89,7 @@ class Systems:
     parameters: Array
     varied: Numbers
     variants: Array
-    states: Array | None
+    states: Array
     inputs: Array
     drives: Sequence[TimeInputs]
     drive_of: Numbers
@@ -85,10 +106,9 @@ class Wanted:
         Of the outputs, increasing [s].
     items : ndarray
         Places of signals, and behind the last of them elements of the state.
-    samples : bool
-        Whether every output is kept.
-    reductions : sequence of (int, Kind, float)
-        Place among the items, what is kept, and the level of `Kind.ABOVE`.
+    sample_count : int
+        So many of the items are kept at all times.
+    reductions : sequence of Reduction
     weights : ndarray
         How long each output stands for the motion [s].
     bound_items : ndarray
@@ -100,8 +120,8 @@ class Wanted:
 
     times: Array
     items: Numbers
-    samples: bool
-    reductions: Sequence[tuple[int, Kind, float]]
+    sample_count: int
+    reductions: Sequence[Reduction]
     weights: Array
     bound_items: Numbers
     above: Numbers
@@ -133,7 +153,7 @@ class Outcome:
     finals : ndarray, shape (count, number of state elements)
         The state that was reached.
     steps : ndarray
-    samples : ndarray, shape (count, items, times)
+    samples : ndarray, shape (count, sample_count, times)
         NaN behind the end of what did not come to an end.
     reduced : ndarray, shape (count, reductions)
     beyond : ndarray, shape (count, bounds)
@@ -142,13 +162,12 @@ class Outcome:
 
     def __init__(self, systems: Systems, wanted: Wanted, state_count: int) -> None:
         count, bounds = systems.count, wanted.bound_items.size
-        items = wanted.items.size if wanted.samples else 0
         self.ends = np.where(systems.left_out, End.PARAMETERS, End.WAITING).astype(np.int32)
         self.codes = np.zeros(count, dtype=np.int32)
         self.ended = np.full(count, np.nan)
         self.finals = np.full((count, state_count), np.nan)
         self.steps = np.zeros(count, dtype=np.dtype(ctypes.c_long))
-        self.samples = np.full((count, items, wanted.times.size), np.nan)
+        self.samples = np.full((count, wanted.sample_count, wanted.times.size), np.nan)
         self.reduced = np.full((count, len(wanted.reductions)), np.nan)
         self.beyond = np.full((count, bounds), np.nan)
 
@@ -174,7 +193,10 @@ class _Drive(ctypes.Structure):
 
 
 class _Reduction(ctypes.Structure):
-    _fields_ = [("item", ctypes.c_int), ("kind", ctypes.c_int), ("level", ctypes.c_double)]
+    _fields_ = [
+        *((name, ctypes.c_int) for name in ("item", "kind", "origin")),
+        ("level", ctypes.c_double),
+    ]
 
 
 class _Problem(ctypes.Structure):
@@ -208,8 +230,8 @@ class _Problem(ctypes.Structure):
         ("first_step", ctypes.c_double),
         ("max_step", ctypes.c_double),
         ("max_steps", ctypes.c_long),
-        ("item_count", ctypes.c_int),
         ("items", _INTS),
+        ("sample_count", ctypes.c_int),
         ("samples", _DOUBLES),
         ("reduction_count", ctypes.c_int),
         ("reductions", ctypes.POINTER(_Reduction)),
@@ -316,8 +338,8 @@ class Problem:
             "varied_count": systems.varied.size,
             "varied": self._ints(systems.varied),
             "variants": self._doubles(systems.variants),
-            "states": None if states is None else self._doubles(states),
-            "state_stride": 0 if states is None or len(states) == 1 else states.shape[1],
+            "states": self._doubles(states),
+            "state_stride": 0 if len(states) == 1 else states.shape[1],
             "inputs": self._doubles(inputs),
             "input_stride": 0 if len(inputs) == 1 else inputs.shape[1],
         }
@@ -362,12 +384,12 @@ class Problem:
 
     def _of_wanted(self) -> dict[str, Any]:
         wanted = self.wanted
-        reductions = [_Reduction(item, kind, level) for item, kind, level in wanted.reductions]
+        reductions = [_Reduction(*reduction) for reduction in wanted.reductions]
         return {
             "time_count": wanted.times.size,
             "times": self._doubles(wanted.times),
-            "item_count": wanted.items.size,
             "items": self._ints(wanted.items),
+            "sample_count": wanted.sample_count,
             "reduction_count": len(reductions),
             "reductions": self._array(_Reduction, reductions),
             "weights": self._doubles(wanted.weights),
@@ -381,7 +403,7 @@ class Problem:
     def _of_outcome(self) -> dict[str, Any]:
         outcome = self.outcome
         return {
-            "samples": self._doubles(outcome.samples) if self.wanted.samples else None,
+            "samples": self._doubles(outcome.samples),
             "reduced": self._doubles(outcome.reduced),
             "beyond": self._doubles(outcome.beyond),
             "ends": self._ints(outcome.ends),
