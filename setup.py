@@ -5,16 +5,20 @@ Everything else is in pyproject.toml.
 
 import json
 import os
+import platform
 import re
 import shlex
 import shutil
 import subprocess
 import sys
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 from Cython.Build import cythonize
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
+from setuptools.modified import newer_group
 
 GENERATED = Path("generated")
 SOURCES = GENERATED / "c"
@@ -22,6 +26,14 @@ NATIVE = Path("runtime/simulation/native")
 # No errno from the mathematical functions, so that roots become single instructions; contraction
 # into fused operations is left off, so that every machine computes the same bits.
 FLAGS = [] if sys.platform == "win32" else ["-O2", "-fno-math-errno", "-ffp-contract=off"]
+
+# How many lanes vectors have, and what tells the compiler that the processor has them: one object
+# each, chosen when a program runs. Two are in every processor of 64 bits. Other compilers than GCC
+# and Clang have no vectors.
+LANES = Path("runtime/simulation/lanes")
+X86_64 = {2: [], 4: ["-mavx2"], 8: ["-mavx512f", "-mavx512vl", "-mavx512dq"]}
+WIDTHS = X86_64 if platform.machine().lower() in ("x86_64", "amd64") else {2: []}
+WIDTHS = {} if sys.platform == "win32" else WIDTHS
 
 # Where SUNDIALS may be: in the place that the user names, or in the active environment, or of the
 # system. `.ci/setup` looks in the same places.
@@ -73,6 +85,73 @@ def solver_extension() -> Extension | None:
         extra_compile_args=[*FLAGS, *headers],
         extra_link_args=linked,
     )
+
+
+class Lanes(Extension):
+    """A library that is compiled once for each width, and called by `ctypes`.
+
+    Attributes
+    ----------
+    renamed : sequence of str
+        Functions that are there once for each width; it is added to their names.
+    fixed : sequence of str
+        Sources that are compiled once.
+    """
+
+    def __init__(
+        self, name: str, source: str, *, renamed: Sequence[str] = (), fixed: Sequence[str] = (),
+        macros: Sequence[tuple[str, str]] = (), depends: Sequence[str] = (),
+    ) -> None:  # fmt: skip
+        headers = sorted(path.as_posix() for path in LANES.glob("*.h"))
+        super().__init__(
+            name,
+            [],
+            define_macros=list(macros),
+            include_dirs=[SOURCES.as_posix()],
+            depends=[source, *fixed, *depends, *headers],
+            optional=True,  # without it, everything but ensembles works
+        )
+        self.source, self.renamed = source, renamed
+        self.fixed = [*fixed, (LANES / "module.c").as_posix()]
+
+    def compile(self, compiler: Any, folder: str) -> list[str]:
+        """Compile everything, and return the objects."""
+        module = self.name.rpartition(".")[2]
+
+        def objects(source: str, width: int, flags: list[str]) -> list[str]:
+            names = [(function, f"{function}_{width}") for function in self.renamed]
+            return compiler.compile(
+                [source],
+                output_dir=f"{folder}/{self.name}/{width}",
+                macros=[*self.define_macros, *names, ("WIDTH", str(width)), ("MODULE", module)],
+                include_dirs=self.include_dirs,
+                extra_postargs=[*FLAGS, *flags],
+            )
+
+        made = [objects(self.source, width, flags) for width, flags in WIDTHS.items()]
+        made += [objects(source, 1, []) for source in self.fixed]
+        return [path for paths in made for path in paths]
+
+
+def lanes_extensions(wrappers: Iterable[Path]) -> Iterator[Lanes]:
+    """Yield the solver in lanes, and the models that have no iteration."""
+    if not WIDTHS:
+        return
+    solver, fixed = (LANES / "integrate.c").as_posix(), (LANES / "width.c").as_posix()
+    yield Lanes("kintrafo.simulation.lanes._integrate", solver, fixed=[fixed])
+    for wrapper in wrappers:
+        name = wrapper.stem.removeprefix("_")
+        manifest = json.loads((GENERATED / f"{name}.json").read_text(encoding="utf-8"))
+        functions = ["prepare", "design_state", "rhs", "signals", "margins"]
+        functions += [f"rhs_{variant}" for variant in manifest["held_variants"]]
+        if not any("iterates" in function for function in manifest["functions"].values()):
+            yield Lanes(
+                f"kintrafo.generated._{name}_lanes",
+                (LANES / "model.c").as_posix(),
+                renamed=[f"{name}_{function}" for function in functions],
+                macros=[("MODEL", f'"{name}.c"')],
+                depends=[(SOURCES / f"{name}{end}").as_posix() for end in (".c", ".h")],
+            )
 
 
 def _libraries(folders: list[Path]) -> tuple[list[Path], list[str], list[str]]:
@@ -132,13 +211,23 @@ class Build(build_ext):
             sys.exit(f"kintrafo: Python's own header Python.h is not installed. {REMEDY}")
         super().build_extensions()
 
+    def build_extension(self, ext: Extension) -> None:
+        """Build an extension module; one in lanes for every width."""
+        path = self.get_ext_fullpath(ext.name)
+        if isinstance(ext, Lanes):
+            if not self.force and not newer_group(ext.depends, path):
+                return
+            ext.extra_objects = ext.compile(self.compiler, self.build_temp)
+        super().build_extension(ext)
+
     def run(self) -> None:
         """Build all extension modules."""
         super().run()
         for extension in self.extensions:
             if extension.optional and not Path(self.get_ext_fullpath(extension.name)).exists():
+                without = "ensembles" if isinstance(extension, Lanes) else "SUNDIALS"
                 print(
-                    f"kintrafo: {extension.name} was not built; integration will use SciPy",
+                    f"kintrafo: {extension.name} was not built; going on without {without}",
                     file=sys.stderr,
                 )
 
@@ -154,4 +243,5 @@ MODULES = cythonize([*EXTENSIONS, *([SOLVER] if SOLVER else [])], build_dir="bui
 for module in MODULES:
     # a build of the solver that fails leaves SciPy; set here, since cythonize does not keep it
     module.optional = SOLVER is not None and module.name == SOLVER.name
+MODULES += lanes_extensions(sorted(GENERATED.glob("*.pyx")))
 setup(ext_modules=MODULES, cmdclass={"build_ext": Build})

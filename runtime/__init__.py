@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from .simulation.interpolation import Samples
     from .simulation.result import Simulation, SimulationError
     from .simulation.simulate import simulate
+    from .study.ensembles import ensemble
     from .suspension.kinds import Suspension
     from .suspension.model import Model
     from .suspension.positions import (
@@ -64,6 +65,7 @@ __all__ = [
     "System",
     "arm_angles",
     "compile",
+    "ensemble",
     "equilibrium",
     "linearise",
     "proposals",
@@ -96,6 +98,7 @@ _MODULES = {
     ),
     ".simulation.result": ("Simulation", "SimulationError"),
     ".simulation.simulate": ("simulate",),
+    ".study.ensembles": ("ensemble",),
     ".systems.state": ("State",),
     ".systems.system": ("System",),
 }

@@ -29,7 +29,7 @@ _TOKEN = re.compile(
     )""",
     re.VERBOSE,
 )
-_SIGNATURE = re.compile(r"^int (\w+)\([^)]*\)\s*\{", re.MULTILINE)
+_SIGNATURE = re.compile(r"^status_word (\w+)\([^)]*\)\s*\{", re.MULTILINE)
 
 _NAMED = {"+": "add", "-": "add", "*": "multiply", "/": "divide"}
 _CALLED = {

@@ -219,7 +219,7 @@ def test_c_is_the_same_arithmetic(expression: sp.Expr) -> None:
     """The dialects differ in the names of functions only, so what holds for one holds for C."""
     in_c, in_numpy = write(expression), write(expression, NUMPY)
     renamed = in_numpy.replace("np.arc", "a").replace("np.maximum", "at_least")
-    renamed = SELECTION.sub("(double)(", renamed.replace("np.", ""))
+    renamed = SELECTION.sub("is_positive(", renamed.replace("np.", "")).replace(" > 0.0)", ")")
     assert in_c == renamed
 
 
@@ -247,9 +247,9 @@ x, y, z = SYMBOLS
         (Guarded(x, y), "at_least(x, y)"),
         (Guarded(x, FLOOR), "at_least(x, 1e-24)"),
         (Positive(x - y), "at_least(x - y, 0.0)"),
-        (IsPositive(x - y), "(double)(x - y > 0.0)"),
+        (IsPositive(x - y), "is_positive(x - y)"),
         (x * Positive(y) ** 2, "at_least(y, 0.0)*at_least(y, 0.0)*x"),
-        (z * IsPositive(x) * y, "y*z*(double)(x > 0.0)"),
+        (z * IsPositive(x) * y, "y*z*is_positive(x)"),
         (SignOf(x - y), "copysign(1.0, x - y)"),
         (sp.atan2(y, x), "atan2(y, x)"),
         (sp.asin(x), "asin(x)"),

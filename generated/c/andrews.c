@@ -9,23 +9,62 @@
 
 #include <math.h>
 
+#ifndef KINTRAFO_LANES /* else all numbers are vectors, and what includes this file has these */
+typedef int status_word;
+
 /* The greater of two numbers; NaN for a NaN. One instruction, where fmax may be a call. */
 static inline double at_least(double x, double least)
 {
     return x < least ? least : x;
 }
 
-/* Whether any of some values is NaN or infinite. */
-static unsigned not_finite(const double *values, int count)
+/* One for what is positive, else zero. */
+static inline double is_positive(double x)
 {
-    unsigned found = 0;
+    return x > 0.0;
+}
+
+/* A number that depends on nothing. */
+static inline double number(double x)
+{
+    return x;
+}
+
+/* A bit, where a guarded quantity is not over its floor. */
+static inline status_word guard_bit(double quantity, double least, int bit)
+{
+    return !(quantity > least) * bit;
+}
+
+/* A bit, where any of some values is NaN or infinite. */
+static inline status_word finite_bit(const double *values, int count, int bit)
+{
+    status_word found = 0;
     for (int i = 0; i < count; ++i) {
         found |= !isfinite(values[i]);
     }
-    return found;
+    return found * bit;
 }
 
-int andrews_prepare(const double *restrict parameters, double *restrict constants)
+/* One number or the other. */
+static inline status_word either(int applies, int code, status_word otherwise)
+{
+    return applies ? code : otherwise;
+}
+
+/* One plus the index of the first value that is NaN or infinite; 0: all are finite. */
+static inline status_word first_not_finite(const double *values, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        if (!isfinite(values[i])) {
+            return i + 1;
+        }
+    }
+    return 0;
+}
+#endif
+
+status_word andrews_prepare(const double *restrict parameters, double *restrict constants)
 {
     struct andrews_constants *const c = (void *)constants;
     const double
@@ -299,58 +338,32 @@ int andrews_prepare(const double *restrict parameters, double *restrict constant
     c->constant_26 = c->k3_arm_radius - k3_pin_45_2;
     c->constant_27 = c->k3_arm_radius - k3_pin_67_2;
 
-    if (fabs(c->k3_arm_radius) <= c->k3_arm_radius_least) {
-        return ANDREWS_CONSTANT_COUNT + 1;
-    }
-    if (fabs(c->k2_length) <= c->k3_arm_radius_least) {
-        return ANDREWS_CONSTANT_COUNT + 2;
-    }
-    if (fabs(c->k3_reach_design) <= c->k3_arm_radius_least) {
-        return ANDREWS_CONSTANT_COUNT + 3;
-    }
-    if (fabs(c->k3_rod_height_design) <= c->k3_rod_height_design_least) {
-        return ANDREWS_CONSTANT_COUNT + 4;
-    }
-    if (fabs(c->k5_arm_radius) <= c->k5_arm_radius_least) {
-        return ANDREWS_CONSTANT_COUNT + 5;
-    }
-    if (fabs(c->k4_length) <= c->k5_arm_radius_least) {
-        return ANDREWS_CONSTANT_COUNT + 6;
-    }
-    if (fabs(c->k5_reach_design) <= c->k5_arm_radius_least) {
-        return ANDREWS_CONSTANT_COUNT + 7;
-    }
-    if (fabs(c->k5_rod_height_design) <= c->k5_rod_height_design_least) {
-        return ANDREWS_CONSTANT_COUNT + 8;
-    }
-    if (fabs(c->k7_arm_radius) <= c->k7_arm_radius_least) {
-        return ANDREWS_CONSTANT_COUNT + 9;
-    }
-    if (fabs(c->k6_length) <= c->k7_arm_radius_least) {
-        return ANDREWS_CONSTANT_COUNT + 10;
-    }
-    if (fabs(c->k7_rod_height_design) <= c->k7_rod_height_design_least) {
-        return ANDREWS_CONSTANT_COUNT + 11;
-    }
-    for (int i = 0; i < ANDREWS_CONSTANT_COUNT; ++i) {
-        if (!isfinite(constants[i])) {
-            return i + 1;
-        }
-    }
-    return 0;
+    status_word failed = first_not_finite(constants, ANDREWS_CONSTANT_COUNT);
+    failed = either(fabs(c->k7_rod_height_design) <= c->k7_rod_height_design_least, ANDREWS_CONSTANT_COUNT + 11, failed);
+    failed = either(fabs(c->k6_length) <= c->k7_arm_radius_least, ANDREWS_CONSTANT_COUNT + 10, failed);
+    failed = either(fabs(c->k7_arm_radius) <= c->k7_arm_radius_least, ANDREWS_CONSTANT_COUNT + 9, failed);
+    failed = either(fabs(c->k5_rod_height_design) <= c->k5_rod_height_design_least, ANDREWS_CONSTANT_COUNT + 8, failed);
+    failed = either(fabs(c->k5_reach_design) <= c->k5_arm_radius_least, ANDREWS_CONSTANT_COUNT + 7, failed);
+    failed = either(fabs(c->k4_length) <= c->k5_arm_radius_least, ANDREWS_CONSTANT_COUNT + 6, failed);
+    failed = either(fabs(c->k5_arm_radius) <= c->k5_arm_radius_least, ANDREWS_CONSTANT_COUNT + 5, failed);
+    failed = either(fabs(c->k3_rod_height_design) <= c->k3_rod_height_design_least, ANDREWS_CONSTANT_COUNT + 4, failed);
+    failed = either(fabs(c->k3_reach_design) <= c->k3_arm_radius_least, ANDREWS_CONSTANT_COUNT + 3, failed);
+    failed = either(fabs(c->k2_length) <= c->k3_arm_radius_least, ANDREWS_CONSTANT_COUNT + 2, failed);
+    failed = either(fabs(c->k3_arm_radius) <= c->k3_arm_radius_least, ANDREWS_CONSTANT_COUNT + 1, failed);
+    return failed;
 }
 
-int andrews_design_state(const double *restrict parameters, double *restrict state)
+status_word andrews_design_state(const double *restrict parameters, double *restrict state)
 {
     (void)parameters;
 
-    state[0] = 0.0;
-    state[1] = 0.0;
-    return 0;
+    state[0] = number(0.0);
+    state[1] = number(0.0);
+    return finite_bit(state, 2, ANDREWS_STATUS_NOT_FINITE);
 }
 
-int andrews_rhs(const double *restrict constants, const double *restrict state,
-                const double *restrict inputs, double *restrict out)
+status_word andrews_rhs(const double *restrict constants, const double *restrict state,
+                        const double *restrict inputs, double *restrict out)
 {
     const struct andrews_constants *const c = (const void *)constants;
     const double
@@ -621,184 +634,19 @@ int andrews_rhs(const double *restrict constants, const double *restrict state,
     out[0] = beta_rate; /* d(beta)/dt */
     out[1] = beta_acceleration; /* d(beta_rate)/dt */
 
-    unsigned status = !(k3_reach_squared > c->k3_reach_squared_floor) * ANDREWS_STATUS_K3_REACH_SQUARED;
-    status |= !(k3_closure > c->k3_closure_floor) * ANDREWS_STATUS_K3_CLOSURE;
-    status |= !(k5_reach_squared > c->k5_reach_squared_floor) * ANDREWS_STATUS_K5_REACH_SQUARED;
-    status |= !(k5_closure > c->k5_closure_floor) * ANDREWS_STATUS_K5_CLOSURE;
-    status |= !(k7_closure > c->k7_closure_floor) * ANDREWS_STATUS_K7_CLOSURE;
-    status |= !(spring_length_squared > c->spring_length_squared_floor) * ANDREWS_STATUS_SPRING_LENGTH_SQUARED;
-    status |= !(mass_beta_beta > 1e-280) * ANDREWS_STATUS_PIVOT_BETA;
-    status |= not_finite(out, 2) * ANDREWS_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(k3_reach_squared, c->k3_reach_squared_floor, ANDREWS_STATUS_K3_REACH_SQUARED);
+    status |= guard_bit(k3_closure, c->k3_closure_floor, ANDREWS_STATUS_K3_CLOSURE);
+    status |= guard_bit(k5_reach_squared, c->k5_reach_squared_floor, ANDREWS_STATUS_K5_REACH_SQUARED);
+    status |= guard_bit(k5_closure, c->k5_closure_floor, ANDREWS_STATUS_K5_CLOSURE);
+    status |= guard_bit(k7_closure, c->k7_closure_floor, ANDREWS_STATUS_K7_CLOSURE);
+    status |= guard_bit(spring_length_squared, c->spring_length_squared_floor, ANDREWS_STATUS_SPRING_LENGTH_SQUARED);
+    status |= guard_bit(mass_beta_beta, 1e-280, ANDREWS_STATUS_PIVOT_BETA);
+    status |= finite_bit(out, 2, ANDREWS_STATUS_NOT_FINITE);
+    return status;
 }
 
-int andrews_residuals(const double *restrict constants, const double *restrict state,
-                      const double *restrict inputs, const double *restrict given, double *restrict out)
-{
-    const struct andrews_constants *const c = (const void *)constants;
-    (void)inputs;
-    const double
-        beta = state[0],
-        given_beta = given[0],
-        given_theta = given[1],
-        given_gamma = given[2],
-        given_delta = given[3],
-        given_epsilon = given[4],
-        given_knee_34 = given[5],
-        given_knee_36 = given[6];
-
-    /* k1: revolute joint */
-    const double
-        cos_beta = cos(beta),
-        sin_beta = sin(beta);
-
-    /* transformer: k3 held by k2 */
-    const double
-        at_crank_pin_x = c->crank_bearing_x + c->k1_arm_crank_pin_x*cos_beta -
-            c->k1_arm_crank_pin_y*sin_beta,
-        at_crank_pin_y = c->crank_bearing_y + c->k1_arm_crank_pin_y*cos_beta +
-            c->k1_arm_crank_pin_x*sin_beta,
-        shared_1 = -c->pivot_b_x,
-        k3_reach_x = shared_1 + at_crank_pin_x,
-        k3_reach_y = at_crank_pin_y - c->pivot_b_y,
-        k3_reach_squared = k3_reach_x*k3_reach_x + k3_reach_y*k3_reach_y,
-        shared_3 = at_least(k3_reach_squared, c->k3_reach_squared_floor),
-        k3_reach_needed = c->constant_5*(c->constant_4 + shared_3),
-        k3_closure = shared_3 - k3_reach_needed*k3_reach_needed,
-        k3_closure_root = sqrt(at_least(k3_closure, c->k3_closure_floor)),
-        k3_reach_inverse = 1.0/shared_3,
-        k3_reach_inverse_signed = c->k3_branch*k3_reach_inverse,
-        k3_turn_cosine = k3_reach_needed*k3_reach_inverse,
-        k3_turn_sine = k3_reach_inverse_signed*k3_closure_root,
-        k3_arm_x = k3_reach_x*k3_turn_cosine - k3_reach_y*k3_turn_sine,
-        k3_arm_y = k3_reach_y*k3_turn_cosine + k3_reach_x*k3_turn_sine;
-
-    /* k2: pinned to k3 */
-    const double
-        at_knee_x = c->pivot_b_x + c->k3_arm_radius*k3_arm_x,
-        at_knee_y = c->pivot_b_y + c->k3_arm_radius*k3_arm_y,
-        shared_4 = -at_knee_x,
-        k2_span_x = -at_crank_pin_x - shared_4,
-        shared_5 = -at_knee_y,
-        k2_span_y = -at_crank_pin_y - shared_5,
-        k2_arm_x = c->k2_radius_inverse*k2_span_x,
-        k2_arm_y = c->k2_radius_inverse*k2_span_y;
-
-    /* transformer: k5 held by k4 */
-    const double
-        k5_reach_x = at_knee_x - c->pivot_a_x,
-        k5_reach_y = at_knee_y - c->pivot_a_y,
-        k5_reach_squared = k5_reach_x*k5_reach_x + k5_reach_y*k5_reach_y,
-        shared_7 = at_least(k5_reach_squared, c->k5_reach_squared_floor),
-        k5_reach_needed = c->constant_11*(c->constant_10 + shared_7),
-        shared_8 = -shared_7,
-        k5_closure = -shared_8 - k5_reach_needed*k5_reach_needed,
-        k5_closure_root = sqrt(at_least(k5_closure, c->k5_closure_floor)),
-        k5_reach_inverse = 1.0/shared_7,
-        k5_reach_inverse_signed = c->k5_branch*k5_reach_inverse,
-        k5_turn_cosine = k5_reach_needed*k5_reach_inverse,
-        k5_turn_sine = k5_reach_inverse_signed*k5_closure_root,
-        k5_arm_x = k5_reach_x*k5_turn_cosine - k5_reach_y*k5_turn_sine,
-        k5_arm_y = k5_reach_y*k5_turn_cosine + k5_reach_x*k5_turn_sine;
-
-    /* k4: pinned to k5 */
-    const double
-        at_pin_45_x = c->pivot_a_x + c->k5_arm_radius*k5_arm_x,
-        at_pin_45_y = c->pivot_a_y + c->k5_arm_radius*k5_arm_y,
-        k4_span_x = at_pin_45_x - at_knee_x,
-        shared_9 = -at_pin_45_y,
-        k4_span_y = -at_knee_y - shared_9,
-        k4_arm_x = c->k4_radius_inverse*k4_span_x,
-        k4_arm_y = c->k4_radius_inverse*k4_span_y;
-
-    /* transformer: k7 held by k6 */
-    const double
-        k7_reach_needed = c->constant_17*(c->constant_16 + shared_7),
-        k7_closure = -shared_8 - k7_reach_needed*k7_reach_needed,
-        k7_closure_root = sqrt(at_least(k7_closure, c->k7_closure_floor)),
-        k7_reach_inverse_signed = c->k7_branch*k5_reach_inverse,
-        k7_turn_cosine = k7_reach_needed*k5_reach_inverse,
-        k7_turn_sine = k7_reach_inverse_signed*k7_closure_root,
-        k7_arm_x = k5_reach_x*k7_turn_cosine - k5_reach_y*k7_turn_sine,
-        k7_arm_y = k5_reach_y*k7_turn_cosine + k5_reach_x*k7_turn_sine;
-
-    /* k6: pinned to k7 */
-    const double
-        at_pin_67_x = c->pivot_a_x + c->k7_arm_radius*k7_arm_x,
-        at_pin_67_y = c->pivot_a_y + c->k7_arm_radius*k7_arm_y,
-        k6_span_x = at_pin_67_x - at_knee_x,
-        shared_10 = -at_pin_67_y,
-        k6_span_y = -at_knee_y - shared_10,
-        k6_arm_x = c->k6_radius_inverse*k6_span_x,
-        k6_arm_y = c->k6_radius_inverse*k6_span_y;
-
-    /* closure residuals */
-    const double
-        shared_11 = sin(given_theta),
-        shared_12 = cos(given_theta),
-        shared_13 = c->k1_arm_crank_pin_x + c->constant_24*shared_11 - c->constant_25*shared_12,
-        shared_14 = c->constant_24*shared_12 - c->k1_arm_crank_pin_y + c->constant_25*shared_11,
-        given_opening_crank_pin_x = c->crank_bearing_x + cos_beta*shared_13 + sin_beta*shared_14 +
-            shared_4,
-        given_opening_crank_pin_y = c->crank_bearing_y + sin_beta*shared_13 - cos_beta*shared_14 -
-            at_knee_y,
-        shared_15 = sin(given_gamma),
-        shared_16 = cos(given_gamma),
-        given_opening_B_x = c->k3_arm_design_x*shared_16 - c->k3_arm_design_y*shared_15 -
-            k3_reach_x,
-        given_opening_B_y = c->pivot_b_y + c->k3_arm_design_x*shared_15 +
-            c->k3_arm_design_y*shared_16 - at_crank_pin_y,
-        shared_17 = sin(given_delta),
-        shared_18 = cos(given_delta),
-        given_opening_A_5_x = c->k5_arm_design_x*shared_18 - c->k5_arm_design_y*shared_17 -
-            k5_reach_x,
-        shared_19 = c->pivot_a_y + shared_5,
-        given_opening_A_5_y = c->k5_arm_design_x*shared_17 + c->k5_arm_design_y*shared_18 +
-            shared_19,
-        shared_20 = sin(given_epsilon),
-        shared_21 = cos(given_epsilon),
-        given_opening_A_7_x = c->k7_arm_design_x*shared_21 - c->k7_arm_design_y*shared_20 -
-            k5_reach_x,
-        given_opening_A_7_y = c->k7_arm_design_x*shared_20 + c->k7_arm_design_y*shared_21 +
-            shared_19,
-        shared_22 = sin(given_knee_34),
-        shared_23 = cos(given_knee_34),
-        shared_24 = c->k3_pin_45_3*shared_23 - c->constant_26*shared_22,
-        shared_25 = -c->k3_arm_radius,
-        shared_26 = -shared_25 - c->constant_26*shared_23 - c->k3_pin_45_3*shared_22,
-        given_opening_knee_34_x = shared_26*k3_arm_x - shared_1 - shared_24*k3_arm_y - at_pin_45_x,
-        given_opening_knee_34_y = c->pivot_b_y + shared_24*k3_arm_x + shared_26*k3_arm_y + shared_9,
-        shared_27 = sin(given_knee_36),
-        shared_28 = cos(given_knee_36),
-        shared_29 = c->k3_pin_67_3*shared_28 - c->constant_27*shared_27,
-        shared_30 = -shared_25 - c->constant_27*shared_28 - c->k3_pin_67_3*shared_27,
-        given_opening_knee_36_x = shared_30*k3_arm_x - shared_1 - shared_29*k3_arm_y - at_pin_67_x,
-        given_opening_knee_36_y = c->pivot_b_y + shared_29*k3_arm_x + shared_30*k3_arm_y +
-            shared_10;
-
-    /* residuals */
-    out[0] = given_beta - beta; /* g_beta */
-    out[1] = given_opening_crank_pin_y*k2_arm_x - given_opening_crank_pin_x*k2_arm_y; /* g_theta */
-    out[2] = sqrt(given_opening_B_y*given_opening_B_y + given_opening_B_x*given_opening_B_x) -
-        c->k2_length; /* g_gamma */
-    out[3] = sqrt(given_opening_A_5_x*given_opening_A_5_x + given_opening_A_5_y*given_opening_A_5_y)
-        - c->k4_length; /* g_delta */
-    out[4] = sqrt(given_opening_A_7_x*given_opening_A_7_x + given_opening_A_7_y*given_opening_A_7_y)
-        - c->k6_length; /* g_epsilon */
-    out[5] = given_opening_knee_34_y*k4_arm_x - given_opening_knee_34_x*k4_arm_y; /* g_knee_34 */
-    out[6] = given_opening_knee_36_y*k6_arm_x - given_opening_knee_36_x*k6_arm_y; /* g_knee_36 */
-
-    unsigned status = !(k3_reach_squared > c->k3_reach_squared_floor) * ANDREWS_STATUS_K3_REACH_SQUARED;
-    status |= !(k3_closure > c->k3_closure_floor) * ANDREWS_STATUS_K3_CLOSURE;
-    status |= !(k5_reach_squared > c->k5_reach_squared_floor) * ANDREWS_STATUS_K5_REACH_SQUARED;
-    status |= !(k5_closure > c->k5_closure_floor) * ANDREWS_STATUS_K5_CLOSURE;
-    status |= !(k7_closure > c->k7_closure_floor) * ANDREWS_STATUS_K7_CLOSURE;
-    status |= not_finite(out, 7) * ANDREWS_STATUS_NOT_FINITE;
-    return (int)status;
-}
-
-int andrews_signals(const double *restrict constants, const double *restrict state,
-                    const double *restrict inputs, double *restrict out)
+status_word andrews_signals(const double *restrict constants, const double *restrict state,
+                            const double *restrict inputs, double *restrict out)
 {
     const struct andrews_constants *const c = (const void *)constants;
     (void)inputs;
@@ -866,15 +714,15 @@ int andrews_signals(const double *restrict constants, const double *restrict sta
     out[1] = spring_velocity; /* spring_velocity */
     out[2] = spring_force; /* spring_force */
 
-    unsigned status = !(k3_reach_squared > c->k3_reach_squared_floor) * ANDREWS_STATUS_K3_REACH_SQUARED;
-    status |= !(k3_closure > c->k3_closure_floor) * ANDREWS_STATUS_K3_CLOSURE;
-    status |= !(spring_length_squared > c->spring_length_squared_floor) * ANDREWS_STATUS_SPRING_LENGTH_SQUARED;
-    status |= not_finite(out, 3) * ANDREWS_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(k3_reach_squared, c->k3_reach_squared_floor, ANDREWS_STATUS_K3_REACH_SQUARED);
+    status |= guard_bit(k3_closure, c->k3_closure_floor, ANDREWS_STATUS_K3_CLOSURE);
+    status |= guard_bit(spring_length_squared, c->spring_length_squared_floor, ANDREWS_STATUS_SPRING_LENGTH_SQUARED);
+    status |= finite_bit(out, 3, ANDREWS_STATUS_NOT_FINITE);
+    return status;
 }
 
-int andrews_margins(const double *restrict constants, const double *restrict state,
-                    const double *restrict inputs, double *restrict out)
+status_word andrews_margins(const double *restrict constants, const double *restrict state,
+                            const double *restrict inputs, double *restrict out)
 {
     const struct andrews_constants *const c = (const void *)constants;
     (void)inputs;
@@ -1072,12 +920,179 @@ int andrews_margins(const double *restrict constants, const double *restrict sta
     out[5] = spring_length_squared - c->spring_length_squared_floor; /* spring_length_squared */
     out[6] = mass_beta_beta - 1e-280; /* pivot_beta */
 
-    unsigned status = not_finite(out, 7) * ANDREWS_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = finite_bit(out, 7, ANDREWS_STATUS_NOT_FINITE);
+    return status;
 }
 
-int andrews_dynamics(const double *restrict constants, const double *restrict state,
-                     const double *restrict inputs, double *restrict out)
+#ifndef KINTRAFO_LANES /* what no simulation evaluates */
+
+status_word andrews_residuals(const double *restrict constants, const double *restrict state,
+                              const double *restrict inputs, const double *restrict given, double *restrict out)
+{
+    const struct andrews_constants *const c = (const void *)constants;
+    (void)inputs;
+    const double
+        beta = state[0],
+        given_beta = given[0],
+        given_theta = given[1],
+        given_gamma = given[2],
+        given_delta = given[3],
+        given_epsilon = given[4],
+        given_knee_34 = given[5],
+        given_knee_36 = given[6];
+
+    /* k1: revolute joint */
+    const double
+        cos_beta = cos(beta),
+        sin_beta = sin(beta);
+
+    /* transformer: k3 held by k2 */
+    const double
+        at_crank_pin_x = c->crank_bearing_x + c->k1_arm_crank_pin_x*cos_beta -
+            c->k1_arm_crank_pin_y*sin_beta,
+        at_crank_pin_y = c->crank_bearing_y + c->k1_arm_crank_pin_y*cos_beta +
+            c->k1_arm_crank_pin_x*sin_beta,
+        shared_1 = -c->pivot_b_x,
+        k3_reach_x = shared_1 + at_crank_pin_x,
+        k3_reach_y = at_crank_pin_y - c->pivot_b_y,
+        k3_reach_squared = k3_reach_x*k3_reach_x + k3_reach_y*k3_reach_y,
+        shared_3 = at_least(k3_reach_squared, c->k3_reach_squared_floor),
+        k3_reach_needed = c->constant_5*(c->constant_4 + shared_3),
+        k3_closure = shared_3 - k3_reach_needed*k3_reach_needed,
+        k3_closure_root = sqrt(at_least(k3_closure, c->k3_closure_floor)),
+        k3_reach_inverse = 1.0/shared_3,
+        k3_reach_inverse_signed = c->k3_branch*k3_reach_inverse,
+        k3_turn_cosine = k3_reach_needed*k3_reach_inverse,
+        k3_turn_sine = k3_reach_inverse_signed*k3_closure_root,
+        k3_arm_x = k3_reach_x*k3_turn_cosine - k3_reach_y*k3_turn_sine,
+        k3_arm_y = k3_reach_y*k3_turn_cosine + k3_reach_x*k3_turn_sine;
+
+    /* k2: pinned to k3 */
+    const double
+        at_knee_x = c->pivot_b_x + c->k3_arm_radius*k3_arm_x,
+        at_knee_y = c->pivot_b_y + c->k3_arm_radius*k3_arm_y,
+        shared_4 = -at_knee_x,
+        k2_span_x = -at_crank_pin_x - shared_4,
+        shared_5 = -at_knee_y,
+        k2_span_y = -at_crank_pin_y - shared_5,
+        k2_arm_x = c->k2_radius_inverse*k2_span_x,
+        k2_arm_y = c->k2_radius_inverse*k2_span_y;
+
+    /* transformer: k5 held by k4 */
+    const double
+        k5_reach_x = at_knee_x - c->pivot_a_x,
+        k5_reach_y = at_knee_y - c->pivot_a_y,
+        k5_reach_squared = k5_reach_x*k5_reach_x + k5_reach_y*k5_reach_y,
+        shared_7 = at_least(k5_reach_squared, c->k5_reach_squared_floor),
+        k5_reach_needed = c->constant_11*(c->constant_10 + shared_7),
+        shared_8 = -shared_7,
+        k5_closure = -shared_8 - k5_reach_needed*k5_reach_needed,
+        k5_closure_root = sqrt(at_least(k5_closure, c->k5_closure_floor)),
+        k5_reach_inverse = 1.0/shared_7,
+        k5_reach_inverse_signed = c->k5_branch*k5_reach_inverse,
+        k5_turn_cosine = k5_reach_needed*k5_reach_inverse,
+        k5_turn_sine = k5_reach_inverse_signed*k5_closure_root,
+        k5_arm_x = k5_reach_x*k5_turn_cosine - k5_reach_y*k5_turn_sine,
+        k5_arm_y = k5_reach_y*k5_turn_cosine + k5_reach_x*k5_turn_sine;
+
+    /* k4: pinned to k5 */
+    const double
+        at_pin_45_x = c->pivot_a_x + c->k5_arm_radius*k5_arm_x,
+        at_pin_45_y = c->pivot_a_y + c->k5_arm_radius*k5_arm_y,
+        k4_span_x = at_pin_45_x - at_knee_x,
+        shared_9 = -at_pin_45_y,
+        k4_span_y = -at_knee_y - shared_9,
+        k4_arm_x = c->k4_radius_inverse*k4_span_x,
+        k4_arm_y = c->k4_radius_inverse*k4_span_y;
+
+    /* transformer: k7 held by k6 */
+    const double
+        k7_reach_needed = c->constant_17*(c->constant_16 + shared_7),
+        k7_closure = -shared_8 - k7_reach_needed*k7_reach_needed,
+        k7_closure_root = sqrt(at_least(k7_closure, c->k7_closure_floor)),
+        k7_reach_inverse_signed = c->k7_branch*k5_reach_inverse,
+        k7_turn_cosine = k7_reach_needed*k5_reach_inverse,
+        k7_turn_sine = k7_reach_inverse_signed*k7_closure_root,
+        k7_arm_x = k5_reach_x*k7_turn_cosine - k5_reach_y*k7_turn_sine,
+        k7_arm_y = k5_reach_y*k7_turn_cosine + k5_reach_x*k7_turn_sine;
+
+    /* k6: pinned to k7 */
+    const double
+        at_pin_67_x = c->pivot_a_x + c->k7_arm_radius*k7_arm_x,
+        at_pin_67_y = c->pivot_a_y + c->k7_arm_radius*k7_arm_y,
+        k6_span_x = at_pin_67_x - at_knee_x,
+        shared_10 = -at_pin_67_y,
+        k6_span_y = -at_knee_y - shared_10,
+        k6_arm_x = c->k6_radius_inverse*k6_span_x,
+        k6_arm_y = c->k6_radius_inverse*k6_span_y;
+
+    /* closure residuals */
+    const double
+        shared_11 = sin(given_theta),
+        shared_12 = cos(given_theta),
+        shared_13 = c->k1_arm_crank_pin_x + c->constant_24*shared_11 - c->constant_25*shared_12,
+        shared_14 = c->constant_24*shared_12 - c->k1_arm_crank_pin_y + c->constant_25*shared_11,
+        given_opening_crank_pin_x = c->crank_bearing_x + cos_beta*shared_13 + sin_beta*shared_14 +
+            shared_4,
+        given_opening_crank_pin_y = c->crank_bearing_y + sin_beta*shared_13 - cos_beta*shared_14 -
+            at_knee_y,
+        shared_15 = sin(given_gamma),
+        shared_16 = cos(given_gamma),
+        given_opening_B_x = c->k3_arm_design_x*shared_16 - c->k3_arm_design_y*shared_15 -
+            k3_reach_x,
+        given_opening_B_y = c->pivot_b_y + c->k3_arm_design_x*shared_15 +
+            c->k3_arm_design_y*shared_16 - at_crank_pin_y,
+        shared_17 = sin(given_delta),
+        shared_18 = cos(given_delta),
+        given_opening_A_5_x = c->k5_arm_design_x*shared_18 - c->k5_arm_design_y*shared_17 -
+            k5_reach_x,
+        shared_19 = c->pivot_a_y + shared_5,
+        given_opening_A_5_y = c->k5_arm_design_x*shared_17 + c->k5_arm_design_y*shared_18 +
+            shared_19,
+        shared_20 = sin(given_epsilon),
+        shared_21 = cos(given_epsilon),
+        given_opening_A_7_x = c->k7_arm_design_x*shared_21 - c->k7_arm_design_y*shared_20 -
+            k5_reach_x,
+        given_opening_A_7_y = c->k7_arm_design_x*shared_20 + c->k7_arm_design_y*shared_21 +
+            shared_19,
+        shared_22 = sin(given_knee_34),
+        shared_23 = cos(given_knee_34),
+        shared_24 = c->k3_pin_45_3*shared_23 - c->constant_26*shared_22,
+        shared_25 = -c->k3_arm_radius,
+        shared_26 = -shared_25 - c->constant_26*shared_23 - c->k3_pin_45_3*shared_22,
+        given_opening_knee_34_x = shared_26*k3_arm_x - shared_1 - shared_24*k3_arm_y - at_pin_45_x,
+        given_opening_knee_34_y = c->pivot_b_y + shared_24*k3_arm_x + shared_26*k3_arm_y + shared_9,
+        shared_27 = sin(given_knee_36),
+        shared_28 = cos(given_knee_36),
+        shared_29 = c->k3_pin_67_3*shared_28 - c->constant_27*shared_27,
+        shared_30 = -shared_25 - c->constant_27*shared_28 - c->k3_pin_67_3*shared_27,
+        given_opening_knee_36_x = shared_30*k3_arm_x - shared_1 - shared_29*k3_arm_y - at_pin_67_x,
+        given_opening_knee_36_y = c->pivot_b_y + shared_29*k3_arm_x + shared_30*k3_arm_y +
+            shared_10;
+
+    /* residuals */
+    out[0] = given_beta - beta; /* g_beta */
+    out[1] = given_opening_crank_pin_y*k2_arm_x - given_opening_crank_pin_x*k2_arm_y; /* g_theta */
+    out[2] = sqrt(given_opening_B_y*given_opening_B_y + given_opening_B_x*given_opening_B_x) -
+        c->k2_length; /* g_gamma */
+    out[3] = sqrt(given_opening_A_5_x*given_opening_A_5_x + given_opening_A_5_y*given_opening_A_5_y)
+        - c->k4_length; /* g_delta */
+    out[4] = sqrt(given_opening_A_7_x*given_opening_A_7_x + given_opening_A_7_y*given_opening_A_7_y)
+        - c->k6_length; /* g_epsilon */
+    out[5] = given_opening_knee_34_y*k4_arm_x - given_opening_knee_34_x*k4_arm_y; /* g_knee_34 */
+    out[6] = given_opening_knee_36_y*k6_arm_x - given_opening_knee_36_x*k6_arm_y; /* g_knee_36 */
+
+    status_word status = guard_bit(k3_reach_squared, c->k3_reach_squared_floor, ANDREWS_STATUS_K3_REACH_SQUARED);
+    status |= guard_bit(k3_closure, c->k3_closure_floor, ANDREWS_STATUS_K3_CLOSURE);
+    status |= guard_bit(k5_reach_squared, c->k5_reach_squared_floor, ANDREWS_STATUS_K5_REACH_SQUARED);
+    status |= guard_bit(k5_closure, c->k5_closure_floor, ANDREWS_STATUS_K5_CLOSURE);
+    status |= guard_bit(k7_closure, c->k7_closure_floor, ANDREWS_STATUS_K7_CLOSURE);
+    status |= finite_bit(out, 7, ANDREWS_STATUS_NOT_FINITE);
+    return status;
+}
+
+status_word andrews_dynamics(const double *restrict constants, const double *restrict state,
+                             const double *restrict inputs, double *restrict out)
 {
     const struct andrews_constants *const c = (const void *)constants;
     const double
@@ -1421,18 +1436,18 @@ int andrews_dynamics(const double *restrict constants, const double *restrict st
     /* forces */
     out[2] = force_of_beta; /* Q[beta] */
 
-    unsigned status = !(k3_reach_squared > c->k3_reach_squared_floor) * ANDREWS_STATUS_K3_REACH_SQUARED;
-    status |= !(k3_closure > c->k3_closure_floor) * ANDREWS_STATUS_K3_CLOSURE;
-    status |= !(k5_reach_squared > c->k5_reach_squared_floor) * ANDREWS_STATUS_K5_REACH_SQUARED;
-    status |= !(k5_closure > c->k5_closure_floor) * ANDREWS_STATUS_K5_CLOSURE;
-    status |= !(k7_closure > c->k7_closure_floor) * ANDREWS_STATUS_K7_CLOSURE;
-    status |= !(spring_length_squared > c->spring_length_squared_floor) * ANDREWS_STATUS_SPRING_LENGTH_SQUARED;
-    status |= not_finite(out, 3) * ANDREWS_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(k3_reach_squared, c->k3_reach_squared_floor, ANDREWS_STATUS_K3_REACH_SQUARED);
+    status |= guard_bit(k3_closure, c->k3_closure_floor, ANDREWS_STATUS_K3_CLOSURE);
+    status |= guard_bit(k5_reach_squared, c->k5_reach_squared_floor, ANDREWS_STATUS_K5_REACH_SQUARED);
+    status |= guard_bit(k5_closure, c->k5_closure_floor, ANDREWS_STATUS_K5_CLOSURE);
+    status |= guard_bit(k7_closure, c->k7_closure_floor, ANDREWS_STATUS_K7_CLOSURE);
+    status |= guard_bit(spring_length_squared, c->spring_length_squared_floor, ANDREWS_STATUS_SPRING_LENGTH_SQUARED);
+    status |= finite_bit(out, 3, ANDREWS_STATUS_NOT_FINITE);
+    return status;
 }
 
-int andrews_poses(const double *restrict constants, const double *restrict state,
-                  const double *restrict inputs, double *restrict out)
+status_word andrews_poses(const double *restrict constants, const double *restrict state,
+                          const double *restrict inputs, double *restrict out)
 {
     const struct andrews_constants *const c = (const void *)constants;
     (void)inputs;
@@ -1724,48 +1739,48 @@ int andrews_poses(const double *restrict constants, const double *restrict state
     out[23] = at_knee_y + c->k6_k6_com_3*k6_arm_x + c->k6_k6_com_2*k6_arm_y; /* k6 y */
     out[25] = c->pivot_a_x + c->k7_k7_com_2*k7_arm_x - c->k7_k7_com_3*k7_arm_y; /* k7 x */
     out[26] = c->pivot_a_y + c->k7_k7_com_3*k7_arm_x + c->k7_k7_com_2*k7_arm_y; /* k7 y */
-    out[9] = out[12] = out[15] = out[18] = out[21] = out[24] = out[27] = 0.0;
+    out[9] = out[12] = out[15] = out[18] = out[21] = out[24] = out[27] = number(0.0);
 
     /* orientations */
     out[28] = cos_beta; /* k1 Rxx */
     out[29] = -sin_beta; /* k1 Rxy */
     out[31] = sin_beta; /* k1 Ryx */
     out[32] = cos_beta; /* k1 Ryy */
-    out[36] = 1.0; /* k1 Rzz */
+    out[36] = number(1.0); /* k1 Rzz */
     out[37] = shared_24; /* k2 Rxx */
     out[38] = -shared_25; /* k2 Rxy */
     out[40] = shared_25; /* k2 Ryx */
     out[41] = shared_24; /* k2 Ryy */
-    out[45] = 1.0; /* k2 Rzz */
+    out[45] = number(1.0); /* k2 Rzz */
     out[46] = shared_11; /* k3 Rxx */
     out[47] = -shared_10; /* k3 Rxy */
     out[49] = shared_10; /* k3 Ryx */
     out[50] = shared_11; /* k3 Ryy */
-    out[54] = 1.0; /* k3 Rzz */
+    out[54] = number(1.0); /* k3 Rzz */
     out[55] = shared_26; /* k4 Rxx */
     out[56] = -shared_27; /* k4 Rxy */
     out[58] = shared_27; /* k4 Ryx */
     out[59] = shared_26; /* k4 Ryy */
-    out[63] = 1.0; /* k4 Rzz */
+    out[63] = number(1.0); /* k4 Rzz */
     out[64] = shared_13; /* k5 Rxx */
     out[65] = -shared_12; /* k5 Rxy */
     out[67] = shared_12; /* k5 Ryx */
     out[68] = shared_13; /* k5 Ryy */
-    out[72] = 1.0; /* k5 Rzz */
+    out[72] = number(1.0); /* k5 Rzz */
     out[73] = shared_28; /* k6 Rxx */
     out[74] = -shared_29; /* k6 Rxy */
     out[76] = shared_29; /* k6 Ryx */
     out[77] = shared_28; /* k6 Ryy */
-    out[81] = 1.0; /* k6 Rzz */
+    out[81] = number(1.0); /* k6 Rzz */
     out[82] = shared_15; /* k7 Rxx */
     out[83] = -shared_14; /* k7 Rxy */
     out[85] = shared_14; /* k7 Ryx */
     out[86] = shared_15; /* k7 Ryy */
-    out[90] = 1.0; /* k7 Rzz */
+    out[90] = number(1.0); /* k7 Rzz */
     out[30] = out[33] = out[34] = out[35] = out[39] = out[42] = out[43] = out[44] = out[48] =
         out[51] = out[52] = out[53] = out[57] = out[60] = out[61] = out[62] = out[66] = out[69] =
         out[70] = out[71] = out[75] = out[78] = out[79] = out[80] = out[84] = out[87] = out[88] =
-        out[89] = 0.0;
+        out[89] = number(0.0);
 
     /* velocities */
     out[93] = beta_rate; /* k1 omega_z */
@@ -1791,19 +1806,19 @@ int andrews_poses(const double *restrict constants, const double *restrict state
     out[131] = beta_rate*(c->k7_k7_com_2*shared_50 - c->k7_k7_com_3*shared_51); /* k7 velocity_y */
     out[91] = out[92] = out[96] = out[97] = out[98] = out[102] = out[103] = out[104] = out[108] =
         out[109] = out[110] = out[114] = out[115] = out[116] = out[120] = out[121] = out[122] =
-        out[126] = out[127] = out[128] = out[132] = 0.0;
+        out[126] = out[127] = out[128] = out[132] = number(0.0);
 
-    unsigned status = !(k3_reach_squared > c->k3_reach_squared_floor) * ANDREWS_STATUS_K3_REACH_SQUARED;
-    status |= !(k3_closure > c->k3_closure_floor) * ANDREWS_STATUS_K3_CLOSURE;
-    status |= !(k5_reach_squared > c->k5_reach_squared_floor) * ANDREWS_STATUS_K5_REACH_SQUARED;
-    status |= !(k5_closure > c->k5_closure_floor) * ANDREWS_STATUS_K5_CLOSURE;
-    status |= !(k7_closure > c->k7_closure_floor) * ANDREWS_STATUS_K7_CLOSURE;
-    status |= not_finite(out, 133) * ANDREWS_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(k3_reach_squared, c->k3_reach_squared_floor, ANDREWS_STATUS_K3_REACH_SQUARED);
+    status |= guard_bit(k3_closure, c->k3_closure_floor, ANDREWS_STATUS_K3_CLOSURE);
+    status |= guard_bit(k5_reach_squared, c->k5_reach_squared_floor, ANDREWS_STATUS_K5_REACH_SQUARED);
+    status |= guard_bit(k5_closure, c->k5_closure_floor, ANDREWS_STATUS_K5_CLOSURE);
+    status |= guard_bit(k7_closure, c->k7_closure_floor, ANDREWS_STATUS_K7_CLOSURE);
+    status |= finite_bit(out, 133, ANDREWS_STATUS_NOT_FINITE);
+    return status;
 }
 
-int andrews_jacobians(const double *restrict constants, const double *restrict state,
-                      const double *restrict inputs, double *restrict out)
+status_word andrews_jacobians(const double *restrict constants, const double *restrict state,
+                              const double *restrict inputs, double *restrict out)
 {
     const struct andrews_constants *const c = (const void *)constants;
     (void)inputs;
@@ -2221,7 +2236,7 @@ int andrews_jacobians(const double *restrict constants, const double *restrict s
         shared_83 = -shared_72;
 
     /* relative_jacobian by beta */
-    out[0] = 1.0; /* beta */
+    out[0] = number(1.0); /* beta */
     out[1] = angle_crank_pin__by_beta; /* theta */
     out[2] = angle_B__by_beta; /* gamma */
     out[3] = angle_A_5__by_beta; /* delta */
@@ -2230,34 +2245,34 @@ int andrews_jacobians(const double *restrict constants, const double *restrict s
     out[6] = angle_knee_36__by_beta; /* knee_36 */
 
     /* absolute_jacobian by beta, theta, gamma, delta, epsilon, knee_34, knee_36 */
-    out[21] = 1.0; /* k1 omega_z */
+    out[21] = number(1.0); /* k1 omega_z */
     out[28] = shared_80 - at_k1_com_y; /* k1 velocity_x */
     out[35] = shared_79 + at_k1_com_x; /* k1 velocity_y */
-    out[63] = 1.0; /* k2 omega_z */
-    out[64] = 1.0;
+    out[63] = number(1.0); /* k2 omega_z */
+    out[64] = number(1.0);
     out[70] = shared_80 - at_k2_com_y; /* k2 velocity_x */
     out[71] = at_crank_pin_y_2 - at_k2_com_y;
     out[77] = shared_79 + at_k2_com_x; /* k2 velocity_y */
     out[78] = at_k2_com_x - at_crank_pin_x_2;
-    out[107] = 1.0; /* k3 omega_z */
+    out[107] = number(1.0); /* k3 omega_z */
     out[114] = shared_81 - at_k3_com_y; /* k3 velocity_x */
     out[121] = shared_66 + at_k3_com_x; /* k3 velocity_y */
-    out[149] = 1.0; /* k4 omega_z */
-    out[152] = 1.0;
+    out[149] = number(1.0); /* k4 omega_z */
+    out[152] = number(1.0);
     out[156] = shared_81 - at_k4_com_y; /* k4 velocity_x */
     out[159] = shared_82 - at_k4_com_y;
     out[163] = shared_66 + at_k4_com_x; /* k4 velocity_y */
     out[166] = shared_69 + at_k4_com_x;
-    out[192] = 1.0; /* k5 omega_z */
+    out[192] = number(1.0); /* k5 omega_z */
     out[199] = shared_83 - at_k5_com_y; /* k5 velocity_x */
     out[206] = shared_71 + at_k5_com_x; /* k5 velocity_y */
-    out[233] = 1.0; /* k6 omega_z */
-    out[237] = 1.0;
+    out[233] = number(1.0); /* k6 omega_z */
+    out[237] = number(1.0);
     out[240] = shared_81 - at_k6_com_y; /* k6 velocity_x */
     out[244] = shared_82 - at_k6_com_y;
     out[247] = shared_66 + at_k6_com_x; /* k6 velocity_y */
     out[251] = shared_69 + at_k6_com_x;
-    out[277] = 1.0; /* k7 omega_z */
+    out[277] = number(1.0); /* k7 omega_z */
     out[284] = shared_83 - at_k7_com_y; /* k7 velocity_x */
     out[291] = shared_71 + at_k7_com_x; /* k7 velocity_y */
     out[7] = out[8] = out[9] = out[10] = out[11] = out[12] = out[13] = out[14] = out[15] = out[16] =
@@ -2291,10 +2306,10 @@ int andrews_jacobians(const double *restrict constants, const double *restrict s
         out[268] = out[269] = out[270] = out[271] = out[272] = out[273] = out[274] = out[275] =
         out[276] = out[278] = out[279] = out[280] = out[281] = out[282] = out[283] = out[285] =
         out[286] = out[287] = out[288] = out[289] = out[290] = out[292] = out[293] = out[294] =
-        out[295] = out[296] = out[297] = out[298] = out[299] = out[300] = 0.0;
+        out[295] = out[296] = out[297] = out[298] = out[299] = out[300] = number(0.0);
 
     /* global_jacobian by beta */
-    out[303] = 1.0; /* k1 omega_z */
+    out[303] = number(1.0); /* k1 omega_z */
     out[304] = -shared_78 - shared_77; /* k1 velocity_x */
     out[305] = shared_75 - shared_76; /* k1 velocity_y */
     out[309] = k2_omega_beta_1; /* k2 omega_z */
@@ -2317,13 +2332,15 @@ int andrews_jacobians(const double *restrict constants, const double *restrict s
     out[341] = c->k7_k7_com_2*shared_94 - c->k7_k7_com_3*shared_95; /* k7 velocity_y */
     out[301] = out[302] = out[306] = out[307] = out[308] = out[312] = out[313] = out[314] = out[318]
         = out[319] = out[320] = out[324] = out[325] = out[326] = out[330] = out[331] = out[332] =
-        out[336] = out[337] = out[338] = out[342] = 0.0;
+        out[336] = out[337] = out[338] = out[342] = number(0.0);
 
-    unsigned status = !(k3_reach_squared > c->k3_reach_squared_floor) * ANDREWS_STATUS_K3_REACH_SQUARED;
-    status |= !(k3_closure > c->k3_closure_floor) * ANDREWS_STATUS_K3_CLOSURE;
-    status |= !(k5_reach_squared > c->k5_reach_squared_floor) * ANDREWS_STATUS_K5_REACH_SQUARED;
-    status |= !(k5_closure > c->k5_closure_floor) * ANDREWS_STATUS_K5_CLOSURE;
-    status |= !(k7_closure > c->k7_closure_floor) * ANDREWS_STATUS_K7_CLOSURE;
-    status |= not_finite(out, 343) * ANDREWS_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(k3_reach_squared, c->k3_reach_squared_floor, ANDREWS_STATUS_K3_REACH_SQUARED);
+    status |= guard_bit(k3_closure, c->k3_closure_floor, ANDREWS_STATUS_K3_CLOSURE);
+    status |= guard_bit(k5_reach_squared, c->k5_reach_squared_floor, ANDREWS_STATUS_K5_REACH_SQUARED);
+    status |= guard_bit(k5_closure, c->k5_closure_floor, ANDREWS_STATUS_K5_CLOSURE);
+    status |= guard_bit(k7_closure, c->k7_closure_floor, ANDREWS_STATUS_K7_CLOSURE);
+    status |= finite_bit(out, 343, ANDREWS_STATUS_NOT_FINITE);
+    return status;
 }
+
+#endif

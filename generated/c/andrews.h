@@ -169,6 +169,8 @@ enum andrews_status {
     ANDREWS_STATUS_NOT_FINITE = 1 << 30 /* a result is NaN or infinite */
 };
 
+#ifndef KINTRAFO_LANES
+
 /*
  * Compute the constants of one parameter set.
  * Returns 0, or one plus the index of the first constant that is not finite,
@@ -242,6 +244,8 @@ int andrews_jacobians(const double *restrict constants, const double *restrict s
    (142 add, 202 multiply, 10 divide, 4 root, 2 trigonometric). */
 int andrews_linearisation(const double *restrict constants, const double *restrict state,
                           const double *restrict inputs, double *restrict out);
+
+#endif
 
 #ifdef __cplusplus
 #undef restrict

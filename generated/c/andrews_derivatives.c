@@ -9,24 +9,63 @@
 
 #include <math.h>
 
+#ifndef KINTRAFO_LANES /* else all numbers are vectors, and what includes this file has these */
+typedef int status_word;
+
 /* The greater of two numbers; NaN for a NaN. One instruction, where fmax may be a call. */
 static inline double at_least(double x, double least)
 {
     return x < least ? least : x;
 }
 
-/* Whether any of some values is NaN or infinite. */
-static unsigned not_finite(const double *values, int count)
+/* One for what is positive, else zero. */
+static inline double is_positive(double x)
 {
-    unsigned found = 0;
+    return x > 0.0;
+}
+
+/* A number that depends on nothing. */
+static inline double number(double x)
+{
+    return x;
+}
+
+/* A bit, where a guarded quantity is not over its floor. */
+static inline status_word guard_bit(double quantity, double least, int bit)
+{
+    return !(quantity > least) * bit;
+}
+
+/* A bit, where any of some values is NaN or infinite. */
+static inline status_word finite_bit(const double *values, int count, int bit)
+{
+    status_word found = 0;
     for (int i = 0; i < count; ++i) {
         found |= !isfinite(values[i]);
     }
-    return found;
+    return found * bit;
 }
 
-int andrews_rhs_jacobian(const double *restrict constants, const double *restrict state,
-                         const double *restrict inputs, double *restrict out)
+/* One number or the other. */
+static inline status_word either(int applies, int code, status_word otherwise)
+{
+    return applies ? code : otherwise;
+}
+
+/* One plus the index of the first value that is NaN or infinite; 0: all are finite. */
+static inline status_word first_not_finite(const double *values, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        if (!isfinite(values[i])) {
+            return i + 1;
+        }
+    }
+    return 0;
+}
+#endif
+
+status_word andrews_rhs_jacobian(const double *restrict constants, const double *restrict state,
+                                 const double *restrict inputs, double *restrict out)
 {
     const struct andrews_constants *const c = (const void *)constants;
     const double
@@ -605,24 +644,24 @@ int andrews_rhs_jacobian(const double *restrict constants, const double *restric
         beta_acceleration__beta_rate = net_beta__beta_rate*inverse_pivot_beta;
 
     /* rhs_jacobian by beta, beta_rate */
-    out[1] = 1.0; /* d(beta)/dt */
+    out[1] = number(1.0); /* d(beta)/dt */
     out[2] = beta_acceleration__beta; /* d(beta_rate)/dt */
     out[3] = beta_acceleration__beta_rate;
-    out[0] = 0.0;
+    out[0] = number(0.0);
 
-    unsigned status = !(k3_reach_squared > c->k3_reach_squared_floor) * ANDREWS_STATUS_K3_REACH_SQUARED;
-    status |= !(k3_closure > c->k3_closure_floor) * ANDREWS_STATUS_K3_CLOSURE;
-    status |= !(k5_reach_squared > c->k5_reach_squared_floor) * ANDREWS_STATUS_K5_REACH_SQUARED;
-    status |= !(k5_closure > c->k5_closure_floor) * ANDREWS_STATUS_K5_CLOSURE;
-    status |= !(k7_closure > c->k7_closure_floor) * ANDREWS_STATUS_K7_CLOSURE;
-    status |= !(spring_length_squared > c->spring_length_squared_floor) * ANDREWS_STATUS_SPRING_LENGTH_SQUARED;
-    status |= !(mass_beta_beta > 1e-280) * ANDREWS_STATUS_PIVOT_BETA;
-    status |= not_finite(out, 4) * ANDREWS_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(k3_reach_squared, c->k3_reach_squared_floor, ANDREWS_STATUS_K3_REACH_SQUARED);
+    status |= guard_bit(k3_closure, c->k3_closure_floor, ANDREWS_STATUS_K3_CLOSURE);
+    status |= guard_bit(k5_reach_squared, c->k5_reach_squared_floor, ANDREWS_STATUS_K5_REACH_SQUARED);
+    status |= guard_bit(k5_closure, c->k5_closure_floor, ANDREWS_STATUS_K5_CLOSURE);
+    status |= guard_bit(k7_closure, c->k7_closure_floor, ANDREWS_STATUS_K7_CLOSURE);
+    status |= guard_bit(spring_length_squared, c->spring_length_squared_floor, ANDREWS_STATUS_SPRING_LENGTH_SQUARED);
+    status |= guard_bit(mass_beta_beta, 1e-280, ANDREWS_STATUS_PIVOT_BETA);
+    status |= finite_bit(out, 4, ANDREWS_STATUS_NOT_FINITE);
+    return status;
 }
 
-int andrews_linearisation(const double *restrict constants, const double *restrict state,
-                          const double *restrict inputs, double *restrict out)
+status_word andrews_linearisation(const double *restrict constants, const double *restrict state,
+                                  const double *restrict inputs, double *restrict out)
 {
     const struct andrews_constants *const c = (const void *)constants;
     (void)inputs;
@@ -892,25 +931,25 @@ int andrews_linearisation(const double *restrict constants, const double *restri
 
     /* rhs_input_jacobian by drive_torque */
     out[1] = inverse_pivot_beta; /* d(beta_rate)/dt */
-    out[0] = 0.0;
+    out[0] = number(0.0);
 
     /* signals_jacobian by beta, beta_rate */
     out[2] = spring_length__beta; /* spring_length */
     out[4] = spring_velocity__beta; /* spring_velocity */
     out[5] = d_spring_length_beta;
     out[6] = spring_force__beta; /* spring_force */
-    out[3] = out[7] = 0.0;
+    out[3] = out[7] = number(0.0);
 
     /* signals_input_jacobian by drive_torque */
-    out[8] = out[9] = out[10] = 0.0;
+    out[8] = out[9] = out[10] = number(0.0);
 
-    unsigned status = !(k3_reach_squared > c->k3_reach_squared_floor) * ANDREWS_STATUS_K3_REACH_SQUARED;
-    status |= !(k3_closure > c->k3_closure_floor) * ANDREWS_STATUS_K3_CLOSURE;
-    status |= !(k5_reach_squared > c->k5_reach_squared_floor) * ANDREWS_STATUS_K5_REACH_SQUARED;
-    status |= !(k5_closure > c->k5_closure_floor) * ANDREWS_STATUS_K5_CLOSURE;
-    status |= !(k7_closure > c->k7_closure_floor) * ANDREWS_STATUS_K7_CLOSURE;
-    status |= !(spring_length_squared > c->spring_length_squared_floor) * ANDREWS_STATUS_SPRING_LENGTH_SQUARED;
-    status |= !(mass_beta_beta > 1e-280) * ANDREWS_STATUS_PIVOT_BETA;
-    status |= not_finite(out, 11) * ANDREWS_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(k3_reach_squared, c->k3_reach_squared_floor, ANDREWS_STATUS_K3_REACH_SQUARED);
+    status |= guard_bit(k3_closure, c->k3_closure_floor, ANDREWS_STATUS_K3_CLOSURE);
+    status |= guard_bit(k5_reach_squared, c->k5_reach_squared_floor, ANDREWS_STATUS_K5_REACH_SQUARED);
+    status |= guard_bit(k5_closure, c->k5_closure_floor, ANDREWS_STATUS_K5_CLOSURE);
+    status |= guard_bit(k7_closure, c->k7_closure_floor, ANDREWS_STATUS_K7_CLOSURE);
+    status |= guard_bit(spring_length_squared, c->spring_length_squared_floor, ANDREWS_STATUS_SPRING_LENGTH_SQUARED);
+    status |= guard_bit(mass_beta_beta, 1e-280, ANDREWS_STATUS_PIVOT_BETA);
+    status |= finite_bit(out, 11, ANDREWS_STATUS_NOT_FINITE);
+    return status;
 }

@@ -9,23 +9,62 @@
 
 #include <math.h>
 
+#ifndef KINTRAFO_LANES /* else all numbers are vectors, and what includes this file has these */
+typedef int status_word;
+
 /* The greater of two numbers; NaN for a NaN. One instruction, where fmax may be a call. */
 static inline double at_least(double x, double least)
 {
     return x < least ? least : x;
 }
 
-/* Whether any of some values is NaN or infinite. */
-static unsigned not_finite(const double *values, int count)
+/* One for what is positive, else zero. */
+static inline double is_positive(double x)
 {
-    unsigned found = 0;
+    return x > 0.0;
+}
+
+/* A number that depends on nothing. */
+static inline double number(double x)
+{
+    return x;
+}
+
+/* A bit, where a guarded quantity is not over its floor. */
+static inline status_word guard_bit(double quantity, double least, int bit)
+{
+    return !(quantity > least) * bit;
+}
+
+/* A bit, where any of some values is NaN or infinite. */
+static inline status_word finite_bit(const double *values, int count, int bit)
+{
+    status_word found = 0;
     for (int i = 0; i < count; ++i) {
         found |= !isfinite(values[i]);
     }
-    return found;
+    return found * bit;
 }
 
-int double_wishbone_prepare(const double *restrict parameters, double *restrict constants)
+/* One number or the other. */
+static inline status_word either(int applies, int code, status_word otherwise)
+{
+    return applies ? code : otherwise;
+}
+
+/* One plus the index of the first value that is NaN or infinite; 0: all are finite. */
+static inline status_word first_not_finite(const double *values, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        if (!isfinite(values[i])) {
+            return i + 1;
+        }
+    }
+    return 0;
+}
+#endif
+
+status_word double_wishbone_prepare(const double *restrict parameters, double *restrict constants)
 {
     struct double_wishbone_constants *const c = (void *)constants;
     const double
@@ -985,42 +1024,20 @@ int double_wishbone_prepare(const double *restrict parameters, double *restrict 
     c->constant_186 = c->work_x_z*c->knuckle_spin_axis_3;
     c->constant_187 = c->work_z_z*c->knuckle_spin_axis_3;
 
-    if (fabs(c->upper_arm_arm_radius) <= c->upper_arm_arm_radius_least) {
-        return DOUBLE_WISHBONE_CONSTANT_COUNT + 1;
-    }
-    if (fabs(c->knuckle_length) <= c->upper_arm_arm_radius_least) {
-        return DOUBLE_WISHBONE_CONSTANT_COUNT + 2;
-    }
-    if (fabs(c->upper_arm_reach_design) <= c->upper_arm_arm_radius_least) {
-        return DOUBLE_WISHBONE_CONSTANT_COUNT + 3;
-    }
-    if (fabs(c->upper_arm_rod_height_design) <= c->upper_arm_rod_height_design_least) {
-        return DOUBLE_WISHBONE_CONSTANT_COUNT + 4;
-    }
-    if (fabs(c->knuckle_arm_radius) <= c->knuckle_arm_radius_least) {
-        return DOUBLE_WISHBONE_CONSTANT_COUNT + 5;
-    }
-    if (fabs(c->tie_rod_length) <= c->knuckle_arm_radius_least) {
-        return DOUBLE_WISHBONE_CONSTANT_COUNT + 6;
-    }
-    if (fabs(c->knuckle_reach_design) <= c->knuckle_arm_radius_least) {
-        return DOUBLE_WISHBONE_CONSTANT_COUNT + 7;
-    }
-    if (fabs(c->knuckle_rod_height_design) <= c->knuckle_rod_height_design_least) {
-        return DOUBLE_WISHBONE_CONSTANT_COUNT + 8;
-    }
-    if (fabs(c->tie_rod_cross_design) <= 1e-05) {
-        return DOUBLE_WISHBONE_CONSTANT_COUNT + 9;
-    }
-    for (int i = 0; i < DOUBLE_WISHBONE_CONSTANT_COUNT; ++i) {
-        if (!isfinite(constants[i])) {
-            return i + 1;
-        }
-    }
-    return 0;
+    status_word failed = first_not_finite(constants, DOUBLE_WISHBONE_CONSTANT_COUNT);
+    failed = either(fabs(c->tie_rod_cross_design) <= 1e-05, DOUBLE_WISHBONE_CONSTANT_COUNT + 9, failed);
+    failed = either(fabs(c->knuckle_rod_height_design) <= c->knuckle_rod_height_design_least, DOUBLE_WISHBONE_CONSTANT_COUNT + 8, failed);
+    failed = either(fabs(c->knuckle_reach_design) <= c->knuckle_arm_radius_least, DOUBLE_WISHBONE_CONSTANT_COUNT + 7, failed);
+    failed = either(fabs(c->tie_rod_length) <= c->knuckle_arm_radius_least, DOUBLE_WISHBONE_CONSTANT_COUNT + 6, failed);
+    failed = either(fabs(c->knuckle_arm_radius) <= c->knuckle_arm_radius_least, DOUBLE_WISHBONE_CONSTANT_COUNT + 5, failed);
+    failed = either(fabs(c->upper_arm_rod_height_design) <= c->upper_arm_rod_height_design_least, DOUBLE_WISHBONE_CONSTANT_COUNT + 4, failed);
+    failed = either(fabs(c->upper_arm_reach_design) <= c->upper_arm_arm_radius_least, DOUBLE_WISHBONE_CONSTANT_COUNT + 3, failed);
+    failed = either(fabs(c->knuckle_length) <= c->upper_arm_arm_radius_least, DOUBLE_WISHBONE_CONSTANT_COUNT + 2, failed);
+    failed = either(fabs(c->upper_arm_arm_radius) <= c->upper_arm_arm_radius_least, DOUBLE_WISHBONE_CONSTANT_COUNT + 1, failed);
+    return failed;
 }
 
-int double_wishbone_design_state(const double *restrict parameters, double *restrict state)
+status_word double_wishbone_design_state(const double *restrict parameters, double *restrict state)
 {
     const double
         lower_arm_front_x = parameters[0],
@@ -1051,14 +1068,14 @@ int double_wishbone_design_state(const double *restrict parameters, double *rest
             arm_angle_across)*sqrt(arm_angle_axis_squared), arm_angle_along);
 
     state[0] = arm_angle;
-    state[1] = 0.0;
-    state[2] = 0.0;
-    state[3] = 0.0;
-    return 0;
+    state[1] = number(0.0);
+    state[2] = number(0.0);
+    state[3] = number(0.0);
+    return finite_bit(state, 4, DOUBLE_WISHBONE_STATUS_NOT_FINITE);
 }
 
-int double_wishbone_rhs(const double *restrict constants, const double *restrict state,
-                        const double *restrict inputs, double *restrict out)
+status_word double_wishbone_rhs(const double *restrict constants, const double *restrict state,
+                                const double *restrict inputs, double *restrict out)
 {
     const struct double_wishbone_constants *const c = (const void *)constants;
     const double
@@ -1505,19 +1522,19 @@ int double_wishbone_rhs(const double *restrict constants, const double *restrict
     out[2] = arm_angle_acceleration; /* d(arm_angle_rate)/dt */
     out[3] = spin_angle_acceleration; /* d(spin_angle_rate)/dt */
 
-    unsigned status = !(upper_arm_reach_squared > c->upper_arm_reach_squared_floor) * DOUBLE_WISHBONE_STATUS_UPPER_ARM_REACH_SQUARED;
-    status |= !(upper_arm_closure > c->upper_arm_closure_floor) * DOUBLE_WISHBONE_STATUS_UPPER_ARM_CLOSURE;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * DOUBLE_WISHBONE_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * DOUBLE_WISHBONE_STATUS_KNUCKLE_CLOSURE;
-    status |= !(spring_length_squared > c->spring_length_squared_floor) * DOUBLE_WISHBONE_STATUS_SPRING_LENGTH_SQUARED;
-    status |= !(cos_camber_squared > 1e-10) * DOUBLE_WISHBONE_STATUS_COS_CAMBER_SQUARED;
-    status |= !(mass_arm_angle_arm_angle > 1e-280) * DOUBLE_WISHBONE_STATUS_PIVOT_ARM_ANGLE;
-    status |= not_finite(out, 4) * DOUBLE_WISHBONE_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(upper_arm_reach_squared, c->upper_arm_reach_squared_floor, DOUBLE_WISHBONE_STATUS_UPPER_ARM_REACH_SQUARED);
+    status |= guard_bit(upper_arm_closure, c->upper_arm_closure_floor, DOUBLE_WISHBONE_STATUS_UPPER_ARM_CLOSURE);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, DOUBLE_WISHBONE_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, DOUBLE_WISHBONE_STATUS_KNUCKLE_CLOSURE);
+    status |= guard_bit(spring_length_squared, c->spring_length_squared_floor, DOUBLE_WISHBONE_STATUS_SPRING_LENGTH_SQUARED);
+    status |= guard_bit(cos_camber_squared, 1e-10, DOUBLE_WISHBONE_STATUS_COS_CAMBER_SQUARED);
+    status |= guard_bit(mass_arm_angle_arm_angle, 1e-280, DOUBLE_WISHBONE_STATUS_PIVOT_ARM_ANGLE);
+    status |= finite_bit(out, 4, DOUBLE_WISHBONE_STATUS_NOT_FINITE);
+    return status;
 }
 
-int double_wishbone_rhs_rack_held(const double *restrict constants, const double *restrict state,
-                                  const double *restrict inputs, double *restrict out)
+status_word double_wishbone_rhs_rack_held(const double *restrict constants, const double *restrict state,
+                                          const double *restrict inputs, double *restrict out)
 {
     const struct double_wishbone_constants *const c = (const void *)constants;
     const double
@@ -1883,66 +1900,19 @@ int double_wishbone_rhs_rack_held(const double *restrict constants, const double
     out[2] = arm_angle_acceleration; /* d(arm_angle_rate)/dt */
     out[3] = spin_angle_acceleration; /* d(spin_angle_rate)/dt */
 
-    unsigned status = !(upper_arm_reach_squared > c->upper_arm_reach_squared_floor) * DOUBLE_WISHBONE_STATUS_UPPER_ARM_REACH_SQUARED;
-    status |= !(upper_arm_closure > c->upper_arm_closure_floor) * DOUBLE_WISHBONE_STATUS_UPPER_ARM_CLOSURE;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * DOUBLE_WISHBONE_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * DOUBLE_WISHBONE_STATUS_KNUCKLE_CLOSURE;
-    status |= !(spring_length_squared > c->spring_length_squared_floor) * DOUBLE_WISHBONE_STATUS_SPRING_LENGTH_SQUARED;
-    status |= !(cos_camber_squared > 1e-10) * DOUBLE_WISHBONE_STATUS_COS_CAMBER_SQUARED;
-    status |= !(mass_arm_angle_arm_angle > 1e-280) * DOUBLE_WISHBONE_STATUS_PIVOT_ARM_ANGLE;
-    status |= not_finite(out, 4) * DOUBLE_WISHBONE_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(upper_arm_reach_squared, c->upper_arm_reach_squared_floor, DOUBLE_WISHBONE_STATUS_UPPER_ARM_REACH_SQUARED);
+    status |= guard_bit(upper_arm_closure, c->upper_arm_closure_floor, DOUBLE_WISHBONE_STATUS_UPPER_ARM_CLOSURE);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, DOUBLE_WISHBONE_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, DOUBLE_WISHBONE_STATUS_KNUCKLE_CLOSURE);
+    status |= guard_bit(spring_length_squared, c->spring_length_squared_floor, DOUBLE_WISHBONE_STATUS_SPRING_LENGTH_SQUARED);
+    status |= guard_bit(cos_camber_squared, 1e-10, DOUBLE_WISHBONE_STATUS_COS_CAMBER_SQUARED);
+    status |= guard_bit(mass_arm_angle_arm_angle, 1e-280, DOUBLE_WISHBONE_STATUS_PIVOT_ARM_ANGLE);
+    status |= finite_bit(out, 4, DOUBLE_WISHBONE_STATUS_NOT_FINITE);
+    return status;
 }
 
-int double_wishbone_residuals(const double *restrict constants, const double *restrict state,
-                              const double *restrict inputs, const double *restrict given, double *restrict out)
-{
-    const struct double_wishbone_constants *const c = (const void *)constants;
-    const double
-        arm_angle = state[0],
-        spin_angle = state[1],
-        rack_position = inputs[0],
-        given_arm_angle = given[0],
-        given_spin_angle = given[1],
-        given_upper_angle = given[2],
-        given_rack_displacement = given[3];
-
-    /* lower_arm: revolute joint */
-    const double
-        cos_arm_angle = cos(arm_angle),
-        sin_arm_angle = sin(arm_angle);
-
-    /* transformer: upper_arm held by knuckle */
-    const double
-        at_lower_ball_joint_y = c->design_lower_arm_rear_y - c->lower_arm_radius*sin_arm_angle,
-        at_lower_ball_joint_z = c->design_lower_arm_rear_z + c->lower_arm_radius*cos_arm_angle;
-
-    /* closure residuals */
-    const double
-        shared_1 = sin(given_upper_angle),
-        shared_2 = cos(given_upper_angle),
-        given_opening_upper_hinge_x = c->constant_56 + c->constant_54*shared_1 -
-            c->constant_55*shared_2,
-        given_opening_upper_hinge_y = c->constant_60 - c->constant_58*shared_1 -
-            (c->constant_59*shared_2 + at_lower_ball_joint_y),
-        given_opening_upper_hinge_z = c->constant_64 + c->constant_62*shared_1 -
-            (c->constant_63*shared_2 + at_lower_ball_joint_z);
-
-    /* residuals */
-    out[0] = given_arm_angle - arm_angle; /* g_arm_angle */
-    out[1] = given_spin_angle - spin_angle; /* g_spin_angle */
-    out[2] = sqrt(given_opening_upper_hinge_x*given_opening_upper_hinge_x +
-        given_opening_upper_hinge_y*given_opening_upper_hinge_y +
-        given_opening_upper_hinge_z*given_opening_upper_hinge_z) - c->knuckle_length; /*
-        g_upper_angle */
-    out[3] = given_rack_displacement - rack_position; /* g_rack_displacement */
-
-    unsigned status = not_finite(out, 4) * DOUBLE_WISHBONE_STATUS_NOT_FINITE;
-    return (int)status;
-}
-
-int double_wishbone_signals(const double *restrict constants, const double *restrict state,
-                            const double *restrict inputs, double *restrict out)
+status_word double_wishbone_signals(const double *restrict constants, const double *restrict state,
+                                    const double *restrict inputs, double *restrict out)
 {
     const struct double_wishbone_constants *const c = (const void *)constants;
     const double
@@ -2436,19 +2406,19 @@ int double_wishbone_signals(const double *restrict constants, const double *rest
     out[11] = atan2(-spin_axis_now_x, spin_axis_now_y); /* steer */
     out[12] = tyre_force; /* tyre_force */
 
-    unsigned status = !(upper_arm_reach_squared > c->upper_arm_reach_squared_floor) * DOUBLE_WISHBONE_STATUS_UPPER_ARM_REACH_SQUARED;
-    status |= !(upper_arm_closure > c->upper_arm_closure_floor) * DOUBLE_WISHBONE_STATUS_UPPER_ARM_CLOSURE;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * DOUBLE_WISHBONE_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * DOUBLE_WISHBONE_STATUS_KNUCKLE_CLOSURE;
-    status |= !(spring_length_squared > c->spring_length_squared_floor) * DOUBLE_WISHBONE_STATUS_SPRING_LENGTH_SQUARED;
-    status |= !(cos_camber_squared > 1e-10) * DOUBLE_WISHBONE_STATUS_COS_CAMBER_SQUARED;
-    status |= !(mass_arm_angle_arm_angle > 1e-280) * DOUBLE_WISHBONE_STATUS_PIVOT_ARM_ANGLE;
-    status |= not_finite(out, 13) * DOUBLE_WISHBONE_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(upper_arm_reach_squared, c->upper_arm_reach_squared_floor, DOUBLE_WISHBONE_STATUS_UPPER_ARM_REACH_SQUARED);
+    status |= guard_bit(upper_arm_closure, c->upper_arm_closure_floor, DOUBLE_WISHBONE_STATUS_UPPER_ARM_CLOSURE);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, DOUBLE_WISHBONE_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, DOUBLE_WISHBONE_STATUS_KNUCKLE_CLOSURE);
+    status |= guard_bit(spring_length_squared, c->spring_length_squared_floor, DOUBLE_WISHBONE_STATUS_SPRING_LENGTH_SQUARED);
+    status |= guard_bit(cos_camber_squared, 1e-10, DOUBLE_WISHBONE_STATUS_COS_CAMBER_SQUARED);
+    status |= guard_bit(mass_arm_angle_arm_angle, 1e-280, DOUBLE_WISHBONE_STATUS_PIVOT_ARM_ANGLE);
+    status |= finite_bit(out, 13, DOUBLE_WISHBONE_STATUS_NOT_FINITE);
+    return status;
 }
 
-int double_wishbone_margins(const double *restrict constants, const double *restrict state,
-                            const double *restrict inputs, double *restrict out)
+status_word double_wishbone_margins(const double *restrict constants, const double *restrict state,
+                                    const double *restrict inputs, double *restrict out)
 {
     const struct double_wishbone_constants *const c = (const void *)constants;
     const double
@@ -2705,12 +2675,61 @@ int double_wishbone_margins(const double *restrict constants, const double *rest
     out[6] = cos_camber_squared - 1e-10; /* cos_camber_squared */
     out[7] = mass_arm_angle_arm_angle - 1e-280; /* pivot_arm_angle */
 
-    unsigned status = not_finite(out, 8) * DOUBLE_WISHBONE_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = finite_bit(out, 8, DOUBLE_WISHBONE_STATUS_NOT_FINITE);
+    return status;
 }
 
-int double_wishbone_dynamics(const double *restrict constants, const double *restrict state,
-                             const double *restrict inputs, double *restrict out)
+#ifndef KINTRAFO_LANES /* what no simulation evaluates */
+
+status_word double_wishbone_residuals(const double *restrict constants, const double *restrict state,
+                                      const double *restrict inputs, const double *restrict given, double *restrict out)
+{
+    const struct double_wishbone_constants *const c = (const void *)constants;
+    const double
+        arm_angle = state[0],
+        spin_angle = state[1],
+        rack_position = inputs[0],
+        given_arm_angle = given[0],
+        given_spin_angle = given[1],
+        given_upper_angle = given[2],
+        given_rack_displacement = given[3];
+
+    /* lower_arm: revolute joint */
+    const double
+        cos_arm_angle = cos(arm_angle),
+        sin_arm_angle = sin(arm_angle);
+
+    /* transformer: upper_arm held by knuckle */
+    const double
+        at_lower_ball_joint_y = c->design_lower_arm_rear_y - c->lower_arm_radius*sin_arm_angle,
+        at_lower_ball_joint_z = c->design_lower_arm_rear_z + c->lower_arm_radius*cos_arm_angle;
+
+    /* closure residuals */
+    const double
+        shared_1 = sin(given_upper_angle),
+        shared_2 = cos(given_upper_angle),
+        given_opening_upper_hinge_x = c->constant_56 + c->constant_54*shared_1 -
+            c->constant_55*shared_2,
+        given_opening_upper_hinge_y = c->constant_60 - c->constant_58*shared_1 -
+            (c->constant_59*shared_2 + at_lower_ball_joint_y),
+        given_opening_upper_hinge_z = c->constant_64 + c->constant_62*shared_1 -
+            (c->constant_63*shared_2 + at_lower_ball_joint_z);
+
+    /* residuals */
+    out[0] = given_arm_angle - arm_angle; /* g_arm_angle */
+    out[1] = given_spin_angle - spin_angle; /* g_spin_angle */
+    out[2] = sqrt(given_opening_upper_hinge_x*given_opening_upper_hinge_x +
+        given_opening_upper_hinge_y*given_opening_upper_hinge_y +
+        given_opening_upper_hinge_z*given_opening_upper_hinge_z) - c->knuckle_length; /*
+        g_upper_angle */
+    out[3] = given_rack_displacement - rack_position; /* g_rack_displacement */
+
+    status_word status = finite_bit(out, 4, DOUBLE_WISHBONE_STATUS_NOT_FINITE);
+    return status;
+}
+
+status_word double_wishbone_dynamics(const double *restrict constants, const double *restrict state,
+                                     const double *restrict inputs, double *restrict out)
 {
     const struct double_wishbone_constants *const c = (const void *)constants;
     const double
@@ -3189,20 +3208,20 @@ int double_wishbone_dynamics(const double *restrict constants, const double *res
 
     /* forces */
     out[6] = force_of_arm_angle; /* Q[arm_angle] */
-    out[7] = 0.0;
+    out[7] = number(0.0);
 
-    unsigned status = !(upper_arm_reach_squared > c->upper_arm_reach_squared_floor) * DOUBLE_WISHBONE_STATUS_UPPER_ARM_REACH_SQUARED;
-    status |= !(upper_arm_closure > c->upper_arm_closure_floor) * DOUBLE_WISHBONE_STATUS_UPPER_ARM_CLOSURE;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * DOUBLE_WISHBONE_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * DOUBLE_WISHBONE_STATUS_KNUCKLE_CLOSURE;
-    status |= !(spring_length_squared > c->spring_length_squared_floor) * DOUBLE_WISHBONE_STATUS_SPRING_LENGTH_SQUARED;
-    status |= !(cos_camber_squared > 1e-10) * DOUBLE_WISHBONE_STATUS_COS_CAMBER_SQUARED;
-    status |= not_finite(out, 8) * DOUBLE_WISHBONE_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(upper_arm_reach_squared, c->upper_arm_reach_squared_floor, DOUBLE_WISHBONE_STATUS_UPPER_ARM_REACH_SQUARED);
+    status |= guard_bit(upper_arm_closure, c->upper_arm_closure_floor, DOUBLE_WISHBONE_STATUS_UPPER_ARM_CLOSURE);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, DOUBLE_WISHBONE_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, DOUBLE_WISHBONE_STATUS_KNUCKLE_CLOSURE);
+    status |= guard_bit(spring_length_squared, c->spring_length_squared_floor, DOUBLE_WISHBONE_STATUS_SPRING_LENGTH_SQUARED);
+    status |= guard_bit(cos_camber_squared, 1e-10, DOUBLE_WISHBONE_STATUS_COS_CAMBER_SQUARED);
+    status |= finite_bit(out, 8, DOUBLE_WISHBONE_STATUS_NOT_FINITE);
+    return status;
 }
 
-int double_wishbone_poses(const double *restrict constants, const double *restrict state,
-                          const double *restrict inputs, double *restrict out)
+status_word double_wishbone_poses(const double *restrict constants, const double *restrict state,
+                                  const double *restrict inputs, double *restrict out)
 {
     const struct double_wishbone_constants *const c = (const void *)constants;
     const double
@@ -3982,9 +4001,9 @@ int double_wishbone_poses(const double *restrict constants, const double *restri
         tie_rod Rzy */
     out[48] = c->constant_109*shared_52 + c->constant_110*shared_53 + c->constant_111*shared_54; /*
         tie_rod Rzz */
-    out[49] = 1.0; /* rack Rxx */
-    out[53] = 1.0; /* rack Ryy */
-    out[57] = 1.0; /* rack Rzz */
+    out[49] = number(1.0); /* rack Rxx */
+    out[53] = number(1.0); /* rack Ryy */
+    out[57] = number(1.0); /* rack Rzz */
     out[58] = c->constant_112 + c->upper_arm_second_in_chassis_x*shared_55 +
         c->upper_arm_third_in_chassis_x*shared_56; /* upper_arm Rxx */
     out[59] = c->constant_113 + c->upper_arm_second_in_chassis_y*shared_55 +
@@ -4021,7 +4040,7 @@ int double_wishbone_poses(const double *restrict constants, const double *restri
         wheel Rzy */
     out[75] = c->constant_124*shared_67 + c->constant_125*shared_68 + c->constant_126*shared_69; /*
         wheel Rzz */
-    out[50] = out[51] = out[52] = out[54] = out[55] = out[56] = 0.0;
+    out[50] = out[51] = out[52] = out[54] = out[55] = out[56] = number(0.0);
 
     /* velocities */
     out[76] = arm_angle_rate*c->work_x_x; /* lower_arm omega_x */
@@ -4100,19 +4119,19 @@ int double_wishbone_poses(const double *restrict constants, const double *restri
         c->work_z_y*shared_149); /* wheel velocity_y */
     out[111] = rack_velocity*(c->work_x_z*shared_150 + c->work_z_z*shared_152) +
         arm_angle_rate*(c->work_x_z*shared_147 + c->work_z_z*shared_149); /* wheel velocity_z */
-    out[94] = out[95] = out[96] = 0.0;
+    out[94] = out[95] = out[96] = number(0.0);
 
-    unsigned status = !(upper_arm_reach_squared > c->upper_arm_reach_squared_floor) * DOUBLE_WISHBONE_STATUS_UPPER_ARM_REACH_SQUARED;
-    status |= !(upper_arm_closure > c->upper_arm_closure_floor) * DOUBLE_WISHBONE_STATUS_UPPER_ARM_CLOSURE;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * DOUBLE_WISHBONE_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * DOUBLE_WISHBONE_STATUS_KNUCKLE_CLOSURE;
-    status |= !(tie_rod_cross_squared > 1e-10) * DOUBLE_WISHBONE_STATUS_TIE_ROD_CROSS_SQUARED;
-    status |= not_finite(out, 112) * DOUBLE_WISHBONE_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(upper_arm_reach_squared, c->upper_arm_reach_squared_floor, DOUBLE_WISHBONE_STATUS_UPPER_ARM_REACH_SQUARED);
+    status |= guard_bit(upper_arm_closure, c->upper_arm_closure_floor, DOUBLE_WISHBONE_STATUS_UPPER_ARM_CLOSURE);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, DOUBLE_WISHBONE_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, DOUBLE_WISHBONE_STATUS_KNUCKLE_CLOSURE);
+    status |= guard_bit(tie_rod_cross_squared, 1e-10, DOUBLE_WISHBONE_STATUS_TIE_ROD_CROSS_SQUARED);
+    status |= finite_bit(out, 112, DOUBLE_WISHBONE_STATUS_NOT_FINITE);
+    return status;
 }
 
-int double_wishbone_jacobians(const double *restrict constants, const double *restrict state,
-                              const double *restrict inputs, double *restrict out)
+status_word double_wishbone_jacobians(const double *restrict constants, const double *restrict state,
+                                      const double *restrict inputs, double *restrict out)
 {
     const struct double_wishbone_constants *const c = (const void *)constants;
     const double
@@ -4448,10 +4467,10 @@ int double_wishbone_jacobians(const double *restrict constants, const double *re
             wheel_side_z*wheel_velocity_arm_angle_2 + wheel_top_z*wheel_velocity_arm_angle_3;
 
     /* relative_jacobian by arm_angle, spin_angle */
-    out[0] = 1.0; /* arm_angle */
-    out[3] = 1.0; /* spin_angle */
+    out[0] = number(1.0); /* arm_angle */
+    out[3] = number(1.0); /* spin_angle */
     out[4] = angle_upper_hinge__by_arm_angle; /* upper_angle */
-    out[1] = out[2] = out[5] = out[6] = out[7] = 0.0;
+    out[1] = out[2] = out[5] = out[6] = out[7] = number(0.0);
 
     /* global_jacobian by arm_angle, spin_angle */
     out[8] = c->work_x_x; /* lower_arm omega_x */
@@ -4496,12 +4515,14 @@ int double_wishbone_jacobians(const double *restrict constants, const double *re
     out[54] = c->work_x_z*shared_44 + c->work_z_z*shared_46; /* wheel velocity_z */
     out[9] = out[11] = out[13] = out[15] = out[17] = out[19] = out[21] = out[23] = out[25] = out[27]
         = out[29] = out[31] = out[33] = out[35] = out[37] = out[39] = out[41] = out[43] = out[51] =
-        out[53] = out[55] = 0.0;
+        out[53] = out[55] = number(0.0);
 
-    unsigned status = !(upper_arm_reach_squared > c->upper_arm_reach_squared_floor) * DOUBLE_WISHBONE_STATUS_UPPER_ARM_REACH_SQUARED;
-    status |= !(upper_arm_closure > c->upper_arm_closure_floor) * DOUBLE_WISHBONE_STATUS_UPPER_ARM_CLOSURE;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * DOUBLE_WISHBONE_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * DOUBLE_WISHBONE_STATUS_KNUCKLE_CLOSURE;
-    status |= not_finite(out, 56) * DOUBLE_WISHBONE_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(upper_arm_reach_squared, c->upper_arm_reach_squared_floor, DOUBLE_WISHBONE_STATUS_UPPER_ARM_REACH_SQUARED);
+    status |= guard_bit(upper_arm_closure, c->upper_arm_closure_floor, DOUBLE_WISHBONE_STATUS_UPPER_ARM_CLOSURE);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, DOUBLE_WISHBONE_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, DOUBLE_WISHBONE_STATUS_KNUCKLE_CLOSURE);
+    status |= finite_bit(out, 56, DOUBLE_WISHBONE_STATUS_NOT_FINITE);
+    return status;
 }
+
+#endif

@@ -269,6 +269,8 @@ enum double_wishbone_status {
     DOUBLE_WISHBONE_STATUS_NOT_FINITE = 1 << 30 /* a result is NaN or infinite */
 };
 
+#ifndef KINTRAFO_LANES
+
 /*
  * Compute the constants of one parameter set.
  * Returns 0, or one plus the index of the first constant that is not finite,
@@ -354,6 +356,8 @@ int double_wishbone_jacobians(const double *restrict constants, const double *re
    (1436 add, 2026 multiply, 20 divide, 4 root, 2 trigonometric). */
 int double_wishbone_linearisation(const double *restrict constants, const double *restrict state,
                                   const double *restrict inputs, double *restrict out);
+
+#endif
 
 #ifdef __cplusplus
 #undef restrict

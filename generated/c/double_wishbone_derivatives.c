@@ -9,24 +9,63 @@
 
 #include <math.h>
 
+#ifndef KINTRAFO_LANES /* else all numbers are vectors, and what includes this file has these */
+typedef int status_word;
+
 /* The greater of two numbers; NaN for a NaN. One instruction, where fmax may be a call. */
 static inline double at_least(double x, double least)
 {
     return x < least ? least : x;
 }
 
-/* Whether any of some values is NaN or infinite. */
-static unsigned not_finite(const double *values, int count)
+/* One for what is positive, else zero. */
+static inline double is_positive(double x)
 {
-    unsigned found = 0;
+    return x > 0.0;
+}
+
+/* A number that depends on nothing. */
+static inline double number(double x)
+{
+    return x;
+}
+
+/* A bit, where a guarded quantity is not over its floor. */
+static inline status_word guard_bit(double quantity, double least, int bit)
+{
+    return !(quantity > least) * bit;
+}
+
+/* A bit, where any of some values is NaN or infinite. */
+static inline status_word finite_bit(const double *values, int count, int bit)
+{
+    status_word found = 0;
     for (int i = 0; i < count; ++i) {
         found |= !isfinite(values[i]);
     }
-    return found;
+    return found * bit;
 }
 
-int double_wishbone_rhs_jacobian(const double *restrict constants, const double *restrict state,
-                                 const double *restrict inputs, double *restrict out)
+/* One number or the other. */
+static inline status_word either(int applies, int code, status_word otherwise)
+{
+    return applies ? code : otherwise;
+}
+
+/* One plus the index of the first value that is NaN or infinite; 0: all are finite. */
+static inline status_word first_not_finite(const double *values, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        if (!isfinite(values[i])) {
+            return i + 1;
+        }
+    }
+    return 0;
+}
+#endif
+
+status_word double_wishbone_rhs_jacobian(const double *restrict constants, const double *restrict state,
+                                         const double *restrict inputs, double *restrict out)
 {
     const struct double_wishbone_constants *const c = (const void *)constants;
     const double
@@ -1240,29 +1279,29 @@ int double_wishbone_rhs_jacobian(const double *restrict constants, const double 
             -wheel_share_arm_angle*arm_angle_acceleration__spin_angle_rate;
 
     /* rhs_jacobian by arm_angle, spin_angle, arm_angle_rate, spin_angle_rate */
-    out[2] = 1.0; /* d(arm_angle)/dt */
-    out[7] = 1.0; /* d(spin_angle)/dt */
+    out[2] = number(1.0); /* d(arm_angle)/dt */
+    out[7] = number(1.0); /* d(spin_angle)/dt */
     out[8] = arm_angle_acceleration__arm_angle; /* d(arm_angle_rate)/dt */
     out[10] = arm_angle_acceleration__arm_angle_rate;
     out[11] = arm_angle_acceleration__spin_angle_rate;
     out[12] = spin_angle_acceleration__arm_angle; /* d(spin_angle_rate)/dt */
     out[14] = spin_angle_acceleration__arm_angle_rate;
     out[15] = spin_angle_acceleration__spin_angle_rate;
-    out[0] = out[1] = out[3] = out[4] = out[5] = out[6] = out[9] = out[13] = 0.0;
+    out[0] = out[1] = out[3] = out[4] = out[5] = out[6] = out[9] = out[13] = number(0.0);
 
-    unsigned status = !(upper_arm_reach_squared > c->upper_arm_reach_squared_floor) * DOUBLE_WISHBONE_STATUS_UPPER_ARM_REACH_SQUARED;
-    status |= !(upper_arm_closure > c->upper_arm_closure_floor) * DOUBLE_WISHBONE_STATUS_UPPER_ARM_CLOSURE;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * DOUBLE_WISHBONE_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * DOUBLE_WISHBONE_STATUS_KNUCKLE_CLOSURE;
-    status |= !(spring_length_squared > c->spring_length_squared_floor) * DOUBLE_WISHBONE_STATUS_SPRING_LENGTH_SQUARED;
-    status |= !(cos_camber_squared > 1e-10) * DOUBLE_WISHBONE_STATUS_COS_CAMBER_SQUARED;
-    status |= !(mass_arm_angle_arm_angle > 1e-280) * DOUBLE_WISHBONE_STATUS_PIVOT_ARM_ANGLE;
-    status |= not_finite(out, 16) * DOUBLE_WISHBONE_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(upper_arm_reach_squared, c->upper_arm_reach_squared_floor, DOUBLE_WISHBONE_STATUS_UPPER_ARM_REACH_SQUARED);
+    status |= guard_bit(upper_arm_closure, c->upper_arm_closure_floor, DOUBLE_WISHBONE_STATUS_UPPER_ARM_CLOSURE);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, DOUBLE_WISHBONE_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, DOUBLE_WISHBONE_STATUS_KNUCKLE_CLOSURE);
+    status |= guard_bit(spring_length_squared, c->spring_length_squared_floor, DOUBLE_WISHBONE_STATUS_SPRING_LENGTH_SQUARED);
+    status |= guard_bit(cos_camber_squared, 1e-10, DOUBLE_WISHBONE_STATUS_COS_CAMBER_SQUARED);
+    status |= guard_bit(mass_arm_angle_arm_angle, 1e-280, DOUBLE_WISHBONE_STATUS_PIVOT_ARM_ANGLE);
+    status |= finite_bit(out, 16, DOUBLE_WISHBONE_STATUS_NOT_FINITE);
+    return status;
 }
 
-int double_wishbone_rhs_jacobian_rack_held(const double *restrict constants, const double *restrict state,
-                                           const double *restrict inputs, double *restrict out)
+status_word double_wishbone_rhs_jacobian_rack_held(const double *restrict constants, const double *restrict state,
+                                                   const double *restrict inputs, double *restrict out)
 {
     const struct double_wishbone_constants *const c = (const void *)constants;
     const double
@@ -2099,28 +2138,28 @@ int double_wishbone_rhs_jacobian_rack_held(const double *restrict constants, con
             wheel_share_arm_angle*arm_angle_acceleration__arm_angle_rate;
 
     /* rhs_jacobian_rack_held by arm_angle, spin_angle, arm_angle_rate, spin_angle_rate */
-    out[2] = 1.0; /* d(arm_angle)/dt */
-    out[7] = 1.0; /* d(spin_angle)/dt */
+    out[2] = number(1.0); /* d(arm_angle)/dt */
+    out[7] = number(1.0); /* d(spin_angle)/dt */
     out[8] = arm_angle_acceleration__arm_angle; /* d(arm_angle_rate)/dt */
     out[10] = arm_angle_acceleration__arm_angle_rate;
     out[12] = spin_angle_acceleration__arm_angle; /* d(spin_angle_rate)/dt */
     out[14] = spin_angle_acceleration__arm_angle_rate;
     out[0] = out[1] = out[3] = out[4] = out[5] = out[6] = out[9] = out[11] = out[13] = out[15] =
-        0.0;
+        number(0.0);
 
-    unsigned status = !(upper_arm_reach_squared > c->upper_arm_reach_squared_floor) * DOUBLE_WISHBONE_STATUS_UPPER_ARM_REACH_SQUARED;
-    status |= !(upper_arm_closure > c->upper_arm_closure_floor) * DOUBLE_WISHBONE_STATUS_UPPER_ARM_CLOSURE;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * DOUBLE_WISHBONE_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * DOUBLE_WISHBONE_STATUS_KNUCKLE_CLOSURE;
-    status |= !(spring_length_squared > c->spring_length_squared_floor) * DOUBLE_WISHBONE_STATUS_SPRING_LENGTH_SQUARED;
-    status |= !(cos_camber_squared > 1e-10) * DOUBLE_WISHBONE_STATUS_COS_CAMBER_SQUARED;
-    status |= !(mass_arm_angle_arm_angle > 1e-280) * DOUBLE_WISHBONE_STATUS_PIVOT_ARM_ANGLE;
-    status |= not_finite(out, 16) * DOUBLE_WISHBONE_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(upper_arm_reach_squared, c->upper_arm_reach_squared_floor, DOUBLE_WISHBONE_STATUS_UPPER_ARM_REACH_SQUARED);
+    status |= guard_bit(upper_arm_closure, c->upper_arm_closure_floor, DOUBLE_WISHBONE_STATUS_UPPER_ARM_CLOSURE);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, DOUBLE_WISHBONE_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, DOUBLE_WISHBONE_STATUS_KNUCKLE_CLOSURE);
+    status |= guard_bit(spring_length_squared, c->spring_length_squared_floor, DOUBLE_WISHBONE_STATUS_SPRING_LENGTH_SQUARED);
+    status |= guard_bit(cos_camber_squared, 1e-10, DOUBLE_WISHBONE_STATUS_COS_CAMBER_SQUARED);
+    status |= guard_bit(mass_arm_angle_arm_angle, 1e-280, DOUBLE_WISHBONE_STATUS_PIVOT_ARM_ANGLE);
+    status |= finite_bit(out, 16, DOUBLE_WISHBONE_STATUS_NOT_FINITE);
+    return status;
 }
 
-int double_wishbone_linearisation(const double *restrict constants, const double *restrict state,
-                                  const double *restrict inputs, double *restrict out)
+status_word double_wishbone_linearisation(const double *restrict constants, const double *restrict state,
+                                          const double *restrict inputs, double *restrict out)
 {
     const struct double_wishbone_constants *const c = (const void *)constants;
     const double
@@ -4163,7 +4202,8 @@ int double_wishbone_linearisation(const double *restrict constants, const double
     out[17] = spin_angle_acceleration__rack_acceleration;
     out[18] = spin_angle_acceleration__spring_actuator;
     out[19] = spin_angle_acceleration__road_height;
-    out[0] = out[1] = out[2] = out[3] = out[4] = out[5] = out[6] = out[7] = out[8] = out[9] = 0.0;
+    out[0] = out[1] = out[2] = out[3] = out[4] = out[5] = out[6] = out[7] = out[8] = out[9] =
+        number(0.0);
 
     /* signals_jacobian by arm_angle, spin_angle, arm_angle_rate, spin_angle_rate */
     out[20] = spring_length__arm_angle; /* spring_length */
@@ -4235,7 +4275,7 @@ int double_wishbone_linearisation(const double *restrict constants, const double
     out[21] = out[22] = out[23] = out[25] = out[27] = out[29] = out[30] = out[31] = out[33] =
         out[35] = out[37] = out[38] = out[39] = out[41] = out[42] = out[43] = out[45] = out[46] =
         out[47] = out[49] = out[51] = out[53] = out[57] = out[58] = out[59] = out[61] = out[62] =
-        out[63] = out[65] = out[66] = out[67] = out[69] = out[70] = out[71] = 0.0;
+        out[63] = out[65] = out[66] = out[67] = out[69] = out[70] = out[71] = number(0.0);
 
     /* signals_input_jacobian by rack_position, rack_velocity, rack_acceleration, spring_actuator,
        road_height */
@@ -4302,15 +4342,15 @@ int double_wishbone_linearisation(const double *restrict constants, const double
         out[90] = out[91] = out[93] = out[94] = out[95] = out[96] = out[98] = out[99] = out[100] =
         out[101] = out[103] = out[104] = out[105] = out[106] = out[109] = out[110] = out[111] =
         out[118] = out[119] = out[120] = out[121] = out[123] = out[124] = out[125] = out[126] =
-        out[128] = out[129] = out[130] = out[131] = out[133] = out[134] = out[135] = 0.0;
+        out[128] = out[129] = out[130] = out[131] = out[133] = out[134] = out[135] = number(0.0);
 
-    unsigned status = !(upper_arm_reach_squared > c->upper_arm_reach_squared_floor) * DOUBLE_WISHBONE_STATUS_UPPER_ARM_REACH_SQUARED;
-    status |= !(upper_arm_closure > c->upper_arm_closure_floor) * DOUBLE_WISHBONE_STATUS_UPPER_ARM_CLOSURE;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * DOUBLE_WISHBONE_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * DOUBLE_WISHBONE_STATUS_KNUCKLE_CLOSURE;
-    status |= !(spring_length_squared > c->spring_length_squared_floor) * DOUBLE_WISHBONE_STATUS_SPRING_LENGTH_SQUARED;
-    status |= !(cos_camber_squared > 1e-10) * DOUBLE_WISHBONE_STATUS_COS_CAMBER_SQUARED;
-    status |= !(mass_arm_angle_arm_angle > 1e-280) * DOUBLE_WISHBONE_STATUS_PIVOT_ARM_ANGLE;
-    status |= not_finite(out, 137) * DOUBLE_WISHBONE_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(upper_arm_reach_squared, c->upper_arm_reach_squared_floor, DOUBLE_WISHBONE_STATUS_UPPER_ARM_REACH_SQUARED);
+    status |= guard_bit(upper_arm_closure, c->upper_arm_closure_floor, DOUBLE_WISHBONE_STATUS_UPPER_ARM_CLOSURE);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, DOUBLE_WISHBONE_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, DOUBLE_WISHBONE_STATUS_KNUCKLE_CLOSURE);
+    status |= guard_bit(spring_length_squared, c->spring_length_squared_floor, DOUBLE_WISHBONE_STATUS_SPRING_LENGTH_SQUARED);
+    status |= guard_bit(cos_camber_squared, 1e-10, DOUBLE_WISHBONE_STATUS_COS_CAMBER_SQUARED);
+    status |= guard_bit(mass_arm_angle_arm_angle, 1e-280, DOUBLE_WISHBONE_STATUS_PIVOT_ARM_ANGLE);
+    status |= finite_bit(out, 137, DOUBLE_WISHBONE_STATUS_NOT_FINITE);
+    return status;
 }

@@ -9,23 +9,62 @@
 
 #include <math.h>
 
+#ifndef KINTRAFO_LANES /* else all numbers are vectors, and what includes this file has these */
+typedef int status_word;
+
 /* The greater of two numbers; NaN for a NaN. One instruction, where fmax may be a call. */
 static inline double at_least(double x, double least)
 {
     return x < least ? least : x;
 }
 
-/* Whether any of some values is NaN or infinite. */
-static unsigned not_finite(const double *values, int count)
+/* One for what is positive, else zero. */
+static inline double is_positive(double x)
 {
-    unsigned found = 0;
+    return x > 0.0;
+}
+
+/* A number that depends on nothing. */
+static inline double number(double x)
+{
+    return x;
+}
+
+/* A bit, where a guarded quantity is not over its floor. */
+static inline status_word guard_bit(double quantity, double least, int bit)
+{
+    return !(quantity > least) * bit;
+}
+
+/* A bit, where any of some values is NaN or infinite. */
+static inline status_word finite_bit(const double *values, int count, int bit)
+{
+    status_word found = 0;
     for (int i = 0; i < count; ++i) {
         found |= !isfinite(values[i]);
     }
-    return found;
+    return found * bit;
 }
 
-int excavator_prepare(const double *restrict parameters, double *restrict constants)
+/* One number or the other. */
+static inline status_word either(int applies, int code, status_word otherwise)
+{
+    return applies ? code : otherwise;
+}
+
+/* One plus the index of the first value that is NaN or infinite; 0: all are finite. */
+static inline status_word first_not_finite(const double *values, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        if (!isfinite(values[i])) {
+            return i + 1;
+        }
+    }
+    return 0;
+}
+#endif
+
+status_word excavator_prepare(const double *restrict parameters, double *restrict constants)
 {
     struct excavator_constants *const c = (void *)constants;
     const double
@@ -535,68 +574,38 @@ int excavator_prepare(const double *restrict parameters, double *restrict consta
     c->bucket_barrel_bucket_bore_2 = c->bucket_barrel_guide_design_x*c->bucket_barrel_guide_design_x
         + c->bucket_barrel_guide_design_z*c->bucket_barrel_guide_design_z;
 
-    if (fabs(c->boom_arm_radius) <= c->boom_arm_radius_least) {
-        return EXCAVATOR_CONSTANT_COUNT + 1;
-    }
-    if (fabs(c->boom_reach_design) <= c->boom_arm_radius_least) {
-        return EXCAVATOR_CONSTANT_COUNT + 2;
-    }
-    if (fabs(c->boom_rod_height_design) <= c->boom_rod_height_design_least) {
-        return EXCAVATOR_CONSTANT_COUNT + 3;
-    }
-    if (fabs(c->arm_arm_radius) <= c->arm_arm_radius_least) {
-        return EXCAVATOR_CONSTANT_COUNT + 4;
-    }
-    if (fabs(c->arm_reach_design) <= c->arm_arm_radius_least) {
-        return EXCAVATOR_CONSTANT_COUNT + 5;
-    }
-    if (fabs(c->arm_rod_height_design) <= c->arm_rod_height_design_least) {
-        return EXCAVATOR_CONSTANT_COUNT + 6;
-    }
-    if (fabs(c->rocker_arm_radius) <= c->rocker_arm_radius_least) {
-        return EXCAVATOR_CONSTANT_COUNT + 7;
-    }
-    if (fabs(c->rocker_reach_design) <= c->rocker_arm_radius_least) {
-        return EXCAVATOR_CONSTANT_COUNT + 8;
-    }
-    if (fabs(c->rocker_rod_height_design) <= c->rocker_rod_height_design_least) {
-        return EXCAVATOR_CONSTANT_COUNT + 9;
-    }
-    if (fabs(c->bucket_arm_radius) <= c->bucket_arm_radius_least) {
-        return EXCAVATOR_CONSTANT_COUNT + 10;
-    }
-    if (fabs(c->link_length) <= c->bucket_arm_radius_least) {
-        return EXCAVATOR_CONSTANT_COUNT + 11;
-    }
-    if (fabs(c->bucket_reach_design) <= c->bucket_arm_radius_least) {
-        return EXCAVATOR_CONSTANT_COUNT + 12;
-    }
-    if (fabs(c->bucket_rod_height_design) <= c->bucket_rod_height_design_least) {
-        return EXCAVATOR_CONSTANT_COUNT + 13;
-    }
-    for (int i = 0; i < EXCAVATOR_CONSTANT_COUNT; ++i) {
-        if (!isfinite(constants[i])) {
-            return i + 1;
-        }
-    }
-    return 0;
+    status_word failed = first_not_finite(constants, EXCAVATOR_CONSTANT_COUNT);
+    failed = either(fabs(c->bucket_rod_height_design) <= c->bucket_rod_height_design_least, EXCAVATOR_CONSTANT_COUNT + 13, failed);
+    failed = either(fabs(c->bucket_reach_design) <= c->bucket_arm_radius_least, EXCAVATOR_CONSTANT_COUNT + 12, failed);
+    failed = either(fabs(c->link_length) <= c->bucket_arm_radius_least, EXCAVATOR_CONSTANT_COUNT + 11, failed);
+    failed = either(fabs(c->bucket_arm_radius) <= c->bucket_arm_radius_least, EXCAVATOR_CONSTANT_COUNT + 10, failed);
+    failed = either(fabs(c->rocker_rod_height_design) <= c->rocker_rod_height_design_least, EXCAVATOR_CONSTANT_COUNT + 9, failed);
+    failed = either(fabs(c->rocker_reach_design) <= c->rocker_arm_radius_least, EXCAVATOR_CONSTANT_COUNT + 8, failed);
+    failed = either(fabs(c->rocker_arm_radius) <= c->rocker_arm_radius_least, EXCAVATOR_CONSTANT_COUNT + 7, failed);
+    failed = either(fabs(c->arm_rod_height_design) <= c->arm_rod_height_design_least, EXCAVATOR_CONSTANT_COUNT + 6, failed);
+    failed = either(fabs(c->arm_reach_design) <= c->arm_arm_radius_least, EXCAVATOR_CONSTANT_COUNT + 5, failed);
+    failed = either(fabs(c->arm_arm_radius) <= c->arm_arm_radius_least, EXCAVATOR_CONSTANT_COUNT + 4, failed);
+    failed = either(fabs(c->boom_rod_height_design) <= c->boom_rod_height_design_least, EXCAVATOR_CONSTANT_COUNT + 3, failed);
+    failed = either(fabs(c->boom_reach_design) <= c->boom_arm_radius_least, EXCAVATOR_CONSTANT_COUNT + 2, failed);
+    failed = either(fabs(c->boom_arm_radius) <= c->boom_arm_radius_least, EXCAVATOR_CONSTANT_COUNT + 1, failed);
+    return failed;
 }
 
-int excavator_design_state(const double *restrict parameters, double *restrict state)
+status_word excavator_design_state(const double *restrict parameters, double *restrict state)
 {
     (void)parameters;
 
-    state[0] = 0.0;
-    state[1] = 0.0;
-    state[2] = 0.0;
-    state[3] = 0.0;
-    state[4] = 0.0;
-    state[5] = 0.0;
-    return 0;
+    state[0] = number(0.0);
+    state[1] = number(0.0);
+    state[2] = number(0.0);
+    state[3] = number(0.0);
+    state[4] = number(0.0);
+    state[5] = number(0.0);
+    return finite_bit(state, 6, EXCAVATOR_STATUS_NOT_FINITE);
 }
 
-int excavator_rhs(const double *restrict constants, const double *restrict state,
-                  const double *restrict inputs, double *restrict out)
+status_word excavator_rhs(const double *restrict constants, const double *restrict state,
+                          const double *restrict inputs, double *restrict out)
 {
     const struct excavator_constants *const c = (const void *)constants;
     const double
@@ -1634,279 +1643,25 @@ int excavator_rhs(const double *restrict constants, const double *restrict state
     out[4] = arm_stroke_acceleration; /* d(arm_stroke_rate)/dt */
     out[5] = bucket_stroke_acceleration; /* d(bucket_stroke_rate)/dt */
 
-    unsigned status = !(boom_barrel_extension > c->boom_arm_radius_least) * EXCAVATOR_STATUS_BOOM_BARREL_EXTENSION;
-    status |= !(boom_closure > c->boom_closure_floor) * EXCAVATOR_STATUS_BOOM_CLOSURE;
-    status |= !(arm_barrel_extension > c->arm_arm_radius_least) * EXCAVATOR_STATUS_ARM_BARREL_EXTENSION;
-    status |= !(arm_reach_squared > c->arm_reach_squared_floor) * EXCAVATOR_STATUS_ARM_REACH_SQUARED;
-    status |= !(arm_closure > c->arm_closure_floor) * EXCAVATOR_STATUS_ARM_CLOSURE;
-    status |= !(bucket_barrel_extension > c->rocker_arm_radius_least) * EXCAVATOR_STATUS_BUCKET_BARREL_EXTENSION;
-    status |= !(rocker_reach_squared > c->rocker_reach_squared_floor) * EXCAVATOR_STATUS_ROCKER_REACH_SQUARED;
-    status |= !(rocker_closure > c->rocker_closure_floor) * EXCAVATOR_STATUS_ROCKER_CLOSURE;
-    status |= !(bucket_reach_squared > c->bucket_reach_squared_floor) * EXCAVATOR_STATUS_BUCKET_REACH_SQUARED;
-    status |= !(bucket_closure > c->bucket_closure_floor) * EXCAVATOR_STATUS_BUCKET_CLOSURE;
-    status |= !(mass_boom_stroke_boom_stroke > 1e-280) * EXCAVATOR_STATUS_PIVOT_BOOM_STROKE;
-    status |= !(reduced_arm_stroke_arm_stroke_boom_stroke > 1e-280) * EXCAVATOR_STATUS_PIVOT_ARM_STROKE;
-    status |= !(reduced_bucket_stroke_bucket_stroke_arm_stroke > 1e-280) * EXCAVATOR_STATUS_PIVOT_BUCKET_STROKE;
-    status |= not_finite(out, 6) * EXCAVATOR_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(boom_barrel_extension, c->boom_arm_radius_least, EXCAVATOR_STATUS_BOOM_BARREL_EXTENSION);
+    status |= guard_bit(boom_closure, c->boom_closure_floor, EXCAVATOR_STATUS_BOOM_CLOSURE);
+    status |= guard_bit(arm_barrel_extension, c->arm_arm_radius_least, EXCAVATOR_STATUS_ARM_BARREL_EXTENSION);
+    status |= guard_bit(arm_reach_squared, c->arm_reach_squared_floor, EXCAVATOR_STATUS_ARM_REACH_SQUARED);
+    status |= guard_bit(arm_closure, c->arm_closure_floor, EXCAVATOR_STATUS_ARM_CLOSURE);
+    status |= guard_bit(bucket_barrel_extension, c->rocker_arm_radius_least, EXCAVATOR_STATUS_BUCKET_BARREL_EXTENSION);
+    status |= guard_bit(rocker_reach_squared, c->rocker_reach_squared_floor, EXCAVATOR_STATUS_ROCKER_REACH_SQUARED);
+    status |= guard_bit(rocker_closure, c->rocker_closure_floor, EXCAVATOR_STATUS_ROCKER_CLOSURE);
+    status |= guard_bit(bucket_reach_squared, c->bucket_reach_squared_floor, EXCAVATOR_STATUS_BUCKET_REACH_SQUARED);
+    status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_STATUS_BUCKET_CLOSURE);
+    status |= guard_bit(mass_boom_stroke_boom_stroke, 1e-280, EXCAVATOR_STATUS_PIVOT_BOOM_STROKE);
+    status |= guard_bit(reduced_arm_stroke_arm_stroke_boom_stroke, 1e-280, EXCAVATOR_STATUS_PIVOT_ARM_STROKE);
+    status |= guard_bit(reduced_bucket_stroke_bucket_stroke_arm_stroke, 1e-280, EXCAVATOR_STATUS_PIVOT_BUCKET_STROKE);
+    status |= finite_bit(out, 6, EXCAVATOR_STATUS_NOT_FINITE);
+    return status;
 }
 
-int excavator_residuals(const double *restrict constants, const double *restrict state,
-                        const double *restrict inputs, const double *restrict given, double *restrict out)
-{
-    const struct excavator_constants *const c = (const void *)constants;
-    (void)inputs;
-    const double
-        boom_stroke = state[0],
-        arm_stroke = state[1],
-        bucket_stroke = state[2],
-        given_boom_stroke = given[0],
-        given_arm_stroke = given[1],
-        given_bucket_stroke = given[2],
-        given_boom_angle = given[3],
-        given_arm_angle = given[4],
-        given_rocker_angle = given[5],
-        given_link_angle = given[6],
-        given_bucket_angle = given[7],
-        given_boom_cylinder_angle = given[8],
-        given_arm_cylinder_angle = given[9],
-        given_bucket_cylinder_angle = given[10];
-
-    /* transformer: boom held by boom_barrel */
-    const double
-        boom_barrel_extension = c->boom_barrel_length_design + boom_stroke,
-        shared_1 = at_least(boom_barrel_extension, c->boom_arm_radius_least),
-        boom_barrel_length_squared = shared_1*shared_1,
-        boom_reach_needed = c->constant_4*(c->constant_3 - boom_barrel_length_squared),
-        boom_closure = c->boom_reach_squared - boom_reach_needed*boom_reach_needed,
-        boom_closure_root = sqrt(at_least(boom_closure, c->boom_closure_floor)),
-        boom_turn_cosine = c->boom_reach_inverse*boom_reach_needed,
-        boom_turn_sine = c->boom_reach_inverse_signed*boom_closure_root,
-        boom_arm_x = c->boom_reach_x*boom_turn_cosine + c->boom_reach_z*boom_turn_sine,
-        boom_arm_z = c->boom_reach_z*boom_turn_cosine - c->boom_reach_x*boom_turn_sine;
-
-    /* boom_barrel and boom_rod: telescope */
-    const double
-        at_boom_rod_pin_x = c->boom_foot_x + c->boom_arm_radius*boom_arm_x,
-        at_boom_rod_pin_z = c->boom_foot_z + c->boom_arm_radius*boom_arm_z,
-        boom_barrel_span_x = at_boom_rod_pin_x - c->boom_barrel_pin_x,
-        boom_barrel_span_z = at_boom_rod_pin_z - c->boom_barrel_pin_z,
-        boom_barrel_extension_inverse = 1.0/shared_1,
-        boom_barrel_guide_x = boom_barrel_extension_inverse*boom_barrel_span_x,
-        boom_barrel_guide_z = boom_barrel_extension_inverse*boom_barrel_span_z;
-
-    /* transformer: arm held by arm_barrel */
-    const double
-        at_arm_pin_x = c->boom_foot_x + c->boom_arm_pin_2*boom_arm_x + c->boom_arm_pin_3*boom_arm_z,
-        at_arm_pin_z = c->boom_foot_z + c->boom_arm_pin_2*boom_arm_z - c->boom_arm_pin_3*boom_arm_x,
-        at_arm_barrel_pin_x = c->boom_foot_x + c->boom_arm_barrel_pin_2*boom_arm_x +
-            c->boom_arm_barrel_pin_3*boom_arm_z,
-        at_arm_barrel_pin_z = c->boom_foot_z + c->boom_arm_barrel_pin_2*boom_arm_z -
-            c->boom_arm_barrel_pin_3*boom_arm_x,
-        arm_reach_x = at_arm_barrel_pin_x - at_arm_pin_x,
-        shared_2 = -at_arm_pin_z,
-        arm_reach_z = at_arm_barrel_pin_z + shared_2,
-        arm_barrel_extension = c->arm_barrel_length_design + arm_stroke,
-        shared_3 = at_least(arm_barrel_extension, c->arm_arm_radius_least),
-        arm_barrel_length_squared = shared_3*shared_3,
-        arm_reach_squared = arm_reach_x*arm_reach_x + arm_reach_z*arm_reach_z,
-        shared_4 = at_least(arm_reach_squared, c->arm_reach_squared_floor),
-        arm_reach_needed = c->constant_8*(c->constant_7 - arm_barrel_length_squared + shared_4),
-        arm_closure = shared_4 - arm_reach_needed*arm_reach_needed,
-        arm_closure_root = sqrt(at_least(arm_closure, c->arm_closure_floor)),
-        arm_reach_inverse = 1.0/shared_4,
-        arm_reach_inverse_signed = c->arm_branch*arm_reach_inverse,
-        arm_turn_cosine = arm_reach_needed*arm_reach_inverse,
-        arm_turn_sine = arm_reach_inverse_signed*arm_closure_root,
-        arm_arm_x = arm_reach_x*arm_turn_cosine + arm_reach_z*arm_turn_sine,
-        arm_arm_z = arm_reach_z*arm_turn_cosine - arm_reach_x*arm_turn_sine;
-
-    /* arm_barrel and arm_rod: telescope */
-    const double
-        at_arm_rod_pin_x = at_arm_pin_x + c->arm_arm_radius*arm_arm_x,
-        at_arm_rod_pin_z = at_arm_pin_z + c->arm_arm_radius*arm_arm_z,
-        arm_barrel_span_x = at_arm_rod_pin_x - at_arm_barrel_pin_x,
-        arm_barrel_span_z = at_arm_rod_pin_z - at_arm_barrel_pin_z,
-        arm_barrel_extension_inverse = 1.0/shared_3,
-        arm_barrel_guide_x = arm_barrel_extension_inverse*arm_barrel_span_x,
-        arm_barrel_guide_z = arm_barrel_extension_inverse*arm_barrel_span_z;
-
-    /* transformer: rocker held by bucket_barrel */
-    const double
-        at_rocker_pin_x = at_arm_pin_x + c->arm_rocker_pin_2*arm_arm_x +
-            c->arm_rocker_pin_3*arm_arm_z,
-        at_rocker_pin_z = at_arm_pin_z + c->arm_rocker_pin_2*arm_arm_z -
-            c->arm_rocker_pin_3*arm_arm_x,
-        at_bucket_barrel_pin_x = at_arm_pin_x + c->arm_bucket_barrel_pin_2*arm_arm_x +
-            c->arm_bucket_barrel_pin_3*arm_arm_z,
-        at_bucket_barrel_pin_z = at_arm_pin_z + c->arm_bucket_barrel_pin_2*arm_arm_z -
-            c->arm_bucket_barrel_pin_3*arm_arm_x,
-        rocker_reach_x = at_bucket_barrel_pin_x - at_rocker_pin_x,
-        shared_5 = -at_rocker_pin_z,
-        rocker_reach_z = at_bucket_barrel_pin_z + shared_5,
-        bucket_barrel_extension = c->bucket_barrel_length_design + bucket_stroke,
-        shared_6 = at_least(bucket_barrel_extension, c->rocker_arm_radius_least),
-        bucket_barrel_length_squared = shared_6*shared_6,
-        rocker_reach_squared = rocker_reach_x*rocker_reach_x + rocker_reach_z*rocker_reach_z,
-        shared_7 = at_least(rocker_reach_squared, c->rocker_reach_squared_floor),
-        rocker_reach_needed = c->constant_12*(c->constant_11 - bucket_barrel_length_squared +
-            shared_7),
-        rocker_closure = shared_7 - rocker_reach_needed*rocker_reach_needed,
-        rocker_closure_root = sqrt(at_least(rocker_closure, c->rocker_closure_floor)),
-        rocker_reach_inverse = 1.0/shared_7,
-        rocker_reach_inverse_signed = c->rocker_branch*rocker_reach_inverse,
-        rocker_turn_cosine = rocker_reach_needed*rocker_reach_inverse,
-        rocker_turn_sine = rocker_reach_inverse_signed*rocker_closure_root,
-        rocker_arm_x = rocker_reach_x*rocker_turn_cosine + rocker_reach_z*rocker_turn_sine,
-        rocker_arm_z = rocker_reach_z*rocker_turn_cosine - rocker_reach_x*rocker_turn_sine;
-
-    /* bucket_barrel and bucket_rod: telescope */
-    const double
-        at_knee_x = at_rocker_pin_x + c->rocker_arm_radius*rocker_arm_x,
-        at_knee_z = at_rocker_pin_z + c->rocker_arm_radius*rocker_arm_z,
-        shared_8 = -at_knee_x,
-        bucket_barrel_span_x = -at_bucket_barrel_pin_x - shared_8,
-        shared_9 = -at_knee_z,
-        bucket_barrel_span_z = -at_bucket_barrel_pin_z - shared_9,
-        bucket_barrel_extension_inverse = 1.0/shared_6,
-        bucket_barrel_guide_x = bucket_barrel_extension_inverse*bucket_barrel_span_x,
-        bucket_barrel_guide_z = bucket_barrel_extension_inverse*bucket_barrel_span_z;
-
-    /* transformer: bucket held by link */
-    const double
-        at_bucket_pin_x = at_arm_pin_x + c->arm_bucket_pin_2*arm_arm_x +
-            c->arm_bucket_pin_3*arm_arm_z,
-        at_bucket_pin_z = at_arm_pin_z + c->arm_bucket_pin_2*arm_arm_z -
-            c->arm_bucket_pin_3*arm_arm_x,
-        bucket_reach_x = -at_bucket_pin_x - shared_8,
-        bucket_reach_z = -at_bucket_pin_z - shared_9,
-        bucket_reach_squared = bucket_reach_x*bucket_reach_x + bucket_reach_z*bucket_reach_z,
-        shared_10 = at_least(bucket_reach_squared, c->bucket_reach_squared_floor),
-        bucket_reach_needed = c->constant_18*(c->constant_17 + shared_10),
-        bucket_closure = shared_10 - bucket_reach_needed*bucket_reach_needed,
-        bucket_closure_root = sqrt(at_least(bucket_closure, c->bucket_closure_floor)),
-        bucket_reach_inverse = 1.0/shared_10,
-        bucket_reach_inverse_signed = c->bucket_branch*bucket_reach_inverse,
-        bucket_turn_cosine = bucket_reach_needed*bucket_reach_inverse,
-        bucket_turn_sine = bucket_reach_inverse_signed*bucket_closure_root,
-        bucket_arm_x = bucket_reach_x*bucket_turn_cosine + bucket_reach_z*bucket_turn_sine,
-        bucket_arm_z = bucket_reach_z*bucket_turn_cosine - bucket_reach_x*bucket_turn_sine;
-
-    /* link: pinned to bucket */
-    const double
-        at_link_pin_x = at_bucket_pin_x + c->bucket_arm_radius*bucket_arm_x,
-        at_link_pin_z = at_bucket_pin_z + c->bucket_arm_radius*bucket_arm_z,
-        shared_11 = -at_link_pin_x,
-        link_span_x = -at_knee_x - shared_11,
-        link_span_z = at_link_pin_z - at_knee_z,
-        link_arm_x = c->link_radius_inverse*link_span_x,
-        link_arm_z = c->link_radius_inverse*link_span_z;
-
-    /* closure residuals */
-    const double
-        shared_12 = cos(given_boom_angle),
-        shared_13 = sin(given_boom_angle),
-        given_opening_boom_hinge_x = c->boom_arm_design_x*shared_12 - c->boom_reach_x +
-            c->boom_arm_design_z*shared_13,
-        given_opening_boom_hinge_z = c->boom_arm_design_z*shared_12 - c->boom_reach_z -
-            c->boom_arm_design_x*shared_13,
-        shared_14 = sin(given_arm_angle),
-        shared_15 = cos(given_arm_angle),
-        shared_16 = c->boom_arm_pin_2 + c->constant_39*shared_14 - c->constant_40*shared_15,
-        shared_17 = c->boom_arm_pin_3 - c->constant_39*shared_15 - c->constant_40*shared_14,
-        given_opening_arm_hinge_x = c->boom_foot_x + shared_16*boom_arm_x + shared_17*boom_arm_z -
-            at_arm_barrel_pin_x,
-        given_opening_arm_hinge_z = c->boom_foot_z + shared_16*boom_arm_z - shared_17*boom_arm_x -
-            at_arm_barrel_pin_z,
-        shared_18 = sin(given_rocker_angle),
-        shared_19 = cos(given_rocker_angle),
-        shared_20 = c->arm_rocker_pin_3 + c->constant_41*shared_18 + c->constant_42*shared_19,
-        shared_21 = c->arm_rocker_pin_2 + c->constant_41*shared_19 - c->constant_42*shared_18,
-        given_opening_rocker_hinge_x = at_arm_pin_x + shared_21*arm_arm_x + shared_20*arm_arm_z -
-            at_bucket_barrel_pin_x,
-        given_opening_rocker_hinge_z = shared_21*arm_arm_z - shared_2 - shared_20*arm_arm_x -
-            at_bucket_barrel_pin_z,
-        shared_22 = sin(given_link_angle),
-        shared_23 = cos(given_link_angle),
-        shared_24 = c->rocker_link_pin_3*shared_23 - c->constant_43*shared_22,
-        shared_25 = c->rocker_arm_radius - c->constant_43*shared_23 -
-            c->rocker_link_pin_3*shared_22,
-        given_opening_knee_hinge_x = at_rocker_pin_x + shared_25*rocker_arm_x +
-            shared_24*rocker_arm_z + shared_11,
-        given_opening_knee_hinge_z = shared_25*rocker_arm_z - shared_5 - shared_24*rocker_arm_x -
-            at_link_pin_z,
-        shared_26 = sin(given_bucket_angle),
-        shared_27 = cos(given_bucket_angle),
-        shared_28 = c->arm_bucket_pin_2 + c->constant_44*shared_26 - c->constant_45*shared_27,
-        shared_29 = c->arm_bucket_pin_3 - c->constant_44*shared_27 - c->constant_45*shared_26,
-        given_opening_bucket_hinge_x = at_arm_pin_x + shared_28*arm_arm_x + shared_29*arm_arm_z +
-            shared_8,
-        given_opening_bucket_hinge_z = shared_28*arm_arm_z - shared_2 - shared_29*arm_arm_x -
-            at_knee_z;
-
-    /* results */
-    const double
-        shared_30 = c->arm_barrel_hinge_start_2_on_boom_y*boom_arm_x +
-            c->arm_barrel_hinge_start_2_on_boom_z*boom_arm_z,
-        shared_31 = 0.5*arm_barrel_guide_x,
-        shared_32 = c->arm_barrel_hinge_start_2_on_boom_y*boom_arm_z -
-            c->arm_barrel_hinge_start_2_on_boom_z*boom_arm_x,
-        shared_33 = -shared_30,
-        shared_34 = 0.5*arm_barrel_guide_z,
-        shared_35 = c->bucket_barrel_hinge_start_2_on_arm_y*arm_arm_x +
-            c->bucket_barrel_hinge_start_2_on_arm_z*arm_arm_z,
-        shared_36 = 0.5*bucket_barrel_guide_x,
-        shared_37 = c->bucket_barrel_hinge_start_2_on_arm_y*arm_arm_z -
-            c->bucket_barrel_hinge_start_2_on_arm_z*arm_arm_x,
-        shared_38 = -shared_35,
-        shared_39 = 0.5*bucket_barrel_guide_z;
-
-    /* residuals */
-    out[0] = given_boom_stroke - boom_stroke; /* g_boom_stroke */
-    out[1] = given_arm_stroke - arm_stroke; /* g_arm_stroke */
-    out[2] = given_bucket_stroke - bucket_stroke; /* g_bucket_stroke */
-    out[3] = sqrt(given_opening_boom_hinge_x*given_opening_boom_hinge_x +
-        given_opening_boom_hinge_z*given_opening_boom_hinge_z) - sqrt(boom_barrel_length_squared);
-        /* g_boom_angle */
-    out[4] = sqrt(given_opening_arm_hinge_x*given_opening_arm_hinge_x +
-        given_opening_arm_hinge_z*given_opening_arm_hinge_z) - sqrt(arm_barrel_length_squared); /*
-        g_arm_angle */
-    out[5] = sqrt(given_opening_rocker_hinge_x*given_opening_rocker_hinge_x +
-        given_opening_rocker_hinge_z*given_opening_rocker_hinge_z) -
-        sqrt(bucket_barrel_length_squared); /* g_rocker_angle */
-    out[6] = given_opening_knee_hinge_x*link_arm_z - given_opening_knee_hinge_z*link_arm_x; /*
-        g_link_angle */
-    out[7] = sqrt(given_opening_bucket_hinge_z*given_opening_bucket_hinge_z +
-        given_opening_bucket_hinge_x*given_opening_bucket_hinge_x) - c->link_length; /*
-        g_bucket_angle */
-    out[8] = sin(given_boom_cylinder_angle)*(c->boom_barrel_guide_design_x*boom_barrel_guide_x +
-        c->boom_barrel_guide_design_z*boom_barrel_guide_z) -
-        cos(given_boom_cylinder_angle)*(c->boom_barrel_guide_design_z*boom_barrel_guide_x -
-        c->boom_barrel_guide_design_x*boom_barrel_guide_z); /* g_boom_cylinder_angle */
-    out[9] = sin(given_arm_cylinder_angle)*(shared_32*arm_barrel_guide_z + shared_30*shared_31 -
-        shared_33*shared_31) - cos(given_arm_cylinder_angle)*(shared_32*arm_barrel_guide_x +
-        shared_33*shared_34 - shared_30*shared_34); /* g_arm_cylinder_angle */
-    out[10] = sin(given_bucket_cylinder_angle)*(shared_37*bucket_barrel_guide_z +
-        shared_35*shared_36 - shared_38*shared_36) -
-        cos(given_bucket_cylinder_angle)*(shared_37*bucket_barrel_guide_x + shared_38*shared_39 -
-        shared_35*shared_39); /* g_bucket_cylinder_angle */
-
-    unsigned status = !(boom_barrel_extension > c->boom_arm_radius_least) * EXCAVATOR_STATUS_BOOM_BARREL_EXTENSION;
-    status |= !(boom_closure > c->boom_closure_floor) * EXCAVATOR_STATUS_BOOM_CLOSURE;
-    status |= !(arm_barrel_extension > c->arm_arm_radius_least) * EXCAVATOR_STATUS_ARM_BARREL_EXTENSION;
-    status |= !(arm_reach_squared > c->arm_reach_squared_floor) * EXCAVATOR_STATUS_ARM_REACH_SQUARED;
-    status |= !(arm_closure > c->arm_closure_floor) * EXCAVATOR_STATUS_ARM_CLOSURE;
-    status |= !(bucket_barrel_extension > c->rocker_arm_radius_least) * EXCAVATOR_STATUS_BUCKET_BARREL_EXTENSION;
-    status |= !(rocker_reach_squared > c->rocker_reach_squared_floor) * EXCAVATOR_STATUS_ROCKER_REACH_SQUARED;
-    status |= !(rocker_closure > c->rocker_closure_floor) * EXCAVATOR_STATUS_ROCKER_CLOSURE;
-    status |= !(bucket_reach_squared > c->bucket_reach_squared_floor) * EXCAVATOR_STATUS_BUCKET_REACH_SQUARED;
-    status |= !(bucket_closure > c->bucket_closure_floor) * EXCAVATOR_STATUS_BUCKET_CLOSURE;
-    status |= not_finite(out, 11) * EXCAVATOR_STATUS_NOT_FINITE;
-    return (int)status;
-}
-
-int excavator_margins(const double *restrict constants, const double *restrict state,
-                      const double *restrict inputs, double *restrict out)
+status_word excavator_margins(const double *restrict constants, const double *restrict state,
+                              const double *restrict inputs, double *restrict out)
 {
     const struct excavator_constants *const c = (const void *)constants;
     (void)inputs;
@@ -2518,12 +2273,268 @@ int excavator_margins(const double *restrict constants, const double *restrict s
     out[11] = reduced_arm_stroke_arm_stroke_boom_stroke - 1e-280; /* pivot_arm_stroke */
     out[12] = reduced_bucket_stroke_bucket_stroke_arm_stroke - 1e-280; /* pivot_bucket_stroke */
 
-    unsigned status = not_finite(out, 13) * EXCAVATOR_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = finite_bit(out, 13, EXCAVATOR_STATUS_NOT_FINITE);
+    return status;
 }
 
-int excavator_dynamics(const double *restrict constants, const double *restrict state,
-                       const double *restrict inputs, double *restrict out)
+#ifndef KINTRAFO_LANES /* what no simulation evaluates */
+
+status_word excavator_residuals(const double *restrict constants, const double *restrict state,
+                                const double *restrict inputs, const double *restrict given, double *restrict out)
+{
+    const struct excavator_constants *const c = (const void *)constants;
+    (void)inputs;
+    const double
+        boom_stroke = state[0],
+        arm_stroke = state[1],
+        bucket_stroke = state[2],
+        given_boom_stroke = given[0],
+        given_arm_stroke = given[1],
+        given_bucket_stroke = given[2],
+        given_boom_angle = given[3],
+        given_arm_angle = given[4],
+        given_rocker_angle = given[5],
+        given_link_angle = given[6],
+        given_bucket_angle = given[7],
+        given_boom_cylinder_angle = given[8],
+        given_arm_cylinder_angle = given[9],
+        given_bucket_cylinder_angle = given[10];
+
+    /* transformer: boom held by boom_barrel */
+    const double
+        boom_barrel_extension = c->boom_barrel_length_design + boom_stroke,
+        shared_1 = at_least(boom_barrel_extension, c->boom_arm_radius_least),
+        boom_barrel_length_squared = shared_1*shared_1,
+        boom_reach_needed = c->constant_4*(c->constant_3 - boom_barrel_length_squared),
+        boom_closure = c->boom_reach_squared - boom_reach_needed*boom_reach_needed,
+        boom_closure_root = sqrt(at_least(boom_closure, c->boom_closure_floor)),
+        boom_turn_cosine = c->boom_reach_inverse*boom_reach_needed,
+        boom_turn_sine = c->boom_reach_inverse_signed*boom_closure_root,
+        boom_arm_x = c->boom_reach_x*boom_turn_cosine + c->boom_reach_z*boom_turn_sine,
+        boom_arm_z = c->boom_reach_z*boom_turn_cosine - c->boom_reach_x*boom_turn_sine;
+
+    /* boom_barrel and boom_rod: telescope */
+    const double
+        at_boom_rod_pin_x = c->boom_foot_x + c->boom_arm_radius*boom_arm_x,
+        at_boom_rod_pin_z = c->boom_foot_z + c->boom_arm_radius*boom_arm_z,
+        boom_barrel_span_x = at_boom_rod_pin_x - c->boom_barrel_pin_x,
+        boom_barrel_span_z = at_boom_rod_pin_z - c->boom_barrel_pin_z,
+        boom_barrel_extension_inverse = 1.0/shared_1,
+        boom_barrel_guide_x = boom_barrel_extension_inverse*boom_barrel_span_x,
+        boom_barrel_guide_z = boom_barrel_extension_inverse*boom_barrel_span_z;
+
+    /* transformer: arm held by arm_barrel */
+    const double
+        at_arm_pin_x = c->boom_foot_x + c->boom_arm_pin_2*boom_arm_x + c->boom_arm_pin_3*boom_arm_z,
+        at_arm_pin_z = c->boom_foot_z + c->boom_arm_pin_2*boom_arm_z - c->boom_arm_pin_3*boom_arm_x,
+        at_arm_barrel_pin_x = c->boom_foot_x + c->boom_arm_barrel_pin_2*boom_arm_x +
+            c->boom_arm_barrel_pin_3*boom_arm_z,
+        at_arm_barrel_pin_z = c->boom_foot_z + c->boom_arm_barrel_pin_2*boom_arm_z -
+            c->boom_arm_barrel_pin_3*boom_arm_x,
+        arm_reach_x = at_arm_barrel_pin_x - at_arm_pin_x,
+        shared_2 = -at_arm_pin_z,
+        arm_reach_z = at_arm_barrel_pin_z + shared_2,
+        arm_barrel_extension = c->arm_barrel_length_design + arm_stroke,
+        shared_3 = at_least(arm_barrel_extension, c->arm_arm_radius_least),
+        arm_barrel_length_squared = shared_3*shared_3,
+        arm_reach_squared = arm_reach_x*arm_reach_x + arm_reach_z*arm_reach_z,
+        shared_4 = at_least(arm_reach_squared, c->arm_reach_squared_floor),
+        arm_reach_needed = c->constant_8*(c->constant_7 - arm_barrel_length_squared + shared_4),
+        arm_closure = shared_4 - arm_reach_needed*arm_reach_needed,
+        arm_closure_root = sqrt(at_least(arm_closure, c->arm_closure_floor)),
+        arm_reach_inverse = 1.0/shared_4,
+        arm_reach_inverse_signed = c->arm_branch*arm_reach_inverse,
+        arm_turn_cosine = arm_reach_needed*arm_reach_inverse,
+        arm_turn_sine = arm_reach_inverse_signed*arm_closure_root,
+        arm_arm_x = arm_reach_x*arm_turn_cosine + arm_reach_z*arm_turn_sine,
+        arm_arm_z = arm_reach_z*arm_turn_cosine - arm_reach_x*arm_turn_sine;
+
+    /* arm_barrel and arm_rod: telescope */
+    const double
+        at_arm_rod_pin_x = at_arm_pin_x + c->arm_arm_radius*arm_arm_x,
+        at_arm_rod_pin_z = at_arm_pin_z + c->arm_arm_radius*arm_arm_z,
+        arm_barrel_span_x = at_arm_rod_pin_x - at_arm_barrel_pin_x,
+        arm_barrel_span_z = at_arm_rod_pin_z - at_arm_barrel_pin_z,
+        arm_barrel_extension_inverse = 1.0/shared_3,
+        arm_barrel_guide_x = arm_barrel_extension_inverse*arm_barrel_span_x,
+        arm_barrel_guide_z = arm_barrel_extension_inverse*arm_barrel_span_z;
+
+    /* transformer: rocker held by bucket_barrel */
+    const double
+        at_rocker_pin_x = at_arm_pin_x + c->arm_rocker_pin_2*arm_arm_x +
+            c->arm_rocker_pin_3*arm_arm_z,
+        at_rocker_pin_z = at_arm_pin_z + c->arm_rocker_pin_2*arm_arm_z -
+            c->arm_rocker_pin_3*arm_arm_x,
+        at_bucket_barrel_pin_x = at_arm_pin_x + c->arm_bucket_barrel_pin_2*arm_arm_x +
+            c->arm_bucket_barrel_pin_3*arm_arm_z,
+        at_bucket_barrel_pin_z = at_arm_pin_z + c->arm_bucket_barrel_pin_2*arm_arm_z -
+            c->arm_bucket_barrel_pin_3*arm_arm_x,
+        rocker_reach_x = at_bucket_barrel_pin_x - at_rocker_pin_x,
+        shared_5 = -at_rocker_pin_z,
+        rocker_reach_z = at_bucket_barrel_pin_z + shared_5,
+        bucket_barrel_extension = c->bucket_barrel_length_design + bucket_stroke,
+        shared_6 = at_least(bucket_barrel_extension, c->rocker_arm_radius_least),
+        bucket_barrel_length_squared = shared_6*shared_6,
+        rocker_reach_squared = rocker_reach_x*rocker_reach_x + rocker_reach_z*rocker_reach_z,
+        shared_7 = at_least(rocker_reach_squared, c->rocker_reach_squared_floor),
+        rocker_reach_needed = c->constant_12*(c->constant_11 - bucket_barrel_length_squared +
+            shared_7),
+        rocker_closure = shared_7 - rocker_reach_needed*rocker_reach_needed,
+        rocker_closure_root = sqrt(at_least(rocker_closure, c->rocker_closure_floor)),
+        rocker_reach_inverse = 1.0/shared_7,
+        rocker_reach_inverse_signed = c->rocker_branch*rocker_reach_inverse,
+        rocker_turn_cosine = rocker_reach_needed*rocker_reach_inverse,
+        rocker_turn_sine = rocker_reach_inverse_signed*rocker_closure_root,
+        rocker_arm_x = rocker_reach_x*rocker_turn_cosine + rocker_reach_z*rocker_turn_sine,
+        rocker_arm_z = rocker_reach_z*rocker_turn_cosine - rocker_reach_x*rocker_turn_sine;
+
+    /* bucket_barrel and bucket_rod: telescope */
+    const double
+        at_knee_x = at_rocker_pin_x + c->rocker_arm_radius*rocker_arm_x,
+        at_knee_z = at_rocker_pin_z + c->rocker_arm_radius*rocker_arm_z,
+        shared_8 = -at_knee_x,
+        bucket_barrel_span_x = -at_bucket_barrel_pin_x - shared_8,
+        shared_9 = -at_knee_z,
+        bucket_barrel_span_z = -at_bucket_barrel_pin_z - shared_9,
+        bucket_barrel_extension_inverse = 1.0/shared_6,
+        bucket_barrel_guide_x = bucket_barrel_extension_inverse*bucket_barrel_span_x,
+        bucket_barrel_guide_z = bucket_barrel_extension_inverse*bucket_barrel_span_z;
+
+    /* transformer: bucket held by link */
+    const double
+        at_bucket_pin_x = at_arm_pin_x + c->arm_bucket_pin_2*arm_arm_x +
+            c->arm_bucket_pin_3*arm_arm_z,
+        at_bucket_pin_z = at_arm_pin_z + c->arm_bucket_pin_2*arm_arm_z -
+            c->arm_bucket_pin_3*arm_arm_x,
+        bucket_reach_x = -at_bucket_pin_x - shared_8,
+        bucket_reach_z = -at_bucket_pin_z - shared_9,
+        bucket_reach_squared = bucket_reach_x*bucket_reach_x + bucket_reach_z*bucket_reach_z,
+        shared_10 = at_least(bucket_reach_squared, c->bucket_reach_squared_floor),
+        bucket_reach_needed = c->constant_18*(c->constant_17 + shared_10),
+        bucket_closure = shared_10 - bucket_reach_needed*bucket_reach_needed,
+        bucket_closure_root = sqrt(at_least(bucket_closure, c->bucket_closure_floor)),
+        bucket_reach_inverse = 1.0/shared_10,
+        bucket_reach_inverse_signed = c->bucket_branch*bucket_reach_inverse,
+        bucket_turn_cosine = bucket_reach_needed*bucket_reach_inverse,
+        bucket_turn_sine = bucket_reach_inverse_signed*bucket_closure_root,
+        bucket_arm_x = bucket_reach_x*bucket_turn_cosine + bucket_reach_z*bucket_turn_sine,
+        bucket_arm_z = bucket_reach_z*bucket_turn_cosine - bucket_reach_x*bucket_turn_sine;
+
+    /* link: pinned to bucket */
+    const double
+        at_link_pin_x = at_bucket_pin_x + c->bucket_arm_radius*bucket_arm_x,
+        at_link_pin_z = at_bucket_pin_z + c->bucket_arm_radius*bucket_arm_z,
+        shared_11 = -at_link_pin_x,
+        link_span_x = -at_knee_x - shared_11,
+        link_span_z = at_link_pin_z - at_knee_z,
+        link_arm_x = c->link_radius_inverse*link_span_x,
+        link_arm_z = c->link_radius_inverse*link_span_z;
+
+    /* closure residuals */
+    const double
+        shared_12 = cos(given_boom_angle),
+        shared_13 = sin(given_boom_angle),
+        given_opening_boom_hinge_x = c->boom_arm_design_x*shared_12 - c->boom_reach_x +
+            c->boom_arm_design_z*shared_13,
+        given_opening_boom_hinge_z = c->boom_arm_design_z*shared_12 - c->boom_reach_z -
+            c->boom_arm_design_x*shared_13,
+        shared_14 = sin(given_arm_angle),
+        shared_15 = cos(given_arm_angle),
+        shared_16 = c->boom_arm_pin_2 + c->constant_39*shared_14 - c->constant_40*shared_15,
+        shared_17 = c->boom_arm_pin_3 - c->constant_39*shared_15 - c->constant_40*shared_14,
+        given_opening_arm_hinge_x = c->boom_foot_x + shared_16*boom_arm_x + shared_17*boom_arm_z -
+            at_arm_barrel_pin_x,
+        given_opening_arm_hinge_z = c->boom_foot_z + shared_16*boom_arm_z - shared_17*boom_arm_x -
+            at_arm_barrel_pin_z,
+        shared_18 = sin(given_rocker_angle),
+        shared_19 = cos(given_rocker_angle),
+        shared_20 = c->arm_rocker_pin_3 + c->constant_41*shared_18 + c->constant_42*shared_19,
+        shared_21 = c->arm_rocker_pin_2 + c->constant_41*shared_19 - c->constant_42*shared_18,
+        given_opening_rocker_hinge_x = at_arm_pin_x + shared_21*arm_arm_x + shared_20*arm_arm_z -
+            at_bucket_barrel_pin_x,
+        given_opening_rocker_hinge_z = shared_21*arm_arm_z - shared_2 - shared_20*arm_arm_x -
+            at_bucket_barrel_pin_z,
+        shared_22 = sin(given_link_angle),
+        shared_23 = cos(given_link_angle),
+        shared_24 = c->rocker_link_pin_3*shared_23 - c->constant_43*shared_22,
+        shared_25 = c->rocker_arm_radius - c->constant_43*shared_23 -
+            c->rocker_link_pin_3*shared_22,
+        given_opening_knee_hinge_x = at_rocker_pin_x + shared_25*rocker_arm_x +
+            shared_24*rocker_arm_z + shared_11,
+        given_opening_knee_hinge_z = shared_25*rocker_arm_z - shared_5 - shared_24*rocker_arm_x -
+            at_link_pin_z,
+        shared_26 = sin(given_bucket_angle),
+        shared_27 = cos(given_bucket_angle),
+        shared_28 = c->arm_bucket_pin_2 + c->constant_44*shared_26 - c->constant_45*shared_27,
+        shared_29 = c->arm_bucket_pin_3 - c->constant_44*shared_27 - c->constant_45*shared_26,
+        given_opening_bucket_hinge_x = at_arm_pin_x + shared_28*arm_arm_x + shared_29*arm_arm_z +
+            shared_8,
+        given_opening_bucket_hinge_z = shared_28*arm_arm_z - shared_2 - shared_29*arm_arm_x -
+            at_knee_z;
+
+    /* results */
+    const double
+        shared_30 = c->arm_barrel_hinge_start_2_on_boom_y*boom_arm_x +
+            c->arm_barrel_hinge_start_2_on_boom_z*boom_arm_z,
+        shared_31 = 0.5*arm_barrel_guide_x,
+        shared_32 = c->arm_barrel_hinge_start_2_on_boom_y*boom_arm_z -
+            c->arm_barrel_hinge_start_2_on_boom_z*boom_arm_x,
+        shared_33 = -shared_30,
+        shared_34 = 0.5*arm_barrel_guide_z,
+        shared_35 = c->bucket_barrel_hinge_start_2_on_arm_y*arm_arm_x +
+            c->bucket_barrel_hinge_start_2_on_arm_z*arm_arm_z,
+        shared_36 = 0.5*bucket_barrel_guide_x,
+        shared_37 = c->bucket_barrel_hinge_start_2_on_arm_y*arm_arm_z -
+            c->bucket_barrel_hinge_start_2_on_arm_z*arm_arm_x,
+        shared_38 = -shared_35,
+        shared_39 = 0.5*bucket_barrel_guide_z;
+
+    /* residuals */
+    out[0] = given_boom_stroke - boom_stroke; /* g_boom_stroke */
+    out[1] = given_arm_stroke - arm_stroke; /* g_arm_stroke */
+    out[2] = given_bucket_stroke - bucket_stroke; /* g_bucket_stroke */
+    out[3] = sqrt(given_opening_boom_hinge_x*given_opening_boom_hinge_x +
+        given_opening_boom_hinge_z*given_opening_boom_hinge_z) - sqrt(boom_barrel_length_squared);
+        /* g_boom_angle */
+    out[4] = sqrt(given_opening_arm_hinge_x*given_opening_arm_hinge_x +
+        given_opening_arm_hinge_z*given_opening_arm_hinge_z) - sqrt(arm_barrel_length_squared); /*
+        g_arm_angle */
+    out[5] = sqrt(given_opening_rocker_hinge_x*given_opening_rocker_hinge_x +
+        given_opening_rocker_hinge_z*given_opening_rocker_hinge_z) -
+        sqrt(bucket_barrel_length_squared); /* g_rocker_angle */
+    out[6] = given_opening_knee_hinge_x*link_arm_z - given_opening_knee_hinge_z*link_arm_x; /*
+        g_link_angle */
+    out[7] = sqrt(given_opening_bucket_hinge_z*given_opening_bucket_hinge_z +
+        given_opening_bucket_hinge_x*given_opening_bucket_hinge_x) - c->link_length; /*
+        g_bucket_angle */
+    out[8] = sin(given_boom_cylinder_angle)*(c->boom_barrel_guide_design_x*boom_barrel_guide_x +
+        c->boom_barrel_guide_design_z*boom_barrel_guide_z) -
+        cos(given_boom_cylinder_angle)*(c->boom_barrel_guide_design_z*boom_barrel_guide_x -
+        c->boom_barrel_guide_design_x*boom_barrel_guide_z); /* g_boom_cylinder_angle */
+    out[9] = sin(given_arm_cylinder_angle)*(shared_32*arm_barrel_guide_z + shared_30*shared_31 -
+        shared_33*shared_31) - cos(given_arm_cylinder_angle)*(shared_32*arm_barrel_guide_x +
+        shared_33*shared_34 - shared_30*shared_34); /* g_arm_cylinder_angle */
+    out[10] = sin(given_bucket_cylinder_angle)*(shared_37*bucket_barrel_guide_z +
+        shared_35*shared_36 - shared_38*shared_36) -
+        cos(given_bucket_cylinder_angle)*(shared_37*bucket_barrel_guide_x + shared_38*shared_39 -
+        shared_35*shared_39); /* g_bucket_cylinder_angle */
+
+    status_word status = guard_bit(boom_barrel_extension, c->boom_arm_radius_least, EXCAVATOR_STATUS_BOOM_BARREL_EXTENSION);
+    status |= guard_bit(boom_closure, c->boom_closure_floor, EXCAVATOR_STATUS_BOOM_CLOSURE);
+    status |= guard_bit(arm_barrel_extension, c->arm_arm_radius_least, EXCAVATOR_STATUS_ARM_BARREL_EXTENSION);
+    status |= guard_bit(arm_reach_squared, c->arm_reach_squared_floor, EXCAVATOR_STATUS_ARM_REACH_SQUARED);
+    status |= guard_bit(arm_closure, c->arm_closure_floor, EXCAVATOR_STATUS_ARM_CLOSURE);
+    status |= guard_bit(bucket_barrel_extension, c->rocker_arm_radius_least, EXCAVATOR_STATUS_BUCKET_BARREL_EXTENSION);
+    status |= guard_bit(rocker_reach_squared, c->rocker_reach_squared_floor, EXCAVATOR_STATUS_ROCKER_REACH_SQUARED);
+    status |= guard_bit(rocker_closure, c->rocker_closure_floor, EXCAVATOR_STATUS_ROCKER_CLOSURE);
+    status |= guard_bit(bucket_reach_squared, c->bucket_reach_squared_floor, EXCAVATOR_STATUS_BUCKET_REACH_SQUARED);
+    status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_STATUS_BUCKET_CLOSURE);
+    status |= finite_bit(out, 11, EXCAVATOR_STATUS_NOT_FINITE);
+    return status;
+}
+
+status_word excavator_dynamics(const double *restrict constants, const double *restrict state,
+                               const double *restrict inputs, double *restrict out)
 {
     const struct excavator_constants *const c = (const void *)constants;
     const double
@@ -3774,22 +3785,22 @@ int excavator_dynamics(const double *restrict constants, const double *restrict 
     out[13] = force_of_arm_stroke; /* Q[arm_stroke] */
     out[14] = force_of_bucket_stroke; /* Q[bucket_stroke] */
 
-    unsigned status = !(boom_barrel_extension > c->boom_arm_radius_least) * EXCAVATOR_STATUS_BOOM_BARREL_EXTENSION;
-    status |= !(boom_closure > c->boom_closure_floor) * EXCAVATOR_STATUS_BOOM_CLOSURE;
-    status |= !(arm_barrel_extension > c->arm_arm_radius_least) * EXCAVATOR_STATUS_ARM_BARREL_EXTENSION;
-    status |= !(arm_reach_squared > c->arm_reach_squared_floor) * EXCAVATOR_STATUS_ARM_REACH_SQUARED;
-    status |= !(arm_closure > c->arm_closure_floor) * EXCAVATOR_STATUS_ARM_CLOSURE;
-    status |= !(bucket_barrel_extension > c->rocker_arm_radius_least) * EXCAVATOR_STATUS_BUCKET_BARREL_EXTENSION;
-    status |= !(rocker_reach_squared > c->rocker_reach_squared_floor) * EXCAVATOR_STATUS_ROCKER_REACH_SQUARED;
-    status |= !(rocker_closure > c->rocker_closure_floor) * EXCAVATOR_STATUS_ROCKER_CLOSURE;
-    status |= !(bucket_reach_squared > c->bucket_reach_squared_floor) * EXCAVATOR_STATUS_BUCKET_REACH_SQUARED;
-    status |= !(bucket_closure > c->bucket_closure_floor) * EXCAVATOR_STATUS_BUCKET_CLOSURE;
-    status |= not_finite(out, 15) * EXCAVATOR_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(boom_barrel_extension, c->boom_arm_radius_least, EXCAVATOR_STATUS_BOOM_BARREL_EXTENSION);
+    status |= guard_bit(boom_closure, c->boom_closure_floor, EXCAVATOR_STATUS_BOOM_CLOSURE);
+    status |= guard_bit(arm_barrel_extension, c->arm_arm_radius_least, EXCAVATOR_STATUS_ARM_BARREL_EXTENSION);
+    status |= guard_bit(arm_reach_squared, c->arm_reach_squared_floor, EXCAVATOR_STATUS_ARM_REACH_SQUARED);
+    status |= guard_bit(arm_closure, c->arm_closure_floor, EXCAVATOR_STATUS_ARM_CLOSURE);
+    status |= guard_bit(bucket_barrel_extension, c->rocker_arm_radius_least, EXCAVATOR_STATUS_BUCKET_BARREL_EXTENSION);
+    status |= guard_bit(rocker_reach_squared, c->rocker_reach_squared_floor, EXCAVATOR_STATUS_ROCKER_REACH_SQUARED);
+    status |= guard_bit(rocker_closure, c->rocker_closure_floor, EXCAVATOR_STATUS_ROCKER_CLOSURE);
+    status |= guard_bit(bucket_reach_squared, c->bucket_reach_squared_floor, EXCAVATOR_STATUS_BUCKET_REACH_SQUARED);
+    status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_STATUS_BUCKET_CLOSURE);
+    status |= finite_bit(out, 15, EXCAVATOR_STATUS_NOT_FINITE);
+    return status;
 }
 
-int excavator_poses(const double *restrict constants, const double *restrict state,
-                    const double *restrict inputs, double *restrict out)
+status_word excavator_poses(const double *restrict constants, const double *restrict state,
+                            const double *restrict inputs, double *restrict out)
 {
     const struct excavator_constants *const c = (const void *)constants;
     (void)inputs;
@@ -4401,62 +4412,62 @@ int excavator_poses(const double *restrict constants, const double *restrict sta
     out[41] = at_bucket_pin_x + shared_65 + c->bucket_bucket_com_3*bucket_arm_z; /* bucket x */
     out[43] = at_bucket_pin_z + shared_66 - c->bucket_bucket_com_3*bucket_arm_x; /* bucket z */
     out[12] = out[15] = out[18] = out[21] = out[24] = out[27] = out[30] = out[33] = out[36] =
-        out[39] = out[42] = 0.0;
+        out[39] = out[42] = number(0.0);
 
     /* orientations */
     out[44] = shared_39; /* boom Rxx */
     out[46] = -shared_67; /* boom Rxz */
-    out[48] = 1.0; /* boom Ryy */
+    out[48] = number(1.0); /* boom Ryy */
     out[50] = shared_67; /* boom Rzx */
     out[52] = shared_39; /* boom Rzz */
     out[53] = shared_50; /* boom_barrel Rxx */
     out[55] = shared_69; /* boom_barrel Rxz */
-    out[57] = 1.0; /* boom_barrel Ryy */
+    out[57] = number(1.0); /* boom_barrel Ryy */
     out[59] = shared_68; /* boom_barrel Rzx */
     out[61] = shared_50; /* boom_barrel Rzz */
     out[62] = shared_50; /* boom_rod Rxx */
     out[64] = shared_69; /* boom_rod Rxz */
-    out[66] = 1.0; /* boom_rod Ryy */
+    out[66] = number(1.0); /* boom_rod Ryy */
     out[68] = shared_68; /* boom_rod Rzx */
     out[70] = shared_50; /* boom_rod Rzz */
     out[71] = shared_70; /* arm Rxx */
     out[73] = -shared_71; /* arm Rxz */
-    out[75] = 1.0; /* arm Ryy */
+    out[75] = number(1.0); /* arm Ryy */
     out[77] = shared_71; /* arm Rzx */
     out[79] = shared_70; /* arm Rzz */
     out[80] = shared_72; /* arm_barrel Rxx */
     out[82] = shared_74; /* arm_barrel Rxz */
-    out[84] = 1.0; /* arm_barrel Ryy */
+    out[84] = number(1.0); /* arm_barrel Ryy */
     out[86] = shared_73; /* arm_barrel Rzx */
     out[88] = shared_72; /* arm_barrel Rzz */
     out[89] = shared_72; /* arm_rod Rxx */
     out[91] = shared_74; /* arm_rod Rxz */
-    out[93] = 1.0; /* arm_rod Ryy */
+    out[93] = number(1.0); /* arm_rod Ryy */
     out[95] = shared_73; /* arm_rod Rzx */
     out[97] = shared_72; /* arm_rod Rzz */
     out[98] = shared_75; /* rocker Rxx */
     out[100] = -shared_76; /* rocker Rxz */
-    out[102] = 1.0; /* rocker Ryy */
+    out[102] = number(1.0); /* rocker Ryy */
     out[104] = shared_76; /* rocker Rzx */
     out[106] = shared_75; /* rocker Rzz */
     out[107] = shared_77; /* bucket_barrel Rxx */
     out[109] = shared_79; /* bucket_barrel Rxz */
-    out[111] = 1.0; /* bucket_barrel Ryy */
+    out[111] = number(1.0); /* bucket_barrel Ryy */
     out[113] = shared_78; /* bucket_barrel Rzx */
     out[115] = shared_77; /* bucket_barrel Rzz */
     out[116] = shared_77; /* bucket_rod Rxx */
     out[118] = shared_79; /* bucket_rod Rxz */
-    out[120] = 1.0; /* bucket_rod Ryy */
+    out[120] = number(1.0); /* bucket_rod Ryy */
     out[122] = shared_78; /* bucket_rod Rzx */
     out[124] = shared_77; /* bucket_rod Rzz */
     out[125] = shared_80; /* link Rxx */
     out[127] = -shared_81; /* link Rxz */
-    out[129] = 1.0; /* link Ryy */
+    out[129] = number(1.0); /* link Ryy */
     out[131] = shared_81; /* link Rzx */
     out[133] = shared_80; /* link Rzz */
     out[134] = shared_82; /* bucket Rxx */
     out[136] = -shared_83; /* bucket Rxz */
-    out[138] = 1.0; /* bucket Ryy */
+    out[138] = number(1.0); /* bucket Ryy */
     out[140] = shared_83; /* bucket Rzx */
     out[142] = shared_82; /* bucket Rzz */
     out[45] = out[47] = out[49] = out[51] = out[54] = out[56] = out[58] = out[60] = out[63] =
@@ -4464,7 +4475,7 @@ int excavator_poses(const double *restrict constants, const double *restrict sta
         out[85] = out[87] = out[90] = out[92] = out[94] = out[96] = out[99] = out[101] = out[103] =
         out[105] = out[108] = out[110] = out[112] = out[114] = out[117] = out[119] = out[121] =
         out[123] = out[126] = out[128] = out[130] = out[132] = out[135] = out[137] = out[139] =
-        out[141] = 0.0;
+        out[141] = number(0.0);
 
     /* velocities */
     out[144] = boom_stroke_rate*boom_turn_boom_stroke; /* boom omega_y */
@@ -4554,24 +4565,25 @@ int excavator_poses(const double *restrict constants, const double *restrict sta
     out[143] = out[145] = out[147] = out[149] = out[151] = out[153] = out[155] = out[157] = out[159]
         = out[161] = out[163] = out[165] = out[167] = out[169] = out[171] = out[173] = out[175] =
         out[177] = out[179] = out[181] = out[183] = out[185] = out[187] = out[189] = out[191] =
-        out[193] = out[195] = out[197] = out[199] = out[201] = out[203] = out[205] = out[207] = 0.0;
+        out[193] = out[195] = out[197] = out[199] = out[201] = out[203] = out[205] = out[207] =
+        number(0.0);
 
-    unsigned status = !(boom_barrel_extension > c->boom_arm_radius_least) * EXCAVATOR_STATUS_BOOM_BARREL_EXTENSION;
-    status |= !(boom_closure > c->boom_closure_floor) * EXCAVATOR_STATUS_BOOM_CLOSURE;
-    status |= !(arm_barrel_extension > c->arm_arm_radius_least) * EXCAVATOR_STATUS_ARM_BARREL_EXTENSION;
-    status |= !(arm_reach_squared > c->arm_reach_squared_floor) * EXCAVATOR_STATUS_ARM_REACH_SQUARED;
-    status |= !(arm_closure > c->arm_closure_floor) * EXCAVATOR_STATUS_ARM_CLOSURE;
-    status |= !(bucket_barrel_extension > c->rocker_arm_radius_least) * EXCAVATOR_STATUS_BUCKET_BARREL_EXTENSION;
-    status |= !(rocker_reach_squared > c->rocker_reach_squared_floor) * EXCAVATOR_STATUS_ROCKER_REACH_SQUARED;
-    status |= !(rocker_closure > c->rocker_closure_floor) * EXCAVATOR_STATUS_ROCKER_CLOSURE;
-    status |= !(bucket_reach_squared > c->bucket_reach_squared_floor) * EXCAVATOR_STATUS_BUCKET_REACH_SQUARED;
-    status |= !(bucket_closure > c->bucket_closure_floor) * EXCAVATOR_STATUS_BUCKET_CLOSURE;
-    status |= not_finite(out, 209) * EXCAVATOR_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(boom_barrel_extension, c->boom_arm_radius_least, EXCAVATOR_STATUS_BOOM_BARREL_EXTENSION);
+    status |= guard_bit(boom_closure, c->boom_closure_floor, EXCAVATOR_STATUS_BOOM_CLOSURE);
+    status |= guard_bit(arm_barrel_extension, c->arm_arm_radius_least, EXCAVATOR_STATUS_ARM_BARREL_EXTENSION);
+    status |= guard_bit(arm_reach_squared, c->arm_reach_squared_floor, EXCAVATOR_STATUS_ARM_REACH_SQUARED);
+    status |= guard_bit(arm_closure, c->arm_closure_floor, EXCAVATOR_STATUS_ARM_CLOSURE);
+    status |= guard_bit(bucket_barrel_extension, c->rocker_arm_radius_least, EXCAVATOR_STATUS_BUCKET_BARREL_EXTENSION);
+    status |= guard_bit(rocker_reach_squared, c->rocker_reach_squared_floor, EXCAVATOR_STATUS_ROCKER_REACH_SQUARED);
+    status |= guard_bit(rocker_closure, c->rocker_closure_floor, EXCAVATOR_STATUS_ROCKER_CLOSURE);
+    status |= guard_bit(bucket_reach_squared, c->bucket_reach_squared_floor, EXCAVATOR_STATUS_BUCKET_REACH_SQUARED);
+    status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_STATUS_BUCKET_CLOSURE);
+    status |= finite_bit(out, 209, EXCAVATOR_STATUS_NOT_FINITE);
+    return status;
 }
 
-int excavator_jacobians(const double *restrict constants, const double *restrict state,
-                        const double *restrict inputs, double *restrict out)
+status_word excavator_jacobians(const double *restrict constants, const double *restrict state,
+                                const double *restrict inputs, double *restrict out)
 {
     const struct excavator_constants *const c = (const void *)constants;
     (void)inputs;
@@ -5695,9 +5707,9 @@ int excavator_jacobians(const double *restrict constants, const double *restrict
         shared_175 = -shared_159;
 
     /* relative_jacobian by boom_stroke, arm_stroke, bucket_stroke */
-    out[0] = 1.0; /* boom_stroke */
-    out[4] = 1.0; /* arm_stroke */
-    out[8] = 1.0; /* bucket_stroke */
+    out[0] = number(1.0); /* boom_stroke */
+    out[4] = number(1.0); /* arm_stroke */
+    out[8] = number(1.0); /* bucket_stroke */
     out[9] = angle_boom_hinge__by_boom_stroke; /* boom_angle */
     out[12] = angle_arm_hinge__by_boom_stroke; /* arm_angle */
     out[13] = angle_arm_hinge__by_arm_stroke;
@@ -5717,63 +5729,63 @@ int excavator_jacobians(const double *restrict constants, const double *restrict
     out[31] = angle_bucket_barrel_hinge__by_arm_stroke;
     out[32] = angle_bucket_barrel_hinge__by_bucket_stroke;
     out[1] = out[2] = out[3] = out[5] = out[6] = out[7] = out[10] = out[11] = out[14] = out[25] =
-        out[26] = out[29] = 0.0;
+        out[26] = out[29] = number(0.0);
 
     /* absolute_jacobian by boom_stroke, arm_stroke, bucket_stroke, boom_angle, arm_angle,
        rocker_angle, link_angle, bucket_angle, boom_cylinder_angle, arm_cylinder_angle,
        bucket_cylinder_angle */
-    out[47] = 1.0; /* boom omega_y */
+    out[47] = number(1.0); /* boom omega_y */
     out[69] = shared_168 + at_boom_com_z; /* boom velocity_x */
     out[91] = shared_173 - at_boom_com_x; /* boom velocity_z */
-    out[118] = 1.0; /* boom_barrel omega_y */
+    out[118] = number(1.0); /* boom_barrel omega_y */
     out[140] = shared_155 + at_boom_barrel_com_z; /* boom_barrel velocity_x */
     out[162] = shared_174 - at_boom_barrel_com_x; /* boom_barrel velocity_z */
-    out[184] = 1.0; /* boom_rod omega_y */
+    out[184] = number(1.0); /* boom_rod omega_y */
     out[198] = c->boom_barrel_boom_bore_2*boom_barrel_guide_x_2; /* boom_rod velocity_x */
     out[206] = shared_155 + at_boom_rod_com_z;
     out[220] = c->boom_barrel_boom_bore_2*boom_barrel_guide_z_2; /* boom_rod velocity_z */
     out[228] = shared_174 - at_boom_rod_com_x;
-    out[245] = 1.0; /* arm omega_y */
-    out[246] = 1.0;
+    out[245] = number(1.0); /* arm omega_y */
+    out[246] = number(1.0);
     out[267] = shared_168 + at_arm_com_z; /* arm velocity_x */
     out[268] = shared_157 + at_arm_com_z;
     out[289] = shared_173 - at_arm_com_x; /* arm velocity_z */
     out[290] = -shared_156 - at_arm_com_x;
-    out[311] = 1.0; /* arm_barrel omega_y */
-    out[317] = 1.0;
+    out[311] = number(1.0); /* arm_barrel omega_y */
+    out[317] = number(1.0);
     out[333] = shared_168 + at_arm_barrel_com_z; /* arm_barrel velocity_x */
     out[339] = at_arm_barrel_com_z - at_arm_barrel_pin_z;
     out[355] = shared_173 - at_arm_barrel_com_x; /* arm_barrel velocity_z */
     out[361] = at_arm_barrel_pin_x - at_arm_barrel_com_x;
-    out[377] = 1.0; /* arm_rod omega_y */
-    out[383] = 1.0;
+    out[377] = number(1.0); /* arm_rod omega_y */
+    out[383] = number(1.0);
     out[397] = c->arm_barrel_arm_bore_2*arm_barrel_guide_x_2; /* arm_rod velocity_x */
     out[399] = shared_168 + at_arm_rod_com_z;
     out[405] = at_arm_rod_com_z - at_arm_barrel_pin_z;
     out[419] = c->arm_barrel_arm_bore_2*arm_barrel_guide_z_2; /* arm_rod velocity_z */
     out[421] = shared_173 - at_arm_rod_com_x;
     out[427] = at_arm_barrel_pin_x - at_arm_rod_com_x;
-    out[443] = 1.0; /* rocker omega_y */
-    out[444] = 1.0;
-    out[445] = 1.0;
+    out[443] = number(1.0); /* rocker omega_y */
+    out[444] = number(1.0);
+    out[445] = number(1.0);
     out[465] = shared_168 + at_rocker_com_z; /* rocker velocity_x */
     out[466] = at_rocker_com_z - at_arm_pin_z;
     out[467] = shared_160 + at_rocker_com_z;
     out[487] = shared_173 - at_rocker_com_x; /* rocker velocity_z */
     out[488] = at_arm_pin_x - at_rocker_com_x;
     out[489] = shared_175 - at_rocker_com_x;
-    out[509] = 1.0; /* bucket_barrel omega_y */
-    out[510] = 1.0;
-    out[516] = 1.0;
+    out[509] = number(1.0); /* bucket_barrel omega_y */
+    out[510] = number(1.0);
+    out[516] = number(1.0);
     out[531] = shared_168 + at_bucket_barrel_com_z; /* bucket_barrel velocity_x */
     out[532] = at_bucket_barrel_com_z - at_arm_pin_z;
     out[538] = at_bucket_barrel_com_z - at_bucket_barrel_pin_z_2;
     out[553] = shared_173 - at_bucket_barrel_com_x; /* bucket_barrel velocity_z */
     out[554] = at_arm_pin_x - at_bucket_barrel_com_x;
     out[560] = at_bucket_barrel_pin_x_2 - at_bucket_barrel_com_x;
-    out[575] = 1.0; /* bucket_rod omega_y */
-    out[576] = 1.0;
-    out[582] = 1.0;
+    out[575] = number(1.0); /* bucket_rod omega_y */
+    out[576] = number(1.0);
+    out[582] = number(1.0);
     out[596] = c->bucket_barrel_bucket_bore_2*bucket_barrel_guide_x_2; /* bucket_rod velocity_x */
     out[597] = shared_168 + at_bucket_rod_com_z;
     out[598] = shared_157 - shared_169;
@@ -5782,10 +5794,10 @@ int excavator_jacobians(const double *restrict constants, const double *restrict
     out[619] = shared_173 - at_bucket_rod_com_x;
     out[620] = at_arm_pin_x + shared_170;
     out[626] = at_bucket_barrel_pin_x_2 + shared_170;
-    out[641] = 1.0; /* link omega_y */
-    out[642] = 1.0;
-    out[643] = 1.0;
-    out[644] = 1.0;
+    out[641] = number(1.0); /* link omega_y */
+    out[642] = number(1.0);
+    out[643] = number(1.0);
+    out[644] = number(1.0);
     out[663] = shared_168 + at_link_com_z; /* link velocity_x */
     out[664] = shared_157 - shared_171;
     out[665] = shared_160 + at_link_com_z;
@@ -5794,9 +5806,9 @@ int excavator_jacobians(const double *restrict constants, const double *restrict
     out[686] = at_arm_pin_x + shared_172;
     out[687] = shared_175 - at_link_com_x;
     out[688] = at_knee_x_2 + shared_172;
-    out[707] = 1.0; /* bucket omega_y */
-    out[708] = 1.0;
-    out[711] = 1.0;
+    out[707] = number(1.0); /* bucket omega_y */
+    out[708] = number(1.0);
+    out[711] = number(1.0);
     out[729] = shared_168 + at_bucket_com_z; /* bucket velocity_x */
     out[730] = at_bucket_com_z - at_arm_pin_z;
     out[733] = at_bucket_com_z - at_bucket_pin_z_2;
@@ -5882,7 +5894,7 @@ int excavator_jacobians(const double *restrict constants, const double *restrict
         out[723] = out[724] = out[725] = out[726] = out[727] = out[728] = out[731] = out[732] =
         out[734] = out[735] = out[736] = out[737] = out[738] = out[739] = out[740] = out[741] =
         out[742] = out[743] = out[744] = out[745] = out[746] = out[747] = out[748] = out[749] =
-        out[750] = out[753] = out[754] = out[756] = out[757] = out[758] = 0.0;
+        out[750] = out[753] = out[754] = out[756] = out[757] = out[758] = number(0.0);
 
     /* global_jacobian by boom_stroke, arm_stroke, bucket_stroke */
     out[762] = boom_turn_boom_stroke; /* boom omega_y */
@@ -5988,18 +6000,20 @@ int excavator_jacobians(const double *restrict constants, const double *restrict
         out[898] = out[899] = out[903] = out[904] = out[905] = out[909] = out[910] = out[911] =
         out[915] = out[916] = out[917] = out[921] = out[922] = out[923] = out[927] = out[928] =
         out[929] = out[933] = out[934] = out[935] = out[939] = out[940] = out[941] = out[945] =
-        out[946] = out[947] = out[951] = out[952] = out[953] = 0.0;
+        out[946] = out[947] = out[951] = out[952] = out[953] = number(0.0);
 
-    unsigned status = !(boom_barrel_extension > c->boom_arm_radius_least) * EXCAVATOR_STATUS_BOOM_BARREL_EXTENSION;
-    status |= !(boom_closure > c->boom_closure_floor) * EXCAVATOR_STATUS_BOOM_CLOSURE;
-    status |= !(arm_barrel_extension > c->arm_arm_radius_least) * EXCAVATOR_STATUS_ARM_BARREL_EXTENSION;
-    status |= !(arm_reach_squared > c->arm_reach_squared_floor) * EXCAVATOR_STATUS_ARM_REACH_SQUARED;
-    status |= !(arm_closure > c->arm_closure_floor) * EXCAVATOR_STATUS_ARM_CLOSURE;
-    status |= !(bucket_barrel_extension > c->rocker_arm_radius_least) * EXCAVATOR_STATUS_BUCKET_BARREL_EXTENSION;
-    status |= !(rocker_reach_squared > c->rocker_reach_squared_floor) * EXCAVATOR_STATUS_ROCKER_REACH_SQUARED;
-    status |= !(rocker_closure > c->rocker_closure_floor) * EXCAVATOR_STATUS_ROCKER_CLOSURE;
-    status |= !(bucket_reach_squared > c->bucket_reach_squared_floor) * EXCAVATOR_STATUS_BUCKET_REACH_SQUARED;
-    status |= !(bucket_closure > c->bucket_closure_floor) * EXCAVATOR_STATUS_BUCKET_CLOSURE;
-    status |= not_finite(out, 957) * EXCAVATOR_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(boom_barrel_extension, c->boom_arm_radius_least, EXCAVATOR_STATUS_BOOM_BARREL_EXTENSION);
+    status |= guard_bit(boom_closure, c->boom_closure_floor, EXCAVATOR_STATUS_BOOM_CLOSURE);
+    status |= guard_bit(arm_barrel_extension, c->arm_arm_radius_least, EXCAVATOR_STATUS_ARM_BARREL_EXTENSION);
+    status |= guard_bit(arm_reach_squared, c->arm_reach_squared_floor, EXCAVATOR_STATUS_ARM_REACH_SQUARED);
+    status |= guard_bit(arm_closure, c->arm_closure_floor, EXCAVATOR_STATUS_ARM_CLOSURE);
+    status |= guard_bit(bucket_barrel_extension, c->rocker_arm_radius_least, EXCAVATOR_STATUS_BUCKET_BARREL_EXTENSION);
+    status |= guard_bit(rocker_reach_squared, c->rocker_reach_squared_floor, EXCAVATOR_STATUS_ROCKER_REACH_SQUARED);
+    status |= guard_bit(rocker_closure, c->rocker_closure_floor, EXCAVATOR_STATUS_ROCKER_CLOSURE);
+    status |= guard_bit(bucket_reach_squared, c->bucket_reach_squared_floor, EXCAVATOR_STATUS_BUCKET_REACH_SQUARED);
+    status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_STATUS_BUCKET_CLOSURE);
+    status |= finite_bit(out, 957, EXCAVATOR_STATUS_NOT_FINITE);
+    return status;
 }
+
+#endif

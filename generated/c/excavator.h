@@ -234,6 +234,8 @@ enum excavator_status {
     EXCAVATOR_STATUS_NOT_FINITE = 1 << 30 /* a result is NaN or infinite */
 };
 
+#ifndef KINTRAFO_LANES
+
 /*
  * Compute the constants of one parameter set.
  * Returns 0, or one plus the index of the first constant that is not finite,
@@ -305,6 +307,8 @@ int excavator_poses(const double *restrict constants, const double *restrict sta
    11, global_jacobian 66 x 3. 1852 operations (784 add, 1036 multiply, 25 divide, 7 root). */
 int excavator_jacobians(const double *restrict constants, const double *restrict state,
                         const double *restrict inputs, double *restrict out);
+
+#endif
 
 #ifdef __cplusplus
 #undef restrict

@@ -9,23 +9,62 @@
 
 #include <math.h>
 
+#ifndef KINTRAFO_LANES /* else all numbers are vectors, and what includes this file has these */
+typedef int status_word;
+
 /* The greater of two numbers; NaN for a NaN. One instruction, where fmax may be a call. */
 static inline double at_least(double x, double least)
 {
     return x < least ? least : x;
 }
 
-/* Whether any of some values is NaN or infinite. */
-static unsigned not_finite(const double *values, int count)
+/* One for what is positive, else zero. */
+static inline double is_positive(double x)
 {
-    unsigned found = 0;
+    return x > 0.0;
+}
+
+/* A number that depends on nothing. */
+static inline double number(double x)
+{
+    return x;
+}
+
+/* A bit, where a guarded quantity is not over its floor. */
+static inline status_word guard_bit(double quantity, double least, int bit)
+{
+    return !(quantity > least) * bit;
+}
+
+/* A bit, where any of some values is NaN or infinite. */
+static inline status_word finite_bit(const double *values, int count, int bit)
+{
+    status_word found = 0;
     for (int i = 0; i < count; ++i) {
         found |= !isfinite(values[i]);
     }
-    return found;
+    return found * bit;
 }
 
-int excavator_lifting_prepare(const double *restrict parameters, double *restrict constants)
+/* One number or the other. */
+static inline status_word either(int applies, int code, status_word otherwise)
+{
+    return applies ? code : otherwise;
+}
+
+/* One plus the index of the first value that is NaN or infinite; 0: all are finite. */
+static inline status_word first_not_finite(const double *values, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        if (!isfinite(values[i])) {
+            return i + 1;
+        }
+    }
+    return 0;
+}
+#endif
+
+status_word excavator_lifting_prepare(const double *restrict parameters, double *restrict constants)
 {
     struct excavator_lifting_constants *const c = (void *)constants;
     const double
@@ -463,64 +502,34 @@ int excavator_lifting_prepare(const double *restrict parameters, double *restric
     c->constant_52 = c->bucket_arm_unit_z*c->load_origin_on_parent_2;
     c->constant_53 = c->bucket_arm_unit_x*c->load_origin_on_parent_3;
 
-    if (fabs(c->boom_arm_radius) <= c->boom_arm_radius_least) {
-        return EXCAVATOR_LIFTING_CONSTANT_COUNT + 1;
-    }
-    if (fabs(c->boom_reach_design) <= c->boom_arm_radius_least) {
-        return EXCAVATOR_LIFTING_CONSTANT_COUNT + 2;
-    }
-    if (fabs(c->boom_rod_height_design) <= c->boom_rod_height_design_least) {
-        return EXCAVATOR_LIFTING_CONSTANT_COUNT + 3;
-    }
-    if (fabs(c->arm_arm_radius) <= c->arm_arm_radius_least) {
-        return EXCAVATOR_LIFTING_CONSTANT_COUNT + 4;
-    }
-    if (fabs(c->arm_reach_design) <= c->arm_arm_radius_least) {
-        return EXCAVATOR_LIFTING_CONSTANT_COUNT + 5;
-    }
-    if (fabs(c->arm_rod_height_design) <= c->arm_rod_height_design_least) {
-        return EXCAVATOR_LIFTING_CONSTANT_COUNT + 6;
-    }
-    if (fabs(c->rocker_arm_radius) <= c->rocker_arm_radius_least) {
-        return EXCAVATOR_LIFTING_CONSTANT_COUNT + 7;
-    }
-    if (fabs(c->rocker_reach_design) <= c->rocker_arm_radius_least) {
-        return EXCAVATOR_LIFTING_CONSTANT_COUNT + 8;
-    }
-    if (fabs(c->rocker_rod_height_design) <= c->rocker_rod_height_design_least) {
-        return EXCAVATOR_LIFTING_CONSTANT_COUNT + 9;
-    }
-    if (fabs(c->bucket_arm_radius) <= c->bucket_arm_radius_least) {
-        return EXCAVATOR_LIFTING_CONSTANT_COUNT + 10;
-    }
-    if (fabs(c->link_length) <= c->bucket_arm_radius_least) {
-        return EXCAVATOR_LIFTING_CONSTANT_COUNT + 11;
-    }
-    if (fabs(c->bucket_reach_design) <= c->bucket_arm_radius_least) {
-        return EXCAVATOR_LIFTING_CONSTANT_COUNT + 12;
-    }
-    if (fabs(c->bucket_rod_height_design) <= c->bucket_rod_height_design_least) {
-        return EXCAVATOR_LIFTING_CONSTANT_COUNT + 13;
-    }
-    for (int i = 0; i < EXCAVATOR_LIFTING_CONSTANT_COUNT; ++i) {
-        if (!isfinite(constants[i])) {
-            return i + 1;
-        }
-    }
-    return 0;
+    status_word failed = first_not_finite(constants, EXCAVATOR_LIFTING_CONSTANT_COUNT);
+    failed = either(fabs(c->bucket_rod_height_design) <= c->bucket_rod_height_design_least, EXCAVATOR_LIFTING_CONSTANT_COUNT + 13, failed);
+    failed = either(fabs(c->bucket_reach_design) <= c->bucket_arm_radius_least, EXCAVATOR_LIFTING_CONSTANT_COUNT + 12, failed);
+    failed = either(fabs(c->link_length) <= c->bucket_arm_radius_least, EXCAVATOR_LIFTING_CONSTANT_COUNT + 11, failed);
+    failed = either(fabs(c->bucket_arm_radius) <= c->bucket_arm_radius_least, EXCAVATOR_LIFTING_CONSTANT_COUNT + 10, failed);
+    failed = either(fabs(c->rocker_rod_height_design) <= c->rocker_rod_height_design_least, EXCAVATOR_LIFTING_CONSTANT_COUNT + 9, failed);
+    failed = either(fabs(c->rocker_reach_design) <= c->rocker_arm_radius_least, EXCAVATOR_LIFTING_CONSTANT_COUNT + 8, failed);
+    failed = either(fabs(c->rocker_arm_radius) <= c->rocker_arm_radius_least, EXCAVATOR_LIFTING_CONSTANT_COUNT + 7, failed);
+    failed = either(fabs(c->arm_rod_height_design) <= c->arm_rod_height_design_least, EXCAVATOR_LIFTING_CONSTANT_COUNT + 6, failed);
+    failed = either(fabs(c->arm_reach_design) <= c->arm_arm_radius_least, EXCAVATOR_LIFTING_CONSTANT_COUNT + 5, failed);
+    failed = either(fabs(c->arm_arm_radius) <= c->arm_arm_radius_least, EXCAVATOR_LIFTING_CONSTANT_COUNT + 4, failed);
+    failed = either(fabs(c->boom_rod_height_design) <= c->boom_rod_height_design_least, EXCAVATOR_LIFTING_CONSTANT_COUNT + 3, failed);
+    failed = either(fabs(c->boom_reach_design) <= c->boom_arm_radius_least, EXCAVATOR_LIFTING_CONSTANT_COUNT + 2, failed);
+    failed = either(fabs(c->boom_arm_radius) <= c->boom_arm_radius_least, EXCAVATOR_LIFTING_CONSTANT_COUNT + 1, failed);
+    return failed;
 }
 
-int excavator_lifting_design_state(const double *restrict parameters, double *restrict state)
+status_word excavator_lifting_design_state(const double *restrict parameters, double *restrict state)
 {
     (void)parameters;
 
-    state[0] = 0.0;
-    state[1] = 0.0;
-    return 0;
+    state[0] = number(0.0);
+    state[1] = number(0.0);
+    return finite_bit(state, 2, EXCAVATOR_LIFTING_STATUS_NOT_FINITE);
 }
 
-int excavator_lifting_rhs(const double *restrict constants, const double *restrict state,
-                          const double *restrict inputs, double *restrict out)
+status_word excavator_lifting_rhs(const double *restrict constants, const double *restrict state,
+                                  const double *restrict inputs, double *restrict out)
 {
     const struct excavator_lifting_constants *const c = (const void *)constants;
     const double
@@ -901,22 +910,22 @@ int excavator_lifting_rhs(const double *restrict constants, const double *restri
     out[0] = swing_rate; /* d(swing)/dt */
     out[1] = swing_acceleration; /* d(swing_rate)/dt */
 
-    unsigned status = !(boom_barrel_extension > c->boom_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_BOOM_BARREL_EXTENSION;
-    status |= !(boom_closure > c->boom_closure_floor) * EXCAVATOR_LIFTING_STATUS_BOOM_CLOSURE;
-    status |= !(arm_barrel_extension > c->arm_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_ARM_BARREL_EXTENSION;
-    status |= !(arm_reach_squared > c->arm_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_ARM_REACH_SQUARED;
-    status |= !(arm_closure > c->arm_closure_floor) * EXCAVATOR_LIFTING_STATUS_ARM_CLOSURE;
-    status |= !(bucket_barrel_extension > c->rocker_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_BUCKET_BARREL_EXTENSION;
-    status |= !(rocker_reach_squared > c->rocker_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_ROCKER_REACH_SQUARED;
-    status |= !(rocker_closure > c->rocker_closure_floor) * EXCAVATOR_LIFTING_STATUS_ROCKER_CLOSURE;
-    status |= !(bucket_reach_squared > c->bucket_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_BUCKET_REACH_SQUARED;
-    status |= !(bucket_closure > c->bucket_closure_floor) * EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE;
-    status |= not_finite(out, 2) * EXCAVATOR_LIFTING_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(boom_barrel_extension, c->boom_arm_radius_least, EXCAVATOR_LIFTING_STATUS_BOOM_BARREL_EXTENSION);
+    status |= guard_bit(boom_closure, c->boom_closure_floor, EXCAVATOR_LIFTING_STATUS_BOOM_CLOSURE);
+    status |= guard_bit(arm_barrel_extension, c->arm_arm_radius_least, EXCAVATOR_LIFTING_STATUS_ARM_BARREL_EXTENSION);
+    status |= guard_bit(arm_reach_squared, c->arm_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_ARM_REACH_SQUARED);
+    status |= guard_bit(arm_closure, c->arm_closure_floor, EXCAVATOR_LIFTING_STATUS_ARM_CLOSURE);
+    status |= guard_bit(bucket_barrel_extension, c->rocker_arm_radius_least, EXCAVATOR_LIFTING_STATUS_BUCKET_BARREL_EXTENSION);
+    status |= guard_bit(rocker_reach_squared, c->rocker_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_ROCKER_REACH_SQUARED);
+    status |= guard_bit(rocker_closure, c->rocker_closure_floor, EXCAVATOR_LIFTING_STATUS_ROCKER_CLOSURE);
+    status |= guard_bit(bucket_reach_squared, c->bucket_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_REACH_SQUARED);
+    status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE);
+    status |= finite_bit(out, 2, EXCAVATOR_LIFTING_STATUS_NOT_FINITE);
+    return status;
 }
 
-int excavator_lifting_rhs_cylinders_held(const double *restrict constants, const double *restrict state,
-                                         const double *restrict inputs, double *restrict out)
+status_word excavator_lifting_rhs_cylinders_held(const double *restrict constants, const double *restrict state,
+                                                 const double *restrict inputs, double *restrict out)
 {
     const struct excavator_lifting_constants *const c = (const void *)constants;
     const double
@@ -1037,22 +1046,135 @@ int excavator_lifting_rhs_cylinders_held(const double *restrict constants, const
     out[0] = swing_rate; /* d(swing)/dt */
     out[1] = swing_acceleration; /* d(swing_rate)/dt */
 
-    unsigned status = !(boom_barrel_extension > c->boom_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_BOOM_BARREL_EXTENSION;
-    status |= !(boom_closure > c->boom_closure_floor) * EXCAVATOR_LIFTING_STATUS_BOOM_CLOSURE;
-    status |= !(arm_barrel_extension > c->arm_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_ARM_BARREL_EXTENSION;
-    status |= !(arm_reach_squared > c->arm_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_ARM_REACH_SQUARED;
-    status |= !(arm_closure > c->arm_closure_floor) * EXCAVATOR_LIFTING_STATUS_ARM_CLOSURE;
-    status |= !(bucket_barrel_extension > c->rocker_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_BUCKET_BARREL_EXTENSION;
-    status |= !(rocker_reach_squared > c->rocker_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_ROCKER_REACH_SQUARED;
-    status |= !(rocker_closure > c->rocker_closure_floor) * EXCAVATOR_LIFTING_STATUS_ROCKER_CLOSURE;
-    status |= !(bucket_reach_squared > c->bucket_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_BUCKET_REACH_SQUARED;
-    status |= !(bucket_closure > c->bucket_closure_floor) * EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE;
-    status |= not_finite(out, 2) * EXCAVATOR_LIFTING_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(boom_barrel_extension, c->boom_arm_radius_least, EXCAVATOR_LIFTING_STATUS_BOOM_BARREL_EXTENSION);
+    status |= guard_bit(boom_closure, c->boom_closure_floor, EXCAVATOR_LIFTING_STATUS_BOOM_CLOSURE);
+    status |= guard_bit(arm_barrel_extension, c->arm_arm_radius_least, EXCAVATOR_LIFTING_STATUS_ARM_BARREL_EXTENSION);
+    status |= guard_bit(arm_reach_squared, c->arm_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_ARM_REACH_SQUARED);
+    status |= guard_bit(arm_closure, c->arm_closure_floor, EXCAVATOR_LIFTING_STATUS_ARM_CLOSURE);
+    status |= guard_bit(bucket_barrel_extension, c->rocker_arm_radius_least, EXCAVATOR_LIFTING_STATUS_BUCKET_BARREL_EXTENSION);
+    status |= guard_bit(rocker_reach_squared, c->rocker_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_ROCKER_REACH_SQUARED);
+    status |= guard_bit(rocker_closure, c->rocker_closure_floor, EXCAVATOR_LIFTING_STATUS_ROCKER_CLOSURE);
+    status |= guard_bit(bucket_reach_squared, c->bucket_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_REACH_SQUARED);
+    status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE);
+    status |= finite_bit(out, 2, EXCAVATOR_LIFTING_STATUS_NOT_FINITE);
+    return status;
 }
 
-int excavator_lifting_residuals(const double *restrict constants, const double *restrict state,
-                                const double *restrict inputs, const double *restrict given, double *restrict out)
+status_word excavator_lifting_margins(const double *restrict constants, const double *restrict state,
+                                      const double *restrict inputs, double *restrict out)
+{
+    const struct excavator_lifting_constants *const c = (const void *)constants;
+    (void)state;
+    const double
+        boom_stroke_position = inputs[0],
+        arm_stroke_position = inputs[3],
+        bucket_stroke_position = inputs[6];
+
+    /* transformer: boom held by boom_barrel */
+    const double
+        boom_barrel_extension = c->boom_barrel_length_design + boom_stroke_position,
+        boom_barrel_length_squared = at_least(boom_barrel_extension,
+            c->boom_arm_radius_least)*at_least(boom_barrel_extension, c->boom_arm_radius_least),
+        boom_reach_needed = c->constant_4*(c->constant_3 - boom_barrel_length_squared),
+        boom_closure = c->boom_reach_squared - boom_reach_needed*boom_reach_needed,
+        boom_closure_root = sqrt(at_least(boom_closure, c->boom_closure_floor)),
+        boom_turn_cosine = c->boom_reach_inverse*boom_reach_needed,
+        boom_turn_sine = c->boom_reach_inverse_signed*boom_closure_root,
+        boom_arm_x = c->boom_reach_x*boom_turn_cosine + c->boom_reach_z*boom_turn_sine,
+        boom_arm_z = c->boom_reach_z*boom_turn_cosine - c->boom_reach_x*boom_turn_sine;
+
+    /* transformer: arm held by arm_barrel */
+    const double
+        at_arm_pin_x = c->boom_foot_x + c->boom_arm_pin_2*boom_arm_x + c->boom_arm_pin_3*boom_arm_z,
+        at_arm_pin_z = c->boom_foot_z + c->boom_arm_pin_2*boom_arm_z - c->boom_arm_pin_3*boom_arm_x,
+        at_arm_barrel_pin_x = c->boom_foot_x + c->boom_arm_barrel_pin_2*boom_arm_x +
+            c->boom_arm_barrel_pin_3*boom_arm_z,
+        at_arm_barrel_pin_z = c->boom_foot_z + c->boom_arm_barrel_pin_2*boom_arm_z -
+            c->boom_arm_barrel_pin_3*boom_arm_x,
+        arm_reach_x = at_arm_barrel_pin_x - at_arm_pin_x,
+        arm_reach_z = at_arm_barrel_pin_z - at_arm_pin_z,
+        arm_barrel_extension = c->arm_barrel_length_design + arm_stroke_position,
+        arm_barrel_length_squared = at_least(arm_barrel_extension,
+            c->arm_arm_radius_least)*at_least(arm_barrel_extension, c->arm_arm_radius_least),
+        arm_reach_squared = arm_reach_x*arm_reach_x + arm_reach_z*arm_reach_z,
+        shared_1 = at_least(arm_reach_squared, c->arm_reach_squared_floor),
+        arm_reach_needed = c->constant_8*(c->constant_7 - arm_barrel_length_squared + shared_1),
+        arm_closure = shared_1 - arm_reach_needed*arm_reach_needed,
+        arm_closure_root = sqrt(at_least(arm_closure, c->arm_closure_floor)),
+        arm_reach_inverse = 1.0/shared_1,
+        arm_reach_inverse_signed = c->arm_branch*arm_reach_inverse,
+        arm_turn_cosine = arm_reach_needed*arm_reach_inverse,
+        arm_turn_sine = arm_reach_inverse_signed*arm_closure_root,
+        arm_arm_x = arm_reach_x*arm_turn_cosine + arm_reach_z*arm_turn_sine,
+        arm_arm_z = arm_reach_z*arm_turn_cosine - arm_reach_x*arm_turn_sine;
+
+    /* transformer: rocker held by bucket_barrel */
+    const double
+        at_rocker_pin_x = at_arm_pin_x + c->arm_rocker_pin_2*arm_arm_x +
+            c->arm_rocker_pin_3*arm_arm_z,
+        at_rocker_pin_z = at_arm_pin_z + c->arm_rocker_pin_2*arm_arm_z -
+            c->arm_rocker_pin_3*arm_arm_x,
+        at_bucket_barrel_pin_x = at_arm_pin_x + c->arm_bucket_barrel_pin_2*arm_arm_x +
+            c->arm_bucket_barrel_pin_3*arm_arm_z,
+        at_bucket_barrel_pin_z = at_arm_pin_z + c->arm_bucket_barrel_pin_2*arm_arm_z -
+            c->arm_bucket_barrel_pin_3*arm_arm_x,
+        rocker_reach_x = at_bucket_barrel_pin_x - at_rocker_pin_x,
+        rocker_reach_z = at_bucket_barrel_pin_z - at_rocker_pin_z,
+        bucket_barrel_extension = c->bucket_barrel_length_design + bucket_stroke_position,
+        bucket_barrel_length_squared = at_least(bucket_barrel_extension,
+            c->rocker_arm_radius_least)*at_least(bucket_barrel_extension,
+            c->rocker_arm_radius_least),
+        rocker_reach_squared = rocker_reach_x*rocker_reach_x + rocker_reach_z*rocker_reach_z,
+        shared_2 = at_least(rocker_reach_squared, c->rocker_reach_squared_floor),
+        rocker_reach_needed = c->constant_12*(c->constant_11 - bucket_barrel_length_squared +
+            shared_2),
+        rocker_closure = shared_2 - rocker_reach_needed*rocker_reach_needed,
+        rocker_closure_root = sqrt(at_least(rocker_closure, c->rocker_closure_floor)),
+        rocker_reach_inverse = 1.0/shared_2,
+        rocker_reach_inverse_signed = c->rocker_branch*rocker_reach_inverse,
+        rocker_turn_cosine = rocker_reach_needed*rocker_reach_inverse,
+        rocker_turn_sine = rocker_reach_inverse_signed*rocker_closure_root,
+        rocker_arm_x = rocker_reach_x*rocker_turn_cosine + rocker_reach_z*rocker_turn_sine,
+        rocker_arm_z = rocker_reach_z*rocker_turn_cosine - rocker_reach_x*rocker_turn_sine;
+
+    /* bucket_barrel and bucket_rod: telescope */
+    const double
+        at_knee_x = at_rocker_pin_x + c->rocker_arm_radius*rocker_arm_x,
+        at_knee_z = at_rocker_pin_z + c->rocker_arm_radius*rocker_arm_z;
+
+    /* transformer: bucket held by link */
+    const double
+        at_bucket_pin_x = at_arm_pin_x + c->arm_bucket_pin_2*arm_arm_x +
+            c->arm_bucket_pin_3*arm_arm_z,
+        at_bucket_pin_z = at_arm_pin_z + c->arm_bucket_pin_2*arm_arm_z -
+            c->arm_bucket_pin_3*arm_arm_x,
+        bucket_reach_x = at_knee_x - at_bucket_pin_x,
+        bucket_reach_z = at_knee_z - at_bucket_pin_z,
+        bucket_reach_squared = bucket_reach_x*bucket_reach_x + bucket_reach_z*bucket_reach_z,
+        shared_3 = at_least(bucket_reach_squared, c->bucket_reach_squared_floor),
+        bucket_reach_needed = c->constant_18*(c->constant_17 + shared_3),
+        bucket_closure = shared_3 - bucket_reach_needed*bucket_reach_needed;
+
+    /* margins */
+    out[0] = boom_barrel_extension - c->boom_arm_radius_least; /* boom_barrel_extension */
+    out[1] = boom_closure - c->boom_closure_floor; /* boom_closure */
+    out[2] = arm_barrel_extension - c->arm_arm_radius_least; /* arm_barrel_extension */
+    out[3] = arm_reach_squared - c->arm_reach_squared_floor; /* arm_reach_squared */
+    out[4] = arm_closure - c->arm_closure_floor; /* arm_closure */
+    out[5] = bucket_barrel_extension - c->rocker_arm_radius_least; /* bucket_barrel_extension */
+    out[6] = rocker_reach_squared - c->rocker_reach_squared_floor; /* rocker_reach_squared */
+    out[7] = rocker_closure - c->rocker_closure_floor; /* rocker_closure */
+    out[8] = bucket_reach_squared - c->bucket_reach_squared_floor; /* bucket_reach_squared */
+    out[9] = bucket_closure - c->bucket_closure_floor; /* bucket_closure */
+
+    status_word status = finite_bit(out, 10, EXCAVATOR_LIFTING_STATUS_NOT_FINITE);
+    return status;
+}
+
+#ifndef KINTRAFO_LANES /* what no simulation evaluates */
+
+status_word excavator_lifting_residuals(const double *restrict constants, const double *restrict state,
+                                        const double *restrict inputs, const double *restrict given, double *restrict out)
 {
     const struct excavator_lifting_constants *const c = (const void *)constants;
     const double
@@ -1293,133 +1415,22 @@ int excavator_lifting_residuals(const double *restrict constants, const double *
         shared_35*shared_39); /* g_bucket_cylinder_angle */
     out[11] = given_swing - swing; /* g_swing */
 
-    unsigned status = !(boom_barrel_extension > c->boom_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_BOOM_BARREL_EXTENSION;
-    status |= !(boom_closure > c->boom_closure_floor) * EXCAVATOR_LIFTING_STATUS_BOOM_CLOSURE;
-    status |= !(arm_barrel_extension > c->arm_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_ARM_BARREL_EXTENSION;
-    status |= !(arm_reach_squared > c->arm_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_ARM_REACH_SQUARED;
-    status |= !(arm_closure > c->arm_closure_floor) * EXCAVATOR_LIFTING_STATUS_ARM_CLOSURE;
-    status |= !(bucket_barrel_extension > c->rocker_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_BUCKET_BARREL_EXTENSION;
-    status |= !(rocker_reach_squared > c->rocker_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_ROCKER_REACH_SQUARED;
-    status |= !(rocker_closure > c->rocker_closure_floor) * EXCAVATOR_LIFTING_STATUS_ROCKER_CLOSURE;
-    status |= !(bucket_reach_squared > c->bucket_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_BUCKET_REACH_SQUARED;
-    status |= !(bucket_closure > c->bucket_closure_floor) * EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE;
-    status |= not_finite(out, 12) * EXCAVATOR_LIFTING_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(boom_barrel_extension, c->boom_arm_radius_least, EXCAVATOR_LIFTING_STATUS_BOOM_BARREL_EXTENSION);
+    status |= guard_bit(boom_closure, c->boom_closure_floor, EXCAVATOR_LIFTING_STATUS_BOOM_CLOSURE);
+    status |= guard_bit(arm_barrel_extension, c->arm_arm_radius_least, EXCAVATOR_LIFTING_STATUS_ARM_BARREL_EXTENSION);
+    status |= guard_bit(arm_reach_squared, c->arm_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_ARM_REACH_SQUARED);
+    status |= guard_bit(arm_closure, c->arm_closure_floor, EXCAVATOR_LIFTING_STATUS_ARM_CLOSURE);
+    status |= guard_bit(bucket_barrel_extension, c->rocker_arm_radius_least, EXCAVATOR_LIFTING_STATUS_BUCKET_BARREL_EXTENSION);
+    status |= guard_bit(rocker_reach_squared, c->rocker_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_ROCKER_REACH_SQUARED);
+    status |= guard_bit(rocker_closure, c->rocker_closure_floor, EXCAVATOR_LIFTING_STATUS_ROCKER_CLOSURE);
+    status |= guard_bit(bucket_reach_squared, c->bucket_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_REACH_SQUARED);
+    status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE);
+    status |= finite_bit(out, 12, EXCAVATOR_LIFTING_STATUS_NOT_FINITE);
+    return status;
 }
 
-int excavator_lifting_margins(const double *restrict constants, const double *restrict state,
-                              const double *restrict inputs, double *restrict out)
-{
-    const struct excavator_lifting_constants *const c = (const void *)constants;
-    (void)state;
-    const double
-        boom_stroke_position = inputs[0],
-        arm_stroke_position = inputs[3],
-        bucket_stroke_position = inputs[6];
-
-    /* transformer: boom held by boom_barrel */
-    const double
-        boom_barrel_extension = c->boom_barrel_length_design + boom_stroke_position,
-        boom_barrel_length_squared = at_least(boom_barrel_extension,
-            c->boom_arm_radius_least)*at_least(boom_barrel_extension, c->boom_arm_radius_least),
-        boom_reach_needed = c->constant_4*(c->constant_3 - boom_barrel_length_squared),
-        boom_closure = c->boom_reach_squared - boom_reach_needed*boom_reach_needed,
-        boom_closure_root = sqrt(at_least(boom_closure, c->boom_closure_floor)),
-        boom_turn_cosine = c->boom_reach_inverse*boom_reach_needed,
-        boom_turn_sine = c->boom_reach_inverse_signed*boom_closure_root,
-        boom_arm_x = c->boom_reach_x*boom_turn_cosine + c->boom_reach_z*boom_turn_sine,
-        boom_arm_z = c->boom_reach_z*boom_turn_cosine - c->boom_reach_x*boom_turn_sine;
-
-    /* transformer: arm held by arm_barrel */
-    const double
-        at_arm_pin_x = c->boom_foot_x + c->boom_arm_pin_2*boom_arm_x + c->boom_arm_pin_3*boom_arm_z,
-        at_arm_pin_z = c->boom_foot_z + c->boom_arm_pin_2*boom_arm_z - c->boom_arm_pin_3*boom_arm_x,
-        at_arm_barrel_pin_x = c->boom_foot_x + c->boom_arm_barrel_pin_2*boom_arm_x +
-            c->boom_arm_barrel_pin_3*boom_arm_z,
-        at_arm_barrel_pin_z = c->boom_foot_z + c->boom_arm_barrel_pin_2*boom_arm_z -
-            c->boom_arm_barrel_pin_3*boom_arm_x,
-        arm_reach_x = at_arm_barrel_pin_x - at_arm_pin_x,
-        arm_reach_z = at_arm_barrel_pin_z - at_arm_pin_z,
-        arm_barrel_extension = c->arm_barrel_length_design + arm_stroke_position,
-        arm_barrel_length_squared = at_least(arm_barrel_extension,
-            c->arm_arm_radius_least)*at_least(arm_barrel_extension, c->arm_arm_radius_least),
-        arm_reach_squared = arm_reach_x*arm_reach_x + arm_reach_z*arm_reach_z,
-        shared_1 = at_least(arm_reach_squared, c->arm_reach_squared_floor),
-        arm_reach_needed = c->constant_8*(c->constant_7 - arm_barrel_length_squared + shared_1),
-        arm_closure = shared_1 - arm_reach_needed*arm_reach_needed,
-        arm_closure_root = sqrt(at_least(arm_closure, c->arm_closure_floor)),
-        arm_reach_inverse = 1.0/shared_1,
-        arm_reach_inverse_signed = c->arm_branch*arm_reach_inverse,
-        arm_turn_cosine = arm_reach_needed*arm_reach_inverse,
-        arm_turn_sine = arm_reach_inverse_signed*arm_closure_root,
-        arm_arm_x = arm_reach_x*arm_turn_cosine + arm_reach_z*arm_turn_sine,
-        arm_arm_z = arm_reach_z*arm_turn_cosine - arm_reach_x*arm_turn_sine;
-
-    /* transformer: rocker held by bucket_barrel */
-    const double
-        at_rocker_pin_x = at_arm_pin_x + c->arm_rocker_pin_2*arm_arm_x +
-            c->arm_rocker_pin_3*arm_arm_z,
-        at_rocker_pin_z = at_arm_pin_z + c->arm_rocker_pin_2*arm_arm_z -
-            c->arm_rocker_pin_3*arm_arm_x,
-        at_bucket_barrel_pin_x = at_arm_pin_x + c->arm_bucket_barrel_pin_2*arm_arm_x +
-            c->arm_bucket_barrel_pin_3*arm_arm_z,
-        at_bucket_barrel_pin_z = at_arm_pin_z + c->arm_bucket_barrel_pin_2*arm_arm_z -
-            c->arm_bucket_barrel_pin_3*arm_arm_x,
-        rocker_reach_x = at_bucket_barrel_pin_x - at_rocker_pin_x,
-        rocker_reach_z = at_bucket_barrel_pin_z - at_rocker_pin_z,
-        bucket_barrel_extension = c->bucket_barrel_length_design + bucket_stroke_position,
-        bucket_barrel_length_squared = at_least(bucket_barrel_extension,
-            c->rocker_arm_radius_least)*at_least(bucket_barrel_extension,
-            c->rocker_arm_radius_least),
-        rocker_reach_squared = rocker_reach_x*rocker_reach_x + rocker_reach_z*rocker_reach_z,
-        shared_2 = at_least(rocker_reach_squared, c->rocker_reach_squared_floor),
-        rocker_reach_needed = c->constant_12*(c->constant_11 - bucket_barrel_length_squared +
-            shared_2),
-        rocker_closure = shared_2 - rocker_reach_needed*rocker_reach_needed,
-        rocker_closure_root = sqrt(at_least(rocker_closure, c->rocker_closure_floor)),
-        rocker_reach_inverse = 1.0/shared_2,
-        rocker_reach_inverse_signed = c->rocker_branch*rocker_reach_inverse,
-        rocker_turn_cosine = rocker_reach_needed*rocker_reach_inverse,
-        rocker_turn_sine = rocker_reach_inverse_signed*rocker_closure_root,
-        rocker_arm_x = rocker_reach_x*rocker_turn_cosine + rocker_reach_z*rocker_turn_sine,
-        rocker_arm_z = rocker_reach_z*rocker_turn_cosine - rocker_reach_x*rocker_turn_sine;
-
-    /* bucket_barrel and bucket_rod: telescope */
-    const double
-        at_knee_x = at_rocker_pin_x + c->rocker_arm_radius*rocker_arm_x,
-        at_knee_z = at_rocker_pin_z + c->rocker_arm_radius*rocker_arm_z;
-
-    /* transformer: bucket held by link */
-    const double
-        at_bucket_pin_x = at_arm_pin_x + c->arm_bucket_pin_2*arm_arm_x +
-            c->arm_bucket_pin_3*arm_arm_z,
-        at_bucket_pin_z = at_arm_pin_z + c->arm_bucket_pin_2*arm_arm_z -
-            c->arm_bucket_pin_3*arm_arm_x,
-        bucket_reach_x = at_knee_x - at_bucket_pin_x,
-        bucket_reach_z = at_knee_z - at_bucket_pin_z,
-        bucket_reach_squared = bucket_reach_x*bucket_reach_x + bucket_reach_z*bucket_reach_z,
-        shared_3 = at_least(bucket_reach_squared, c->bucket_reach_squared_floor),
-        bucket_reach_needed = c->constant_18*(c->constant_17 + shared_3),
-        bucket_closure = shared_3 - bucket_reach_needed*bucket_reach_needed;
-
-    /* margins */
-    out[0] = boom_barrel_extension - c->boom_arm_radius_least; /* boom_barrel_extension */
-    out[1] = boom_closure - c->boom_closure_floor; /* boom_closure */
-    out[2] = arm_barrel_extension - c->arm_arm_radius_least; /* arm_barrel_extension */
-    out[3] = arm_reach_squared - c->arm_reach_squared_floor; /* arm_reach_squared */
-    out[4] = arm_closure - c->arm_closure_floor; /* arm_closure */
-    out[5] = bucket_barrel_extension - c->rocker_arm_radius_least; /* bucket_barrel_extension */
-    out[6] = rocker_reach_squared - c->rocker_reach_squared_floor; /* rocker_reach_squared */
-    out[7] = rocker_closure - c->rocker_closure_floor; /* rocker_closure */
-    out[8] = bucket_reach_squared - c->bucket_reach_squared_floor; /* bucket_reach_squared */
-    out[9] = bucket_closure - c->bucket_closure_floor; /* bucket_closure */
-
-    unsigned status = not_finite(out, 10) * EXCAVATOR_LIFTING_STATUS_NOT_FINITE;
-    return (int)status;
-}
-
-int excavator_lifting_dynamics(const double *restrict constants, const double *restrict state,
-                               const double *restrict inputs, double *restrict out)
+status_word excavator_lifting_dynamics(const double *restrict constants, const double *restrict state,
+                                       const double *restrict inputs, double *restrict out)
 {
     const struct excavator_lifting_constants *const c = (const void *)constants;
     const double
@@ -1806,22 +1817,22 @@ int excavator_lifting_dynamics(const double *restrict constants, const double *r
     /* forces */
     out[2] = force_of_swing; /* Q[swing] */
 
-    unsigned status = !(boom_barrel_extension > c->boom_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_BOOM_BARREL_EXTENSION;
-    status |= !(boom_closure > c->boom_closure_floor) * EXCAVATOR_LIFTING_STATUS_BOOM_CLOSURE;
-    status |= !(arm_barrel_extension > c->arm_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_ARM_BARREL_EXTENSION;
-    status |= !(arm_reach_squared > c->arm_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_ARM_REACH_SQUARED;
-    status |= !(arm_closure > c->arm_closure_floor) * EXCAVATOR_LIFTING_STATUS_ARM_CLOSURE;
-    status |= !(bucket_barrel_extension > c->rocker_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_BUCKET_BARREL_EXTENSION;
-    status |= !(rocker_reach_squared > c->rocker_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_ROCKER_REACH_SQUARED;
-    status |= !(rocker_closure > c->rocker_closure_floor) * EXCAVATOR_LIFTING_STATUS_ROCKER_CLOSURE;
-    status |= !(bucket_reach_squared > c->bucket_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_BUCKET_REACH_SQUARED;
-    status |= !(bucket_closure > c->bucket_closure_floor) * EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE;
-    status |= not_finite(out, 3) * EXCAVATOR_LIFTING_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(boom_barrel_extension, c->boom_arm_radius_least, EXCAVATOR_LIFTING_STATUS_BOOM_BARREL_EXTENSION);
+    status |= guard_bit(boom_closure, c->boom_closure_floor, EXCAVATOR_LIFTING_STATUS_BOOM_CLOSURE);
+    status |= guard_bit(arm_barrel_extension, c->arm_arm_radius_least, EXCAVATOR_LIFTING_STATUS_ARM_BARREL_EXTENSION);
+    status |= guard_bit(arm_reach_squared, c->arm_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_ARM_REACH_SQUARED);
+    status |= guard_bit(arm_closure, c->arm_closure_floor, EXCAVATOR_LIFTING_STATUS_ARM_CLOSURE);
+    status |= guard_bit(bucket_barrel_extension, c->rocker_arm_radius_least, EXCAVATOR_LIFTING_STATUS_BUCKET_BARREL_EXTENSION);
+    status |= guard_bit(rocker_reach_squared, c->rocker_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_ROCKER_REACH_SQUARED);
+    status |= guard_bit(rocker_closure, c->rocker_closure_floor, EXCAVATOR_LIFTING_STATUS_ROCKER_CLOSURE);
+    status |= guard_bit(bucket_reach_squared, c->bucket_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_REACH_SQUARED);
+    status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE);
+    status |= finite_bit(out, 3, EXCAVATOR_LIFTING_STATUS_NOT_FINITE);
+    return status;
 }
 
-int excavator_lifting_poses(const double *restrict constants, const double *restrict state,
-                            const double *restrict inputs, double *restrict out)
+status_word excavator_lifting_poses(const double *restrict constants, const double *restrict state,
+                                    const double *restrict inputs, double *restrict out)
 {
     const struct excavator_lifting_constants *const c = (const void *)constants;
     const double
@@ -2494,67 +2505,67 @@ int excavator_lifting_poses(const double *restrict constants, const double *rest
     out[47] = load_origin_z + c->load_arm_load_com_x*load_top_z +
         c->load_arm_load_com_z*load_side_z; /* load z */
     out[13] = out[16] = out[19] = out[22] = out[25] = out[28] = out[31] = out[34] = out[37] =
-        out[40] = out[43] = out[46] = 0.0;
+        out[40] = out[43] = out[46] = number(0.0);
 
     /* orientations */
     out[48] = shared_39; /* boom Rxx */
     out[50] = -shared_72; /* boom Rxz */
-    out[52] = 1.0; /* boom Ryy */
+    out[52] = number(1.0); /* boom Ryy */
     out[54] = shared_72; /* boom Rzx */
     out[56] = shared_39; /* boom Rzz */
     out[57] = shared_50; /* boom_barrel Rxx */
     out[59] = shared_74; /* boom_barrel Rxz */
-    out[61] = 1.0; /* boom_barrel Ryy */
+    out[61] = number(1.0); /* boom_barrel Ryy */
     out[63] = shared_73; /* boom_barrel Rzx */
     out[65] = shared_50; /* boom_barrel Rzz */
     out[66] = shared_50; /* boom_rod Rxx */
     out[68] = shared_74; /* boom_rod Rxz */
-    out[70] = 1.0; /* boom_rod Ryy */
+    out[70] = number(1.0); /* boom_rod Ryy */
     out[72] = shared_73; /* boom_rod Rzx */
     out[74] = shared_50; /* boom_rod Rzz */
     out[75] = shared_75; /* arm Rxx */
     out[77] = -shared_76; /* arm Rxz */
-    out[79] = 1.0; /* arm Ryy */
+    out[79] = number(1.0); /* arm Ryy */
     out[81] = shared_76; /* arm Rzx */
     out[83] = shared_75; /* arm Rzz */
     out[84] = shared_77; /* arm_barrel Rxx */
     out[86] = shared_79; /* arm_barrel Rxz */
-    out[88] = 1.0; /* arm_barrel Ryy */
+    out[88] = number(1.0); /* arm_barrel Ryy */
     out[90] = shared_78; /* arm_barrel Rzx */
     out[92] = shared_77; /* arm_barrel Rzz */
     out[93] = shared_77; /* arm_rod Rxx */
     out[95] = shared_79; /* arm_rod Rxz */
-    out[97] = 1.0; /* arm_rod Ryy */
+    out[97] = number(1.0); /* arm_rod Ryy */
     out[99] = shared_78; /* arm_rod Rzx */
     out[101] = shared_77; /* arm_rod Rzz */
     out[102] = shared_80; /* rocker Rxx */
     out[104] = -shared_81; /* rocker Rxz */
-    out[106] = 1.0; /* rocker Ryy */
+    out[106] = number(1.0); /* rocker Ryy */
     out[108] = shared_81; /* rocker Rzx */
     out[110] = shared_80; /* rocker Rzz */
     out[111] = shared_82; /* bucket_barrel Rxx */
     out[113] = shared_84; /* bucket_barrel Rxz */
-    out[115] = 1.0; /* bucket_barrel Ryy */
+    out[115] = number(1.0); /* bucket_barrel Ryy */
     out[117] = shared_83; /* bucket_barrel Rzx */
     out[119] = shared_82; /* bucket_barrel Rzz */
     out[120] = shared_82; /* bucket_rod Rxx */
     out[122] = shared_84; /* bucket_rod Rxz */
-    out[124] = 1.0; /* bucket_rod Ryy */
+    out[124] = number(1.0); /* bucket_rod Ryy */
     out[126] = shared_83; /* bucket_rod Rzx */
     out[128] = shared_82; /* bucket_rod Rzz */
     out[129] = shared_85; /* link Rxx */
     out[131] = -shared_86; /* link Rxz */
-    out[133] = 1.0; /* link Ryy */
+    out[133] = number(1.0); /* link Ryy */
     out[135] = shared_86; /* link Rzx */
     out[137] = shared_85; /* link Rzz */
     out[138] = shared_61; /* bucket Rxx */
     out[140] = shared_64; /* bucket Rxz */
-    out[142] = 1.0; /* bucket Ryy */
+    out[142] = number(1.0); /* bucket Ryy */
     out[144] = shared_63; /* bucket Rzx */
     out[146] = shared_61; /* bucket Rzz */
     out[147] = load_top_x; /* load Rxx */
     out[149] = load_side_x; /* load Rxz */
-    out[151] = 1.0; /* load Ryy */
+    out[151] = number(1.0); /* load Ryy */
     out[153] = load_top_z; /* load Rzx */
     out[155] = load_side_z; /* load Rzz */
     out[49] = out[51] = out[53] = out[55] = out[58] = out[60] = out[62] = out[64] = out[67] =
@@ -2562,7 +2573,7 @@ int excavator_lifting_poses(const double *restrict constants, const double *rest
         out[89] = out[91] = out[94] = out[96] = out[98] = out[100] = out[103] = out[105] = out[107]
         = out[109] = out[112] = out[114] = out[116] = out[118] = out[121] = out[123] = out[125] =
         out[127] = out[130] = out[132] = out[134] = out[136] = out[139] = out[141] = out[143] =
-        out[145] = out[148] = out[150] = out[152] = out[154] = 0.0;
+        out[145] = out[148] = out[150] = out[152] = out[154] = number(0.0);
 
     /* velocities */
     out[157] = boom_stroke_velocity*boom_turn_boom_stroke; /* boom omega_y */
@@ -2660,24 +2671,24 @@ int excavator_lifting_poses(const double *restrict constants, const double *rest
         = out[174] = out[176] = out[178] = out[180] = out[182] = out[184] = out[186] = out[188] =
         out[190] = out[192] = out[194] = out[196] = out[198] = out[200] = out[202] = out[204] =
         out[206] = out[208] = out[210] = out[212] = out[214] = out[216] = out[218] = out[220] =
-        out[222] = out[224] = out[226] = 0.0;
+        out[222] = out[224] = out[226] = number(0.0);
 
-    unsigned status = !(boom_barrel_extension > c->boom_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_BOOM_BARREL_EXTENSION;
-    status |= !(boom_closure > c->boom_closure_floor) * EXCAVATOR_LIFTING_STATUS_BOOM_CLOSURE;
-    status |= !(arm_barrel_extension > c->arm_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_ARM_BARREL_EXTENSION;
-    status |= !(arm_reach_squared > c->arm_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_ARM_REACH_SQUARED;
-    status |= !(arm_closure > c->arm_closure_floor) * EXCAVATOR_LIFTING_STATUS_ARM_CLOSURE;
-    status |= !(bucket_barrel_extension > c->rocker_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_BUCKET_BARREL_EXTENSION;
-    status |= !(rocker_reach_squared > c->rocker_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_ROCKER_REACH_SQUARED;
-    status |= !(rocker_closure > c->rocker_closure_floor) * EXCAVATOR_LIFTING_STATUS_ROCKER_CLOSURE;
-    status |= !(bucket_reach_squared > c->bucket_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_BUCKET_REACH_SQUARED;
-    status |= !(bucket_closure > c->bucket_closure_floor) * EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE;
-    status |= not_finite(out, 228) * EXCAVATOR_LIFTING_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(boom_barrel_extension, c->boom_arm_radius_least, EXCAVATOR_LIFTING_STATUS_BOOM_BARREL_EXTENSION);
+    status |= guard_bit(boom_closure, c->boom_closure_floor, EXCAVATOR_LIFTING_STATUS_BOOM_CLOSURE);
+    status |= guard_bit(arm_barrel_extension, c->arm_arm_radius_least, EXCAVATOR_LIFTING_STATUS_ARM_BARREL_EXTENSION);
+    status |= guard_bit(arm_reach_squared, c->arm_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_ARM_REACH_SQUARED);
+    status |= guard_bit(arm_closure, c->arm_closure_floor, EXCAVATOR_LIFTING_STATUS_ARM_CLOSURE);
+    status |= guard_bit(bucket_barrel_extension, c->rocker_arm_radius_least, EXCAVATOR_LIFTING_STATUS_BUCKET_BARREL_EXTENSION);
+    status |= guard_bit(rocker_reach_squared, c->rocker_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_ROCKER_REACH_SQUARED);
+    status |= guard_bit(rocker_closure, c->rocker_closure_floor, EXCAVATOR_LIFTING_STATUS_ROCKER_CLOSURE);
+    status |= guard_bit(bucket_reach_squared, c->bucket_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_REACH_SQUARED);
+    status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE);
+    status |= finite_bit(out, 228, EXCAVATOR_LIFTING_STATUS_NOT_FINITE);
+    return status;
 }
 
-int excavator_lifting_jacobians(const double *restrict constants, const double *restrict state,
-                                const double *restrict inputs, double *restrict out)
+status_word excavator_lifting_jacobians(const double *restrict constants, const double *restrict state,
+                                        const double *restrict inputs, double *restrict out)
 {
     const struct excavator_lifting_constants *const c = (const void *)constants;
     const double
@@ -2809,17 +2820,17 @@ int excavator_lifting_jacobians(const double *restrict constants, const double *
         shared_10 = -at_load_com_x;
 
     /* relative_jacobian by swing */
-    out[11] = 1.0; /* swing */
+    out[11] = number(1.0); /* swing */
     out[0] = out[1] = out[2] = out[3] = out[4] = out[5] = out[6] = out[7] = out[8] = out[9] =
-        out[10] = 0.0;
+        out[10] = number(0.0);
 
     /* absolute_jacobian by boom_stroke, arm_stroke, bucket_stroke, boom_angle, arm_angle,
        rocker_angle, link_angle, bucket_angle, boom_cylinder_angle, arm_cylinder_angle,
        bucket_cylinder_angle, swing */
-    out[27] = 1.0; /* load omega_y */
-    out[28] = 1.0;
-    out[31] = 1.0;
-    out[35] = 1.0;
+    out[27] = number(1.0); /* load omega_y */
+    out[28] = number(1.0);
+    out[31] = number(1.0);
+    out[35] = number(1.0);
     out[51] = at_load_com_z - c->boom_foot_z; /* load velocity_x */
     out[52] = -at_arm_pin_z - shared_9;
     out[55] = -at_bucket_pin_z - shared_9;
@@ -2834,26 +2845,28 @@ int excavator_lifting_jacobians(const double *restrict constants, const double *
         out[43] = out[44] = out[45] = out[46] = out[47] = out[48] = out[49] = out[50] = out[53] =
         out[54] = out[56] = out[57] = out[58] = out[60] = out[61] = out[62] = out[63] = out[64] =
         out[65] = out[66] = out[67] = out[68] = out[69] = out[70] = out[71] = out[72] = out[73] =
-        out[74] = out[77] = out[78] = out[80] = out[81] = out[82] = 0.0;
+        out[74] = out[77] = out[78] = out[80] = out[81] = out[82] = number(0.0);
 
     /* global_jacobian by swing */
-    out[85] = 1.0; /* load omega_y */
+    out[85] = number(1.0); /* load omega_y */
     out[87] = c->load_arm_load_com_z*load_top_x - c->load_arm_load_com_x*load_side_x; /* load
         velocity_x */
     out[89] = c->load_arm_load_com_z*load_top_z - c->load_arm_load_com_x*load_side_z; /* load
         velocity_z */
-    out[84] = out[86] = out[88] = 0.0;
+    out[84] = out[86] = out[88] = number(0.0);
 
-    unsigned status = !(boom_barrel_extension > c->boom_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_BOOM_BARREL_EXTENSION;
-    status |= !(boom_closure > c->boom_closure_floor) * EXCAVATOR_LIFTING_STATUS_BOOM_CLOSURE;
-    status |= !(arm_barrel_extension > c->arm_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_ARM_BARREL_EXTENSION;
-    status |= !(arm_reach_squared > c->arm_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_ARM_REACH_SQUARED;
-    status |= !(arm_closure > c->arm_closure_floor) * EXCAVATOR_LIFTING_STATUS_ARM_CLOSURE;
-    status |= !(bucket_barrel_extension > c->rocker_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_BUCKET_BARREL_EXTENSION;
-    status |= !(rocker_reach_squared > c->rocker_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_ROCKER_REACH_SQUARED;
-    status |= !(rocker_closure > c->rocker_closure_floor) * EXCAVATOR_LIFTING_STATUS_ROCKER_CLOSURE;
-    status |= !(bucket_reach_squared > c->bucket_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_BUCKET_REACH_SQUARED;
-    status |= !(bucket_closure > c->bucket_closure_floor) * EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE;
-    status |= not_finite(out, 90) * EXCAVATOR_LIFTING_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(boom_barrel_extension, c->boom_arm_radius_least, EXCAVATOR_LIFTING_STATUS_BOOM_BARREL_EXTENSION);
+    status |= guard_bit(boom_closure, c->boom_closure_floor, EXCAVATOR_LIFTING_STATUS_BOOM_CLOSURE);
+    status |= guard_bit(arm_barrel_extension, c->arm_arm_radius_least, EXCAVATOR_LIFTING_STATUS_ARM_BARREL_EXTENSION);
+    status |= guard_bit(arm_reach_squared, c->arm_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_ARM_REACH_SQUARED);
+    status |= guard_bit(arm_closure, c->arm_closure_floor, EXCAVATOR_LIFTING_STATUS_ARM_CLOSURE);
+    status |= guard_bit(bucket_barrel_extension, c->rocker_arm_radius_least, EXCAVATOR_LIFTING_STATUS_BUCKET_BARREL_EXTENSION);
+    status |= guard_bit(rocker_reach_squared, c->rocker_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_ROCKER_REACH_SQUARED);
+    status |= guard_bit(rocker_closure, c->rocker_closure_floor, EXCAVATOR_LIFTING_STATUS_ROCKER_CLOSURE);
+    status |= guard_bit(bucket_reach_squared, c->bucket_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_REACH_SQUARED);
+    status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE);
+    status |= finite_bit(out, 90, EXCAVATOR_LIFTING_STATUS_NOT_FINITE);
+    return status;
 }
+
+#endif

@@ -223,6 +223,8 @@ enum excavator_lifting_status {
     EXCAVATOR_LIFTING_STATUS_NOT_FINITE = 1 << 30 /* a result is NaN or infinite */
 };
 
+#ifndef KINTRAFO_LANES
+
 /*
  * Compute the constants of one parameter set.
  * Returns 0, or one plus the index of the first constant that is not finite,
@@ -305,6 +307,8 @@ int excavator_lifting_poses(const double *restrict constants, const double *rest
    */
 int excavator_lifting_jacobians(const double *restrict constants, const double *restrict state,
                                 const double *restrict inputs, double *restrict out);
+
+#endif
 
 #ifdef __cplusplus
 #undef restrict

@@ -9,24 +9,63 @@
 
 #include <math.h>
 
+#ifndef KINTRAFO_LANES /* else all numbers are vectors, and what includes this file has these */
+typedef int status_word;
+
 /* The greater of two numbers; NaN for a NaN. One instruction, where fmax may be a call. */
 static inline double at_least(double x, double least)
 {
     return x < least ? least : x;
 }
 
-/* Whether any of some values is NaN or infinite. */
-static unsigned not_finite(const double *values, int count)
+/* One for what is positive, else zero. */
+static inline double is_positive(double x)
 {
-    unsigned found = 0;
+    return x > 0.0;
+}
+
+/* A number that depends on nothing. */
+static inline double number(double x)
+{
+    return x;
+}
+
+/* A bit, where a guarded quantity is not over its floor. */
+static inline status_word guard_bit(double quantity, double least, int bit)
+{
+    return !(quantity > least) * bit;
+}
+
+/* A bit, where any of some values is NaN or infinite. */
+static inline status_word finite_bit(const double *values, int count, int bit)
+{
+    status_word found = 0;
     for (int i = 0; i < count; ++i) {
         found |= !isfinite(values[i]);
     }
-    return found;
+    return found * bit;
 }
 
-int excavator_lifting_rhs_jacobian(const double *restrict constants, const double *restrict state,
-                                   const double *restrict inputs, double *restrict out)
+/* One number or the other. */
+static inline status_word either(int applies, int code, status_word otherwise)
+{
+    return applies ? code : otherwise;
+}
+
+/* One plus the index of the first value that is NaN or infinite; 0: all are finite. */
+static inline status_word first_not_finite(const double *values, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        if (!isfinite(values[i])) {
+            return i + 1;
+        }
+    }
+    return 0;
+}
+#endif
+
+status_word excavator_lifting_rhs_jacobian(const double *restrict constants, const double *restrict state,
+                                           const double *restrict inputs, double *restrict out)
 {
     const struct excavator_lifting_constants *const c = (const void *)constants;
     const double
@@ -402,26 +441,26 @@ int excavator_lifting_rhs_jacobian(const double *restrict constants, const doubl
         swing_acceleration__swing = c->inverse_pivot_swing*net_swing__swing;
 
     /* rhs_jacobian by swing, swing_rate */
-    out[1] = 1.0; /* d(swing)/dt */
+    out[1] = number(1.0); /* d(swing)/dt */
     out[2] = swing_acceleration__swing; /* d(swing_rate)/dt */
-    out[0] = out[3] = 0.0;
+    out[0] = out[3] = number(0.0);
 
-    unsigned status = !(boom_barrel_extension > c->boom_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_BOOM_BARREL_EXTENSION;
-    status |= !(boom_closure > c->boom_closure_floor) * EXCAVATOR_LIFTING_STATUS_BOOM_CLOSURE;
-    status |= !(arm_barrel_extension > c->arm_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_ARM_BARREL_EXTENSION;
-    status |= !(arm_reach_squared > c->arm_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_ARM_REACH_SQUARED;
-    status |= !(arm_closure > c->arm_closure_floor) * EXCAVATOR_LIFTING_STATUS_ARM_CLOSURE;
-    status |= !(bucket_barrel_extension > c->rocker_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_BUCKET_BARREL_EXTENSION;
-    status |= !(rocker_reach_squared > c->rocker_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_ROCKER_REACH_SQUARED;
-    status |= !(rocker_closure > c->rocker_closure_floor) * EXCAVATOR_LIFTING_STATUS_ROCKER_CLOSURE;
-    status |= !(bucket_reach_squared > c->bucket_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_BUCKET_REACH_SQUARED;
-    status |= !(bucket_closure > c->bucket_closure_floor) * EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE;
-    status |= not_finite(out, 4) * EXCAVATOR_LIFTING_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(boom_barrel_extension, c->boom_arm_radius_least, EXCAVATOR_LIFTING_STATUS_BOOM_BARREL_EXTENSION);
+    status |= guard_bit(boom_closure, c->boom_closure_floor, EXCAVATOR_LIFTING_STATUS_BOOM_CLOSURE);
+    status |= guard_bit(arm_barrel_extension, c->arm_arm_radius_least, EXCAVATOR_LIFTING_STATUS_ARM_BARREL_EXTENSION);
+    status |= guard_bit(arm_reach_squared, c->arm_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_ARM_REACH_SQUARED);
+    status |= guard_bit(arm_closure, c->arm_closure_floor, EXCAVATOR_LIFTING_STATUS_ARM_CLOSURE);
+    status |= guard_bit(bucket_barrel_extension, c->rocker_arm_radius_least, EXCAVATOR_LIFTING_STATUS_BUCKET_BARREL_EXTENSION);
+    status |= guard_bit(rocker_reach_squared, c->rocker_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_ROCKER_REACH_SQUARED);
+    status |= guard_bit(rocker_closure, c->rocker_closure_floor, EXCAVATOR_LIFTING_STATUS_ROCKER_CLOSURE);
+    status |= guard_bit(bucket_reach_squared, c->bucket_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_REACH_SQUARED);
+    status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE);
+    status |= finite_bit(out, 4, EXCAVATOR_LIFTING_STATUS_NOT_FINITE);
+    return status;
 }
 
-int excavator_lifting_rhs_input_jacobian(const double *restrict constants, const double *restrict state,
-                                         const double *restrict inputs, double *restrict out)
+status_word excavator_lifting_rhs_input_jacobian(const double *restrict constants, const double *restrict state,
+                                                 const double *restrict inputs, double *restrict out)
 {
     const struct excavator_lifting_constants *const c = (const void *)constants;
     const double
@@ -2821,24 +2860,24 @@ int excavator_lifting_rhs_input_jacobian(const double *restrict constants, const
     out[15] = swing_acceleration__bucket_stroke_position;
     out[16] = swing_acceleration__bucket_stroke_velocity;
     out[17] = swing_acceleration__bucket_stroke_acceleration;
-    out[0] = out[1] = out[2] = out[3] = out[4] = out[5] = out[6] = out[7] = out[8] = 0.0;
+    out[0] = out[1] = out[2] = out[3] = out[4] = out[5] = out[6] = out[7] = out[8] = number(0.0);
 
-    unsigned status = !(boom_barrel_extension > c->boom_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_BOOM_BARREL_EXTENSION;
-    status |= !(boom_closure > c->boom_closure_floor) * EXCAVATOR_LIFTING_STATUS_BOOM_CLOSURE;
-    status |= !(arm_barrel_extension > c->arm_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_ARM_BARREL_EXTENSION;
-    status |= !(arm_reach_squared > c->arm_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_ARM_REACH_SQUARED;
-    status |= !(arm_closure > c->arm_closure_floor) * EXCAVATOR_LIFTING_STATUS_ARM_CLOSURE;
-    status |= !(bucket_barrel_extension > c->rocker_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_BUCKET_BARREL_EXTENSION;
-    status |= !(rocker_reach_squared > c->rocker_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_ROCKER_REACH_SQUARED;
-    status |= !(rocker_closure > c->rocker_closure_floor) * EXCAVATOR_LIFTING_STATUS_ROCKER_CLOSURE;
-    status |= !(bucket_reach_squared > c->bucket_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_BUCKET_REACH_SQUARED;
-    status |= !(bucket_closure > c->bucket_closure_floor) * EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE;
-    status |= not_finite(out, 18) * EXCAVATOR_LIFTING_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(boom_barrel_extension, c->boom_arm_radius_least, EXCAVATOR_LIFTING_STATUS_BOOM_BARREL_EXTENSION);
+    status |= guard_bit(boom_closure, c->boom_closure_floor, EXCAVATOR_LIFTING_STATUS_BOOM_CLOSURE);
+    status |= guard_bit(arm_barrel_extension, c->arm_arm_radius_least, EXCAVATOR_LIFTING_STATUS_ARM_BARREL_EXTENSION);
+    status |= guard_bit(arm_reach_squared, c->arm_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_ARM_REACH_SQUARED);
+    status |= guard_bit(arm_closure, c->arm_closure_floor, EXCAVATOR_LIFTING_STATUS_ARM_CLOSURE);
+    status |= guard_bit(bucket_barrel_extension, c->rocker_arm_radius_least, EXCAVATOR_LIFTING_STATUS_BUCKET_BARREL_EXTENSION);
+    status |= guard_bit(rocker_reach_squared, c->rocker_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_ROCKER_REACH_SQUARED);
+    status |= guard_bit(rocker_closure, c->rocker_closure_floor, EXCAVATOR_LIFTING_STATUS_ROCKER_CLOSURE);
+    status |= guard_bit(bucket_reach_squared, c->bucket_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_REACH_SQUARED);
+    status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE);
+    status |= finite_bit(out, 18, EXCAVATOR_LIFTING_STATUS_NOT_FINITE);
+    return status;
 }
 
-int excavator_lifting_rhs_jacobian_cylinders_held(const double *restrict constants, const double *restrict state,
-                                                  const double *restrict inputs, double *restrict out)
+status_word excavator_lifting_rhs_jacobian_cylinders_held(const double *restrict constants, const double *restrict state,
+                                                          const double *restrict inputs, double *restrict out)
 {
     const struct excavator_lifting_constants *const c = (const void *)constants;
     const double
@@ -2954,20 +2993,20 @@ int excavator_lifting_rhs_jacobian_cylinders_held(const double *restrict constan
         swing_acceleration__swing = c->inverse_pivot_swing*force_of_swing__swing;
 
     /* rhs_jacobian_cylinders_held by swing, swing_rate */
-    out[1] = 1.0; /* d(swing)/dt */
+    out[1] = number(1.0); /* d(swing)/dt */
     out[2] = swing_acceleration__swing; /* d(swing_rate)/dt */
-    out[0] = out[3] = 0.0;
+    out[0] = out[3] = number(0.0);
 
-    unsigned status = !(boom_barrel_extension > c->boom_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_BOOM_BARREL_EXTENSION;
-    status |= !(boom_closure > c->boom_closure_floor) * EXCAVATOR_LIFTING_STATUS_BOOM_CLOSURE;
-    status |= !(arm_barrel_extension > c->arm_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_ARM_BARREL_EXTENSION;
-    status |= !(arm_reach_squared > c->arm_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_ARM_REACH_SQUARED;
-    status |= !(arm_closure > c->arm_closure_floor) * EXCAVATOR_LIFTING_STATUS_ARM_CLOSURE;
-    status |= !(bucket_barrel_extension > c->rocker_arm_radius_least) * EXCAVATOR_LIFTING_STATUS_BUCKET_BARREL_EXTENSION;
-    status |= !(rocker_reach_squared > c->rocker_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_ROCKER_REACH_SQUARED;
-    status |= !(rocker_closure > c->rocker_closure_floor) * EXCAVATOR_LIFTING_STATUS_ROCKER_CLOSURE;
-    status |= !(bucket_reach_squared > c->bucket_reach_squared_floor) * EXCAVATOR_LIFTING_STATUS_BUCKET_REACH_SQUARED;
-    status |= !(bucket_closure > c->bucket_closure_floor) * EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE;
-    status |= not_finite(out, 4) * EXCAVATOR_LIFTING_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(boom_barrel_extension, c->boom_arm_radius_least, EXCAVATOR_LIFTING_STATUS_BOOM_BARREL_EXTENSION);
+    status |= guard_bit(boom_closure, c->boom_closure_floor, EXCAVATOR_LIFTING_STATUS_BOOM_CLOSURE);
+    status |= guard_bit(arm_barrel_extension, c->arm_arm_radius_least, EXCAVATOR_LIFTING_STATUS_ARM_BARREL_EXTENSION);
+    status |= guard_bit(arm_reach_squared, c->arm_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_ARM_REACH_SQUARED);
+    status |= guard_bit(arm_closure, c->arm_closure_floor, EXCAVATOR_LIFTING_STATUS_ARM_CLOSURE);
+    status |= guard_bit(bucket_barrel_extension, c->rocker_arm_radius_least, EXCAVATOR_LIFTING_STATUS_BUCKET_BARREL_EXTENSION);
+    status |= guard_bit(rocker_reach_squared, c->rocker_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_ROCKER_REACH_SQUARED);
+    status |= guard_bit(rocker_closure, c->rocker_closure_floor, EXCAVATOR_LIFTING_STATUS_ROCKER_CLOSURE);
+    status |= guard_bit(bucket_reach_squared, c->bucket_reach_squared_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_REACH_SQUARED);
+    status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE);
+    status |= finite_bit(out, 4, EXCAVATOR_LIFTING_STATUS_NOT_FINITE);
+    return status;
 }

@@ -9,23 +9,62 @@
 
 #include <math.h>
 
+#ifndef KINTRAFO_LANES /* else all numbers are vectors, and what includes this file has these */
+typedef int status_word;
+
 /* The greater of two numbers; NaN for a NaN. One instruction, where fmax may be a call. */
 static inline double at_least(double x, double least)
 {
     return x < least ? least : x;
 }
 
-/* Whether any of some values is NaN or infinite. */
-static unsigned not_finite(const double *values, int count)
+/* One for what is positive, else zero. */
+static inline double is_positive(double x)
 {
-    unsigned found = 0;
+    return x > 0.0;
+}
+
+/* A number that depends on nothing. */
+static inline double number(double x)
+{
+    return x;
+}
+
+/* A bit, where a guarded quantity is not over its floor. */
+static inline status_word guard_bit(double quantity, double least, int bit)
+{
+    return !(quantity > least) * bit;
+}
+
+/* A bit, where any of some values is NaN or infinite. */
+static inline status_word finite_bit(const double *values, int count, int bit)
+{
+    status_word found = 0;
     for (int i = 0; i < count; ++i) {
         found |= !isfinite(values[i]);
     }
-    return found;
+    return found * bit;
 }
 
-int four_bar_prepare(const double *restrict parameters, double *restrict constants)
+/* One number or the other. */
+static inline status_word either(int applies, int code, status_word otherwise)
+{
+    return applies ? code : otherwise;
+}
+
+/* One plus the index of the first value that is NaN or infinite; 0: all are finite. */
+static inline status_word first_not_finite(const double *values, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        if (!isfinite(values[i])) {
+            return i + 1;
+        }
+    }
+    return 0;
+}
+#endif
+
+status_word four_bar_prepare(const double *restrict parameters, double *restrict constants)
 {
     struct four_bar_constants *const c = (void *)constants;
     const double
@@ -150,37 +189,25 @@ int four_bar_prepare(const double *restrict parameters, double *restrict constan
     c->constant_8 = c->crank_arm_crank_pin_y - crank_arm_rocker_pin_y;
     c->constant_9 = c->crank_arm_crank_pin_x - crank_arm_rocker_pin_x;
 
-    if (fabs(c->rocker_arm_radius) <= c->rocker_arm_radius_least) {
-        return FOUR_BAR_CONSTANT_COUNT + 1;
-    }
-    if (fabs(c->coupler_length) <= c->rocker_arm_radius_least) {
-        return FOUR_BAR_CONSTANT_COUNT + 2;
-    }
-    if (fabs(c->rocker_reach_design) <= c->rocker_arm_radius_least) {
-        return FOUR_BAR_CONSTANT_COUNT + 3;
-    }
-    if (fabs(c->rocker_rod_height_design) <= c->rocker_rod_height_design_least) {
-        return FOUR_BAR_CONSTANT_COUNT + 4;
-    }
-    for (int i = 0; i < FOUR_BAR_CONSTANT_COUNT; ++i) {
-        if (!isfinite(constants[i])) {
-            return i + 1;
-        }
-    }
-    return 0;
+    status_word failed = first_not_finite(constants, FOUR_BAR_CONSTANT_COUNT);
+    failed = either(fabs(c->rocker_rod_height_design) <= c->rocker_rod_height_design_least, FOUR_BAR_CONSTANT_COUNT + 4, failed);
+    failed = either(fabs(c->rocker_reach_design) <= c->rocker_arm_radius_least, FOUR_BAR_CONSTANT_COUNT + 3, failed);
+    failed = either(fabs(c->coupler_length) <= c->rocker_arm_radius_least, FOUR_BAR_CONSTANT_COUNT + 2, failed);
+    failed = either(fabs(c->rocker_arm_radius) <= c->rocker_arm_radius_least, FOUR_BAR_CONSTANT_COUNT + 1, failed);
+    return failed;
 }
 
-int four_bar_design_state(const double *restrict parameters, double *restrict state)
+status_word four_bar_design_state(const double *restrict parameters, double *restrict state)
 {
     (void)parameters;
 
-    state[0] = 0.0;
-    state[1] = 0.0;
-    return 0;
+    state[0] = number(0.0);
+    state[1] = number(0.0);
+    return finite_bit(state, 2, FOUR_BAR_STATUS_NOT_FINITE);
 }
 
-int four_bar_rhs(const double *restrict constants, const double *restrict state,
-                 const double *restrict inputs, double *restrict out)
+status_word four_bar_rhs(const double *restrict constants, const double *restrict state,
+                         const double *restrict inputs, double *restrict out)
 {
     const struct four_bar_constants *const c = (const void *)constants;
     const double
@@ -320,92 +347,16 @@ int four_bar_rhs(const double *restrict constants, const double *restrict state,
     out[0] = crank_angle_rate; /* d(crank_angle)/dt */
     out[1] = crank_angle_acceleration; /* d(crank_angle_rate)/dt */
 
-    unsigned status = !(rocker_reach_squared > c->rocker_reach_squared_floor) * FOUR_BAR_STATUS_ROCKER_REACH_SQUARED;
-    status |= !(rocker_closure > c->rocker_closure_floor) * FOUR_BAR_STATUS_ROCKER_CLOSURE;
-    status |= !(spring_length_squared > c->spring_length_squared_floor) * FOUR_BAR_STATUS_SPRING_LENGTH_SQUARED;
-    status |= !(mass_crank_angle_crank_angle > 1e-280) * FOUR_BAR_STATUS_PIVOT_CRANK_ANGLE;
-    status |= not_finite(out, 2) * FOUR_BAR_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(rocker_reach_squared, c->rocker_reach_squared_floor, FOUR_BAR_STATUS_ROCKER_REACH_SQUARED);
+    status |= guard_bit(rocker_closure, c->rocker_closure_floor, FOUR_BAR_STATUS_ROCKER_CLOSURE);
+    status |= guard_bit(spring_length_squared, c->spring_length_squared_floor, FOUR_BAR_STATUS_SPRING_LENGTH_SQUARED);
+    status |= guard_bit(mass_crank_angle_crank_angle, 1e-280, FOUR_BAR_STATUS_PIVOT_CRANK_ANGLE);
+    status |= finite_bit(out, 2, FOUR_BAR_STATUS_NOT_FINITE);
+    return status;
 }
 
-int four_bar_residuals(const double *restrict constants, const double *restrict state,
-                       const double *restrict inputs, const double *restrict given, double *restrict out)
-{
-    const struct four_bar_constants *const c = (const void *)constants;
-    (void)inputs;
-    const double
-        crank_angle = state[0],
-        given_crank_angle = given[0],
-        given_coupler_angle = given[1],
-        given_rocker_angle = given[2];
-
-    /* crank: revolute joint */
-    const double
-        cos_crank_angle = cos(crank_angle),
-        sin_crank_angle = sin(crank_angle);
-
-    /* transformer: rocker held by coupler */
-    const double
-        at_crank_pin_x = c->crank_bearing_x + c->crank_arm_crank_pin_x*cos_crank_angle -
-            c->crank_arm_crank_pin_y*sin_crank_angle,
-        at_crank_pin_y = c->crank_bearing_y + c->crank_arm_crank_pin_y*cos_crank_angle +
-            c->crank_arm_crank_pin_x*sin_crank_angle,
-        rocker_reach_x = at_crank_pin_x - c->rocker_bearing_x,
-        rocker_reach_y = at_crank_pin_y - c->rocker_bearing_y,
-        rocker_reach_squared = rocker_reach_x*rocker_reach_x + rocker_reach_y*rocker_reach_y,
-        shared_2 = at_least(rocker_reach_squared, c->rocker_reach_squared_floor),
-        rocker_reach_needed = c->constant_5*(c->constant_4 + shared_2),
-        rocker_closure = shared_2 - rocker_reach_needed*rocker_reach_needed,
-        rocker_closure_root = sqrt(at_least(rocker_closure, c->rocker_closure_floor)),
-        rocker_reach_inverse = 1.0/shared_2,
-        rocker_reach_inverse_signed = c->rocker_branch*rocker_reach_inverse,
-        rocker_turn_cosine = rocker_reach_needed*rocker_reach_inverse,
-        rocker_turn_sine = rocker_reach_inverse_signed*rocker_closure_root,
-        rocker_arm_x = rocker_reach_x*rocker_turn_cosine - rocker_reach_y*rocker_turn_sine,
-        rocker_arm_y = rocker_reach_y*rocker_turn_cosine + rocker_reach_x*rocker_turn_sine;
-
-    /* coupler: pinned to rocker */
-    const double
-        at_rocker_pin_x = c->rocker_bearing_x + c->rocker_arm_radius*rocker_arm_x,
-        at_rocker_pin_y = c->rocker_bearing_y + c->rocker_arm_radius*rocker_arm_y,
-        shared_3 = -at_rocker_pin_x,
-        coupler_span_x = -at_crank_pin_x - shared_3,
-        coupler_span_y = at_rocker_pin_y - at_crank_pin_y,
-        coupler_arm_x = c->coupler_radius_inverse*coupler_span_x,
-        coupler_arm_y = c->coupler_radius_inverse*coupler_span_y;
-
-    /* closure residuals */
-    const double
-        shared_4 = sin(given_coupler_angle),
-        shared_5 = cos(given_coupler_angle),
-        shared_6 = c->crank_arm_crank_pin_x + c->constant_8*shared_4 - c->constant_9*shared_5,
-        shared_7 = c->constant_8*shared_5 - c->crank_arm_crank_pin_y + c->constant_9*shared_4,
-        given_opening_B_x = c->crank_bearing_x + cos_crank_angle*shared_6 + sin_crank_angle*shared_7
-            + shared_3,
-        given_opening_B_y = c->crank_bearing_y + sin_crank_angle*shared_6 - cos_crank_angle*shared_7
-            - at_rocker_pin_y,
-        shared_8 = sin(given_rocker_angle),
-        shared_9 = cos(given_rocker_angle),
-        given_opening_D_x = c->rocker_arm_design_x*shared_9 - c->rocker_arm_design_y*shared_8 -
-            rocker_reach_x,
-        given_opening_D_y = c->rocker_bearing_y + c->rocker_arm_design_x*shared_8 +
-            c->rocker_arm_design_y*shared_9 - at_crank_pin_y;
-
-    /* residuals */
-    out[0] = given_crank_angle - crank_angle; /* g_crank_angle */
-    out[1] = given_opening_B_y*coupler_arm_x - coupler_arm_y*given_opening_B_x; /* g_coupler_angle
-        */
-    out[2] = sqrt(given_opening_D_y*given_opening_D_y + given_opening_D_x*given_opening_D_x) -
-        c->coupler_length; /* g_rocker_angle */
-
-    unsigned status = !(rocker_reach_squared > c->rocker_reach_squared_floor) * FOUR_BAR_STATUS_ROCKER_REACH_SQUARED;
-    status |= !(rocker_closure > c->rocker_closure_floor) * FOUR_BAR_STATUS_ROCKER_CLOSURE;
-    status |= not_finite(out, 3) * FOUR_BAR_STATUS_NOT_FINITE;
-    return (int)status;
-}
-
-int four_bar_signals(const double *restrict constants, const double *restrict state,
-                     const double *restrict inputs, double *restrict out)
+status_word four_bar_signals(const double *restrict constants, const double *restrict state,
+                             const double *restrict inputs, double *restrict out)
 {
     const struct four_bar_constants *const c = (const void *)constants;
     (void)inputs;
@@ -503,15 +454,15 @@ int four_bar_signals(const double *restrict constants, const double *restrict st
     out[2] = spring_force; /* spring_force */
     out[3] = damper_force; /* damper_force */
 
-    unsigned status = !(rocker_reach_squared > c->rocker_reach_squared_floor) * FOUR_BAR_STATUS_ROCKER_REACH_SQUARED;
-    status |= !(rocker_closure > c->rocker_closure_floor) * FOUR_BAR_STATUS_ROCKER_CLOSURE;
-    status |= !(spring_length_squared > c->spring_length_squared_floor) * FOUR_BAR_STATUS_SPRING_LENGTH_SQUARED;
-    status |= not_finite(out, 4) * FOUR_BAR_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(rocker_reach_squared, c->rocker_reach_squared_floor, FOUR_BAR_STATUS_ROCKER_REACH_SQUARED);
+    status |= guard_bit(rocker_closure, c->rocker_closure_floor, FOUR_BAR_STATUS_ROCKER_CLOSURE);
+    status |= guard_bit(spring_length_squared, c->spring_length_squared_floor, FOUR_BAR_STATUS_SPRING_LENGTH_SQUARED);
+    status |= finite_bit(out, 4, FOUR_BAR_STATUS_NOT_FINITE);
+    return status;
 }
 
-int four_bar_margins(const double *restrict constants, const double *restrict state,
-                     const double *restrict inputs, double *restrict out)
+status_word four_bar_margins(const double *restrict constants, const double *restrict state,
+                             const double *restrict inputs, double *restrict out)
 {
     const struct four_bar_constants *const c = (const void *)constants;
     (void)inputs;
@@ -612,12 +563,90 @@ int four_bar_margins(const double *restrict constants, const double *restrict st
     out[2] = spring_length_squared - c->spring_length_squared_floor; /* spring_length_squared */
     out[3] = mass_crank_angle_crank_angle - 1e-280; /* pivot_crank_angle */
 
-    unsigned status = not_finite(out, 4) * FOUR_BAR_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = finite_bit(out, 4, FOUR_BAR_STATUS_NOT_FINITE);
+    return status;
 }
 
-int four_bar_dynamics(const double *restrict constants, const double *restrict state,
-                      const double *restrict inputs, double *restrict out)
+#ifndef KINTRAFO_LANES /* what no simulation evaluates */
+
+status_word four_bar_residuals(const double *restrict constants, const double *restrict state,
+                               const double *restrict inputs, const double *restrict given, double *restrict out)
+{
+    const struct four_bar_constants *const c = (const void *)constants;
+    (void)inputs;
+    const double
+        crank_angle = state[0],
+        given_crank_angle = given[0],
+        given_coupler_angle = given[1],
+        given_rocker_angle = given[2];
+
+    /* crank: revolute joint */
+    const double
+        cos_crank_angle = cos(crank_angle),
+        sin_crank_angle = sin(crank_angle);
+
+    /* transformer: rocker held by coupler */
+    const double
+        at_crank_pin_x = c->crank_bearing_x + c->crank_arm_crank_pin_x*cos_crank_angle -
+            c->crank_arm_crank_pin_y*sin_crank_angle,
+        at_crank_pin_y = c->crank_bearing_y + c->crank_arm_crank_pin_y*cos_crank_angle +
+            c->crank_arm_crank_pin_x*sin_crank_angle,
+        rocker_reach_x = at_crank_pin_x - c->rocker_bearing_x,
+        rocker_reach_y = at_crank_pin_y - c->rocker_bearing_y,
+        rocker_reach_squared = rocker_reach_x*rocker_reach_x + rocker_reach_y*rocker_reach_y,
+        shared_2 = at_least(rocker_reach_squared, c->rocker_reach_squared_floor),
+        rocker_reach_needed = c->constant_5*(c->constant_4 + shared_2),
+        rocker_closure = shared_2 - rocker_reach_needed*rocker_reach_needed,
+        rocker_closure_root = sqrt(at_least(rocker_closure, c->rocker_closure_floor)),
+        rocker_reach_inverse = 1.0/shared_2,
+        rocker_reach_inverse_signed = c->rocker_branch*rocker_reach_inverse,
+        rocker_turn_cosine = rocker_reach_needed*rocker_reach_inverse,
+        rocker_turn_sine = rocker_reach_inverse_signed*rocker_closure_root,
+        rocker_arm_x = rocker_reach_x*rocker_turn_cosine - rocker_reach_y*rocker_turn_sine,
+        rocker_arm_y = rocker_reach_y*rocker_turn_cosine + rocker_reach_x*rocker_turn_sine;
+
+    /* coupler: pinned to rocker */
+    const double
+        at_rocker_pin_x = c->rocker_bearing_x + c->rocker_arm_radius*rocker_arm_x,
+        at_rocker_pin_y = c->rocker_bearing_y + c->rocker_arm_radius*rocker_arm_y,
+        shared_3 = -at_rocker_pin_x,
+        coupler_span_x = -at_crank_pin_x - shared_3,
+        coupler_span_y = at_rocker_pin_y - at_crank_pin_y,
+        coupler_arm_x = c->coupler_radius_inverse*coupler_span_x,
+        coupler_arm_y = c->coupler_radius_inverse*coupler_span_y;
+
+    /* closure residuals */
+    const double
+        shared_4 = sin(given_coupler_angle),
+        shared_5 = cos(given_coupler_angle),
+        shared_6 = c->crank_arm_crank_pin_x + c->constant_8*shared_4 - c->constant_9*shared_5,
+        shared_7 = c->constant_8*shared_5 - c->crank_arm_crank_pin_y + c->constant_9*shared_4,
+        given_opening_B_x = c->crank_bearing_x + cos_crank_angle*shared_6 + sin_crank_angle*shared_7
+            + shared_3,
+        given_opening_B_y = c->crank_bearing_y + sin_crank_angle*shared_6 - cos_crank_angle*shared_7
+            - at_rocker_pin_y,
+        shared_8 = sin(given_rocker_angle),
+        shared_9 = cos(given_rocker_angle),
+        given_opening_D_x = c->rocker_arm_design_x*shared_9 - c->rocker_arm_design_y*shared_8 -
+            rocker_reach_x,
+        given_opening_D_y = c->rocker_bearing_y + c->rocker_arm_design_x*shared_8 +
+            c->rocker_arm_design_y*shared_9 - at_crank_pin_y;
+
+    /* residuals */
+    out[0] = given_crank_angle - crank_angle; /* g_crank_angle */
+    out[1] = given_opening_B_y*coupler_arm_x - coupler_arm_y*given_opening_B_x; /* g_coupler_angle
+        */
+    out[2] = sqrt(given_opening_D_y*given_opening_D_y + given_opening_D_x*given_opening_D_x) -
+        c->coupler_length; /* g_rocker_angle */
+
+    status_word status = guard_bit(rocker_reach_squared, c->rocker_reach_squared_floor, FOUR_BAR_STATUS_ROCKER_REACH_SQUARED);
+    status |= guard_bit(rocker_closure, c->rocker_closure_floor, FOUR_BAR_STATUS_ROCKER_CLOSURE);
+    status |= finite_bit(out, 3, FOUR_BAR_STATUS_NOT_FINITE);
+    return status;
+}
+
+status_word four_bar_dynamics(const double *restrict constants, const double *restrict state,
+                              const double *restrict inputs, double *restrict out)
 {
     const struct four_bar_constants *const c = (const void *)constants;
     const double
@@ -776,15 +805,15 @@ int four_bar_dynamics(const double *restrict constants, const double *restrict s
     /* forces */
     out[2] = force_of_crank_angle; /* Q[crank_angle] */
 
-    unsigned status = !(rocker_reach_squared > c->rocker_reach_squared_floor) * FOUR_BAR_STATUS_ROCKER_REACH_SQUARED;
-    status |= !(rocker_closure > c->rocker_closure_floor) * FOUR_BAR_STATUS_ROCKER_CLOSURE;
-    status |= !(spring_length_squared > c->spring_length_squared_floor) * FOUR_BAR_STATUS_SPRING_LENGTH_SQUARED;
-    status |= not_finite(out, 3) * FOUR_BAR_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(rocker_reach_squared, c->rocker_reach_squared_floor, FOUR_BAR_STATUS_ROCKER_REACH_SQUARED);
+    status |= guard_bit(rocker_closure, c->rocker_closure_floor, FOUR_BAR_STATUS_ROCKER_CLOSURE);
+    status |= guard_bit(spring_length_squared, c->spring_length_squared_floor, FOUR_BAR_STATUS_SPRING_LENGTH_SQUARED);
+    status |= finite_bit(out, 3, FOUR_BAR_STATUS_NOT_FINITE);
+    return status;
 }
 
-int four_bar_poses(const double *restrict constants, const double *restrict state,
-                   const double *restrict inputs, double *restrict out)
+status_word four_bar_poses(const double *restrict constants, const double *restrict state,
+                           const double *restrict inputs, double *restrict out)
 {
     const struct four_bar_constants *const c = (const void *)constants;
     (void)inputs;
@@ -927,26 +956,26 @@ int four_bar_poses(const double *restrict constants, const double *restrict stat
         c->rocker_rocker_com_3*rocker_arm_y; /* rocker x */
     out[10] = c->rocker_bearing_y + c->rocker_rocker_com_3*rocker_arm_x +
         c->rocker_rocker_com_2*rocker_arm_y; /* rocker y */
-    out[5] = out[8] = out[11] = 0.0;
+    out[5] = out[8] = out[11] = number(0.0);
 
     /* orientations */
     out[12] = cos_crank_angle; /* crank Rxx */
     out[13] = -sin_crank_angle; /* crank Rxy */
     out[15] = sin_crank_angle; /* crank Ryx */
     out[16] = cos_crank_angle; /* crank Ryy */
-    out[20] = 1.0; /* crank Rzz */
+    out[20] = number(1.0); /* crank Rzz */
     out[21] = shared_14; /* coupler Rxx */
     out[22] = -shared_15; /* coupler Rxy */
     out[24] = shared_15; /* coupler Ryx */
     out[25] = shared_14; /* coupler Ryy */
-    out[29] = 1.0; /* coupler Rzz */
+    out[29] = number(1.0); /* coupler Rzz */
     out[30] = shared_9; /* rocker Rxx */
     out[31] = -shared_8; /* rocker Rxy */
     out[33] = shared_8; /* rocker Ryx */
     out[34] = shared_9; /* rocker Ryy */
-    out[38] = 1.0; /* rocker Rzz */
+    out[38] = number(1.0); /* rocker Rzz */
     out[14] = out[17] = out[18] = out[19] = out[23] = out[26] = out[27] = out[28] = out[32] =
-        out[35] = out[36] = out[37] = 0.0;
+        out[35] = out[36] = out[37] = number(0.0);
 
     /* velocities */
     out[41] = crank_angle_rate; /* crank omega_z */
@@ -962,16 +991,17 @@ int four_bar_poses(const double *restrict constants, const double *restrict stat
         c->rocker_rocker_com_3*shared_22); /* rocker velocity_x */
     out[55] = crank_angle_rate*(c->rocker_rocker_com_2*shared_22 -
         c->rocker_rocker_com_3*shared_23); /* rocker velocity_y */
-    out[39] = out[40] = out[44] = out[45] = out[46] = out[50] = out[51] = out[52] = out[56] = 0.0;
+    out[39] = out[40] = out[44] = out[45] = out[46] = out[50] = out[51] = out[52] = out[56] =
+        number(0.0);
 
-    unsigned status = !(rocker_reach_squared > c->rocker_reach_squared_floor) * FOUR_BAR_STATUS_ROCKER_REACH_SQUARED;
-    status |= !(rocker_closure > c->rocker_closure_floor) * FOUR_BAR_STATUS_ROCKER_CLOSURE;
-    status |= not_finite(out, 57) * FOUR_BAR_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(rocker_reach_squared, c->rocker_reach_squared_floor, FOUR_BAR_STATUS_ROCKER_REACH_SQUARED);
+    status |= guard_bit(rocker_closure, c->rocker_closure_floor, FOUR_BAR_STATUS_ROCKER_CLOSURE);
+    status |= finite_bit(out, 57, FOUR_BAR_STATUS_NOT_FINITE);
+    return status;
 }
 
-int four_bar_jacobians(const double *restrict constants, const double *restrict state,
-                       const double *restrict inputs, double *restrict out)
+status_word four_bar_jacobians(const double *restrict constants, const double *restrict state,
+                               const double *restrict inputs, double *restrict out)
 {
     const struct four_bar_constants *const c = (const void *)constants;
     (void)inputs;
@@ -1170,31 +1200,31 @@ int four_bar_jacobians(const double *restrict constants, const double *restrict 
         shared_34 = -(-c->crank_bearing_y);
 
     /* relative_jacobian by crank_angle */
-    out[0] = 1.0; /* crank_angle */
+    out[0] = number(1.0); /* crank_angle */
     out[1] = angle_B__by_crank_angle; /* coupler_angle */
     out[2] = angle_D__by_crank_angle; /* rocker_angle */
 
     /* absolute_jacobian by crank_angle, coupler_angle, rocker_angle */
-    out[9] = 1.0; /* crank omega_z */
+    out[9] = number(1.0); /* crank omega_z */
     out[12] = shared_34 - at_crank_com_y; /* crank velocity_x */
     out[15] = shared_33 + at_crank_com_x; /* crank velocity_y */
-    out[27] = 1.0; /* coupler omega_z */
-    out[28] = 1.0;
+    out[27] = number(1.0); /* coupler omega_z */
+    out[28] = number(1.0);
     out[30] = shared_34 - at_coupler_com_y; /* coupler velocity_x */
     out[31] = at_crank_pin_y_2 - at_coupler_com_y;
     out[33] = shared_33 + at_coupler_com_x; /* coupler velocity_y */
     out[34] = at_coupler_com_x - at_crank_pin_x_2;
-    out[47] = 1.0; /* rocker omega_z */
+    out[47] = number(1.0); /* rocker omega_z */
     out[50] = -shared_27 - at_rocker_com_y; /* rocker velocity_x */
     out[53] = shared_26 + at_rocker_com_x; /* rocker velocity_y */
     out[3] = out[4] = out[5] = out[6] = out[7] = out[8] = out[10] = out[11] = out[13] = out[14] =
         out[16] = out[17] = out[18] = out[19] = out[20] = out[21] = out[22] = out[23] = out[24] =
         out[25] = out[26] = out[29] = out[32] = out[35] = out[36] = out[37] = out[38] = out[39] =
         out[40] = out[41] = out[42] = out[43] = out[44] = out[45] = out[46] = out[48] = out[49] =
-        out[51] = out[52] = out[54] = out[55] = out[56] = 0.0;
+        out[51] = out[52] = out[54] = out[55] = out[56] = number(0.0);
 
     /* global_jacobian by crank_angle */
-    out[59] = 1.0; /* crank omega_z */
+    out[59] = number(1.0); /* crank omega_z */
     out[60] = -shared_32 - shared_31; /* crank velocity_x */
     out[61] = shared_29 - shared_30; /* crank velocity_y */
     out[65] = coupler_omega_crank_angle_1; /* coupler omega_z */
@@ -1205,10 +1235,13 @@ int four_bar_jacobians(const double *restrict constants, const double *restrict 
         velocity_x */
     out[73] = c->rocker_rocker_com_2*shared_37 - c->rocker_rocker_com_3*shared_38; /* rocker
         velocity_y */
-    out[57] = out[58] = out[62] = out[63] = out[64] = out[68] = out[69] = out[70] = out[74] = 0.0;
+    out[57] = out[58] = out[62] = out[63] = out[64] = out[68] = out[69] = out[70] = out[74] =
+        number(0.0);
 
-    unsigned status = !(rocker_reach_squared > c->rocker_reach_squared_floor) * FOUR_BAR_STATUS_ROCKER_REACH_SQUARED;
-    status |= !(rocker_closure > c->rocker_closure_floor) * FOUR_BAR_STATUS_ROCKER_CLOSURE;
-    status |= not_finite(out, 75) * FOUR_BAR_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(rocker_reach_squared, c->rocker_reach_squared_floor, FOUR_BAR_STATUS_ROCKER_REACH_SQUARED);
+    status |= guard_bit(rocker_closure, c->rocker_closure_floor, FOUR_BAR_STATUS_ROCKER_CLOSURE);
+    status |= finite_bit(out, 75, FOUR_BAR_STATUS_NOT_FINITE);
+    return status;
 }
+
+#endif

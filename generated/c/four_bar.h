@@ -121,6 +121,8 @@ enum four_bar_status {
     FOUR_BAR_STATUS_NOT_FINITE = 1 << 30 /* a result is NaN or infinite */
 };
 
+#ifndef KINTRAFO_LANES
+
 /*
  * Compute the constants of one parameter set.
  * Returns 0, or one plus the index of the first constant that is not finite,
@@ -184,6 +186,8 @@ int four_bar_jacobians(const double *restrict constants, const double *restrict 
    (110 add, 157 multiply, 7 divide, 2 root, 2 trigonometric). */
 int four_bar_linearisation(const double *restrict constants, const double *restrict state,
                            const double *restrict inputs, double *restrict out);
+
+#endif
 
 #ifdef __cplusplus
 #undef restrict

@@ -9,23 +9,62 @@
 
 #include <math.h>
 
+#ifndef KINTRAFO_LANES /* else all numbers are vectors, and what includes this file has these */
+typedef int status_word;
+
 /* The greater of two numbers; NaN for a NaN. One instruction, where fmax may be a call. */
 static inline double at_least(double x, double least)
 {
     return x < least ? least : x;
 }
 
-/* Whether any of some values is NaN or infinite. */
-static unsigned not_finite(const double *values, int count)
+/* One for what is positive, else zero. */
+static inline double is_positive(double x)
 {
-    unsigned found = 0;
+    return x > 0.0;
+}
+
+/* A number that depends on nothing. */
+static inline double number(double x)
+{
+    return x;
+}
+
+/* A bit, where a guarded quantity is not over its floor. */
+static inline status_word guard_bit(double quantity, double least, int bit)
+{
+    return !(quantity > least) * bit;
+}
+
+/* A bit, where any of some values is NaN or infinite. */
+static inline status_word finite_bit(const double *values, int count, int bit)
+{
+    status_word found = 0;
     for (int i = 0; i < count; ++i) {
         found |= !isfinite(values[i]);
     }
-    return found;
+    return found * bit;
 }
 
-int front_axle_prepare(const double *restrict parameters, double *restrict constants)
+/* One number or the other. */
+static inline status_word either(int applies, int code, status_word otherwise)
+{
+    return applies ? code : otherwise;
+}
+
+/* One plus the index of the first value that is NaN or infinite; 0: all are finite. */
+static inline status_word first_not_finite(const double *values, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        if (!isfinite(values[i])) {
+            return i + 1;
+        }
+    }
+    return 0;
+}
+#endif
+
+status_word front_axle_prepare(const double *restrict parameters, double *restrict constants)
 {
     struct front_axle_constants *const c = (void *)constants;
     const double
@@ -1260,51 +1299,23 @@ int front_axle_prepare(const double *restrict parameters, double *restrict const
     c->constant_419 = c->work_x_z*c->right_knuckle_right_spin_axis_3;
     c->constant_420 = c->work_z_z*c->right_knuckle_right_spin_axis_3;
 
-    if (fabs(c->right_bar_arm_radius) <= c->right_bar_arm_radius_least) {
-        return FRONT_AXLE_CONSTANT_COUNT + 1;
-    }
-    if (fabs(c->right_drop_link_length) <= c->right_bar_arm_radius_least) {
-        return FRONT_AXLE_CONSTANT_COUNT + 2;
-    }
-    if (fabs(c->right_bar_reach_design) <= c->right_bar_arm_radius_least) {
-        return FRONT_AXLE_CONSTANT_COUNT + 3;
-    }
-    if (fabs(c->right_bar_rod_height_design) <= c->right_bar_rod_height_design_least) {
-        return FRONT_AXLE_CONSTANT_COUNT + 4;
-    }
-    if (fabs(c->right_drop_link_cross_design) <= 1e-05) {
-        return FRONT_AXLE_CONSTANT_COUNT + 5;
-    }
-    if (fabs(c->right_BC_length_design) <= c->right_BC_length_design_least) {
-        return FRONT_AXLE_CONSTANT_COUNT + 6;
-    }
-    if (fabs(c->right_upper_strut_cross_design) <= 1e-05) {
-        return FRONT_AXLE_CONSTANT_COUNT + 7;
-    }
-    if (fabs(c->right_knuckle_arm_radius) <= c->right_knuckle_arm_radius_least) {
-        return FRONT_AXLE_CONSTANT_COUNT + 8;
-    }
-    if (fabs(c->right_tie_rod_length) <= c->right_knuckle_arm_radius_least) {
-        return FRONT_AXLE_CONSTANT_COUNT + 9;
-    }
-    if (fabs(c->right_knuckle_reach_design) <= c->right_knuckle_arm_radius_least) {
-        return FRONT_AXLE_CONSTANT_COUNT + 10;
-    }
-    if (fabs(c->right_knuckle_rod_height_design) <= c->right_knuckle_rod_height_design_least) {
-        return FRONT_AXLE_CONSTANT_COUNT + 11;
-    }
-    if (fabs(c->right_tie_rod_cross_design) <= 1e-05) {
-        return FRONT_AXLE_CONSTANT_COUNT + 12;
-    }
-    for (int i = 0; i < FRONT_AXLE_CONSTANT_COUNT; ++i) {
-        if (!isfinite(constants[i])) {
-            return i + 1;
-        }
-    }
-    return 0;
+    status_word failed = first_not_finite(constants, FRONT_AXLE_CONSTANT_COUNT);
+    failed = either(fabs(c->right_tie_rod_cross_design) <= 1e-05, FRONT_AXLE_CONSTANT_COUNT + 12, failed);
+    failed = either(fabs(c->right_knuckle_rod_height_design) <= c->right_knuckle_rod_height_design_least, FRONT_AXLE_CONSTANT_COUNT + 11, failed);
+    failed = either(fabs(c->right_knuckle_reach_design) <= c->right_knuckle_arm_radius_least, FRONT_AXLE_CONSTANT_COUNT + 10, failed);
+    failed = either(fabs(c->right_tie_rod_length) <= c->right_knuckle_arm_radius_least, FRONT_AXLE_CONSTANT_COUNT + 9, failed);
+    failed = either(fabs(c->right_knuckle_arm_radius) <= c->right_knuckle_arm_radius_least, FRONT_AXLE_CONSTANT_COUNT + 8, failed);
+    failed = either(fabs(c->right_upper_strut_cross_design) <= 1e-05, FRONT_AXLE_CONSTANT_COUNT + 7, failed);
+    failed = either(fabs(c->right_BC_length_design) <= c->right_BC_length_design_least, FRONT_AXLE_CONSTANT_COUNT + 6, failed);
+    failed = either(fabs(c->right_drop_link_cross_design) <= 1e-05, FRONT_AXLE_CONSTANT_COUNT + 5, failed);
+    failed = either(fabs(c->right_bar_rod_height_design) <= c->right_bar_rod_height_design_least, FRONT_AXLE_CONSTANT_COUNT + 4, failed);
+    failed = either(fabs(c->right_bar_reach_design) <= c->right_bar_arm_radius_least, FRONT_AXLE_CONSTANT_COUNT + 3, failed);
+    failed = either(fabs(c->right_drop_link_length) <= c->right_bar_arm_radius_least, FRONT_AXLE_CONSTANT_COUNT + 2, failed);
+    failed = either(fabs(c->right_bar_arm_radius) <= c->right_bar_arm_radius_least, FRONT_AXLE_CONSTANT_COUNT + 1, failed);
+    return failed;
 }
 
-int front_axle_design_state(const double *restrict parameters, double *restrict state)
+status_word front_axle_design_state(const double *restrict parameters, double *restrict state)
 {
     const double
         arm_front_x = parameters[0],
@@ -1350,18 +1361,18 @@ int front_axle_design_state(const double *restrict parameters, double *restrict 
             left_beta1_across)*sqrt(left_beta1_axis_squared), left_beta1_along);
 
     state[0] = right_beta1;
-    state[1] = 0.0;
+    state[1] = number(0.0);
     state[2] = left_beta1;
-    state[3] = 0.0;
-    state[4] = 0.0;
-    state[5] = 0.0;
-    state[6] = 0.0;
-    state[7] = 0.0;
-    return 0;
+    state[3] = number(0.0);
+    state[4] = number(0.0);
+    state[5] = number(0.0);
+    state[6] = number(0.0);
+    state[7] = number(0.0);
+    return finite_bit(state, 8, FRONT_AXLE_STATUS_NOT_FINITE);
 }
 
-int front_axle_rhs(const double *restrict constants, const double *restrict state,
-                   const double *restrict inputs, double *restrict out)
+status_word front_axle_rhs(const double *restrict constants, const double *restrict state,
+                           const double *restrict inputs, double *restrict out)
 {
     const struct front_axle_constants *const c = (const void *)constants;
     const double
@@ -2219,26 +2230,26 @@ int front_axle_rhs(const double *restrict constants, const double *restrict stat
     out[6] = left_beta1_acceleration; /* d(left_beta1_rate)/dt */
     out[7] = left_beta5_acceleration; /* d(left_beta5_rate)/dt */
 
-    unsigned status = !(right_bar_reach_squared > c->right_bar_reach_squared_floor) * FRONT_AXLE_STATUS_RIGHT_BAR_REACH_SQUARED;
-    status |= !(right_bar_closure > c->right_bar_closure_floor) * FRONT_AXLE_STATUS_RIGHT_BAR_CLOSURE;
-    status |= !(length_squared_right_BC > c->length_squared_right_BC_floor) * FRONT_AXLE_STATUS_LENGTH_SQUARED_RIGHT_BC;
-    status |= !(right_knuckle_reach_squared > c->right_knuckle_reach_squared_floor) * FRONT_AXLE_STATUS_RIGHT_KNUCKLE_REACH_SQUARED;
-    status |= !(right_knuckle_closure > c->right_knuckle_closure_floor) * FRONT_AXLE_STATUS_RIGHT_KNUCKLE_CLOSURE;
-    status |= !(left_bar_reach_squared > c->right_bar_reach_squared_floor) * FRONT_AXLE_STATUS_LEFT_BAR_REACH_SQUARED;
-    status |= !(left_bar_closure > c->right_bar_closure_floor) * FRONT_AXLE_STATUS_LEFT_BAR_CLOSURE;
-    status |= !(length_squared_left_BC > c->length_squared_right_BC_floor) * FRONT_AXLE_STATUS_LENGTH_SQUARED_LEFT_BC;
-    status |= !(left_knuckle_reach_squared > c->right_knuckle_reach_squared_floor) * FRONT_AXLE_STATUS_LEFT_KNUCKLE_REACH_SQUARED;
-    status |= !(left_knuckle_closure > c->right_knuckle_closure_floor) * FRONT_AXLE_STATUS_LEFT_KNUCKLE_CLOSURE;
-    status |= !(right_front_cos_camber_squared > 1e-10) * FRONT_AXLE_STATUS_RIGHT_FRONT_COS_CAMBER_SQUARED;
-    status |= !(left_front_cos_camber_squared > 1e-10) * FRONT_AXLE_STATUS_LEFT_FRONT_COS_CAMBER_SQUARED;
-    status |= !(mass_right_beta1_right_beta1 > 1e-280) * FRONT_AXLE_STATUS_PIVOT_RIGHT_BETA1;
-    status |= !(mass_left_beta1_left_beta1 > 1e-280) * FRONT_AXLE_STATUS_PIVOT_LEFT_BETA1;
-    status |= not_finite(out, 8) * FRONT_AXLE_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(right_bar_reach_squared, c->right_bar_reach_squared_floor, FRONT_AXLE_STATUS_RIGHT_BAR_REACH_SQUARED);
+    status |= guard_bit(right_bar_closure, c->right_bar_closure_floor, FRONT_AXLE_STATUS_RIGHT_BAR_CLOSURE);
+    status |= guard_bit(length_squared_right_BC, c->length_squared_right_BC_floor, FRONT_AXLE_STATUS_LENGTH_SQUARED_RIGHT_BC);
+    status |= guard_bit(right_knuckle_reach_squared, c->right_knuckle_reach_squared_floor, FRONT_AXLE_STATUS_RIGHT_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(right_knuckle_closure, c->right_knuckle_closure_floor, FRONT_AXLE_STATUS_RIGHT_KNUCKLE_CLOSURE);
+    status |= guard_bit(left_bar_reach_squared, c->right_bar_reach_squared_floor, FRONT_AXLE_STATUS_LEFT_BAR_REACH_SQUARED);
+    status |= guard_bit(left_bar_closure, c->right_bar_closure_floor, FRONT_AXLE_STATUS_LEFT_BAR_CLOSURE);
+    status |= guard_bit(length_squared_left_BC, c->length_squared_right_BC_floor, FRONT_AXLE_STATUS_LENGTH_SQUARED_LEFT_BC);
+    status |= guard_bit(left_knuckle_reach_squared, c->right_knuckle_reach_squared_floor, FRONT_AXLE_STATUS_LEFT_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(left_knuckle_closure, c->right_knuckle_closure_floor, FRONT_AXLE_STATUS_LEFT_KNUCKLE_CLOSURE);
+    status |= guard_bit(right_front_cos_camber_squared, 1e-10, FRONT_AXLE_STATUS_RIGHT_FRONT_COS_CAMBER_SQUARED);
+    status |= guard_bit(left_front_cos_camber_squared, 1e-10, FRONT_AXLE_STATUS_LEFT_FRONT_COS_CAMBER_SQUARED);
+    status |= guard_bit(mass_right_beta1_right_beta1, 1e-280, FRONT_AXLE_STATUS_PIVOT_RIGHT_BETA1);
+    status |= guard_bit(mass_left_beta1_left_beta1, 1e-280, FRONT_AXLE_STATUS_PIVOT_LEFT_BETA1);
+    status |= finite_bit(out, 8, FRONT_AXLE_STATUS_NOT_FINITE);
+    return status;
 }
 
-int front_axle_rhs_rack_held(const double *restrict constants, const double *restrict state,
-                             const double *restrict inputs, double *restrict out)
+status_word front_axle_rhs_rack_held(const double *restrict constants, const double *restrict state,
+                                     const double *restrict inputs, double *restrict out)
 {
     const struct front_axle_constants *const c = (const void *)constants;
     const double
@@ -2912,259 +2923,26 @@ int front_axle_rhs_rack_held(const double *restrict constants, const double *res
     out[6] = left_beta1_acceleration; /* d(left_beta1_rate)/dt */
     out[7] = left_beta5_acceleration; /* d(left_beta5_rate)/dt */
 
-    unsigned status = !(right_bar_reach_squared > c->right_bar_reach_squared_floor) * FRONT_AXLE_STATUS_RIGHT_BAR_REACH_SQUARED;
-    status |= !(right_bar_closure > c->right_bar_closure_floor) * FRONT_AXLE_STATUS_RIGHT_BAR_CLOSURE;
-    status |= !(length_squared_right_BC > c->length_squared_right_BC_floor) * FRONT_AXLE_STATUS_LENGTH_SQUARED_RIGHT_BC;
-    status |= !(right_knuckle_reach_squared > c->right_knuckle_reach_squared_floor) * FRONT_AXLE_STATUS_RIGHT_KNUCKLE_REACH_SQUARED;
-    status |= !(right_knuckle_closure > c->right_knuckle_closure_floor) * FRONT_AXLE_STATUS_RIGHT_KNUCKLE_CLOSURE;
-    status |= !(left_bar_reach_squared > c->right_bar_reach_squared_floor) * FRONT_AXLE_STATUS_LEFT_BAR_REACH_SQUARED;
-    status |= !(left_bar_closure > c->right_bar_closure_floor) * FRONT_AXLE_STATUS_LEFT_BAR_CLOSURE;
-    status |= !(length_squared_left_BC > c->length_squared_right_BC_floor) * FRONT_AXLE_STATUS_LENGTH_SQUARED_LEFT_BC;
-    status |= !(left_knuckle_reach_squared > c->right_knuckle_reach_squared_floor) * FRONT_AXLE_STATUS_LEFT_KNUCKLE_REACH_SQUARED;
-    status |= !(left_knuckle_closure > c->right_knuckle_closure_floor) * FRONT_AXLE_STATUS_LEFT_KNUCKLE_CLOSURE;
-    status |= !(right_front_cos_camber_squared > 1e-10) * FRONT_AXLE_STATUS_RIGHT_FRONT_COS_CAMBER_SQUARED;
-    status |= !(left_front_cos_camber_squared > 1e-10) * FRONT_AXLE_STATUS_LEFT_FRONT_COS_CAMBER_SQUARED;
-    status |= !(mass_right_beta1_right_beta1 > 1e-280) * FRONT_AXLE_STATUS_PIVOT_RIGHT_BETA1;
-    status |= !(mass_left_beta1_left_beta1 > 1e-280) * FRONT_AXLE_STATUS_PIVOT_LEFT_BETA1;
-    status |= not_finite(out, 8) * FRONT_AXLE_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(right_bar_reach_squared, c->right_bar_reach_squared_floor, FRONT_AXLE_STATUS_RIGHT_BAR_REACH_SQUARED);
+    status |= guard_bit(right_bar_closure, c->right_bar_closure_floor, FRONT_AXLE_STATUS_RIGHT_BAR_CLOSURE);
+    status |= guard_bit(length_squared_right_BC, c->length_squared_right_BC_floor, FRONT_AXLE_STATUS_LENGTH_SQUARED_RIGHT_BC);
+    status |= guard_bit(right_knuckle_reach_squared, c->right_knuckle_reach_squared_floor, FRONT_AXLE_STATUS_RIGHT_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(right_knuckle_closure, c->right_knuckle_closure_floor, FRONT_AXLE_STATUS_RIGHT_KNUCKLE_CLOSURE);
+    status |= guard_bit(left_bar_reach_squared, c->right_bar_reach_squared_floor, FRONT_AXLE_STATUS_LEFT_BAR_REACH_SQUARED);
+    status |= guard_bit(left_bar_closure, c->right_bar_closure_floor, FRONT_AXLE_STATUS_LEFT_BAR_CLOSURE);
+    status |= guard_bit(length_squared_left_BC, c->length_squared_right_BC_floor, FRONT_AXLE_STATUS_LENGTH_SQUARED_LEFT_BC);
+    status |= guard_bit(left_knuckle_reach_squared, c->right_knuckle_reach_squared_floor, FRONT_AXLE_STATUS_LEFT_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(left_knuckle_closure, c->right_knuckle_closure_floor, FRONT_AXLE_STATUS_LEFT_KNUCKLE_CLOSURE);
+    status |= guard_bit(right_front_cos_camber_squared, 1e-10, FRONT_AXLE_STATUS_RIGHT_FRONT_COS_CAMBER_SQUARED);
+    status |= guard_bit(left_front_cos_camber_squared, 1e-10, FRONT_AXLE_STATUS_LEFT_FRONT_COS_CAMBER_SQUARED);
+    status |= guard_bit(mass_right_beta1_right_beta1, 1e-280, FRONT_AXLE_STATUS_PIVOT_RIGHT_BETA1);
+    status |= guard_bit(mass_left_beta1_left_beta1, 1e-280, FRONT_AXLE_STATUS_PIVOT_LEFT_BETA1);
+    status |= finite_bit(out, 8, FRONT_AXLE_STATUS_NOT_FINITE);
+    return status;
 }
 
-int front_axle_residuals(const double *restrict constants, const double *restrict state,
-                         const double *restrict inputs, const double *restrict given, double *restrict out)
-{
-    const struct front_axle_constants *const c = (const void *)constants;
-    const double
-        right_beta1 = state[0],
-        right_beta5 = state[1],
-        left_beta1 = state[2],
-        left_beta5 = state[3],
-        rack_position = inputs[0],
-        given_right_beta1 = given[0],
-        given_right_beta2 = given[1],
-        given_right_beta3 = given[2],
-        given_right_beta4 = given[3],
-        given_right_beta5 = given[4],
-        given_right_beta6 = given[5],
-        given_right_beta7 = given[6],
-        given_right_beta8 = given[7],
-        given_beta9 = given[8],
-        given_right_beta10 = given[9],
-        given_right_bar_angle = given[10],
-        given_left_beta1 = given[11],
-        given_left_beta2 = given[12],
-        given_left_beta3 = given[13],
-        given_left_beta4 = given[14],
-        given_left_beta5 = given[15],
-        given_left_beta6 = given[16],
-        given_left_beta7 = given[17],
-        given_left_beta8 = given[18],
-        given_left_beta10 = given[19],
-        given_left_bar_angle = given[20];
-
-    /* right_control_arm: revolute joint */
-    const double
-        cos_right_beta1 = cos(right_beta1),
-        sin_right_beta1 = sin(right_beta1);
-
-    /* transformer: right_bar held by right_drop_link */
-    const double
-        at_right_link_foot_y = c->design_right_arm_rear_y +
-            c->right_control_arm_right_link_foot_2*cos_right_beta1 -
-            c->right_control_arm_right_link_foot_3*sin_right_beta1,
-        at_right_link_foot_z = c->design_right_arm_rear_z +
-            c->right_control_arm_right_link_foot_3*cos_right_beta1 +
-            c->right_control_arm_right_link_foot_2*sin_right_beta1;
-
-    /* left_control_arm: revolute joint */
-    const double
-        cos_left_beta1 = cos(left_beta1),
-        sin_left_beta1 = sin(left_beta1);
-
-    /* transformer: left_bar held by left_drop_link */
-    const double
-        at_left_link_foot_y = c->design_right_arm_rear_y +
-            c->right_control_arm_right_link_foot_2*cos_left_beta1 -
-            c->right_control_arm_right_link_foot_3*sin_left_beta1,
-        at_left_link_foot_z = c->design_right_arm_rear_z +
-            c->right_control_arm_right_link_foot_3*cos_left_beta1 +
-            c->right_control_arm_right_link_foot_2*sin_left_beta1;
-
-    /* closure residuals */
-    const double
-        cos_right_beta1__given = cos(given_right_beta1),
-        sin_right_beta1__given = sin(given_right_beta1),
-        at_right_ball_joint_y__given = c->design_right_arm_rear_y -
-            c->right_control_arm_radius*sin_right_beta1__given,
-        at_right_ball_joint_z__given = c->design_right_arm_rear_z +
-            c->right_control_arm_radius*cos_right_beta1__given,
-        given_span_right_BC_x = c->constant_177 + c->work_y_x*at_right_ball_joint_y__given +
-            c->work_z_x*at_right_ball_joint_z__given,
-        given_span_right_BC_y = c->constant_178 + c->work_y_y*at_right_ball_joint_y__given +
-            c->work_z_y*at_right_ball_joint_z__given,
-        given_span_right_BC_z = c->constant_17 + c->work_z_z*at_right_ball_joint_z__given,
-        given_length_right_C = sqrt(given_span_right_BC_z*given_span_right_BC_z +
-            given_span_right_BC_x*given_span_right_BC_x +
-            given_span_right_BC_y*given_span_right_BC_y),
-        shared_2 = 1.0/given_length_right_C,
-        given_shaft_right_C_x = given_span_right_BC_x*shared_2,
-        given_shaft_right_C_y = given_span_right_BC_y*shared_2,
-        given_shaft_right_C_z = given_span_right_BC_z*shared_2,
-        given_level_right_C = sqrt(given_shaft_right_C_x*given_shaft_right_C_x +
-            given_shaft_right_C_y*given_shaft_right_C_y),
-        shared_3 = cos(given_right_beta10),
-        shared_4 = sin(given_right_beta10),
-        given_right_tie_rod_outer_in_shaft_x =
-            c->right_knuckle_right_tie_rod_outer_by_marker_x*shared_3 -
-            c->right_knuckle_right_tie_rod_outer_by_marker_z*shared_4,
-        shared_5 = -given_right_beta6,
-        given_right_tie_rod_outer_in_shaft_y = c->constant_179 + shared_5,
-        given_right_tie_rod_outer_in_shaft_z =
-            c->right_knuckle_right_tie_rod_outer_by_marker_x*shared_4 +
-            c->right_knuckle_right_tie_rod_outer_by_marker_z*shared_3,
-        shared_6 = cos(given_right_beta7),
-        shared_7 = sin(given_right_beta7),
-        given_right_tie_rod_outer_lifted_y = given_right_tie_rod_outer_in_shaft_y*shared_6 -
-            shared_7*given_right_tie_rod_outer_in_shaft_z,
-        given_right_tie_rod_outer_lifted_z = given_right_tie_rod_outer_in_shaft_y*shared_7 +
-            shared_6*given_right_tie_rod_outer_in_shaft_z,
-        rack_origin_x__given = given_beta9*c->work_rack_axis_x,
-        rack_origin_y__given = given_beta9*c->work_rack_axis_y,
-        rack_origin_z__given = given_beta9*c->work_rack_axis_z,
-        at_right_tie_rod_inner_x__given = c->design_right_tie_rod_inner_x + rack_origin_x__given,
-        at_right_tie_rod_inner_y__given = c->design_right_tie_rod_inner_y + rack_origin_y__given,
-        at_right_tie_rod_inner_z__given = c->design_right_tie_rod_inner_z + rack_origin_z__given,
-        given_right_tie_rod_inner_x = c->work_x_x*at_right_tie_rod_inner_x__given +
-            c->work_y_x*at_right_tie_rod_inner_y__given +
-            c->work_z_x*at_right_tie_rod_inner_z__given,
-        given_right_tie_rod_inner_y = c->work_x_y*at_right_tie_rod_inner_x__given +
-            c->work_y_y*at_right_tie_rod_inner_y__given +
-            c->work_z_y*at_right_tie_rod_inner_z__given,
-        given_right_tie_rod_inner_z = c->work_x_z*at_right_tie_rod_inner_x__given +
-            c->work_z_z*at_right_tie_rod_inner_z__given,
-        shared_8 = sin(given_right_beta8),
-        shared_9 = cos(given_right_beta8),
-        given_right_tie_rod_x = shared_9*given_right_tie_rod_outer_in_shaft_x -
-            given_right_tie_rod_inner_x - shared_8*given_right_tie_rod_outer_lifted_y,
-        given_right_tie_rod_y = shared_8*given_right_tie_rod_outer_in_shaft_x -
-            given_right_tie_rod_inner_y + shared_9*given_right_tie_rod_outer_lifted_y,
-        given_right_tie_rod_z = given_right_tie_rod_outer_lifted_z - given_right_tie_rod_inner_z,
-        shared_10 = sin(given_right_bar_angle),
-        shared_11 = cos(given_right_bar_angle),
-        given_opening_right_bar_hinge_x = c->constant_183 + c->constant_181*shared_10 -
-            c->constant_182*shared_11,
-        shared_12 = -c->constant_187,
-        given_opening_right_bar_hinge_y = -shared_12 - c->constant_185*shared_10 -
-            c->constant_186*shared_11 - at_right_link_foot_y,
-        shared_13 = -c->constant_191,
-        given_opening_right_bar_hinge_z = c->constant_189*shared_10 - shared_13 -
-            c->constant_190*shared_11 - at_right_link_foot_z,
-        cos_left_beta1__given = cos(given_left_beta1),
-        sin_left_beta1__given = sin(given_left_beta1),
-        at_left_ball_joint_y__given = c->design_right_arm_rear_y -
-            c->right_control_arm_radius*sin_left_beta1__given,
-        at_left_ball_joint_z__given = c->design_right_arm_rear_z +
-            c->right_control_arm_radius*cos_left_beta1__given,
-        given_span_left_BC_x = c->constant_177 + c->work_y_x*at_left_ball_joint_y__given +
-            c->work_z_x*at_left_ball_joint_z__given,
-        given_span_left_BC_y = -c->constant_178 - c->work_y_y*at_left_ball_joint_y__given -
-            c->work_z_y*at_left_ball_joint_z__given,
-        given_span_left_BC_z = c->constant_17 + c->work_z_z*at_left_ball_joint_z__given,
-        given_length_left_C = sqrt(given_span_left_BC_z*given_span_left_BC_z +
-            given_span_left_BC_x*given_span_left_BC_x + given_span_left_BC_y*given_span_left_BC_y),
-        shared_15 = 1.0/given_length_left_C,
-        given_shaft_left_C_x = given_span_left_BC_x*shared_15,
-        given_shaft_left_C_y = given_span_left_BC_y*shared_15,
-        given_shaft_left_C_z = given_span_left_BC_z*shared_15,
-        given_level_left_C = sqrt(given_shaft_left_C_x*given_shaft_left_C_x +
-            given_shaft_left_C_y*given_shaft_left_C_y),
-        shared_16 = cos(given_left_beta10),
-        shared_17 = sin(given_left_beta10),
-        given_left_tie_rod_outer_in_shaft_x =
-            -c->right_knuckle_right_tie_rod_outer_by_marker_x*shared_16 -
-            c->right_knuckle_right_tie_rod_outer_by_marker_z*shared_17,
-        shared_18 = -given_left_beta6,
-        given_left_tie_rod_outer_in_shaft_y = c->constant_179 + shared_18,
-        given_left_tie_rod_outer_in_shaft_z =
-            c->right_knuckle_right_tie_rod_outer_by_marker_z*shared_16 -
-            c->right_knuckle_right_tie_rod_outer_by_marker_x*shared_17,
-        shared_19 = cos(given_left_beta7),
-        shared_20 = sin(given_left_beta7),
-        given_left_tie_rod_outer_lifted_y = given_left_tie_rod_outer_in_shaft_y*shared_19 -
-            shared_20*given_left_tie_rod_outer_in_shaft_z,
-        given_left_tie_rod_outer_lifted_z = given_left_tie_rod_outer_in_shaft_y*shared_20 +
-            shared_19*given_left_tie_rod_outer_in_shaft_z,
-        rack_origin_x_2__given = given_beta9*c->work_rack_axis_x_2,
-        rack_origin_y_2__given = given_beta9*c->work_rack_axis_y_2,
-        rack_origin_z_2__given = given_beta9*c->work_rack_axis_z_2,
-        at_left_tie_rod_inner_x__given = rack_origin_x_2__given - c->design_right_tie_rod_inner_x,
-        at_left_tie_rod_inner_y__given = c->design_right_tie_rod_inner_y + rack_origin_y_2__given,
-        at_left_tie_rod_inner_z__given = c->design_right_tie_rod_inner_z + rack_origin_z_2__given,
-        given_left_tie_rod_inner_x = c->work_y_x*at_left_tie_rod_inner_y__given +
-            c->work_z_x*at_left_tie_rod_inner_z__given - c->work_x_x*at_left_tie_rod_inner_x__given,
-        given_left_tie_rod_inner_y = c->work_x_y*at_left_tie_rod_inner_x__given -
-            c->work_y_y*at_left_tie_rod_inner_y__given - c->work_z_y*at_left_tie_rod_inner_z__given,
-        given_left_tie_rod_inner_z = c->work_z_z*at_left_tie_rod_inner_z__given -
-            c->work_x_z*at_left_tie_rod_inner_x__given,
-        shared_21 = sin(given_left_beta8),
-        shared_22 = cos(given_left_beta8),
-        given_left_tie_rod_x = shared_22*given_left_tie_rod_outer_in_shaft_x -
-            given_left_tie_rod_inner_x - shared_21*given_left_tie_rod_outer_lifted_y,
-        given_left_tie_rod_y = shared_21*given_left_tie_rod_outer_in_shaft_x -
-            given_left_tie_rod_inner_y + shared_22*given_left_tie_rod_outer_lifted_y,
-        given_left_tie_rod_z = given_left_tie_rod_outer_lifted_z - given_left_tie_rod_inner_z,
-        shared_23 = sin(given_left_bar_angle),
-        shared_24 = cos(given_left_bar_angle),
-        given_opening_left_bar_hinge_x = c->constant_182*shared_24 - c->constant_183 -
-            c->constant_181*shared_23,
-        given_opening_left_bar_hinge_y = -shared_12 - c->constant_185*shared_23 -
-            c->constant_186*shared_24 - at_left_link_foot_y,
-        given_opening_left_bar_hinge_z = c->constant_189*shared_23 - shared_13 -
-            c->constant_190*shared_24 - at_left_link_foot_z;
-
-    /* results */
-    const double
-        shared_25 = -c->strut_length_max;
-
-    /* residuals */
-    out[0] = given_right_beta1 - right_beta1; /* g_right_beta1 */
-    out[1] = given_right_beta2 + shared_25 + given_length_right_C; /* g_right_beta2 */
-    out[2] = sin(given_right_beta3) - given_shaft_right_C_z; /* g_right_beta3 */
-    out[3] = sin(given_right_beta4) + given_shaft_right_C_x/given_level_right_C; /* g_right_beta4 */
-    out[4] = given_right_beta5 - right_beta5; /* g_right_beta5 */
-    out[5] = -given_right_beta2 - shared_5; /* g_right_beta6 */
-    out[6] = given_right_beta7 - given_right_beta3; /* g_right_beta7 */
-    out[7] = given_right_beta8 - given_right_beta4; /* g_right_beta8 */
-    out[8] = given_beta9 - rack_position; /* g_beta9 */
-    out[9] = sqrt(given_right_tie_rod_z*given_right_tie_rod_z +
-        given_right_tie_rod_x*given_right_tie_rod_x + given_right_tie_rod_y*given_right_tie_rod_y) -
-        c->right_tie_rod_length; /* g_right_beta10 */
-    out[10] = sqrt(given_opening_right_bar_hinge_x*given_opening_right_bar_hinge_x +
-        given_opening_right_bar_hinge_y*given_opening_right_bar_hinge_y +
-        given_opening_right_bar_hinge_z*given_opening_right_bar_hinge_z) -
-        c->right_drop_link_length; /* g_right_bar_angle */
-    out[11] = given_left_beta1 - left_beta1; /* g_left_beta1 */
-    out[12] = given_left_beta2 + shared_25 + given_length_left_C; /* g_left_beta2 */
-    out[13] = sin(given_left_beta3) - given_shaft_left_C_z; /* g_left_beta3 */
-    out[14] = sin(given_left_beta4) + given_shaft_left_C_x/given_level_left_C; /* g_left_beta4 */
-    out[15] = given_left_beta5 - left_beta5; /* g_left_beta5 */
-    out[16] = -given_left_beta2 - shared_18; /* g_left_beta6 */
-    out[17] = given_left_beta7 - given_left_beta3; /* g_left_beta7 */
-    out[18] = given_left_beta8 - given_left_beta4; /* g_left_beta8 */
-    out[19] = sqrt(given_left_tie_rod_z*given_left_tie_rod_z +
-        given_left_tie_rod_x*given_left_tie_rod_x + given_left_tie_rod_y*given_left_tie_rod_y) -
-        c->right_tie_rod_length; /* g_left_beta10 */
-    out[20] = sqrt(given_opening_left_bar_hinge_x*given_opening_left_bar_hinge_x +
-        given_opening_left_bar_hinge_y*given_opening_left_bar_hinge_y +
-        given_opening_left_bar_hinge_z*given_opening_left_bar_hinge_z) - c->right_drop_link_length;
-        /* g_left_bar_angle */
-
-    unsigned status = not_finite(out, 21) * FRONT_AXLE_STATUS_NOT_FINITE;
-    return (int)status;
-}
-
-int front_axle_signals(const double *restrict constants, const double *restrict state,
-                       const double *restrict inputs, double *restrict out)
+status_word front_axle_signals(const double *restrict constants, const double *restrict state,
+                               const double *restrict inputs, double *restrict out)
 {
     const struct front_axle_constants *const c = (const void *)constants;
     const double
@@ -4154,26 +3932,26 @@ int front_axle_signals(const double *restrict constants, const double *restrict 
     out[27] = bar_velocity; /* bar_angular_velocity */
     out[28] = bar_spring_moment; /* bar_spring_moment */
 
-    unsigned status = !(right_bar_reach_squared > c->right_bar_reach_squared_floor) * FRONT_AXLE_STATUS_RIGHT_BAR_REACH_SQUARED;
-    status |= !(right_bar_closure > c->right_bar_closure_floor) * FRONT_AXLE_STATUS_RIGHT_BAR_CLOSURE;
-    status |= !(length_squared_right_BC > c->length_squared_right_BC_floor) * FRONT_AXLE_STATUS_LENGTH_SQUARED_RIGHT_BC;
-    status |= !(right_knuckle_reach_squared > c->right_knuckle_reach_squared_floor) * FRONT_AXLE_STATUS_RIGHT_KNUCKLE_REACH_SQUARED;
-    status |= !(right_knuckle_closure > c->right_knuckle_closure_floor) * FRONT_AXLE_STATUS_RIGHT_KNUCKLE_CLOSURE;
-    status |= !(left_bar_reach_squared > c->right_bar_reach_squared_floor) * FRONT_AXLE_STATUS_LEFT_BAR_REACH_SQUARED;
-    status |= !(left_bar_closure > c->right_bar_closure_floor) * FRONT_AXLE_STATUS_LEFT_BAR_CLOSURE;
-    status |= !(length_squared_left_BC > c->length_squared_right_BC_floor) * FRONT_AXLE_STATUS_LENGTH_SQUARED_LEFT_BC;
-    status |= !(left_knuckle_reach_squared > c->right_knuckle_reach_squared_floor) * FRONT_AXLE_STATUS_LEFT_KNUCKLE_REACH_SQUARED;
-    status |= !(left_knuckle_closure > c->right_knuckle_closure_floor) * FRONT_AXLE_STATUS_LEFT_KNUCKLE_CLOSURE;
-    status |= !(right_front_cos_camber_squared > 1e-10) * FRONT_AXLE_STATUS_RIGHT_FRONT_COS_CAMBER_SQUARED;
-    status |= !(left_front_cos_camber_squared > 1e-10) * FRONT_AXLE_STATUS_LEFT_FRONT_COS_CAMBER_SQUARED;
-    status |= !(mass_right_beta1_right_beta1 > 1e-280) * FRONT_AXLE_STATUS_PIVOT_RIGHT_BETA1;
-    status |= !(mass_left_beta1_left_beta1 > 1e-280) * FRONT_AXLE_STATUS_PIVOT_LEFT_BETA1;
-    status |= not_finite(out, 29) * FRONT_AXLE_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(right_bar_reach_squared, c->right_bar_reach_squared_floor, FRONT_AXLE_STATUS_RIGHT_BAR_REACH_SQUARED);
+    status |= guard_bit(right_bar_closure, c->right_bar_closure_floor, FRONT_AXLE_STATUS_RIGHT_BAR_CLOSURE);
+    status |= guard_bit(length_squared_right_BC, c->length_squared_right_BC_floor, FRONT_AXLE_STATUS_LENGTH_SQUARED_RIGHT_BC);
+    status |= guard_bit(right_knuckle_reach_squared, c->right_knuckle_reach_squared_floor, FRONT_AXLE_STATUS_RIGHT_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(right_knuckle_closure, c->right_knuckle_closure_floor, FRONT_AXLE_STATUS_RIGHT_KNUCKLE_CLOSURE);
+    status |= guard_bit(left_bar_reach_squared, c->right_bar_reach_squared_floor, FRONT_AXLE_STATUS_LEFT_BAR_REACH_SQUARED);
+    status |= guard_bit(left_bar_closure, c->right_bar_closure_floor, FRONT_AXLE_STATUS_LEFT_BAR_CLOSURE);
+    status |= guard_bit(length_squared_left_BC, c->length_squared_right_BC_floor, FRONT_AXLE_STATUS_LENGTH_SQUARED_LEFT_BC);
+    status |= guard_bit(left_knuckle_reach_squared, c->right_knuckle_reach_squared_floor, FRONT_AXLE_STATUS_LEFT_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(left_knuckle_closure, c->right_knuckle_closure_floor, FRONT_AXLE_STATUS_LEFT_KNUCKLE_CLOSURE);
+    status |= guard_bit(right_front_cos_camber_squared, 1e-10, FRONT_AXLE_STATUS_RIGHT_FRONT_COS_CAMBER_SQUARED);
+    status |= guard_bit(left_front_cos_camber_squared, 1e-10, FRONT_AXLE_STATUS_LEFT_FRONT_COS_CAMBER_SQUARED);
+    status |= guard_bit(mass_right_beta1_right_beta1, 1e-280, FRONT_AXLE_STATUS_PIVOT_RIGHT_BETA1);
+    status |= guard_bit(mass_left_beta1_left_beta1, 1e-280, FRONT_AXLE_STATUS_PIVOT_LEFT_BETA1);
+    status |= finite_bit(out, 29, FRONT_AXLE_STATUS_NOT_FINITE);
+    return status;
 }
 
-int front_axle_margins(const double *restrict constants, const double *restrict state,
-                       const double *restrict inputs, double *restrict out)
+status_word front_axle_margins(const double *restrict constants, const double *restrict state,
+                               const double *restrict inputs, double *restrict out)
 {
     const struct front_axle_constants *const c = (const void *)constants;
     const double
@@ -4735,12 +4513,247 @@ int front_axle_margins(const double *restrict constants, const double *restrict 
     out[20] = shaft_level_squared_right_C - 1e-10; /* shaft_level_squared_right_C */
     out[21] = shaft_level_squared_left_C - 1e-10; /* shaft_level_squared_left_C */
 
-    unsigned status = not_finite(out, 22) * FRONT_AXLE_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = finite_bit(out, 22, FRONT_AXLE_STATUS_NOT_FINITE);
+    return status;
 }
 
-int front_axle_dynamics(const double *restrict constants, const double *restrict state,
-                        const double *restrict inputs, double *restrict out)
+#ifndef KINTRAFO_LANES /* what no simulation evaluates */
+
+status_word front_axle_residuals(const double *restrict constants, const double *restrict state,
+                                 const double *restrict inputs, const double *restrict given, double *restrict out)
+{
+    const struct front_axle_constants *const c = (const void *)constants;
+    const double
+        right_beta1 = state[0],
+        right_beta5 = state[1],
+        left_beta1 = state[2],
+        left_beta5 = state[3],
+        rack_position = inputs[0],
+        given_right_beta1 = given[0],
+        given_right_beta2 = given[1],
+        given_right_beta3 = given[2],
+        given_right_beta4 = given[3],
+        given_right_beta5 = given[4],
+        given_right_beta6 = given[5],
+        given_right_beta7 = given[6],
+        given_right_beta8 = given[7],
+        given_beta9 = given[8],
+        given_right_beta10 = given[9],
+        given_right_bar_angle = given[10],
+        given_left_beta1 = given[11],
+        given_left_beta2 = given[12],
+        given_left_beta3 = given[13],
+        given_left_beta4 = given[14],
+        given_left_beta5 = given[15],
+        given_left_beta6 = given[16],
+        given_left_beta7 = given[17],
+        given_left_beta8 = given[18],
+        given_left_beta10 = given[19],
+        given_left_bar_angle = given[20];
+
+    /* right_control_arm: revolute joint */
+    const double
+        cos_right_beta1 = cos(right_beta1),
+        sin_right_beta1 = sin(right_beta1);
+
+    /* transformer: right_bar held by right_drop_link */
+    const double
+        at_right_link_foot_y = c->design_right_arm_rear_y +
+            c->right_control_arm_right_link_foot_2*cos_right_beta1 -
+            c->right_control_arm_right_link_foot_3*sin_right_beta1,
+        at_right_link_foot_z = c->design_right_arm_rear_z +
+            c->right_control_arm_right_link_foot_3*cos_right_beta1 +
+            c->right_control_arm_right_link_foot_2*sin_right_beta1;
+
+    /* left_control_arm: revolute joint */
+    const double
+        cos_left_beta1 = cos(left_beta1),
+        sin_left_beta1 = sin(left_beta1);
+
+    /* transformer: left_bar held by left_drop_link */
+    const double
+        at_left_link_foot_y = c->design_right_arm_rear_y +
+            c->right_control_arm_right_link_foot_2*cos_left_beta1 -
+            c->right_control_arm_right_link_foot_3*sin_left_beta1,
+        at_left_link_foot_z = c->design_right_arm_rear_z +
+            c->right_control_arm_right_link_foot_3*cos_left_beta1 +
+            c->right_control_arm_right_link_foot_2*sin_left_beta1;
+
+    /* closure residuals */
+    const double
+        cos_right_beta1__given = cos(given_right_beta1),
+        sin_right_beta1__given = sin(given_right_beta1),
+        at_right_ball_joint_y__given = c->design_right_arm_rear_y -
+            c->right_control_arm_radius*sin_right_beta1__given,
+        at_right_ball_joint_z__given = c->design_right_arm_rear_z +
+            c->right_control_arm_radius*cos_right_beta1__given,
+        given_span_right_BC_x = c->constant_177 + c->work_y_x*at_right_ball_joint_y__given +
+            c->work_z_x*at_right_ball_joint_z__given,
+        given_span_right_BC_y = c->constant_178 + c->work_y_y*at_right_ball_joint_y__given +
+            c->work_z_y*at_right_ball_joint_z__given,
+        given_span_right_BC_z = c->constant_17 + c->work_z_z*at_right_ball_joint_z__given,
+        given_length_right_C = sqrt(given_span_right_BC_z*given_span_right_BC_z +
+            given_span_right_BC_x*given_span_right_BC_x +
+            given_span_right_BC_y*given_span_right_BC_y),
+        shared_2 = 1.0/given_length_right_C,
+        given_shaft_right_C_x = given_span_right_BC_x*shared_2,
+        given_shaft_right_C_y = given_span_right_BC_y*shared_2,
+        given_shaft_right_C_z = given_span_right_BC_z*shared_2,
+        given_level_right_C = sqrt(given_shaft_right_C_x*given_shaft_right_C_x +
+            given_shaft_right_C_y*given_shaft_right_C_y),
+        shared_3 = cos(given_right_beta10),
+        shared_4 = sin(given_right_beta10),
+        given_right_tie_rod_outer_in_shaft_x =
+            c->right_knuckle_right_tie_rod_outer_by_marker_x*shared_3 -
+            c->right_knuckle_right_tie_rod_outer_by_marker_z*shared_4,
+        shared_5 = -given_right_beta6,
+        given_right_tie_rod_outer_in_shaft_y = c->constant_179 + shared_5,
+        given_right_tie_rod_outer_in_shaft_z =
+            c->right_knuckle_right_tie_rod_outer_by_marker_x*shared_4 +
+            c->right_knuckle_right_tie_rod_outer_by_marker_z*shared_3,
+        shared_6 = cos(given_right_beta7),
+        shared_7 = sin(given_right_beta7),
+        given_right_tie_rod_outer_lifted_y = given_right_tie_rod_outer_in_shaft_y*shared_6 -
+            shared_7*given_right_tie_rod_outer_in_shaft_z,
+        given_right_tie_rod_outer_lifted_z = given_right_tie_rod_outer_in_shaft_y*shared_7 +
+            shared_6*given_right_tie_rod_outer_in_shaft_z,
+        rack_origin_x__given = given_beta9*c->work_rack_axis_x,
+        rack_origin_y__given = given_beta9*c->work_rack_axis_y,
+        rack_origin_z__given = given_beta9*c->work_rack_axis_z,
+        at_right_tie_rod_inner_x__given = c->design_right_tie_rod_inner_x + rack_origin_x__given,
+        at_right_tie_rod_inner_y__given = c->design_right_tie_rod_inner_y + rack_origin_y__given,
+        at_right_tie_rod_inner_z__given = c->design_right_tie_rod_inner_z + rack_origin_z__given,
+        given_right_tie_rod_inner_x = c->work_x_x*at_right_tie_rod_inner_x__given +
+            c->work_y_x*at_right_tie_rod_inner_y__given +
+            c->work_z_x*at_right_tie_rod_inner_z__given,
+        given_right_tie_rod_inner_y = c->work_x_y*at_right_tie_rod_inner_x__given +
+            c->work_y_y*at_right_tie_rod_inner_y__given +
+            c->work_z_y*at_right_tie_rod_inner_z__given,
+        given_right_tie_rod_inner_z = c->work_x_z*at_right_tie_rod_inner_x__given +
+            c->work_z_z*at_right_tie_rod_inner_z__given,
+        shared_8 = sin(given_right_beta8),
+        shared_9 = cos(given_right_beta8),
+        given_right_tie_rod_x = shared_9*given_right_tie_rod_outer_in_shaft_x -
+            given_right_tie_rod_inner_x - shared_8*given_right_tie_rod_outer_lifted_y,
+        given_right_tie_rod_y = shared_8*given_right_tie_rod_outer_in_shaft_x -
+            given_right_tie_rod_inner_y + shared_9*given_right_tie_rod_outer_lifted_y,
+        given_right_tie_rod_z = given_right_tie_rod_outer_lifted_z - given_right_tie_rod_inner_z,
+        shared_10 = sin(given_right_bar_angle),
+        shared_11 = cos(given_right_bar_angle),
+        given_opening_right_bar_hinge_x = c->constant_183 + c->constant_181*shared_10 -
+            c->constant_182*shared_11,
+        shared_12 = -c->constant_187,
+        given_opening_right_bar_hinge_y = -shared_12 - c->constant_185*shared_10 -
+            c->constant_186*shared_11 - at_right_link_foot_y,
+        shared_13 = -c->constant_191,
+        given_opening_right_bar_hinge_z = c->constant_189*shared_10 - shared_13 -
+            c->constant_190*shared_11 - at_right_link_foot_z,
+        cos_left_beta1__given = cos(given_left_beta1),
+        sin_left_beta1__given = sin(given_left_beta1),
+        at_left_ball_joint_y__given = c->design_right_arm_rear_y -
+            c->right_control_arm_radius*sin_left_beta1__given,
+        at_left_ball_joint_z__given = c->design_right_arm_rear_z +
+            c->right_control_arm_radius*cos_left_beta1__given,
+        given_span_left_BC_x = c->constant_177 + c->work_y_x*at_left_ball_joint_y__given +
+            c->work_z_x*at_left_ball_joint_z__given,
+        given_span_left_BC_y = -c->constant_178 - c->work_y_y*at_left_ball_joint_y__given -
+            c->work_z_y*at_left_ball_joint_z__given,
+        given_span_left_BC_z = c->constant_17 + c->work_z_z*at_left_ball_joint_z__given,
+        given_length_left_C = sqrt(given_span_left_BC_z*given_span_left_BC_z +
+            given_span_left_BC_x*given_span_left_BC_x + given_span_left_BC_y*given_span_left_BC_y),
+        shared_15 = 1.0/given_length_left_C,
+        given_shaft_left_C_x = given_span_left_BC_x*shared_15,
+        given_shaft_left_C_y = given_span_left_BC_y*shared_15,
+        given_shaft_left_C_z = given_span_left_BC_z*shared_15,
+        given_level_left_C = sqrt(given_shaft_left_C_x*given_shaft_left_C_x +
+            given_shaft_left_C_y*given_shaft_left_C_y),
+        shared_16 = cos(given_left_beta10),
+        shared_17 = sin(given_left_beta10),
+        given_left_tie_rod_outer_in_shaft_x =
+            -c->right_knuckle_right_tie_rod_outer_by_marker_x*shared_16 -
+            c->right_knuckle_right_tie_rod_outer_by_marker_z*shared_17,
+        shared_18 = -given_left_beta6,
+        given_left_tie_rod_outer_in_shaft_y = c->constant_179 + shared_18,
+        given_left_tie_rod_outer_in_shaft_z =
+            c->right_knuckle_right_tie_rod_outer_by_marker_z*shared_16 -
+            c->right_knuckle_right_tie_rod_outer_by_marker_x*shared_17,
+        shared_19 = cos(given_left_beta7),
+        shared_20 = sin(given_left_beta7),
+        given_left_tie_rod_outer_lifted_y = given_left_tie_rod_outer_in_shaft_y*shared_19 -
+            shared_20*given_left_tie_rod_outer_in_shaft_z,
+        given_left_tie_rod_outer_lifted_z = given_left_tie_rod_outer_in_shaft_y*shared_20 +
+            shared_19*given_left_tie_rod_outer_in_shaft_z,
+        rack_origin_x_2__given = given_beta9*c->work_rack_axis_x_2,
+        rack_origin_y_2__given = given_beta9*c->work_rack_axis_y_2,
+        rack_origin_z_2__given = given_beta9*c->work_rack_axis_z_2,
+        at_left_tie_rod_inner_x__given = rack_origin_x_2__given - c->design_right_tie_rod_inner_x,
+        at_left_tie_rod_inner_y__given = c->design_right_tie_rod_inner_y + rack_origin_y_2__given,
+        at_left_tie_rod_inner_z__given = c->design_right_tie_rod_inner_z + rack_origin_z_2__given,
+        given_left_tie_rod_inner_x = c->work_y_x*at_left_tie_rod_inner_y__given +
+            c->work_z_x*at_left_tie_rod_inner_z__given - c->work_x_x*at_left_tie_rod_inner_x__given,
+        given_left_tie_rod_inner_y = c->work_x_y*at_left_tie_rod_inner_x__given -
+            c->work_y_y*at_left_tie_rod_inner_y__given - c->work_z_y*at_left_tie_rod_inner_z__given,
+        given_left_tie_rod_inner_z = c->work_z_z*at_left_tie_rod_inner_z__given -
+            c->work_x_z*at_left_tie_rod_inner_x__given,
+        shared_21 = sin(given_left_beta8),
+        shared_22 = cos(given_left_beta8),
+        given_left_tie_rod_x = shared_22*given_left_tie_rod_outer_in_shaft_x -
+            given_left_tie_rod_inner_x - shared_21*given_left_tie_rod_outer_lifted_y,
+        given_left_tie_rod_y = shared_21*given_left_tie_rod_outer_in_shaft_x -
+            given_left_tie_rod_inner_y + shared_22*given_left_tie_rod_outer_lifted_y,
+        given_left_tie_rod_z = given_left_tie_rod_outer_lifted_z - given_left_tie_rod_inner_z,
+        shared_23 = sin(given_left_bar_angle),
+        shared_24 = cos(given_left_bar_angle),
+        given_opening_left_bar_hinge_x = c->constant_182*shared_24 - c->constant_183 -
+            c->constant_181*shared_23,
+        given_opening_left_bar_hinge_y = -shared_12 - c->constant_185*shared_23 -
+            c->constant_186*shared_24 - at_left_link_foot_y,
+        given_opening_left_bar_hinge_z = c->constant_189*shared_23 - shared_13 -
+            c->constant_190*shared_24 - at_left_link_foot_z;
+
+    /* results */
+    const double
+        shared_25 = -c->strut_length_max;
+
+    /* residuals */
+    out[0] = given_right_beta1 - right_beta1; /* g_right_beta1 */
+    out[1] = given_right_beta2 + shared_25 + given_length_right_C; /* g_right_beta2 */
+    out[2] = sin(given_right_beta3) - given_shaft_right_C_z; /* g_right_beta3 */
+    out[3] = sin(given_right_beta4) + given_shaft_right_C_x/given_level_right_C; /* g_right_beta4 */
+    out[4] = given_right_beta5 - right_beta5; /* g_right_beta5 */
+    out[5] = -given_right_beta2 - shared_5; /* g_right_beta6 */
+    out[6] = given_right_beta7 - given_right_beta3; /* g_right_beta7 */
+    out[7] = given_right_beta8 - given_right_beta4; /* g_right_beta8 */
+    out[8] = given_beta9 - rack_position; /* g_beta9 */
+    out[9] = sqrt(given_right_tie_rod_z*given_right_tie_rod_z +
+        given_right_tie_rod_x*given_right_tie_rod_x + given_right_tie_rod_y*given_right_tie_rod_y) -
+        c->right_tie_rod_length; /* g_right_beta10 */
+    out[10] = sqrt(given_opening_right_bar_hinge_x*given_opening_right_bar_hinge_x +
+        given_opening_right_bar_hinge_y*given_opening_right_bar_hinge_y +
+        given_opening_right_bar_hinge_z*given_opening_right_bar_hinge_z) -
+        c->right_drop_link_length; /* g_right_bar_angle */
+    out[11] = given_left_beta1 - left_beta1; /* g_left_beta1 */
+    out[12] = given_left_beta2 + shared_25 + given_length_left_C; /* g_left_beta2 */
+    out[13] = sin(given_left_beta3) - given_shaft_left_C_z; /* g_left_beta3 */
+    out[14] = sin(given_left_beta4) + given_shaft_left_C_x/given_level_left_C; /* g_left_beta4 */
+    out[15] = given_left_beta5 - left_beta5; /* g_left_beta5 */
+    out[16] = -given_left_beta2 - shared_18; /* g_left_beta6 */
+    out[17] = given_left_beta7 - given_left_beta3; /* g_left_beta7 */
+    out[18] = given_left_beta8 - given_left_beta4; /* g_left_beta8 */
+    out[19] = sqrt(given_left_tie_rod_z*given_left_tie_rod_z +
+        given_left_tie_rod_x*given_left_tie_rod_x + given_left_tie_rod_y*given_left_tie_rod_y) -
+        c->right_tie_rod_length; /* g_left_beta10 */
+    out[20] = sqrt(given_opening_left_bar_hinge_x*given_opening_left_bar_hinge_x +
+        given_opening_left_bar_hinge_y*given_opening_left_bar_hinge_y +
+        given_opening_left_bar_hinge_z*given_opening_left_bar_hinge_z) - c->right_drop_link_length;
+        /* g_left_bar_angle */
+
+    status_word status = finite_bit(out, 21, FRONT_AXLE_STATUS_NOT_FINITE);
+    return status;
+}
+
+status_word front_axle_dynamics(const double *restrict constants, const double *restrict state,
+                                const double *restrict inputs, double *restrict out)
 {
     const struct front_axle_constants *const c = (const void *)constants;
     const double
@@ -5638,7 +5651,7 @@ int front_axle_dynamics(const double *restrict constants, const double *restrict
     out[11] = shared_16; /* M[left_beta1,left_beta5] */
     out[14] = shared_16; /* M[left_beta5,left_beta1] */
     out[15] = c->wheel_inertia_spin; /* M[left_beta5,left_beta5] */
-    out[2] = out[3] = out[6] = out[7] = out[8] = out[9] = out[12] = out[13] = 0.0;
+    out[2] = out[3] = out[6] = out[7] = out[8] = out[9] = out[12] = out[13] = number(0.0);
 
     /* bias */
     out[16] = right_wheel_share_right_beta1*shared_21 + bias_of_right_beta1; /* B[right_beta1] */
@@ -5649,26 +5662,26 @@ int front_axle_dynamics(const double *restrict constants, const double *restrict
     /* forces */
     out[20] = force_of_right_beta1; /* Q[right_beta1] */
     out[22] = force_of_left_beta1; /* Q[left_beta1] */
-    out[21] = out[23] = 0.0;
+    out[21] = out[23] = number(0.0);
 
-    unsigned status = !(right_bar_reach_squared > c->right_bar_reach_squared_floor) * FRONT_AXLE_STATUS_RIGHT_BAR_REACH_SQUARED;
-    status |= !(right_bar_closure > c->right_bar_closure_floor) * FRONT_AXLE_STATUS_RIGHT_BAR_CLOSURE;
-    status |= !(length_squared_right_BC > c->length_squared_right_BC_floor) * FRONT_AXLE_STATUS_LENGTH_SQUARED_RIGHT_BC;
-    status |= !(right_knuckle_reach_squared > c->right_knuckle_reach_squared_floor) * FRONT_AXLE_STATUS_RIGHT_KNUCKLE_REACH_SQUARED;
-    status |= !(right_knuckle_closure > c->right_knuckle_closure_floor) * FRONT_AXLE_STATUS_RIGHT_KNUCKLE_CLOSURE;
-    status |= !(left_bar_reach_squared > c->right_bar_reach_squared_floor) * FRONT_AXLE_STATUS_LEFT_BAR_REACH_SQUARED;
-    status |= !(left_bar_closure > c->right_bar_closure_floor) * FRONT_AXLE_STATUS_LEFT_BAR_CLOSURE;
-    status |= !(length_squared_left_BC > c->length_squared_right_BC_floor) * FRONT_AXLE_STATUS_LENGTH_SQUARED_LEFT_BC;
-    status |= !(left_knuckle_reach_squared > c->right_knuckle_reach_squared_floor) * FRONT_AXLE_STATUS_LEFT_KNUCKLE_REACH_SQUARED;
-    status |= !(left_knuckle_closure > c->right_knuckle_closure_floor) * FRONT_AXLE_STATUS_LEFT_KNUCKLE_CLOSURE;
-    status |= !(right_front_cos_camber_squared > 1e-10) * FRONT_AXLE_STATUS_RIGHT_FRONT_COS_CAMBER_SQUARED;
-    status |= !(left_front_cos_camber_squared > 1e-10) * FRONT_AXLE_STATUS_LEFT_FRONT_COS_CAMBER_SQUARED;
-    status |= not_finite(out, 24) * FRONT_AXLE_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(right_bar_reach_squared, c->right_bar_reach_squared_floor, FRONT_AXLE_STATUS_RIGHT_BAR_REACH_SQUARED);
+    status |= guard_bit(right_bar_closure, c->right_bar_closure_floor, FRONT_AXLE_STATUS_RIGHT_BAR_CLOSURE);
+    status |= guard_bit(length_squared_right_BC, c->length_squared_right_BC_floor, FRONT_AXLE_STATUS_LENGTH_SQUARED_RIGHT_BC);
+    status |= guard_bit(right_knuckle_reach_squared, c->right_knuckle_reach_squared_floor, FRONT_AXLE_STATUS_RIGHT_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(right_knuckle_closure, c->right_knuckle_closure_floor, FRONT_AXLE_STATUS_RIGHT_KNUCKLE_CLOSURE);
+    status |= guard_bit(left_bar_reach_squared, c->right_bar_reach_squared_floor, FRONT_AXLE_STATUS_LEFT_BAR_REACH_SQUARED);
+    status |= guard_bit(left_bar_closure, c->right_bar_closure_floor, FRONT_AXLE_STATUS_LEFT_BAR_CLOSURE);
+    status |= guard_bit(length_squared_left_BC, c->length_squared_right_BC_floor, FRONT_AXLE_STATUS_LENGTH_SQUARED_LEFT_BC);
+    status |= guard_bit(left_knuckle_reach_squared, c->right_knuckle_reach_squared_floor, FRONT_AXLE_STATUS_LEFT_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(left_knuckle_closure, c->right_knuckle_closure_floor, FRONT_AXLE_STATUS_LEFT_KNUCKLE_CLOSURE);
+    status |= guard_bit(right_front_cos_camber_squared, 1e-10, FRONT_AXLE_STATUS_RIGHT_FRONT_COS_CAMBER_SQUARED);
+    status |= guard_bit(left_front_cos_camber_squared, 1e-10, FRONT_AXLE_STATUS_LEFT_FRONT_COS_CAMBER_SQUARED);
+    status |= finite_bit(out, 24, FRONT_AXLE_STATUS_NOT_FINITE);
+    return status;
 }
 
-int front_axle_poses(const double *restrict constants, const double *restrict state,
-                     const double *restrict inputs, double *restrict out)
+status_word front_axle_poses(const double *restrict constants, const double *restrict state,
+                             const double *restrict inputs, double *restrict out)
 {
     const struct front_axle_constants *const c = (const void *)constants;
     const double
@@ -8010,9 +8023,9 @@ int front_axle_poses(const double *restrict constants, const double *restrict st
         /* right_tie_rod Rzy */
     out[92] = c->constant_253*shared_133 + c->constant_254*shared_134 + c->constant_255*shared_135;
         /* right_tie_rod Rzz */
-    out[93] = 1.0; /* rack Rxx */
-    out[97] = 1.0; /* rack Ryy */
-    out[101] = 1.0; /* rack Rzz */
+    out[93] = number(1.0); /* rack Rxx */
+    out[97] = number(1.0); /* rack Ryy */
+    out[101] = number(1.0); /* rack Rzz */
     out[102] = shared_112 + c->constant_256*shared_136 + c->constant_257*shared_137; /*
         right_upper_strut Rxx */
     out[103] = shared_115 + c->constant_258*shared_136 + c->constant_259*shared_137; /*
@@ -8211,7 +8224,7 @@ int front_axle_poses(const double *restrict constants, const double *restrict st
         /* left_drop_link Rzy */
     out[200] = c->constant_289*shared_221 - c->constant_290*shared_223 + c->constant_291*shared_222;
         /* left_drop_link Rzz */
-    out[94] = out[95] = out[96] = out[98] = out[99] = out[100] = 0.0;
+    out[94] = out[95] = out[96] = out[98] = out[99] = out[100] = number(0.0);
 
     /* velocities */
     out[201] = right_beta1_rate*c->work_x_x; /* right_control_arm omega_x */
@@ -8425,32 +8438,32 @@ int front_axle_poses(const double *restrict constants, const double *restrict st
         c->work_z_y*shared_432); /* left_drop_link velocity_y */
     out[290] = left_beta1_rate*(c->work_z_z*shared_432 - c->work_x_z*shared_433); /* left_drop_link
         velocity_z */
-    out[219] = out[220] = out[221] = 0.0;
+    out[219] = out[220] = out[221] = number(0.0);
 
-    unsigned status = !(right_bar_reach_squared > c->right_bar_reach_squared_floor) * FRONT_AXLE_STATUS_RIGHT_BAR_REACH_SQUARED;
-    status |= !(right_bar_closure > c->right_bar_closure_floor) * FRONT_AXLE_STATUS_RIGHT_BAR_CLOSURE;
-    status |= !(right_drop_link_cross_squared > 1e-10) * FRONT_AXLE_STATUS_RIGHT_DROP_LINK_CROSS_SQUARED;
-    status |= !(length_squared_right_BC > c->length_squared_right_BC_floor) * FRONT_AXLE_STATUS_LENGTH_SQUARED_RIGHT_BC;
-    status |= !(right_upper_strut_cross_squared > 1e-10) * FRONT_AXLE_STATUS_RIGHT_UPPER_STRUT_CROSS_SQUARED;
-    status |= !(right_knuckle_reach_squared > c->right_knuckle_reach_squared_floor) * FRONT_AXLE_STATUS_RIGHT_KNUCKLE_REACH_SQUARED;
-    status |= !(right_knuckle_closure > c->right_knuckle_closure_floor) * FRONT_AXLE_STATUS_RIGHT_KNUCKLE_CLOSURE;
-    status |= !(right_tie_rod_cross_squared > 1e-10) * FRONT_AXLE_STATUS_RIGHT_TIE_ROD_CROSS_SQUARED;
-    status |= !(left_bar_reach_squared > c->right_bar_reach_squared_floor) * FRONT_AXLE_STATUS_LEFT_BAR_REACH_SQUARED;
-    status |= !(left_bar_closure > c->right_bar_closure_floor) * FRONT_AXLE_STATUS_LEFT_BAR_CLOSURE;
-    status |= !(left_drop_link_cross_squared > 1e-10) * FRONT_AXLE_STATUS_LEFT_DROP_LINK_CROSS_SQUARED;
-    status |= !(length_squared_left_BC > c->length_squared_right_BC_floor) * FRONT_AXLE_STATUS_LENGTH_SQUARED_LEFT_BC;
-    status |= !(left_upper_strut_cross_squared > 1e-10) * FRONT_AXLE_STATUS_LEFT_UPPER_STRUT_CROSS_SQUARED;
-    status |= !(left_knuckle_reach_squared > c->right_knuckle_reach_squared_floor) * FRONT_AXLE_STATUS_LEFT_KNUCKLE_REACH_SQUARED;
-    status |= !(left_knuckle_closure > c->right_knuckle_closure_floor) * FRONT_AXLE_STATUS_LEFT_KNUCKLE_CLOSURE;
-    status |= !(left_tie_rod_cross_squared > 1e-10) * FRONT_AXLE_STATUS_LEFT_TIE_ROD_CROSS_SQUARED;
-    status |= !(shaft_level_squared_right_C > 1e-10) * FRONT_AXLE_STATUS_SHAFT_LEVEL_SQUARED_RIGHT_C;
-    status |= !(shaft_level_squared_left_C > 1e-10) * FRONT_AXLE_STATUS_SHAFT_LEVEL_SQUARED_LEFT_C;
-    status |= not_finite(out, 291) * FRONT_AXLE_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(right_bar_reach_squared, c->right_bar_reach_squared_floor, FRONT_AXLE_STATUS_RIGHT_BAR_REACH_SQUARED);
+    status |= guard_bit(right_bar_closure, c->right_bar_closure_floor, FRONT_AXLE_STATUS_RIGHT_BAR_CLOSURE);
+    status |= guard_bit(right_drop_link_cross_squared, 1e-10, FRONT_AXLE_STATUS_RIGHT_DROP_LINK_CROSS_SQUARED);
+    status |= guard_bit(length_squared_right_BC, c->length_squared_right_BC_floor, FRONT_AXLE_STATUS_LENGTH_SQUARED_RIGHT_BC);
+    status |= guard_bit(right_upper_strut_cross_squared, 1e-10, FRONT_AXLE_STATUS_RIGHT_UPPER_STRUT_CROSS_SQUARED);
+    status |= guard_bit(right_knuckle_reach_squared, c->right_knuckle_reach_squared_floor, FRONT_AXLE_STATUS_RIGHT_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(right_knuckle_closure, c->right_knuckle_closure_floor, FRONT_AXLE_STATUS_RIGHT_KNUCKLE_CLOSURE);
+    status |= guard_bit(right_tie_rod_cross_squared, 1e-10, FRONT_AXLE_STATUS_RIGHT_TIE_ROD_CROSS_SQUARED);
+    status |= guard_bit(left_bar_reach_squared, c->right_bar_reach_squared_floor, FRONT_AXLE_STATUS_LEFT_BAR_REACH_SQUARED);
+    status |= guard_bit(left_bar_closure, c->right_bar_closure_floor, FRONT_AXLE_STATUS_LEFT_BAR_CLOSURE);
+    status |= guard_bit(left_drop_link_cross_squared, 1e-10, FRONT_AXLE_STATUS_LEFT_DROP_LINK_CROSS_SQUARED);
+    status |= guard_bit(length_squared_left_BC, c->length_squared_right_BC_floor, FRONT_AXLE_STATUS_LENGTH_SQUARED_LEFT_BC);
+    status |= guard_bit(left_upper_strut_cross_squared, 1e-10, FRONT_AXLE_STATUS_LEFT_UPPER_STRUT_CROSS_SQUARED);
+    status |= guard_bit(left_knuckle_reach_squared, c->right_knuckle_reach_squared_floor, FRONT_AXLE_STATUS_LEFT_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(left_knuckle_closure, c->right_knuckle_closure_floor, FRONT_AXLE_STATUS_LEFT_KNUCKLE_CLOSURE);
+    status |= guard_bit(left_tie_rod_cross_squared, 1e-10, FRONT_AXLE_STATUS_LEFT_TIE_ROD_CROSS_SQUARED);
+    status |= guard_bit(shaft_level_squared_right_C, 1e-10, FRONT_AXLE_STATUS_SHAFT_LEVEL_SQUARED_RIGHT_C);
+    status |= guard_bit(shaft_level_squared_left_C, 1e-10, FRONT_AXLE_STATUS_SHAFT_LEVEL_SQUARED_LEFT_C);
+    status |= finite_bit(out, 291, FRONT_AXLE_STATUS_NOT_FINITE);
+    return status;
 }
 
-int front_axle_jacobians(const double *restrict constants, const double *restrict state,
-                         const double *restrict inputs, double *restrict out)
+status_word front_axle_jacobians(const double *restrict constants, const double *restrict state,
+                                 const double *restrict inputs, double *restrict out)
 {
     const struct front_axle_constants *const c = (const void *)constants;
     const double
@@ -9887,21 +9900,21 @@ int front_axle_jacobians(const double *restrict constants, const double *restric
         shared_154 = -c->work_x_z;
 
     /* relative_jacobian by right_beta1, right_beta5, left_beta1, left_beta5 */
-    out[0] = 1.0; /* right_beta1 */
+    out[0] = number(1.0); /* right_beta1 */
     out[4] = shared_88; /* right_beta2 */
     out[8] = elevation_right_C__by_right_beta1; /* right_beta3 */
     out[12] = azimuth_right_C__by_right_beta1; /* right_beta4 */
-    out[17] = 1.0; /* right_beta5 */
+    out[17] = number(1.0); /* right_beta5 */
     out[20] = shared_88; /* right_beta6 */
     out[24] = elevation_right_C__by_right_beta1; /* right_beta7 */
     out[28] = azimuth_right_C__by_right_beta1; /* right_beta8 */
     out[36] = angle_right_BC__by_right_beta1; /* right_beta10 */
     out[40] = angle_right_bar_hinge__right_beta1; /* right_bar_angle */
-    out[46] = 1.0; /* left_beta1 */
+    out[46] = number(1.0); /* left_beta1 */
     out[50] = shared_48; /* left_beta2 */
     out[54] = elevation_left_C__by_left_beta1; /* left_beta3 */
     out[58] = azimuth_left_C__by_left_beta1; /* left_beta4 */
-    out[63] = 1.0; /* left_beta5 */
+    out[63] = number(1.0); /* left_beta5 */
     out[66] = shared_48; /* left_beta6 */
     out[70] = elevation_left_C__by_left_beta1; /* left_beta7 */
     out[74] = azimuth_left_C__by_left_beta1; /* left_beta8 */
@@ -9914,7 +9927,7 @@ int front_axle_jacobians(const double *restrict constants, const double *restric
         out[48] = out[49] = out[51] = out[52] = out[53] = out[55] = out[56] = out[57] = out[59] =
         out[60] = out[61] = out[62] = out[64] = out[65] = out[67] = out[68] = out[69] = out[71] =
         out[72] = out[73] = out[75] = out[76] = out[77] = out[79] = out[80] = out[81] = out[83] =
-        0.0;
+        number(0.0);
 
     /* absolute_jacobian by right_beta1, right_beta2, right_beta3, right_beta4, right_beta5,
        right_beta6, right_beta7, right_beta8, beta9, right_beta10, right_bar_angle, left_beta1,
@@ -10111,7 +10124,8 @@ int front_axle_jacobians(const double *restrict constants, const double *restric
         out[801] = out[802] = out[803] = out[804] = out[805] = out[806] = out[807] = out[808] =
         out[809] = out[813] = out[814] = out[815] = out[816] = out[818] = out[819] = out[820] =
         out[821] = out[822] = out[823] = out[824] = out[825] = out[826] = out[827] = out[828] =
-        out[829] = out[830] = out[833] = out[834] = out[835] = out[836] = out[837] = out[839] = 0.0;
+        out[829] = out[830] = out[833] = out[834] = out[835] = out[836] = out[837] = out[839] =
+        number(0.0);
 
     /* global_jacobian by right_beta1, right_beta5, left_beta1, left_beta5 */
     out[840] = c->work_x_x; /* right_control_arm omega_x */
@@ -10188,20 +10202,22 @@ int front_axle_jacobians(const double *restrict constants, const double *restric
         out[941] = out[943] = out[944] = out[945] = out[947] = out[948] = out[949] = out[951] =
         out[952] = out[953] = out[955] = out[956] = out[957] = out[959] = out[960] = out[961] =
         out[964] = out[965] = out[968] = out[969] = out[972] = out[973] = out[975] = out[976] =
-        out[977] = out[979] = out[980] = out[981] = out[983] = 0.0;
+        out[977] = out[979] = out[980] = out[981] = out[983] = number(0.0);
 
-    unsigned status = !(right_bar_reach_squared > c->right_bar_reach_squared_floor) * FRONT_AXLE_STATUS_RIGHT_BAR_REACH_SQUARED;
-    status |= !(right_bar_closure > c->right_bar_closure_floor) * FRONT_AXLE_STATUS_RIGHT_BAR_CLOSURE;
-    status |= !(length_squared_right_BC > c->length_squared_right_BC_floor) * FRONT_AXLE_STATUS_LENGTH_SQUARED_RIGHT_BC;
-    status |= !(right_knuckle_reach_squared > c->right_knuckle_reach_squared_floor) * FRONT_AXLE_STATUS_RIGHT_KNUCKLE_REACH_SQUARED;
-    status |= !(right_knuckle_closure > c->right_knuckle_closure_floor) * FRONT_AXLE_STATUS_RIGHT_KNUCKLE_CLOSURE;
-    status |= !(left_bar_reach_squared > c->right_bar_reach_squared_floor) * FRONT_AXLE_STATUS_LEFT_BAR_REACH_SQUARED;
-    status |= !(left_bar_closure > c->right_bar_closure_floor) * FRONT_AXLE_STATUS_LEFT_BAR_CLOSURE;
-    status |= !(length_squared_left_BC > c->length_squared_right_BC_floor) * FRONT_AXLE_STATUS_LENGTH_SQUARED_LEFT_BC;
-    status |= !(left_knuckle_reach_squared > c->right_knuckle_reach_squared_floor) * FRONT_AXLE_STATUS_LEFT_KNUCKLE_REACH_SQUARED;
-    status |= !(left_knuckle_closure > c->right_knuckle_closure_floor) * FRONT_AXLE_STATUS_LEFT_KNUCKLE_CLOSURE;
-    status |= !(shaft_level_squared_right_C > 1e-10) * FRONT_AXLE_STATUS_SHAFT_LEVEL_SQUARED_RIGHT_C;
-    status |= !(shaft_level_squared_left_C > 1e-10) * FRONT_AXLE_STATUS_SHAFT_LEVEL_SQUARED_LEFT_C;
-    status |= not_finite(out, 984) * FRONT_AXLE_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(right_bar_reach_squared, c->right_bar_reach_squared_floor, FRONT_AXLE_STATUS_RIGHT_BAR_REACH_SQUARED);
+    status |= guard_bit(right_bar_closure, c->right_bar_closure_floor, FRONT_AXLE_STATUS_RIGHT_BAR_CLOSURE);
+    status |= guard_bit(length_squared_right_BC, c->length_squared_right_BC_floor, FRONT_AXLE_STATUS_LENGTH_SQUARED_RIGHT_BC);
+    status |= guard_bit(right_knuckle_reach_squared, c->right_knuckle_reach_squared_floor, FRONT_AXLE_STATUS_RIGHT_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(right_knuckle_closure, c->right_knuckle_closure_floor, FRONT_AXLE_STATUS_RIGHT_KNUCKLE_CLOSURE);
+    status |= guard_bit(left_bar_reach_squared, c->right_bar_reach_squared_floor, FRONT_AXLE_STATUS_LEFT_BAR_REACH_SQUARED);
+    status |= guard_bit(left_bar_closure, c->right_bar_closure_floor, FRONT_AXLE_STATUS_LEFT_BAR_CLOSURE);
+    status |= guard_bit(length_squared_left_BC, c->length_squared_right_BC_floor, FRONT_AXLE_STATUS_LENGTH_SQUARED_LEFT_BC);
+    status |= guard_bit(left_knuckle_reach_squared, c->right_knuckle_reach_squared_floor, FRONT_AXLE_STATUS_LEFT_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(left_knuckle_closure, c->right_knuckle_closure_floor, FRONT_AXLE_STATUS_LEFT_KNUCKLE_CLOSURE);
+    status |= guard_bit(shaft_level_squared_right_C, 1e-10, FRONT_AXLE_STATUS_SHAFT_LEVEL_SQUARED_RIGHT_C);
+    status |= guard_bit(shaft_level_squared_left_C, 1e-10, FRONT_AXLE_STATUS_SHAFT_LEVEL_SQUARED_LEFT_C);
+    status |= finite_bit(out, 984, FRONT_AXLE_STATUS_NOT_FINITE);
+    return status;
 }
+
+#endif

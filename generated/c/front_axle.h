@@ -374,6 +374,8 @@ enum front_axle_status {
     FRONT_AXLE_STATUS_NOT_FINITE = 1 << 30 /* a result is NaN or infinite */
 };
 
+#ifndef KINTRAFO_LANES
+
 /*
  * Compute the constants of one parameter set.
  * Returns 0, or one plus the index of the first constant that is not finite,
@@ -467,6 +469,8 @@ int front_axle_jacobians(const double *restrict constants, const double *restric
    (2516 add, 3435 multiply, 42 divide, 8 root, 6 trigonometric). */
 int front_axle_linearisation(const double *restrict constants, const double *restrict state,
                              const double *restrict inputs, double *restrict out);
+
+#endif
 
 #ifdef __cplusplus
 #undef restrict

@@ -9,24 +9,63 @@
 
 #include <math.h>
 
+#ifndef KINTRAFO_LANES /* else all numbers are vectors, and what includes this file has these */
+typedef int status_word;
+
 /* The greater of two numbers; NaN for a NaN. One instruction, where fmax may be a call. */
 static inline double at_least(double x, double least)
 {
     return x < least ? least : x;
 }
 
-/* Whether any of some values is NaN or infinite. */
-static unsigned not_finite(const double *values, int count)
+/* One for what is positive, else zero. */
+static inline double is_positive(double x)
 {
-    unsigned found = 0;
+    return x > 0.0;
+}
+
+/* A number that depends on nothing. */
+static inline double number(double x)
+{
+    return x;
+}
+
+/* A bit, where a guarded quantity is not over its floor. */
+static inline status_word guard_bit(double quantity, double least, int bit)
+{
+    return !(quantity > least) * bit;
+}
+
+/* A bit, where any of some values is NaN or infinite. */
+static inline status_word finite_bit(const double *values, int count, int bit)
+{
+    status_word found = 0;
     for (int i = 0; i < count; ++i) {
         found |= !isfinite(values[i]);
     }
-    return found;
+    return found * bit;
 }
 
-int front_axle_rhs_jacobian(const double *restrict constants, const double *restrict state,
-                            const double *restrict inputs, double *restrict out)
+/* One number or the other. */
+static inline status_word either(int applies, int code, status_word otherwise)
+{
+    return applies ? code : otherwise;
+}
+
+/* One plus the index of the first value that is NaN or infinite; 0: all are finite. */
+static inline status_word first_not_finite(const double *values, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        if (!isfinite(values[i])) {
+            return i + 1;
+        }
+    }
+    return 0;
+}
+#endif
+
+status_word front_axle_rhs_jacobian(const double *restrict constants, const double *restrict state,
+                                    const double *restrict inputs, double *restrict out)
 {
     const struct front_axle_constants *const c = (const void *)constants;
     const double
@@ -2358,10 +2397,10 @@ int front_axle_rhs_jacobian(const double *restrict constants, const double *rest
 
     /* rhs_jacobian by right_beta1, right_beta5, left_beta1, left_beta5, right_beta1_rate,
        right_beta5_rate, left_beta1_rate, left_beta5_rate */
-    out[4] = 1.0; /* d(right_beta1)/dt */
-    out[13] = 1.0; /* d(right_beta5)/dt */
-    out[22] = 1.0; /* d(left_beta1)/dt */
-    out[31] = 1.0; /* d(left_beta5)/dt */
+    out[4] = number(1.0); /* d(right_beta1)/dt */
+    out[13] = number(1.0); /* d(right_beta5)/dt */
+    out[22] = number(1.0); /* d(left_beta1)/dt */
+    out[31] = number(1.0); /* d(left_beta5)/dt */
     out[32] = right_beta1_acceleration__right_beta1; /* d(right_beta1_rate)/dt */
     out[34] = right_beta1_acceleration__left_beta1;
     out[36] = right_beta1_acceleration__right_beta1_rate;
@@ -2382,28 +2421,28 @@ int front_axle_rhs_jacobian(const double *restrict constants, const double *rest
         out[11] = out[12] = out[14] = out[15] = out[16] = out[17] = out[18] = out[19] = out[20] =
         out[21] = out[23] = out[24] = out[25] = out[26] = out[27] = out[28] = out[29] = out[30] =
         out[33] = out[35] = out[38] = out[39] = out[41] = out[43] = out[46] = out[47] = out[49] =
-        out[51] = out[52] = out[53] = out[57] = out[59] = out[60] = out[61] = 0.0;
+        out[51] = out[52] = out[53] = out[57] = out[59] = out[60] = out[61] = number(0.0);
 
-    unsigned status = !(right_bar_reach_squared > c->right_bar_reach_squared_floor) * FRONT_AXLE_STATUS_RIGHT_BAR_REACH_SQUARED;
-    status |= !(right_bar_closure > c->right_bar_closure_floor) * FRONT_AXLE_STATUS_RIGHT_BAR_CLOSURE;
-    status |= !(length_squared_right_BC > c->length_squared_right_BC_floor) * FRONT_AXLE_STATUS_LENGTH_SQUARED_RIGHT_BC;
-    status |= !(right_knuckle_reach_squared > c->right_knuckle_reach_squared_floor) * FRONT_AXLE_STATUS_RIGHT_KNUCKLE_REACH_SQUARED;
-    status |= !(right_knuckle_closure > c->right_knuckle_closure_floor) * FRONT_AXLE_STATUS_RIGHT_KNUCKLE_CLOSURE;
-    status |= !(left_bar_reach_squared > c->right_bar_reach_squared_floor) * FRONT_AXLE_STATUS_LEFT_BAR_REACH_SQUARED;
-    status |= !(left_bar_closure > c->right_bar_closure_floor) * FRONT_AXLE_STATUS_LEFT_BAR_CLOSURE;
-    status |= !(length_squared_left_BC > c->length_squared_right_BC_floor) * FRONT_AXLE_STATUS_LENGTH_SQUARED_LEFT_BC;
-    status |= !(left_knuckle_reach_squared > c->right_knuckle_reach_squared_floor) * FRONT_AXLE_STATUS_LEFT_KNUCKLE_REACH_SQUARED;
-    status |= !(left_knuckle_closure > c->right_knuckle_closure_floor) * FRONT_AXLE_STATUS_LEFT_KNUCKLE_CLOSURE;
-    status |= !(right_front_cos_camber_squared > 1e-10) * FRONT_AXLE_STATUS_RIGHT_FRONT_COS_CAMBER_SQUARED;
-    status |= !(left_front_cos_camber_squared > 1e-10) * FRONT_AXLE_STATUS_LEFT_FRONT_COS_CAMBER_SQUARED;
-    status |= !(mass_right_beta1_right_beta1 > 1e-280) * FRONT_AXLE_STATUS_PIVOT_RIGHT_BETA1;
-    status |= !(mass_left_beta1_left_beta1 > 1e-280) * FRONT_AXLE_STATUS_PIVOT_LEFT_BETA1;
-    status |= not_finite(out, 64) * FRONT_AXLE_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(right_bar_reach_squared, c->right_bar_reach_squared_floor, FRONT_AXLE_STATUS_RIGHT_BAR_REACH_SQUARED);
+    status |= guard_bit(right_bar_closure, c->right_bar_closure_floor, FRONT_AXLE_STATUS_RIGHT_BAR_CLOSURE);
+    status |= guard_bit(length_squared_right_BC, c->length_squared_right_BC_floor, FRONT_AXLE_STATUS_LENGTH_SQUARED_RIGHT_BC);
+    status |= guard_bit(right_knuckle_reach_squared, c->right_knuckle_reach_squared_floor, FRONT_AXLE_STATUS_RIGHT_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(right_knuckle_closure, c->right_knuckle_closure_floor, FRONT_AXLE_STATUS_RIGHT_KNUCKLE_CLOSURE);
+    status |= guard_bit(left_bar_reach_squared, c->right_bar_reach_squared_floor, FRONT_AXLE_STATUS_LEFT_BAR_REACH_SQUARED);
+    status |= guard_bit(left_bar_closure, c->right_bar_closure_floor, FRONT_AXLE_STATUS_LEFT_BAR_CLOSURE);
+    status |= guard_bit(length_squared_left_BC, c->length_squared_right_BC_floor, FRONT_AXLE_STATUS_LENGTH_SQUARED_LEFT_BC);
+    status |= guard_bit(left_knuckle_reach_squared, c->right_knuckle_reach_squared_floor, FRONT_AXLE_STATUS_LEFT_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(left_knuckle_closure, c->right_knuckle_closure_floor, FRONT_AXLE_STATUS_LEFT_KNUCKLE_CLOSURE);
+    status |= guard_bit(right_front_cos_camber_squared, 1e-10, FRONT_AXLE_STATUS_RIGHT_FRONT_COS_CAMBER_SQUARED);
+    status |= guard_bit(left_front_cos_camber_squared, 1e-10, FRONT_AXLE_STATUS_LEFT_FRONT_COS_CAMBER_SQUARED);
+    status |= guard_bit(mass_right_beta1_right_beta1, 1e-280, FRONT_AXLE_STATUS_PIVOT_RIGHT_BETA1);
+    status |= guard_bit(mass_left_beta1_left_beta1, 1e-280, FRONT_AXLE_STATUS_PIVOT_LEFT_BETA1);
+    status |= finite_bit(out, 64, FRONT_AXLE_STATUS_NOT_FINITE);
+    return status;
 }
 
-int front_axle_rhs_jacobian_rack_held(const double *restrict constants, const double *restrict state,
-                                      const double *restrict inputs, double *restrict out)
+status_word front_axle_rhs_jacobian_rack_held(const double *restrict constants, const double *restrict state,
+                                              const double *restrict inputs, double *restrict out)
 {
     const struct front_axle_constants *const c = (const void *)constants;
     const double
@@ -3983,10 +4022,10 @@ int front_axle_rhs_jacobian_rack_held(const double *restrict constants, const do
 
     /* rhs_jacobian_rack_held by right_beta1, right_beta5, left_beta1, left_beta5, right_beta1_rate,
        right_beta5_rate, left_beta1_rate, left_beta5_rate */
-    out[4] = 1.0; /* d(right_beta1)/dt */
-    out[13] = 1.0; /* d(right_beta5)/dt */
-    out[22] = 1.0; /* d(left_beta1)/dt */
-    out[31] = 1.0; /* d(left_beta5)/dt */
+    out[4] = number(1.0); /* d(right_beta1)/dt */
+    out[13] = number(1.0); /* d(right_beta5)/dt */
+    out[22] = number(1.0); /* d(left_beta1)/dt */
+    out[31] = number(1.0); /* d(left_beta5)/dt */
     out[32] = right_beta1_acceleration__right_beta1; /* d(right_beta1_rate)/dt */
     out[34] = right_beta1_acceleration__left_beta1;
     out[36] = right_beta1_acceleration__right_beta1_rate;
@@ -4004,28 +4043,28 @@ int front_axle_rhs_jacobian_rack_held(const double *restrict constants, const do
         out[21] = out[23] = out[24] = out[25] = out[26] = out[27] = out[28] = out[29] = out[30] =
         out[33] = out[35] = out[37] = out[38] = out[39] = out[41] = out[43] = out[45] = out[46] =
         out[47] = out[49] = out[51] = out[52] = out[53] = out[55] = out[57] = out[59] = out[60] =
-        out[61] = out[63] = 0.0;
+        out[61] = out[63] = number(0.0);
 
-    unsigned status = !(right_bar_reach_squared > c->right_bar_reach_squared_floor) * FRONT_AXLE_STATUS_RIGHT_BAR_REACH_SQUARED;
-    status |= !(right_bar_closure > c->right_bar_closure_floor) * FRONT_AXLE_STATUS_RIGHT_BAR_CLOSURE;
-    status |= !(length_squared_right_BC > c->length_squared_right_BC_floor) * FRONT_AXLE_STATUS_LENGTH_SQUARED_RIGHT_BC;
-    status |= !(right_knuckle_reach_squared > c->right_knuckle_reach_squared_floor) * FRONT_AXLE_STATUS_RIGHT_KNUCKLE_REACH_SQUARED;
-    status |= !(right_knuckle_closure > c->right_knuckle_closure_floor) * FRONT_AXLE_STATUS_RIGHT_KNUCKLE_CLOSURE;
-    status |= !(left_bar_reach_squared > c->right_bar_reach_squared_floor) * FRONT_AXLE_STATUS_LEFT_BAR_REACH_SQUARED;
-    status |= !(left_bar_closure > c->right_bar_closure_floor) * FRONT_AXLE_STATUS_LEFT_BAR_CLOSURE;
-    status |= !(length_squared_left_BC > c->length_squared_right_BC_floor) * FRONT_AXLE_STATUS_LENGTH_SQUARED_LEFT_BC;
-    status |= !(left_knuckle_reach_squared > c->right_knuckle_reach_squared_floor) * FRONT_AXLE_STATUS_LEFT_KNUCKLE_REACH_SQUARED;
-    status |= !(left_knuckle_closure > c->right_knuckle_closure_floor) * FRONT_AXLE_STATUS_LEFT_KNUCKLE_CLOSURE;
-    status |= !(right_front_cos_camber_squared > 1e-10) * FRONT_AXLE_STATUS_RIGHT_FRONT_COS_CAMBER_SQUARED;
-    status |= !(left_front_cos_camber_squared > 1e-10) * FRONT_AXLE_STATUS_LEFT_FRONT_COS_CAMBER_SQUARED;
-    status |= !(mass_right_beta1_right_beta1 > 1e-280) * FRONT_AXLE_STATUS_PIVOT_RIGHT_BETA1;
-    status |= !(mass_left_beta1_left_beta1 > 1e-280) * FRONT_AXLE_STATUS_PIVOT_LEFT_BETA1;
-    status |= not_finite(out, 64) * FRONT_AXLE_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(right_bar_reach_squared, c->right_bar_reach_squared_floor, FRONT_AXLE_STATUS_RIGHT_BAR_REACH_SQUARED);
+    status |= guard_bit(right_bar_closure, c->right_bar_closure_floor, FRONT_AXLE_STATUS_RIGHT_BAR_CLOSURE);
+    status |= guard_bit(length_squared_right_BC, c->length_squared_right_BC_floor, FRONT_AXLE_STATUS_LENGTH_SQUARED_RIGHT_BC);
+    status |= guard_bit(right_knuckle_reach_squared, c->right_knuckle_reach_squared_floor, FRONT_AXLE_STATUS_RIGHT_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(right_knuckle_closure, c->right_knuckle_closure_floor, FRONT_AXLE_STATUS_RIGHT_KNUCKLE_CLOSURE);
+    status |= guard_bit(left_bar_reach_squared, c->right_bar_reach_squared_floor, FRONT_AXLE_STATUS_LEFT_BAR_REACH_SQUARED);
+    status |= guard_bit(left_bar_closure, c->right_bar_closure_floor, FRONT_AXLE_STATUS_LEFT_BAR_CLOSURE);
+    status |= guard_bit(length_squared_left_BC, c->length_squared_right_BC_floor, FRONT_AXLE_STATUS_LENGTH_SQUARED_LEFT_BC);
+    status |= guard_bit(left_knuckle_reach_squared, c->right_knuckle_reach_squared_floor, FRONT_AXLE_STATUS_LEFT_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(left_knuckle_closure, c->right_knuckle_closure_floor, FRONT_AXLE_STATUS_LEFT_KNUCKLE_CLOSURE);
+    status |= guard_bit(right_front_cos_camber_squared, 1e-10, FRONT_AXLE_STATUS_RIGHT_FRONT_COS_CAMBER_SQUARED);
+    status |= guard_bit(left_front_cos_camber_squared, 1e-10, FRONT_AXLE_STATUS_LEFT_FRONT_COS_CAMBER_SQUARED);
+    status |= guard_bit(mass_right_beta1_right_beta1, 1e-280, FRONT_AXLE_STATUS_PIVOT_RIGHT_BETA1);
+    status |= guard_bit(mass_left_beta1_left_beta1, 1e-280, FRONT_AXLE_STATUS_PIVOT_LEFT_BETA1);
+    status |= finite_bit(out, 64, FRONT_AXLE_STATUS_NOT_FINITE);
+    return status;
 }
 
-int front_axle_linearisation(const double *restrict constants, const double *restrict state,
-                             const double *restrict inputs, double *restrict out)
+status_word front_axle_linearisation(const double *restrict constants, const double *restrict state,
+                                     const double *restrict inputs, double *restrict out)
 {
     const struct front_axle_constants *const c = (const void *)constants;
     const double
@@ -7966,7 +8005,7 @@ int front_axle_linearisation(const double *restrict constants, const double *res
     out[0] = out[1] = out[2] = out[3] = out[4] = out[5] = out[6] = out[7] = out[8] = out[9] =
         out[10] = out[11] = out[12] = out[13] = out[14] = out[15] = out[16] = out[17] = out[18] =
         out[19] = out[20] = out[21] = out[22] = out[23] = out[24] = out[25] = out[26] = out[27] =
-        out[33] = out[34] = out[40] = out[41] = out[45] = out[46] = out[52] = out[53] = 0.0;
+        out[33] = out[34] = out[40] = out[41] = out[45] = out[46] = out[52] = out[53] = number(0.0);
 
     /* signals_jacobian by right_beta1, right_beta5, left_beta1, left_beta5, right_beta1_rate,
        right_beta5_rate, left_beta1_rate, left_beta5_rate */
@@ -8172,7 +8211,7 @@ int front_axle_linearisation(const double *restrict constants, const double *res
         out[248] = out[249] = out[251] = out[252] = out[253] = out[254] = out[255] = out[256] =
         out[257] = out[259] = out[260] = out[261] = out[262] = out[263] = out[265] = out[267] =
         out[268] = out[269] = out[270] = out[271] = out[273] = out[275] = out[277] = out[279] =
-        out[281] = out[283] = out[284] = out[285] = out[286] = out[287] = 0.0;
+        out[281] = out[283] = out[284] = out[285] = out[286] = out[287] = number(0.0);
 
     /* signals_input_jacobian by rack_position, rack_velocity, rack_acceleration, right_strut_force,
        right_road_height, left_strut_force, left_road_height */
@@ -8322,22 +8361,22 @@ int front_axle_linearisation(const double *restrict constants, const double *res
         out[461] = out[462] = out[464] = out[465] = out[466] = out[467] = out[468] = out[470] =
         out[471] = out[472] = out[473] = out[474] = out[475] = out[476] = out[477] = out[478] =
         out[479] = out[480] = out[481] = out[482] = out[483] = out[484] = out[485] = out[486] =
-        out[487] = out[488] = out[489] = out[490] = 0.0;
+        out[487] = out[488] = out[489] = out[490] = number(0.0);
 
-    unsigned status = !(right_bar_reach_squared > c->right_bar_reach_squared_floor) * FRONT_AXLE_STATUS_RIGHT_BAR_REACH_SQUARED;
-    status |= !(right_bar_closure > c->right_bar_closure_floor) * FRONT_AXLE_STATUS_RIGHT_BAR_CLOSURE;
-    status |= !(length_squared_right_BC > c->length_squared_right_BC_floor) * FRONT_AXLE_STATUS_LENGTH_SQUARED_RIGHT_BC;
-    status |= !(right_knuckle_reach_squared > c->right_knuckle_reach_squared_floor) * FRONT_AXLE_STATUS_RIGHT_KNUCKLE_REACH_SQUARED;
-    status |= !(right_knuckle_closure > c->right_knuckle_closure_floor) * FRONT_AXLE_STATUS_RIGHT_KNUCKLE_CLOSURE;
-    status |= !(left_bar_reach_squared > c->right_bar_reach_squared_floor) * FRONT_AXLE_STATUS_LEFT_BAR_REACH_SQUARED;
-    status |= !(left_bar_closure > c->right_bar_closure_floor) * FRONT_AXLE_STATUS_LEFT_BAR_CLOSURE;
-    status |= !(length_squared_left_BC > c->length_squared_right_BC_floor) * FRONT_AXLE_STATUS_LENGTH_SQUARED_LEFT_BC;
-    status |= !(left_knuckle_reach_squared > c->right_knuckle_reach_squared_floor) * FRONT_AXLE_STATUS_LEFT_KNUCKLE_REACH_SQUARED;
-    status |= !(left_knuckle_closure > c->right_knuckle_closure_floor) * FRONT_AXLE_STATUS_LEFT_KNUCKLE_CLOSURE;
-    status |= !(right_front_cos_camber_squared > 1e-10) * FRONT_AXLE_STATUS_RIGHT_FRONT_COS_CAMBER_SQUARED;
-    status |= !(left_front_cos_camber_squared > 1e-10) * FRONT_AXLE_STATUS_LEFT_FRONT_COS_CAMBER_SQUARED;
-    status |= !(mass_right_beta1_right_beta1 > 1e-280) * FRONT_AXLE_STATUS_PIVOT_RIGHT_BETA1;
-    status |= !(mass_left_beta1_left_beta1 > 1e-280) * FRONT_AXLE_STATUS_PIVOT_LEFT_BETA1;
-    status |= not_finite(out, 491) * FRONT_AXLE_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(right_bar_reach_squared, c->right_bar_reach_squared_floor, FRONT_AXLE_STATUS_RIGHT_BAR_REACH_SQUARED);
+    status |= guard_bit(right_bar_closure, c->right_bar_closure_floor, FRONT_AXLE_STATUS_RIGHT_BAR_CLOSURE);
+    status |= guard_bit(length_squared_right_BC, c->length_squared_right_BC_floor, FRONT_AXLE_STATUS_LENGTH_SQUARED_RIGHT_BC);
+    status |= guard_bit(right_knuckle_reach_squared, c->right_knuckle_reach_squared_floor, FRONT_AXLE_STATUS_RIGHT_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(right_knuckle_closure, c->right_knuckle_closure_floor, FRONT_AXLE_STATUS_RIGHT_KNUCKLE_CLOSURE);
+    status |= guard_bit(left_bar_reach_squared, c->right_bar_reach_squared_floor, FRONT_AXLE_STATUS_LEFT_BAR_REACH_SQUARED);
+    status |= guard_bit(left_bar_closure, c->right_bar_closure_floor, FRONT_AXLE_STATUS_LEFT_BAR_CLOSURE);
+    status |= guard_bit(length_squared_left_BC, c->length_squared_right_BC_floor, FRONT_AXLE_STATUS_LENGTH_SQUARED_LEFT_BC);
+    status |= guard_bit(left_knuckle_reach_squared, c->right_knuckle_reach_squared_floor, FRONT_AXLE_STATUS_LEFT_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(left_knuckle_closure, c->right_knuckle_closure_floor, FRONT_AXLE_STATUS_LEFT_KNUCKLE_CLOSURE);
+    status |= guard_bit(right_front_cos_camber_squared, 1e-10, FRONT_AXLE_STATUS_RIGHT_FRONT_COS_CAMBER_SQUARED);
+    status |= guard_bit(left_front_cos_camber_squared, 1e-10, FRONT_AXLE_STATUS_LEFT_FRONT_COS_CAMBER_SQUARED);
+    status |= guard_bit(mass_right_beta1_right_beta1, 1e-280, FRONT_AXLE_STATUS_PIVOT_RIGHT_BETA1);
+    status |= guard_bit(mass_left_beta1_left_beta1, 1e-280, FRONT_AXLE_STATUS_PIVOT_LEFT_BETA1);
+    status |= finite_bit(out, 491, FRONT_AXLE_STATUS_NOT_FINITE);
+    return status;
 }

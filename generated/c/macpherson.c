@@ -9,23 +9,62 @@
 
 #include <math.h>
 
+#ifndef KINTRAFO_LANES /* else all numbers are vectors, and what includes this file has these */
+typedef int status_word;
+
 /* The greater of two numbers; NaN for a NaN. One instruction, where fmax may be a call. */
 static inline double at_least(double x, double least)
 {
     return x < least ? least : x;
 }
 
-/* Whether any of some values is NaN or infinite. */
-static unsigned not_finite(const double *values, int count)
+/* One for what is positive, else zero. */
+static inline double is_positive(double x)
 {
-    unsigned found = 0;
+    return x > 0.0;
+}
+
+/* A number that depends on nothing. */
+static inline double number(double x)
+{
+    return x;
+}
+
+/* A bit, where a guarded quantity is not over its floor. */
+static inline status_word guard_bit(double quantity, double least, int bit)
+{
+    return !(quantity > least) * bit;
+}
+
+/* A bit, where any of some values is NaN or infinite. */
+static inline status_word finite_bit(const double *values, int count, int bit)
+{
+    status_word found = 0;
     for (int i = 0; i < count; ++i) {
         found |= !isfinite(values[i]);
     }
-    return found;
+    return found * bit;
 }
 
-int macpherson_prepare(const double *restrict parameters, double *restrict constants)
+/* One number or the other. */
+static inline status_word either(int applies, int code, status_word otherwise)
+{
+    return applies ? code : otherwise;
+}
+
+/* One plus the index of the first value that is NaN or infinite; 0: all are finite. */
+static inline status_word first_not_finite(const double *values, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        if (!isfinite(values[i])) {
+            return i + 1;
+        }
+    }
+    return 0;
+}
+#endif
+
+status_word macpherson_prepare(const double *restrict parameters, double *restrict constants)
 {
     struct macpherson_constants *const c = (void *)constants;
     const double
@@ -810,36 +849,18 @@ int macpherson_prepare(const double *restrict parameters, double *restrict const
     c->constant_139 = c->work_x_z*c->knuckle_spin_axis_3;
     c->constant_140 = c->work_z_z*c->knuckle_spin_axis_3;
 
-    if (fabs(c->BC_length_design) <= c->BC_length_design_least) {
-        return MACPHERSON_CONSTANT_COUNT + 1;
-    }
-    if (fabs(c->upper_strut_cross_design) <= 1e-05) {
-        return MACPHERSON_CONSTANT_COUNT + 2;
-    }
-    if (fabs(c->knuckle_arm_radius) <= c->knuckle_arm_radius_least) {
-        return MACPHERSON_CONSTANT_COUNT + 3;
-    }
-    if (fabs(c->tie_rod_length) <= c->knuckle_arm_radius_least) {
-        return MACPHERSON_CONSTANT_COUNT + 4;
-    }
-    if (fabs(c->knuckle_reach_design) <= c->knuckle_arm_radius_least) {
-        return MACPHERSON_CONSTANT_COUNT + 5;
-    }
-    if (fabs(c->knuckle_rod_height_design) <= c->knuckle_rod_height_design_least) {
-        return MACPHERSON_CONSTANT_COUNT + 6;
-    }
-    if (fabs(c->tie_rod_cross_design) <= 1e-05) {
-        return MACPHERSON_CONSTANT_COUNT + 7;
-    }
-    for (int i = 0; i < MACPHERSON_CONSTANT_COUNT; ++i) {
-        if (!isfinite(constants[i])) {
-            return i + 1;
-        }
-    }
-    return 0;
+    status_word failed = first_not_finite(constants, MACPHERSON_CONSTANT_COUNT);
+    failed = either(fabs(c->tie_rod_cross_design) <= 1e-05, MACPHERSON_CONSTANT_COUNT + 7, failed);
+    failed = either(fabs(c->knuckle_rod_height_design) <= c->knuckle_rod_height_design_least, MACPHERSON_CONSTANT_COUNT + 6, failed);
+    failed = either(fabs(c->knuckle_reach_design) <= c->knuckle_arm_radius_least, MACPHERSON_CONSTANT_COUNT + 5, failed);
+    failed = either(fabs(c->tie_rod_length) <= c->knuckle_arm_radius_least, MACPHERSON_CONSTANT_COUNT + 4, failed);
+    failed = either(fabs(c->knuckle_arm_radius) <= c->knuckle_arm_radius_least, MACPHERSON_CONSTANT_COUNT + 3, failed);
+    failed = either(fabs(c->upper_strut_cross_design) <= 1e-05, MACPHERSON_CONSTANT_COUNT + 2, failed);
+    failed = either(fabs(c->BC_length_design) <= c->BC_length_design_least, MACPHERSON_CONSTANT_COUNT + 1, failed);
+    return failed;
 }
 
-int macpherson_design_state(const double *restrict parameters, double *restrict state)
+status_word macpherson_design_state(const double *restrict parameters, double *restrict state)
 {
     const double
         arm_front_x = parameters[0],
@@ -869,14 +890,14 @@ int macpherson_design_state(const double *restrict parameters, double *restrict 
             beta1_along);
 
     state[0] = beta1;
-    state[1] = 0.0;
-    state[2] = 0.0;
-    state[3] = 0.0;
-    return 0;
+    state[1] = number(0.0);
+    state[2] = number(0.0);
+    state[3] = number(0.0);
+    return finite_bit(state, 4, MACPHERSON_STATUS_NOT_FINITE);
 }
 
-int macpherson_rhs(const double *restrict constants, const double *restrict state,
-                   const double *restrict inputs, double *restrict out)
+status_word macpherson_rhs(const double *restrict constants, const double *restrict state,
+                           const double *restrict inputs, double *restrict out)
 {
     const struct macpherson_constants *const c = (const void *)constants;
     const double
@@ -1189,17 +1210,17 @@ int macpherson_rhs(const double *restrict constants, const double *restrict stat
     out[2] = beta1_acceleration; /* d(beta1_rate)/dt */
     out[3] = beta5_acceleration; /* d(beta5_rate)/dt */
 
-    unsigned status = !(length_squared_BC > c->length_squared_BC_floor) * MACPHERSON_STATUS_LENGTH_SQUARED_BC;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * MACPHERSON_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * MACPHERSON_STATUS_KNUCKLE_CLOSURE;
-    status |= !(cos_camber_squared > 1e-10) * MACPHERSON_STATUS_COS_CAMBER_SQUARED;
-    status |= !(mass_beta1_beta1 > 1e-280) * MACPHERSON_STATUS_PIVOT_BETA1;
-    status |= not_finite(out, 4) * MACPHERSON_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(length_squared_BC, c->length_squared_BC_floor, MACPHERSON_STATUS_LENGTH_SQUARED_BC);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, MACPHERSON_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, MACPHERSON_STATUS_KNUCKLE_CLOSURE);
+    status |= guard_bit(cos_camber_squared, 1e-10, MACPHERSON_STATUS_COS_CAMBER_SQUARED);
+    status |= guard_bit(mass_beta1_beta1, 1e-280, MACPHERSON_STATUS_PIVOT_BETA1);
+    status |= finite_bit(out, 4, MACPHERSON_STATUS_NOT_FINITE);
+    return status;
 }
 
-int macpherson_rhs_rack_held(const double *restrict constants, const double *restrict state,
-                             const double *restrict inputs, double *restrict out)
+status_word macpherson_rhs_rack_held(const double *restrict constants, const double *restrict state,
+                                     const double *restrict inputs, double *restrict out)
 {
     const struct macpherson_constants *const c = (const void *)constants;
     const double
@@ -1437,105 +1458,17 @@ int macpherson_rhs_rack_held(const double *restrict constants, const double *res
     out[2] = beta1_acceleration; /* d(beta1_rate)/dt */
     out[3] = beta5_acceleration; /* d(beta5_rate)/dt */
 
-    unsigned status = !(length_squared_BC > c->length_squared_BC_floor) * MACPHERSON_STATUS_LENGTH_SQUARED_BC;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * MACPHERSON_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * MACPHERSON_STATUS_KNUCKLE_CLOSURE;
-    status |= !(cos_camber_squared > 1e-10) * MACPHERSON_STATUS_COS_CAMBER_SQUARED;
-    status |= !(mass_beta1_beta1 > 1e-280) * MACPHERSON_STATUS_PIVOT_BETA1;
-    status |= not_finite(out, 4) * MACPHERSON_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(length_squared_BC, c->length_squared_BC_floor, MACPHERSON_STATUS_LENGTH_SQUARED_BC);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, MACPHERSON_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, MACPHERSON_STATUS_KNUCKLE_CLOSURE);
+    status |= guard_bit(cos_camber_squared, 1e-10, MACPHERSON_STATUS_COS_CAMBER_SQUARED);
+    status |= guard_bit(mass_beta1_beta1, 1e-280, MACPHERSON_STATUS_PIVOT_BETA1);
+    status |= finite_bit(out, 4, MACPHERSON_STATUS_NOT_FINITE);
+    return status;
 }
 
-int macpherson_residuals(const double *restrict constants, const double *restrict state,
-                         const double *restrict inputs, const double *restrict given, double *restrict out)
-{
-    const struct macpherson_constants *const c = (const void *)constants;
-    const double
-        beta1 = state[0],
-        beta5 = state[1],
-        rack_position = inputs[0],
-        given_beta1 = given[0],
-        given_beta2 = given[1],
-        given_beta3 = given[2],
-        given_beta4 = given[3],
-        given_beta5 = given[4],
-        given_beta6 = given[5],
-        given_beta7 = given[6],
-        given_beta8 = given[7],
-        given_beta9 = given[8],
-        given_beta10 = given[9];
-
-    /* closure residuals */
-    const double
-        cos_beta1__given = cos(given_beta1),
-        sin_beta1__given = sin(given_beta1),
-        at_ball_joint_y__given = c->design_arm_rear_y - c->control_arm_radius*sin_beta1__given,
-        at_ball_joint_z__given = c->design_arm_rear_z + c->control_arm_radius*cos_beta1__given,
-        given_span_BC_x = c->constant_19 + c->work_y_x*at_ball_joint_y__given +
-            c->work_z_x*at_ball_joint_z__given,
-        given_span_BC_y = c->constant_20 + c->work_y_y*at_ball_joint_y__given +
-            c->work_z_y*at_ball_joint_z__given,
-        given_span_BC_z = c->constant_8 + c->work_z_z*at_ball_joint_z__given,
-        given_length_C = sqrt(given_span_BC_z*given_span_BC_z + given_span_BC_x*given_span_BC_x +
-            given_span_BC_y*given_span_BC_y),
-        shared_2 = 1.0/given_length_C,
-        given_shaft_C_x = given_span_BC_x*shared_2,
-        given_shaft_C_y = given_span_BC_y*shared_2,
-        given_shaft_C_z = given_span_BC_z*shared_2,
-        given_level_C = sqrt(given_shaft_C_x*given_shaft_C_x + given_shaft_C_y*given_shaft_C_y),
-        shared_3 = cos(given_beta10),
-        shared_4 = sin(given_beta10),
-        given_tie_rod_outer_in_shaft_x = c->knuckle_tie_rod_outer_by_marker_x*shared_3 -
-            c->knuckle_tie_rod_outer_by_marker_z*shared_4,
-        shared_5 = -given_beta6,
-        given_tie_rod_outer_in_shaft_y = c->constant_21 + shared_5,
-        given_tie_rod_outer_in_shaft_z = c->knuckle_tie_rod_outer_by_marker_x*shared_4 +
-            c->knuckle_tie_rod_outer_by_marker_z*shared_3,
-        shared_6 = cos(given_beta7),
-        shared_7 = sin(given_beta7),
-        given_tie_rod_outer_lifted_y = given_tie_rod_outer_in_shaft_y*shared_6 -
-            shared_7*given_tie_rod_outer_in_shaft_z,
-        given_tie_rod_outer_lifted_z = given_tie_rod_outer_in_shaft_y*shared_7 +
-            shared_6*given_tie_rod_outer_in_shaft_z,
-        rack_origin_x__given = given_beta9*c->work_rack_axis_x,
-        rack_origin_y__given = given_beta9*c->work_rack_axis_y,
-        rack_origin_z__given = given_beta9*c->work_rack_axis_z,
-        at_tie_rod_inner_x__given = c->design_tie_rod_inner_x + rack_origin_x__given,
-        at_tie_rod_inner_y__given = c->design_tie_rod_inner_y + rack_origin_y__given,
-        at_tie_rod_inner_z__given = c->design_tie_rod_inner_z + rack_origin_z__given,
-        given_tie_rod_inner_x = c->work_x_x*at_tie_rod_inner_x__given +
-            c->work_y_x*at_tie_rod_inner_y__given + c->work_z_x*at_tie_rod_inner_z__given,
-        given_tie_rod_inner_y = c->work_x_y*at_tie_rod_inner_x__given +
-            c->work_y_y*at_tie_rod_inner_y__given + c->work_z_y*at_tie_rod_inner_z__given,
-        given_tie_rod_inner_z = c->work_x_z*at_tie_rod_inner_x__given +
-            c->work_z_z*at_tie_rod_inner_z__given,
-        shared_8 = sin(given_beta8),
-        shared_9 = cos(given_beta8),
-        given_tie_rod_x = shared_9*given_tie_rod_outer_in_shaft_x - given_tie_rod_inner_x -
-            shared_8*given_tie_rod_outer_lifted_y,
-        given_tie_rod_y = shared_8*given_tie_rod_outer_in_shaft_x - given_tie_rod_inner_y +
-            shared_9*given_tie_rod_outer_lifted_y,
-        given_tie_rod_z = given_tie_rod_outer_lifted_z - given_tie_rod_inner_z;
-
-    /* residuals */
-    out[0] = given_beta1 - beta1; /* g_beta1 */
-    out[1] = given_beta2 - c->strut_length_max + given_length_C; /* g_beta2 */
-    out[2] = sin(given_beta3) - given_shaft_C_z; /* g_beta3 */
-    out[3] = sin(given_beta4) + given_shaft_C_x/given_level_C; /* g_beta4 */
-    out[4] = given_beta5 - beta5; /* g_beta5 */
-    out[5] = -given_beta2 - shared_5; /* g_beta6 */
-    out[6] = given_beta7 - given_beta3; /* g_beta7 */
-    out[7] = given_beta8 - given_beta4; /* g_beta8 */
-    out[8] = given_beta9 - rack_position; /* g_beta9 */
-    out[9] = sqrt(given_tie_rod_z*given_tie_rod_z + given_tie_rod_x*given_tie_rod_x +
-        given_tie_rod_y*given_tie_rod_y) - c->tie_rod_length; /* g_beta10 */
-
-    unsigned status = not_finite(out, 10) * MACPHERSON_STATUS_NOT_FINITE;
-    return (int)status;
-}
-
-int macpherson_signals(const double *restrict constants, const double *restrict state,
-                       const double *restrict inputs, double *restrict out)
+status_word macpherson_signals(const double *restrict constants, const double *restrict state,
+                               const double *restrict inputs, double *restrict out)
 {
     const struct macpherson_constants *const c = (const void *)constants;
     const double
@@ -1895,17 +1828,17 @@ int macpherson_signals(const double *restrict constants, const double *restrict 
     out[11] = atan2(-spin_axis_now_x, spin_axis_now_y); /* steer */
     out[12] = tyre_force; /* tyre_force */
 
-    unsigned status = !(length_squared_BC > c->length_squared_BC_floor) * MACPHERSON_STATUS_LENGTH_SQUARED_BC;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * MACPHERSON_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * MACPHERSON_STATUS_KNUCKLE_CLOSURE;
-    status |= !(cos_camber_squared > 1e-10) * MACPHERSON_STATUS_COS_CAMBER_SQUARED;
-    status |= !(mass_beta1_beta1 > 1e-280) * MACPHERSON_STATUS_PIVOT_BETA1;
-    status |= not_finite(out, 13) * MACPHERSON_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(length_squared_BC, c->length_squared_BC_floor, MACPHERSON_STATUS_LENGTH_SQUARED_BC);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, MACPHERSON_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, MACPHERSON_STATUS_KNUCKLE_CLOSURE);
+    status |= guard_bit(cos_camber_squared, 1e-10, MACPHERSON_STATUS_COS_CAMBER_SQUARED);
+    status |= guard_bit(mass_beta1_beta1, 1e-280, MACPHERSON_STATUS_PIVOT_BETA1);
+    status |= finite_bit(out, 13, MACPHERSON_STATUS_NOT_FINITE);
+    return status;
 }
 
-int macpherson_margins(const double *restrict constants, const double *restrict state,
-                       const double *restrict inputs, double *restrict out)
+status_word macpherson_margins(const double *restrict constants, const double *restrict state,
+                               const double *restrict inputs, double *restrict out)
 {
     const struct macpherson_constants *const c = (const void *)constants;
     const double
@@ -2092,12 +2025,102 @@ int macpherson_margins(const double *restrict constants, const double *restrict 
     out[6] = mass_beta1_beta1 - 1e-280; /* pivot_beta1 */
     out[7] = shaft_level_squared_C - 1e-10; /* shaft_level_squared_C */
 
-    unsigned status = not_finite(out, 8) * MACPHERSON_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = finite_bit(out, 8, MACPHERSON_STATUS_NOT_FINITE);
+    return status;
 }
 
-int macpherson_dynamics(const double *restrict constants, const double *restrict state,
-                        const double *restrict inputs, double *restrict out)
+#ifndef KINTRAFO_LANES /* what no simulation evaluates */
+
+status_word macpherson_residuals(const double *restrict constants, const double *restrict state,
+                                 const double *restrict inputs, const double *restrict given, double *restrict out)
+{
+    const struct macpherson_constants *const c = (const void *)constants;
+    const double
+        beta1 = state[0],
+        beta5 = state[1],
+        rack_position = inputs[0],
+        given_beta1 = given[0],
+        given_beta2 = given[1],
+        given_beta3 = given[2],
+        given_beta4 = given[3],
+        given_beta5 = given[4],
+        given_beta6 = given[5],
+        given_beta7 = given[6],
+        given_beta8 = given[7],
+        given_beta9 = given[8],
+        given_beta10 = given[9];
+
+    /* closure residuals */
+    const double
+        cos_beta1__given = cos(given_beta1),
+        sin_beta1__given = sin(given_beta1),
+        at_ball_joint_y__given = c->design_arm_rear_y - c->control_arm_radius*sin_beta1__given,
+        at_ball_joint_z__given = c->design_arm_rear_z + c->control_arm_radius*cos_beta1__given,
+        given_span_BC_x = c->constant_19 + c->work_y_x*at_ball_joint_y__given +
+            c->work_z_x*at_ball_joint_z__given,
+        given_span_BC_y = c->constant_20 + c->work_y_y*at_ball_joint_y__given +
+            c->work_z_y*at_ball_joint_z__given,
+        given_span_BC_z = c->constant_8 + c->work_z_z*at_ball_joint_z__given,
+        given_length_C = sqrt(given_span_BC_z*given_span_BC_z + given_span_BC_x*given_span_BC_x +
+            given_span_BC_y*given_span_BC_y),
+        shared_2 = 1.0/given_length_C,
+        given_shaft_C_x = given_span_BC_x*shared_2,
+        given_shaft_C_y = given_span_BC_y*shared_2,
+        given_shaft_C_z = given_span_BC_z*shared_2,
+        given_level_C = sqrt(given_shaft_C_x*given_shaft_C_x + given_shaft_C_y*given_shaft_C_y),
+        shared_3 = cos(given_beta10),
+        shared_4 = sin(given_beta10),
+        given_tie_rod_outer_in_shaft_x = c->knuckle_tie_rod_outer_by_marker_x*shared_3 -
+            c->knuckle_tie_rod_outer_by_marker_z*shared_4,
+        shared_5 = -given_beta6,
+        given_tie_rod_outer_in_shaft_y = c->constant_21 + shared_5,
+        given_tie_rod_outer_in_shaft_z = c->knuckle_tie_rod_outer_by_marker_x*shared_4 +
+            c->knuckle_tie_rod_outer_by_marker_z*shared_3,
+        shared_6 = cos(given_beta7),
+        shared_7 = sin(given_beta7),
+        given_tie_rod_outer_lifted_y = given_tie_rod_outer_in_shaft_y*shared_6 -
+            shared_7*given_tie_rod_outer_in_shaft_z,
+        given_tie_rod_outer_lifted_z = given_tie_rod_outer_in_shaft_y*shared_7 +
+            shared_6*given_tie_rod_outer_in_shaft_z,
+        rack_origin_x__given = given_beta9*c->work_rack_axis_x,
+        rack_origin_y__given = given_beta9*c->work_rack_axis_y,
+        rack_origin_z__given = given_beta9*c->work_rack_axis_z,
+        at_tie_rod_inner_x__given = c->design_tie_rod_inner_x + rack_origin_x__given,
+        at_tie_rod_inner_y__given = c->design_tie_rod_inner_y + rack_origin_y__given,
+        at_tie_rod_inner_z__given = c->design_tie_rod_inner_z + rack_origin_z__given,
+        given_tie_rod_inner_x = c->work_x_x*at_tie_rod_inner_x__given +
+            c->work_y_x*at_tie_rod_inner_y__given + c->work_z_x*at_tie_rod_inner_z__given,
+        given_tie_rod_inner_y = c->work_x_y*at_tie_rod_inner_x__given +
+            c->work_y_y*at_tie_rod_inner_y__given + c->work_z_y*at_tie_rod_inner_z__given,
+        given_tie_rod_inner_z = c->work_x_z*at_tie_rod_inner_x__given +
+            c->work_z_z*at_tie_rod_inner_z__given,
+        shared_8 = sin(given_beta8),
+        shared_9 = cos(given_beta8),
+        given_tie_rod_x = shared_9*given_tie_rod_outer_in_shaft_x - given_tie_rod_inner_x -
+            shared_8*given_tie_rod_outer_lifted_y,
+        given_tie_rod_y = shared_8*given_tie_rod_outer_in_shaft_x - given_tie_rod_inner_y +
+            shared_9*given_tie_rod_outer_lifted_y,
+        given_tie_rod_z = given_tie_rod_outer_lifted_z - given_tie_rod_inner_z;
+
+    /* residuals */
+    out[0] = given_beta1 - beta1; /* g_beta1 */
+    out[1] = given_beta2 - c->strut_length_max + given_length_C; /* g_beta2 */
+    out[2] = sin(given_beta3) - given_shaft_C_z; /* g_beta3 */
+    out[3] = sin(given_beta4) + given_shaft_C_x/given_level_C; /* g_beta4 */
+    out[4] = given_beta5 - beta5; /* g_beta5 */
+    out[5] = -given_beta2 - shared_5; /* g_beta6 */
+    out[6] = given_beta7 - given_beta3; /* g_beta7 */
+    out[7] = given_beta8 - given_beta4; /* g_beta8 */
+    out[8] = given_beta9 - rack_position; /* g_beta9 */
+    out[9] = sqrt(given_tie_rod_z*given_tie_rod_z + given_tie_rod_x*given_tie_rod_x +
+        given_tie_rod_y*given_tie_rod_y) - c->tie_rod_length; /* g_beta10 */
+
+    status_word status = finite_bit(out, 10, MACPHERSON_STATUS_NOT_FINITE);
+    return status;
+}
+
+status_word macpherson_dynamics(const double *restrict constants, const double *restrict state,
+                                const double *restrict inputs, double *restrict out)
 {
     const struct macpherson_constants *const c = (const void *)constants;
     const double
@@ -2441,18 +2464,18 @@ int macpherson_dynamics(const double *restrict constants, const double *restrict
 
     /* forces */
     out[6] = force_of_beta1; /* Q[beta1] */
-    out[7] = 0.0;
+    out[7] = number(0.0);
 
-    unsigned status = !(length_squared_BC > c->length_squared_BC_floor) * MACPHERSON_STATUS_LENGTH_SQUARED_BC;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * MACPHERSON_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * MACPHERSON_STATUS_KNUCKLE_CLOSURE;
-    status |= !(cos_camber_squared > 1e-10) * MACPHERSON_STATUS_COS_CAMBER_SQUARED;
-    status |= not_finite(out, 8) * MACPHERSON_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(length_squared_BC, c->length_squared_BC_floor, MACPHERSON_STATUS_LENGTH_SQUARED_BC);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, MACPHERSON_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, MACPHERSON_STATUS_KNUCKLE_CLOSURE);
+    status |= guard_bit(cos_camber_squared, 1e-10, MACPHERSON_STATUS_COS_CAMBER_SQUARED);
+    status |= finite_bit(out, 8, MACPHERSON_STATUS_NOT_FINITE);
+    return status;
 }
 
-int macpherson_poses(const double *restrict constants, const double *restrict state,
-                     const double *restrict inputs, double *restrict out)
+status_word macpherson_poses(const double *restrict constants, const double *restrict state,
+                             const double *restrict inputs, double *restrict out)
 {
     const struct macpherson_constants *const c = (const void *)constants;
     const double
@@ -3101,9 +3124,9 @@ int macpherson_poses(const double *restrict constants, const double *restrict st
         tie_rod Rzy */
     out[54] = c->constant_62*tie_rod_tilt + c->constant_63*shared_66 + c->constant_64*shared_67; /*
         tie_rod Rzz */
-    out[55] = 1.0; /* rack Rxx */
-    out[59] = 1.0; /* rack Ryy */
-    out[63] = 1.0; /* rack Rzz */
+    out[55] = number(1.0); /* rack Rxx */
+    out[59] = number(1.0); /* rack Ryy */
+    out[63] = number(1.0); /* rack Rzz */
     out[64] = shared_45 + c->constant_65*shared_68 + c->constant_66*shared_69; /* upper_strut Rxx */
     out[65] = shared_48 + c->constant_67*shared_68 + c->constant_68*shared_69; /* upper_strut Rxy */
     out[66] = shared_49 + c->constant_69*shared_68 + c->constant_70*shared_69; /* upper_strut Rxz */
@@ -3131,7 +3154,7 @@ int macpherson_poses(const double *restrict constants, const double *restrict st
         wheel Rzy */
     out[81] = c->constant_77*shared_80 + c->constant_78*shared_81 + c->constant_79*shared_82; /*
         wheel Rzz */
-    out[56] = out[57] = out[58] = out[60] = out[61] = out[62] = 0.0;
+    out[56] = out[57] = out[58] = out[60] = out[61] = out[62] = number(0.0);
 
     /* velocities */
     out[82] = beta1_rate*c->work_x_x; /* control_arm omega_x */
@@ -3206,20 +3229,20 @@ int macpherson_poses(const double *restrict constants, const double *restrict st
         c->work_z_y*shared_155); /* wheel velocity_y */
     out[117] = rack_velocity*(c->work_x_z*shared_156 + c->work_z_z*shared_158) +
         beta1_rate*(c->work_x_z*shared_153 + c->work_z_z*shared_155); /* wheel velocity_z */
-    out[100] = out[101] = out[102] = 0.0;
+    out[100] = out[101] = out[102] = number(0.0);
 
-    unsigned status = !(length_squared_BC > c->length_squared_BC_floor) * MACPHERSON_STATUS_LENGTH_SQUARED_BC;
-    status |= !(upper_strut_cross_squared > 1e-10) * MACPHERSON_STATUS_UPPER_STRUT_CROSS_SQUARED;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * MACPHERSON_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * MACPHERSON_STATUS_KNUCKLE_CLOSURE;
-    status |= !(tie_rod_cross_squared > 1e-10) * MACPHERSON_STATUS_TIE_ROD_CROSS_SQUARED;
-    status |= !(shaft_level_squared_C > 1e-10) * MACPHERSON_STATUS_SHAFT_LEVEL_SQUARED_C;
-    status |= not_finite(out, 118) * MACPHERSON_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(length_squared_BC, c->length_squared_BC_floor, MACPHERSON_STATUS_LENGTH_SQUARED_BC);
+    status |= guard_bit(upper_strut_cross_squared, 1e-10, MACPHERSON_STATUS_UPPER_STRUT_CROSS_SQUARED);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, MACPHERSON_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, MACPHERSON_STATUS_KNUCKLE_CLOSURE);
+    status |= guard_bit(tie_rod_cross_squared, 1e-10, MACPHERSON_STATUS_TIE_ROD_CROSS_SQUARED);
+    status |= guard_bit(shaft_level_squared_C, 1e-10, MACPHERSON_STATUS_SHAFT_LEVEL_SQUARED_C);
+    status |= finite_bit(out, 118, MACPHERSON_STATUS_NOT_FINITE);
+    return status;
 }
 
-int macpherson_jacobians(const double *restrict constants, const double *restrict state,
-                         const double *restrict inputs, double *restrict out)
+status_word macpherson_jacobians(const double *restrict constants, const double *restrict state,
+                                 const double *restrict inputs, double *restrict out)
 {
     const struct macpherson_constants *const c = (const void *)constants;
     const double
@@ -3731,17 +3754,17 @@ int macpherson_jacobians(const double *restrict constants, const double *restric
             wheel_top_z*wheel_velocity_beta1_3;
 
     /* relative_jacobian by beta1, beta5 */
-    out[0] = 1.0; /* beta1 */
+    out[0] = number(1.0); /* beta1 */
     out[2] = shared_20; /* beta2 */
     out[4] = elevation_C__by_beta1; /* beta3 */
     out[6] = azimuth_C__by_beta1; /* beta4 */
-    out[9] = 1.0; /* beta5 */
+    out[9] = number(1.0); /* beta5 */
     out[10] = shared_20; /* beta6 */
     out[12] = elevation_C__by_beta1; /* beta7 */
     out[14] = azimuth_C__by_beta1; /* beta8 */
     out[18] = angle_BC__by_beta1; /* beta10 */
     out[1] = out[3] = out[5] = out[7] = out[8] = out[11] = out[13] = out[15] = out[16] = out[17] =
-        out[19] = 0.0;
+        out[19] = number(0.0);
 
     /* absolute_jacobian by beta1, beta2, beta3, beta4, beta5, beta6, beta7, beta8, beta9, beta10 */
     out[20] = c->work_x_x; /* control_arm omega_x */
@@ -3812,7 +3835,7 @@ int macpherson_jacobians(const double *restrict constants, const double *restric
         out[157] = out[158] = out[160] = out[161] = out[165] = out[166] = out[167] = out[168] =
         out[170] = out[174] = out[175] = out[176] = out[177] = out[178] = out[180] = out[184] =
         out[185] = out[186] = out[187] = out[188] = out[190] = out[193] = out[194] = out[195] =
-        out[196] = out[197] = out[198] = 0.0;
+        out[196] = out[197] = out[198] = number(0.0);
 
     /* global_jacobian by beta1, beta5 */
     out[200] = c->work_x_x; /* control_arm omega_x */
@@ -3845,12 +3868,14 @@ int macpherson_jacobians(const double *restrict constants, const double *restric
         velocity_y */
     out[234] = c->work_x_z*shared_96 + c->work_z_z*shared_98; /* wheel velocity_z */
     out[201] = out[203] = out[205] = out[207] = out[209] = out[211] = out[213] = out[215] = out[217]
-        = out[219] = out[221] = out[223] = out[231] = out[233] = out[235] = 0.0;
+        = out[219] = out[221] = out[223] = out[231] = out[233] = out[235] = number(0.0);
 
-    unsigned status = !(length_squared_BC > c->length_squared_BC_floor) * MACPHERSON_STATUS_LENGTH_SQUARED_BC;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * MACPHERSON_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * MACPHERSON_STATUS_KNUCKLE_CLOSURE;
-    status |= !(shaft_level_squared_C > 1e-10) * MACPHERSON_STATUS_SHAFT_LEVEL_SQUARED_C;
-    status |= not_finite(out, 236) * MACPHERSON_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(length_squared_BC, c->length_squared_BC_floor, MACPHERSON_STATUS_LENGTH_SQUARED_BC);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, MACPHERSON_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, MACPHERSON_STATUS_KNUCKLE_CLOSURE);
+    status |= guard_bit(shaft_level_squared_C, 1e-10, MACPHERSON_STATUS_SHAFT_LEVEL_SQUARED_C);
+    status |= finite_bit(out, 236, MACPHERSON_STATUS_NOT_FINITE);
+    return status;
 }
+
+#endif

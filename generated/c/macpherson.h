@@ -252,6 +252,8 @@ enum macpherson_status {
     MACPHERSON_STATUS_NOT_FINITE = 1 << 30 /* a result is NaN or infinite */
 };
 
+#ifndef KINTRAFO_LANES
+
 /*
  * Compute the constants of one parameter set.
  * Returns 0, or one plus the index of the first constant that is not finite,
@@ -334,6 +336,8 @@ int macpherson_jacobians(const double *restrict constants, const double *restric
    (1155 add, 1576 multiply, 16 divide, 3 root, 2 trigonometric). */
 int macpherson_linearisation(const double *restrict constants, const double *restrict state,
                              const double *restrict inputs, double *restrict out);
+
+#endif
 
 #ifdef __cplusplus
 #undef restrict

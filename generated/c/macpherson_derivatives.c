@@ -9,24 +9,63 @@
 
 #include <math.h>
 
+#ifndef KINTRAFO_LANES /* else all numbers are vectors, and what includes this file has these */
+typedef int status_word;
+
 /* The greater of two numbers; NaN for a NaN. One instruction, where fmax may be a call. */
 static inline double at_least(double x, double least)
 {
     return x < least ? least : x;
 }
 
-/* Whether any of some values is NaN or infinite. */
-static unsigned not_finite(const double *values, int count)
+/* One for what is positive, else zero. */
+static inline double is_positive(double x)
 {
-    unsigned found = 0;
+    return x > 0.0;
+}
+
+/* A number that depends on nothing. */
+static inline double number(double x)
+{
+    return x;
+}
+
+/* A bit, where a guarded quantity is not over its floor. */
+static inline status_word guard_bit(double quantity, double least, int bit)
+{
+    return !(quantity > least) * bit;
+}
+
+/* A bit, where any of some values is NaN or infinite. */
+static inline status_word finite_bit(const double *values, int count, int bit)
+{
+    status_word found = 0;
     for (int i = 0; i < count; ++i) {
         found |= !isfinite(values[i]);
     }
-    return found;
+    return found * bit;
 }
 
-int macpherson_rhs_jacobian(const double *restrict constants, const double *restrict state,
-                            const double *restrict inputs, double *restrict out)
+/* One number or the other. */
+static inline status_word either(int applies, int code, status_word otherwise)
+{
+    return applies ? code : otherwise;
+}
+
+/* One plus the index of the first value that is NaN or infinite; 0: all are finite. */
+static inline status_word first_not_finite(const double *values, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        if (!isfinite(values[i])) {
+            return i + 1;
+        }
+    }
+    return 0;
+}
+#endif
+
+status_word macpherson_rhs_jacobian(const double *restrict constants, const double *restrict state,
+                                    const double *restrict inputs, double *restrict out)
 {
     const struct macpherson_constants *const c = (const void *)constants;
     const double
@@ -822,27 +861,27 @@ int macpherson_rhs_jacobian(const double *restrict constants, const double *rest
         beta5_acceleration__beta5_rate = -wheel_share_beta1*beta1_acceleration__beta5_rate;
 
     /* rhs_jacobian by beta1, beta5, beta1_rate, beta5_rate */
-    out[2] = 1.0; /* d(beta1)/dt */
-    out[7] = 1.0; /* d(beta5)/dt */
+    out[2] = number(1.0); /* d(beta1)/dt */
+    out[7] = number(1.0); /* d(beta5)/dt */
     out[8] = beta1_acceleration__beta1; /* d(beta1_rate)/dt */
     out[10] = beta1_acceleration__beta1_rate;
     out[11] = beta1_acceleration__beta5_rate;
     out[12] = beta5_acceleration__beta1; /* d(beta5_rate)/dt */
     out[14] = beta5_acceleration__beta1_rate;
     out[15] = beta5_acceleration__beta5_rate;
-    out[0] = out[1] = out[3] = out[4] = out[5] = out[6] = out[9] = out[13] = 0.0;
+    out[0] = out[1] = out[3] = out[4] = out[5] = out[6] = out[9] = out[13] = number(0.0);
 
-    unsigned status = !(length_squared_BC > c->length_squared_BC_floor) * MACPHERSON_STATUS_LENGTH_SQUARED_BC;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * MACPHERSON_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * MACPHERSON_STATUS_KNUCKLE_CLOSURE;
-    status |= !(cos_camber_squared > 1e-10) * MACPHERSON_STATUS_COS_CAMBER_SQUARED;
-    status |= !(mass_beta1_beta1 > 1e-280) * MACPHERSON_STATUS_PIVOT_BETA1;
-    status |= not_finite(out, 16) * MACPHERSON_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(length_squared_BC, c->length_squared_BC_floor, MACPHERSON_STATUS_LENGTH_SQUARED_BC);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, MACPHERSON_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, MACPHERSON_STATUS_KNUCKLE_CLOSURE);
+    status |= guard_bit(cos_camber_squared, 1e-10, MACPHERSON_STATUS_COS_CAMBER_SQUARED);
+    status |= guard_bit(mass_beta1_beta1, 1e-280, MACPHERSON_STATUS_PIVOT_BETA1);
+    status |= finite_bit(out, 16, MACPHERSON_STATUS_NOT_FINITE);
+    return status;
 }
 
-int macpherson_rhs_jacobian_rack_held(const double *restrict constants, const double *restrict state,
-                                      const double *restrict inputs, double *restrict out)
+status_word macpherson_rhs_jacobian_rack_held(const double *restrict constants, const double *restrict state,
+                                              const double *restrict inputs, double *restrict out)
 {
     const struct macpherson_constants *const c = (const void *)constants;
     const double
@@ -1349,26 +1388,26 @@ int macpherson_rhs_jacobian_rack_held(const double *restrict constants, const do
             wheel_share_beta1*beta1_acceleration__beta1_rate;
 
     /* rhs_jacobian_rack_held by beta1, beta5, beta1_rate, beta5_rate */
-    out[2] = 1.0; /* d(beta1)/dt */
-    out[7] = 1.0; /* d(beta5)/dt */
+    out[2] = number(1.0); /* d(beta1)/dt */
+    out[7] = number(1.0); /* d(beta5)/dt */
     out[8] = beta1_acceleration__beta1; /* d(beta1_rate)/dt */
     out[10] = beta1_acceleration__beta1_rate;
     out[12] = beta5_acceleration__beta1; /* d(beta5_rate)/dt */
     out[14] = beta5_acceleration__beta1_rate;
     out[0] = out[1] = out[3] = out[4] = out[5] = out[6] = out[9] = out[11] = out[13] = out[15] =
-        0.0;
+        number(0.0);
 
-    unsigned status = !(length_squared_BC > c->length_squared_BC_floor) * MACPHERSON_STATUS_LENGTH_SQUARED_BC;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * MACPHERSON_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * MACPHERSON_STATUS_KNUCKLE_CLOSURE;
-    status |= !(cos_camber_squared > 1e-10) * MACPHERSON_STATUS_COS_CAMBER_SQUARED;
-    status |= !(mass_beta1_beta1 > 1e-280) * MACPHERSON_STATUS_PIVOT_BETA1;
-    status |= not_finite(out, 16) * MACPHERSON_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(length_squared_BC, c->length_squared_BC_floor, MACPHERSON_STATUS_LENGTH_SQUARED_BC);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, MACPHERSON_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, MACPHERSON_STATUS_KNUCKLE_CLOSURE);
+    status |= guard_bit(cos_camber_squared, 1e-10, MACPHERSON_STATUS_COS_CAMBER_SQUARED);
+    status |= guard_bit(mass_beta1_beta1, 1e-280, MACPHERSON_STATUS_PIVOT_BETA1);
+    status |= finite_bit(out, 16, MACPHERSON_STATUS_NOT_FINITE);
+    return status;
 }
 
-int macpherson_linearisation(const double *restrict constants, const double *restrict state,
-                             const double *restrict inputs, double *restrict out)
+status_word macpherson_linearisation(const double *restrict constants, const double *restrict state,
+                                     const double *restrict inputs, double *restrict out)
 {
     const struct macpherson_constants *const c = (const void *)constants;
     const double
@@ -2861,7 +2900,8 @@ int macpherson_linearisation(const double *restrict constants, const double *res
     out[17] = beta5_acceleration__rack_acceleration;
     out[18] = beta5_acceleration__strut_force;
     out[19] = beta5_acceleration__road_height;
-    out[0] = out[1] = out[2] = out[3] = out[4] = out[5] = out[6] = out[7] = out[8] = out[9] = 0.0;
+    out[0] = out[1] = out[2] = out[3] = out[4] = out[5] = out[6] = out[7] = out[8] = out[9] =
+        number(0.0);
 
     /* signals_jacobian by beta1, beta5, beta1_rate, beta5_rate */
     out[20] = length_BC__beta1; /* strut_length */
@@ -2926,7 +2966,7 @@ int macpherson_linearisation(const double *restrict constants, const double *res
     out[21] = out[22] = out[23] = out[25] = out[27] = out[29] = out[30] = out[31] = out[33] =
         out[35] = out[37] = out[38] = out[39] = out[41] = out[42] = out[43] = out[45] = out[46] =
         out[47] = out[49] = out[51] = out[53] = out[57] = out[58] = out[59] = out[61] = out[62] =
-        out[63] = out[65] = out[66] = out[67] = out[69] = out[70] = out[71] = 0.0;
+        out[63] = out[65] = out[66] = out[67] = out[69] = out[70] = out[71] = number(0.0);
 
     /* signals_input_jacobian by rack_position, rack_velocity, rack_acceleration, strut_force,
        road_height */
@@ -2987,13 +3027,13 @@ int macpherson_linearisation(const double *restrict constants, const double *res
         out[90] = out[91] = out[93] = out[94] = out[95] = out[96] = out[98] = out[99] = out[100] =
         out[101] = out[103] = out[104] = out[105] = out[106] = out[109] = out[110] = out[111] =
         out[118] = out[119] = out[120] = out[121] = out[123] = out[124] = out[125] = out[126] =
-        out[128] = out[129] = out[130] = out[131] = out[133] = out[134] = out[135] = 0.0;
+        out[128] = out[129] = out[130] = out[131] = out[133] = out[134] = out[135] = number(0.0);
 
-    unsigned status = !(length_squared_BC > c->length_squared_BC_floor) * MACPHERSON_STATUS_LENGTH_SQUARED_BC;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * MACPHERSON_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * MACPHERSON_STATUS_KNUCKLE_CLOSURE;
-    status |= !(cos_camber_squared > 1e-10) * MACPHERSON_STATUS_COS_CAMBER_SQUARED;
-    status |= !(mass_beta1_beta1 > 1e-280) * MACPHERSON_STATUS_PIVOT_BETA1;
-    status |= not_finite(out, 137) * MACPHERSON_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(length_squared_BC, c->length_squared_BC_floor, MACPHERSON_STATUS_LENGTH_SQUARED_BC);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, MACPHERSON_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, MACPHERSON_STATUS_KNUCKLE_CLOSURE);
+    status |= guard_bit(cos_camber_squared, 1e-10, MACPHERSON_STATUS_COS_CAMBER_SQUARED);
+    status |= guard_bit(mass_beta1_beta1, 1e-280, MACPHERSON_STATUS_PIVOT_BETA1);
+    status |= finite_bit(out, 137, MACPHERSON_STATUS_NOT_FINITE);
+    return status;
 }

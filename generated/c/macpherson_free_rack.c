@@ -9,23 +9,62 @@
 
 #include <math.h>
 
+#ifndef KINTRAFO_LANES /* else all numbers are vectors, and what includes this file has these */
+typedef int status_word;
+
 /* The greater of two numbers; NaN for a NaN. One instruction, where fmax may be a call. */
 static inline double at_least(double x, double least)
 {
     return x < least ? least : x;
 }
 
-/* Whether any of some values is NaN or infinite. */
-static unsigned not_finite(const double *values, int count)
+/* One for what is positive, else zero. */
+static inline double is_positive(double x)
 {
-    unsigned found = 0;
+    return x > 0.0;
+}
+
+/* A number that depends on nothing. */
+static inline double number(double x)
+{
+    return x;
+}
+
+/* A bit, where a guarded quantity is not over its floor. */
+static inline status_word guard_bit(double quantity, double least, int bit)
+{
+    return !(quantity > least) * bit;
+}
+
+/* A bit, where any of some values is NaN or infinite. */
+static inline status_word finite_bit(const double *values, int count, int bit)
+{
+    status_word found = 0;
     for (int i = 0; i < count; ++i) {
         found |= !isfinite(values[i]);
     }
-    return found;
+    return found * bit;
 }
 
-int macpherson_free_rack_prepare(const double *restrict parameters, double *restrict constants)
+/* One number or the other. */
+static inline status_word either(int applies, int code, status_word otherwise)
+{
+    return applies ? code : otherwise;
+}
+
+/* One plus the index of the first value that is NaN or infinite; 0: all are finite. */
+static inline status_word first_not_finite(const double *values, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        if (!isfinite(values[i])) {
+            return i + 1;
+        }
+    }
+    return 0;
+}
+#endif
+
+status_word macpherson_free_rack_prepare(const double *restrict parameters, double *restrict constants)
 {
     struct macpherson_free_rack_constants *const c = (void *)constants;
     const double
@@ -980,36 +1019,18 @@ int macpherson_free_rack_prepare(const double *restrict parameters, double *rest
     c->constant_128 = c->work_x_z*c->knuckle_spin_axis_3;
     c->constant_129 = c->work_z_z*c->knuckle_spin_axis_3;
 
-    if (fabs(c->BC_length_design) <= c->BC_length_design_least) {
-        return MACPHERSON_FREE_RACK_CONSTANT_COUNT + 1;
-    }
-    if (fabs(c->upper_strut_cross_design) <= 1e-05) {
-        return MACPHERSON_FREE_RACK_CONSTANT_COUNT + 2;
-    }
-    if (fabs(c->knuckle_arm_radius) <= c->knuckle_arm_radius_least) {
-        return MACPHERSON_FREE_RACK_CONSTANT_COUNT + 3;
-    }
-    if (fabs(c->tie_rod_length) <= c->knuckle_arm_radius_least) {
-        return MACPHERSON_FREE_RACK_CONSTANT_COUNT + 4;
-    }
-    if (fabs(c->knuckle_reach_design) <= c->knuckle_arm_radius_least) {
-        return MACPHERSON_FREE_RACK_CONSTANT_COUNT + 5;
-    }
-    if (fabs(c->knuckle_rod_height_design) <= c->knuckle_rod_height_design_least) {
-        return MACPHERSON_FREE_RACK_CONSTANT_COUNT + 6;
-    }
-    if (fabs(c->tie_rod_cross_design) <= 1e-05) {
-        return MACPHERSON_FREE_RACK_CONSTANT_COUNT + 7;
-    }
-    for (int i = 0; i < MACPHERSON_FREE_RACK_CONSTANT_COUNT; ++i) {
-        if (!isfinite(constants[i])) {
-            return i + 1;
-        }
-    }
-    return 0;
+    status_word failed = first_not_finite(constants, MACPHERSON_FREE_RACK_CONSTANT_COUNT);
+    failed = either(fabs(c->tie_rod_cross_design) <= 1e-05, MACPHERSON_FREE_RACK_CONSTANT_COUNT + 7, failed);
+    failed = either(fabs(c->knuckle_rod_height_design) <= c->knuckle_rod_height_design_least, MACPHERSON_FREE_RACK_CONSTANT_COUNT + 6, failed);
+    failed = either(fabs(c->knuckle_reach_design) <= c->knuckle_arm_radius_least, MACPHERSON_FREE_RACK_CONSTANT_COUNT + 5, failed);
+    failed = either(fabs(c->tie_rod_length) <= c->knuckle_arm_radius_least, MACPHERSON_FREE_RACK_CONSTANT_COUNT + 4, failed);
+    failed = either(fabs(c->knuckle_arm_radius) <= c->knuckle_arm_radius_least, MACPHERSON_FREE_RACK_CONSTANT_COUNT + 3, failed);
+    failed = either(fabs(c->upper_strut_cross_design) <= 1e-05, MACPHERSON_FREE_RACK_CONSTANT_COUNT + 2, failed);
+    failed = either(fabs(c->BC_length_design) <= c->BC_length_design_least, MACPHERSON_FREE_RACK_CONSTANT_COUNT + 1, failed);
+    return failed;
 }
 
-int macpherson_free_rack_design_state(const double *restrict parameters, double *restrict state)
+status_word macpherson_free_rack_design_state(const double *restrict parameters, double *restrict state)
 {
     const double
         arm_front_x = parameters[0],
@@ -1039,16 +1060,16 @@ int macpherson_free_rack_design_state(const double *restrict parameters, double 
             beta1_along);
 
     state[0] = beta1;
-    state[1] = 0.0;
-    state[2] = 0.0;
-    state[3] = 0.0;
-    state[4] = 0.0;
-    state[5] = 0.0;
-    return 0;
+    state[1] = number(0.0);
+    state[2] = number(0.0);
+    state[3] = number(0.0);
+    state[4] = number(0.0);
+    state[5] = number(0.0);
+    return finite_bit(state, 6, MACPHERSON_FREE_RACK_STATUS_NOT_FINITE);
 }
 
-int macpherson_free_rack_rhs(const double *restrict constants, const double *restrict state,
-                             const double *restrict inputs, double *restrict out)
+status_word macpherson_free_rack_rhs(const double *restrict constants, const double *restrict state,
+                                     const double *restrict inputs, double *restrict out)
 {
     const struct macpherson_free_rack_constants *const c = (const void *)constants;
     const double
@@ -1681,119 +1702,20 @@ int macpherson_free_rack_rhs(const double *restrict constants, const double *res
     out[4] = beta5_acceleration; /* d(beta5_rate)/dt */
     out[5] = beta9_acceleration; /* d(beta9_rate)/dt */
 
-    unsigned status = !(length_squared_BC > c->length_squared_BC_floor) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC;
-    status |= !(upper_strut_cross_squared > 1e-10) * MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE;
-    status |= !(tie_rod_cross_squared > 1e-10) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED;
-    status |= !(cos_camber_squared > 1e-10) * MACPHERSON_FREE_RACK_STATUS_COS_CAMBER_SQUARED;
-    status |= !(mass_beta1_beta1 > 1e-280) * MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA1;
-    status |= !(reduced_beta9_beta9_beta1 > 1e-280) * MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA9;
-    status |= not_finite(out, 6) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(length_squared_BC, c->length_squared_BC_floor, MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC);
+    status |= guard_bit(upper_strut_cross_squared, 1e-10, MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE);
+    status |= guard_bit(tie_rod_cross_squared, 1e-10, MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED);
+    status |= guard_bit(cos_camber_squared, 1e-10, MACPHERSON_FREE_RACK_STATUS_COS_CAMBER_SQUARED);
+    status |= guard_bit(mass_beta1_beta1, 1e-280, MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA1);
+    status |= guard_bit(reduced_beta9_beta9_beta1, 1e-280, MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA9);
+    status |= finite_bit(out, 6, MACPHERSON_FREE_RACK_STATUS_NOT_FINITE);
+    return status;
 }
 
-int macpherson_free_rack_residuals(const double *restrict constants, const double *restrict state,
-                                   const double *restrict inputs, const double *restrict given, double *restrict out)
-{
-    const struct macpherson_free_rack_constants *const c = (const void *)constants;
-    (void)inputs;
-    const double
-        beta1 = state[0],
-        beta5 = state[1],
-        beta9 = state[2],
-        given_beta1 = given[0],
-        given_beta2 = given[1],
-        given_beta3 = given[2],
-        given_beta4 = given[3],
-        given_beta5 = given[4],
-        given_beta6 = given[5],
-        given_beta7 = given[6],
-        given_beta8 = given[7],
-        given_beta9 = given[8],
-        given_beta10 = given[9],
-        given_beta11 = given[10],
-        given_beta12 = given[11];
-
-    /* closure residuals */
-    const double
-        cos_beta1__given = cos(given_beta1),
-        sin_beta1__given = sin(given_beta1),
-        at_ball_joint_y__given = c->design_arm_rear_y - c->control_arm_radius*sin_beta1__given,
-        at_ball_joint_z__given = c->design_arm_rear_z + c->control_arm_radius*cos_beta1__given,
-        given_span_BC_x = c->constant_23 + c->work_y_x*at_ball_joint_y__given +
-            c->work_z_x*at_ball_joint_z__given,
-        given_span_BC_y = c->constant_24 + c->work_y_y*at_ball_joint_y__given +
-            c->work_z_y*at_ball_joint_z__given,
-        given_span_BC_z = c->constant_8 + c->work_z_z*at_ball_joint_z__given,
-        given_length_C = sqrt(given_span_BC_z*given_span_BC_z + given_span_BC_x*given_span_BC_x +
-            given_span_BC_y*given_span_BC_y),
-        shared_2 = 1.0/given_length_C,
-        given_shaft_C_x = given_span_BC_x*shared_2,
-        given_shaft_C_y = given_span_BC_y*shared_2,
-        given_shaft_C_z = given_span_BC_z*shared_2,
-        given_level_C = sqrt(given_shaft_C_x*given_shaft_C_x + given_shaft_C_y*given_shaft_C_y),
-        shared_3 = cos(given_beta10),
-        shared_4 = sin(given_beta10),
-        given_tie_rod_outer_in_shaft_x = c->knuckle_tie_rod_outer_by_marker_x*shared_3 -
-            c->knuckle_tie_rod_outer_by_marker_z*shared_4,
-        shared_5 = -given_beta6,
-        given_tie_rod_outer_in_shaft_y = c->constant_25 + shared_5,
-        given_tie_rod_outer_in_shaft_z = c->knuckle_tie_rod_outer_by_marker_x*shared_4 +
-            c->knuckle_tie_rod_outer_by_marker_z*shared_3,
-        shared_6 = cos(given_beta7),
-        shared_7 = sin(given_beta7),
-        given_tie_rod_outer_lifted_y = given_tie_rod_outer_in_shaft_y*shared_6 -
-            shared_7*given_tie_rod_outer_in_shaft_z,
-        given_tie_rod_outer_lifted_z = given_tie_rod_outer_in_shaft_y*shared_7 +
-            shared_6*given_tie_rod_outer_in_shaft_z,
-        rack_origin_x__given = given_beta9*c->work_rack_axis_x,
-        rack_origin_y__given = given_beta9*c->work_rack_axis_y,
-        rack_origin_z__given = given_beta9*c->work_rack_axis_z,
-        at_tie_rod_inner_x__given = c->design_tie_rod_inner_x + rack_origin_x__given,
-        at_tie_rod_inner_y__given = c->design_tie_rod_inner_y + rack_origin_y__given,
-        at_tie_rod_inner_z__given = c->design_tie_rod_inner_z + rack_origin_z__given,
-        given_tie_rod_inner_x = c->work_x_x*at_tie_rod_inner_x__given +
-            c->work_y_x*at_tie_rod_inner_y__given + c->work_z_x*at_tie_rod_inner_z__given,
-        given_tie_rod_inner_y = c->work_x_y*at_tie_rod_inner_x__given +
-            c->work_y_y*at_tie_rod_inner_y__given + c->work_z_y*at_tie_rod_inner_z__given,
-        given_tie_rod_inner_z = c->work_x_z*at_tie_rod_inner_x__given +
-            c->work_z_z*at_tie_rod_inner_z__given,
-        shared_8 = sin(given_beta8),
-        shared_9 = cos(given_beta8),
-        given_tie_rod_x = shared_9*given_tie_rod_outer_in_shaft_x - given_tie_rod_inner_x -
-            shared_8*given_tie_rod_outer_lifted_y,
-        given_tie_rod_y = shared_8*given_tie_rod_outer_in_shaft_x - given_tie_rod_inner_y +
-            shared_9*given_tie_rod_outer_lifted_y,
-        given_tie_rod_z = given_tie_rod_outer_lifted_z - given_tie_rod_inner_z,
-        given_length_E = sqrt(given_tie_rod_z*given_tie_rod_z + given_tie_rod_x*given_tie_rod_x +
-            given_tie_rod_y*given_tie_rod_y),
-        shared_11 = 1.0/given_length_E,
-        given_shaft_E_x = given_tie_rod_x*shared_11,
-        given_shaft_E_y = given_tie_rod_y*shared_11,
-        given_shaft_E_z = given_tie_rod_z*shared_11,
-        given_level_E = sqrt(given_shaft_E_x*given_shaft_E_x + given_shaft_E_y*given_shaft_E_y);
-
-    /* residuals */
-    out[0] = given_beta1 - beta1; /* g_beta1 */
-    out[1] = given_beta2 - c->strut_length_max + given_length_C; /* g_beta2 */
-    out[2] = sin(given_beta3) - given_shaft_C_z; /* g_beta3 */
-    out[3] = sin(given_beta4) + given_shaft_C_x/given_level_C; /* g_beta4 */
-    out[4] = given_beta5 - beta5; /* g_beta5 */
-    out[5] = -given_beta2 - shared_5; /* g_beta6 */
-    out[6] = given_beta7 - given_beta3; /* g_beta7 */
-    out[7] = given_beta8 - given_beta4; /* g_beta8 */
-    out[8] = given_beta9 - beta9; /* g_beta9 */
-    out[9] = given_length_E - c->tie_rod_length; /* g_beta10 */
-    out[10] = sin(given_beta11) - given_shaft_E_z; /* g_beta11 */
-    out[11] = sin(given_beta12) + given_shaft_E_x/given_level_E; /* g_beta12 */
-
-    unsigned status = not_finite(out, 12) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
-    return (int)status;
-}
-
-int macpherson_free_rack_signals(const double *restrict constants, const double *restrict state,
-                                 const double *restrict inputs, double *restrict out)
+status_word macpherson_free_rack_signals(const double *restrict constants, const double *restrict state,
+                                         const double *restrict inputs, double *restrict out)
 {
     const struct macpherson_free_rack_constants *const c = (const void *)constants;
     const double
@@ -2469,20 +2391,20 @@ int macpherson_free_rack_signals(const double *restrict constants, const double 
     out[11] = atan2(-spin_axis_now_x, spin_axis_now_y); /* steer */
     out[12] = tyre_force; /* tyre_force */
 
-    unsigned status = !(length_squared_BC > c->length_squared_BC_floor) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC;
-    status |= !(upper_strut_cross_squared > 1e-10) * MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE;
-    status |= !(tie_rod_cross_squared > 1e-10) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED;
-    status |= !(cos_camber_squared > 1e-10) * MACPHERSON_FREE_RACK_STATUS_COS_CAMBER_SQUARED;
-    status |= !(mass_beta1_beta1 > 1e-280) * MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA1;
-    status |= !(reduced_beta9_beta9_beta1 > 1e-280) * MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA9;
-    status |= not_finite(out, 13) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(length_squared_BC, c->length_squared_BC_floor, MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC);
+    status |= guard_bit(upper_strut_cross_squared, 1e-10, MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE);
+    status |= guard_bit(tie_rod_cross_squared, 1e-10, MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED);
+    status |= guard_bit(cos_camber_squared, 1e-10, MACPHERSON_FREE_RACK_STATUS_COS_CAMBER_SQUARED);
+    status |= guard_bit(mass_beta1_beta1, 1e-280, MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA1);
+    status |= guard_bit(reduced_beta9_beta9_beta1, 1e-280, MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA9);
+    status |= finite_bit(out, 13, MACPHERSON_FREE_RACK_STATUS_NOT_FINITE);
+    return status;
 }
 
-int macpherson_free_rack_margins(const double *restrict constants, const double *restrict state,
-                                 const double *restrict inputs, double *restrict out)
+status_word macpherson_free_rack_margins(const double *restrict constants, const double *restrict state,
+                                         const double *restrict inputs, double *restrict out)
 {
     const struct macpherson_free_rack_constants *const c = (const void *)constants;
     (void)inputs;
@@ -2823,12 +2745,113 @@ int macpherson_free_rack_margins(const double *restrict constants, const double 
     out[8] = shaft_level_squared_C - 1e-10; /* shaft_level_squared_C */
     out[9] = shaft_level_squared_E - 1e-10; /* shaft_level_squared_E */
 
-    unsigned status = not_finite(out, 10) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = finite_bit(out, 10, MACPHERSON_FREE_RACK_STATUS_NOT_FINITE);
+    return status;
 }
 
-int macpherson_free_rack_dynamics(const double *restrict constants, const double *restrict state,
-                                  const double *restrict inputs, double *restrict out)
+#ifndef KINTRAFO_LANES /* what no simulation evaluates */
+
+status_word macpherson_free_rack_residuals(const double *restrict constants, const double *restrict state,
+                                           const double *restrict inputs, const double *restrict given, double *restrict out)
+{
+    const struct macpherson_free_rack_constants *const c = (const void *)constants;
+    (void)inputs;
+    const double
+        beta1 = state[0],
+        beta5 = state[1],
+        beta9 = state[2],
+        given_beta1 = given[0],
+        given_beta2 = given[1],
+        given_beta3 = given[2],
+        given_beta4 = given[3],
+        given_beta5 = given[4],
+        given_beta6 = given[5],
+        given_beta7 = given[6],
+        given_beta8 = given[7],
+        given_beta9 = given[8],
+        given_beta10 = given[9],
+        given_beta11 = given[10],
+        given_beta12 = given[11];
+
+    /* closure residuals */
+    const double
+        cos_beta1__given = cos(given_beta1),
+        sin_beta1__given = sin(given_beta1),
+        at_ball_joint_y__given = c->design_arm_rear_y - c->control_arm_radius*sin_beta1__given,
+        at_ball_joint_z__given = c->design_arm_rear_z + c->control_arm_radius*cos_beta1__given,
+        given_span_BC_x = c->constant_23 + c->work_y_x*at_ball_joint_y__given +
+            c->work_z_x*at_ball_joint_z__given,
+        given_span_BC_y = c->constant_24 + c->work_y_y*at_ball_joint_y__given +
+            c->work_z_y*at_ball_joint_z__given,
+        given_span_BC_z = c->constant_8 + c->work_z_z*at_ball_joint_z__given,
+        given_length_C = sqrt(given_span_BC_z*given_span_BC_z + given_span_BC_x*given_span_BC_x +
+            given_span_BC_y*given_span_BC_y),
+        shared_2 = 1.0/given_length_C,
+        given_shaft_C_x = given_span_BC_x*shared_2,
+        given_shaft_C_y = given_span_BC_y*shared_2,
+        given_shaft_C_z = given_span_BC_z*shared_2,
+        given_level_C = sqrt(given_shaft_C_x*given_shaft_C_x + given_shaft_C_y*given_shaft_C_y),
+        shared_3 = cos(given_beta10),
+        shared_4 = sin(given_beta10),
+        given_tie_rod_outer_in_shaft_x = c->knuckle_tie_rod_outer_by_marker_x*shared_3 -
+            c->knuckle_tie_rod_outer_by_marker_z*shared_4,
+        shared_5 = -given_beta6,
+        given_tie_rod_outer_in_shaft_y = c->constant_25 + shared_5,
+        given_tie_rod_outer_in_shaft_z = c->knuckle_tie_rod_outer_by_marker_x*shared_4 +
+            c->knuckle_tie_rod_outer_by_marker_z*shared_3,
+        shared_6 = cos(given_beta7),
+        shared_7 = sin(given_beta7),
+        given_tie_rod_outer_lifted_y = given_tie_rod_outer_in_shaft_y*shared_6 -
+            shared_7*given_tie_rod_outer_in_shaft_z,
+        given_tie_rod_outer_lifted_z = given_tie_rod_outer_in_shaft_y*shared_7 +
+            shared_6*given_tie_rod_outer_in_shaft_z,
+        rack_origin_x__given = given_beta9*c->work_rack_axis_x,
+        rack_origin_y__given = given_beta9*c->work_rack_axis_y,
+        rack_origin_z__given = given_beta9*c->work_rack_axis_z,
+        at_tie_rod_inner_x__given = c->design_tie_rod_inner_x + rack_origin_x__given,
+        at_tie_rod_inner_y__given = c->design_tie_rod_inner_y + rack_origin_y__given,
+        at_tie_rod_inner_z__given = c->design_tie_rod_inner_z + rack_origin_z__given,
+        given_tie_rod_inner_x = c->work_x_x*at_tie_rod_inner_x__given +
+            c->work_y_x*at_tie_rod_inner_y__given + c->work_z_x*at_tie_rod_inner_z__given,
+        given_tie_rod_inner_y = c->work_x_y*at_tie_rod_inner_x__given +
+            c->work_y_y*at_tie_rod_inner_y__given + c->work_z_y*at_tie_rod_inner_z__given,
+        given_tie_rod_inner_z = c->work_x_z*at_tie_rod_inner_x__given +
+            c->work_z_z*at_tie_rod_inner_z__given,
+        shared_8 = sin(given_beta8),
+        shared_9 = cos(given_beta8),
+        given_tie_rod_x = shared_9*given_tie_rod_outer_in_shaft_x - given_tie_rod_inner_x -
+            shared_8*given_tie_rod_outer_lifted_y,
+        given_tie_rod_y = shared_8*given_tie_rod_outer_in_shaft_x - given_tie_rod_inner_y +
+            shared_9*given_tie_rod_outer_lifted_y,
+        given_tie_rod_z = given_tie_rod_outer_lifted_z - given_tie_rod_inner_z,
+        given_length_E = sqrt(given_tie_rod_z*given_tie_rod_z + given_tie_rod_x*given_tie_rod_x +
+            given_tie_rod_y*given_tie_rod_y),
+        shared_11 = 1.0/given_length_E,
+        given_shaft_E_x = given_tie_rod_x*shared_11,
+        given_shaft_E_y = given_tie_rod_y*shared_11,
+        given_shaft_E_z = given_tie_rod_z*shared_11,
+        given_level_E = sqrt(given_shaft_E_x*given_shaft_E_x + given_shaft_E_y*given_shaft_E_y);
+
+    /* residuals */
+    out[0] = given_beta1 - beta1; /* g_beta1 */
+    out[1] = given_beta2 - c->strut_length_max + given_length_C; /* g_beta2 */
+    out[2] = sin(given_beta3) - given_shaft_C_z; /* g_beta3 */
+    out[3] = sin(given_beta4) + given_shaft_C_x/given_level_C; /* g_beta4 */
+    out[4] = given_beta5 - beta5; /* g_beta5 */
+    out[5] = -given_beta2 - shared_5; /* g_beta6 */
+    out[6] = given_beta7 - given_beta3; /* g_beta7 */
+    out[7] = given_beta8 - given_beta4; /* g_beta8 */
+    out[8] = given_beta9 - beta9; /* g_beta9 */
+    out[9] = given_length_E - c->tie_rod_length; /* g_beta10 */
+    out[10] = sin(given_beta11) - given_shaft_E_z; /* g_beta11 */
+    out[11] = sin(given_beta12) + given_shaft_E_x/given_level_E; /* g_beta12 */
+
+    status_word status = finite_bit(out, 12, MACPHERSON_FREE_RACK_STATUS_NOT_FINITE);
+    return status;
+}
+
+status_word macpherson_free_rack_dynamics(const double *restrict constants, const double *restrict state,
+                                          const double *restrict inputs, double *restrict out)
 {
     const struct macpherson_free_rack_constants *const c = (const void *)constants;
     const double
@@ -3501,20 +3524,20 @@ int macpherson_free_rack_dynamics(const double *restrict constants, const double
     /* forces */
     out[12] = force_of_beta1; /* Q[beta1] */
     out[14] = force_of_beta9; /* Q[beta9] */
-    out[13] = 0.0;
+    out[13] = number(0.0);
 
-    unsigned status = !(length_squared_BC > c->length_squared_BC_floor) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC;
-    status |= !(upper_strut_cross_squared > 1e-10) * MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE;
-    status |= !(tie_rod_cross_squared > 1e-10) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED;
-    status |= !(cos_camber_squared > 1e-10) * MACPHERSON_FREE_RACK_STATUS_COS_CAMBER_SQUARED;
-    status |= not_finite(out, 15) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(length_squared_BC, c->length_squared_BC_floor, MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC);
+    status |= guard_bit(upper_strut_cross_squared, 1e-10, MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE);
+    status |= guard_bit(tie_rod_cross_squared, 1e-10, MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED);
+    status |= guard_bit(cos_camber_squared, 1e-10, MACPHERSON_FREE_RACK_STATUS_COS_CAMBER_SQUARED);
+    status |= finite_bit(out, 15, MACPHERSON_FREE_RACK_STATUS_NOT_FINITE);
+    return status;
 }
 
-int macpherson_free_rack_poses(const double *restrict constants, const double *restrict state,
-                               const double *restrict inputs, double *restrict out)
+status_word macpherson_free_rack_poses(const double *restrict constants, const double *restrict state,
+                                       const double *restrict inputs, double *restrict out)
 {
     const struct macpherson_free_rack_constants *const c = (const void *)constants;
     (void)inputs;
@@ -4172,9 +4195,9 @@ int macpherson_free_rack_poses(const double *restrict constants, const double *r
         + c->tie_rod_third_in_chassis_y*shared_65; /* tie_rod Rzy */
     out[56] = c->tie_rod_first_in_chassis_z*tie_rod_tilt + c->tie_rod_second_in_chassis_z*shared_64
         + c->tie_rod_third_in_chassis_z*shared_65; /* tie_rod Rzz */
-    out[57] = 1.0; /* rack Rxx */
-    out[61] = 1.0; /* rack Ryy */
-    out[65] = 1.0; /* rack Rzz */
+    out[57] = number(1.0); /* rack Rxx */
+    out[61] = number(1.0); /* rack Ryy */
+    out[65] = number(1.0); /* rack Rzz */
     out[66] = shared_45 + c->upper_strut_second_in_chassis_x*shared_66 +
         c->upper_strut_third_in_chassis_x*shared_67; /* upper_strut Rxx */
     out[67] = shared_48 + c->upper_strut_second_in_chassis_y*shared_66 +
@@ -4211,7 +4234,7 @@ int macpherson_free_rack_poses(const double *restrict constants, const double *r
         wheel Rzy */
     out[83] = c->constant_75*shared_78 + c->constant_76*shared_79 + c->constant_77*shared_80; /*
         wheel Rzz */
-    out[58] = out[59] = out[60] = out[62] = out[63] = out[64] = 0.0;
+    out[58] = out[59] = out[60] = out[62] = out[63] = out[64] = number(0.0);
 
     /* velocities */
     out[84] = beta1_rate*c->work_x_x; /* control_arm omega_x */
@@ -4285,21 +4308,21 @@ int macpherson_free_rack_poses(const double *restrict constants, const double *r
         wheel velocity_y */
     out[119] = beta9_rate*(c->work_x_z*shared_154 + c->work_z_z*shared_156) +
         beta1_rate*(c->work_x_z*shared_151 + c->work_z_z*shared_153); /* wheel velocity_z */
-    out[102] = out[103] = out[104] = 0.0;
+    out[102] = out[103] = out[104] = number(0.0);
 
-    unsigned status = !(length_squared_BC > c->length_squared_BC_floor) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC;
-    status |= !(upper_strut_cross_squared > 1e-10) * MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE;
-    status |= !(tie_rod_cross_squared > 1e-10) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED;
-    status |= !(shaft_level_squared_C > 1e-10) * MACPHERSON_FREE_RACK_STATUS_SHAFT_LEVEL_SQUARED_C;
-    status |= !(shaft_level_squared_E > 1e-10) * MACPHERSON_FREE_RACK_STATUS_SHAFT_LEVEL_SQUARED_E;
-    status |= not_finite(out, 120) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(length_squared_BC, c->length_squared_BC_floor, MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC);
+    status |= guard_bit(upper_strut_cross_squared, 1e-10, MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE);
+    status |= guard_bit(tie_rod_cross_squared, 1e-10, MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED);
+    status |= guard_bit(shaft_level_squared_C, 1e-10, MACPHERSON_FREE_RACK_STATUS_SHAFT_LEVEL_SQUARED_C);
+    status |= guard_bit(shaft_level_squared_E, 1e-10, MACPHERSON_FREE_RACK_STATUS_SHAFT_LEVEL_SQUARED_E);
+    status |= finite_bit(out, 120, MACPHERSON_FREE_RACK_STATUS_NOT_FINITE);
+    return status;
 }
 
-int macpherson_free_rack_jacobians(const double *restrict constants, const double *restrict state,
-                                   const double *restrict inputs, double *restrict out)
+status_word macpherson_free_rack_jacobians(const double *restrict constants, const double *restrict state,
+                                           const double *restrict inputs, double *restrict out)
 {
     const struct macpherson_free_rack_constants *const c = (const void *)constants;
     (void)inputs;
@@ -5289,15 +5312,15 @@ int macpherson_free_rack_jacobians(const double *restrict constants, const doubl
             wheel_top_z*wheel_velocity_beta9_3;
 
     /* relative_jacobian by beta1, beta5, beta9 */
-    out[0] = 1.0; /* beta1 */
+    out[0] = number(1.0); /* beta1 */
     out[3] = shared_24; /* beta2 */
     out[6] = elevation_C__by_beta1; /* beta3 */
     out[9] = azimuth_C__by_beta1; /* beta4 */
-    out[13] = 1.0; /* beta5 */
+    out[13] = number(1.0); /* beta5 */
     out[15] = shared_24; /* beta6 */
     out[18] = elevation_C__by_beta1; /* beta7 */
     out[21] = azimuth_C__by_beta1; /* beta8 */
-    out[26] = 1.0; /* beta9 */
+    out[26] = number(1.0); /* beta9 */
     out[27] = angle_BC__by_beta1; /* beta10 */
     out[29] = angle_BC__by_beta9;
     out[30] = elevation_E__by_beta1; /* beta11 */
@@ -5306,7 +5329,7 @@ int macpherson_free_rack_jacobians(const double *restrict constants, const doubl
     out[35] = azimuth_E__by_beta9;
     out[1] = out[2] = out[4] = out[5] = out[7] = out[8] = out[10] = out[11] = out[12] = out[14] =
         out[16] = out[17] = out[19] = out[20] = out[22] = out[23] = out[24] = out[25] = out[28] =
-        out[31] = out[34] = 0.0;
+        out[31] = out[34] = number(0.0);
 
     /* absolute_jacobian by beta1, beta2, beta3, beta4, beta5, beta6, beta7, beta8, beta9, beta10,
        beta11, beta12 */
@@ -5442,7 +5465,7 @@ int macpherson_free_rack_jacobians(const double *restrict constants, const doubl
         out[431] = out[432] = out[436] = out[437] = out[438] = out[439] = out[440] = out[442] =
         out[443] = out[444] = out[448] = out[449] = out[450] = out[451] = out[452] = out[454] =
         out[455] = out[456] = out[459] = out[460] = out[461] = out[462] = out[463] = out[464] =
-        out[466] = out[467] = 0.0;
+        out[466] = out[467] = number(0.0);
 
     /* global_jacobian by beta1, beta5, beta9 */
     out[468] = c->work_x_x; /* control_arm omega_x */
@@ -5522,15 +5545,17 @@ int macpherson_free_rack_jacobians(const double *restrict constants, const doubl
         out[523] = out[524] = out[525] = out[526] = out[527] = out[528] = out[529] = out[530] =
         out[531] = out[532] = out[534] = out[535] = out[537] = out[538] = out[541] = out[542] =
         out[544] = out[545] = out[547] = out[548] = out[550] = out[551] = out[553] = out[554] =
-        out[556] = out[557] = out[568] = out[571] = out[574] = 0.0;
+        out[556] = out[557] = out[568] = out[571] = out[574] = number(0.0);
 
-    unsigned status = !(length_squared_BC > c->length_squared_BC_floor) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC;
-    status |= !(upper_strut_cross_squared > 1e-10) * MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE;
-    status |= !(tie_rod_cross_squared > 1e-10) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED;
-    status |= !(shaft_level_squared_C > 1e-10) * MACPHERSON_FREE_RACK_STATUS_SHAFT_LEVEL_SQUARED_C;
-    status |= !(shaft_level_squared_E > 1e-10) * MACPHERSON_FREE_RACK_STATUS_SHAFT_LEVEL_SQUARED_E;
-    status |= not_finite(out, 576) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(length_squared_BC, c->length_squared_BC_floor, MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC);
+    status |= guard_bit(upper_strut_cross_squared, 1e-10, MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE);
+    status |= guard_bit(tie_rod_cross_squared, 1e-10, MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED);
+    status |= guard_bit(shaft_level_squared_C, 1e-10, MACPHERSON_FREE_RACK_STATUS_SHAFT_LEVEL_SQUARED_C);
+    status |= guard_bit(shaft_level_squared_E, 1e-10, MACPHERSON_FREE_RACK_STATUS_SHAFT_LEVEL_SQUARED_E);
+    status |= finite_bit(out, 576, MACPHERSON_FREE_RACK_STATUS_NOT_FINITE);
+    return status;
 }
+
+#endif

@@ -268,6 +268,8 @@ enum macpherson_free_rack_status {
     MACPHERSON_FREE_RACK_STATUS_NOT_FINITE = 1 << 30 /* a result is NaN or infinite */
 };
 
+#ifndef KINTRAFO_LANES
+
 /*
  * Compute the constants of one parameter set.
  * Returns 0, or one plus the index of the first constant that is not finite,
@@ -340,6 +342,8 @@ int macpherson_free_rack_jacobians(const double *restrict constants, const doubl
    (2203 add, 3015 multiply, 20 divide, 5 root, 2 trigonometric). */
 int macpherson_free_rack_linearisation(const double *restrict constants, const double *restrict state,
                                        const double *restrict inputs, double *restrict out);
+
+#endif
 
 #ifdef __cplusplus
 #undef restrict

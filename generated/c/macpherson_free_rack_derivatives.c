@@ -9,24 +9,63 @@
 
 #include <math.h>
 
+#ifndef KINTRAFO_LANES /* else all numbers are vectors, and what includes this file has these */
+typedef int status_word;
+
 /* The greater of two numbers; NaN for a NaN. One instruction, where fmax may be a call. */
 static inline double at_least(double x, double least)
 {
     return x < least ? least : x;
 }
 
-/* Whether any of some values is NaN or infinite. */
-static unsigned not_finite(const double *values, int count)
+/* One for what is positive, else zero. */
+static inline double is_positive(double x)
 {
-    unsigned found = 0;
+    return x > 0.0;
+}
+
+/* A number that depends on nothing. */
+static inline double number(double x)
+{
+    return x;
+}
+
+/* A bit, where a guarded quantity is not over its floor. */
+static inline status_word guard_bit(double quantity, double least, int bit)
+{
+    return !(quantity > least) * bit;
+}
+
+/* A bit, where any of some values is NaN or infinite. */
+static inline status_word finite_bit(const double *values, int count, int bit)
+{
+    status_word found = 0;
     for (int i = 0; i < count; ++i) {
         found |= !isfinite(values[i]);
     }
-    return found;
+    return found * bit;
 }
 
-int macpherson_free_rack_rhs_jacobian(const double *restrict constants, const double *restrict state,
-                                      const double *restrict inputs, double *restrict out)
+/* One number or the other. */
+static inline status_word either(int applies, int code, status_word otherwise)
+{
+    return applies ? code : otherwise;
+}
+
+/* One plus the index of the first value that is NaN or infinite; 0: all are finite. */
+static inline status_word first_not_finite(const double *values, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        if (!isfinite(values[i])) {
+            return i + 1;
+        }
+    }
+    return 0;
+}
+#endif
+
+status_word macpherson_free_rack_rhs_jacobian(const double *restrict constants, const double *restrict state,
+                                              const double *restrict inputs, double *restrict out)
 {
     const struct macpherson_free_rack_constants *const c = (const void *)constants;
     const double
@@ -2612,9 +2651,9 @@ int macpherson_free_rack_rhs_jacobian(const double *restrict constants, const do
             wheel_share_beta1*beta1_acceleration__beta9_rate;
 
     /* rhs_jacobian by beta1, beta5, beta9, beta1_rate, beta5_rate, beta9_rate */
-    out[3] = 1.0; /* d(beta1)/dt */
-    out[10] = 1.0; /* d(beta5)/dt */
-    out[17] = 1.0; /* d(beta9)/dt */
+    out[3] = number(1.0); /* d(beta1)/dt */
+    out[10] = number(1.0); /* d(beta5)/dt */
+    out[17] = number(1.0); /* d(beta9)/dt */
     out[18] = beta1_acceleration__beta1; /* d(beta1_rate)/dt */
     out[20] = beta1_acceleration__beta9;
     out[21] = beta1_acceleration__beta1_rate;
@@ -2631,22 +2670,22 @@ int macpherson_free_rack_rhs_jacobian(const double *restrict constants, const do
     out[34] = beta9_acceleration__beta5_rate;
     out[35] = beta9_acceleration__beta9_rate;
     out[0] = out[1] = out[2] = out[4] = out[5] = out[6] = out[7] = out[8] = out[9] = out[11] =
-        out[12] = out[13] = out[14] = out[15] = out[16] = out[19] = out[25] = out[31] = 0.0;
+        out[12] = out[13] = out[14] = out[15] = out[16] = out[19] = out[25] = out[31] = number(0.0);
 
-    unsigned status = !(length_squared_BC > c->length_squared_BC_floor) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC;
-    status |= !(upper_strut_cross_squared > 1e-10) * MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE;
-    status |= !(tie_rod_cross_squared > 1e-10) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED;
-    status |= !(cos_camber_squared > 1e-10) * MACPHERSON_FREE_RACK_STATUS_COS_CAMBER_SQUARED;
-    status |= !(mass_beta1_beta1 > 1e-280) * MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA1;
-    status |= !(reduced_beta9_beta9_beta1 > 1e-280) * MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA9;
-    status |= not_finite(out, 36) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(length_squared_BC, c->length_squared_BC_floor, MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC);
+    status |= guard_bit(upper_strut_cross_squared, 1e-10, MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE);
+    status |= guard_bit(tie_rod_cross_squared, 1e-10, MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED);
+    status |= guard_bit(cos_camber_squared, 1e-10, MACPHERSON_FREE_RACK_STATUS_COS_CAMBER_SQUARED);
+    status |= guard_bit(mass_beta1_beta1, 1e-280, MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA1);
+    status |= guard_bit(reduced_beta9_beta9_beta1, 1e-280, MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA9);
+    status |= finite_bit(out, 36, MACPHERSON_FREE_RACK_STATUS_NOT_FINITE);
+    return status;
 }
 
-int macpherson_free_rack_linearisation(const double *restrict constants, const double *restrict state,
-                                       const double *restrict inputs, double *restrict out)
+status_word macpherson_free_rack_linearisation(const double *restrict constants, const double *restrict state,
+                                               const double *restrict inputs, double *restrict out)
 {
     const struct macpherson_free_rack_constants *const c = (const void *)constants;
     const double
@@ -5484,7 +5523,7 @@ int macpherson_free_rack_linearisation(const double *restrict constants, const d
     out[15] = beta9_acceleration__strut_force; /* d(beta9_rate)/dt */
     out[16] = beta9_acceleration__road_height;
     out[17] = inverse_pivot_beta9;
-    out[0] = out[1] = out[2] = out[3] = out[4] = out[5] = out[6] = out[7] = out[8] = 0.0;
+    out[0] = out[1] = out[2] = out[3] = out[4] = out[5] = out[6] = out[7] = out[8] = number(0.0);
 
     /* signals_jacobian by beta1, beta5, beta9, beta1_rate, beta5_rate, beta9_rate */
     out[18] = length_BC__beta1; /* strut_length */
@@ -5581,7 +5620,7 @@ int macpherson_free_rack_linearisation(const double *restrict constants, const d
         out[43] = out[45] = out[46] = out[47] = out[49] = out[51] = out[52] = out[53] = out[55] =
         out[57] = out[58] = out[59] = out[61] = out[64] = out[67] = out[73] = out[75] = out[76] =
         out[77] = out[79] = out[81] = out[82] = out[83] = out[85] = out[87] = out[88] = out[89] =
-        out[91] = out[93] = out[94] = out[95] = 0.0;
+        out[91] = out[93] = out[94] = out[95] = number(0.0);
 
     /* signals_input_jacobian by strut_force, road_height, rack_force */
     out[120] = shared_277*beta9_acceleration__strut_force +
@@ -5594,16 +5633,16 @@ int macpherson_free_rack_linearisation(const double *restrict constants, const d
         out[105] = out[106] = out[107] = out[108] = out[109] = out[110] = out[111] = out[112] =
         out[113] = out[114] = out[115] = out[116] = out[117] = out[118] = out[119] = out[123] =
         out[124] = out[125] = out[126] = out[127] = out[128] = out[129] = out[130] = out[131] =
-        out[132] = out[134] = 0.0;
+        out[132] = out[134] = number(0.0);
 
-    unsigned status = !(length_squared_BC > c->length_squared_BC_floor) * MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC;
-    status |= !(upper_strut_cross_squared > 1e-10) * MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED;
-    status |= !(knuckle_reach_squared > c->knuckle_reach_squared_floor) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED;
-    status |= !(knuckle_closure > c->knuckle_closure_floor) * MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE;
-    status |= !(tie_rod_cross_squared > 1e-10) * MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED;
-    status |= !(cos_camber_squared > 1e-10) * MACPHERSON_FREE_RACK_STATUS_COS_CAMBER_SQUARED;
-    status |= !(mass_beta1_beta1 > 1e-280) * MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA1;
-    status |= !(reduced_beta9_beta9_beta1 > 1e-280) * MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA9;
-    status |= not_finite(out, 135) * MACPHERSON_FREE_RACK_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(length_squared_BC, c->length_squared_BC_floor, MACPHERSON_FREE_RACK_STATUS_LENGTH_SQUARED_BC);
+    status |= guard_bit(upper_strut_cross_squared, 1e-10, MACPHERSON_FREE_RACK_STATUS_UPPER_STRUT_CROSS_SQUARED);
+    status |= guard_bit(knuckle_reach_squared, c->knuckle_reach_squared_floor, MACPHERSON_FREE_RACK_STATUS_KNUCKLE_REACH_SQUARED);
+    status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, MACPHERSON_FREE_RACK_STATUS_KNUCKLE_CLOSURE);
+    status |= guard_bit(tie_rod_cross_squared, 1e-10, MACPHERSON_FREE_RACK_STATUS_TIE_ROD_CROSS_SQUARED);
+    status |= guard_bit(cos_camber_squared, 1e-10, MACPHERSON_FREE_RACK_STATUS_COS_CAMBER_SQUARED);
+    status |= guard_bit(mass_beta1_beta1, 1e-280, MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA1);
+    status |= guard_bit(reduced_beta9_beta9_beta1, 1e-280, MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA9);
+    status |= finite_bit(out, 135, MACPHERSON_FREE_RACK_STATUS_NOT_FINITE);
+    return status;
 }

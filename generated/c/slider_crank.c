@@ -9,23 +9,62 @@
 
 #include <math.h>
 
+#ifndef KINTRAFO_LANES /* else all numbers are vectors, and what includes this file has these */
+typedef int status_word;
+
 /* The greater of two numbers; NaN for a NaN. One instruction, where fmax may be a call. */
 static inline double at_least(double x, double least)
 {
     return x < least ? least : x;
 }
 
-/* Whether any of some values is NaN or infinite. */
-static unsigned not_finite(const double *values, int count)
+/* One for what is positive, else zero. */
+static inline double is_positive(double x)
 {
-    unsigned found = 0;
+    return x > 0.0;
+}
+
+/* A number that depends on nothing. */
+static inline double number(double x)
+{
+    return x;
+}
+
+/* A bit, where a guarded quantity is not over its floor. */
+static inline status_word guard_bit(double quantity, double least, int bit)
+{
+    return !(quantity > least) * bit;
+}
+
+/* A bit, where any of some values is NaN or infinite. */
+static inline status_word finite_bit(const double *values, int count, int bit)
+{
+    status_word found = 0;
     for (int i = 0; i < count; ++i) {
         found |= !isfinite(values[i]);
     }
-    return found;
+    return found * bit;
 }
 
-int slider_crank_prepare(const double *restrict parameters, double *restrict constants)
+/* One number or the other. */
+static inline status_word either(int applies, int code, status_word otherwise)
+{
+    return applies ? code : otherwise;
+}
+
+/* One plus the index of the first value that is NaN or infinite; 0: all are finite. */
+static inline status_word first_not_finite(const double *values, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        if (!isfinite(values[i])) {
+            return i + 1;
+        }
+    }
+    return 0;
+}
+#endif
+
+status_word slider_crank_prepare(const double *restrict parameters, double *restrict constants)
 {
     struct slider_crank_constants *const c = (void *)constants;
     const double
@@ -100,31 +139,23 @@ int slider_crank_prepare(const double *restrict parameters, double *restrict con
     c->constant_3 = c->crank_arm_crank_pin_y - c->crank_arm_piston_pin_y;
     c->constant_4 = c->crank_arm_crank_pin_x - crank_arm_piston_pin_x;
 
-    if (fabs(c->rod_length) <= c->rod_length_least) {
-        return SLIDER_CRANK_CONSTANT_COUNT + 1;
-    }
-    if (fabs(c->rod_design_x) <= c->piston_rod_along_design_least) {
-        return SLIDER_CRANK_CONSTANT_COUNT + 2;
-    }
-    for (int i = 0; i < SLIDER_CRANK_CONSTANT_COUNT; ++i) {
-        if (!isfinite(constants[i])) {
-            return i + 1;
-        }
-    }
-    return 0;
+    status_word failed = first_not_finite(constants, SLIDER_CRANK_CONSTANT_COUNT);
+    failed = either(fabs(c->rod_design_x) <= c->piston_rod_along_design_least, SLIDER_CRANK_CONSTANT_COUNT + 2, failed);
+    failed = either(fabs(c->rod_length) <= c->rod_length_least, SLIDER_CRANK_CONSTANT_COUNT + 1, failed);
+    return failed;
 }
 
-int slider_crank_design_state(const double *restrict parameters, double *restrict state)
+status_word slider_crank_design_state(const double *restrict parameters, double *restrict state)
 {
     (void)parameters;
 
-    state[0] = 0.0;
-    state[1] = 0.0;
-    return 0;
+    state[0] = number(0.0);
+    state[1] = number(0.0);
+    return finite_bit(state, 2, SLIDER_CRANK_STATUS_NOT_FINITE);
 }
 
-int slider_crank_rhs(const double *restrict constants, const double *restrict state,
-                     const double *restrict inputs, double *restrict out)
+status_word slider_crank_rhs(const double *restrict constants, const double *restrict state,
+                             const double *restrict inputs, double *restrict out)
 {
     const struct slider_crank_constants *const c = (const void *)constants;
     const double
@@ -212,74 +243,14 @@ int slider_crank_rhs(const double *restrict constants, const double *restrict st
     out[0] = crank_angle_rate; /* d(crank_angle)/dt */
     out[1] = crank_angle_acceleration; /* d(crank_angle_rate)/dt */
 
-    unsigned status = !(piston_closure > c->piston_closure_floor) * SLIDER_CRANK_STATUS_PISTON_CLOSURE;
-    status |= !(mass_crank_angle_crank_angle > 1e-280) * SLIDER_CRANK_STATUS_PIVOT_CRANK_ANGLE;
-    status |= not_finite(out, 2) * SLIDER_CRANK_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(piston_closure, c->piston_closure_floor, SLIDER_CRANK_STATUS_PISTON_CLOSURE);
+    status |= guard_bit(mass_crank_angle_crank_angle, 1e-280, SLIDER_CRANK_STATUS_PIVOT_CRANK_ANGLE);
+    status |= finite_bit(out, 2, SLIDER_CRANK_STATUS_NOT_FINITE);
+    return status;
 }
 
-int slider_crank_residuals(const double *restrict constants, const double *restrict state,
-                           const double *restrict inputs, const double *restrict given, double *restrict out)
-{
-    const struct slider_crank_constants *const c = (const void *)constants;
-    (void)inputs;
-    const double
-        crank_angle = state[0],
-        given_crank_angle = given[0],
-        given_rod_angle = given[1],
-        given_piston_slide = given[2];
-
-    /* crank: revolute joint */
-    const double
-        cos_crank_angle = cos(crank_angle),
-        sin_crank_angle = sin(crank_angle);
-
-    /* transformer: piston held by rod */
-    const double
-        at_crank_pin_x = c->crank_bearing_x + c->crank_arm_crank_pin_x*cos_crank_angle -
-            c->crank_arm_crank_pin_y*sin_crank_angle,
-        at_crank_pin_y = c->crank_bearing_y + c->crank_arm_crank_pin_y*cos_crank_angle +
-            c->crank_arm_crank_pin_x*sin_crank_angle,
-        piston_reach_x = at_crank_pin_x - c->piston_pin_x,
-        piston_reach_y = at_crank_pin_y - c->piston_pin_y,
-        shared_1 = piston_reach_y*piston_reach_y,
-        piston_closure = c->constant_1 - shared_1,
-        piston_closure_root = sqrt(at_least(piston_closure, c->piston_closure_floor)),
-        piston_slide = piston_reach_x + c->piston_branch*piston_closure_root;
-
-    /* rod: pinned to piston */
-    const double
-        at_piston_pin_x = c->piston_pin_x + piston_slide,
-        shared_2 = -at_piston_pin_x,
-        rod_span_x = -at_crank_pin_x - shared_2,
-        rod_arm_x = c->rod_radius_inverse*rod_span_x,
-        rod_arm_y = -c->rod_radius_inverse*piston_reach_y;
-
-    /* closure residuals */
-    const double
-        shared_3 = sin(given_rod_angle),
-        shared_4 = cos(given_rod_angle),
-        shared_5 = c->crank_arm_crank_pin_x + c->constant_3*shared_3 - c->constant_4*shared_4,
-        shared_6 = c->constant_3*shared_4 - c->crank_arm_crank_pin_y + c->constant_4*shared_3,
-        given_opening_B_x = c->crank_bearing_x + cos_crank_angle*shared_5 + sin_crank_angle*shared_6
-            + shared_2,
-        given_opening_B_y = sin_crank_angle*shared_5 - c->crank_arm_piston_pin_y -
-            cos_crank_angle*shared_6,
-        given_opening_guide_x = given_piston_slide + c->piston_pin_x - at_crank_pin_x;
-
-    /* residuals */
-    out[0] = given_crank_angle - crank_angle; /* g_crank_angle */
-    out[1] = given_opening_B_y*rod_arm_x - rod_arm_y*given_opening_B_x; /* g_rod_angle */
-    out[2] = sqrt(shared_1 + given_opening_guide_x*given_opening_guide_x) - c->rod_length; /*
-        g_piston_slide */
-
-    unsigned status = !(piston_closure > c->piston_closure_floor) * SLIDER_CRANK_STATUS_PISTON_CLOSURE;
-    status |= not_finite(out, 3) * SLIDER_CRANK_STATUS_NOT_FINITE;
-    return (int)status;
-}
-
-int slider_crank_margins(const double *restrict constants, const double *restrict state,
-                         const double *restrict inputs, double *restrict out)
+status_word slider_crank_margins(const double *restrict constants, const double *restrict state,
+                                 const double *restrict inputs, double *restrict out)
 {
     const struct slider_crank_constants *const c = (const void *)constants;
     (void)inputs;
@@ -344,12 +315,74 @@ int slider_crank_margins(const double *restrict constants, const double *restric
     out[0] = piston_closure - c->piston_closure_floor; /* piston_closure */
     out[1] = mass_crank_angle_crank_angle - 1e-280; /* pivot_crank_angle */
 
-    unsigned status = not_finite(out, 2) * SLIDER_CRANK_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = finite_bit(out, 2, SLIDER_CRANK_STATUS_NOT_FINITE);
+    return status;
 }
 
-int slider_crank_dynamics(const double *restrict constants, const double *restrict state,
-                          const double *restrict inputs, double *restrict out)
+#ifndef KINTRAFO_LANES /* what no simulation evaluates */
+
+status_word slider_crank_residuals(const double *restrict constants, const double *restrict state,
+                                   const double *restrict inputs, const double *restrict given, double *restrict out)
+{
+    const struct slider_crank_constants *const c = (const void *)constants;
+    (void)inputs;
+    const double
+        crank_angle = state[0],
+        given_crank_angle = given[0],
+        given_rod_angle = given[1],
+        given_piston_slide = given[2];
+
+    /* crank: revolute joint */
+    const double
+        cos_crank_angle = cos(crank_angle),
+        sin_crank_angle = sin(crank_angle);
+
+    /* transformer: piston held by rod */
+    const double
+        at_crank_pin_x = c->crank_bearing_x + c->crank_arm_crank_pin_x*cos_crank_angle -
+            c->crank_arm_crank_pin_y*sin_crank_angle,
+        at_crank_pin_y = c->crank_bearing_y + c->crank_arm_crank_pin_y*cos_crank_angle +
+            c->crank_arm_crank_pin_x*sin_crank_angle,
+        piston_reach_x = at_crank_pin_x - c->piston_pin_x,
+        piston_reach_y = at_crank_pin_y - c->piston_pin_y,
+        shared_1 = piston_reach_y*piston_reach_y,
+        piston_closure = c->constant_1 - shared_1,
+        piston_closure_root = sqrt(at_least(piston_closure, c->piston_closure_floor)),
+        piston_slide = piston_reach_x + c->piston_branch*piston_closure_root;
+
+    /* rod: pinned to piston */
+    const double
+        at_piston_pin_x = c->piston_pin_x + piston_slide,
+        shared_2 = -at_piston_pin_x,
+        rod_span_x = -at_crank_pin_x - shared_2,
+        rod_arm_x = c->rod_radius_inverse*rod_span_x,
+        rod_arm_y = -c->rod_radius_inverse*piston_reach_y;
+
+    /* closure residuals */
+    const double
+        shared_3 = sin(given_rod_angle),
+        shared_4 = cos(given_rod_angle),
+        shared_5 = c->crank_arm_crank_pin_x + c->constant_3*shared_3 - c->constant_4*shared_4,
+        shared_6 = c->constant_3*shared_4 - c->crank_arm_crank_pin_y + c->constant_4*shared_3,
+        given_opening_B_x = c->crank_bearing_x + cos_crank_angle*shared_5 + sin_crank_angle*shared_6
+            + shared_2,
+        given_opening_B_y = sin_crank_angle*shared_5 - c->crank_arm_piston_pin_y -
+            cos_crank_angle*shared_6,
+        given_opening_guide_x = given_piston_slide + c->piston_pin_x - at_crank_pin_x;
+
+    /* residuals */
+    out[0] = given_crank_angle - crank_angle; /* g_crank_angle */
+    out[1] = given_opening_B_y*rod_arm_x - rod_arm_y*given_opening_B_x; /* g_rod_angle */
+    out[2] = sqrt(shared_1 + given_opening_guide_x*given_opening_guide_x) - c->rod_length; /*
+        g_piston_slide */
+
+    status_word status = guard_bit(piston_closure, c->piston_closure_floor, SLIDER_CRANK_STATUS_PISTON_CLOSURE);
+    status |= finite_bit(out, 3, SLIDER_CRANK_STATUS_NOT_FINITE);
+    return status;
+}
+
+status_word slider_crank_dynamics(const double *restrict constants, const double *restrict state,
+                                  const double *restrict inputs, double *restrict out)
 {
     const struct slider_crank_constants *const c = (const void *)constants;
     const double
@@ -443,13 +476,13 @@ int slider_crank_dynamics(const double *restrict constants, const double *restri
     /* forces */
     out[2] = crank_torque; /* Q[crank_angle] */
 
-    unsigned status = !(piston_closure > c->piston_closure_floor) * SLIDER_CRANK_STATUS_PISTON_CLOSURE;
-    status |= not_finite(out, 3) * SLIDER_CRANK_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(piston_closure, c->piston_closure_floor, SLIDER_CRANK_STATUS_PISTON_CLOSURE);
+    status |= finite_bit(out, 3, SLIDER_CRANK_STATUS_NOT_FINITE);
+    return status;
 }
 
-int slider_crank_poses(const double *restrict constants, const double *restrict state,
-                       const double *restrict inputs, double *restrict out)
+status_word slider_crank_poses(const double *restrict constants, const double *restrict state,
+                               const double *restrict inputs, double *restrict out)
 {
     const struct slider_crank_constants *const c = (const void *)constants;
     (void)inputs;
@@ -548,24 +581,24 @@ int slider_crank_poses(const double *restrict constants, const double *restrict 
     out[7] = at_crank_pin_y + c->rod_rod_com_2*rod_arm_y + c->rod_rod_com_3*rod_arm_x; /* rod y */
     out[9] = c->piston_com_x + piston_slide; /* piston x */
     out[10] = c->piston_com_y; /* piston y */
-    out[5] = out[8] = out[11] = 0.0;
+    out[5] = out[8] = out[11] = number(0.0);
 
     /* orientations */
     out[12] = cos_crank_angle; /* crank Rxx */
     out[13] = -sin_crank_angle; /* crank Rxy */
     out[15] = sin_crank_angle; /* crank Ryx */
     out[16] = cos_crank_angle; /* crank Ryy */
-    out[20] = 1.0; /* crank Rzz */
+    out[20] = number(1.0); /* crank Rzz */
     out[21] = shared_11; /* rod Rxx */
     out[22] = -shared_12; /* rod Rxy */
     out[24] = shared_12; /* rod Ryx */
     out[25] = shared_11; /* rod Ryy */
-    out[29] = 1.0; /* rod Rzz */
-    out[30] = 1.0; /* piston Rxx */
-    out[34] = 1.0; /* piston Ryy */
-    out[38] = 1.0; /* piston Rzz */
+    out[29] = number(1.0); /* rod Rzz */
+    out[30] = number(1.0); /* piston Rxx */
+    out[34] = number(1.0); /* piston Ryy */
+    out[38] = number(1.0); /* piston Rzz */
     out[14] = out[17] = out[18] = out[19] = out[23] = out[26] = out[27] = out[28] = out[31] =
-        out[32] = out[33] = out[35] = out[36] = out[37] = 0.0;
+        out[32] = out[33] = out[35] = out[36] = out[37] = number(0.0);
 
     /* velocities */
     out[41] = crank_angle_rate; /* crank omega_z */
@@ -576,15 +609,15 @@ int slider_crank_poses(const double *restrict constants, const double *restrict 
     out[49] = crank_angle_rate*(rod_arm_x_2*shared_15 + rod_arm_y_2*shared_14); /* rod velocity_y */
     out[54] = crank_angle_rate*piston_speed_crank_angle; /* piston velocity_x */
     out[39] = out[40] = out[44] = out[45] = out[46] = out[50] = out[51] = out[52] = out[53] =
-        out[55] = out[56] = 0.0;
+        out[55] = out[56] = number(0.0);
 
-    unsigned status = !(piston_closure > c->piston_closure_floor) * SLIDER_CRANK_STATUS_PISTON_CLOSURE;
-    status |= not_finite(out, 57) * SLIDER_CRANK_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(piston_closure, c->piston_closure_floor, SLIDER_CRANK_STATUS_PISTON_CLOSURE);
+    status |= finite_bit(out, 57, SLIDER_CRANK_STATUS_NOT_FINITE);
+    return status;
 }
 
-int slider_crank_jacobians(const double *restrict constants, const double *restrict state,
-                           const double *restrict inputs, double *restrict out)
+status_word slider_crank_jacobians(const double *restrict constants, const double *restrict state,
+                                   const double *restrict inputs, double *restrict out)
 {
     const struct slider_crank_constants *const c = (const void *)constants;
     (void)inputs;
@@ -707,29 +740,29 @@ int slider_crank_jacobians(const double *restrict constants, const double *restr
         shared_22 = -(-c->crank_bearing_y);
 
     /* relative_jacobian by crank_angle */
-    out[0] = 1.0; /* crank_angle */
+    out[0] = number(1.0); /* crank_angle */
     out[1] = angle_B__by_crank_angle; /* rod_angle */
     out[2] = piston_slide__crank_angle; /* piston_slide */
 
     /* absolute_jacobian by crank_angle, rod_angle, piston_slide */
-    out[9] = 1.0; /* crank omega_z */
+    out[9] = number(1.0); /* crank omega_z */
     out[12] = shared_22 - at_crank_com_y; /* crank velocity_x */
     out[15] = shared_21 + at_crank_com_x; /* crank velocity_y */
-    out[27] = 1.0; /* rod omega_z */
-    out[28] = 1.0;
+    out[27] = number(1.0); /* rod omega_z */
+    out[28] = number(1.0);
     out[30] = shared_22 - at_rod_com_y; /* rod velocity_x */
     out[31] = at_crank_pin_y_2 - at_rod_com_y;
     out[33] = shared_21 + at_rod_com_x; /* rod velocity_y */
     out[34] = at_rod_com_x - at_crank_pin_x_2;
-    out[50] = 1.0; /* piston velocity_x */
+    out[50] = number(1.0); /* piston velocity_x */
     out[3] = out[4] = out[5] = out[6] = out[7] = out[8] = out[10] = out[11] = out[13] = out[14] =
         out[16] = out[17] = out[18] = out[19] = out[20] = out[21] = out[22] = out[23] = out[24] =
         out[25] = out[26] = out[29] = out[32] = out[35] = out[36] = out[37] = out[38] = out[39] =
         out[40] = out[41] = out[42] = out[43] = out[44] = out[45] = out[46] = out[47] = out[48] =
-        out[49] = out[51] = out[52] = out[53] = out[54] = out[55] = out[56] = 0.0;
+        out[49] = out[51] = out[52] = out[53] = out[54] = out[55] = out[56] = number(0.0);
 
     /* global_jacobian by crank_angle */
-    out[59] = 1.0; /* crank omega_z */
+    out[59] = number(1.0); /* crank omega_z */
     out[60] = -shared_20 - shared_19; /* crank velocity_x */
     out[61] = shared_17 - shared_18; /* crank velocity_y */
     out[65] = rod_omega_crank_angle_1; /* rod omega_z */
@@ -737,9 +770,11 @@ int slider_crank_jacobians(const double *restrict constants, const double *restr
     out[67] = rod_arm_x*shared_24 + rod_arm_y*shared_23; /* rod velocity_y */
     out[72] = piston_speed_crank_angle; /* piston velocity_x */
     out[57] = out[58] = out[62] = out[63] = out[64] = out[68] = out[69] = out[70] = out[71] =
-        out[73] = out[74] = 0.0;
+        out[73] = out[74] = number(0.0);
 
-    unsigned status = !(piston_closure > c->piston_closure_floor) * SLIDER_CRANK_STATUS_PISTON_CLOSURE;
-    status |= not_finite(out, 75) * SLIDER_CRANK_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(piston_closure, c->piston_closure_floor, SLIDER_CRANK_STATUS_PISTON_CLOSURE);
+    status |= finite_bit(out, 75, SLIDER_CRANK_STATUS_NOT_FINITE);
+    return status;
 }
+
+#endif

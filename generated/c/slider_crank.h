@@ -103,6 +103,8 @@ enum slider_crank_status {
     SLIDER_CRANK_STATUS_NOT_FINITE = 1 << 30 /* a result is NaN or infinite */
 };
 
+#ifndef KINTRAFO_LANES
+
 /*
  * Compute the constants of one parameter set.
  * Returns 0, or one plus the index of the first constant that is not finite,
@@ -157,6 +159,8 @@ int slider_crank_poses(const double *restrict constants, const double *restrict 
    */
 int slider_crank_jacobians(const double *restrict constants, const double *restrict state,
                            const double *restrict inputs, double *restrict out);
+
+#endif
 
 #ifdef __cplusplus
 #undef restrict

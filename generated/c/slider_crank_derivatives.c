@@ -9,24 +9,63 @@
 
 #include <math.h>
 
+#ifndef KINTRAFO_LANES /* else all numbers are vectors, and what includes this file has these */
+typedef int status_word;
+
 /* The greater of two numbers; NaN for a NaN. One instruction, where fmax may be a call. */
 static inline double at_least(double x, double least)
 {
     return x < least ? least : x;
 }
 
-/* Whether any of some values is NaN or infinite. */
-static unsigned not_finite(const double *values, int count)
+/* One for what is positive, else zero. */
+static inline double is_positive(double x)
 {
-    unsigned found = 0;
+    return x > 0.0;
+}
+
+/* A number that depends on nothing. */
+static inline double number(double x)
+{
+    return x;
+}
+
+/* A bit, where a guarded quantity is not over its floor. */
+static inline status_word guard_bit(double quantity, double least, int bit)
+{
+    return !(quantity > least) * bit;
+}
+
+/* A bit, where any of some values is NaN or infinite. */
+static inline status_word finite_bit(const double *values, int count, int bit)
+{
+    status_word found = 0;
     for (int i = 0; i < count; ++i) {
         found |= !isfinite(values[i]);
     }
-    return found;
+    return found * bit;
 }
 
-int slider_crank_rhs_jacobian(const double *restrict constants, const double *restrict state,
-                              const double *restrict inputs, double *restrict out)
+/* One number or the other. */
+static inline status_word either(int applies, int code, status_word otherwise)
+{
+    return applies ? code : otherwise;
+}
+
+/* One plus the index of the first value that is NaN or infinite; 0: all are finite. */
+static inline status_word first_not_finite(const double *values, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        if (!isfinite(values[i])) {
+            return i + 1;
+        }
+    }
+    return 0;
+}
+#endif
+
+status_word slider_crank_rhs_jacobian(const double *restrict constants, const double *restrict state,
+                                      const double *restrict inputs, double *restrict out)
 {
     const struct slider_crank_constants *const c = (const void *)constants;
     const double
@@ -191,19 +230,19 @@ int slider_crank_rhs_jacobian(const double *restrict constants, const double *re
             net_crank_angle__crank_angle_rate*inverse_pivot_crank_angle;
 
     /* rhs_jacobian by crank_angle, crank_angle_rate */
-    out[1] = 1.0; /* d(crank_angle)/dt */
+    out[1] = number(1.0); /* d(crank_angle)/dt */
     out[2] = crank_angle_acceleration__crank_angle; /* d(crank_angle_rate)/dt */
     out[3] = crank_angle_acceleration__crank_angle_rate;
-    out[0] = 0.0;
+    out[0] = number(0.0);
 
-    unsigned status = !(piston_closure > c->piston_closure_floor) * SLIDER_CRANK_STATUS_PISTON_CLOSURE;
-    status |= !(mass_crank_angle_crank_angle > 1e-280) * SLIDER_CRANK_STATUS_PIVOT_CRANK_ANGLE;
-    status |= not_finite(out, 4) * SLIDER_CRANK_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(piston_closure, c->piston_closure_floor, SLIDER_CRANK_STATUS_PISTON_CLOSURE);
+    status |= guard_bit(mass_crank_angle_crank_angle, 1e-280, SLIDER_CRANK_STATUS_PIVOT_CRANK_ANGLE);
+    status |= finite_bit(out, 4, SLIDER_CRANK_STATUS_NOT_FINITE);
+    return status;
 }
 
-int slider_crank_rhs_input_jacobian(const double *restrict constants, const double *restrict state,
-                                    const double *restrict inputs, double *restrict out)
+status_word slider_crank_rhs_input_jacobian(const double *restrict constants, const double *restrict state,
+                                            const double *restrict inputs, double *restrict out)
 {
     const struct slider_crank_constants *const c = (const void *)constants;
     (void)inputs;
@@ -267,10 +306,10 @@ int slider_crank_rhs_input_jacobian(const double *restrict constants, const doub
 
     /* rhs_input_jacobian by crank_torque */
     out[1] = inverse_pivot_crank_angle; /* d(crank_angle_rate)/dt */
-    out[0] = 0.0;
+    out[0] = number(0.0);
 
-    unsigned status = !(piston_closure > c->piston_closure_floor) * SLIDER_CRANK_STATUS_PISTON_CLOSURE;
-    status |= !(mass_crank_angle_crank_angle > 1e-280) * SLIDER_CRANK_STATUS_PIVOT_CRANK_ANGLE;
-    status |= not_finite(out, 2) * SLIDER_CRANK_STATUS_NOT_FINITE;
-    return (int)status;
+    status_word status = guard_bit(piston_closure, c->piston_closure_floor, SLIDER_CRANK_STATUS_PISTON_CLOSURE);
+    status |= guard_bit(mass_crank_angle_crank_angle, 1e-280, SLIDER_CRANK_STATUS_PIVOT_CRANK_ANGLE);
+    status |= finite_bit(out, 2, SLIDER_CRANK_STATUS_NOT_FINITE);
+    return status;
 }

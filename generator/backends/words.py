@@ -29,7 +29,7 @@ FORMULA = Dialect(
         Guarded: "at_least({}, {})",
         SignOf: "copysign(1.0, {})",
         Positive: "at_least({}, 0.0)",
-        IsPositive: "(double)({} > 0.0)",
+        IsPositive: "is_positive({})",
     },
     root="sqrt({})",
     component="{}.at[{}]",

@@ -8,6 +8,9 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
 
 ELEMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 """Elements of an inertia tensor, by the ends of their parameters' names."""
@@ -77,17 +80,77 @@ def inertia_of_no_body(values: Mapping[str, float]) -> list[str]:
     return [*_impossible_tensors(values), *_impossible_rotors(values)]
 
 
+def impossible(
+    values: Mapping[str, Any], described: Mapping[str, Mapping[str, Any]], count: int
+) -> NDArray[np.bool_]:
+    """Tell which of many parameter sets `out_of_range` or `inertia_of_no_body` has a word about.
+
+    Parameters
+    ----------
+    values : mapping
+        By name: a number, or an array of shape (count,); SI units, finite.
+    described : mapping
+        As of `out_of_range`.
+    count : int
+        Of the sets.
+
+    Returns
+    -------
+    ndarray of bool, shape (count,)
+    """
+    found = np.zeros(count, dtype=bool)
+    for name, entry in described.items():
+        value = np.asarray(values[name])
+        found |= ~(value >= entry.get("least", -np.inf)) | ~(value > entry.get("above", -np.inf))
+        found |= ~(value <= entry.get("most", np.inf))
+    for _, elements in _tensors(values):
+        found |= _of_no_body(_moments(elements))
+    for _, spin, across in _rotors(values):
+        found |= _more_than_a_disc(spin, across)
+    return found
+
+
+def _tensors(values: Mapping[str, Any]) -> Iterator[tuple[str, list[Any]]]:
+    """Yield the bodies whose inertia is given as a whole, with the elements."""
+    for name in values:
+        body = name.removesuffix("_inertia_xx")
+        elements = [values.get(f"{body}_inertia_{e}") for e in ELEMENTS]
+        if body != name and not any(element is None for element in elements):
+            yield body, elements
+
+
+def _moments(elements: list[Any]) -> Array:
+    """Return the principal moments, in order, in the last dimension."""
+    xx, yy, zz, xy, xz, yz = np.broadcast_arrays(*elements)
+    tensors = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    moments: Array = np.linalg.eigvalsh(np.moveaxis(tensors, (0, 1), (-2, -1)))
+    return moments
+
+
+def _of_no_body(moments: Array) -> NDArray[np.bool_]:
+    small, middle, large = np.moveaxis(moments, -1, 0)
+    found: NDArray[np.bool_] = np.minimum(small, small + middle - large) < -_ROUNDING * large
+    return found
+
+
+def _rotors(values: Mapping[str, Any]) -> Iterator[tuple[str, Any, Any]]:
+    """Yield the bodies of revolution, with their moments about the axis and across."""
+    for name, spin in values.items():
+        body = name.removesuffix("_inertia_spin")
+        across = values.get(f"{body}_inertia_diametral")
+        if body != name and across is not None:
+            yield body, spin, across
+
+
+def _more_than_a_disc(spin: Any, across: Any) -> Any:
+    return spin > 2.0 * across * (1.0 + _ROUNDING)
+
+
 def _impossible_tensors(values: Mapping[str, float]) -> Iterator[str]:
-    named = (name.removesuffix("_inertia_xx") for name in values if name.endswith("_inertia_xx"))
-    bodies = [b for b in named if all(f"{b}_inertia_{e}" in values for e in ELEMENTS)]
-    if not bodies:
-        return
-    elements = np.array([[values[f"{b}_inertia_{e}"] for e in ELEMENTS] for b in bodies])
-    xx, yy, zz, xy, xz, yz = elements.T
-    tensors = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]).transpose(2, 0, 1)
-    for body, moments in zip(bodies, np.linalg.eigvalsh(tensors).tolist(), strict=True):
-        small, middle, large = moments
-        if min(small, small + middle - large) < -_ROUNDING * large:
+    for body, elements in _tensors(values):
+        moments = _moments(elements)
+        if _of_no_body(moments):
+            small, middle, large = moments.tolist()
             yield (
                 f"inertia of {body!r}: the principal moments {small:.4g}, {middle:.4g} and "
                 f"{large:.4g} kg m^2 are those of no body, since the largest is at most the sum of "
@@ -98,12 +161,10 @@ def _impossible_tensors(values: Mapping[str, float]) -> Iterator[str]:
 
 
 def _impossible_rotors(values: Mapping[str, float]) -> Iterator[str]:
-    for name, spin in values.items():
-        body = name.removesuffix("_inertia_spin")
-        across = values.get(f"{body}_inertia_diametral")
-        if body != name and across is not None and spin > 2.0 * across * (1.0 + _ROUNDING):
+    for body, spin, across in _rotors(values):
+        if _more_than_a_disc(spin, across):
             yield (
-                f"parameter {name!r} = {spin:g} kg m^2 is more than twice "
+                f"parameter '{body}_inertia_spin' = {spin:g} kg m^2 is more than twice "
                 f"'{body}_inertia_diametral' = {across:g} kg m^2, the most that a body of "
                 "revolution can have (a flat disc)"
             )

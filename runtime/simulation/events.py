@@ -8,7 +8,7 @@ from ..core.arguments import Arguments, shown
 from ..core.errors import InputError
 from ..core.suggestions import suggestion
 from ..systems.system import System
-from .levels import parameter_of
+from .levels import value_of
 
 
 @dataclass(frozen=True)
@@ -96,12 +96,12 @@ def named_event(model: System, name: str) -> SignalEvent:
         raise InputError([problem], "events")
     signal, entry = known[name]
     needed = entry.get("needs")
-    if needed is not None and not parameter_of(model, needed):
+    if needed is not None and not value_of(needed, model.parameters):
         problem = (
             f"event {name!r} cannot happen: {needed} is zero. Give it, or leave the event out."
         )
         raise InputError([problem], "events")
-    level = parameter_of(model, entry["level"])
+    level = float(value_of(entry["level"], model.parameters))
     return SignalEvent(
         signal, level, 1.0 if "rising" in entry else -1.0, terminal="terminal" in entry
     )

@@ -1,24 +1,30 @@
 """Levels of signals, as a manifest gives them: a number, or a parameter with its sign."""
 
-from ..systems.system import System
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+Values = float | NDArray[np.float64]
+"""Of one system, or of each of many."""
 
 
-def parameter_of(model: System, level: float | str) -> float:
+def value_of(level: float | str, parameters: Mapping[str, Values]) -> Values:
     """Return the value of a level in SI units.
 
     Parameters
     ----------
-    model : System or Model
     level : float or str
         A number, or the name of a parameter, with a minus before it or without.
+    parameters : mapping
+        By name, SI units.
 
     Examples
     --------
-    >>> from kintrafo import Model
-    >>> parameter_of(Model("reference_car"), "-strut_length_max")
+    >>> value_of("-strut_length_max", {"strut_length_max": 0.85})
     -0.85
     """
     if not isinstance(level, str):
         return level
-    value = model.parameters[level.removeprefix("-")]
+    value = parameters[level.removeprefix("-")]
     return -value if level.startswith("-") else value

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ..core.quantities import attributes, display_of
 from ..systems.system import System
-from .levels import parameter_of
+from .levels import Values, value_of
 
 Array = NDArray[np.float64]
 
@@ -41,27 +41,66 @@ class Bound:
     possible: bool = False
 
 
+@dataclass(frozen=True)
+class Limit:
+    """A bound of one system, or of each of many.
+
+    Attributes
+    ----------
+    signal : str
+    limit : float or ndarray
+        SI units; infinite where there is none.
+    above, words, possible
+        As of `Bound`.
+    """
+
+    signal: str
+    limit: Values
+    above: bool
+    words: str
+    possible: bool
+
+
 def bounds_of(model: System) -> Iterator[Bound]:
     """Yield what the signals of a model must not pass, as its forces were declared."""
-    for signal, described in model.equations.SIGNALS.items():
+    for found in limits_of(model.equations.SIGNALS, model.parameters):
+        if np.isfinite(found.limit):
+            limit = float(found.limit)
+            yield Bound(found.signal, limit, found.above, found.words, found.possible)
+
+
+def limits_of(
+    signals: Mapping[str, Mapping[str, Any]], parameters: Mapping[str, Values]
+) -> Iterator[Limit]:
+    """Yield what signals must not pass.
+
+    Parameters
+    ----------
+    signals : mapping
+        What the manifest says of each signal.
+    parameters : mapping
+        By name: one value, or those of many systems; SI units.
+    """
+    for signal, described in signals.items():
         for entry in described.get("ranges", ()):
-            unless = entry.get("unless")
-            if unless is None or not parameter_of(model, unless):
-                yield from _ends(model, signal, entry)
+            yield from _ends(signal, entry, parameters)
 
 
-def _ends(model: System, signal: str, entry: Mapping[str, Any]) -> Iterator[Bound]:
-    """Yield the ends of a range that is not empty."""
-    least, most = (
-        parameter_of(model, entry[end]) if end in entry else None for end in ("least", "most")
-    )
-    if least is not None and most is not None and least >= most:
-        return
+def _ends(
+    signal: str, entry: Mapping[str, Any], parameters: Mapping[str, Values]
+) -> Iterator[Limit]:
+    """Yield the ends of a range, where it is not empty and not void."""
+    least = value_of(entry.get("least", -np.inf), parameters)
+    most = value_of(entry.get("most", np.inf), parameters)
+    void = value_of(entry.get("unless", 0.0), parameters)
+    says = (np.asarray(least) < most) & (np.asarray(void) == 0.0)
     possible = entry.get("possible", False)
-    if most is not None:
-        yield Bound(signal, most, above=True, words=entry["above"], possible=possible)
-    if least is not None:
-        yield Bound(signal, least, above=False, words=entry["below"], possible=possible)
+    if "most" in entry:
+        limit = np.where(says, most, np.inf)
+        yield Limit(signal, limit, above=True, words=entry["above"], possible=possible)
+    if "least" in entry:
+        limit = np.where(says, least, -np.inf)
+        yield Limit(signal, limit, above=False, words=entry["below"], possible=possible)
 
 
 @dataclass(frozen=True)

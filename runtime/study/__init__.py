@@ -6,6 +6,7 @@
 `compare`          several suspensions beside each other
 `measurement`, `excitation`    roads, racks and forces from a file, and from formulas besides
 `scenario`         a motion that is described by data
+`ensembles`        many cars at once
 `recording`        a simulation as a labelled dataset
 `export`           datasets as files
 `paper`            what the paper shows of its suspension

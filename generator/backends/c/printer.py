@@ -5,6 +5,7 @@ No allocation, no global state, no ``pow``; every function returns a status word
 
 from __future__ import annotations
 
+import string
 import textwrap
 from itertools import groupby
 from typing import TYPE_CHECKING
@@ -40,23 +41,61 @@ if TYPE_CHECKING:
 WIDTH = 100
 ARGUMENTS = "const double *restrict constants, const double *restrict state,"
 
-AT_LEAST = """\
+PLAIN = """\
+#ifndef KINTRAFO_LANES /* else all numbers are vectors, and what includes this file has these */
+typedef int status_word;
+
 /* The greater of two numbers; NaN for a NaN. One instruction, where fmax may be a call. */
 static inline double at_least(double x, double least)
 {
     return x < least ? least : x;
-}"""
+}
 
-NOT_FINITE = """\
-/* Whether any of some values is NaN or infinite. */
-static unsigned not_finite(const double *values, int count)
+/* One for what is positive, else zero. */
+static inline double is_positive(double x)
 {
-    unsigned found = 0;
+    return x > 0.0;
+}
+
+/* A number that depends on nothing. */
+static inline double number(double x)
+{
+    return x;
+}
+
+/* A bit, where a guarded quantity is not over its floor. */
+static inline status_word guard_bit(double quantity, double least, int bit)
+{
+    return !(quantity > least) * bit;
+}
+
+/* A bit, where any of some values is NaN or infinite. */
+static inline status_word finite_bit(const double *values, int count, int bit)
+{
+    status_word found = 0;
     for (int i = 0; i < count; ++i) {
         found |= !isfinite(values[i]);
     }
-    return found;
-}"""
+    return found * bit;
+}
+
+/* One number or the other. */
+static inline status_word either(int applies, int code, status_word otherwise)
+{
+    return applies ? code : otherwise;
+}
+
+/* One plus the index of the first value that is NaN or infinite; 0: all are finite. */
+static inline status_word first_not_finite(const double *values, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        if (!isfinite(values[i])) {
+            return i + 1;
+        }
+    }
+    return 0;
+}
+#endif"""
 
 
 class CPrinter:
@@ -99,7 +138,9 @@ class CPrinter:
             ),
             self._constants(),
             self._status(),
+            "#ifndef KINTRAFO_LANES",
             *self._prototypes(),
+            "#endif",
             f"#ifdef __cplusplus\n#undef restrict\n}}\n#endif\n\n#endif /* {guard} */",
         ]
         return "\n\n".join(blocks) + "\n"
@@ -182,10 +223,9 @@ class CPrinter:
         )
         return [prepare, design, *(self._prototype(f) for f in self.model.emitted.values())]
 
-    def _from_parameters(self, name: str, out: str) -> str:
-        return (
-            f"int {self.prefix}_{name}(const double *restrict parameters, double *restrict {out})"
-        )
+    def _from_parameters(self, name: str, out: str, returns: str = "int") -> str:
+        arguments = f"const double *restrict parameters, double *restrict {out}"
+        return f"{returns} {self.prefix}_{name}({arguments})"
 
     def _prepare_returns(self) -> str:
         first = " * Returns 0, or one plus the index of the first constant that is not finite"
@@ -219,8 +259,8 @@ class CPrinter:
         comment = f"/* {text} {count_line(function)}. */"
         return "\n".join(textwrap.wrap(comment, WIDTH, subsequent_indent="   "))
 
-    def _signature(self, function: Function | Stage) -> str:
-        name = f"int {self.prefix}_{function.name}("
+    def _signature(self, function: Function | Stage, returns: str = "int") -> str:
+        name = f"{returns} {self.prefix}_{function.name}("
         given = "const double *restrict given, " if reads_given(function) else ""
         indent = " " * len(name)
         return (
@@ -246,13 +286,21 @@ class CPrinter:
         blocks = [
             self._banner(),
             f'#include "{self.prefix}.h"\n\n#include <math.h>{text_functions}',
-            AT_LEAST,
-            NOT_FINITE,
+            PLAIN,
             *self._blocks(blocks_of(functions)),
             *([] if part else [*self._rounding(), self._prepare_body(), self._design_body()]),
-            *(self._body(f) for f in functions),
+            *(self._body(f) for f in functions if f.name in self._in_lanes),
+            *([] if part else ["#ifndef KINTRAFO_LANES /* what no simulation evaluates */"]),
+            *(self._body(f) for f in functions if f.name not in self._in_lanes),
+            *([] if part else ["#endif"]),
         ]
         return "\n\n".join(blocks) + "\n"
+
+    @property
+    def _in_lanes(self) -> frozenset[str]:
+        """The functions that a simulation evaluates, of many systems at once."""
+        variants = (f"rhs_{variant}" for variant in self.model.held_inputs)
+        return frozenset({"rhs", *variants, "signals", "margins"})
 
     def _rounding(self) -> list[str]:
         if not self.model.assumptions:
@@ -281,20 +329,16 @@ class CPrinter:
         c = self._pointer(prepare)
         read = {s.name for s in prepare.free_symbols}
         lines = [
-            self._from_parameters("prepare", "constants"),
+            self._from_parameters("prepare", "constants", "status_word"),
             "{",
             f"    struct {self.prefix}_constants *const {c} = (void *)constants;",
             *declared([f"{n} = parameters[{i}]" for i, n in enumerate(values) if n in read - kept]),
             *(f"    {c}->{n} = parameters[{i}];" for i, n in enumerate(values) if n in kept),
             *self.steps(prepare, {name: f"{c}->{name}" for name in kept}),
             "",
+            f"    status_word failed = first_not_finite(constants, {count});",
             *self._assumptions(c),
-            f"    for (int i = 0; i < {count}; ++i) {{",
-            "        if (!isfinite(constants[i])) {",
-            "            return i + 1;",
-            "        }",
-            "    }",
-            "    return 0;",
+            "    return failed;",
             "}",
         ]
         return "\n".join(lines)
@@ -304,18 +348,19 @@ class CPrinter:
         read = {s.name for s in design.free_symbols}
         values = [e.name for e in self.model.parameters]
         loads = [f"{n} = parameters[{i}]" for i, n in enumerate(values) if n in read]
+        finite = self.enumerator("status", "not_finite")
         return "\n".join(
             [
-                self._from_parameters("design_state", "state"),
+                self._from_parameters("design_state", "state", "status_word"),
                 "{",
                 *(declared(loads) or ["    (void)parameters;"]),
                 *self.steps(design),
                 "",
                 *(
-                    f"    state[{i}] = {value};"
+                    f"    state[{i}] = {_in_all_lanes(value)};"
                     for i, value in enumerate(written(design, FORMULA)[1])
                 ),
-                "    return 0;",
+                f"    return finite_bit(state, {len(self.model.state)}, {finite});",
                 "}",
             ]
         )
@@ -328,8 +373,7 @@ class CPrinter:
         return next(name for name in ("c", "c_", "c__") if name not in taken)
 
     def _assumptions(self, c: str) -> list[str]:
-        """Return the checks of what must be zero, and of what must not; a NaN is found later."""
-        lines = []
+        """Return the checks of what must be zero, and of what must not; the first one counts."""
 
         def constant(expression: sp.Expr) -> str:
             return text_of(schedule(expression), FORMULA, lambda symbol: f"{c}->{symbol.name}")
@@ -345,19 +389,18 @@ class CPrinter:
                 for k in self.model.conditions
             ),
         ]
-        for number, test in enumerate(tests, 1):
-            lines += [
-                f"    if ({test}) {{",
-                f"        return {self.upper}_CONSTANT_COUNT + {number};",
-                "    }",
-            ]
-        return lines
+        numbered = [
+            f"    failed = either({test}, {self.upper}_CONSTANT_COUNT + {number}, failed);"
+            for number, test in enumerate(tests, 1)
+        ]
+        return numbered[::-1]
 
     def _body(self, function: Function | Stage) -> str:
         read, c = {s.name for s in function.free_symbols}, self._pointer(function)
         constants = read.intersection(self.model.prepare.labels)
         pointer = f"    const struct {self.prefix}_constants *const {c} = (const void *)constants;"
-        lines = [self._signature(function), "{", *([pointer] if constants else [])]
+        signature = self._signature(function, "status_word")
+        lines = [signature, "{", *([pointer] if constants else [])]
         arrays = {
             "constants": [],
             "state": [e.name for e in self.model.state],
@@ -398,12 +441,12 @@ class CPrinter:
             if value == "0.0":
                 zeros.append(f"out[{place}]")
                 continue
-            text = f"out[{place}] = {value};"
+            text = f"out[{place}] = {_in_all_lanes(value)};"
             lines += _wrapped(text if by and row == last else f"{text} /* {row} */", 4)
             last = row
         if zeros:
             lines += textwrap.wrap(
-                f"{' = '.join(zeros)} = 0.0;",
+                f"{' = '.join(zeros)} = {_in_all_lanes('0.0')};",
                 WIDTH,
                 initial_indent="    ",
                 subsequent_indent="        ",
@@ -425,7 +468,7 @@ class CPrinter:
         for section, group in groupby(values, key=lambda step: step.section):
             lines += ["", f"    /* {section} */"]
             for kind, run in groupby(group, key=_kind):
-                texts = [f"{step.name} = {step.text}" for step in run]
+                texts = [f"{step.name} = {_in_all_lanes(step.text)}" for step in run]
                 lines += declared(texts) if kind == "const double" else _each(kind, texts)
         return lines
 
@@ -439,15 +482,14 @@ class CPrinter:
             return text_of(schedule(guard.floor), FORMULA, lambda s: names.get(s.name, s.name))
 
         bits = [
-            (f"!({g.quantity} > {floor(g)})", self.enumerator("status", g.name))
+            f"guard_bit({g.quantity}, {floor(g)}, {self.enumerator('status', g.name)})"
             for g in self.model.guards
             if g in function.guards
         ]
         finite = self.enumerator("status", "not_finite")
-        bits.append((f"not_finite(out, {function.size})", finite))
-        lines = [f"    unsigned status = {bits[0][0]} * {bits[0][1]};"]
-        lines += [f"    status |= {test} * {bit};" for test, bit in bits[1:]]
-        return [*lines, "    return (int)status;"]
+        bits.append(f"finite_bit(out, {function.size}, {finite})")
+        lines = [f"    status_word status = {bits[0]};"]
+        return [*lines, *(f"    status |= {bit};" for bit in bits[1:]), "    return status;"]
 
 
 def _once(printer: CPrinter, block: Block) -> str:
@@ -519,6 +561,9 @@ def _call(block: Block) -> str:
     return "\n".join(lines)
 
 
+_LETTERS = frozenset(string.ascii_letters) - {"e"}
+"""What a value has that is no number alone."""
+
 _KEPT = "\N{NO-BREAK SPACE}"
 """Stands for a space at which no line is broken."""
 
@@ -529,6 +574,11 @@ def declared(assignments: Sequence[str]) -> list[str]:
         return []
     texts = [f"{text}," for text in assignments[:-1]] + [f"{assignments[-1]};"]
     return ["    const double", *(line for text in texts for line in _wrapped(text, 8))]
+
+
+def _in_all_lanes(text: str) -> str:
+    """Write a value; one that is a number has to be told that it may stand for a vector."""
+    return text if set(text) & _LETTERS else f"number({text})"
 
 
 def _each(kind: str, assignments: Sequence[str]) -> list[str]:

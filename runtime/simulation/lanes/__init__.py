@@ -1,0 +1,8 @@
+"""Many systems of one model at once, in the lanes of vectors and on all cores.
+
+`vectors.h`, `elementary.h`, `model.c`    the emitted equations, read as ones about vectors
+`integrate.c`, with the headers that it includes, below ``ensemble.h``    the solver
+`library`    the compiled libraries, and which lanes the processor has
+`problem`    what is to be integrated, as C takes it
+`run`        on all cores
+"""

@@ -1,0 +1,118 @@
+/*
+ * How near each lane is to a dead point, and for how long its steps may be trusted there.
+ *
+ * It is what ../native/margins.h explains and ../native/margins.c and integrate.c do for one system, with
+ * the same numbers, for the same reasons.
+ */
+#ifndef KINTRAFO_APPROACH_H
+#define KINTRAFO_APPROACH_H
+
+#include "courses.h"
+
+enum { ACTS = 1, PLACES = 2, NO_GUARD = -1 };
+
+#define PART 0.5
+#define LITTLE 0.125
+#define NOTHING 1.0e-10
+#define LEFT 4.0
+#define LAPSE (1.0 / 256.0)
+#define SMALLEST_OF_TIME 1.0e-9
+#define SMALLEST_OF_STEP 1.0e-6
+#define NEAR 1.0e-3
+#define MOST_STUCK 8
+#define SMALLEST_PART 1.0e-14
+
+static real smallest_step(const crew *w)
+{
+    double of_time = SMALLEST_OF_TIME * (w->p->end - w->p->start);
+    real of_step = SMALLEST_OF_STEP * w->longest;
+    return choose((of_step > 0.0) & (of_step < of_time), of_step, SPREAD(of_time));
+}
+
+/* Note a guard for lanes that have none yet. */
+static void blame(crew *w, bits lanes, int guard)
+{
+    w->guard = choose_bits(lanes & (w->guard == NO_GUARD), (bits){0} + guard, w->guard);
+}
+
+/* Blame guards whose margins are not positive at the end of a step where they must be. */
+static void see_crossed(crew *w, bits lanes)
+{
+    for (int i = 0; i < w->p->guard_count; ++i) {
+        if (w->p->guards[i] & ACTS) {
+            blame(w, lanes & ~(w->now[i] > 0.0), i);
+        }
+    }
+}
+
+/* Return the lanes in which a margin has changed so much that its rate is needed. */
+static bits changed(const crew *w, real step, real next)
+{
+    real little = LITTLE / greater(next / step, SPREAD(1.0));
+    bits found = {0};
+    for (int i = 0; i < w->p->guard_count; ++i) {
+        if (w->p->guards[i] & PLACES) {
+            real now = w->now[i], change = magnitude(now - w->before[i]);
+            found |= ~((change <= little * now) & (now > NOTHING * w->greatest[i]));
+        }
+    }
+    return found;
+}
+
+/* Evaluate the margins of what is a short time ahead of the step's end, on a straight way. */
+static void look_ahead(crew *w, real time, real lapse)
+{
+    int half = w->p->state_count / 2;
+    for (int i = 0; i < half; ++i) {
+        w->stage[i] = w->end_state[i] + lapse * w->end_state[half + i];
+        w->stage[half + i] = w->end_state[half + i];
+    }
+    evaluate_inputs(w, time + lapse);
+    w->margins(w->constants, w->stage, w->inputs, w->ahead);
+}
+
+/* Blame guards whose margins rise as if they had been zero within the step. */
+static void see_reflected(crew *w, bits lanes, real lapse, real step)
+{
+    for (int i = 0; i < w->p->guard_count; ++i) {
+        if (w->p->guards[i] & PLACES) {
+            real gained = w->ahead[i] - w->now[i];
+            blame(w, lanes & (2.0 * w->now[i] * lapse < gained * step), i);
+        }
+    }
+}
+
+/* Limit the steps of some lanes by the margins ahead; blame the guards of those that are at the end. */
+static void limit(crew *w, bits lanes, real lapse, real step)
+{
+    real longest = SPREAD(INFINITY);
+    bits over = {0}, nearest = (bits){0} + NO_GUARD;
+    for (int i = 0; i < w->p->guard_count; ++i) {
+        if (w->p->guards[i] & PLACES) {
+            real now = w->now[i], gone = now - w->ahead[i];
+            real allowed = PART * now * lapse / choose(gone > 0.0, gone, SPREAD(1.0));
+            bits nothing = now <= NOTHING * w->greatest[i];
+            bits sooner = (nothing & ~over) | (~(nothing ^ over) & (allowed < longest));
+            sooner &= gone > 0.0;
+            longest = choose(sooner, allowed, longest);
+            nearest = choose_bits(sooner, (bits){0} + i, nearest);
+            over = choose_bits(sooner, nothing, over);
+        }
+    }
+    bits slow = (step < smallest_step(w)) & (longest < NEAR * w->longest);
+    w->stuck = choose_bits(lanes, slow & (w->stuck + 1), w->stuck);
+    w->trusted = choose(lanes, longest, w->trusted);
+    over |= (w->stuck >= MOST_STUCK) | (longest < SMALLEST_PART * magnitude(w->time));
+    w->guard = choose_bits(lanes & over, nearest, w->guard);
+}
+
+/* Make the margins of the step's end those of the state that is reached. */
+static void reach(crew *w, bits lanes)
+{
+    for (int i = 0; i < w->p->guard_count; ++i) {
+        w->before[i] = choose(lanes, w->now[i], w->before[i]);
+        w->greatest[i] = choose(lanes & (w->now[i] > w->greatest[i]), w->now[i], w->greatest[i]);
+    }
+}
+
+#endif

@@ -1,0 +1,442 @@
+/*
+ * Dormand and Prince's method of order 5 with an error estimate of order 4, a step size for each lane.
+ * A lane whose system has come to its end gets the next one at once.
+ */
+#include "approach.h"
+#include "outputs.h"
+#include "powers.h"
+
+#include <stdlib.h>
+
+/* The order of the estimate and one, and how much of the error before it counts (Hairer & Wanner). */
+#define OF_ERROR 0.17
+#define OF_ERROR_BEFORE 0.04
+#define SAFE 0.9
+#define MOST_SHORTER 0.2
+#define MOST_LONGER 10.0
+/* Part of a step that remains after a state was refused. */
+#define SHORTER 0.25
+/* Part of the time below which a step is one of rounding. */
+#define ROUNDING 4.0e-16
+
+static const double NODES[STAGES] = {0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0};
+
+static const double TABLE[STAGES][STAGES - 1] = {
+    {0.0},
+    {0.2},
+    {3.0 / 40.0, 9.0 / 40.0},
+    {44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0},
+    {19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0},
+    {9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0},
+    {35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0},
+};
+
+static const double ERROR[STAGES] = {
+    71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -0.025,
+};
+
+/* -- systems that wait ------------------------------------------------------------------------ */
+
+/* Take over the parameters of some systems, one in each lane. */
+static void set_parameters(const kt_problem *p, long first, int count, real *parameters)
+{
+    for (int i = 0; i < p->parameter_count; ++i) {
+        parameters[i] = SPREAD(p->parameters[i]);
+    }
+    for (int l = 0; l < count; ++l) {
+        const double *own = p->variants + p->varied_count * (first + l);
+        for (int i = 0; i < p->varied_count; ++i) {
+            parameters[p->varied[i]][l] = own[i];
+        }
+    }
+}
+
+/* Prepare as many of the next systems as there are lanes. */
+static void fill_queue(crew *w)
+{
+    const kt_problem *p = w->p;
+    waiting *q = &w->queue;
+    real *parameters = w->shown, *still = w->now;
+    q->first = w->next;
+    q->count = w->last - w->next < WIDTH ? (int)(w->last - w->next) : WIDTH;
+    q->taken = 0;
+    w->next += q->count;
+    set_parameters(p, q->first, q->count, parameters);
+    q->failed = w->prepare(parameters, q->constants);
+    w->design_state(parameters, q->state);
+    for (int i = 0; i < p->input_count; ++i) {
+        still[i] = SPREAD(0.0);
+    }
+    w->margins(q->constants, q->state, still, q->margins);
+    for (int i = 0; i < p->guard_count; ++i) {
+        q->margins[i] = choose(is_finite(q->margins[i]), magnitude(q->margins[i]), SPREAD(0.0));
+    }
+}
+
+/* -- begin and end of a system ---------------------------------------------------------------- */
+
+/* Let the next milestone, or else the end of the segment, be the goal. */
+static void set_goal(crew *w, int lane)
+{
+    const kt_segment *s = segment_of(w, lane);
+    long next = w->milestone[lane];
+    w->goal[lane] = next < s->milestone_count ? s->milestones[next] : s->end;
+}
+
+static void open_segment(crew *w, int lane)
+{
+    w->milestone[lane] = 0;
+    w->fresh[lane] = -1;
+    w->trusted[lane] = INFINITY;
+    for (int i = 0; i < STAGES * w->p->state_count; ++i) {
+        w->rates[i][lane] = 0.0;
+    }
+    open_courses(w, lane);
+    set_goal(w, lane);
+}
+
+static void end_system(crew *w, int lane, int end, int code, double time)
+{
+    const kt_problem *p = w->p;
+    long system = w->system[lane];
+    int failed = end != KT_DONE;
+    p->ends[system] = end;
+    p->codes[system] = code;
+    p->ended[system] = time;
+    p->steps[system] = (long)w->taken[lane];
+    for (int i = 0; i < p->state_count; ++i) {
+        p->finals[system * p->state_count + i] = w->state[i][lane];
+    }
+    for (int i = 0; i < p->reduction_count; ++i) {
+        p->reduced[system * p->reduction_count + i] = failed ? NAN : w->kept[i][lane];
+    }
+    for (int i = 0; i < p->bound_count; ++i) {
+        p->beyond[system * p->bound_count + i] = w->beyond[i][lane];
+    }
+    w->running[lane] = 0;
+}
+
+/* Give a lane one of the systems that are prepared. */
+static void begin_system(crew *w, int lane)
+{
+    const kt_problem *p = w->p;
+    const waiting *q = &w->queue;
+    int from = q->taken;
+    long system = q->first + from;
+    w->system[lane] = system;
+    w->running[lane] = -1;
+    for (int i = 0; i < p->constant_count; ++i) {
+        w->constants[i][lane] = q->constants[i][from];
+    }
+    for (int i = 0; i < p->state_count; ++i) {
+        double given = p->states[p->state_stride * system + i];
+        w->state[i][lane] = isnan(given) ? q->state[i][from] : given;
+    }
+    for (int i = 0; i < p->input_count; ++i) {
+        w->inputs[i][lane] = p->inputs[p->input_stride * system + i];
+    }
+    for (int i = 0; i < p->guard_count; ++i) {
+        w->greatest[i][lane] = q->margins[i][from];
+    }
+    w->time[lane] = p->start;
+    w->step[lane] = p->first_step;
+    w->longest[lane] = w->error[lane] = 0.0;
+    w->again[lane] = w->tried[lane] = w->taken[lane] = w->stuck[lane] = 0;
+    w->segment[lane] = 0;
+    begin_outputs(w, lane);
+    open_segment(w, lane);
+    if (q->failed[from]) {
+        end_system(w, lane, KT_PARAMETERS, (int)q->failed[from], p->start);
+    }
+}
+
+/* Give work to lanes that have none, as long as there is some. */
+static void refill(crew *w)
+{
+    for (int l = 0; l < WIDTH; ++l) {
+        while (!w->running[l]) {
+            if (w->queue.taken == w->queue.count) {
+                if (w->next == w->last) {
+                    break;
+                }
+                fill_queue(w);
+            }
+            if (w->p->ends[w->queue.first + w->queue.taken] == KT_WAITING) {
+                begin_system(w, l);
+            }
+            ++w->queue.taken;
+        }
+    }
+}
+
+/* -- a step ----------------------------------------------------------------------------------- */
+
+/* Return how long a step may be; `lands` are the lanes that reach their goal with it. */
+static real planned(const crew *w, bits *lands)
+{
+    real most = lesser(lesser(w->step, w->trusted), SPREAD(w->p->max_step)), left = w->goal - w->time;
+    /* two equal steps, rather than one and what remains */
+    real step = choose(left < 2.0 * most, 0.5 * left, most);
+    *lands = (left <= most) & ~w->fresh;
+    step = choose(*lands, left, step);
+    return choose(w->fresh | ~w->running, SPREAD(0.0), step);
+}
+
+/* Find the rates of all stages and the state at the end; return the lanes that the model refuses. */
+static bits attempt(crew *w, real step)
+{
+    int n = w->p->state_count;
+    w->status = (bits){0};
+    for (int s = 1; s < STAGES; ++s) {
+        real *stage = s == STAGES - 1 ? w->end_state : w->stage;
+        for (int i = 0; i < n; ++i) {
+            real sum = TABLE[s][0] * w->rates[i];
+            for (int k = 1; k < s; ++k) {
+                sum += TABLE[s][k] * w->rates[k * n + i];
+            }
+            stage[i] = w->state[i] + step * sum;
+        }
+        evaluate_inputs(w, w->time + NODES[s] * step);
+        bits status = w->rhs(w->constants, stage, w->inputs, w->rates + s * n);
+        w->status = choose_bits(w->status == 0, status, w->status);
+    }
+    return w->running & (w->status != 0);
+}
+
+/* Return the mean square of some numbers, each measured by what is tolerated. */
+static real mean_square(const crew *w, const real *numbers)
+{
+    int n = w->p->state_count;
+    real sum = {0.0};
+    for (int i = 0; i < n; ++i) {
+        real size = greater(magnitude(w->state[i]), magnitude(w->end_state[i]));
+        real measured = numbers[i] / (w->p->atol[i] + w->p->rtol * size);
+        sum += measured * measured;
+    }
+    return sum / (double)n;
+}
+
+static real error_of(crew *w, real step)
+{
+    int n = w->p->state_count;
+    for (int i = 0; i < n; ++i) {
+        real sum = ERROR[0] * w->rates[i];
+        for (int s = 2; s < STAGES; ++s) {
+            sum += ERROR[s] * w->rates[s * n + i];
+        }
+        w->stage[i] = step * sum;
+    }
+    return mean_square(w, w->stage);
+}
+
+/* Return a logarithm that is one also of zero, of infinity, and of what is no number. */
+static real bounded_logarithm(real x)
+{
+    x = choose(x < 1.0e60, x, SPREAD(1.0e60));
+    return logarithm(choose(x > 1.0e-60, x, SPREAD(1.0e-60)));
+}
+
+/* Return the first step, by the size of the state and of its rates at the start. */
+static real first_step(const crew *w)
+{
+    const kt_problem *p = w->p;
+    real size = mean_square(w, w->state);
+    real rate = bounded_logarithm(mean_square(w, w->rates + (STAGES - 1) * p->state_count));
+    /* what an error of a hundredth of the tolerance would ask for, if it grew with the rates */
+    real step = exponential(0.2 * (-6.6438562 - 0.5 * rate));
+    real of_state = exponential(0.5 * (bounded_logarithm(size) - rate));
+    step = lesser(step, choose(size > 1.0e-10, of_state, SPREAD(1.0e-4)));
+    return lesser(step, SPREAD(p->end - p->start));
+}
+
+/* Return the next step after one that is believed, or whose error is too large. */
+static real next_step(crew *w, real step, real error, bits good)
+{
+    real now = bounded_logarithm(error);
+    /* logarithms of squares */
+    real power = 0.5 * (OF_ERROR_BEFORE * w->error - OF_ERROR * now);
+    real factor = SAFE * exponential(power);
+    factor = lesser(greater(factor, SPREAD(MOST_SHORTER)), SPREAD(MOST_LONGER));
+    factor = choose(w->again | ~good, lesser(factor, SPREAD(1.0)), factor);
+    real next = step * factor;
+    /* a step that was shorter for its goal says nothing against the length that was planned */
+    next = choose(good & ~w->again & (step < w->step), greater(next, w->step), next);
+    /* of an error below a part of 1e-4 of the tolerance nothing follows for the step after it */
+    w->error = choose(good, greater(now, SPREAD(-26.5754248)), w->error);
+    return choose(w->running & ~w->fresh, next, w->step);
+}
+
+/* -- whether a step is believed ---------------------------------------------------------------- */
+
+/* Ask the margins; return the lanes that have looked ahead, with which lapse. */
+static bits ask_margins(crew *w, bits lanes, real reached, real step, real next, real *lapse)
+{
+    w->guard = (bits){0} + NO_GUARD;
+    *lapse = choose(w->fresh, SPREAD(SMALLEST_OF_STEP * (w->p->end - w->p->start)), LAPSE * step);
+    w->margins(w->constants, w->end_state, w->inputs, w->now);
+    see_crossed(w, lanes);
+    bits looks = lanes & (w->guard == NO_GUARD) & (w->fresh | changed(w, step, next));
+    if (any(looks)) {
+        look_ahead(w, reached, *lapse);
+        see_reflected(w, looks & ~w->fresh, *lapse, step);
+    }
+    return looks;
+}
+
+/* Make the step's end the state that is reached. */
+static void commit(crew *w, bits lanes, real step, real reached)
+{
+    int n = w->p->state_count;
+    for (int i = 0; i < n; ++i) {
+        w->state[i] = choose(lanes, w->end_state[i], w->state[i]);
+        w->rates[i] = choose(lanes, w->rates[(STAGES - 1) * n + i], w->rates[i]);
+    }
+    w->time = choose(lanes, reached, w->time);
+    w->longest = choose(lanes & (step > w->longest), step, w->longest);
+    w->trusted = choose(lanes, SPREAD(INFINITY), w->trusted);
+    w->taken -= lanes & ~w->fresh;
+    reach(w, lanes);
+}
+
+/* Go on to the next milestone or segment; a system ends with its last segment. */
+static void pass_goal(crew *w, int lane)
+{
+    const kt_problem *p = w->p;
+    if (w->milestone[lane] < segment_of(w, lane)->milestone_count) {
+        ++w->milestone[lane];
+        set_goal(w, lane);
+    } else if (w->segment[lane] + 1 < p->drives[drive_number(p, w->system[lane])].segment_count) {
+        ++w->segment[lane];
+        open_segment(w, lane);
+    } else {
+        end_system(w, lane, KT_DONE, 0, w->time[lane]);
+    }
+}
+
+/* End a system whose steps cannot get shorter. */
+static void give_up(crew *w, int lane, real step)
+{
+    if (w->guard[lane] != NO_GUARD) {
+        end_system(w, lane, KT_DEAD_POINT, (int)w->guard[lane], w->time[lane]);
+    } else if (w->status[lane]) {
+        end_system(w, lane, KT_REFUSED, (int)w->status[lane], w->time[lane] + step[lane]);
+    } else {
+        end_system(w, lane, KT_SMALL_STEP, 0, w->time[lane]);
+    }
+}
+
+/* Let systems go on, or end, after a step. */
+static void settle(crew *w, bits good, bits lands, bits refused, real step)
+{
+    const kt_problem *p = w->p;
+    real rounding = ROUNDING * greater(magnitude(w->time), SPREAD(p->end - p->start));
+    bits over = good & (w->guard != NO_GUARD), passed = good & lands & ~over;
+    bits stuck = w->running & ~good
+        & (~(w->step >= rounding) | (refused & ~(w->step >= smallest_step(w))));
+    bits many = w->running & (w->tried >= p->max_steps);
+    if (!any(over | passed | stuck | many)) {
+        return;
+    }
+    for (int l = 0; l < WIDTH; ++l) {
+        if (over[l]) {
+            end_system(w, l, KT_DEAD_POINT, (int)w->guard[l], w->time[l] + LEFT * w->trusted[l]);
+        } else if (passed[l]) {
+            pass_goal(w, l);
+        } else if (stuck[l]) {
+            give_up(w, l, step);
+        }
+        if (many[l] && w->running[l]) {
+            end_system(w, l, KT_MANY_STEPS, 0, w->time[l]);
+        }
+    }
+}
+
+/* -- all steps -------------------------------------------------------------------------------- */
+
+/* Take a step in every lane, or find that it has to be shorter. */
+static void sweep(crew *w)
+{
+    bits lands, fresh = w->fresh;
+    real step = planned(w, &lands), lapse;
+    real reached = choose(lands, w->goal, w->time + step);
+    bits refused = attempt(w, step);
+    real error = error_of(w, step);
+    bits good = w->running & ~refused & (fresh | (error <= 1.0));
+    real next = next_step(w, step, error, good);
+    bits looks = ask_margins(w, good, reached, step, next, &lapse);
+    refused |= good & (w->guard != NO_GUARD);
+    good &= ~refused;
+    bits spoiled = put_out(w, good, step, reached);
+    refused |= spoiled;
+    good &= ~spoiled;
+    commit(w, good, step, reached);
+    limit(w, good & looks, lapse, step);
+    w->again = ~good;
+    w->step = choose(refused, SHORTER * step, next);
+    w->tried -= w->running & ~fresh;
+    if (any(fresh & good)) {
+        w->step = choose(fresh & good & (w->step == 0.0), first_step(w), w->step);
+        w->fresh &= ~good;
+    }
+    settle(w, good, lands, refused, step);
+}
+
+/* Return 0, or 1 where there is no memory. */
+static int open_crew(crew *w, const kt_problem *p)
+{
+    int n = p->state_count, shown = p->signal_count + n, margins = p->guard_count;
+    if (shown < p->parameter_count) {
+        shown = p->parameter_count;
+    }
+    if (margins < p->input_count) {
+        margins = p->input_count;
+    }
+    const struct { real **place; int count; } parts[] = {
+        {&w->constants, p->constant_count}, {&w->queue.constants, p->constant_count},
+        {&w->state, n}, {&w->end_state, n}, {&w->stage, n}, {&w->queue.state, n},
+        {&w->rates, STAGES * n}, {&w->terms, 5 * n}, {&w->inputs, p->input_count},
+        {&w->before, margins}, {&w->now, margins}, {&w->ahead, margins},
+        {&w->greatest, margins}, {&w->queue.margins, margins}, {&w->shown, shown},
+        {&w->kept, p->reduction_count}, {&w->kept_before, p->reduction_count},
+        {&w->beyond, p->bound_count}, {&w->beyond_before, p->bound_count},
+        {&w->limits, p->bound_count},
+    };
+    const size_t part_count = sizeof parts / sizeof *parts;
+    size_t count = 0, courses = (size_t)p->course_count * sizeof *w->courses;
+    for (size_t i = 0; i < part_count; ++i) {
+        count += (size_t)parts[i].count;
+    }
+    size_t bytes = count * sizeof(real) + courses;
+    real *memory = aligned_alloc(sizeof(real), bytes + sizeof(real) - bytes % sizeof(real));
+    if (!memory) {
+        return 1;
+    }
+    memset(memory, 0, bytes);
+    for (size_t i = 0; i < part_count; ++i) {
+        *parts[i].place = memory;
+        memory += parts[i].count;
+    }
+    w->courses = (void *)memory;
+    return 0;
+}
+
+/* The name of a function for this width. */
+#define JOINED(name, width) name##width
+#define NAME_OF(name, width) JOINED(name, width)
+
+int NAME_OF(kt_integrate_, WIDTH)(const kt_problem *p, long first, long last, const volatile int *stop)
+{
+    crew w = {
+        .p = p, .next = first, .last = last, .prepare = (kt_prepare)p->prepare,
+        .design_state = (kt_prepare)p->design_state, .rhs = (kt_function)p->rhs,
+        .signals = (kt_function)p->signals, .margins = (kt_function)p->margins,
+    };
+    if (open_crew(&w, p)) {
+        return 1;
+    }
+    for (refill(&w); any(w.running) && !*stop; refill(&w)) {
+        sweep(&w);
+    }
+    free(w.constants); /* the first part of the memory */
+    return 0;
+}

@@ -1,0 +1,80 @@
+"""The compiled libraries for lanes, and which of their widths the processor has."""
+
+import ctypes
+from collections.abc import Callable, Mapping
+from functools import cache
+from importlib import import_module
+from types import ModuleType
+
+from ...core.errors import InputError
+
+WIDTHS = (2, 4, 8)
+_SOLVER = f"{__package__}._integrate"
+
+
+def widths() -> tuple[int, ...]:
+    """Return how many lanes vectors may have on this machine, the fewest first; none: not built."""
+    solver = _library(_SOLVER)
+    if solver is None:
+        return ()
+    widest: int = solver.kt_widest()
+    return tuple(w for w in WIDTHS if w <= widest and hasattr(solver, f"kt_integrate_{w}"))
+
+
+def solver(width: int) -> Callable[..., int]:
+    """Return the C function that integrates in so many lanes; it is called without the lock."""
+    function: Callable[..., int] = getattr(_library(_SOLVER), f"kt_integrate_{width}")
+    return function
+
+
+def functions(equations: ModuleType, width: int, variant: str) -> Mapping[str, int]:
+    """Return the addresses of a model's functions in so many lanes; those that it has not are zero.
+
+    Parameters
+    ----------
+    equations : module
+    width : int
+        One of `widths`.
+    variant : str
+        What ends the name of the right-hand side that leaves out what stands still.
+
+    Raises
+    ------
+    InputError
+        If the equations are not compiled for lanes.
+    """
+    name: str = equations.NAME
+    package = equations.__name__.rpartition(".")[0]
+    library = _library(f"{package}._{name}_lanes")
+    if library is None or not widths():
+        raise InputError([_missing(name)], "ensemble")
+    names = {key: key for key in ("prepare", "design_state", "signals", "margins")}
+    names["rhs"] = f"rhs{variant}"
+    return {key: _address(library, f"{name}_{end}_{width}") for key, end in names.items()}
+
+
+def _missing(name: str) -> str:
+    if _library(_SOLVER) is None:
+        return (
+            "kintrafo was built without lanes, for which it needs GCC or Clang. Build it again "
+            "with one of them, or call simulate for each."
+        )
+    return (
+        f"the equations of {name} are not compiled in lanes: those that come with the project are, "
+        "but for ones that iterate. Call simulate for each."
+    )
+
+
+def _address(library: ctypes.CDLL, name: str) -> int:
+    function = getattr(library, name, None)
+    return (ctypes.cast(function, ctypes.c_void_p).value or 0) if function else 0
+
+
+@cache
+def _library(name: str) -> ctypes.CDLL | None:
+    """Load a library; None where there is none."""
+    try:
+        module = import_module(name)
+    except ModuleNotFoundError:
+        return None
+    return ctypes.CDLL(module.__file__)

@@ -1,0 +1,184 @@
+/* What is kept of the motion on its way: samples, reductions, and what passes bounds. */
+#ifndef KINTRAFO_OUTPUTS_H
+#define KINTRAFO_OUTPUTS_H
+
+#include "courses.h"
+
+#include <string.h>
+
+static double due_time(const kt_problem *p, long output)
+{
+    return output < p->time_count ? p->times[output] : INFINITY;
+}
+
+static void begin_outputs(crew *w, int lane)
+{
+    static const double nothing[] = {
+        [KT_GREATEST] = -INFINITY, [KT_LEAST] = INFINITY, [KT_FIRST] = NAN, [KT_SUM] = 0.0,
+        [KT_SQUARES] = 0.0, [KT_ABOVE] = 0.0,
+    };
+    const kt_problem *p = w->p;
+    w->output[lane] = 0;
+    w->due[lane] = due_time(p, 0);
+    for (int i = 0; i < p->reduction_count; ++i) {
+        w->kept[i][lane] = nothing[p->reductions[i].kind];
+    }
+    for (int i = 0; i < p->bound_count; ++i) {
+        w->beyond[i][lane] = NAN;
+        w->limits[i][lane] = p->limits[p->limit_stride * w->system[lane] + i];
+    }
+}
+
+/* Weights of the interpolant's fifth term, which makes it one of fourth order (Hairer & Wanner). */
+static const double DENSE[STAGES] = {
+    -12715105075.0 / 11282082432.0, 0.0, 87487479700.0 / 32700410799.0,
+    -10690763975.0 / 1880347072.0, 701980252875.0 / 199316789632.0, -1453857185.0 / 822651844.0,
+    69997945.0 / 29380423.0,
+};
+
+/* Find what the states within a step are interpolated by. */
+static void find_terms(crew *w, real step)
+{
+    int n = w->p->state_count;
+    for (int i = 0; i < n; ++i) {
+        real begin = w->state[i], moved = w->end_state[i] - begin;
+        real bent = step * w->rates[i] - moved, sum = DENSE[0] * w->rates[i];
+        for (int s = 2; s < STAGES; ++s) {
+            sum += DENSE[s] * w->rates[s * n + i];
+        }
+        w->terms[i] = begin;
+        w->terms[n + i] = moved;
+        w->terms[2 * n + i] = bent;
+        w->terms[3 * n + i] = moved - step * w->rates[(STAGES - 1) * n + i] - bent;
+        w->terms[4 * n + i] = step * sum;
+    }
+}
+
+/* Evaluate the state at a part of the step, and the signals there; where they are refused, tell how. */
+static bits show(crew *w, real part, real time)
+{
+    const kt_problem *p = w->p;
+    int n = p->state_count;
+    real *state = w->shown + p->signal_count, rest = 1.0 - part;
+    for (int i = 0; i < n; ++i) {
+        const real *c = w->terms + i;
+        real inside = c[0] + part * (c[n] + rest * (c[2 * n] + part * (c[3 * n] + rest * c[4 * n])));
+        state[i] = choose(part == 1.0, w->end_state[i], inside);
+    }
+    if (!w->signals) {
+        return (bits){0};
+    }
+    evaluate_inputs(w, time);
+    return w->signals(w->constants, state, w->inputs, w->shown);
+}
+
+static real weights_now(const crew *w, bits lanes)
+{
+    real weight = {0.0};
+    for (int i = 0; i < WIDTH; ++i) {
+        if (lanes[i]) {
+            weight[i] = w->p->weights[w->output[i]];
+        }
+    }
+    return weight;
+}
+
+static void reduce(crew *w, bits lanes)
+{
+    const kt_problem *p = w->p;
+    real weight = p->reduction_count ? weights_now(w, lanes) : (real){0.0};
+    for (int i = 0; i < p->reduction_count; ++i) {
+        const kt_reduction *r = &p->reductions[i];
+        real value = w->shown[p->items[r->item]], kept = w->kept[i], next;
+        real moved = value - w->kept[r->origin];
+        switch (r->kind) {
+        case KT_GREATEST: next = greater(kept, value); break;
+        case KT_LEAST: next = lesser(kept, value); break;
+        case KT_FIRST: next = choose(kept == kept, kept, value); break;
+        case KT_SUM: next = kept + weight * moved; break;
+        case KT_SQUARES: next = kept + weight * (moved * moved); break;
+        default: next = choose(value > r->level, kept + weight, kept);
+        }
+        w->kept[i] = choose(lanes, next, kept);
+    }
+}
+
+static void see_bounds(crew *w, bits lanes)
+{
+    const kt_problem *p = w->p;
+    for (int i = 0; i < p->bound_count; ++i) {
+        real sign = SPREAD(p->above[i] ? 1.0 : -1.0), value = w->shown[p->bound_items[i]];
+        bits worse = (sign * (value - w->limits[i]) > 0.0) & ~(sign * (value - w->beyond[i]) <= 0.0);
+        w->beyond[i] = choose(lanes & worse, value, w->beyond[i]);
+    }
+}
+
+/* Keep the outputs that are due, and go on to the next ones. */
+static void keep(crew *w, bits lanes)
+{
+    const kt_problem *p = w->p;
+    reduce(w, lanes);
+    see_bounds(w, lanes);
+    for (int l = 0; l < WIDTH; ++l) {
+        if (!lanes[l]) {
+            continue;
+        }
+        for (int i = 0; i < p->sample_count; ++i) {
+            long row = w->system[l] * p->sample_count + i;
+            p->samples[row * p->time_count + w->output[l]] = w->shown[p->items[i]][l];
+        }
+        w->due[l] = due_time(p, ++w->output[l]);
+    }
+}
+
+static void copy(real *to, const real *from, int count)
+{
+    memcpy(to, from, (size_t)count * sizeof *to);
+}
+
+/* Let some lanes be as they were before the step's outputs; samples are written again. */
+static void take_back(crew *w, bits lanes, const long *output)
+{
+    for (int i = 0; i < w->p->reduction_count; ++i) {
+        w->kept[i] = choose(lanes, w->kept_before[i], w->kept[i]);
+    }
+    for (int i = 0; i < w->p->bound_count; ++i) {
+        w->beyond[i] = choose(lanes, w->beyond_before[i], w->beyond[i]);
+    }
+    for (int lane = 0; lane < WIDTH; ++lane) {
+        if (lanes[lane]) {
+            w->output[lane] = output[lane];
+            w->due[lane] = due_time(w->p, output[lane]);
+        }
+    }
+}
+
+/*
+ * Put out what is due within a step. Returns the lanes in which the model refuses an output: they have
+ * none of the step's.
+ */
+static bits put_out(crew *w, bits lanes, real step, real reached)
+{
+    bits pending = lanes & (w->due <= reached), refused = {0};
+    if (!any(pending)) {
+        return refused;
+    }
+    long output[WIDTH];
+    memcpy(output, w->output, sizeof output);
+    copy(w->kept_before, w->kept, w->p->reduction_count);
+    copy(w->beyond_before, w->beyond, w->p->bound_count);
+    find_terms(w, step);
+    for (; any(pending); pending = pending & ~refused & (w->due <= reached)) {
+        bits inside = pending & (w->due < reached);
+        real time = choose(inside, w->due, reached);
+        real part = choose(inside, (time - w->time) / step, SPREAD(1.0));
+        bits status = show(w, part, time), bad = pending & (status != 0);
+        w->status = choose_bits(bad, status, w->status);
+        refused |= bad;
+        keep(w, pending & ~bad);
+    }
+    take_back(w, refused, output);
+    return refused;
+}
+
+#endif

@@ -1,0 +1,26 @@
+/* Logarithm and power of two as well as the choice of a step needs them: to a ten-thousandth. */
+#ifndef KINTRAFO_POWERS_H
+#define KINTRAFO_POWERS_H
+
+#include "elementary.h"
+
+/* Of a normal positive number. Polynomials through Chebyshev's nodes, here between 1 and 2. */
+INLINE real logarithm(real x)
+{
+    const real two_52 = SPREAD(4503599627370496.0);
+    bits exponent = (bits)((digits)x >> 52);
+    real whole = (real)(exponent | (bits)two_52) - two_52 - 1023.0;
+    real m = (real)(((bits)x & 0x000fffffffffffffLL) | 0x3ff0000000000000LL);
+    return whole + (-2.49835315 + m * (4.02921139 + m * (-2.07833517 + m * (0.62603218
+        - m * 0.07844068))));
+}
+
+/* For exponents of a size below 1000. */
+INLINE real exponential(real x)
+{
+    real moved = x + ROUNDER, part = x - (moved - ROUNDER);
+    real m = 0.99992456 + part * (0.69313673 + part * (0.24263948 + part * 0.05583828));
+    return (real)((bits)m + ((bits)moved << 52));
+}
+
+#endif

@@ -1,0 +1,420 @@
+"""Many systems of one model that are to be integrated, as C takes them."""
+
+import ctypes
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from enum import IntEnum
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...systems.system import System
+from ..dead_points import meanings
+from ..signals import TimeInputs
+from . import library
+
+Array = NDArray[np.float64]
+Numbers = NDArray[np.int32]
+
+
+class End(IntEnum):
+    """How a system ends; as in ``ensemble.h``."""
+
+    WAITING = 0
+    DONE = 1
+    PARAMETERS = 2
+    REFUSED = 3
+    DEAD_POINT = 4
+    SMALL_STEP = 5
+    MANY_STEPS = 6
+
+
+class Kind(IntEnum):
+    """What is kept of a signal on its way; as in ``ensemble.h``."""
+
+    GREATEST = 0
+    LEAST = 1
+    FIRST = 2
+    SUM = 3
+    SQUARES = 4
+    ABOVE = 5
+
+
+class Reduction(NamedTuple):
+    """What is kept of one signal on its way.
+
+    Attributes
+    ----------
+    item : int
+        Place among the items.
+    kind : Kind
+    origin : int
+        Of a sum: place of the reduction that keeps the first value, which comes before.
+    level : float
+        Of `Kind.ABOVE`.
+    """
+
+    item: int
+    kind: Kind
+    origin: int = 0
+    level: float = 0.0
+
+
+@dataclass(frozen=True)
+class Systems:
+    """What the systems have of their own.
+
+    Attributes
+    ----------
+    count : int
+    parameters : ndarray
+        Those that all have in common, in the order of the model's.
+    varied : ndarray
+        Places of those that each has for itself.
+    variants : ndarray, shape (count, number of varied)
+    states : ndarray, shape (count or 1, number of state elements)
+        At the start; NaN for that of the design position.
+    inputs : ndarray, shape (count or 1, number of inputs)
+        Values of those that do not vary with time.
+    drives : sequence of TimeInputs
+        What inputs do over time; the same of them vary in all.
+    drive_of : ndarray, shape (count,)
+        Which of the drives each system has.
+    left_out : ndarray of bool, shape (count,)
+        Systems that are none, since their parameters are out of their ranges.
+    """
+
+    count: int
+    parameters: Array
+    varied: Numbers
+    variants: Array
+    states: Array
+    inputs: Array
+    drives: Sequence[TimeInputs]
+    drive_of: Numbers
+    left_out: NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What is kept of each motion.
+
+    Attributes
+    ----------
+    times : ndarray
+        Of the outputs, increasing [s].
+    items : ndarray
+        Places of signals, and behind the last of them elements of the state.
+    sample_count : int
+        So many of the items are kept at all times.
+    reductions : sequence of Reduction
+    weights : ndarray
+        How long each output stands for the motion [s].
+    bound_items : ndarray
+        Places of signals that have a bound.
+    above : ndarray
+        1 where a bound is a greatest value, else 0.
+    limits : ndarray, shape (count or 1, number of bounds)
+    """
+
+    times: Array
+    items: Numbers
+    sample_count: int
+    reductions: Sequence[Reduction]
+    weights: Array
+    bound_items: Numbers
+    above: Numbers
+    limits: Array
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """How to integrate; the names are those of SciPy."""
+
+    rtol: float
+    atol: Array
+    max_step: float
+    first_step: float | None
+    max_steps: int
+
+
+class Outcome:
+    """What comes of many integrations.
+
+    Attributes
+    ----------
+    ends : ndarray
+        An `End` for each system.
+    codes : ndarray
+        What says more: of prepare, a status word, the place of a guard.
+    ended : ndarray
+        The time that was reached, or at which something was refused [s].
+    finals : ndarray, shape (count, number of state elements)
+        The state that was reached.
+    steps : ndarray
+    samples : ndarray, shape (count, sample_count, times)
+        NaN behind the end of what did not come to an end.
+    reduced : ndarray, shape (count, reductions)
+    beyond : ndarray, shape (count, bounds)
+        The value furthest beyond a bound; NaN where there is none.
+    """
+
+    def __init__(self, systems: Systems, wanted: Wanted, state_count: int) -> None:
+        count, bounds = systems.count, wanted.bound_items.size
+        self.ends = np.where(systems.left_out, End.PARAMETERS, End.WAITING).astype(np.int32)
+        self.codes = np.zeros(count, dtype=np.int32)
+        self.ended = np.full(count, np.nan)
+        self.finals = np.full((count, state_count), np.nan)
+        self.steps = np.zeros(count, dtype=np.dtype(ctypes.c_long))
+        self.samples = np.full((count, wanted.sample_count, wanted.times.size), np.nan)
+        self.reduced = np.full((count, len(wanted.reductions)), np.nan)
+        self.beyond = np.full((count, bounds), np.nan)
+
+
+_DOUBLES, _INTS = ctypes.POINTER(ctypes.c_double), ctypes.POINTER(ctypes.c_int)
+
+
+class _Course(ctypes.Structure):
+    _fields_ = [("pieces", ctypes.c_int), ("breaks", _DOUBLES), ("coefficients", _DOUBLES)]
+
+
+class _Segment(ctypes.Structure):
+    _fields_ = [
+        ("end", ctypes.c_double),
+        ("courses", ctypes.POINTER(_Course)),
+        ("milestone_count", ctypes.c_long),
+        ("milestones", _DOUBLES),
+    ]
+
+
+class _Drive(ctypes.Structure):
+    _fields_ = [("segment_count", ctypes.c_int), ("segments", ctypes.POINTER(_Segment))]
+
+
+class _Reduction(ctypes.Structure):
+    _fields_ = [
+        *((name, ctypes.c_int) for name in ("item", "kind", "origin")),
+        ("level", ctypes.c_double),
+    ]
+
+
+class _Problem(ctypes.Structure):
+    """``kt_problem`` of ``ensemble.h``."""
+
+    _fields_ = [
+        *((n, ctypes.c_void_p) for n in ("prepare", "design_state", "rhs", "signals", "margins")),
+        *(
+            (f"{n}_count", ctypes.c_int)
+            for n in ("parameter", "constant", "state", "input", "signal", "guard")
+        ),
+        ("guards", _INTS),
+        ("parameters", _DOUBLES),
+        ("varied_count", ctypes.c_int),
+        ("varied", _INTS),
+        ("variants", _DOUBLES),
+        ("states", _DOUBLES),
+        ("state_stride", ctypes.c_long),
+        ("inputs", _DOUBLES),
+        ("input_stride", ctypes.c_long),
+        ("drives", ctypes.POINTER(_Drive)),
+        ("drive_of", _INTS),
+        ("course_count", ctypes.c_int),
+        ("targets", _INTS),
+        ("start", ctypes.c_double),
+        ("end", ctypes.c_double),
+        ("time_count", ctypes.c_long),
+        ("times", _DOUBLES),
+        ("rtol", ctypes.c_double),
+        ("atol", _DOUBLES),
+        ("first_step", ctypes.c_double),
+        ("max_step", ctypes.c_double),
+        ("max_steps", ctypes.c_long),
+        ("items", _INTS),
+        ("sample_count", ctypes.c_int),
+        ("samples", _DOUBLES),
+        ("reduction_count", ctypes.c_int),
+        ("reductions", ctypes.POINTER(_Reduction)),
+        ("weights", _DOUBLES),
+        ("reduced", _DOUBLES),
+        ("bound_count", ctypes.c_int),
+        ("bound_items", _INTS),
+        ("above", _INTS),
+        ("limits", _DOUBLES),
+        ("limit_stride", ctypes.c_long),
+        ("beyond", _DOUBLES),
+        ("ends", _INTS),
+        ("codes", _INTS),
+        ("ended", _DOUBLES),
+        ("finals", _DOUBLES),
+        ("steps", ctypes.POINTER(ctypes.c_long)),
+    ]
+
+
+@dataclass
+class Problem:
+    """The same in memory of C, which lasts as long as this object.
+
+    Parameters
+    ----------
+    model : System
+    systems : Systems
+    wanted : Wanted
+    accuracy : Accuracy
+    width : int
+        How many lanes.
+    """
+
+    model: System
+    systems: Systems
+    wanted: Wanted
+    accuracy: Accuracy
+    width: int
+    outcome: Outcome = field(init=False)
+    _kept: list[Any] = field(init=False, default_factory=list)
+    _c: _Problem = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.outcome = Outcome(self.systems, self.wanted, len(self.model.state_names))
+        self._c = _Problem(
+            **self._of_model(),
+            **self._of_systems(),
+            **self._of_drives(),
+            **self._of_accuracy(),
+            **self._of_wanted(),
+            **self._of_outcome(),
+        )
+        self._call = library.solver(self.width)
+
+    def integrate(self, first: int, last: int, stop: "ctypes.c_int") -> None:
+        """Integrate some of the systems; as soon as `stop` is not zero, no further."""
+        failed = self._call(
+            ctypes.byref(self._c), ctypes.c_long(first), ctypes.c_long(last), ctypes.byref(stop)
+        )
+        if failed:
+            raise MemoryError
+
+    # -- arrays of C ------------------------------------------------------------------------------
+
+    def _doubles(self, values: Any) -> Any:
+        return self._pointer(values, np.float64, _DOUBLES)
+
+    def _ints(self, values: Any) -> Any:
+        return self._pointer(values, np.int32, _INTS)
+
+    def _pointer(self, values: Any, kind: type, pointer: Any) -> Any:
+        """Return a pointer to numbers, which are kept; those of an outcome are not copied."""
+        array: NDArray[Any] = np.ascontiguousarray(values, dtype=kind)
+        self._kept.append(array)
+        return array.ctypes.data_as(pointer)
+
+    def _array(self, kind: type[ctypes.Structure], elements: Sequence[Any]) -> Any:
+        array: Any = (kind * max(1, len(elements)))(*elements)
+        self._kept.append(array)
+        return array
+
+    # -- parts ------------------------------------------------------------------------------------
+
+    def _of_model(self) -> dict[str, Any]:
+        model, equations = self.model, self.model.equations
+        variant = _common_variant(self.systems.drives)
+        guards = meanings(equations)
+        return {
+            **library.functions(equations, self.width, variant),
+            "parameter_count": len(equations.PARAMETERS),
+            "constant_count": len(equations.CONSTANTS),
+            "state_count": len(model.state_names),
+            "input_count": len(model.input_names),
+            "signal_count": len(model.signal_names),
+            "guard_count": len(guards),
+            "guards": self._ints(guards),
+        }
+
+    def _of_systems(self) -> dict[str, Any]:
+        systems = self.systems
+        states, inputs = systems.states, systems.inputs
+        return {
+            "parameters": self._doubles(systems.parameters),
+            "varied_count": systems.varied.size,
+            "varied": self._ints(systems.varied),
+            "variants": self._doubles(systems.variants),
+            "states": self._doubles(states),
+            "state_stride": 0 if len(states) == 1 else states.shape[1],
+            "inputs": self._doubles(inputs),
+            "input_stride": 0 if len(inputs) == 1 else inputs.shape[1],
+        }
+
+    def _of_drives(self) -> dict[str, Any]:
+        drives = self.systems.drives
+        splines = drives[0].segments[0].splines
+        found = [self._drive(drive) for drive in drives]
+        return {
+            "drives": self._array(_Drive, found),
+            "drive_of": self._ints(self.systems.drive_of),
+            "course_count": len(splines),
+            "targets": self._ints([target for spline in splines for target in spline.targets]),
+        }
+
+    def _drive(self, drive: TimeInputs) -> _Drive:
+        segments = [
+            _Segment(
+                segment.end,
+                self._array(_Course, [self._course(s.curve) for s in segment.splines]),
+                segment.milestones.size,
+                self._doubles(segment.milestones),
+            )
+            for segment in drive.segments
+        ]
+        return _Drive(len(segments), self._array(_Segment, segments))
+
+    def _course(self, curve: Any) -> _Course:
+        return _Course(curve.c.shape[1], self._doubles(curve.x), self._doubles(curve.c))
+
+    def _of_accuracy(self) -> dict[str, Any]:
+        accuracy, segments = self.accuracy, self.systems.drives[0].segments
+        return {
+            "start": segments[0].start,
+            "end": segments[-1].end,
+            "rtol": accuracy.rtol,
+            "atol": self._doubles(accuracy.atol),
+            "first_step": accuracy.first_step or 0.0,
+            "max_step": accuracy.max_step,
+            "max_steps": accuracy.max_steps,
+        }
+
+    def _of_wanted(self) -> dict[str, Any]:
+        wanted = self.wanted
+        reductions = [_Reduction(*reduction) for reduction in wanted.reductions]
+        return {
+            "time_count": wanted.times.size,
+            "times": self._doubles(wanted.times),
+            "items": self._ints(wanted.items),
+            "sample_count": wanted.sample_count,
+            "reduction_count": len(reductions),
+            "reductions": self._array(_Reduction, reductions),
+            "weights": self._doubles(wanted.weights),
+            "bound_count": wanted.bound_items.size,
+            "bound_items": self._ints(wanted.bound_items),
+            "above": self._ints(wanted.above),
+            "limits": self._doubles(wanted.limits),
+            "limit_stride": 0 if len(wanted.limits) == 1 else wanted.bound_items.size,
+        }
+
+    def _of_outcome(self) -> dict[str, Any]:
+        outcome = self.outcome
+        return {
+            "samples": self._doubles(outcome.samples),
+            "reduced": self._doubles(outcome.reduced),
+            "beyond": self._doubles(outcome.beyond),
+            "ends": self._ints(outcome.ends),
+            "codes": self._ints(outcome.codes),
+            "ended": self._doubles(outcome.ended),
+            "finals": self._doubles(outcome.finals),
+            "steps": outcome.steps.ctypes.data_as(ctypes.POINTER(ctypes.c_long)),
+        }
+
+
+def _common_variant(drives: Sequence[TimeInputs]) -> str:
+    """Return the ending of functions that serve all drives; the general ones always do."""
+    variants = {drive.variant for drive in drives}
+    return variants.pop() if len(variants) == 1 else ""

@@ -1,0 +1,64 @@
+"""Integrate many systems on all cores, without the interpreter's lock."""
+
+import ctypes
+import os
+from collections.abc import Callable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+
+from .problem import Problem
+
+Report = Callable[[int], None]
+
+# Systems that a thread takes at a time: so many that lanes which have nothing left to do at their
+# end are little beside them, and so few that all threads end together.
+_FEWEST, _MOST, _PARTS = 64, 2048, 8
+# How long the main thread waits before it looks at signals and tells how far it is [s].
+_PATIENCE = 0.1
+
+
+def usual_threads() -> int:
+    """Return how many cores this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def run(problem: Problem, threads: int, report: Report | None = None) -> None:
+    """Integrate all systems of a problem; an interruption ends all threads at once.
+
+    Parameters
+    ----------
+    problem : Problem
+        Its outcome is filled.
+    threads : int
+    report : callable, optional
+        Called with how many systems have been integrated, now and then.
+    """
+    stop = ctypes.c_int(0)
+    with ThreadPoolExecutor(threads) as pool:
+        waiting = {
+            pool.submit(problem.integrate, first, last, stop): last - first
+            for first, last in _chunks(problem.systems.count, threads)
+        }
+        try:
+            _wait_for(waiting, report)
+        except BaseException:
+            stop.value = 1
+            pool.shutdown(cancel_futures=True)
+            raise
+
+
+def _wait_for(waiting: dict[Future[None], int], report: Report | None) -> None:
+    done = 0
+    while waiting:
+        for future in wait(waiting, _PATIENCE, FIRST_COMPLETED).done:
+            future.result()
+            done += waiting.pop(future)
+        if report:
+            report(done)
+
+
+def _chunks(count: int, threads: int) -> Iterator[tuple[int, int]]:
+    size = min(max(count // (threads * _PARTS), _FEWEST), _MOST)
+    for first in range(0, count, size):
+        yield first, min(first + size, count)

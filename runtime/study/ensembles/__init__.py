@@ -1,0 +1,12 @@
+"""Many cars at once, each with parameters, start and inputs of its own.
+
+`ensemble`    the function that a person calls
+`variants`    what each system has of its own
+`drives`      what inputs do over time
+`wanted`      signals and reductions that are kept, and the bounds that are watched
+`results`     a labelled dataset of what came of it
+"""
+
+from .ensemble import ensemble
+
+__all__ = ["ensemble"]

@@ -1,0 +1,255 @@
+"""Simulate many systems at once."""
+
+from collections.abc import Callable, Mapping
+from contextlib import nullcontext
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+from ...core.arguments import Arguments, shown
+from ...core.errors import InputError
+from ...simulation.lanes import library
+from ...simulation.lanes.problem import Accuracy, Problem, Systems
+from ...simulation.lanes.run import run, usual_threads
+from ...systems.state import inputs_of
+from ...systems.system import System
+from .drives import drives_of
+from .results import dataset_of
+from .variants import Variants, impossible_sets, variants_of
+from .wanted import Asked, asked_of, watched_limits
+
+Array = NDArray[np.float64]
+
+_OUTPUTS = 201
+_MOST_STEPS = 2**62
+_MOST_THREADS = 1024
+_SMALLEST_RTOL = 100.0 * np.finfo(float).eps
+
+
+def ensemble(
+    model: System,
+    variants: Mapping[str, ArrayLike] | xr.Dataset | None,
+    t_span: tuple[float, float],
+    y0: ArrayLike | None = None,
+    *,
+    inputs: Mapping[str, Any] | None = None,
+    signals: tuple[str, ...] | list[str] = (),
+    reductions: Mapping[str, Any] | None = None,
+    t_eval: ArrayLike | None = None,
+    rtol: float = 1e-6,
+    atol: ArrayLike = 1e-9,
+    max_step: float = np.inf,
+    first_step: float | None = None,
+    max_steps: int = 1_000_000,
+    threads: int | None = None,
+    lanes: int | None = None,
+    progress: bool = False,
+) -> xr.Dataset:
+    """Simulate many systems of one model, each with parameters, start and inputs of its own.
+
+    They are integrated by Dormand and Prince's method of order 5 in the lanes of vectors, each with
+    a step size of its own, on all cores. The results are the same to the last bit however many
+    lanes and threads there are, and whatever stands beside a system.
+
+    Parameters
+    ----------
+    model : System or Model
+    variants : mapping or xarray.Dataset
+        What the systems have of their own: parameters, elements of the state at the start, inputs
+        that do not vary with time, by name; SI units. Rows of numbers are over the dimension
+        ``car``; of a dataset, all combinations along its dimensions are simulated.
+    t_span : tuple of float
+        First and last time [s].
+    y0 : array_like, optional
+        Initial state of all, or one row for each; by default each has its own design position.
+    inputs : mapping, optional
+        Inputs by name, as `kintrafo.simulate` takes them, for all systems; or several of them by
+        label, of which ``variants`` says by that label which one each system has.
+    signals : sequence of str, optional
+        Signals, or elements of the state, that are kept at the times ``t_eval``.
+    reductions : mapping, optional
+        What is kept of signals in one number, over the times ``t_eval``: 'max', 'min', 'mean',
+        'rms' (about the mean), or ('above', level) for the time above a level; one or a list of
+        them for each signal.
+    t_eval : array_like, optional
+        Times of the outputs, by default 201 from the first to the last.
+    rtol, atol : float, array_like, optional
+        Relative tolerance, and absolute tolerances: one, or one for each element of the state.
+    max_step, first_step : float, optional
+        [s]
+    max_steps : int, optional
+        A system that takes more ends with a reason.
+    threads : int, optional
+        By default as many as there are cores.
+    lanes : int, optional
+        How many systems a vector holds, 2, 4 or 8; by default as many as the processor can.
+    progress : bool, optional
+        Whether to show how far it is.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over the dimensions of the variants: the signals over ``time``, the reductions,
+        ``final_state``, ``end_time``, ``steps``; ``success``, and ``reason`` where that is false;
+        ``valid`` where besides no output passes a bound of what the model describes, and what was
+        passed in ``beyond``. What did not reach the end has NaN from there on, and in its
+        reductions.
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used. Parameters of no mechanism are no such error: they are the
+        reason of their system.
+
+    Notes
+    -----
+    The method is an explicit one. Friction and stops, which are stiff, take it many steps.
+
+    Examples
+    --------
+    >>> import kintrafo
+    >>> model = kintrafo.Model("reference_car")
+    >>> start = kintrafo.state_at_height(model, 0.310)
+    >>> rates = {"damper_rate": [800.0, 1500.0, 2200.0]}
+    >>> found = kintrafo.ensemble(model, rates, (0.0, 1.0), start,
+    ...                           reductions={"tyre_force": "min"})
+    >>> found.sizes["car"], bool(found["valid"].all())
+    (3, True)
+    """
+    with Arguments("ensemble") as given:
+        given.kind("model", model, System, System.NEEDED)
+        if not given.refused:
+            state = _start(given, model, y0)
+            span = _span(given, t_span)
+            times = _times(given, t_eval, span)
+            asked = asked_of(given, model, times, signals, reductions or {})
+            accuracy = _accuracy(given, model, (rtol, atol, max_step, first_step, max_steps))
+            courses = given.mapping("inputs", {} if inputs is None else inputs, "names, courses")
+            cores = usual_threads() if threads is None else threads
+            cores = given.whole("threads", cores, most=_MOST_THREADS)
+            width = _width(given, model, lanes)
+            given.flag("progress", progress)
+    rows = None if len(state) == 1 else len(state)
+    own = variants_of(model, variants, courses, rows)
+    drives = drives_of(
+        model, courses, own, span,
+        held=inputs_of(y0, model.names_of_states), max_step=accuracy.max_step,
+    )  # fmt: skip
+    asked = Asked(asked.times, asked.signals, asked.reduced, watched_limits(model, own))
+    systems = Systems(
+        count=own.count,
+        parameters=np.array([model.parameters[name] for name in model.equations.PARAMETERS]),
+        varied=_places(own.parameters, model.equations.PARAMETERS),
+        variants=_table(own.parameters, own.count),
+        states=_states(model, state, own),
+        inputs=drives.constant,
+        drives=drives.different,
+        drive_of=drives.of,
+        left_out=impossible_sets(model, own),
+    )
+    problem = Problem(model, systems, asked.for_c(model), accuracy, width)
+    with _shown_progress(own.count, wanted=progress) as report:
+        run(problem, cores, report)
+    return dataset_of(model, own, asked, problem.outcome, accuracy.max_steps)
+
+
+# -- arguments ------------------------------------------------------------------------------------
+
+
+def _start(given: Arguments, model: System, y0: Any) -> Array:
+    """Return the initial states, one row for all or one for each; NaN for the design position."""
+    size = len(model.state_names)
+    if y0 is None:
+        return np.full((1, size), np.nan)
+    states = given.array("y0", y0, dimensions=[1, 2], last=size, empty=not size)
+    return np.atleast_2d(states)
+
+
+def _span(given: Arguments, t_span: Any) -> tuple[float, float]:
+    span = given.array("t_span", t_span, "s", finite=False)
+    if not (span.shape == (2,) and np.isfinite(span).all() and span[0] < span[1]):
+        given.refuse(f"t_span = {shown(t_span)}: two finite times, the second later, are needed.")
+        return 0.0, 1.0
+    return float(span[0]), float(span[1])
+
+
+def _times(given: Arguments, t_eval: Any, span: tuple[float, float]) -> Array:
+    if t_eval is None:
+        return np.linspace(*span, _OUTPUTS)
+    times = given.array("t_eval", t_eval, "s", dimensions=[1])
+    if not given.refused and not (
+        times[0] >= span[0] and times[-1] <= span[1] and (np.diff(times) > 0.0).all()
+    ):
+        given.refuse(f"t_eval must go from {span[0]:g} s to {span[1]:g} s, in order.")
+    return times
+
+
+def _accuracy(given: Arguments, model: System, options: tuple[Any, ...]) -> Accuracy:
+    rtol, atol, max_step, first_step, max_steps = options
+    size = len(model.state_names)
+    relative = given.number("rtol", rtol, least=_SMALLEST_RTOL, below=1.0, advice="Try 1e-6.")
+    absolute = given.array("atol", atol)
+    if not (absolute.shape in ((), (size,)) and (absolute > 0.0).all()):
+        given.refuse(
+            f"atol = {shown(atol)}: one positive number, or one for each of the {size} elements of "
+            "the state."
+        )
+        absolute = np.ones(())
+    return Accuracy(
+        relative,
+        np.broadcast_to(absolute, size).copy(),
+        given.step("max_step", max_step, "s"),
+        None if first_step is None else given.number("first_step", first_step, "s", above=0.0),
+        given.count("max_steps", max_steps, most=_MOST_STEPS),
+    )
+
+
+def _width(given: Arguments, model: System, lanes: Any) -> int:
+    """Return how many lanes are used; equations that have none are refused at once."""
+    there = library.widths()
+    width = there[-1] if there else 0
+    try:
+        library.functions(model.equations, width, "")
+    except InputError as error:
+        for problem in error.problems:
+            given.refuse(problem)
+        return width
+    if lanes is not None and lanes not in there:
+        known = ", ".join(map(str, there))
+        given.refuse(f"lanes = {shown(lanes)}: on this machine there are {known}.")
+        return width
+    return width if lanes is None else lanes
+
+
+# -- arrays ---------------------------------------------------------------------------------------
+
+
+def _places(columns: Mapping[str, Array], names: Mapping[str, Any]) -> NDArray[np.int32]:
+    order = list(names)
+    return np.array([order.index(name) for name in columns], dtype=np.int32)
+
+
+def _table(columns: Mapping[str, Array], count: int) -> Array:
+    return np.stack([*columns.values()], axis=1) if columns else np.zeros((count, 0))
+
+
+def _states(model: System, state: Array, own: Variants) -> Array:
+    """Return the initial states with what each system has of its own."""
+    if not own.states:
+        return state
+    states = np.broadcast_to(state, (own.count, state.shape[1])).copy()
+    for name, values in own.states.items():
+        states[:, model.state_names.index(name)] = values
+    return states
+
+
+def _shown_progress(count: int, *, wanted: bool) -> Any:
+    """Return what shows how far it is, while it lasts; or nothing that does nothing."""
+    if not wanted:
+        return nullcontext()
+    from .progress import bar  # noqa: PLC0415 (slow to import)
+
+    shown_bar: Callable[[int], Any] = bar
+    return shown_bar(count)

@@ -1,0 +1,197 @@
+"""What each of many systems has of its own: parameters, elements of its start, inputs, labels."""
+
+from collections.abc import Hashable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments, shown
+from ...core.physical import impossible
+from ...core.suggestions import suggestion
+from ...systems.inputs import derived_inputs
+from ...systems.system import System
+
+Array = NDArray[np.float64]
+
+CAR = "car"
+"""Name of the dimension of what is given as plain rows of numbers."""
+
+# What the parameters of a body's mass are called, behind its name.
+_OF_MASS = ("_mass", "_com_x", "_com_y", "_com_z", "_inertia_")
+
+
+@dataclass(frozen=True)
+class Variants:
+    """What differs between the systems.
+
+    Attributes
+    ----------
+    shape : dict
+        Dimensions and their lengths; the systems are all combinations, the last one changes first.
+    coordinates : dict
+        Those of the dataset that was given.
+    parameters, states, inputs : dict
+        By name, each of shape (count,).
+    labels : dict
+        By input: which of its courses each system has.
+    """
+
+    shape: dict[Hashable, int]
+    coordinates: dict[Hashable, Any] = field(default_factory=dict)
+    parameters: dict[str, Array] = field(default_factory=dict)
+    states: dict[str, Array] = field(default_factory=dict)
+    inputs: dict[str, Array] = field(default_factory=dict)
+    labels: dict[str, NDArray[Any]] = field(default_factory=dict)
+
+    @property
+    def count(self) -> int:
+        """How many systems there are."""
+        return int(np.prod(list(self.shape.values()), dtype=np.int64))
+
+
+def variants_of(
+    model: System, given: Any, courses: Mapping[str, Any], rows: int | None
+) -> Variants:
+    """Read what differs between the systems, or refuse it.
+
+    Parameters
+    ----------
+    model : System
+    given : mapping, xarray.Dataset or None
+    courses : mapping
+        What inputs do over time: one course for all, or several by label.
+    rows : int or None
+        How many rows the start has; None where it has one for all.
+    """
+    choices = {name: several for name, several in courses.items() if isinstance(several, Mapping)}
+    with Arguments("ensemble") as arguments:
+        columns = _columns(arguments, model, given)
+        if not arguments.refused:
+            _check_names(arguments, model, columns, courses)
+        if not arguments.refused:
+            columns, shape = _broadcast(arguments, columns, rows)
+        if arguments.refused:
+            return Variants({})
+        found = Variants(shape, _coordinates(given, shape))
+        homes = (
+            (model.equations.PARAMETERS, found.parameters),
+            (model.state_names, found.states),
+            (choices, found.labels),
+            (model.input_names, found.inputs),
+        )
+        for name, column in columns.items():
+            home = next(home for names, home in homes if name in names)
+            home[name] = _checked(arguments, name, column, choices.get(name))
+    return found
+
+
+def impossible_sets(model: System, variants: Variants) -> NDArray[np.bool_]:
+    """Tell which systems have parameters out of their ranges, as `equations.prepare` would."""
+    values = {**model.parameters, **variants.parameters}
+    return impossible(values, model.equations.PARAMETERS, variants.count)
+
+
+# -- reading --------------------------------------------------------------------------------------
+
+
+def _columns(arguments: Arguments, model: System, given: Any) -> dict[str, xr.DataArray]:
+    """Return what was given as labelled arrays by name."""
+    if given is None:
+        return {}
+    if isinstance(given, xr.Dataset):
+        # coordinates of the dataset may be what varies; others only label the systems
+        known = {*model.equations.PARAMETERS, *model.state_names, *model.input_names}
+        names = [*given.data_vars, *(name for name in given.coords if name in known)]
+        return {str(name): given[name].reset_coords(drop=True) for name in names}
+    found = {}
+    for name, values in arguments.mapping("variants", given, "names, values").items():
+        if isinstance(values, xr.DataArray):
+            found[str(name)] = values.reset_coords(drop=True)
+            continue
+        array = np.asarray(values)
+        if array.ndim > 1:
+            arguments.refuse(
+                f"variants {shown(name)} has the shape {array.shape}: one number, or one for each "
+                "system, is needed. What goes over several dimensions is an xarray.DataArray."
+            )
+        found[str(name)] = xr.DataArray(array, dims=(CAR,) * min(array.ndim, 1))
+    return found
+
+
+def _check_names(
+    arguments: Arguments, model: System, columns: Mapping[str, Any], courses: Mapping[str, Any]
+) -> None:
+    derived = derived_inputs(model.equations.INPUTS)
+    inputs = [name for name in model.input_names if name not in derived]
+    known = [*model.equations.PARAMETERS, *model.state_names, *inputs]
+    for name in columns:
+        if name in derived:
+            arguments.refuse(f"variants {name!r} follows from {derived[name]!r}: vary that.")
+        elif name not in known:
+            arguments.refuse(f"variants {name!r} is not known. {suggestion(name, known)}")
+        elif body := _massless(model, name):
+            arguments.refuse(
+                f"variants {name!r} changes nothing: the equations of {model.equations.NAME} leave "
+                f"the {body} without mass."
+            )
+    for name, course in courses.items():
+        if name in columns and not isinstance(course, Mapping):
+            arguments.refuse(f"{name!r} is in both inputs and variants: give one of them.")
+        elif isinstance(course, Mapping) and name not in columns:
+            arguments.refuse(
+                f"inputs {name!r} has several courses: variants needs {name!r}, the label of one "
+                "of them for each system."
+            )
+
+
+def _massless(model: System, name: str) -> str:
+    """Return the body whose mass a parameter describes, and the equations leave out."""
+    equations = model.equations
+    out = [body for body in equations.BODIES if body not in equations.MASSIVE_BODIES]
+    return next((b for b in out if name.startswith(tuple(f"{b}{end}" for end in _OF_MASS))), "")
+
+
+def _broadcast(
+    arguments: Arguments, columns: dict[str, xr.DataArray], rows: int | None
+) -> tuple[dict[str, xr.DataArray], dict[Hashable, int]]:
+    """Return the columns over all dimensions, and these with their lengths."""
+    start = {} if rows is None else {"": xr.DataArray(np.zeros(rows), dims=CAR)}
+    try:
+        together = xr.broadcast(*start.values(), *columns.values())
+    except ValueError as error:
+        arguments.refuse(f"variants and the rows of y0 do not go together: {error}.")
+        return {}, {}
+    shape = dict(together[0].sizes) if together else {}
+    if rows is not None and shape != {CAR: rows}:
+        arguments.refuse(
+            f"y0 has {rows} rows, and variants go over {', '.join(map(str, shape))}: vary elements "
+            "of the state by name in variants."
+        )
+    wide = dict(zip(columns, together[len(start) :], strict=True))
+    return wide, shape or {CAR: 1}
+
+
+def _coordinates(given: Any, shape: Mapping[Hashable, int]) -> dict[Hashable, Any]:
+    if not isinstance(given, xr.Dataset):
+        return {}
+    return {n: c.variable for n, c in given.coords.items() if set(c.dims) <= set(shape)}
+
+
+def _checked(
+    arguments: Arguments, name: str, column: xr.DataArray, choices: Mapping[Any, Any] | None
+) -> NDArray[Any]:
+    """Return one value for each system."""
+    values = column.values.ravel()
+    values = np.repeat(values, 1) if values.size else values
+    if choices is None:
+        return arguments.array(f"variants {name!r}", values, dimensions=[1])
+    strange = [label for label in np.unique(values).tolist() if label not in choices]
+    if strange:
+        arguments.refuse(
+            f"variants {name!r} has the label {shown(strange[0])}; its courses are "
+            f"{', '.join(map(shown, choices))}."
+        )
+    return values

@@ -1,0 +1,68 @@
+"""Vectors for tests, and the driver that calls functions in lanes."""
+
+import ctypes
+import subprocess
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+ROOT = Path(__file__).parent.parent
+HEADERS = ROOT / "runtime/simulation/lanes"
+# as setup.py has them
+FLAGS = ["-O1", "-fno-math-errno", "-ffp-contract=off", "-fPIC"]
+OF_WIDTH = {2: [], 4: ["-mavx2"], 8: ["-mavx512f", "-mavx512vl", "-mavx512dq"]}
+
+Array = NDArray[np.float64]
+
+
+def vectors(rows: Array) -> Array:
+    """Return numbers at an address that is one of vectors; the last dimension is that of lanes."""
+    memory = np.zeros(rows.size + 8)
+    start = (-memory.ctypes.data % 64) // 8
+    aligned = memory[start : start + rows.size].reshape(rows.shape)
+    aligned[:] = rows
+    return aligned
+
+
+def compiled(folder: Path, source: Path | str, *flags: str, name: str) -> ctypes.CDLL:
+    """Compile C into a library, and load it."""
+    library = folder / f"{name}.so"
+    command = ["gcc", *FLAGS, f"-I{HEADERS}", "-shared", str(source), *flags, "-o", str(library)]
+    subprocess.run([*command, "-lm"], check=True)
+    return ctypes.CDLL(str(library))
+
+
+def driver(folder: Path, width: int) -> ctypes.CDLL:
+    """Return the driver for a width."""
+    source = Path(__file__).parent / "lanes_driver.c"
+    flags = [f"-DWIDTH={width}", *OF_WIDTH[width]]
+    library = compiled(folder, source, *flags, name=f"driver_{width}")
+    for function in ("sin", "cos", "asin", "atan2", "log2", "exp2"):
+        called = getattr(library, f"lane_{function}")
+        called.restype = ctypes.c_double
+        called.argtypes = [ctypes.c_double] * (2 if function == "atan2" else 1)
+    return library
+
+
+@cache
+def in_lanes(model: str) -> ctypes.CDLL:
+    """Return a model's library in lanes."""
+    spec = find_spec(f"kintrafo.generated._{model}_lanes")
+    assert spec is not None
+    assert spec.origin is not None
+    return ctypes.CDLL(spec.origin)
+
+
+def call(
+    library: ctypes.CDLL, function: object, *arguments: Array, size: int
+) -> tuple[Array, NDArray[np.int64]]:
+    """Call a function in lanes; returns its results and the status words."""
+    width = arguments[0].shape[1]
+    out, status = vectors(np.zeros((size, width))), vectors(np.zeros((1, width)))
+    caller = library.call_two if len(arguments) == 1 else library.call_three
+    given = [vectors(array) for array in arguments]
+    caller(function, *(ctypes.c_void_p(a.ctypes.data) for a in (*given, out, status)))
+    return out, status.view(np.int64)[0]

@@ -1,0 +1,419 @@
+"""Many systems at once: beside other solvers one by one, and in any company the same bits."""
+
+import _thread
+import threading
+from collections.abc import Callable
+from importlib import import_module
+from typing import Any
+
+import kintrafo
+import numpy as np
+import pytest
+import xarray as xr
+from c_text import EMITTED
+from kintrafo import InputError, Model, Samples, System, ensemble, simulate, state_at_height
+from kintrafo.core.physical import impossible, inertia_of_no_body, out_of_range
+from kintrafo.simulation.lanes import library, run
+from kintrafo.study.recording import statistics
+
+pytestmark = pytest.mark.skipif(not library.widths(), reason="built without lanes")
+
+SPAN = (0.0, 0.5)
+TIMES = np.linspace(*SPAN, 41)
+WIDTHS = library.widths()
+
+# Roads and a rack with jumps and kinks, and one that a function gives.
+STEP = (np.array([0.0, 0.1, 0.1, 0.5]), np.array([0.0, 0.0, 0.02, 0.01]))
+BUMP = (np.linspace(0.0, 0.5, 26), 0.01 * np.sin(np.linspace(0.0, 9.0, 26)) ** 2)
+RACK = Samples(np.linspace(0.0, 0.5, 6), [0.0, 0.001, 0.01, 0.02, 0.015, 0.0], between="spline")
+
+
+@pytest.fixture(scope="module")
+def car() -> Model:
+    return Model("reference_car")
+
+
+@pytest.fixture(scope="module")
+def start(car: Model) -> Any:
+    return state_at_height(car, 0.310, spin_rate=93.0)
+
+
+def some_cars(count: int, seed: int = 0) -> dict[str, np.ndarray]:
+    """Return cars whose hardpoints, rates, masses and starts differ."""
+    rng = np.random.default_rng(seed)
+    reference = Model("reference_car").parameters
+    names = ("ball_joint_y", "tie_rod_outer_z", "spring_rate", "damper_rate", "wheel_mass")
+    found = {n: reference[n] * (1.0 + 0.01 * rng.standard_normal(count)) for n in names}
+    return found | {"beta1_rate": 0.2 * rng.standard_normal(count)}
+
+
+def alone(car: Model, cars: dict[str, np.ndarray], place: int, start: Any, **options: Any) -> Any:
+    """Simulate one of some cars by itself."""
+    own = {n: float(v[place]) for n, v in cars.items() if n in car.parameters}
+    state = np.array(start)
+    for name in set(cars) & set(car.state_names):
+        state[car.state_names.index(name)] = cars[name][place]
+    return simulate(System(car.equations, car.parameters | own), SPAN, state, **options)
+
+
+def same(one: xr.Dataset, other: xr.Dataset) -> None:
+    """Demand the same bits in all results."""
+    assert set(one.data_vars) == set(other.data_vars)
+    for name, found in one.data_vars.items():
+        expected = other[name].values
+        if expected.dtype == object:
+            assert found.values.tolist() == expected.tolist()
+        else:
+            assert found.values.tobytes() == expected.tobytes(), name
+
+
+# -- the motion ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", EMITTED)
+def test_every_model_against_dop853(name: str) -> None:
+    """From near the design position, for so long that it moves but meets no dead point."""
+    model = System(EMITTED[name])
+    rng = np.random.default_rng(5)
+    half = model.design_state.size // 2
+    state = model.design_state.copy()
+    state[half:] += 0.1 * rng.standard_normal(half)
+    options = {"rtol": 1e-13, "atol": 1e-13, "t_eval": [0.01, 0.03]}
+    found = ensemble(model, None, (0.0, 0.03), state, signals=model.state_names, **options)
+    exact = simulate(model, (0.0, 0.03), state, method="DOP853", **options)
+    assert found["success"].all(), found["reason"].values
+    for place, element in enumerate(model.state_names):
+        size = np.abs(exact.y[place]).max() + 1.0
+        # tolerances of 1e-13 in each of some hundred steps, of two methods
+        np.testing.assert_allclose(found[element].values[0], exact.y[place], atol=1e-10 * size)
+
+
+def test_inputs_that_jump_and_move(car: Model, start: Any) -> None:
+    inputs = {"road_height": STEP, "rack_position": RACK, "strut_force": BUMP}
+    options = {"rtol": 1e-11, "atol": 1e-12, "t_eval": TIMES, "inputs": inputs}
+    found = ensemble(car, None, SPAN, start, signals=["camber", "tyre_force", "toe"], **options)
+    exact = simulate(car, SPAN, start, method="DOP853", **options)
+    for name in ("camber", "tyre_force", "toe"):
+        size = np.abs(exact.signals[name]).max()
+        np.testing.assert_allclose(found[name].values[0], exact.signals[name], atol=1e-8 * size)
+
+
+def test_each_has_its_road(car: Model, start: Any) -> None:
+    """Labels choose among courses; one of them is a number, which does not vary."""
+    roads = {"step": STEP, "bump": BUMP, "high": 0.005}
+    racks = {0: 0.0, 1: RACK}
+    variants = xr.Dataset({"road_height": ("road", list(roads)), "rack_position": ("rack", [1, 0])})
+    found = ensemble(
+        car, variants, SPAN, start, signals=["camber"], t_eval=TIMES, rtol=1e-10, atol=1e-11,
+        inputs={"road_height": roads, "rack_position": racks},
+    )  # fmt: skip
+    assert dict(found["camber"].sizes) == {"road": 3, "rack": 2, "time": TIMES.size}
+    for i, road in enumerate(roads.values()):
+        for j, rack in enumerate((RACK, 0.0)):
+            inputs = {"road_height": road, "rack_position": rack}
+            exact = simulate(car, SPAN, start, method="DOP853", rtol=1e-11, atol=1e-12,
+                             t_eval=TIMES, inputs=inputs)  # fmt: skip
+            np.testing.assert_allclose(
+                found["camber"].values[i, j], exact.signals["camber"], atol=1e-9
+            )
+
+
+def fixed(car: Model, start: Any, step: float) -> xr.Dataset:
+    """Integrate by steps of one length, whose error is not asked for."""
+    return ensemble(
+        car, None, (0.0, 0.2), start, signals=car.state_names, t_eval=[0.0333, 0.0777, 0.1999, 0.2],
+        rtol=0.5, atol=1e3, first_step=step, max_step=step,
+    )  # fmt: skip
+
+
+def test_order_of_convergence(car: Model, start: Any) -> None:
+    """Fifth at the ends of steps, fourth between them: halved steps have a 32nd, a 16th."""
+    exact = simulate(car, (0.0, 0.2), start, method="DOP853", rtol=1e-13, atol=1e-13,
+                     t_eval=[0.0333, 0.0777, 0.1999, 0.2])  # fmt: skip
+    errors = []
+    for step in (0.004, 0.002):
+        found = fixed(car, start, step)
+        assert int(found["steps"][0]) == round(0.2 / step)
+        values = np.array([found[name].values[0] for name in car.state_names])
+        errors.append(np.abs(values - exact.y)[0])
+    end, between = errors[0][3] / errors[1][3], errors[0][:3] / errors[1][:3]
+    # one order below them would be 16 and 8, with the terms of higher order that steps have
+    assert 20.0 < end < 50.0
+    assert (between > 11.0).all()
+
+
+def test_two_hundred_cars_one_by_one(car: Model, start: Any) -> None:
+    cars = some_cars(200)
+    options = {"t_eval": TIMES, "inputs": {"road_height": BUMP}}
+    found = ensemble(car, cars, SPAN, start, signals=["wheel_center_z"], **options)
+    assert found["valid"].all()
+    for place in range(200):
+        one = alone(car, cars, place, start, method="DormandPrince", **options)
+        # the errors of two integrations at a tolerance of 1e-6, in metres
+        np.testing.assert_allclose(
+            found["wheel_center_z"].values[place], one.signals["wheel_center_z"], atol=1e-6
+        )
+
+
+def test_rest_stays_rest(car: Model) -> None:
+    """A state that knows its inputs keeps them, as in simulate."""
+    rest = kintrafo.equilibrium(car, wheel_load=3000.0)
+    found = ensemble(car, None, SPAN, rest, reductions={"wheel_center_z": ["min", "max"]})
+    moved = found["wheel_center_z_max"] - found["wheel_center_z_min"]
+    assert float(moved[0]) < 1e-9
+
+
+def test_design_position_of_each(car: Model) -> None:
+    """Without a start each is in its own design position; of a start that is varied, the rest."""
+    cars = some_cars(5)
+    found = ensemble(car, cars, (0.0, 1e-9), signals=["beta1", "beta1_rate"], t_eval=[0.0])
+    for place in range(5):
+        own = {n: float(v[place]) for n, v in cars.items() if n in car.parameters}
+        design = car.equations.design_state(car.parameters | own)
+        # the arc tangent of lanes is within 2 units of the last place
+        assert found["beta1"].values[place, 0] == pytest.approx(design[0], rel=1e-15)
+    assert found["beta1_rate"].values[:, 0].tolist() == cars["beta1_rate"].tolist()
+
+
+# -- the same bits ------------------------------------------------------------------------------
+
+
+def of_all_kinds(car: Model) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+    """Return systems of which some fail, in every way in which they can."""
+    cars = some_cars(60)
+    rng = np.random.default_rng(7)
+    cars["road_height"] = rng.choice(["step", "bump"], 60)
+    cars["strut_force"] = np.zeros(60)
+    cars["strut_force"][5] = -1e6  # the rod comes to its dead point
+    cars["beta1_rate"][11] = 1e200  # overflows
+    cars["rack_position"] = np.zeros(60)
+    cars["rack_position"][17] = 2.0  # a loop is open from the beginning
+    cars["damper_rate"][23] = 1e9  # so stiff that it takes too many steps
+    cars["ball_joint_y"][29] = car.parameters["strut_top_y"]
+    cars["spring_rate"][31] = -1.0  # out of its range
+    options = {
+        "inputs": {"road_height": {"step": STEP, "bump": BUMP}},
+        "signals": ["camber", "tyre_force"],
+        "reductions": {"tyre_force": ["max", "min", "mean", "rms", ("above", 3000.0)]},
+        "t_eval": TIMES,
+        "max_steps": 3000,
+    }
+    return cars, options
+
+
+@pytest.fixture(scope="module")
+def mixed(car: Model, start: Any) -> xr.Dataset:
+    cars, options = of_all_kinds(car)
+    return ensemble(car, cars, SPAN, start, lanes=2, threads=1, **options)
+
+
+def test_why_systems_fail(mixed: xr.Dataset) -> None:
+    failed = np.flatnonzero(~mixed["success"].values).tolist()
+    reasons = dict(zip(failed, mixed["reason"].values[failed].tolist(), strict=True))
+    assert {5, 11, 17, 23, 31} <= set(failed) <= {5, 11, 17, 23, 29, 31}
+    assert "tie_rod cannot reach" in reasons[5]
+    assert "overflows" in reasons[11]
+    assert "at t = 0 s: " in reasons[17]
+    assert "3000 steps" in reasons[23]
+    assert "'spring_rate' = -1" in reasons[31]
+    assert f"{mixed.sizes['car'] - len(failed)} of 60" in mixed.attrs["message"]
+    for place in failed:
+        assert np.isnan(mixed["tyre_force_max"].values[place])
+        assert np.isnan(mixed["camber"].values[place, -1])
+        assert not mixed["valid"].values[place]
+
+
+def test_failures_end_where_simulate_ends(car: Model, start: Any, mixed: xr.Dataset) -> None:
+    cars, options = of_all_kinds(car)
+    inputs = {"strut_force": -1e6, "road_height": options["inputs"]["road_height"]["step"]}
+    if cars["road_height"][5] == "bump":
+        inputs["road_height"] = BUMP
+    own = {n: v for n, v in cars.items() if n not in car.input_names}
+    with pytest.raises(kintrafo.SimulationError, match="tie_rod cannot reach") as caught:
+        alone(car, own, 5, start, inputs=inputs, method="DormandPrince")
+    # both within what the last steps before a dead point leave of the time
+    assert float(mixed["end_time"][5]) == pytest.approx(caught.value.time, rel=1e-5)
+
+
+@pytest.mark.parametrize("lanes", WIDTHS)
+@pytest.mark.parametrize("threads", [1, 3])
+def test_the_same_bits_in_any_number(
+    car: Model, start: Any, mixed: xr.Dataset, lanes: int, threads: int, monkeypatch: Any
+) -> None:
+    monkeypatch.setattr(run, "_FEWEST", 7)  # chunks whose ends fall anywhere
+    cars, options = of_all_kinds(car)
+    same(ensemble(car, cars, SPAN, start, lanes=lanes, threads=threads, **options), mixed)
+
+
+def test_the_same_bits_in_any_order(car: Model, start: Any, mixed: xr.Dataset) -> None:
+    cars, options = of_all_kinds(car)
+    order = np.random.default_rng(9).permutation(60)
+    found = ensemble(car, {n: v[order] for n, v in cars.items()}, SPAN, start, **options)
+    same(found, mixed.isel(car=order))
+
+
+def test_the_same_bits_beside_what_fails(car: Model, start: Any, mixed: xr.Dataset) -> None:
+    cars, options = of_all_kinds(car)
+    good = np.flatnonzero(mixed["success"].values)
+    found = ensemble(car, {n: v[good] for n, v in cars.items()}, SPAN, start, **options)
+    same(found, mixed.isel(car=good))
+
+
+def test_an_error_that_no_step_keeps(car: Model, start: Any, monkeypatch: Any) -> None:
+    """What the arguments would refuse: no relative tolerance, and next to no absolute one."""
+    module = import_module("kintrafo.study.ensembles.ensemble")
+    monkeypatch.setattr(module, "_SMALLEST_RTOL", 0.0)
+    found = ensemble(car, None, SPAN, start, rtol=0.0, atol=1e-300)
+    assert not found["success"][0]
+    assert "Loosen rtol" in found["reason"].item()
+
+
+# -- what is kept -------------------------------------------------------------------------------
+
+
+def test_reductions_are_those_of_the_samples(mixed: xr.Dataset) -> None:
+    good = mixed.isel(car=np.flatnonzero(mixed["success"].values))
+    force, times = good["tyre_force"], good["time"].values
+    assert good["tyre_force_max"].values.tolist() == force.max("time").values.tolist()
+    assert good["tyre_force_min"].values.tolist() == force.min("time").values.tolist()
+    above = np.trapezoid((force.values > 3000.0).astype(float), times)
+    # sums of some tens of terms in another order
+    np.testing.assert_allclose(good["tyre_force_above_3000"], above, rtol=1e-13, atol=1e-15)
+    for place in range(good.sizes["car"]):
+        known = statistics(xr.Dataset({"force": ("time", force.values[place])}, {"time": times}))
+        assert good["tyre_force_mean"].values[place] == pytest.approx(
+            known["force"].mean, rel=1e-13
+        )
+        assert good["tyre_force_rms"].values[place] == pytest.approx(known["force"].rms, rel=1e-12)
+
+
+def test_bounds_are_watched_as_in_simulate(car: Model) -> None:
+    high = state_at_height(car, 0.340)
+    cars = {"tyre_free_height": car.parameters["tyre_free_height"] + np.array([0.0, 0.1])}
+    found = ensemble(car, cars, SPAN, high, t_eval=TIMES)
+    assert found["success"].all()
+    for place in range(2):
+        one = alone(car, cars, place, high, t_eval=TIMES, method="DormandPrince")
+        worst = {f"{e.bound.signal}: {e.bound.words}": e.worst for e in one.validity}
+        beyond = found["beyond"].isel(car=place).dropna("bound")
+        assert set(beyond["bound"].values.tolist()) == set(worst)
+        assert bool(found["valid"][place]) == (not worst)
+        for bound, value in worst.items():
+            # in newtons, of motions that agree to micrometres
+            assert float(beyond.sel(bound=bound)) == pytest.approx(value, abs=1.0)
+    assert not found["valid"][0]
+    assert found["valid"][1]
+
+
+def test_dimensions_and_coordinates_of_a_grid(car: Model, start: Any) -> None:
+    grid = xr.Dataset(
+        {
+            "spring_rate": (
+                ("spring", "damper"),
+                np.array([[2e4, 2.1e4], [3e4, 3.1e4], [4e4, 4.1e4]]),
+            )
+        },
+        {"damper_rate": ("damper", [1000.0, 2000.0]), "spring": ["soft", "usual", "hard"]},
+    )
+    found = ensemble(car, grid, SPAN, start, reductions={"camber": "max"}, threads=2)
+    assert dict(found["camber_max"].sizes) == {"spring": 3, "damper": 2}
+    assert found["camber_max"].attrs["units"] == "rad"
+    rates = {n: found[n].broadcast_like(found["camber_max"]).values for n in
+             ("spring_rate", "damper_rate")}  # fmt: skip
+    flat = ensemble(car, {n: v.ravel() for n, v in rates.items()}, SPAN, start,
+                    reductions={"camber": "max"})  # fmt: skip
+    assert found["camber_max"].values.ravel().tolist() == flat["camber_max"].values.tolist()
+
+
+def test_a_model_without_signals() -> None:
+    model = System(EMITTED["excavator"])
+    found = ensemble(model, {"gravity": [9.81, 1.62]}, (0.0, 0.1), signals=model.state_names[:1])
+    assert found["valid"].all()
+    assert found[model.state_names[0]].values[0, -1] != found[model.state_names[0]].values[1, -1]
+
+
+def test_progress_is_told(car: Model, start: Any, monkeypatch: Any) -> None:
+    told: list[int] = []
+    monkeypatch.setattr(run, "_FEWEST", 10)
+    real = run._wait_for
+
+    def noted(waiting: Any, report: Callable[[int], None] | None) -> None:
+        assert report is not None
+        real(waiting, lambda done: (told.append(done), report(done)))
+
+    monkeypatch.setattr(run, "_wait_for", noted)
+    ensemble(car, some_cars(50), (0.0, 0.01), start, progress=True)
+    assert told == sorted(told)
+    assert told[-1] == 50
+
+
+def test_an_interruption_ends_it(car: Model, start: Any) -> None:
+    """Of what would take hours; without an end at once, this test has none."""
+    timer = threading.Timer(0.3, _thread.interrupt_main)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        ensemble(car, some_cars(10_000), (0.0, 1e5), start, t_eval=[1e5], max_steps=10**9)
+    timer.join()
+
+
+# -- arguments ----------------------------------------------------------------------------------
+
+
+WRONG: list[tuple[dict[str, Any], str]] = [
+    ({"variants": {"spring_rat": [1.0]}}, "Did you mean spring_rate"),
+    ({"variants": {"spring_rate": ["a"]}}, "numbers are needed"),
+    ({"variants": {"spring_rate": [np.nan]}}, "finite number"),
+    ({"variants": {"spring_rate": [1.0, 2.0], "damper_rate": [1.0, 2.0, 3.0]}}, "go together"),
+    ({"variants": {"spring_rate": np.ones((2, 2))}}, "xarray.DataArray"),
+    ({"variants": 3}, "a dict of names"),
+    ({"variants": {"rack_velocity": [1.0]}}, "follows from 'rack_position'"),
+    ({"variants": {"tie_rod_mass": [1.0]}}, "without mass"),
+    ({"variants": {"road_height": ["a"]}, "inputs": {"road_height": {"b": 0.0}}}, "label 'a'"),
+    ({"inputs": {"road_height": {"b": 0.0}}}, "several courses"),
+    ({"inputs": {"road": 0.0}}, "not an input"),
+    ({"variants": {"road_height": [0.0]}, "inputs": {"road_height": 0.1}}, "both"),
+    ({"t_span": (1.0, 0.0)}, "the second later"),
+    ({"t_eval": [0.0, 2.0]}, "in order"),
+    ({"signals": ["cambre"]}, "Did you mean camber"),
+    ({"reductions": {"camber": "maximum"}}, "is not known"),
+    ({"reductions": {"camber": "above"}}, "needs a level"),
+    ({"reductions": {"camber": "max"}, "t_eval": [0.5]}, "two times"),
+    ({"rtol": 0.0}, "rtol"),
+    ({"atol": [1.0, 2.0]}, "atol"),
+    ({"max_step": 0.0}, "max_step"),
+    ({"max_steps": 0}, "max_steps"),
+    ({"threads": 0}, "threads"),
+    ({"lanes": 3}, "on this machine there are"),
+    ({"y0": np.ones((2, 4)), "variants": {"spring_rate": [1.0, 2.0, 3.0]}}, "go together"),
+    ({"y0": [1.0]}, "last dimension must be 4"),
+    ({"model": "reference_car"}, "kintrafo.Model"),
+]
+
+
+@pytest.mark.parametrize(("wrong", "words"), WRONG, ids=[words for _, words in WRONG])
+def test_what_cannot_be_used(car: Model, wrong: dict[str, Any], words: str) -> None:
+    given = {"model": car, "variants": None, "t_span": (0.0, 1.0)} | wrong
+    with pytest.raises(InputError, match=words):
+        ensemble(**given)
+
+
+def test_own_mechanisms_are_refused_so_far() -> None:
+    from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
+
+    with pytest.raises(InputError, match="not compiled in lanes"):
+        ensemble(System(kintrafo.compile(FOUR_BAR)), None, (0.0, 1.0))
+
+
+def test_impossible_sets_are_those_that_are_refused_one_by_one(car: Model) -> None:
+    """Ranges, inertias of no body, rotors: the same answers as in words."""
+    rng = np.random.default_rng(4)
+    described, count = car.equations.PARAMETERS, 100
+    names = ("spring_rate", "knuckle_inertia_xx", "knuckle_inertia_xy", "wheel_inertia_spin")
+    own = {n: car.parameters[n] + rng.choice([0.0, -1.0, 3.0], count, p=[0.8, 0.1, 0.1])
+           for n in names}  # fmt: skip
+    own["spring_rate"] -= 1e5 * (rng.random(count) > 0.9)
+    found = impossible(car.parameters | own, described, count)
+    for place in range(count):
+        one = car.parameters | {n: float(v[place]) for n, v in own.items()}
+        assert found[place] == bool(out_of_range(one, described) or inertia_of_no_body(one))
+    assert 0 < found.sum() < count

@@ -1,0 +1,166 @@
+"""The emitted equations in lanes: elementary functions, and every model against its scalar C."""
+
+import ctypes
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import lanes
+import mpmath
+import numpy as np
+import pytest
+from c_text import EMITTED, FOLDER
+from kintrafo.simulation.lanes.library import widths
+
+pytestmark = [
+    pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc"),
+    pytest.mark.skipif(not widths(), reason="built without lanes"),
+]
+
+DIGITS = 50
+ANGLES = 400
+LARGEST = 1e6  # greatest angle, as elementary.h says
+CARS, STATES = 4, 8  # parameter sets of a model, and states of each
+
+
+@pytest.fixture(scope="module")
+def drivers(tmp_path_factory: pytest.TempPathFactory) -> dict[int, ctypes.CDLL]:
+    folder = tmp_path_factory.mktemp("drivers")
+    return {width: lanes.driver(folder, width) for width in widths()}
+
+
+def off(exact: mpmath.mpf, found: float) -> float:
+    """Return an error in units of the last place."""
+    return float(abs(mpmath.mpf(found) - exact) / mpmath.mpf(float(np.spacing(abs(float(exact))))))
+
+
+def angles(rng: np.random.Generator) -> np.ndarray:
+    """Return angles of all sizes, and ones as near to quarter turns as numbers are."""
+    quarters = rng.integers(-600_000, 600_000, ANGLES) * (np.pi / 2)
+    sizes = 10.0 ** rng.uniform(-12, np.log10(LARGEST), ANGLES)
+    return np.concatenate([rng.uniform(-7.0, 7.0, ANGLES), quarters, sizes, [LARGEST, 0.0]])
+
+
+@pytest.mark.parametrize("name", ["sin", "cos"])
+def test_sine_and_cosine(drivers: dict[int, ctypes.CDLL], name: str) -> None:
+    function, exact = getattr(drivers[2], f"lane_{name}"), getattr(mpmath, name)
+    with mpmath.workdps(DIGITS):
+        for angle in angles(np.random.default_rng(1)).tolist():
+            assert off(exact(mpmath.mpf(angle)), function(angle)) <= 1.0, angle
+
+
+def test_arc_functions(drivers: dict[int, ctypes.CDLL]) -> None:
+    rng = np.random.default_rng(2)
+    sizes = 10.0 ** rng.uniform(-8, 8, (ANGLES, 2))
+    with mpmath.workdps(DIGITS):
+        for y, x in (sizes * rng.choice([-1.0, 1.0], (ANGLES, 2))).tolist():
+            found = drivers[2].lane_atan2(y, x)
+            assert off(mpmath.atan2(mpmath.mpf(y), mpmath.mpf(x)), found) <= 2.0, (y, x)
+        for x in (*rng.uniform(-1.0, 1.0, ANGLES).tolist(), 1.0, -1.0, 1e-9, 1.0 - 1e-15):
+            assert off(mpmath.asin(mpmath.mpf(x)), drivers[2].lane_asin(x)) <= 3.0, x
+
+
+@pytest.mark.parametrize("y", [0.0, -0.0, 1.0, -1.0])
+@pytest.mark.parametrize("x", [0.0, -0.0, 1.0, -1.0])
+def test_arc_tangent_on_the_axes(drivers: dict[int, ctypes.CDLL], y: float, x: float) -> None:
+    assert drivers[2].lane_atan2(y, x) == np.arctan2(y, x)
+
+
+def test_what_has_no_sine_is_none(drivers: dict[int, ctypes.CDLL]) -> None:
+    for angle in (np.nextafter(LARGEST, np.inf), -1e300, np.inf, -np.inf, np.nan):
+        assert np.isnan(drivers[2].lane_sin(angle)), angle
+        assert np.isnan(drivers[2].lane_cos(angle)), angle
+    assert np.isnan(drivers[2].lane_asin(np.nextafter(1.0, 2.0)))
+
+
+def test_powers_of_two(drivers: dict[int, ctypes.CDLL]) -> None:
+    """What a step size is chosen with; the bounds are those of the polynomials' degrees."""
+    values = 10.0 ** np.random.default_rng(3).uniform(-60, 60, 200)
+    for value in values.tolist():
+        assert abs(drivers[2].lane_log2(value) - np.log2(value)) < 1.2e-4
+        power = np.log2(value)
+        assert abs(drivers[2].lane_exp2(power) / value - 1.0) < 1e-4
+
+
+RENAMED = """
+#include <math.h>
+double lane_sin(double), lane_cos(double), lane_asin(double), lane_atan2(double, double);
+#define sin lane_sin
+#define cos lane_cos
+#define asin lane_asin
+#define atan2 lane_atan2
+"""
+
+
+class Both:
+    """A model as C for one state, with the elementary functions of lanes, and in lanes."""
+
+    def __init__(self, name: str, folder: Path, driver: ctypes.CDLL, width: int) -> None:
+        header = folder / "renamed.h"
+        header.write_text(RENAMED, encoding="utf-8")
+        # not optimised, which is quick
+        flags = ["-O0", "-include", str(header), driver._name]
+        source = FOLDER / f"{name}.c"
+        self.scalar = lanes.compiled(folder, source, *flags, name=f"{name}_{width}")
+        self.name, self.driver, self.lanes = name, driver, lanes.in_lanes(name)
+
+    def same(self, function: str, *arguments: np.ndarray, size: int) -> np.ndarray:
+        """Demand the same bits of a function; the arguments have a column for each lane."""
+        width: int = arguments[0].shape[1]
+        called = getattr(self.lanes, f"{self.name}_{function}_{width}")
+        found, status = lanes.call(self.driver, called, *arguments, size=size)
+        alone = getattr(self.scalar, f"{self.name}_{function}")
+        for lane in range(width):
+            given = [np.ascontiguousarray(a[:, lane]) for a in arguments]
+            out = np.zeros(size)
+            expected = alone(*(ctypes.c_void_p(a.ctypes.data) for a in (*given, out)))
+            assert status[lane] == expected, function
+            # a NaN has many bits, and says the same
+            np.testing.assert_array_equal(found[:, lane], out, strict=True)
+        return found
+
+
+@pytest.fixture(scope="module")
+def both(
+    tmp_path_factory: pytest.TempPathFactory, drivers: dict[int, ctypes.CDLL]
+) -> Callable[[str, int], Both]:
+    folder = tmp_path_factory.mktemp("models")
+
+    def of(name: str, width: int) -> Both:
+        return Both(name, folder, drivers[width], width)
+
+    return of
+
+
+def some_parameters(model, rng: np.random.Generator, width: int) -> np.ndarray:
+    """Return the defaults in the first lane, and sets near them; some are of no mechanism."""
+    defaults = np.array([entry["default"] for entry in model.PARAMETERS.values()])
+    spread = rng.choice([0.0, 0.01, 1.0], width, p=[0.2, 0.6, 0.2])
+    spread[0] = 0.0
+    return defaults[:, None] * (1.0 + spread * rng.standard_normal((defaults.size, width)))
+
+
+@pytest.mark.parametrize("width", widths())
+@pytest.mark.parametrize("name", EMITTED)
+def test_the_same_bits_as_one_by_one(
+    both: Callable[[str, int], Both], name: str, width: int
+) -> None:
+    """Every function of a simulation, also of states that are refused, and of NaN."""
+    model, pair, rng = EMITTED[name], both(name, width), np.random.default_rng(width)
+    functions = {
+        f: len(getattr(model, f).labels)
+        for f in ("rhs", "signals", "margins")
+        if f in model.ADDRESSES
+    }
+    functions |= {f"rhs_{variant}": functions["rhs"] for variant in model.HELD_VARIANTS}
+    for _ in range(CARS):
+        parameters = some_parameters(model, rng, width)
+        constants = pair.same("prepare", parameters, size=len(model.CONSTANTS))
+        design = pair.same("design_state", parameters, size=len(model.STATE))
+        for _ in range(STATES):
+            off_design = rng.choice([0.05, 0.5, 5.0], width)
+            state = design + off_design * rng.standard_normal(design.shape)
+            state[0, -1] = rng.choice([state[0, -1], 2.0 * LARGEST, np.nan])
+            inputs = 0.02 * rng.standard_normal((max(1, len(model.INPUTS)), width))
+            for function, size in functions.items():
+                pair.same(function, constants, state, inputs, size=size)
