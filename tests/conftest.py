@@ -12,10 +12,13 @@ from kintrafo.plots.curves import grouped
 from kintrafo.report.grid import Axis, Grid
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Hashable
 
     import xarray as xr
     from kintrafo.generator.equations.outputs import GeneratedModel
+
+    Pages = dict[str, tuple[Hashable, ...]]
+    """Groups of curves by name, with their variables."""
 
 _SHIPPED = {model.name: model for model in MODELS}
 
@@ -76,10 +79,28 @@ def coarse_report(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def first_page_of_curves(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let figures show the first group of curves only; drawing all of them takes ten seconds."""
+    """Let figures show the first group of curves only; drawing all of them takes seconds."""
+    _draw_pages(monkeypatch, lambda _: {})
 
-    def first(dataset: xr.Dataset) -> dict[str, tuple[str, ...]]:
-        name, variables = next(iter(grouped(dataset).items()))
-        return {name: variables}
 
-    monkeypatch.setattr("kintrafo.plots.curves.grouped", first)
+@pytest.fixture
+def each_page_of_curves_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let figures show the groups of curves that none before has shown; or else the first."""
+    drawn: set[str] = set()
+
+    def fresh(pages: Pages) -> Pages:
+        new = {name: page for name, page in pages.items() if name not in drawn}
+        drawn.update(new)
+        return new
+
+    _draw_pages(monkeypatch, fresh)
+
+
+def _draw_pages(monkeypatch: pytest.MonkeyPatch, wanted: Callable[[Pages], Pages]) -> None:
+    """Draw those of the pages that are wanted, and the first where none is."""
+
+    def some(dataset: xr.Dataset) -> Pages:
+        pages = grouped(dataset)
+        return wanted(pages) or dict([next(iter(pages.items()))])
+
+    monkeypatch.setattr("kintrafo.plots.curves.grouped", some)

@@ -115,6 +115,7 @@ def test_kinematics(run, tmp_path):
     assert "9 wheel_travel x 7 rack_position" in out
 
 
+@pytest.mark.usefixtures("first_page_of_curves")
 def test_characteristics(run, tmp_path):
     code, out, _ = run("characteristics", CAR, "--step", "20", "-o", "c.csv", "--plot", "c.pdf")
     assert code == 0
