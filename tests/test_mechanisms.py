@@ -25,7 +25,7 @@ from oracle.maximal import Jet, Motion, Oracle, Reduced
 from oracle.reference import completed, further_parameters, general_parameters
 from own_models import Built, needs_gcc, own, shipped
 from scipy.integrate import solve_ivp
-from symbolic import constants_of, python
+from symbolic import constants_of, derivatives_of, python
 
 COMPILED_HERE = (*own_mechanisms.MODELS, n_four_bar(3))
 MODELS = {m.name: m for m in (*SHIPPED, *COMPILED_HERE)}
@@ -298,23 +298,14 @@ def test_absolute_times_relative_is_global_jacobian(name: str, module: Modules) 
 def test_state_jacobian_of_the_right_hand_side_is_exact(
     name: str, module: Modules, derive: Derived
 ) -> None:
-    # central differences of the program in 50 digits, with errors below 1e-20; in a geometry of
-    # which nothing is parallel, upright or equal that need not be
+    # differences of the program in 50 digits, with errors below 1e-20; in a geometry of which
+    # nothing is parallel, upright or equal that need not be
     at, derived = places(name, module(name), [1])[0], derive(name)
     found = at("rhs_jacobian")
     with mpmath.workdps(50):
-        rhs, step = python(derived.functions["rhs"]), mpmath.mpf("1e-15")
         values = constants_of(derived, at.built.parameters) | at.built.named(at.inputs)
         values |= dict(zip(at.built.module.STATE, map(mpmath.mpf, at.state), strict=True))
-        columns = []
-        for variable in at.built.module.STATE:
-            ahead, behind = (
-                rhs(values | {variable: values[variable] + side * step}) for side in (1, -1)
-            )
-            columns.append(
-                [float((a - b) / (2 * step)) for a, b in zip(ahead, behind, strict=True)]
-            )
-    expected = np.transpose(columns)
+        expected = derivatives_of(derived.functions["rhs"], values, at.built.module.STATE)
     scale = np.abs(expected).max(axis=1, keepdims=True)
     np.testing.assert_allclose(found / scale, expected / scale, atol=1e-11)
 

@@ -4,6 +4,7 @@ import pickle
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
+from functools import cache
 from types import ModuleType
 
 import numpy as np
@@ -343,6 +344,7 @@ def test_every_flat_wheel_is_refused() -> None:
 # -- numbers that are none ------------------------------------------------------------------------
 
 
+@cache
 def depends_on(model: ModuleType, function: str) -> set[str]:
     """Return the tokens on which the results of a function depend, as the C text shows it."""
     call = getattr(model, function)
