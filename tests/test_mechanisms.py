@@ -17,9 +17,16 @@ import own_models
 import pytest
 from changes import changed
 from kintrafo.generator import FORWARD, AlongLine, Model
+from kintrafo.generator.closed_forms.catalogue import STEPS
+from kintrafo.generator.closed_forms.elbow import PlaceElbow
+from kintrafo.generator.closed_forms.free import PlaceFree
+from kintrafo.generator.closed_forms.idle import PlaceIdle
+from kintrafo.generator.closed_forms.scotch_yoke import ScotchYoke
 from kintrafo.generator.equations.outputs import GeneratedModel, generate
 from kintrafo.generator.mechanisms import MODELS as SHIPPED
+from kintrafo.generator.mechanisms import chains, multi_link
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
+from kintrafo.generator.planning.plan import Plan
 from oracle.constraints import Array
 from oracle.maximal import Jet, Motion, Oracle, Reduced
 from oracle.reference import completed, further_parameters, general_parameters
@@ -30,6 +37,12 @@ from symbolic import constants_of, derivatives_of, python
 COMPILED_HERE = (*own_mechanisms.MODELS, n_four_bar(3))
 MODELS = {m.name: m for m in (*SHIPPED, *COMPILED_HERE)}
 OWN = {m.name for m in COMPILED_HERE}
+# of the derivatives of others `test_jacobians` and `test_front_axle` have more to say
+DIFFERENTIATED = [
+    *(m.name for m in SHIPPED if not m.name.startswith(("macpherson", "front_axle"))),
+    *own_mechanisms.DIFFERENTIATED,
+    "four_bars_3",
+]
 SEEDS = range(3)  # 0 is the declaration's own geometry
 STATES = 4  # for each geometry
 
@@ -90,7 +103,14 @@ def derive() -> Derived:
 
 @pytest.fixture(scope="session")
 def module() -> Modules:
-    return cache(lambda name: (own if name in OWN else shipped)(MODELS[name]))
+
+    @cache
+    def found(name: str) -> Any:
+        if name in OWN:
+            return own(MODELS[name], derivatives=name in DIFFERENTIATED)
+        return shipped(MODELS[name])
+
+    return found
 
 
 def each_model(names: Iterable[str] = MODELS) -> pytest.MarkDecorator:
@@ -294,7 +314,7 @@ def test_absolute_times_relative_is_global_jacobian(name: str, module: Modules) 
         np.testing.assert_allclose(product, expected, atol=1e-12 * np.abs(expected).max())
 
 
-@each_model(n for n in MODELS if not n.startswith(("macpherson", "front_axle")))
+@each_model(DIFFERENTIATED)
 def test_state_jacobian_of_the_right_hand_side_is_exact(
     name: str, module: Modules, derive: Derived
 ) -> None:
@@ -308,6 +328,15 @@ def test_state_jacobian_of_the_right_hand_side_is_exact(
         expected = derivatives_of(derived.functions["rhs"], values, at.built.module.STATE)
     scale = np.abs(expected).max(axis=1, keepdims=True)
     np.testing.assert_allclose(found / scale, expected / scale, atol=1e-11)
+
+
+def test_what_is_differentiated_has_every_step_of_the_catalogue() -> None:
+    iterating = (*multi_link.MODELS, *chains.MODELS)  # looked at in tests of their own
+    models = (*map(MODELS.get, DIFFERENTIATED), *iterating, MODELS["macpherson"])
+    found = {type(action) for model in models for action in Plan.of(model).steps}
+    # two that have no test of their derivatives, one that is in no model here, and one that has no
+    # equations yet
+    assert found >= STEPS - {PlaceElbow, ScotchYoke, PlaceIdle, PlaceFree}
 
 
 # -- dynamics --------------------------------------------------------------------------------------
