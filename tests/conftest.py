@@ -1,24 +1,28 @@
-"""Options and fixtures of all tests."""
+"""Options and fixtures of all tests.
+
+What takes long to import is imported where it is used: the process that hands out tests to others
+reads this file as well, and they wait for it.
+"""
 
 from __future__ import annotations
 
+import gc
+from functools import cache
 from typing import TYPE_CHECKING
 
-import own_models
+import kept
 import pytest
 from hypothesis import HealthCheck, settings
-from kintrafo.generator.mechanisms import MODELS
-from kintrafo.plots.curves import grouped
-from kintrafo.report.grid import Axis, Grid
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Hashable
+    from types import ModuleType
 
     import xarray as xr
     from kintrafo.generator.equations.outputs import Derivation
 
-_SHIPPED = {model.name: model for model in MODELS}
-
+    Pages = dict[str, tuple[Hashable, ...]]
+    """Groups of curves by name, with their variables."""
 
 # How long an example takes is the machine's affair, and that of what else it does.
 settings.register_profile("calm", deadline=None, suppress_health_check=[HealthCheck.too_slow])
@@ -36,50 +40,76 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 def pytest_sessionstart(session: pytest.Session) -> None:
     """Remove what tests compiled long ago, before workers start."""
     if not hasattr(session.config, "workerinput"):
-        own_models.forget()
+        kept.forget()
 
 
 def pytest_itemcollected(item: pytest.Item) -> None:
     """Mark what holds numbers against an oracle: their last bits are a processor's."""
-    if _compares(item):
+    if _compares(getattr(item, "module", None)):
         item.add_marker("numbers")
 
 
-def _compares(item: pytest.Item) -> bool:
+def pytest_collection_finish() -> None:
+    """Let Python's search for circles of objects pass over what was imported: it stays."""
+    gc.freeze()
+
+
+@cache
+def _compares(module: ModuleType | None) -> bool:
     """Tell whether the module of a test uses an oracle."""
 
     def home(value: object) -> str:
         return str(getattr(value, "__module__", None) or getattr(value, "__name__", ""))
 
-    names = vars(getattr(item, "module", None) or object).values()
+    names = vars(module or object).values()
     return any(home(value).startswith(("oracle", "own_models", "cases")) for value in names)
 
 
 @pytest.fixture(scope="session")
 def derived() -> Callable[[str], Derivation]:
     """Derive a model that comes with the project, by name: once for all tests and later runs."""
-    return lambda name: own_models.derive(_SHIPPED[name])
+    from kintrafo.generator.mechanisms import MODELS
+    from own_models import derive
 
-
-@pytest.fixture(scope="session")
-def derived_anew() -> Callable[[str], Derivation]:
-    """Derive it here and now, even if it was before."""
-    return lambda name: own_models.derive(_SHIPPED[name], anew=True)
+    shipped = {model.name: model for model in MODELS}
+    return lambda name: derive(shipped[name])
 
 
 @pytest.fixture
 def coarse_report(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let reports have few positions, where the numbers between them do not matter."""
+    from kintrafo.report.grid import Axis, Grid
+
     grid = Grid(Axis(-0.05, 0.025, 5), Axis(-0.04, 0.02, 5))
     monkeypatch.setattr("kintrafo.report.page.reachable_grid", lambda _: grid)
 
 
 @pytest.fixture
 def first_page_of_curves(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let figures show the first group of curves only; drawing all of them takes ten seconds."""
+    """Let figures show the first group of curves only; drawing all of them takes seconds."""
+    _draw_pages(monkeypatch, lambda _: {})
 
-    def first(dataset: xr.Dataset) -> dict[str, tuple[str, ...]]:
-        name, variables = next(iter(grouped(dataset).items()))
-        return {name: variables}
 
-    monkeypatch.setattr("kintrafo.plots.curves.grouped", first)
+@pytest.fixture
+def each_page_of_curves_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let figures show the groups of curves that none before has shown; or else the first."""
+    drawn: set[str] = set()
+
+    def fresh(pages: Pages) -> Pages:
+        new = {name: page for name, page in pages.items() if name not in drawn}
+        drawn.update(new)
+        return new
+
+    _draw_pages(monkeypatch, fresh)
+
+
+def _draw_pages(monkeypatch: pytest.MonkeyPatch, wanted: Callable[[Pages], Pages]) -> None:
+    """Draw those of the pages that are wanted, and the first where none is."""
+
+    from kintrafo.plots.curves import grouped
+
+    def some(dataset: xr.Dataset) -> Pages:
+        pages = grouped(dataset)
+        return wanted(pages) or dict([next(iter(pages.items()))])
+
+    monkeypatch.setattr("kintrafo.plots.curves.grouped", some)

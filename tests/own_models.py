@@ -14,15 +14,14 @@ import pickle
 import shutil
 import subprocess
 import sys
-import time
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache, cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+from kept import KEPT
 from kintrafo.generator.equations.outputs import Derivation, generate
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.cache import appearing, damage, fingerprint
@@ -32,6 +31,7 @@ from oracle.maximal import Motion, Oracle
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
+    from pathlib import Path
     from types import ModuleType
 
     from kintrafo.generator import Formulation
@@ -44,11 +44,6 @@ STRICT = ("-Wall", "-Wextra", "-Wpedantic", "-Werror")
 UNOPTIMISED = "-O0"
 COMPILER = Compiler(("gcc", *FLAGS, UNOPTIMISED, *STRICT), "of the tests")
 
-KEPT = Path(__file__).parents[1] / "build" / "tests"
-"""Where what was derived and compiled is kept."""
-FORGOTTEN_S = 7 * 24 * 3600.0
-"""What was not used for so long is removed: the generator has changed since."""
-
 has_gcc = shutil.which("gcc") is not None
 needs_gcc = pytest.mark.skipif(not has_gcc, reason="no gcc")
 
@@ -60,7 +55,7 @@ def shipped(model: Formulation) -> ModuleType:
     return importlib.import_module(f"kintrafo.generated.{model.name}")
 
 
-def derive(model: Formulation, *, derivatives: bool = True, anew: bool = False) -> Derivation:
+def derive(model: Formulation, *, derivatives: bool = True) -> Derivation:
     """Derive a model, once for all processes; what has derivatives serves who needs none, too.
 
     Parameters
@@ -69,21 +64,19 @@ def derive(model: Formulation, *, derivatives: bool = True, anew: bool = False) 
         Declaration.
     derivatives
         With those by state and inputs.
-    anew
-        Even if it was derived before; the others get this one.
     """
     declared = repr(model)  # says everything
     found = _derived.get((declared, True)) or _derived.get((declared, derivatives))
-    if found is None or anew:
-        found = _kept_or_derived(model, derivatives=derivatives, anew=anew)
+    if found is None:
+        found = _kept_or_derived(model, derivatives=derivatives)
         _derived[declared, derivatives] = found
     return found
 
 
-def _kept_or_derived(model: Formulation, *, derivatives: bool, anew: bool) -> Derivation:
+def _kept_or_derived(model: Formulation, *, derivatives: bool) -> Derivation:
     whole, wanted = (_file_of(model, derivatives=with_them) for with_them in (True, derivatives))
     with _one_at_a_time(wanted.parent.name):
-        for file in () if anew else (whole, wanted):
+        for file in (whole, wanted):
             if file.exists():
                 kept: Derivation = pickle.loads(file.read_bytes())
                 return kept
@@ -102,7 +95,9 @@ def _file_of(model: Formulation, *, derivatives: bool) -> Path:
 
 
 def own(model: Formulation, *, arrays: bool = not has_gcc, derivatives: bool = True) -> ModuleType:
-    """Return the module of any declared model; what was compiled before is not derived again.
+    """Return the module of any declared model, compiled once for all processes.
+
+    What has derivatives serves who needs none, too.
 
     Parameters
     ----------
@@ -114,9 +109,11 @@ def own(model: Formulation, *, arrays: bool = not has_gcc, derivatives: bool = T
         With those by state and inputs. They take half of the time: a test that does not use them
         goes without.
     """
-    built_by = "numpy" if arrays else " ".join((*COMPILER.command, _version()))
-    built_by += "" if derivatives else " without derivatives"
-    target = KEPT / f"{model.name}-{fingerprint(repr(model), built_by=built_by)}"
+    whole, target = (
+        _folder_of(model, arrays=arrays, derivatives=with_them) for with_them in (True, derivatives)
+    )
+    if not damage(whole):
+        return load(whole)
     with _one_at_a_time(target.name):
         if damage(target):
             with appearing(target) as folder:
@@ -127,6 +124,13 @@ def own(model: Formulation, *, arrays: bool = not has_gcc, derivatives: bool = T
                     name=target.name,
                 )
     return load(target)
+
+
+def _folder_of(model: Formulation, *, arrays: bool, derivatives: bool) -> Path:
+    """Return where a compiled model is kept."""
+    built_by = "numpy" if arrays else " ".join((*COMPILER.command, _version()))
+    built_by += "" if derivatives else " without derivatives"
+    return KEPT / f"{model.name}-{fingerprint(repr(model), built_by=built_by)}"
 
 
 @cache
@@ -142,14 +146,6 @@ def _one_at_a_time(name: str) -> Iterator[None]:
     with (KEPT / f"{name}.lock").open("w") as lock:  # its date is that of the last use
         fcntl.flock(lock, fcntl.LOCK_EX)  # ends where the file is closed, or the process dies
         yield
-
-
-def forget() -> None:
-    """Remove what has not been used for long."""
-    for lock in KEPT.glob("*.lock"):
-        if time.time() - lock.stat().st_mtime > FORGOTTEN_S:
-            shutil.rmtree(lock.with_suffix(""), ignore_errors=True)
-            lock.unlink(missing_ok=True)
 
 
 @dataclass(frozen=True)

@@ -258,7 +258,7 @@ def upper_arm(built: Built) -> Loop:
 
 def compiled(model: Formulation) -> Built:
     """Return a model with its default parameters."""
-    return Built.of(model, own(model))
+    return Built.of(model, own(model, derivatives=False))
 
 
 @pytest.fixture(scope="session")

@@ -13,6 +13,7 @@ from pathlib import Path
 import kintrafo
 import numpy as np
 import pytest
+from differences import difference, second_difference
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo import InputError, Model, PositionError, Suspension, characteristics, travel_range
@@ -164,8 +165,15 @@ class Bench:
         self.mechanism = Mechanism(suspension.parameters())
         self.design = float(self.mechanism.points["wheel_center"][2])
         self.radius = suspension.tyre_radius()
+        self._measured = {}
 
     def __call__(self, travel, rack):
+        """Measure at a position, once: many quantities are differentiated there."""
+        if (travel, rack) not in self._measured:
+            self._measured[travel, rack] = self._measure(travel, rack)
+        return self._measured[travel, rack]
+
+    def _measure(self, travel, rack):
         pose = solve_pose_at_height(self.mechanism, self.design + travel, rack)
         seen = observe(self.mechanism, pose)
         return Measured(
@@ -182,13 +190,6 @@ class Bench:
 
     def by_rack(self, quantity, travel, rack):
         return difference(lambda h: quantity(self(travel, rack + h)))
-
-
-def difference(function, step=2e-3):
-    """Differentiate at zero; the error is of the order of the eighth power of 2 mm."""
-    weights = enumerate((672.0, -168.0, 32.0, -3.0), 1)
-    total = sum(w * (function(k * step) - function(-k * step)) for k, w in weights)
-    return total / (840.0 * step)
 
 
 # Poses are rounded to some 1e-15; differences over 2 mm to 1e-12, and ratios of them follow.
@@ -284,9 +285,7 @@ def test_wheel_rate_is_the_second_derivative_of_the_potential(bench, found, plac
 
     travel, rack = place
     # a step of 4 mm: rounding of 1e-13 J / (4e-3 m)^2, and the eighth power of the step
-    slope = difference(
-        lambda h: difference(lambda k: potential(bench(travel + h + k, rack)), 4e-3), 4e-3
-    )
+    slope = second_difference(lambda h: potential(bench(travel + h, rack)), 4e-3)
     assert float(found[place]["wheel_rate"]) == pytest.approx(slope, rel=1e-7)
     tyre = parameters["tyre_rate"]
     series = 1.0 / (1.0 / slope + 1.0 / tyre)

@@ -69,7 +69,8 @@ PAGE = (ROOT / "docs/command-line.md").read_text(encoding="utf-8")
 LINES = commands_of(PAGE)
 
 
-@pytest.mark.usefixtures("coarse_report")  # `test_the_commands_about_the_report_run` has whole ones
+# whole reports: test_report.py
+@pytest.mark.usefixtures("coarse_report", "each_page_of_curves_once")
 def test_the_documented_commands_run(kintrafo, tmp_path):
     (road,) = re.findall(r"```csv\n(.*?)```", PAGE, flags=re.DOTALL)
     (tmp_path / "road.csv").write_text(road, encoding="utf-8")
@@ -90,7 +91,7 @@ def test_the_documented_commands_run(kintrafo, tmp_path):
     assert not list(tmp_path.glob(".*"))
 
 
-# the commands of `test_the_documented_commands_run`, which draws all curves
+# the commands of `test_the_documented_commands_run`, which draws all pages
 @pytest.mark.usefixtures("coarse_report", "first_page_of_curves")
 def test_the_tutorial_runs(kintrafo, tmp_path):
     page = (ROOT / "docs/tutorial.md").read_text(encoding="utf-8")
@@ -110,6 +111,7 @@ def test_the_tutorial_runs(kintrafo, tmp_path):
     assert "Front axle, stage 1" in (tmp_path / "front_axle.html").read_text(encoding="utf-8")
 
 
+@pytest.mark.usefixtures("coarse_report")
 def test_the_commands_about_the_report_run(kintrafo, tmp_path):
     assert kintrafo("new", "my_car.toml")[0] == 0
     for line in commands_of((ROOT / "docs/report.md").read_text(encoding="utf-8")):

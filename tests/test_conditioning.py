@@ -47,7 +47,7 @@ CASES = (
 
 def module_of(model: Any) -> Any:
     """Return the compiled module of a model."""
-    return shipped(model) if model in MODELS else own(model)
+    return shipped(model) if model in MODELS else own(model, derivatives=False)
 
 
 class Place:

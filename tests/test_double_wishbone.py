@@ -7,6 +7,7 @@ gradients by central differences; besides, arrangements that can be computed by 
 import kintrafo
 import numpy as np
 import pytest
+from differences import difference, second_difference
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo import Model, PositionError, Suspension, characteristics
@@ -36,13 +37,6 @@ UP = np.array([0.0, 0.0, 1.0])
 POSE, SLOPE = 1e-13, 1e-9
 
 
-def difference(function, step=2e-3):
-    """Differentiate at zero; the error is of the order of the eighth power of 2 mm."""
-    weights = enumerate((672.0, -168.0, 32.0, -3.0), 1)
-    total = sum(w * (function(k * step) - function(-k * step)) for k, w in weights)
-    return total / (840.0 * step)
-
-
 class Bench:
     """A car on the oracle's test bench."""
 
@@ -57,9 +51,13 @@ class Bench:
         # outboard, with the angles of docs/conventions.md
         axis = np.array([np.tan(toe), self.side, -np.tan(camber)])
         self.design_axis = axis / np.linalg.norm(axis)
+        self._poses = {}
 
     def pose(self, place):
-        return self.carrier.at(*place)
+        """Solve for a position, once: many quantities are differentiated there."""
+        if place not in self._poses:
+            self._poses[place] = self.carrier.at(*place)
+        return self._poses[place]
 
     def axis(self, place):
         return self.pose(place).rotation @ self.design_axis
@@ -223,8 +221,8 @@ def test_wheel_rate_is_the_second_derivative_of_the_potential(bench, found, plac
     def potential(place):
         return 0.5 * rate * (free - bench.spring(place)) ** 2
 
-    # rounding of 1e-13 J over 2 mm is 1e-10 N, and over 4 mm 1e-7 N/m
-    expected = difference(lambda h: bench.by_travel(potential, (place[0] + h, place[1])), 4e-3)
+    # a step of 4 mm: rounding of 1e-13 J / (4e-3 m)^2, and the eighth power of the step
+    expected = second_difference(lambda h: potential((place[0] + h, place[1])), 4e-3)
     assert float(found[place]["wheel_rate"]) == pytest.approx(expected, rel=1e-7)
     series = 1.0 / (1.0 / expected + 1.0 / parameters["tyre_rate"])
     assert float(found[place]["ride_rate"]) == pytest.approx(series, rel=1e-7)

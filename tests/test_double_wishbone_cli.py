@@ -115,6 +115,7 @@ def test_kinematics(run, tmp_path):
     assert "9 wheel_travel x 7 rack_position" in out
 
 
+@pytest.mark.usefixtures("first_page_of_curves")
 def test_characteristics(run, tmp_path):
     code, out, _ = run("characteristics", CAR, "--step", "20", "-o", "c.csv", "--plot", "c.pdf")
     assert code == 0
@@ -154,7 +155,7 @@ def test_measured_actuator(run, tmp_path):
 
 
 def test_scenario_starts_at_rest_with_its_actuator():
-    result, motion = scenario.run(
+    result, motion = scenario.run_scenario(
         MODEL, scenario.Scenario(duration=0.1, inputs={"spring_actuator": 300.0})
     )
     moved = float(motion["wheel_center_z"].max() - motion["wheel_center_z"].min())

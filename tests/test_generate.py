@@ -40,9 +40,9 @@ def encoded(texts: dict[str, str]) -> dict[str, bytes]:
 
 
 @pytest.fixture(scope="module")
-def files(derived_anew: Callable[[str], Derivation]) -> dict[str, dict[str, bytes]]:
-    """Return what each model emits that is derived here and now, and serves the other tests."""
-    return {model.name: encoded(project_files(derived_anew(model.name))) for model in MODELS}
+def files(derived: Callable[[str], Derivation]) -> dict[str, dict[str, bytes]]:
+    """Return what each model emits; what is remembered was derived by these very sources."""
+    return {model.name: encoded(project_files(derived(model.name))) for model in MODELS}
 
 
 def joined(files: dict[str, dict[str, bytes]], names: Iterable[str]) -> dict[str, bytes]:

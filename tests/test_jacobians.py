@@ -17,7 +17,7 @@ from oracle.constraints import BODIES, Array
 from oracle.multipliers import reduced_equations, solve_twist
 from oracle.newton import Mechanism
 from oracle.reference import BETA1_DESIGN
-from symbolic import python
+from symbolic import derivatives_of
 
 SEEDS = range(4)  # 0 is the reference car
 POINTS = 3  # for each car
@@ -88,7 +88,6 @@ def gradient(function: Callable[[Array], Array], steps: Array) -> Array:
 
 def gradient_of_program(model: Derivation, function: str, at: At, names: list[str]) -> Array:
     """Differentiate the symbolic program of a function by elements of state or inputs."""
-    run = python(model.functions[function])
     values: dict[str, mpmath.mpf] = {}
     for keys, array in (
         (at.model.CONSTANTS, at.constants),
@@ -96,12 +95,7 @@ def gradient_of_program(model: Derivation, function: str, at: At, names: list[st
         (at.model.INPUTS, at.inputs),
     ):
         values |= {key: mpmath.mpf(v) for key, v in zip(keys, array.tolist(), strict=True)}
-    step = mpmath.mpf(10) ** -15
-    columns = []
-    for name in names:
-        ahead, behind = (run(values | {name: values[name] + h}) for h in (step, -step))
-        columns.append([float((a - b) / (2 * step)) for a, b in zip(ahead, behind, strict=True)])
-    return np.array(columns).T
+    return derivatives_of(model.functions[function], values, names)
 
 
 def test_derivatives_of_the_program(

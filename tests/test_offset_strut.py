@@ -101,7 +101,7 @@ def test_poses_of_many_geometries(seed: int, offset: float | None) -> None:
     """Over travel and rack: the same poses as Newton's, and the same reach."""
     subject = random_car(1000 + seed, offset)
     found = 0
-    for rack in np.linspace(-0.06, 0.06, 5):
+    for rack in np.linspace(-0.06, 0.06, 3):
         for turn in np.linspace(-0.45, 0.45, 5):
             at = subject.at(turn, rack)
             pose, expected = closed_form(at), by_newton(subject.car, at)
@@ -110,7 +110,7 @@ def test_poses_of_many_geometries(seed: int, offset: float | None) -> None:
                 found += 1
                 assert difference(pose, expected) < ROUNDING * subject.slackness(at)
                 assert residual_norm(subject.car, pose) < ROUNDING
-    assert found > 15  # of 25; some geometries do not reach the ends
+    assert found > 9  # of 15; some geometries do not reach the ends
 
 
 def last_reached(subject: Offset, side: float) -> float:

@@ -188,7 +188,7 @@ def test_many_heights_are_those_one_by_one():
         assert angles[index] == alone[0]
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=30)
 @given(st.lists(st.floats(0.0, 1.0), min_size=1, max_size=20), st.floats(-0.06, 0.06))
 def test_heights_within_reach_are_met_to_rounding(parts, rack):
     low, high = travel_range(MODEL, rack).height
@@ -203,7 +203,7 @@ def test_heights_within_reach_are_met_to_rounding(parts, rack):
     assert (np.diff(angles[np.argsort(heights)]) <= 0.0).all()
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=20)
 @given(st.floats(1e-6, 10.0), st.booleans(), st.floats(-0.06, 0.06))
 def test_heights_beyond_reach_are_refused(beyond, above, rack):
     low, high = travel_range(MODEL, rack).height

@@ -26,8 +26,17 @@ def endless():
     simulate(CRANK, (0.0, 1e9), TURNING, t_eval=[1e9], max_step=1e-3, max_steps=10**10)
 
 
+@pytest.fixture
+def interruptible():
+    """Let Python hear of interrupts: what a script starts in the background ignores them."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 @needs_sundials
 @pytest.mark.skipif(os.name == "nt", reason="signals are sent to processes")
+@pytest.mark.usefixtures("interruptible")
 @pytest.mark.parametrize("elsewhere", [False, True], ids=["here", "with a run in a thread"])
 def test_an_interrupt_is_seen_at_once(elsewhere):
     stop = threading.Event()

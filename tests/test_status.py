@@ -4,6 +4,7 @@ import pickle
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
+from functools import cache
 from types import ModuleType
 
 import numpy as np
@@ -36,40 +37,32 @@ each_model = pytest.mark.parametrize("model", MODELS.values(), ids=MODELS.keys()
 
 # the functions with the common signature
 COMMON = {name: list(model.equations.functions) for name, model in MODELS.items()}
-every_function = pytest.mark.parametrize(
-    ("model", "function"),
-    [(model, function) for name, model in MODELS.items() for function in COMMON[name]],
-    ids=lambda value: getattr(value, "NAME", value),
-)
 # margins says how far a loop is from closing, and so does not refuse it
-every_refusing_function = pytest.mark.parametrize(
-    ("model", "function"),
-    [(m, f) for name, m in MODELS.items() for f in COMMON[name] if f != "margins"],
-    ids=lambda value: getattr(value, "NAME", value),
-)
+REFUSING = {name: [f for f in found if f != "margins"] for name, found in COMMON.items()}
 
 
 # -- loops that cannot close ----------------------------------------------------------------------
 
 
-@every_refusing_function
-def test_a_rod_that_does_not_reach(model, function: str) -> None:
+@each_model
+def test_a_rod_that_does_not_reach(model) -> None:
     """Beyond the dead point every function names the loop, the coordinates and their values."""
-    instant = Instant(BETA1_DESIGN, 0.5, 0.31, 1.5, SPIN_RATE)
-    state, inputs = instant.arrays(model)
-    with pytest.raises(ClosureError) as caught:
-        getattr(model, function)(state, inputs)
-    error = caught.value
-    message = str(error)
-    assert message.startswith(f"{model.NAME}.{function}: ")
-    assert "the rod tie_rod cannot reach knuckle" in message
-    assert "knuckle_closure = -" in message
-    assert error.margins["knuckle_closure"] < 0.0
-    expected = dict(zip((*model.STATE, *model.INPUTS), (*state, *inputs), strict=True))
-    assert error.coordinates == expected
-    for name, value in expected.items():
-        assert f"{name} = {value:.6g}" in message
-    assert error.index == ()
+    for function in REFUSING[model.NAME]:
+        instant = Instant(BETA1_DESIGN, 0.5, 0.31, 1.5, SPIN_RATE)
+        state, inputs = instant.arrays(model)
+        with pytest.raises(ClosureError) as caught:
+            getattr(model, function)(state, inputs)
+        error = caught.value
+        message = str(error)
+        assert message.startswith(f"{model.NAME}.{function}: ")
+        assert "the rod tie_rod cannot reach knuckle" in message
+        assert "knuckle_closure = -" in message
+        assert error.margins["knuckle_closure"] < 0.0
+        expected = dict(zip((*model.STATE, *model.INPUTS), (*state, *inputs), strict=True))
+        assert error.coordinates == expected
+        for name, value in expected.items():
+            assert f"{name} = {value:.6g}" in message
+        assert error.index == ()
 
 
 @each_model
@@ -92,18 +85,19 @@ def test_margins_tell_how_far_a_loop_is_from_closing(model) -> None:
     assert found[1] > 0.0 > found[2]
 
 
-@every_refusing_function
-def test_the_element_of_an_array_is_named(model, function: str) -> None:
-    good, bad = (Instant(BETA1_DESIGN, 0.0, rack) for rack in (0.0, -0.31))
-    states = np.tile(good.state(model), (2, 3, 1))
-    inputs = np.tile(good.inputs(model), (2, 3, 1))
-    states[1, 2], inputs[1, 2] = bad.arrays(model)
-    with pytest.raises(ClosureError, match=re.escape("element [1, 2] of the arrays")) as caught:
-        getattr(model, function)(states, inputs)
-    assert caught.value.index == (1, 2)
-    named = {**dict(zip(model.INPUTS, inputs[1, 2], strict=True))}
-    named |= dict(zip(model.STATE, states[1, 2], strict=True))
-    assert caught.value.coordinates == named
+@each_model
+def test_the_element_of_an_array_is_named(model) -> None:
+    for function in REFUSING[model.NAME]:
+        good, bad = (Instant(BETA1_DESIGN, 0.0, rack) for rack in (0.0, -0.31))
+        states = np.tile(good.state(model), (2, 3, 1))
+        inputs = np.tile(good.inputs(model), (2, 3, 1))
+        states[1, 2], inputs[1, 2] = bad.arrays(model)
+        with pytest.raises(ClosureError, match=re.escape("element [1, 2] of the arrays")) as caught:
+            getattr(model, function)(states, inputs)
+        assert caught.value.index == (1, 2)
+        named = {**dict(zip(model.INPUTS, inputs[1, 2], strict=True))}
+        named |= dict(zip(model.STATE, states[1, 2], strict=True))
+        assert caught.value.coordinates == named
 
 
 @each_model
@@ -343,6 +337,7 @@ def test_every_flat_wheel_is_refused() -> None:
 # -- numbers that are none ------------------------------------------------------------------------
 
 
+@cache
 def depends_on(model: ModuleType, function: str) -> set[str]:
     """Return the tokens on which the results of a function depend, as the C text shows it."""
     call = getattr(model, function)
@@ -359,24 +354,25 @@ def reads(model: ModuleType, function: str) -> set[str]:
 
 
 @pytest.mark.parametrize("wrong", [np.nan, np.inf, -np.inf])
-@every_function
-def test_nan_and_infinity_are_named(model, function: str, wrong: float) -> None:
+@each_model
+def test_nan_and_infinity_are_named(model, wrong: float) -> None:
     """Where a function reads an element it refuses it, and else ignores it."""
-    names = (*model.STATE, *model.INPUTS)
-    arrays = Instant(BETA1_DESIGN, 0.0, 0.01).arrays(model)
-    expected = getattr(model, function)(*arrays)
-    for position, name in enumerate(names):
-        state, inputs = (array.copy() for array in arrays)
-        if position < len(state):
-            state[position] = wrong
-        else:
-            inputs[position - len(state)] = wrong
-        if name in reads(model, function):
-            with pytest.raises(ModelError, match=rf"{function}: NaN or infinite: {name}$"):
-                getattr(model, function)(state, inputs)
-        else:
-            found = getattr(model, function)(state, inputs)
-            assert found.tolist() == expected.tolist()
+    for function in COMMON[model.NAME]:
+        names = (*model.STATE, *model.INPUTS)
+        arrays = Instant(BETA1_DESIGN, 0.0, 0.01).arrays(model)
+        expected = getattr(model, function)(*arrays)
+        for position, name in enumerate(names):
+            state, inputs = (array.copy() for array in arrays)
+            if position < len(state):
+                state[position] = wrong
+            else:
+                inputs[position - len(state)] = wrong
+            if name in reads(model, function):
+                with pytest.raises(ModelError, match=rf"{function}: NaN or infinite: {name}$"):
+                    getattr(model, function)(state, inputs)
+            else:
+                found = getattr(model, function)(state, inputs)
+                assert found.tolist() == expected.tolist()
 
 
 @each_model
@@ -413,19 +409,20 @@ def test_overflow_is_no_silent_nan(model, rate: float) -> None:
         model.rhs(*Instant(BETA1_DESIGN, beta1_rate=rate, spin_rate=rate).arrays(model))
 
 
-@every_refusing_function
-def test_nan_among_the_constants_is_no_silent_number(model, function: str) -> None:
+@each_model
+def test_nan_among_the_constants_is_no_silent_number(model) -> None:
     """No constant that is read may vanish, as in a law that takes a NaN for "not touched"."""
-    constants = model.prepare(car_parameters(1, model))
-    arrays = Instant(BETA1_DESIGN, 0.2, 0.01, 1.0, 50.0, 0.1).arrays(model)
-    read = depends_on(model, function)
-    assert "c" in read
-    for index, name in enumerate(model.CONSTANTS):
-        if name in read:
-            wrong = constants.copy()
-            wrong[index] = np.nan
-            with pytest.raises(ModelError):
-                getattr(model, function)(*arrays, wrong)
+    for function in REFUSING[model.NAME]:
+        constants = model.prepare(car_parameters(1, model))
+        arrays = Instant(BETA1_DESIGN, 0.2, 0.01, 1.0, 50.0, 0.1).arrays(model)
+        read = depends_on(model, function)
+        assert "c" in read
+        for index, name in enumerate(model.CONSTANTS):
+            if name in read:
+                wrong = constants.copy()
+                wrong[index] = np.nan
+                with pytest.raises(ModelError):
+                    getattr(model, function)(*arrays, wrong)
 
 
 # -- parameters -----------------------------------------------------------------------------------
@@ -526,20 +523,25 @@ def test_a_tie_rod_may_end_on_the_axis_of_an_offset_strut() -> None:
 # -- shapes ---------------------------------------------------------------------------------------
 
 
-@every_function
-def test_wrong_shapes(model, function: str) -> None:
-    call = getattr(model, function)
-    state, inputs = Instant(BETA1_DESIGN).arrays(model)
-    constants = model.DEFAULT_CONSTANTS
-    for wrong in (state[:-1], np.append(state, 0.0), state[:, None], 1.0, []):
-        with pytest.raises(ValueError, match=rf"{function}: the last dimension of state must be"):
-            call(wrong)
-    with pytest.raises(ValueError, match=rf"{function}: the last dimension of inputs must be"):
-        call(state, inputs[:-1])
-    with pytest.raises(ValueError, match=rf"{function}: the last dimension of constants must be"):
-        call(state, inputs, constants[1:])
-    with pytest.raises(ValueError, match="broadcast"):
-        call(np.tile(state, (2, 1)), np.tile(inputs, (3, 1)))
+@each_model
+def test_wrong_shapes(model) -> None:
+    for function in COMMON[model.NAME]:
+        call = getattr(model, function)
+        state, inputs = Instant(BETA1_DESIGN).arrays(model)
+        constants = model.DEFAULT_CONSTANTS
+        for wrong in (state[:-1], np.append(state, 0.0), state[:, None], 1.0, []):
+            with pytest.raises(
+                ValueError, match=rf"{function}: the last dimension of state must be"
+            ):
+                call(wrong)
+        with pytest.raises(ValueError, match=rf"{function}: the last dimension of inputs must be"):
+            call(state, inputs[:-1])
+        with pytest.raises(
+            ValueError, match=rf"{function}: the last dimension of constants must be"
+        ):
+            call(state, inputs, constants[1:])
+        with pytest.raises(ValueError, match="broadcast"):
+            call(np.tile(state, (2, 1)), np.tile(inputs, (3, 1)))
 
 
 @each_model
@@ -568,26 +570,30 @@ def test_residuals_of_arrays_are_those_of_their_elements(model) -> None:
         assert np.array_equal(row, model.residuals(beta, state, one))
 
 
-@every_function
-def test_arrays_are_single_states_side_by_side(model, function: str) -> None:
+@each_model
+def test_arrays_are_single_states_side_by_side(model) -> None:
     """Leading dimensions broadcast, and each element is what a call by itself gives."""
-    call = getattr(model, function)
-    instants = [Instant(BETA1_DESIGN + 0.1 * k, 0.3, 0.01, 1.0, 50.0, 0.1) for k in (-1, 0, 1)]
-    states = np.array([instant.state(model) for instant in instants])
-    inputs = np.array([[i.inputs(model)] for i in (instants[0], replace(instants[0], rack=-0.02))])
-    constants = [model.prepare(car_parameters(seed, model)) for seed in (0, 1)]
-    found = call(states, inputs, np.array(constants)[:, None, None])
-    assert found.shape == (2, 2, 3, *call.shape)
-    for i, j, k in np.ndindex(2, 2, 3):
-        single = call(states[k], inputs[j, 0], constants[i])
-        assert single.shape == call.shape
-        assert found[i, j, k].tolist() == single.tolist()
+    for function in COMMON[model.NAME]:
+        call = getattr(model, function)
+        instants = [Instant(BETA1_DESIGN + 0.1 * k, 0.3, 0.01, 1.0, 50.0, 0.1) for k in (-1, 0, 1)]
+        states = np.array([instant.state(model) for instant in instants])
+        inputs = np.array(
+            [[i.inputs(model)] for i in (instants[0], replace(instants[0], rack=-0.02))]
+        )
+        constants = [model.prepare(car_parameters(seed, model)) for seed in (0, 1)]
+        found = call(states, inputs, np.array(constants)[:, None, None])
+        assert found.shape == (2, 2, 3, *call.shape)
+        for i, j, k in np.ndindex(2, 2, 3):
+            single = call(states[k], inputs[j, 0], constants[i])
+            assert single.shape == call.shape
+            assert found[i, j, k].tolist() == single.tolist()
 
 
-@every_function
-def test_nothing_in_nothing_out(model, function: str) -> None:
-    call = getattr(model, function)
-    assert call(np.empty((0, len(model.STATE)))).shape == (0, *call.shape)
+@each_model
+def test_nothing_in_nothing_out(model) -> None:
+    for function in COMMON[model.NAME]:
+        call = getattr(model, function)
+        assert call(np.empty((0, len(model.STATE)))).shape == (0, *call.shape)
 
 
 @each_model

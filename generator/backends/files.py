@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ..memory import uncollected
 from .c.printer import CPrinter
 from .cython.printer import CythonPrinter
 from .manifest.printer import manifest
@@ -26,6 +27,7 @@ def shared_files() -> dict[str, str]:
     return {"__init__.py": _PACKAGE}
 
 
+@uncollected()
 def project_files(model: Derivation) -> dict[str, str]:
     """Return the files of a model that is built with this project, by Cython."""
     name = model.model.name
@@ -39,6 +41,7 @@ def project_files(model: Derivation) -> dict[str, str]:
     }
 
 
+@uncollected()
 def own_files(model: Derivation, library: str | None) -> dict[str, str]:
     """Return the files of a model that is a package of its own.
 

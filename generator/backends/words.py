@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from typing import TYPE_CHECKING
+from weakref import WeakKeyDictionary
 
 import sympy as sp
 
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
     from ..program.function import Block, Function, Stage
 
 GENERATOR_VERSION = "0.1.0"
+
+_hashes: WeakKeyDictionary[Derivation, str] = WeakKeyDictionary()
 
 FORMULA = Dialect(
     {
@@ -69,7 +72,13 @@ def blocks_of(functions: Iterable[Function | Stage]) -> list[Block]:
 
 
 def mechanism_hash(model: Derivation) -> str:
-    """Return a hash of everything that the emitted arithmetic depends on."""
+    """Return a hash of everything that the emitted arithmetic depends on; computed once."""
+    if model not in _hashes:
+        _hashes[model] = _hash(model)
+    return _hashes[model]
+
+
+def _hash(model: Derivation) -> str:
     digest = hashlib.sha256()
     blocks = blocks_of(model.functions.values())
     once = (block.once for block in blocks)

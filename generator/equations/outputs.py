@@ -12,6 +12,7 @@ from ..declare.declared import DeclarationError, parts
 from ..declare.inputs import Input
 from ..declare.joints import Free
 from ..kinematics.motion import IDENTITY, BodyMotion, from_axes
+from ..memory import uncollected
 from ..planning.plan import Plan
 from ..program.constants import ConstantStage
 from ..program.function import Stage
@@ -125,6 +126,7 @@ class Derivation:
     held_inputs: dict[str, tuple[str, ...]] = field(default_factory=dict)
 
 
+@uncollected()
 def generate(model: Formulation, *, derivatives: bool = True) -> Derivation:
     """Derive a model and its functions.
 

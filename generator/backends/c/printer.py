@@ -14,6 +14,7 @@ from ....equations import following
 from ....equations.status import NOT_FINITE_BIT, bit_of
 from ...program.floors import ROUNDING
 from ..schedule import schedule
+from ..sharing import scheduled
 from ..templates import template
 from ..text import Written, text_of, written
 from ..words import (
@@ -320,7 +321,7 @@ class CPrinter:
             "driven": max(1, *(len(block.driven) for block in blocks)),
         }
         text = template("c", "follow.c").substitute(vars(following), **sizes).strip()
-        return [text, *(part for block in blocks for part in (_once(self, block), _call(block)))]
+        return [text, *(part for block in blocks for part in (_once(block), _call(block)))]
 
     def _prepare_body(self) -> str:
         prepare, count = self.model.prepare, f"{self.upper}_CONSTANT_COUNT"
@@ -334,7 +335,7 @@ class CPrinter:
             f"    struct {self.prefix}_constants *const {c} = (void *)constants;",
             *declared([f"{n} = parameters[{i}]" for i, n in enumerate(values) if n in read - kept]),
             *(f"    {c}->{n} = parameters[{i}];" for i, n in enumerate(values) if n in kept),
-            *self.steps(prepare, {name: f"{c}->{name}" for name in kept}),
+            *steps(written(prepare, FORMULA, {name: f"{c}->{name}" for name in kept})[0]),
             "",
             f"    status_word failed = first_not_finite(constants, {count});",
             *self._assumptions(c),
@@ -349,17 +350,15 @@ class CPrinter:
         values = [e.name for e in self.model.parameters]
         loads = [f"{n} = parameters[{i}]" for i, n in enumerate(values) if n in read]
         finite = self.enumerator("status", "not_finite")
+        found, results = written(design, FORMULA)
         return "\n".join(
             [
                 self._from_parameters("design_state", "state", "status_word"),
                 "{",
                 *(declared(loads) or ["    (void)parameters;"]),
-                *self.steps(design),
+                *steps(found),
                 "",
-                *(
-                    f"    state[{i}] = {_in_all_lanes(value)};"
-                    for i, value in enumerate(written(design, FORMULA)[1])
-                ),
+                *(f"    state[{i}] = {_in_all_lanes(value)};" for i, value in enumerate(results)),
                 f"    return finite_bit(state, {len(self.model.state)}, {finite});",
                 "}",
             ]
@@ -368,8 +367,8 @@ class CPrinter:
     @staticmethod
     def _pointer(function: Function | Stage) -> str:
         """Return a name for the constants that nothing else in a function has."""
-        steps, _ = written(function, FORMULA)
-        taken = {step.name for step in steps} | {s.name for s in function.free_symbols}
+        taken = {step.name for step in scheduled(function).steps}
+        taken |= {s.name for s in function.free_symbols}
         return next(name for name in ("c", "c_", "c__") if name not in taken)
 
     def _assumptions(self, c: str) -> list[str]:
@@ -418,8 +417,9 @@ class CPrinter:
         ]
         lines += declared([text for found in taken.values() for text in found])
         names = {name: f"{c}->{name}" for name in constants}
-        lines += self.steps(function, names)
-        texts, start = written(function, FORMULA, names)[1], 0
+        found, texts = written(function, FORMULA, names)
+        lines += steps(found)
+        start = 0
         for member in function.members:
             lines += self._results(member, texts[start : start + member.size], start)
             start += member.size
@@ -453,25 +453,6 @@ class CPrinter:
             )
         return lines
 
-    @staticmethod
-    def steps(function: Function | Stage, names: Mapping[str, str] | None = None) -> list[str]:
-        """Return the assignments of a function, with the parts of the derivation in between.
-
-        Parameters
-        ----------
-        names
-            What is called otherwise than it is: constants, by way of a pointer to all of them.
-        """
-        lines: list[str] = []
-        names = names or {}
-        values = written(function, FORMULA, names)[0]
-        for section, group in groupby(values, key=lambda step: step.section):
-            lines += ["", f"    /* {section} */"]
-            for kind, run in groupby(group, key=_kind):
-                texts = [f"{step.name} = {_in_all_lanes(step.text)}" for step in run]
-                lines += declared(texts) if kind == "const double" else _each(kind, texts)
-        return lines
-
     def _return(self, function: Function | Stage, names: Mapping[str, str]) -> list[str]:
         """Collect the status: comparisons only, no branch.
 
@@ -492,7 +473,18 @@ class CPrinter:
         return [*lines, *(f"    status |= {bit};" for bit in bits[1:]), "    return status;"]
 
 
-def _once(printer: CPrinter, block: Block) -> str:
+def steps(values: Iterable[Written]) -> list[str]:
+    """Return the assignments of a function, with the parts of the derivation in between."""
+    lines: list[str] = []
+    for section, group in groupby(values, key=lambda step: step.section):
+        lines += ["", f"    /* {section} */"]
+        for kind, run in groupby(group, key=_kind):
+            texts = [f"{step.name} = {_in_all_lanes(step.text)}" for step in run]
+            lines += declared(texts) if kind == "const double" else _each(kind, texts)
+    return lines
+
+
+def _once(block: Block) -> str:
     """Print one iteration: straight-line code."""
     read = {s.name for s in block.once.free_symbols}
     arrays = {
@@ -515,10 +507,9 @@ def _once(printer: CPrinter, block: Block) -> str:
             f"    const double {s} = {array}[{i}];" for i, s in enumerate(symbols) if s.name in read
         ]
         lines += loads or [f"    (void){array};"]
-    lines += [*printer.steps(block.once), ""]
-    for i, (label, result) in enumerate(
-        zip(block.once.labels, written(block.once, FORMULA)[1], strict=True)
-    ):
+    found, results = written(block.once, FORMULA)
+    lines += [*steps(found), ""]
+    for i, (label, result) in enumerate(zip(block.once.labels, results, strict=True)):
         text = f"    out[{i}] = {result};"
         lines.append(f"{text:<70} /* {label} */")
     return "\n".join([*lines, "}"])

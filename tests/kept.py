@@ -1,0 +1,18 @@
+"""Where what tests derived and compiled is kept, and for how long."""
+
+import shutil
+import time
+from pathlib import Path
+
+KEPT = Path(__file__).parents[1] / "build" / "tests"
+"""The folder: a folder for each model, and beside it a lock whose date is that of the last use."""
+FORGOTTEN_S = 7 * 24 * 3600.0
+"""What was not used for so long is removed: the generator has changed since."""
+
+
+def forget() -> None:
+    """Remove what has not been used for long."""
+    for lock in KEPT.glob("*.lock"):
+        if time.time() - lock.stat().st_mtime > FORGOTTEN_S:
+            shutil.rmtree(lock.with_suffix(""), ignore_errors=True)
+            lock.unlink(missing_ok=True)
