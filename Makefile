@@ -1,7 +1,7 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
 .PHONY: drawings help setup generate build run test test-elsewhere fuzz package lint tree types format baseline clean \
-	benchmark benchmark-andrews benchmark-bits benchmark-growth benchmark-loops benchmark-page benchmark-peers benchmark-speed format-page front-axle-page report-assets
+	benchmark benchmark-andrews benchmark-bits benchmark-ensemble benchmark-growth benchmark-loops benchmark-page benchmark-peers benchmark-speed format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
 EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/equations/*.pyx runtime/simulation/native/*.pyx runtime/simulation/*/*.[ch])
@@ -79,6 +79,9 @@ benchmark-loops: build ## Loops without a closed form against paths in maximal c
 
 benchmark-growth: build ## A chain of 1 to 40 loops: derivation, code and run time against its length
 	@$(PYTHON) -m benchmarks.growth --out out/benchmark --page docs/growth.md
+
+benchmark-ensemble: build ## Many cars at once, in lanes and on all cores, and its page in docs/
+	@PYTHONPATH=tests $(PYTHON) -m benchmarks.ensemble --out out/benchmark --page docs/ensembles.md
 
 drawings: build ## The drawings of docs/ that are computed
 	@for script in docs/images/*.py; do $(PYTHON) $$script || exit; done

@@ -34,6 +34,9 @@ LANES = Path("runtime/simulation/lanes")
 X86_64 = {2: [], 4: ["-mavx2"], 8: ["-mavx512f", "-mavx512vl", "-mavx512dq"]}
 WIDTHS = X86_64 if platform.machine().lower() in ("x86_64", "amd64") else {2: []}
 WIDTHS = {} if sys.platform == "win32" else WIDTHS
+# Of GCC: put instructions in order before registers are given to values. The long chains of the
+# equations are a sixth faster for it in four lanes.
+SCHEDULED = ["-fschedule-insns", "-fsched-pressure"]
 
 # Where SUNDIALS may be: in the place that the user names, or in the active environment, or of the
 # system. `.ci/setup` looks in the same places.
@@ -117,6 +120,7 @@ class Lanes(Extension):
     def compile(self, compiler: Any, folder: str) -> list[str]:
         """Compile everything, and return the objects."""
         module = self.name.rpartition(".")[2]
+        scheduled = SCHEDULED if _is_gcc(compiler.compiler_so[0]) else []
 
         def objects(source: str, width: int, flags: list[str]) -> list[str]:
             names = [(function, f"{function}_{width}") for function in self.renamed]
@@ -125,12 +129,19 @@ class Lanes(Extension):
                 output_dir=f"{folder}/{self.name}/{width}",
                 macros=[*self.define_macros, *names, ("WIDTH", str(width)), ("MODULE", module)],
                 include_dirs=self.include_dirs,
-                extra_postargs=[*FLAGS, *flags],
+                extra_postargs=[*FLAGS, *scheduled, *flags],
             )
 
         made = [objects(self.source, width, flags) for width, flags in WIDTHS.items()]
         made += [objects(source, 1, []) for source in self.fixed]
         return [path for paths in made for path in paths]
+
+
+def _is_gcc(program: str) -> bool:
+    command = [program, "--version"]
+    # what runs is the compiler of this build
+    said = subprocess.run(command, capture_output=True, text=True, check=False)  # noqa: S603
+    return "Free Software Foundation" in said.stdout
 
 
 def lanes_extensions(wrappers: Iterable[Path]) -> Iterator[Lanes]:

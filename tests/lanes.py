@@ -47,6 +47,13 @@ def driver(folder: Path, width: int) -> ctypes.CDLL:
     return library
 
 
+def address(library: ctypes.CDLL, function: str) -> int:
+    """Return the address of a function."""
+    found = ctypes.cast(getattr(library, function), ctypes.c_void_p).value
+    assert found is not None
+    return found
+
+
 @cache
 def in_lanes(model: str) -> ctypes.CDLL:
     """Return a model's library in lanes."""

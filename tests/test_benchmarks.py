@@ -1,6 +1,7 @@
 """The benchmark scripts in a reduced mode: they run, their results have the right structure."""
 
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -10,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from kintrafo.simulation import solvers
+from kintrafo.simulation.lanes.library import widths
 from kintrafo.simulation.solvers import native_available
 
 from benchmarks import friction, paper_timing, report, work_precision
@@ -139,3 +141,18 @@ def test_table_and_page(tmp_path):
     page.write_text("x\n<!-- begin a -->\nold\n<!-- end a -->\ny\n")
     report.fill_page(page, {"a": "new \\1", "b": "not there"})
     assert page.read_text() == "x\n<!-- begin a -->\nnew \\1\n<!-- end a -->\ny\n"
+
+
+@pytest.mark.skipif(not widths(), reason="built without lanes")
+def test_ensemble_writes_everything(tmp_path):
+    page = tmp_path / "docs" / "ensembles.md"
+    (page.parent / "images").mkdir(parents=True)
+    shutil.copy(ROOT / "docs/ensembles.md", page)
+    command = [sys.executable, "-m", "benchmarks.ensemble", "--quick", "--out", tmp_path]
+    path = {**os.environ, "PYTHONPATH": str(ROOT / "tests")}
+    subprocess.run([*command, "--page", page], cwd=ROOT, check=True, capture_output=True, env=path)
+    found = json.loads((tmp_path / "ensemble.json").read_text())
+    assert [call["lanes"] for call in found["calls"]] == [1, *widths()]
+    assert all(rate["error"] <= 1e-6 for rate in found["rates"])
+    assert (page.parent / "images/ensemble.png").stat().st_size > 1000
+    assert "µs of a core for a second of motion" in page.read_text()

@@ -1,12 +1,15 @@
 """Many systems at once: beside other solvers one by one, and in any company the same bits."""
 
 import _thread
+import shutil
 import threading
 from collections.abc import Callable
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 import kintrafo
+import lanes
 import numpy as np
 import pytest
 import xarray as xr
@@ -235,14 +238,14 @@ def test_failures_end_where_simulate_ends(car: Model, start: Any, mixed: xr.Data
     assert float(mixed["end_time"][5]) == pytest.approx(caught.value.time, rel=1e-5)
 
 
-@pytest.mark.parametrize("lanes", WIDTHS)
+@pytest.mark.parametrize("width", WIDTHS)
 @pytest.mark.parametrize("threads", [1, 3])
 def test_the_same_bits_in_any_number(
-    car: Model, start: Any, mixed: xr.Dataset, lanes: int, threads: int, monkeypatch: Any
+    car: Model, start: Any, mixed: xr.Dataset, width: int, threads: int, monkeypatch: Any
 ) -> None:
     monkeypatch.setattr(run, "_FEWEST", 7)  # chunks whose ends fall anywhere
     cars, options = of_all_kinds(car)
-    same(ensemble(car, cars, SPAN, start, lanes=lanes, threads=threads, **options), mixed)
+    same(ensemble(car, cars, SPAN, start, lanes=width, threads=threads, **options), mixed)
 
 
 def test_the_same_bits_in_any_order(car: Model, start: Any, mixed: xr.Dataset) -> None:
@@ -250,6 +253,25 @@ def test_the_same_bits_in_any_order(car: Model, start: Any, mixed: xr.Dataset) -
     order = np.random.default_rng(9).permutation(60)
     found = ensemble(car, {n: v[order] for n, v in cars.items()}, SPAN, start, **options)
     same(found, mixed.isel(car=order))
+
+
+@pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc")
+def test_the_same_bits_in_eight_lanes(tmp_path: Path, monkeypatch: Any) -> None:
+    """Also where the processor has not so many: the compiler makes several vectors of one."""
+    model, crank = System(EMITTED["four_bar"]), {"crank_mass": np.linspace(0.5, 2.0, 50)}
+    options = {"reductions": {model.signal_names[0]: ["max", "rms"]}, "threads": 1}
+    expected = ensemble(model, crank, SPAN, **options, lanes=2)
+    folder = lanes.ROOT / "generated/c"
+    # silent about how vectors are handed over, since all is compiled here
+    flags = ["-w", "-DWIDTH=8", '-DMODEL="four_bar.c"', f"-I{folder}"]
+    sources = [str(lanes.HEADERS / "model.c"), str(lanes.HEADERS / "integrate.c")]
+    wide = lanes.compiled(tmp_path, sources[0], sources[1], *flags, name="eight")
+    names = ("prepare", "design_state", "rhs", "signals", "margins")
+    addresses = {n: lanes.address(wide, f"four_bar_{n}") for n in names}
+    monkeypatch.setattr(library, "widths", lambda: (8,))
+    monkeypatch.setattr(library, "solver", lambda _: wide.kt_integrate_8)
+    monkeypatch.setattr(library, "functions", lambda *_: addresses)
+    same(ensemble(model, crank, SPAN, **options, lanes=8), expected)
 
 
 def test_the_same_bits_beside_what_fails(car: Model, start: Any, mixed: xr.Dataset) -> None:

@@ -370,7 +370,9 @@ static void sweep(crew *w)
     refused |= spoiled;
     good &= ~spoiled;
     commit(w, good, step, reached);
-    limit(w, good & looks, lapse, step);
+    if (any(good & looks)) {
+        limit(w, good & looks, lapse, step);
+    }
     w->again = ~good;
     w->step = choose(refused, SHORTER * step, next);
     w->tried -= w->running & ~fresh;

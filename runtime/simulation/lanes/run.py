@@ -36,11 +36,11 @@ def run(problem: Problem, threads: int, report: Report | None = None) -> None:
     """
     stop = ctypes.c_int(0)
     with ThreadPoolExecutor(threads) as pool:
-        waiting = {
-            pool.submit(problem.integrate, first, last, stop): last - first
-            for first, last in _chunks(problem.systems.count, threads)
-        }
         try:
+            waiting = {
+                pool.submit(problem.integrate, first, last, stop): last - first
+                for first, last in _chunks(problem.systems.count, threads)
+            }
             _wait_for(waiting, report)
         except BaseException:
             stop.value = 1

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from contextlib import nullcontext
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -15,10 +16,10 @@ from ...simulation.lanes.problem import Accuracy, Problem, Systems
 from ...simulation.lanes.run import run, usual_threads
 from ...systems.state import inputs_of
 from ...systems.system import System
-from .drives import drives_of
+from .drives import Drives, drives_of
 from .results import dataset_of
 from .variants import Variants, impossible_sets, variants_of
-from .wanted import Asked, asked_of, watched_limits
+from .wanted import asked_of, watched_limits
 
 Array = NDArray[np.float64]
 
@@ -131,24 +132,11 @@ def ensemble(
             cores = given.whole("threads", cores, most=_MOST_THREADS)
             width = _width(given, model, lanes)
             given.flag("progress", progress)
-    rows = None if len(state) == 1 else len(state)
-    own = variants_of(model, variants, courses, rows)
-    drives = drives_of(
-        model, courses, own, span,
-        held=inputs_of(y0, model.names_of_states), max_step=accuracy.max_step,
-    )  # fmt: skip
-    asked = Asked(asked.times, asked.signals, asked.reduced, watched_limits(model, own))
-    systems = Systems(
-        count=own.count,
-        parameters=np.array([model.parameters[name] for name in model.equations.PARAMETERS]),
-        varied=_places(own.parameters, model.equations.PARAMETERS),
-        variants=_table(own.parameters, own.count),
-        states=_states(model, state, own),
-        inputs=drives.constant,
-        drives=drives.different,
-        drive_of=drives.of,
-        left_out=impossible_sets(model, own),
-    )
+    own = variants_of(model, variants, courses, None if len(state) == 1 else len(state))
+    held = inputs_of(y0, model.names_of_states)
+    drives = drives_of(model, courses, own, span, held=held, max_step=accuracy.max_step)
+    asked = replace(asked, limits=watched_limits(model, own))
+    systems = _systems(model, own, state, drives)
     problem = Problem(model, systems, asked.for_c(model), accuracy, width)
     with _shown_progress(own.count, wanted=progress) as report:
         run(problem, cores, report)
@@ -161,6 +149,8 @@ def ensemble(
 def _start(given: Arguments, model: System, y0: Any) -> Array:
     """Return the initial states, one row for all or one for each; NaN for the design position."""
     size = len(model.state_names)
+    if not size:
+        given.refuse(f"{model.equations.NAME} moves as its inputs say: there is nothing to find.")
     if y0 is None:
         return np.full((1, size), np.nan)
     states = given.array("y0", y0, dimensions=[1, 2], last=size, empty=not size)
@@ -224,6 +214,22 @@ def _width(given: Arguments, model: System, lanes: Any) -> int:
 
 
 # -- arrays ---------------------------------------------------------------------------------------
+
+
+def _systems(model: System, own: Variants, state: Array, drives: Drives) -> Systems:
+    """Return what the systems have of their own as arrays."""
+    names = model.equations.PARAMETERS
+    return Systems(
+        count=own.count,
+        parameters=np.array([model.parameters[name] for name in names]),
+        varied=_places(own.parameters, names),
+        variants=_table(own.parameters, own.count),
+        states=_states(model, state, own),
+        inputs=drives.constant,
+        drives=drives.different,
+        drive_of=drives.of,
+        left_out=impossible_sets(model, own),
+    )
 
 
 def _places(columns: Mapping[str, Array], names: Mapping[str, Any]) -> NDArray[np.int32]:

@@ -1,0 +1,352 @@
+"""Many cars at once: what a right-hand side costs in lanes, and simulated seconds in a second.
+
+``make benchmark-ensemble`` measures the reference car with 100,000 different sets of rates, each
+let go from 10 mm of bump. Tolerances are the loosest at which no arm angle of some of the cars is
+off by more than 1e-6 rad at any time; the truth is an integration at 1e-12 by another method.
+Beside it are a loop over `simulate` and, where CasADi is installed, its integrator mapped over
+threads.
+"""
+
+import ctypes
+import importlib.util
+import shutil
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass
+from functools import cache, partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Annotated, Any
+
+import numpy as np
+import typer
+from kintrafo import Model, System, ensemble, simulate, state_at_height
+from kintrafo.plots.figures import BLUE, STYLE
+from kintrafo.simulation.lanes import library
+from kintrafo.simulation.lanes.run import usual_threads
+from kintrafo.systems.compile.compiler import find_compiler
+from matplotlib import rc_context
+from matplotlib.figure import Figure
+from rich.console import Console
+from rich.markdown import Markdown
+
+from .report import (
+    count,
+    environment,
+    fill_page,
+    machine_line,
+    markdown_table,
+    seconds_of,
+    write_json,
+)
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+SPAN = (0.0, 1.0)
+SAMPLES = np.linspace(*SPAN, 21)
+ERROR = 1e-6  # of the arm angle [rad]
+CHECKED = 20  # cars whose error is looked at
+TOLERANCES = [10.0**-e for e in np.arange(2.0, 11.0, 0.25)]
+SIZES = (100, 1_000, 10_000, 100_000)
+ONE_BY_ONE = 200  # cars of a loop over simulate
+REPEATS = 3
+ROUNDS = 30  # of the calls: so short that some of them are undisturbed
+CALLS = 10_000
+VARIED = ("spring_rate", "damper_rate", "tyre_rate")
+
+
+@dataclass(frozen=True)
+class Call:
+    """Time of one right-hand side.
+
+    Attributes
+    ----------
+    lanes : int
+        1: the function of one state.
+    nanoseconds : float
+        For one car, the least of the repetitions.
+    """
+
+    lanes: int
+    nanoseconds: float
+
+
+@dataclass(frozen=True)
+class Rate:
+    """How fast many cars are simulated.
+
+    Attributes
+    ----------
+    what : str
+    cars, threads : int
+    tolerance : float
+    error : float
+        Greatest of the arm angles [rad].
+    seconds, processor_seconds : float
+        On the clock, and of all processor cores together: the least of the repetitions. What other
+        programs take is in the first.
+    """
+
+    what: str
+    cars: int
+    threads: int
+    tolerance: float
+    error: float
+    seconds: float
+    processor_seconds: float
+
+    @property
+    def per_second(self) -> float:
+        """Simulated seconds in one second."""
+        return self.cars * (SPAN[1] - SPAN[0]) / self.seconds
+
+
+@cache
+def car() -> Model:
+    """Return the reference car."""
+    return Model("reference_car")
+
+
+@cache
+def start() -> Array:
+    """Return the state from which all cars are let go."""
+    return np.asarray(state_at_height(car(), 0.310, spin_rate=93.0))
+
+
+def cars(number: int) -> dict[str, Array]:
+    """Return cars whose rates differ by some per cent."""
+    rng = np.random.default_rng(1)
+    spread = 1.0 + 0.05 * rng.standard_normal((len(VARIED), number))
+    return {name: car().parameters[name] * s for name, s in zip(VARIED, spread, strict=True)}
+
+
+# -- one right-hand side --------------------------------------------------------------------------
+
+
+def calls(times: int) -> Iterator[Call]:
+    """Yield what a right-hand side costs, one by one and in all widths."""
+    compiler = find_compiler()
+    if compiler is None:
+        return
+    with TemporaryDirectory() as folder:
+        built = Path(folder) / "loop.so"
+        source = Path(folder) / "loop.c"
+        shutil.copy(Path(__file__).with_name("lanes_loop.c"), source)
+        compiler.build([source], built)
+        loops = ctypes.CDLL(str(built))
+        one = car().equations.ADDRESSES["rhs_rack_held"]
+        yield Call(1, _nanoseconds(loops.call_one, one, 1, times))
+        for width in library.widths():
+            address = library.functions(car().equations, width, "_rack_held")["rhs"]
+            yield Call(width, _nanoseconds(getattr(loops, f"call_{width}"), address, width, times))
+
+
+def _nanoseconds(loop: Any, address: int, width: int, times: int) -> float:
+    inputs = np.zeros(len(car().input_names))
+    given = [_spread(values, width) for values in (car().constants, start(), inputs, start())]
+    pointers = [ctypes.c_void_p(array.ctypes.data) for array in given]
+    best = np.inf
+    for _ in range(ROUNDS):
+        called = partial(loop, ctypes.c_void_p(address), *pointers, ctypes.c_long(times))
+        best = min(best, seconds_of(called))
+    return best / times / width * 1e9
+
+
+def _spread(values: Array, width: int) -> Array:
+    """Return the same numbers in all lanes, at an address that is one of vectors."""
+    memory = np.zeros(values.size * width + 8)
+    first = (-memory.ctypes.data % 64) // 8
+    aligned = memory[first : first + values.size * width].reshape(-1, width)
+    aligned[:] = np.asarray(values)[:, None]
+    return aligned
+
+
+# -- a second of motion ---------------------------------------------------------------------------
+
+
+Solver = Callable[[int, float], Array]
+"""From how many of the cars, and a tolerance, to their arm angles at the samples."""
+
+
+@cache
+def truth(number: int) -> Array:
+    """Return the arm angles of some cars, to 1e-11 rad."""
+    return one_by_one(number, 1e-12, "DOP853")
+
+
+def one_by_one(number: int, tolerance: float, method: Any = "DormandPrince") -> Array:
+    """Simulate cars one after the other, as a person would in a loop."""
+    found, own = np.empty((number, SAMPLES.size)), cars(number)
+    for place in range(number):
+        parameters = car().parameters | {name: own[name][place] for name in VARIED}
+        model = System(car().equations, parameters)
+        options = {"rtol": tolerance, "atol": tolerance, "t_eval": SAMPLES, "method": method}
+        found[place] = simulate(model, SPAN, start(), **options).y[0]
+    return found
+
+
+def in_lanes(lanes: int, threads: int) -> Solver:
+    """Return the ensemble, whose results are the angles alone."""
+
+    def solve(number: int, tolerance: float) -> Array:
+        found = ensemble(
+            car(), cars(number), SPAN, start(), signals=["beta1"], t_eval=SAMPLES,
+            rtol=tolerance, atol=tolerance, lanes=lanes, threads=threads,
+        )  # fmt: skip
+        angles: Array = found["beta1"].values
+        return angles
+
+    return solve
+
+
+def loosest(solve: Solver, checked: int) -> tuple[float, float]:
+    """Return the loosest tolerance that is accurate enough for some cars, and its error [rad]."""
+    for tolerance in TOLERANCES:
+        error = float(np.abs(solve(checked, tolerance) - truth(checked)).max())
+        if error <= ERROR:
+            return tolerance, error
+    message = f"no tolerance has an error of {ERROR:g} rad"
+    raise ValueError(message)
+
+
+def timed(what: str, solve: Solver, sizes: tuple[int, ...], threads: int) -> Iterator[Rate]:
+    """Yield how fast one way is, for every number of cars."""
+    tolerance, error = loosest(solve, min(CHECKED, sizes[0]))
+    for number in sizes:
+        taken = []
+        for _ in range(REPEATS):
+            before = time.perf_counter(), time.process_time()
+            solve(number, tolerance)
+            taken.append((time.perf_counter() - before[0], time.process_time() - before[1]))
+        clock, processor = map(min, zip(*taken, strict=True))
+        yield Rate(what, number, threads, tolerance, error, clock, processor)
+
+
+def rates(sizes: tuple[int, ...], report: Callable[[str], None]) -> Iterator[Rate]:
+    """Yield how fast all ways are."""
+    cores = usual_threads()
+    report("a loop over simulate")
+    yield from timed("a loop over `simulate`", one_by_one, (min(ONE_BY_ONE, sizes[-1]),), 1)
+    for lanes in library.widths():
+        for threads in sorted({1, cores}):
+            report(f"{lanes} lanes, {threads} threads")
+            what = f"`ensemble`, {lanes} lanes"
+            yield from timed(what, in_lanes(lanes, threads), sizes, threads)
+    if importlib.util.find_spec("casadi"):
+        from .peers.casadi_map import mapped  # noqa: PLC0415 (only where CasADi is installed)
+
+        report("CasADi")
+        few = min(ONE_BY_ONE * 5, sizes[-1])
+        solve = mapped(start(), SPAN, SAMPLES, cars, cores)
+        yield from timed("CasADi CVODES, jit, `map`", solve, (few,), cores)
+
+
+# -- results --------------------------------------------------------------------------------------
+
+
+def table_of_calls(found: list[Call]) -> str:
+    """Return the costs of a right-hand side as Markdown."""
+    header = ("right-hand side", "ns a car", "times as fast")
+    rows = [
+        (
+            "one by one" if call.lanes == 1 else f"{call.lanes} lanes",
+            f"{call.nanoseconds:.1f}",
+            f"{found[0].nanoseconds / call.nanoseconds:.1f}",
+        )
+        for call in found
+    ]
+    return markdown_table(header, rows)
+
+
+def table_of_rates(found: list[Rate]) -> str:
+    """Return the rates as Markdown: of each way that of the most cars."""
+    header = (
+        "", "threads", "cars", "tolerance", "error [rad]", "µs of a core for one",
+        "simulated s in 1 s",
+    )  # fmt: skip
+    largest = {(rate.what, rate.threads): rate for rate in found}.values()
+    rows = [
+        (
+            rate.what,
+            str(rate.threads),
+            count(rate.cars),
+            f"{rate.tolerance:.0e}",
+            f"{rate.error:.0e}",
+            f"{_of_a_core(rate):.3g}",
+            count(float(f"{rate.per_second:.2g}")),
+        )
+        for rate in largest
+    ]
+    return markdown_table(header, rows)
+
+
+def sentence(found: list[Rate]) -> str:
+    """Say what a car costs in the cheapest way."""
+    best, loop = min(found, key=_of_a_core), found[0]
+    cost, before = _of_a_core(best), _of_a_core(loop)
+    return (
+        f"One of {count(best.cars)} cars takes {cost:.2g} µs of a core for a second of motion by "
+        f"{best.what}; by a loop over `simulate` it is {float(f'{before:.2g}'):.0f} µs, "
+        f"{float(f'{before / cost:.2g}'):.0f} times as much."
+    )
+
+
+def _of_a_core(rate: Rate) -> float:
+    """Return how long a core works for one car [µs]."""
+    return rate.processor_seconds / rate.cars * 1e6
+
+
+def figure(found: list[Rate]) -> Figure:
+    """Draw how the rate grows with the number of cars."""
+    drawn = Figure(figsize=(6.4, 3.6), layout="constrained")
+    axes = drawn.subplots()
+    shades = iter(np.linspace(0.35, 1.0, len({(r.what, r.threads) for r in found})))
+    for what, threads in dict.fromkeys((rate.what, rate.threads) for rate in found):
+        own = [rate for rate in found if (rate.what, rate.threads) == (what, threads)]
+        label = f"{what.replace('`', '')}, {threads} thread{'s' * (threads > 1)}"
+        style = {"marker": "o", "color": BLUE, "alpha": next(shades), "label": label}
+        axes.plot([r.cars for r in own], [r.per_second for r in own], **style)
+    axes.set(xscale="log", yscale="log", xlabel="cars", ylabel="simulated seconds in one")
+    axes.legend(frameon=False, fontsize=8)
+    return drawn
+
+
+def run(
+    out: Annotated[Path, typer.Option(help="Folder for the results.")] = Path("out/benchmark"),
+    page: Annotated[
+        Path | None, typer.Option(help="Also put tables and picture into this page of docs/.")
+    ] = None,
+    *,
+    quick: Annotated[bool, typer.Option("--quick", help="Few cars, few repetitions.")] = False,
+) -> None:
+    """Measure many cars at once."""
+    console = Console()
+    if not library.widths():
+        console.print("kintrafo was built without lanes, for which it needs GCC or Clang.")
+        raise typer.Exit(1)
+    out.mkdir(parents=True, exist_ok=True)
+    sizes, times = ((2, 4), 1000) if quick else (SIZES, CALLS)
+    with console.status("one right-hand side") as status:
+        costs = list(calls(times))
+        found = list(rates(sizes, status.update))
+    machine = environment()
+    blocks = {
+        "machine": machine_line(machine).replace("Processor time on one core of", "Measured on"),
+        "calls": table_of_calls(costs),
+        "rates": table_of_rates(found),
+        "sentence": sentence(found),
+    }
+    text = "\n\n".join(blocks.values())
+    (out / "ensemble.md").write_text(text + "\n", encoding="utf-8")
+    data = {"environment": machine, "calls": costs, "rates": [asdict(rate) for rate in found]}
+    write_json(out / "ensemble.json", data)
+    with rc_context(STYLE):
+        figure(found).savefig(out / "ensemble.png", dpi=130)
+    if page is not None:
+        fill_page(page, blocks)
+        shutil.copy(out / "ensemble.png", page.parent / "images" / "ensemble.png")
+    console.print(Markdown(text))
+
+
+if __name__ == "__main__":
+    typer.run(run)
