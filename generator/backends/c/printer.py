@@ -13,8 +13,9 @@ from ....equations import following
 from ....equations.status import NOT_FINITE_BIT, bit_of
 from ...program.floors import ROUNDING
 from ..schedule import schedule
+from ..sharing import scheduled, together
 from ..templates import template
-from ..text import Written, text_of, written
+from ..text import Written, text_of, written, written_steps, written_values
 from ..words import (
     FORMULA,
     GENERATOR_VERSION,
@@ -26,7 +27,7 @@ from ..words import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Collection, Iterable, Mapping, Sequence
 
     import sympy as sp
 
@@ -35,6 +36,8 @@ if TYPE_CHECKING:
     from ...program.conditions import Assumption, Condition
     from ...program.function import Block, Function, Stage
     from ...program.steps import Guard
+    from ..schedule import Assignment
+    from ..sharing import Part
 
 WIDTH = 100
 ARGUMENTS = "const double *restrict constants, const double *restrict state,"
@@ -58,6 +61,24 @@ static unsigned not_finite(const double *values, int count)
 }"""
 
 
+INLINED = """\
+/*
+ * What becomes part of every function that calls it, and what is left out where nothing reads its
+ * result: with optimisation, each function keeps of `compute` the steps that its results need.
+ */
+#ifdef __GNUC__
+#define INLINED static inline __attribute__((always_inline))
+#define NO_EFFECT __attribute__((const))
+#else
+#define INLINED static inline
+#define NO_EFFECT
+#endif"""
+
+COMPUTE = (
+    "/* All functions of this file: the steps, each once, and the results of the one wanted. */"
+)
+
+
 class CPrinter:
     """Prints the header and the source of one model."""
 
@@ -79,7 +100,7 @@ class CPrinter:
             ),
             self._enum(
                 "parameter",
-                "Parameters, SI units, at the design position, chassis axes.",
+                f"Parameters, SI units, at the design position, {self.model.model.mechanism.axes}.",
                 self.model.parameters,
             ),
             self._enum(
@@ -172,7 +193,8 @@ class CPrinter:
 
     def _prototypes(self) -> list[str]:
         prepare = (
-            "/*\n * Compute the constants of one parameter set.\n"
+            "/*\n * Compute the constants of one parameter set. Ranges of parameters are not\n"
+            f" * checked here: they are `least`, `above` and `most` in {self.prefix}.json.\n"
             f"{self._prepare_returns()} */\n{self._from_parameters('prepare', 'constants')};"
         )
         design = (
@@ -242,14 +264,16 @@ class CPrinter:
         """Return the text of a source file."""
         functions = [f for f in self.model.emitted.values() if f.part == part]
         text_functions = "\n#include <string.h>" if blocks_of(functions) else ""
+        null = "\n#include <stddef.h>" if any(map(reads_given, functions)) else ""
         blocks = [
             self._banner(),
-            f'#include "{self.prefix}.h"\n\n#include <math.h>{text_functions}',
+            f'#include "{self.prefix}.h"\n\n#include <math.h>{null}{text_functions}',
+            INLINED,
             AT_LEAST,
             NOT_FINITE,
             *self._blocks(blocks_of(functions)),
             *([] if part else [*self._rounding(), self._prepare_body(), self._design_body()]),
-            *(self._body(f) for f in functions),
+            *self._functions(functions),
         ]
         return "\n\n".join(blocks) + "\n"
 
@@ -277,15 +301,23 @@ class CPrinter:
         prepare, count = self.model.prepare, f"{self.upper}_CONSTANT_COUNT"
         values = [e.name for e in self.model.parameters]
         kept = set(prepare.labels)
-        c = self._pointer(prepare)
         read = {s.name for s in prepare.free_symbols}
+        taken = read.union(step.name for step in scheduled(prepare).steps)
+        c = _free("c", taken)
+        names = {name: f"{c}->{name}" for name in prepare.labels}
+        results = written(prepare, FORMULA, names)[1]
         lines = [
             self._from_parameters("prepare", "constants"),
             "{",
             f"    struct {self.prefix}_constants *const {c} = (void *)constants;",
             *declared([f"{n} = parameters[{i}]" for i, n in enumerate(values) if n in read - kept]),
             *(f"    {c}->{n} = parameters[{i}];" for i, n in enumerate(values) if n in kept),
-            *self.steps(prepare, {name: f"{c}->{name}" for name in kept}),
+            *self.steps(prepare, names),
+            *(
+                f"    {names[name]} = {value};"
+                for name, value in zip(prepare.labels, results, strict=True)
+                if value != names[name]  # one whose value another one has
+            ),
             "",
             *self._assumptions(c),
             f"    for (int i = 0; i < {count}; ++i) {{",
@@ -319,13 +351,6 @@ class CPrinter:
             ]
         )
 
-    @staticmethod
-    def _pointer(function: Function | Stage) -> str:
-        """Return a name for the constants that nothing else in a function has."""
-        steps, _ = written(function, FORMULA)
-        taken = {step.name for step in steps} | {s.name for s in function.free_symbols}
-        return next(name for name in ("c", "c_", "c__") if name not in taken)
-
     def _assumptions(self, c: str) -> list[str]:
         """Return the checks of what must be zero, and of what must not; a NaN is found later."""
         lines = []
@@ -352,35 +377,90 @@ class CPrinter:
             ]
         return lines
 
-    def _body(self, function: Function | Stage) -> str:
-        read, c = {s.name for s in function.free_symbols}, self._pointer(function)
-        constants = read.intersection(self.model.prepare.labels)
+    def _functions(self, functions: Sequence[Function | Stage]) -> list[str]:
+        """Print functions: what they compute, each step once, and each of them as a call of it."""
+        given = any(map(reads_given, functions))
+        wanted = ", ".join(map(self._wanted, functions))
+        return [
+            "\n".join(_wrapped(f"enum {self.prefix}_function {{ {wanted} }};", 0)),
+            self._compute(functions, given=given),
+            *(self._call(function, given=given) for function in functions),
+        ]
+
+    def _wanted(self, function: Function | Stage) -> str:
+        return f"{self.upper}_{function.name.upper()}"
+
+    def _call(self, function: Function | Stage, *, given: bool) -> str:
+        arguments = [self._wanted(function), "constants", "state", "inputs"]
+        if given:
+            arguments.append("given" if reads_given(function) else "NULL")
+        call = f"compute({', '.join(arguments)}, out)"
+        return f"{self._signature(function)}\n{{\n    return {call};\n}}"
+
+    def _compute(self, functions: Sequence[Function | Stage], *, given: bool) -> str:
+        """Print what all functions compute, each step once."""
+        relative = {f"given_{e.name}" for e in self.model.relative}
+        whole = together(functions, self.model.order, relative)
+        c = _free("c", whole.names)
+        names = {name: f"{c}->{name}" for name in self.model.prepare.labels}
+        start = "INLINED int compute("
+        indent, more = " " * len(start), " const double *restrict given," * given
+        lines = [
+            COMPUTE,
+            f"{start}const enum {self.prefix}_function wanted,",
+            f"{indent}{ARGUMENTS}",
+            f"{indent}const double *restrict inputs,{more} double *restrict out)",
+            "{",
+            *self._pointer(c, whole.reads),
+            *self._loads(whole.reads),
+            *_printed(whole.steps, names),
+            "",
+            "    unsigned status = 0;",
+        ]
+        for function, part in zip(functions, whole.parts, strict=True):
+            body = self._part(function, part, names)
+            lines += [
+                "",
+                f"    if (wanted == {self._wanted(function)}) {{",
+                *(f"    {line}" if line else "" for line in body[body[0] == "" :]),
+                "    }",
+            ]
+        return "\n".join([*lines, "    return (int)status;", "}"])
+
+    def _pointer(self, c: str, read: Collection[str]) -> list[str]:
+        """Return the declaration of the constants; mark what is not read."""
+        labels, states = self.model.prepare.labels, [e.name for e in self.model.state]
+        unread = {"state": states, "inputs": [e.name for e in self.model.inputs]}
+        lines = [f"    (void){n};" for n, names in unread.items() if not {*names} & {*read}]
+        if not {*labels} & {*read}:
+            return ["    (void)constants;", *lines]
         pointer = f"    const struct {self.prefix}_constants *const {c} = (const void *)constants;"
-        lines = [self._signature(function), "{", *([pointer] if constants else [])]
+        return [pointer, *lines]
+
+    def _loads(self, read: Collection[str]) -> list[str]:
+        """Return the declarations of what is read of state, inputs and given coordinates."""
         arrays = {
-            "constants": [],
             "state": [e.name for e in self.model.state],
             "inputs": [e.name for e in self.model.inputs],
+            "given": [f"given_{e.name}" for e in self.model.relative],
         }
-        if reads_given(function):
-            arrays["given"] = [f"given_{e.name}" for e in self.model.relative]
-        taken = {
-            array: [f"{name} = {array}[{i}]" for i, name in enumerate(names) if name in read]
-            for array, names in arrays.items()
-        }
-        unused = [array for array, found in taken.items() if not found]
-        lines += [
-            f"    (void){array};" for array in unused if array != "constants" or not constants
-        ]
-        lines += declared([text for found in taken.values() for text in found])
-        names = {name: f"{c}->{name}" for name in constants}
-        lines += self.steps(function, names)
-        texts, start = written(function, FORMULA, names)[1], 0
+        return declared(
+            [
+                f"{name} = {array}[{i}]"
+                for array, names in arrays.items()
+                for i, name in enumerate(names)
+                if name in read
+            ]
+        )
+
+    def _part(self, function: Function | Stage, part: Part, names: Mapping[str, str]) -> list[str]:
+        """Print the results of a function, and the steps that it alone has."""
+        lines = [*self._loads(part.reads), *_printed(part.steps, names)]
+        texts, start = written_values(part.results, FORMULA, names), 0
         for member in function.members:
             lines += self._results(member, texts[start : start + member.size], start)
             start += member.size
-        lines += ["", *self._return(function, names)]
-        return "\n".join([*lines, "}"])
+        return [*lines, "", *self._status_of(function, part, names)]
 
     @staticmethod
     def _results(part: Function, texts: Sequence[str], start: int) -> list[str]:
@@ -397,8 +477,12 @@ class CPrinter:
             if value == "0.0":
                 zeros.append(f"out[{place}]")
                 continue
-            text = f"out[{place}] = {value};"
-            lines += _wrapped(text if by and row == last else f"{text} /* {row} */", 4)
+            text, label = f"out[{place}] = {value};", f"/* {row} */"
+            fits = len(text) + len(label) < WIDTH - 8
+            if not (by and row == last):
+                lines += [] if fits else [f"    {label}"]
+                text += f" {label}" if fits else ""
+            lines += _wrapped(text, 4)
             last = row
         if zeros:
             lines += textwrap.wrap(
@@ -418,35 +502,45 @@ class CPrinter:
         names
             What is called otherwise than it is: constants, by way of a pointer to all of them.
         """
-        lines: list[str] = []
-        names = names or {}
-        values = written(function, FORMULA, names)[0]
-        for section, group in groupby(values, key=lambda step: step.section):
-            lines += ["", f"    /* {section} */"]
-            for kind, run in groupby(group, key=_kind):
-                texts = [f"{step.name} = {step.text}" for step in run]
-                lines += declared(texts) if kind == "const double" else _each(kind, texts)
-        return lines
+        return _printed(scheduled(function).steps, names or {})
 
-    def _return(self, function: Function | Stage, names: Mapping[str, str]) -> list[str]:
+    def _status_of(
+        self, function: Function | Stage, part: Part, names: Mapping[str, str]
+    ) -> list[str]:
         """Collect the status: comparisons only, no branch.
 
         A NaN or infinity that goes in comes out as one, or is caught by a guard.
         """
 
-        def floor(guard: Guard) -> str:
-            return text_of(schedule(guard.floor), FORMULA, lambda s: names.get(s.name, s.name))
+        def test(guard: Guard) -> str:
+            floor = text_of(schedule(guard.floor), FORMULA, lambda s: names.get(s.name, s.name))
+            return f"!({part.names.get(guard.quantity.name, guard.quantity)} > {floor})"
 
+        acting = {guard.name: guard for guard in function.guards}
         bits = [
-            (f"!({g.quantity} > {floor(g)})", self.enumerator("status", g.name))
+            (test(acting[g.name]), self.enumerator("status", g.name))
             for g in self.model.guards
-            if g in function.guards
+            if g.name in acting
         ]
         finite = self.enumerator("status", "not_finite")
         bits.append((f"not_finite(out, {function.size})", finite))
-        lines = [f"    unsigned status = {bits[0][0]} * {bits[0][1]};"]
-        lines += [f"    status |= {test} * {bit};" for test, bit in bits[1:]]
-        return [*lines, "    return (int)status;"]
+        return [f"    status |= {condition} * {bit};" for condition, bit in bits]
+
+
+def _free(name: str, taken: Collection[str]) -> str:
+    """Return a name that nothing else in a function has."""
+    return next(n for n in (name, f"{name}_", f"{name}__") if n not in taken)
+
+
+def _printed(steps: Sequence[Assignment], names: Mapping[str, str]) -> list[str]:
+    """Return assignments, with the parts of the derivation in between."""
+    lines: list[str] = []
+    for section, group in groupby(written_steps(steps, FORMULA, names), key=lambda s: s.section):
+        lines += ["", f"    /* {section} */"]
+        for kind, run in groupby(group, key=_kind):
+            texts = [f"{step.name} = {step.text}" for step in run]
+            lines += declared(texts) if kind == "const double" else _each(kind, texts)
+    return lines
 
 
 def _once(printer: CPrinter, block: Block) -> str:
@@ -485,7 +579,7 @@ def _call(block: Block) -> str:
     """Print the function that follows the loops of a block."""
     along = [(f"{d.now}_start", f"{d.now}_end", f"{d.now}_unit") for d in block.driven]
     names = [*map(str, block.constants), *(name for values in along for name in values)]
-    start = f"static struct {block.name} {block.name}("
+    start = f"NO_EFFECT static struct {block.name} {block.name}("
     arguments = ", ".join(f"double{_KEPT}{name}" for name in names) + ")"
     signature = textwrap.wrap(start + arguments, WIDTH, subsequent_indent=" " * len(start))
 
