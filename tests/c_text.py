@@ -29,7 +29,7 @@ _TOKEN = re.compile(
     )""",
     re.VERBOSE,
 )
-_SIGNATURE = re.compile(r"^status_word (\w+)\([^)]*\)\s*\{", re.MULTILINE)
+_SIGNATURE = re.compile(r"^(?:INLINED )?status_word (\w+)\([^)]*\)\s*\{", re.MULTILINE)
 
 _NAMED = {"+": "add", "-": "add", "*": "multiply", "/": "divide"}
 _CALLED = {
@@ -63,14 +63,60 @@ def functions_of(model: str, texts: Iterable[str]) -> dict[str, list[str]]:
     return {name: body for text in texts for name, body in _bodies(model, text).items()}
 
 
+def whole_of(path: Path) -> list[str]:
+    """Return the tokens of what all functions of a file compute."""
+    return _functions_in(path.read_text(encoding="utf-8"))["compute"]
+
+
 def _bodies(model: str, text: str) -> dict[str, list[str]]:
+    """Return the bodies of the functions that others may call, each with all that it computes."""
+    bodies = _functions_in(text)
+    whole = bodies.pop("compute", [])
+    return {n.removeprefix(f"{model}_"): _inlined(body, whole) for n, body in bodies.items()}
+
+
+def _functions_in(text: str) -> dict[str, list[str]]:
     text = _LAYOUT.sub("", text)
     starts = [*_SIGNATURE.finditer(text)]
     ends = [*(match.start() for match in starts[1:]), len(text)]
     return {
-        match[1].removeprefix(f"{model}_"): tokens(text[match.end() : end].strip()[:-1])
+        match[1]: tokens(text[match.end() : end].rpartition("}")[0])
         for match, end in zip(starts, ends, strict=True)
     }
+
+
+def _inlined(body: list[str], whole: list[str]) -> list[str]:
+    """Return what a function computes that calls the one with all steps, as a compiler does.
+
+    These are the results behind ``if (wanted == NAME)``, and the steps that they need.
+    """
+    if body[:2] != ["return", "compute"]:
+        return body
+    branches = [i for i, token in enumerate(whole) if token == "if"]
+    chosen = next(i for i in branches if whole[i + 4] == body[3])
+    end = min([i for i in branches if i > chosen], default=len(whole))
+    own = whole[whole.index("{", chosen) + 1 : end - whole[chosen:end][::-1].index("}") - 1]
+    needed, steps = set(own), []
+    for name, step in reversed([*_steps(whole[: branches[0]])]):
+        if name in needed:
+            needed |= set(step)
+            steps.append(step)
+    return [*(token for step in reversed(steps) for token in step), *own]
+
+
+def _steps(body: list[str]) -> Iterator[tuple[str, list[str]]]:
+    """Return the declarations of a straight-line body one by one, each with its name."""
+    for statement in statements(body):
+        start, kind, depth = 0, [], 0
+        for index, token in enumerate([*statement, ","]):
+            depth += (token in "([") - (token in ")]")
+            if token == "," and not depth:
+                part = [*kind, *statement[start:index], ";"]
+                start = index + 1
+                if "=" in part:
+                    place = part.index("=") - 1
+                    kind = part[:place]
+                    yield part[place], part
 
 
 def tokens(text: str) -> list[str]:

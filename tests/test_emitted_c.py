@@ -1,6 +1,8 @@
 """The emitted C: its values, its text, its operation counts, and what a compiler says of it."""
 
+import ctypes
 import itertools
+import platform
 import re
 import shutil
 import subprocess
@@ -12,7 +14,7 @@ from pathlib import Path
 import mpmath
 import numpy as np
 import pytest
-from c_text import EMITTED, FOLDER, count, functions, header, sources
+from c_text import EMITTED, FOLDER, count, definitions, functions, header, sources, whole_of
 from cases import MODELS, car_parameters, random_instants
 from kintrafo.generator.equations.outputs import Derivation
 from oracle.newton import Mechanism
@@ -173,6 +175,58 @@ def test_every_step_is_used(name: str) -> None:
         assert [n for n in names if times[n] < 2] == [], function
 
 
+@each_model
+def test_no_step_is_written_twice(name: str) -> None:
+    """Neither for two functions of a file nor for one."""
+    for source in sources(name):
+        steps = definitions(whole_of(source))
+        once = Counter(" ".join(text) for name, text in steps.items() if name.isidentifier())
+        assert [text for text, times in once.items() if times > 1] == []
+
+
+FOUR_BAR = [str(source) for source in sources("four_bar")]
+LIBRARY_FLAGS = ["-std=c99", "-fno-math-errno", "-ffp-contract=off", "-fPIC", "-shared"]
+
+
+@pytest.mark.parametrize("level", ["-O0", "-O1", "-O3"])
+def test_optimisation_changes_no_bit(level: str, tmp_path: Path) -> None:
+    """Of what `compute` holds a function keeps what it needs, or all, and returns the same."""
+    library = tmp_path / "four_bar.so"
+    run(["gcc", *LIBRARY_FLAGS, level, *FOUR_BAR, "-o", str(library), "-lm"])
+    compiled, loaded = EMITTED["four_bar"], ctypes.CDLL(str(library))
+    state, inputs, given = (np.array(values) for values in ([0.3, 2.0], [0.5], [0.3, 0.1, -0.2]))
+    for function, address in compiled.ADDRESSES.items():
+        if function in ("prepare", "design_state"):
+            continue
+        arrays = [compiled.DEFAULT_CONSTANTS, state, inputs]
+        arrays += [given] * (function == "residuals")
+        outs = [np.full(100, np.nan) for _ in range(2)]
+        other = ctypes.cast(loaded[f"four_bar_{function}"], ctypes.c_void_p).value
+        for place, out in zip((address, other), outs, strict=True):
+            call = ctypes.CFUNCTYPE(ctypes.c_int, *[ctypes.c_void_p] * (len(arrays) + 1))(place)
+            assert call(*(array.ctypes.data for array in (*arrays, out))) == 0
+        np.testing.assert_array_equal(*outs)
+
+
+def test_compiled_functions_keep_only_what_they_need(tmp_path: Path) -> None:
+    """As many products and quotients as counted, or fewer, in the machine code of each function."""
+    if platform.machine() not in ("x86_64", "AMD64"):
+        pytest.skip("reads the instructions of x86-64")
+    for source in FOUR_BAR:
+        assembly = tmp_path / "four_bar.s"
+        run(["gcc", *LIBRARY_FLAGS[:3], "-O2", "-S", source, "-o", str(assembly)])
+        text = assembly.read_text(encoding="utf-8")
+        for name, body in re.findall(
+            r"^four_bar_(\w+):$(.*?)^\s+ret", text, re.MULTILINE | re.DOTALL
+        ):
+            if name != "prepare":  # its checks end it before the last line
+                found = Counter(re.findall(r"^\s+(mulsd|divsd|sqrtsd)", body, re.MULTILINE))
+                counts = count(functions("four_bar")[name])
+                assert found["mulsd"] <= counts["multiply"], name
+                assert found["divsd"] <= counts["divide"], name
+                assert found["sqrtsd"] <= counts["root"], name
+
+
 COUNTED = re.compile(r"(\d+) operations? \(([^)]*)\)")
 
 
@@ -259,3 +313,23 @@ def test_enums_are_the_order_of_the_arrays(name: str) -> None:
         if isinstance(entries, dict):  # units and meanings stand beside the indices
             for entry in entries.values():
                 assert f"/* [{entry['unit']}] {entry['meaning']} */" in match[1]
+
+
+def test_texts_are_those_of_the_model() -> None:
+    """Axes have the name of what rests; only the paper's model cites the paper."""
+    axes = {name: set(re.findall(r"(\w+) axes[.,]", header(name))) for name in EMITTED}
+    assert axes["four_bar"] == {"ground"}
+    assert axes["macpherson"] == {"chassis"}
+    citing = {name for name in EMITTED if "Figure 3" in str(EMITTED[name].equations.manifest)}
+    assert citing == {"macpherson"}
+
+
+@each_model
+def test_ranges_are_left_to_the_manifest(name: str) -> None:
+    """As the header says: nothing in prepare compares a parameter with a number."""
+    ranges = {bound for entry in EMITTED[name].PARAMETERS.values() for bound in entry}
+    assert ranges & {"least", "above", "most"}
+    assert "Ranges of parameters are not" in header(name)
+    body = functions(name)["prepare"]
+    tests = [body[i : body.index("{", i)] for i, token in enumerate(body) if token == "if"]
+    assert all(test[2] in ("fabs", "!") for test in tests)

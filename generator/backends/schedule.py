@@ -12,6 +12,7 @@ import heapq
 from dataclasses import dataclass, field
 from itertools import count
 from typing import TYPE_CHECKING, Any, TypeVar
+from weakref import WeakKeyDictionary
 
 import sympy as sp
 
@@ -78,14 +79,23 @@ class Assignment:
 
 @dataclass(frozen=True)
 class Schedule:
-    """The operations of a function or of a stage: of its steps, and of each of its results."""
+    """The operations of what is emitted: of its steps, and of each of its results."""
 
     steps: tuple[Assignment, ...]
     results: tuple[Operation, ...]
 
 
+_orders: WeakKeyDictionary[Function, Schedule] = WeakKeyDictionary()
+
+
 def ordered(function: Function) -> Schedule:
-    """Put the operations of a function in order."""
+    """Return the operations of a function; they are put in order once."""
+    if function not in _orders:
+        _orders[function] = _ordered(function)
+    return _orders[function]
+
+
+def _ordered(function: Function) -> Schedule:
     ready: dict[sp.Symbol, int] = {}
     steps = []
     for step in function.steps:

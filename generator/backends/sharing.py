@@ -1,8 +1,8 @@
-"""The schedule of what is emitted; what the functions of a stage have in common comes once.
+"""The schedule of what is emitted; what several functions have in common comes once.
 
-Each function of a stage has a program of its own, and the order of its operations. Equal operations
-on equal operands are found by numbering values, so that nothing is put together in another order:
-every result is the same to the last bit as if its function stood alone.
+Each function has a program of its own, and the order of its operations. Equal operations on equal
+operands are found by numbering values, so that nothing is put together in another order: every
+result is the same to the last bit as if its function stood alone.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ import sympy as sp
 from .schedule import Assignment, Operation, Schedule, ordered
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable, Iterable
+    from collections.abc import Container, Hashable, Iterable, Iterator, Mapping, Sequence
 
     from ..program.function import Function, Stage
 
-_schedules: WeakKeyDictionary[Function | Stage, Schedule] = WeakKeyDictionary()
+_found: WeakKeyDictionary[Function | Stage, tuple[Schedule, dict[str, str]]] = WeakKeyDictionary()
 
 _COMMUTATIVE = ("add", "multiply")
 _LEAVES = ("symbol", "number")
@@ -32,16 +32,112 @@ _LOCAL = "shared_"
 
 def scheduled(emitted: Function | Stage) -> Schedule:
     """Return the operations of what is emitted; they are put in order once."""
-    if emitted not in _schedules:
-        orders = [ordered(function) for function in emitted.members]
-        read = {symbol.name for symbol in emitted.free_symbols}
-        _schedules[emitted] = orders[0] if len(orders) == 1 else _Values(read).merged(orders)
-    return _schedules[emitted]
+    return _scheduled(emitted)[0]
+
+
+def names_in(emitted: Function | Stage) -> dict[str, str]:
+    """Return what the steps of a program are called in its schedule: of equal ones, the first."""
+    return _scheduled(emitted)[1]
+
+
+def _scheduled(emitted: Function | Stage) -> tuple[Schedule, dict[str, str]]:
+    if emitted not in _found:
+        values = _Values.of([emitted])
+        _found[emitted] = values.schedule, values.names_in(emitted)
+    return _found[emitted]
+
+
+@dataclass(frozen=True)
+class Part:
+    """What one of several functions has beside the steps of all.
+
+    Attributes
+    ----------
+    reads
+        Names of what not every function has to be read, as far as this one reads it.
+    steps
+        Those that need it.
+    results
+        What it returns.
+    names
+        What the steps of its own program are called here.
+    """
+
+    reads: frozenset[str]
+    steps: tuple[Assignment, ...]
+    results: tuple[Operation, ...]
+    names: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class Together:
+    """Several functions with every step once.
+
+    Attributes
+    ----------
+    reads
+        Names of what all functions have to be read, as far as one of them reads it.
+    steps
+        The steps, whichever function needs them.
+    parts
+        What each function has beside them.
+    """
+
+    reads: frozenset[str]
+    steps: tuple[Assignment, ...]
+    parts: tuple[Part, ...]
+
+    @property
+    def names(self) -> set[str]:
+        """All names in them."""
+        steps = (self.steps, *(part.steps for part in self.parts))
+        taken = {step.name for group in steps for step in group}
+        return taken.union(self.reads, *(part.reads for part in self.parts))
+
+
+def together(
+    functions: Sequence[Function | Stage], order: Mapping[str, int], own: Container[str]
+) -> Together:
+    """Write functions with every step once.
+
+    Parameters
+    ----------
+    order
+        Places of the steps by their names.
+    own
+        Names of what not every function has to be read.
+    """
+    values = _Values.of(functions, order)
+    needed: dict[str, set[str]] = {}
+    for step in values.schedule.steps:
+        read = {*_symbols(step.value)}
+        needed[step.name] = {n for n in read if n in own}.union(*(needed.get(n, ()) for n in read))
+    parts, start = [], 0
+    for function in functions:
+        reads = frozenset(s.name for s in function.free_symbols if s.name in own)
+        steps = tuple(s for s in values.schedule.steps if needed[s.name] & reads)
+        results = values.schedule.results[start : start + function.size]
+        parts.append(Part(reads, steps, results, values.names_in(function)))
+        start += function.size
+    all_read = {s.name for function in functions for s in function.free_symbols}
+    return Together(
+        frozenset(name for name in all_read if name not in own),
+        tuple(step for step in values.schedule.steps if not needed[step.name]),
+        tuple(parts),
+    )
+
+
+def _symbols(operation: Operation) -> Iterator[str]:
+    """Yield the names of the symbols in an operation."""
+    if operation.kind == "symbol":
+        yield operation.of.name
+    for operand in operation.operands:
+        yield from _symbols(operand)
 
 
 @dataclass
 class _Values:
-    """The values of several schedules, each with a number.
+    """The values of several functions, each with a number.
 
     Attributes
     ----------
@@ -52,28 +148,53 @@ class _Values:
     operations
         Each with the numbers of its operands, in the order of numbers.
     named
-        The name of a value, and the part of the derivation where it first has one.
+        The name of a value, as far as it has one.
+    steps
+        The numbers of the steps of each function, by their names.
+    schedule
+        The steps of all, and the results one behind the other.
     """
 
     taken: set[str]
     found: dict[Hashable, int] = field(default_factory=dict)
     operations: list[tuple[Operation, tuple[int, ...]]] = field(default_factory=list)
     named: dict[int, str] = field(default_factory=dict)
+    steps: dict[Function, dict[str, int]] = field(default_factory=dict)
+    schedule: Schedule = field(init=False)
 
-    def merged(self, orders: Iterable[Schedule]) -> Schedule:
-        """Return one schedule: the steps of all, and the results one behind the other."""
-        steps: list[tuple[int, str]] = []
+    @classmethod
+    def of(
+        cls, functions: Iterable[Function | Stage], order: Mapping[str, int] | None = None
+    ) -> _Values:
+        """Give numbers to the values of functions, and an order to their steps."""
+        members = [member for function in functions for member in function.members]
+        values = cls({s.name for member in members for s in member.free_symbols})
+        steps: list[tuple[int, Assignment]] = []
         results: list[int] = []
-        for order in orders:
-            values: dict[str, int] = {}
-            for step in order.steps:
-                value = values[step.name] = self._number(step.value, values)
-                steps.append((value, step.section))
-                if not step.name.startswith(_LOCAL) and self.operations[value][0].operands:
-                    self._name(value, step.name)
-            results += [self._number(result, values) for result in order.results]
-        self._name_repeated(results)
-        return self._written(steps, results)
+        for member in members:
+            values._add(member, steps, results)
+        if order:
+            steps.sort(key=lambda step: order.get(step[1].name, len(order)))
+        values.schedule = values._written(steps, results)
+        return values
+
+    def names_in(self, function: Function | Stage) -> dict[str, str]:
+        """Return what the steps of a function are called; of two alike, the first of them."""
+        numbers: dict[str, int] = {}
+        for member in function.members:
+            numbers = self.steps[member] | numbers
+        return {name: self.named[n] for name, n in numbers.items() if n in self.named}
+
+    def _add(
+        self, function: Function, steps: list[tuple[int, Assignment]], results: list[int]
+    ) -> None:
+        order, values = ordered(function), self.steps.setdefault(function, {})
+        for step in order.steps:
+            value = values[step.name] = self._number(step.value, values)
+            steps.append((value, step))
+            if not step.name.startswith(_LOCAL) and self.operations[value][0].operands:
+                self._name(value, step.name)
+        results += [self._number(result, values) for result in order.results]
 
     def _number(self, operation: Operation, values: dict[str, int]) -> int:
         """Return the number of a value; a name of a step is that of the value it has."""
@@ -93,36 +214,34 @@ class _Values:
             self.named[value] = next(n for n in names if n not in self.taken)
             self.taken.add(self.named[value])
 
-    def _name_repeated(self, results: Iterable[int]) -> None:
-        """Give names to what is read more than once and has none."""
+    def _repeated(self, results: Iterable[int]) -> set[int]:
+        """Return the values that are read more than once."""
         uses = Counter(results)
         for _, operands in self.operations:
-            uses.update(set(operands))
-        numbers = count(1)
-        for value, (operation, _) in enumerate(self.operations):
-            if uses[value] > 1 and operation.kind not in _LEAVES and value not in self.named:
-                self._name(
-                    value, next(n for i in numbers if (n := f"{_LOCAL}{i}") not in self.taken)
-                )
+            uses.update(operands)
+        return {value for value, times in uses.items() if times > 1}
 
-    def _written(self, steps: Iterable[tuple[int, str]], results: Iterable[int]) -> Schedule:
+    def _written(self, steps: Iterable[tuple[int, Assignment]], results: Sequence[int]) -> Schedule:
         assignments: dict[int, Assignment] = {}
+        repeated, numbers = self._repeated(results), count(1)
 
         def place(value: int, section: str) -> Operation:
             """Return what stands for a value, and put what has names before it."""
             operation, operands = self.operations[value]
-            name = self.named.get(value)
-            if value not in assignments and operation.kind not in _LEAVES:
+            if operation.kind in _LEAVES:
+                return operation
+            if value not in assignments:
                 parts = tuple(place(operand, section) for operand in operands)
                 operation = Operation(operation.kind, parts, operation.of, operation.ready)
-                if name is not None:
-                    assignments[value] = Assignment(name, operation, section)
-            if name is None:
-                return operation
-            return Operation("symbol", of=sp.Symbol(name), ready=operation.ready)
+                if value in repeated and value not in self.named:
+                    self._name(value, f"{_LOCAL}{next(numbers)}")
+                if value not in self.named:
+                    return operation
+                assignments[value] = Assignment(self.named[value], operation, section)
+            return Operation("symbol", of=sp.Symbol(self.named[value]), ready=operation.ready)
 
-        for value, section in steps:
-            if value in self.named:
-                place(value, section)
+        for value, step in steps:
+            if value in self.named or value in repeated:
+                place(value, step.section)
         finals = tuple(place(value, "results") for value in results)
         return Schedule(tuple(assignments.values()), finals)

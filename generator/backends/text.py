@@ -11,10 +11,10 @@ from .schedule import schedule
 from .sharing import scheduled
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from ..program.function import Function, Stage
-    from .schedule import Operation
+    from .schedule import Assignment, Operation
 
 # binding strength of a written operation, loosest first
 _SUM, _NEGATIVE, _PRODUCT, _ATOM = range(4)
@@ -81,22 +81,27 @@ def written(
     names
         What is called otherwise than it is.
     """
-    order, others = scheduled(emitted), names or {}
+    order = scheduled(emitted)
+    return written_steps(order.steps, dialect, names), written_values(order.results, dialect, names)
 
-    def name(symbol: sp.Symbol) -> str:
-        return others.get(symbol.name, symbol.name)
 
-    steps = [
-        Written(
-            others.get(step.name, step.name),
-            text_of(step.value, dialect, name),
-            step.section,
-            step.value.kind,
-            step.value.of,
-        )
-        for step in order.steps
+def written_steps(
+    steps: Sequence[Assignment], dialect: Dialect, names: Mapping[str, str] | None = None
+) -> list[Written]:
+    """Write some steps, with other names for what is called otherwise than it is."""
+    texts = written_values((step.value for step in steps), dialect, names)
+    return [
+        Written((names or {}).get(s.name, s.name), text, s.section, s.value.kind, s.value.of)
+        for s, text in zip(steps, texts, strict=True)
     ]
-    return steps, [text_of(result, dialect, name) for result in order.results]
+
+
+def written_values(
+    values: Iterable[Operation], dialect: Dialect, names: Mapping[str, str] | None = None
+) -> list[str]:
+    """Write some values, with other names for what is called otherwise than it is."""
+    others = names or {}
+    return [text_of(value, dialect, lambda s: others.get(s.name, s.name)) for value in values]
 
 
 def formula(expression: sp.Expr, dialect: Dialect) -> str:

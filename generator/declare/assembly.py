@@ -84,6 +84,11 @@ class Assembly:
         return self.bodies[0].name
 
     @property
+    def axes(self) -> str:
+        """What the axes are called in which places and directions are given."""
+        return f"{self.ground} axes"
+
+    @property
     def moving(self) -> tuple[Body, ...]:
         """The bodies that can move."""
         return self.bodies[1:]

@@ -46,6 +46,8 @@ class Formulation:
     allow_iteration
         Whether a loop without a closed form may be solved by Newton's method, for that loop alone.
         Without it such a loop is refused.
+    cites
+        Where a publication has what a function returns, by the name of the function.
     """
 
     name: Name
@@ -56,6 +58,7 @@ class Formulation:
     prescribed: Mapping[Joint, Motion] = field(default_factory=dict)
     held: Mapping[Name, tuple[Joint, ...]] = field(default_factory=dict)
     allow_iteration: bool = False
+    cites: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.massive is _ALL_THAT_MOVE:
@@ -86,6 +89,9 @@ class Formulation:
 def _check(model: Formulation) -> None:
     """Raise `DeclarationError` if a model contradicts its mechanism or itself."""
     problems = unwritable("title of the model", model.title)
+    problems += [
+        p for name, text in model.cites.items() for p in unwritable(f"cites: {name}", text)
+    ]
     problems += [
         f"variant {name!r} would be the function rhs_{name}, which there is already; rename it"
         for name in model.held

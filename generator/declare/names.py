@@ -30,9 +30,9 @@ M_PI_2 M_PI_4 M_1_PI M_2_PI M_2_SQRTPI M_SQRT2 M_SQRT1_2 linux unix
 _OWN_WORDS = """
 sqrt sin cos asin atan2 copysign isfinite fabs abs at_least is_positive number
 guard_bit finite_bit either first_not_finite failed status_word
-parameters constants state inputs given out status i np design_state prepare found results
-follow follow_turns square fmax GUARD_FLOOR ROUNDING ITERATIONS CONVERGED STALLED LONGEST TURNED
-CLOSE SHORTEST CLOSED FULL_TURN UNKNOWNS ELEMENTS DRIVEN ADDRESSES
+parameters constants state inputs given out status wanted compute i np design_state prepare found
+results follow follow_turns square fmax GUARD_FLOOR ROUNDING ITERATIONS CONVERGED STALLED LONGEST
+TURNED INLINED NO_EFFECT NULL CLOSE SHORTEST CLOSED FULL_TURN UNKNOWNS ELEMENTS DRIVEN ADDRESSES
 """
 _WORDS = frozenset(
     [

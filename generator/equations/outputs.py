@@ -17,6 +17,7 @@ from ..planning.plan import Plan
 from ..program.constants import ConstantStage
 from ..program.function import Stage
 from ..program.program import Program
+from ..program.together import share_together
 from ..program.vectors import ZERO, Vector
 from .assumptions import define_assumptions, find_assumptions
 from .declared_outputs import signals_of
@@ -26,7 +27,7 @@ from .in_motion import InMotion
 from .relative import RelativeCoordinates
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
     from ..declare.formulation import Formulation
     from ..declare.joints import Joint
@@ -52,7 +53,7 @@ class Entry:
 
 
 TOGETHER = {
-    "dynamics": ("The parts of M q'' + B = Q (Eq. 3).", ("mass_matrix", "bias", "forces")),
+    "dynamics": ("The parts of M q'' + B = Q.", ("mass_matrix", "bias", "forces")),
     "poses": (
         "Where the bodies are, and how they move.",
         ("relative_coordinates", "positions", "orientations", "velocities"),
@@ -69,16 +70,21 @@ TOGETHER = {
 """What is computed together, as far as a model has it: name, one line that says it, functions."""
 
 
-def staged(functions: dict[str, Function]) -> dict[str, Function | Stage]:
+def staged(functions: dict[str, Function], cites: Mapping[str, str]) -> dict[str, Function | Stage]:
     """Return what is emitted: functions by themselves, and stages of those that share steps."""
     stages: dict[str, Function | Stage] = {}
     taken = set()
     for name, (doc, names) in TOGETHER.items():
         members = tuple(functions[n] for n in names if n in functions)
         if len(members) > 1:
-            stages[name] = Stage(name, doc, members)
+            stages[name] = Stage(name, _cited(doc, cites.get(name)), members)
             taken |= {member.name for member in members}
     return {n: f for n, f in functions.items() if n not in taken} | stages
+
+
+def _cited(doc: str, place: str | None) -> str:
+    """Return a line that says what a function is, with where a publication has it."""
+    return f"{doc.removesuffix('.')} ({place})." if place else doc
 
 
 @dataclass(eq=False)
@@ -105,6 +111,10 @@ class Derivation:
         Names in the order of the arrays of poses and of Jacobians.
     signals
         The elements of the ``signals`` function, with their ranges and events.
+    held_inputs
+        By variants in which joints are held: the rates of these, which are zero then.
+    order
+        Places of all steps by their names: the order of the derivation.
     """
 
     model: Formulation
@@ -124,6 +134,7 @@ class Derivation:
     massive_bodies: tuple[str, ...]
     signals: tuple[Shown, ...]
     held_inputs: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    order: dict[str, int] = field(default_factory=dict)
 
 
 @uncollected()
@@ -204,13 +215,14 @@ class _Builder:
         self._add_poses()
         self._add_signals()
         guards = self._acting_guards()
-        margins = self.program.function(
+        margins = self.program.pruned(
             "margins",
             "Quantities that are positive where the model is valid; where one is not, those "
             "behind it mean nothing.",
             {g.name: g.margin for g in guards},
         )
         self.functions["margins"] = replace(margins, guards=())  # it reports, and does not refuse
+        order = self._share()
         assumed = define_assumptions(self.program, self.assumed)
         prepare = self.constants.function(self.functions.values(), assumed)
         self._check_symbols(prepare)
@@ -222,7 +234,7 @@ class _Builder:
             parameters=tuple(Entry(p.name, p.unit, p.meaning) for p in self.mechanism.parameters),
             relative=tuple(Entry(c.name, c.unit, c.meaning) for c in self.mechanism.coordinates),
             functions=self.functions,
-            emitted=staged(self.functions),
+            emitted=staged(self.functions, self.model.cites),
             prepare=prepare,
             design=design_state(self.model, [e.name for e in self._state_entries()]),
             guards=guards,
@@ -232,7 +244,18 @@ class _Builder:
             massive_bodies=self.massive,
             signals=tuple(self.signals),
             held_inputs={v: self._rate_inputs(j) for v, j in self.model.held.items()},
+            order={name: place for place, name in enumerate(order)},
         )
+
+    def _share(self) -> list[str]:
+        """Write what the functions have in common in one way; return their steps in order."""
+        variants: dict[str, list[Function]] = {name: [] for name in ("", *self.model.held)}
+        for name, function in self.functions.items():
+            held = name.removeprefix("rhs_").removeprefix("jacobian_")
+            variants[held if held in self.model.held else ""].append(function)
+        functions, order = share_together(variants, self.program.steps, self.constants.has)
+        self.functions |= {function.name: function for function in functions}
+        return order
 
     def _check_symbols(self, prepare: Function) -> None:
         """See that the equations read nothing but what is declared."""
@@ -289,7 +312,8 @@ class _Builder:
         return [sp.Symbol(n) for n in (*names, *(f"{n}_rate" for n in names))]
 
     def _add(self, name: str, doc: str, results: dict[str, sp.Expr], *shape: int) -> None:
-        self.functions[name] = self.program.function(name, doc, results, shape or None)
+        doc = _cited(doc, self.model.cites.get(name))
+        self.functions[name] = self.program.pruned(name, doc, results, shape or None)
 
     # -- dynamics -------------------------------------------------------------------------------
 
@@ -300,7 +324,7 @@ class _Builder:
         matrix = dynamics.full_mass_matrix()
         self._add(
             "mass_matrix",
-            "Mass matrix M(q) of Eq. 3, row-major.",
+            "Mass matrix M(q), row-major.",
             {
                 f"M[{k},{other}]": matrix[i][j]
                 for i, k in enumerate(names)
@@ -311,12 +335,12 @@ class _Builder:
         )
         self._add(
             "bias",
-            "Vector B(q, q') of Eq. 3: inertia terms without accelerations.",
+            "Vector B(q, q'): inertia terms without accelerations.",
             dict(zip((f"B[{k}]" for k in names), dynamics.full_bias(), strict=True)),
         )
         self._add(
             "forces",
-            "Generalised applied forces Q(q, q') of Eq. 3.",
+            "Generalised applied forces Q(q, q').",
             dict(zip((f"Q[{k}]" for k in names), dynamics.full_forces(), strict=True)),
         )
 
@@ -326,7 +350,7 @@ class _Builder:
         rates |= {f"d({k}_rate)/dt": dynamics.accelerations[k] for k in names}
         what = "" if not suffix else f" with {suffix[1:].replace('_', ' ')}"
         rhs, jacobian = f"rhs{suffix}", f"rhs_jacobian{suffix}"
-        self.functions[rhs] = program.function(rhs, f"Time derivative of the state{what}.", rates)
+        self.functions[rhs] = program.pruned(rhs, f"Time derivative of the state{what}.", rates)
         self._add_derivatives(
             dynamics.program, jacobian, f"of {rhs}", rates.values(), list(rates), "state"
         )
@@ -359,7 +383,7 @@ class _Builder:
             for symbol, column in columns.items()
         }
         doc = f"Exact derivative {what} with respect to the {by}, row-major."
-        function = program.function(name, doc, entries, (len(values), len(symbols)))
+        function = program.pruned(name, doc, entries, (len(values), len(symbols)))
         self.functions[name] = replace(function, part=DERIVATIVES)
 
     # -- relative kinematics ----------------------------------------------------------------------
@@ -367,7 +391,8 @@ class _Builder:
     def _add_relative(self) -> None:
         values = self._in_order([relative.values for relative in self.relative.values()])
         names = self.motion.coordinates.independent
-        self._add("relative_coordinates", "Relative joint coordinates beta (Figure 3).", values)
+        self.program.section("relative Jacobian")
+        self._add("relative_coordinates", "Relative joint coordinates beta.", values)
         columns = [self.program.tangents(sp.Symbol(k), values.values(), f"by_{k}") for k in names]
         self._add(
             "relative_jacobian",
@@ -382,7 +407,7 @@ class _Builder:
         )
         self._add(
             "residuals",
-            "Closure residuals g(beta, q) of Eqs. 4 to 13 for given beta.",
+            "Closure residuals g(beta, q) for given beta.",
             {f"g_{name}": left for name, left in self._residuals().items()},
         )
         if all(self.relative[self.motion.part_of[body]].reaches(body) for body in self.massive):
@@ -459,13 +484,13 @@ class _Builder:
                 orientations[f"{body} {label}"] = value
             labels = self._twist_labels(body)
             velocities |= dict(zip(labels, self._velocity(body), strict=True))
-        count = len(self.moving)
+        count, axes = len(self.moving), self.mechanism.axes
         self._add(
-            "positions", "Centres of mass of the moving bodies, chassis axes.", positions, count, 3
+            "positions", f"Centres of mass of the moving bodies, {axes}.", positions, count, 3
         )
         self._add(
             "orientations",
-            "Rotation matrices of the moving bodies from their design orientation, chassis axes.",
+            f"Rotation matrices of the moving bodies from their design orientation, {axes}.",
             orientations,
             count,
             3,
@@ -473,8 +498,7 @@ class _Builder:
         )
         self._add(
             "velocities",
-            "Angular velocity, then velocity of the centre of mass, of the "
-            "moving bodies, chassis axes.",
+            f"Angular velocity, then velocity of the centre of mass, of the moving bodies, {axes}.",
             velocities,
             count,
             6,

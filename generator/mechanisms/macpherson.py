@@ -6,8 +6,14 @@ values are this project's reference car (front right, ISO 8855 axes, ground at z
 
 from __future__ import annotations
 
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
 from .. import declare as d
 from .suspension import RACK_FORCE, RACK_MOTION, ROAD_HEIGHT, further_laws, of_rubber
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 # -- points, directions and numbers ---------------------------------------------------------------
 
@@ -178,10 +184,25 @@ def general(*, free_rack: bool = False) -> d.Mechanism:
     )
 
 
-def _steered(name: str, title: str, declared: d.Mechanism) -> d.Formulation:
+# where the paper has what the functions return
+EQUATIONS_OF_THE_PAPER = {
+    "relative_coordinates": "Figure 3",
+    "residuals": "Eqs. 4 to 13",
+    "dynamics": "Eq. 3",
+    "mass_matrix": "Eq. 3",
+    "bias": "Eq. 3",
+    "forces": "Eq. 3",
+}
+
+
+def _steered(
+    name: str, title: str, declared: d.Mechanism, cites: Mapping[str, str] = MappingProxyType({})
+) -> d.Formulation:
     """Return the equations with a prescribed rack: arm, knuckle and wheel carry mass."""
     massive, held = (ARM, KNUCKLE, WHEEL), {"rack_held": (Y,)}
-    return d.Formulation(name, title, declared, (OA, HG), massive, {Y: RACK_MOTION}, held)
+    return d.Formulation(
+        name, title, declared, (OA, HG), massive, {Y: RACK_MOTION}, held, cites=dict(cites)
+    )
 
 
 MODELS = (
@@ -189,6 +210,7 @@ MODELS = (
         "macpherson",
         "MacPherson suspension, rack prescribed: arm, knuckle and wheel carry mass",
         mechanism(),
+        EQUATIONS_OF_THE_PAPER,
     ),
     d.Formulation(
         "macpherson_free_rack",

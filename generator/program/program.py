@@ -11,7 +11,6 @@ belong to the right-hand side.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from itertools import count
 from typing import TYPE_CHECKING, Any
 
 import sympy as sp
@@ -20,9 +19,10 @@ from .derivatives import chain_rule
 from .floors import SMALLEST
 from .function import Block, Function
 from .functions import Component, Guarded, Iterated
-from .sharing import drop_dead, share
+from .sharing import drop_dead
 from .steps import Guard, Step, ancestors, first_free
 from .symbols import symbols_of
+from .together import share_together
 from .vectors import Vector
 
 if TYPE_CHECKING:
@@ -196,6 +196,18 @@ class Program:
         shape: Sequence[int] | None = None,
     ) -> Function:
         """Prune the program to some results and share their common subexpressions."""
+        pruned = self.pruned(name, doc, results, shape)
+        (function,), _ = share_together({"": [pruned]}, self.steps, self.constants.has)
+        return function
+
+    def pruned(
+        self,
+        name: str,
+        doc: str,
+        results: Mapping[str, sp.Expr],
+        shape: Sequence[int] | None = None,
+    ) -> Function:
+        """Prune the program to some results; `share_together` makes a function of it."""
         written = (self.constants.insert_derived(sp.sympify(e)) for e in results.values())
         expressions = [self._hoist(e) for e in written]
         needed = ancestors(self.steps, expressions)
@@ -205,8 +217,6 @@ class Program:
             if s.symbol in needed
         ]
         steps, expressions = drop_dead(steps, expressions)
-        names = (sp.Symbol(f"shared_{i}") for i in count(1) if not self._has(f"shared_{i}"))
-        steps, expressions = share(steps, expressions, names)
         acting = set().union(*(e.atoms(Guarded) for e in [s.expression for s in steps]), set())
         acting |= set().union(*(e.atoms(Guarded) for e in expressions), set())
         quantities = {g.args[0] for g in acting}

@@ -14,9 +14,9 @@ from ....equations import following
 from ....equations.status import NOT_FINITE_BIT, bit_of
 from ...program.floors import ROUNDING
 from ..schedule import schedule
-from ..sharing import scheduled
+from ..sharing import scheduled, together
 from ..templates import template
-from ..text import Written, text_of, written
+from ..text import Written, text_of, written, written_steps, written_values
 from ..words import (
     FORMULA,
     GENERATOR_VERSION,
@@ -28,7 +28,7 @@ from ..words import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Collection, Iterable, Mapping, Sequence
 
     import sympy as sp
 
@@ -38,6 +38,8 @@ if TYPE_CHECKING:
     from ...program.conditions import Assumption, Condition
     from ...program.function import Block, Function, Stage
     from ...program.steps import Guard
+    from ..schedule import Assignment
+    from ..sharing import Part
 
 WIDTH = 100
 ARGUMENTS = "const double *restrict constants, const double *restrict state,"
@@ -99,6 +101,24 @@ static inline status_word first_not_finite(const double *values, int count)
 #endif"""
 
 
+INLINED = """\
+/*
+ * What becomes part of every function that calls it, and what is left out where nothing reads its
+ * result: with optimisation, each function keeps of `compute` the steps that its results need.
+ */
+#ifdef __GNUC__
+#define INLINED static inline __attribute__((always_inline))
+#define NO_EFFECT __attribute__((const))
+#else
+#define INLINED static inline
+#define NO_EFFECT
+#endif"""
+
+COMPUTE = (
+    "/* All functions of this file: the steps, each once, and the results of the one wanted. */"
+)
+
+
 class CPrinter:
     """Prints the header and the source of one model."""
 
@@ -120,7 +140,7 @@ class CPrinter:
             ),
             self._enum(
                 "parameter",
-                "Parameters, SI units, at the design position, chassis axes.",
+                f"Parameters, SI units, at the design position, {self.model.model.mechanism.axes}.",
                 self.model.parameters,
             ),
             self._enum(
@@ -215,7 +235,8 @@ class CPrinter:
 
     def _prototypes(self) -> list[str]:
         prepare = (
-            "/*\n * Compute the constants of one parameter set.\n"
+            "/*\n * Compute the constants of one parameter set. Ranges of parameters are not\n"
+            f" * checked here: they are `least`, `above` and `most` in {self.prefix}.json.\n"
             f"{self._prepare_returns()} */\n{self._from_parameters('prepare', 'constants')};"
         )
         design = (
@@ -284,16 +305,15 @@ class CPrinter:
         """Return the text of a source file."""
         functions = [f for f in self.model.emitted.values() if f.part == part]
         text_functions = "\n#include <string.h>" if blocks_of(functions) else ""
+        null = "\n#include <stddef.h>" if any(map(reads_given, functions)) else ""
         blocks = [
             self._banner(),
-            f'#include "{self.prefix}.h"\n\n#include <math.h>{text_functions}',
+            f'#include "{self.prefix}.h"\n\n#include <math.h>{null}{text_functions}',
+            INLINED,
             PLAIN,
             *self._blocks(blocks_of(functions)),
             *([] if part else [*self._rounding(), self._prepare_body(), self._design_body()]),
-            *(self._body(f) for f in functions if f.name in self._in_lanes),
-            *([] if part else ["#ifndef KINTRAFO_LANES /* what no simulation evaluates */"]),
-            *(self._body(f) for f in functions if f.name not in self._in_lanes),
-            *([] if part else ["#endif"]),
+            *self._functions(functions),
         ]
         return "\n\n".join(blocks) + "\n"
 
@@ -327,15 +347,23 @@ class CPrinter:
         prepare, count = self.model.prepare, f"{self.upper}_CONSTANT_COUNT"
         values = [e.name for e in self.model.parameters]
         kept = set(prepare.labels)
-        c = self._pointer(prepare)
         read = {s.name for s in prepare.free_symbols}
+        taken = read.union(step.name for step in scheduled(prepare).steps)
+        c = _free("c", taken)
+        names = {name: f"{c}->{name}" for name in prepare.labels}
+        results = written(prepare, FORMULA, names)[1]
         lines = [
             self._from_parameters("prepare", "constants", "status_word"),
             "{",
             f"    struct {self.prefix}_constants *const {c} = (void *)constants;",
             *declared([f"{n} = parameters[{i}]" for i, n in enumerate(values) if n in read - kept]),
             *(f"    {c}->{n} = parameters[{i}];" for i, n in enumerate(values) if n in kept),
-            *steps(written(prepare, FORMULA, {name: f"{c}->{name}" for name in kept})[0]),
+            *_printed(scheduled(prepare).steps, names),
+            *(
+                f"    {names[name]} = {_in_all_lanes(value)};"
+                for name, value in zip(prepare.labels, results, strict=True)
+                if value != names[name]  # one whose value another one has
+            ),
             "",
             f"    status_word failed = first_not_finite(constants, {count});",
             *self._assumptions(c),
@@ -350,26 +378,19 @@ class CPrinter:
         values = [e.name for e in self.model.parameters]
         loads = [f"{n} = parameters[{i}]" for i, n in enumerate(values) if n in read]
         finite = self.enumerator("status", "not_finite")
-        found, results = written(design, FORMULA)
+        results = written(design, FORMULA)[1]
         return "\n".join(
             [
                 self._from_parameters("design_state", "state", "status_word"),
                 "{",
                 *(declared(loads) or ["    (void)parameters;"]),
-                *steps(found),
+                *_printed(scheduled(design).steps, {}),
                 "",
                 *(f"    state[{i}] = {_in_all_lanes(value)};" for i, value in enumerate(results)),
                 f"    return finite_bit(state, {len(self.model.state)}, {finite});",
                 "}",
             ]
         )
-
-    @staticmethod
-    def _pointer(function: Function | Stage) -> str:
-        """Return a name for the constants that nothing else in a function has."""
-        taken = {step.name for step in scheduled(function).steps}
-        taken |= {s.name for s in function.free_symbols}
-        return next(name for name in ("c", "c_", "c__") if name not in taken)
 
     def _assumptions(self, c: str) -> list[str]:
         """Return the checks of what must be zero, and of what must not; the first one counts."""
@@ -394,37 +415,93 @@ class CPrinter:
         ]
         return numbered[::-1]
 
-    def _body(self, function: Function | Stage) -> str:
-        read, c = {s.name for s in function.free_symbols}, self._pointer(function)
-        constants = read.intersection(self.model.prepare.labels)
+    def _functions(self, functions: Sequence[Function | Stage]) -> list[str]:
+        """Print functions: what they compute, each step once, and each of them as a call of it."""
+        given = any(map(reads_given, functions))
+        wanted = ", ".join(map(self._wanted, functions))
+        return [
+            "\n".join(_wrapped(f"enum {self.prefix}_function {{ {wanted} }};", 0)),
+            self._compute(functions, given=given),
+            *(self._call(f, given=given) for f in functions if f.name in self._in_lanes),
+            *_plain(
+                [self._call(f, given=given) for f in functions if f.name not in self._in_lanes]
+            ),
+        ]
+
+    def _wanted(self, function: Function | Stage) -> str:
+        return f"{self.upper}_{function.name.upper()}"
+
+    def _call(self, function: Function | Stage, *, given: bool) -> str:
+        arguments = [self._wanted(function), "constants", "state", "inputs"]
+        if given:
+            arguments.append("given" if reads_given(function) else "NULL")
+        call = f"compute({', '.join(arguments)}, out)"
+        return f"{self._signature(function, 'status_word')}\n{{\n    return {call};\n}}"
+
+    def _compute(self, functions: Sequence[Function | Stage], *, given: bool) -> str:
+        """Print what all functions compute, each step once."""
+        relative = {f"given_{e.name}" for e in self.model.relative}
+        whole = together(functions, self.model.order, relative)
+        c = _free("c", whole.names)
+        names = {name: f"{c}->{name}" for name in self.model.prepare.labels}
+        start = "INLINED status_word compute("
+        indent, more = " " * len(start), " const double *restrict given," * given
+        lines = [
+            COMPUTE,
+            f"{start}const enum {self.prefix}_function wanted,",
+            f"{indent}{ARGUMENTS}",
+            f"{indent}const double *restrict inputs,{more} double *restrict out)",
+            "{",
+            *self._pointer(c, whole.reads),
+            *self._loads(whole.reads),
+            *_printed(whole.steps, names),
+            "",
+            "    status_word status = {0};",
+        ]
+        for function, part in zip(functions, whole.parts, strict=True):
+            body = self._part(function, part, names)
+            text = [
+                f"    if (wanted == {self._wanted(function)}) {{",
+                *(f"    {line}" if line else "" for line in body[body[0] == "" :]),
+                "    }",
+            ]
+            lines += ["", *(text if function.name in self._in_lanes else _plain(text))]
+        return "\n".join([*lines, "    return status;", "}"])
+
+    def _pointer(self, c: str, read: Collection[str]) -> list[str]:
+        """Return the declaration of the constants; mark what is not read."""
+        labels, states = self.model.prepare.labels, [e.name for e in self.model.state]
+        unread = {"state": states, "inputs": [e.name for e in self.model.inputs]}
+        lines = [f"    (void){n};" for n, names in unread.items() if not {*names} & {*read}]
+        if not {*labels} & {*read}:
+            return ["    (void)constants;", *lines]
         pointer = f"    const struct {self.prefix}_constants *const {c} = (const void *)constants;"
-        signature = self._signature(function, "status_word")
-        lines = [signature, "{", *([pointer] if constants else [])]
+        return [pointer, *lines]
+
+    def _loads(self, read: Collection[str]) -> list[str]:
+        """Return the declarations of what is read of state, inputs and given coordinates."""
         arrays = {
-            "constants": [],
             "state": [e.name for e in self.model.state],
             "inputs": [e.name for e in self.model.inputs],
+            "given": [f"given_{e.name}" for e in self.model.relative],
         }
-        if reads_given(function):
-            arrays["given"] = [f"given_{e.name}" for e in self.model.relative]
-        taken = {
-            array: [f"{name} = {array}[{i}]" for i, name in enumerate(names) if name in read]
-            for array, names in arrays.items()
-        }
-        unused = [array for array, found in taken.items() if not found]
-        lines += [
-            f"    (void){array};" for array in unused if array != "constants" or not constants
-        ]
-        lines += declared([text for found in taken.values() for text in found])
-        names = {name: f"{c}->{name}" for name in constants}
-        found, texts = written(function, FORMULA, names)
-        lines += steps(found)
-        start = 0
+        return declared(
+            [
+                f"{name} = {array}[{i}]"
+                for array, names in arrays.items()
+                for i, name in enumerate(names)
+                if name in read
+            ]
+        )
+
+    def _part(self, function: Function | Stage, part: Part, names: Mapping[str, str]) -> list[str]:
+        """Print the results of a function, and the steps that it alone has."""
+        lines = [*self._loads(part.reads), *_printed(part.steps, names)]
+        texts, start = written_values(part.results, FORMULA, names), 0
         for member in function.members:
             lines += self._results(member, texts[start : start + member.size], start)
             start += member.size
-        lines += ["", *self._return(function, names)]
-        return "\n".join([*lines, "}"])
+        return [*lines, "", *self._status_of(function, part, names)]
 
     @staticmethod
     def _results(part: Function, texts: Sequence[str], start: int) -> list[str]:
@@ -441,8 +518,12 @@ class CPrinter:
             if value == "0.0":
                 zeros.append(f"out[{place}]")
                 continue
-            text = f"out[{place}] = {_in_all_lanes(value)};"
-            lines += _wrapped(text if by and row == last else f"{text} /* {row} */", 4)
+            text, label = f"out[{place}] = {_in_all_lanes(value)};", f"/* {row} */"
+            fits = len(text) + len(label) < WIDTH - 8
+            if not (by and row == last):
+                lines += [] if fits else [f"    {label}"]
+                text += f" {label}" if fits else ""
+            lines += _wrapped(text, 4)
             last = row
         if zeros:
             lines += textwrap.wrap(
@@ -453,30 +534,40 @@ class CPrinter:
             )
         return lines
 
-    def _return(self, function: Function | Stage, names: Mapping[str, str]) -> list[str]:
+    def _status_of(
+        self, function: Function | Stage, part: Part, names: Mapping[str, str]
+    ) -> list[str]:
         """Collect the status: comparisons only, no branch.
 
         A NaN or infinity that goes in comes out as one, or is caught by a guard.
         """
 
-        def floor(guard: Guard) -> str:
-            return text_of(schedule(guard.floor), FORMULA, lambda s: names.get(s.name, s.name))
+        def bit(guard: Guard) -> str:
+            floor = text_of(schedule(guard.floor), FORMULA, lambda s: names.get(s.name, s.name))
+            quantity = part.names.get(guard.quantity.name, guard.quantity)
+            return f"guard_bit({quantity}, {floor}, {self.enumerator('status', guard.name)})"
 
-        bits = [
-            f"guard_bit({g.quantity}, {floor(g)}, {self.enumerator('status', g.name)})"
-            for g in self.model.guards
-            if g in function.guards
-        ]
+        acting = {guard.name: guard for guard in function.guards}
+        bits = [bit(acting[g.name]) for g in self.model.guards if g.name in acting]
         finite = self.enumerator("status", "not_finite")
         bits.append(f"finite_bit(out, {function.size}, {finite})")
-        lines = [f"    status_word status = {bits[0]};"]
-        return [*lines, *(f"    status |= {bit};" for bit in bits[1:]), "    return status;"]
+        return [f"    status |= {bit};" for bit in bits]
 
 
-def steps(values: Iterable[Written]) -> list[str]:
-    """Return the assignments of a function, with the parts of the derivation in between."""
+def _plain(texts: Sequence[str]) -> list[str]:
+    """Leave out, where numbers are vectors, what no simulation evaluates."""
+    return ["#ifndef KINTRAFO_LANES", *texts, "#endif"] if texts else []
+
+
+def _free(name: str, taken: Collection[str]) -> str:
+    """Return a name that nothing else in a function has."""
+    return next(n for n in (name, f"{name}_", f"{name}__") if n not in taken)
+
+
+def _printed(steps: Sequence[Assignment], names: Mapping[str, str]) -> list[str]:
+    """Return assignments, with the parts of the derivation in between."""
     lines: list[str] = []
-    for section, group in groupby(values, key=lambda step: step.section):
+    for section, group in groupby(written_steps(steps, FORMULA, names), key=lambda s: s.section):
         lines += ["", f"    /* {section} */"]
         for kind, run in groupby(group, key=_kind):
             texts = [f"{step.name} = {_in_all_lanes(step.text)}" for step in run]
@@ -507,8 +598,8 @@ def _once(block: Block) -> str:
             f"    const double {s} = {array}[{i}];" for i, s in enumerate(symbols) if s.name in read
         ]
         lines += loads or [f"    (void){array};"]
-    found, results = written(block.once, FORMULA)
-    lines += [*steps(found), ""]
+    results = written(block.once, FORMULA)[1]
+    lines += [*_printed(scheduled(block.once).steps, {}), ""]
     for i, (label, result) in enumerate(zip(block.once.labels, results, strict=True)):
         text = f"    out[{i}] = {result};"
         lines.append(f"{text:<70} /* {label} */")
@@ -519,7 +610,7 @@ def _call(block: Block) -> str:
     """Print the function that follows the loops of a block."""
     along = [(f"{d.now}_start", f"{d.now}_end", f"{d.now}_unit") for d in block.driven]
     names = [*map(str, block.constants), *(name for values in along for name in values)]
-    start = f"static struct {block.name} {block.name}("
+    start = f"NO_EFFECT static struct {block.name} {block.name}("
     arguments = ", ".join(f"double{_KEPT}{name}" for name in names) + ")"
     signature = textwrap.wrap(start + arguments, WIDTH, subsequent_indent=" " * len(start))
 

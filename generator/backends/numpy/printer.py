@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ...program.floors import ROUNDING
+from ..sharing import names_in
 from ..templates import template
 from ..text import formula, written
 from ..words import blocks_of, reads_given
@@ -72,10 +73,12 @@ class ArraysPrinter:
             arguments += ", given"
             names = [f"given_{e.name}" for e in self.model.relative]
             loads += loaded("given", names, function)
+        places = {guard.name: place for place, guard in enumerate(self.model.guards)}
+        called = names_in(function)
         holds = [
-            f"{place}: {guard.quantity} > {formula(guard.floor, NUMPY)}"
-            for place, guard in enumerate(self.model.guards)
-            if guard in function.guards
+            f"{places[guard.name]}: {called.get(guard.quantity.name, guard.quantity)}"
+            f" > {formula(guard.floor, NUMPY)}"
+            for guard in function.guards
         ]
         return definition(function, arguments, loads, holds)
 
