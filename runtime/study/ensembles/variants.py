@@ -111,14 +111,24 @@ def _columns(arguments: Arguments, model: System, given: Any) -> dict[str, xr.Da
         if isinstance(values, xr.DataArray):
             found[str(name)] = values.reset_coords(drop=True)
             continue
-        array = np.asarray(values)
-        if array.ndim > 1:
+        array = _row(values)
+        if array is None:
             arguments.refuse(
-                f"variants {shown(name)} has the shape {array.shape}: one number, or one for each "
+                f"variants {shown(name)} = {shown(values)}: one number, or a row of one for each "
                 "system, is needed. What goes over several dimensions is an xarray.DataArray."
             )
-        found[str(name)] = xr.DataArray(array, dims=(CAR,) * min(array.ndim, 1))
+        else:
+            found[str(name)] = xr.DataArray(array, dims=(CAR,) * array.ndim)
     return found
+
+
+def _row(values: Any) -> NDArray[Any] | None:
+    """Return what is one value or a row of them; nothing for anything else."""
+    try:
+        array = np.asarray(values)
+    except (TypeError, ValueError):
+        return None
+    return array if array.ndim < 2 else None
 
 
 def _check_names(
