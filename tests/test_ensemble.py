@@ -347,6 +347,15 @@ def test_dimensions_and_coordinates_of_a_grid(car: Model, start: Any) -> None:
     assert found["camber_max"].values.ravel().tolist() == flat["camber_max"].values.tolist()
 
 
+def test_results_are_those_that_are_named(mixed: xr.Dataset) -> None:
+    """Names that no dimension of variants may have are those that results have."""
+    from kintrafo.study.ensembles.variants import BOUND, RESULTS, STATE, TIME
+
+    assert {TIME, STATE, BOUND} <= set(mixed.dims)
+    own = {name for name in mixed.data_vars if not str(name).startswith(("camber", "tyre_force"))}
+    assert own == set(RESULTS)
+
+
 def test_a_model_without_signals() -> None:
     model = System(EMITTED["excavator"])
     found = ensemble(model, {"gravity": [9.81, 1.62]}, (0.0, 0.1), signals=model.state_names[:1])
@@ -394,6 +403,7 @@ WRONG: list[tuple[dict[str, Any], str]] = [
     ({"inputs": {"road_height": {"b": 0.0}}}, "several courses"),
     ({"inputs": {"road": 0.0}}, "not an input"),
     ({"variants": {"road_height": [0.0]}, "inputs": {"road_height": 0.1}}, "both"),
+    ({"variants": xr.Dataset({"spring_rate": ("time", [2e4])})}, "coordinate 'time'"),
     ({"t_span": (1.0, 0.0)}, "the second later"),
     ({"t_eval": [0.0, 2.0]}, "in order"),
     ({"signals": ["cambre"]}, "Did you mean camber"),
