@@ -109,11 +109,10 @@ def own(model: Formulation, *, arrays: bool = not has_gcc, derivatives: bool = T
         With those by state and inputs. They take half of the time: a test that does not use them
         goes without.
     """
-    whole, target = (
+    whole, wanted = (
         _folder_of(model, arrays=arrays, derivatives=with_them) for with_them in (True, derivatives)
     )
-    if not damage(whole):
-        return load(whole)
+    target = wanted if damage(whole) else whole
     with _one_at_a_time(target.name):
         if damage(target):
             with appearing(target) as folder:

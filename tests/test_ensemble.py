@@ -107,17 +107,18 @@ def test_each_has_its_road(car: Model, start: Any) -> None:
     racks = {0: 0.0, 1: RACK}
     variants = xr.Dataset({"road_height": ("road", list(roads)), "rack_position": ("rack", [1, 0])})
     found = ensemble(
-        car, variants, SPAN, start, signals=["camber"], t_eval=TIMES, rtol=1e-10, atol=1e-11,
+        car, variants, SPAN, start, signals=["camber"], t_eval=TIMES, rtol=1e-9, atol=1e-10,
         inputs={"road_height": roads, "rack_position": racks},
     )  # fmt: skip
     assert dict(found["camber"].sizes) == {"road": 3, "rack": 2, "time": TIMES.size}
     for i, road in enumerate(roads.values()):
         for j, rack in enumerate((RACK, 0.0)):
             inputs = {"road_height": road, "rack_position": rack}
-            exact = simulate(car, SPAN, start, method="DOP853", rtol=1e-11, atol=1e-12,
+            exact = simulate(car, SPAN, start, method="DOP853", rtol=1e-9, atol=1e-10,
                              t_eval=TIMES, inputs=inputs)  # fmt: skip
+            # errors of some steps of two integrations at 1e-9
             np.testing.assert_allclose(
-                found["camber"].values[i, j], exact.signals["camber"], atol=1e-9
+                found["camber"].values[i, j], exact.signals["camber"], atol=1e-8
             )
 
 
@@ -192,7 +193,11 @@ def of_all_kinds(car: Model) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
     cars["rack_position"] = np.zeros(60)
     cars["rack_position"][17] = 2.0  # a loop is open from the beginning
     cars["damper_rate"][23] = 1e9  # so stiff that it takes too many steps
-    cars["ball_joint_y"][29] = car.parameters["strut_top_y"]
+    for axis in "xyz":  # of no strut
+        own = cars.setdefault(
+            f"ball_joint_{axis}", np.full(60, car.parameters[f"ball_joint_{axis}"])
+        )
+        own[29] = car.parameters[f"strut_top_{axis}"]
     cars["spring_rate"][31] = -1.0  # out of its range
     options = {
         "inputs": {"road_height": {"step": STEP, "bump": BUMP}},
@@ -213,11 +218,12 @@ def mixed(car: Model, start: Any) -> xr.Dataset:
 def test_why_systems_fail(mixed: xr.Dataset) -> None:
     failed = np.flatnonzero(~mixed["success"].values).tolist()
     reasons = dict(zip(failed, mixed["reason"].values[failed].tolist(), strict=True))
-    assert {5, 11, 17, 23, 31} <= set(failed) <= {5, 11, 17, 23, 29, 31}
+    assert failed == [5, 11, 17, 23, 29, 31]
     assert "tie_rod cannot reach" in reasons[5]
     assert "overflows" in reasons[11]
     assert "at t = 0 s: " in reasons[17]
     assert "3000 steps" in reasons[23]
+    assert "coincide" in reasons[29]
     assert "'spring_rate' = -1" in reasons[31]
     assert f"{mixed.sizes['car'] - len(failed)} of 60" in mixed.attrs["message"]
     for place in failed:
@@ -347,6 +353,15 @@ def test_dimensions_and_coordinates_of_a_grid(car: Model, start: Any) -> None:
     assert found["camber_max"].values.ravel().tolist() == flat["camber_max"].values.tolist()
 
 
+def test_results_are_those_that_are_named(mixed: xr.Dataset) -> None:
+    """Names that no dimension of variants may have are those that results have."""
+    from kintrafo.study.ensembles.variants import BOUND, RESULTS, STATE, TIME
+
+    assert {TIME, STATE, BOUND} <= set(mixed.dims)
+    own = {name for name in mixed.data_vars if not str(name).startswith(("camber", "tyre_force"))}
+    assert own == set(RESULTS)
+
+
 def test_a_model_without_signals() -> None:
     model = System(EMITTED["excavator"])
     found = ensemble(model, {"gravity": [9.81, 1.62]}, (0.0, 0.1), signals=model.state_names[:1])
@@ -394,6 +409,7 @@ WRONG: list[tuple[dict[str, Any], str]] = [
     ({"inputs": {"road_height": {"b": 0.0}}}, "several courses"),
     ({"inputs": {"road": 0.0}}, "not an input"),
     ({"variants": {"road_height": [0.0]}, "inputs": {"road_height": 0.1}}, "both"),
+    ({"variants": xr.Dataset({"spring_rate": ("time", [2e4])})}, "coordinate 'time'"),
     ({"t_span": (1.0, 0.0)}, "the second later"),
     ({"t_eval": [0.0, 2.0]}, "in order"),
     ({"signals": ["cambre"]}, "Did you mean camber"),

@@ -85,10 +85,8 @@ def states(built: Built, count: int, seed: int = 0) -> tuple[Array, Array]:
 
 MODEL_NAMES = pytest.mark.parametrize("name", [ARM.name, FIVE.name])
 WITH_STRUT = pytest.mark.parametrize("name", [ARM.name, FIVE.name, STRUT.name])
-DIFFERENTIATED = [
-    ARM.name,
-    STRUT.name,
-]  # the strut is one of six rods, as the push rod of the other
+# the strut is one of six rods, as the push rod is of the other
+DIFFERENTIATED = [ARM.name, STRUT.name]
 WITH_DERIVATIVES = pytest.mark.parametrize("name", DIFFERENTIATED)
 
 

@@ -2,7 +2,6 @@
 
 import ctypes
 import shutil
-from collections.abc import Callable
 from pathlib import Path
 
 import lanes
@@ -95,20 +94,19 @@ double lane_sin(double), lane_cos(double), lane_asin(double), lane_atan2(double,
 class Both:
     """A model as C for one state, with the elementary functions of lanes, and in lanes."""
 
-    def __init__(self, name: str, folder: Path, driver: ctypes.CDLL, width: int) -> None:
+    def __init__(self, name: str, folder: Path, drivers: dict[int, ctypes.CDLL]) -> None:
         header = folder / "renamed.h"
         header.write_text(RENAMED, encoding="utf-8")
         # not optimised, which is quick
-        flags = ["-O0", "-include", str(header), driver._name]
-        source = FOLDER / f"{name}.c"
-        self.scalar = lanes.compiled(folder, source, *flags, name=f"{name}_{width}")
-        self.name, self.driver, self.lanes = name, driver, lanes.in_lanes(name)
+        flags = ["-O0", "-include", str(header), drivers[2]._name]
+        self.scalar = lanes.compiled(folder, FOLDER / f"{name}.c", *flags, name=name)
+        self.name, self.drivers, self.lanes = name, drivers, lanes.in_lanes(name)
 
     def same(self, function: str, *arguments: np.ndarray, size: int) -> np.ndarray:
         """Demand the same bits of a function; the arguments have a column for each lane."""
         width: int = arguments[0].shape[1]
         called = getattr(self.lanes, f"{self.name}_{function}_{width}")
-        found, status = lanes.call(self.driver, called, *arguments, size=size)
+        found, status = lanes.call(self.drivers[width], called, *arguments, size=size)
         alone = getattr(self.scalar, f"{self.name}_{function}")
         for lane in range(width):
             given = [np.ascontiguousarray(a[:, lane]) for a in arguments]
@@ -120,18 +118,6 @@ class Both:
         return found
 
 
-@pytest.fixture(scope="module")
-def both(
-    tmp_path_factory: pytest.TempPathFactory, drivers: dict[int, ctypes.CDLL]
-) -> Callable[[str, int], Both]:
-    folder = tmp_path_factory.mktemp("models")
-
-    def of(name: str, width: int) -> Both:
-        return Both(name, folder, drivers[width], width)
-
-    return of
-
-
 def some_parameters(model, rng: np.random.Generator, width: int) -> np.ndarray:
     """Return the defaults in the first lane, and sets near them; some are of no mechanism."""
     defaults = np.array([entry["default"] for entry in model.PARAMETERS.values()])
@@ -140,13 +126,17 @@ def some_parameters(model, rng: np.random.Generator, width: int) -> np.ndarray:
     return defaults[:, None] * (1.0 + spread * rng.standard_normal((defaults.size, width)))
 
 
-@pytest.mark.parametrize("width", widths())
 @pytest.mark.parametrize("name", EMITTED)
 def test_the_same_bits_as_one_by_one(
-    both: Callable[[str, int], Both], name: str, width: int
+    drivers: dict[int, ctypes.CDLL], tmp_path: Path, name: str
 ) -> None:
     """Every function of a simulation, also of states that are refused, and of NaN."""
-    model, pair, rng = EMITTED[name], both(name, width), np.random.default_rng(width)
+    pair = Both(name, tmp_path, drivers)
+    for width in widths():
+        compare(pair, EMITTED[name], np.random.default_rng(width), width)
+
+
+def compare(pair: Both, model, rng: np.random.Generator, width: int) -> None:
     functions = {
         f: len(getattr(model, f).labels)
         for f in ("rhs", "signals", "margins")

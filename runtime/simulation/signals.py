@@ -181,7 +181,8 @@ def _refusal(name: str, names: tuple[str, ...], derived: dict[str, str]) -> str:
             f"{name!r} follows from {source!r}: give that alone, as samples or as a function of "
             "time."
         )
-    return f"{name!r} is not an input. {suggestion(name, [n for n in names if n not in derived])}"
+    known = [n for n in names if n not in derived]
+    return f"{name!r} is not an input. {suggestion(str(name), known)}"
 
 
 def _segments(

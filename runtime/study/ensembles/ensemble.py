@@ -125,7 +125,7 @@ def ensemble(
             state = _start(given, model, y0)
             span = _span(given, t_span)
             times = _times(given, t_eval, span)
-            asked = asked_of(given, model, times, signals, reductions or {})
+            asked = asked_of(given, model, times, signals, {} if reductions is None else reductions)
             accuracy = _accuracy(given, model, (rtol, atol, max_step, first_step, max_steps))
             courses = given.mapping("inputs", {} if inputs is None else inputs, "names, courses")
             cores = usual_threads() if threads is None else threads
@@ -206,11 +206,13 @@ def _width(given: Arguments, model: System, lanes: Any) -> int:
         for problem in error.problems:
             given.refuse(problem)
         return width
-    if lanes is not None and lanes not in there:
+    if lanes is None:
+        return width
+    wanted = given.whole("lanes", lanes)
+    if wanted not in there:
         known = ", ".join(map(str, there))
         given.refuse(f"lanes = {shown(lanes)}: on this machine there are {known}.")
-        return width
-    return width if lanes is None else lanes
+    return wanted
 
 
 # -- arrays ---------------------------------------------------------------------------------------

@@ -12,10 +12,8 @@ from ...equations.errors import ModelError
 from ...equations.status import LAST_GUARD_BIT, NOT_FINITE
 from ...simulation.lanes.problem import End, Outcome
 from ...systems.system import System
-from .variants import Variants
+from .variants import BOUND, STATE, TIME, Variants
 from .wanted import Asked
-
-TIME, STATE, BOUND = "time", "state_element", "bound"
 
 Data = dict[Hashable, Any]
 

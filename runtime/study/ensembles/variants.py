@@ -19,6 +19,12 @@ Array = NDArray[np.float64]
 CAR = "car"
 """Name of the dimension of what is given as plain rows of numbers."""
 
+TIME, STATE, BOUND = "time", "state_element", "bound"
+"""Dimensions of what is kept of each."""
+
+RESULTS = ("success", "valid", "reason", "end_time", "steps", "final_state", "beyond")
+"""What is said of each, whatever is asked for."""
+
 # What the parameters of a body's mass are called, behind its name.
 _OF_MASS = ("_mass", "_com_x", "_com_y", "_com_z", "_inertia_")
 
@@ -71,6 +77,7 @@ def variants_of(
         columns = _columns(arguments, model, given)
         if not arguments.refused:
             _check_names(arguments, model, columns, courses)
+            _check_coordinates(arguments, model, given)
         if not arguments.refused:
             columns, shape = _broadcast(arguments, columns, rows)
         if arguments.refused:
@@ -111,14 +118,24 @@ def _columns(arguments: Arguments, model: System, given: Any) -> dict[str, xr.Da
         if isinstance(values, xr.DataArray):
             found[str(name)] = values.reset_coords(drop=True)
             continue
-        array = np.asarray(values)
-        if array.ndim > 1:
+        array = _row(values)
+        if array is None:
             arguments.refuse(
-                f"variants {shown(name)} has the shape {array.shape}: one number, or one for each "
+                f"variants {shown(name)} = {shown(values)}: one number, or a row of one for each "
                 "system, is needed. What goes over several dimensions is an xarray.DataArray."
             )
-        found[str(name)] = xr.DataArray(array, dims=(CAR,) * min(array.ndim, 1))
+        else:
+            found[str(name)] = xr.DataArray(array, dims=(CAR,) * array.ndim)
     return found
+
+
+def _row(values: Any) -> NDArray[Any] | None:
+    """Return what is one value or a row of them; nothing for anything else."""
+    try:
+        array = np.asarray(values)
+    except (TypeError, ValueError):
+        return None
+    return array if array.ndim < 2 else None
 
 
 def _check_names(
@@ -145,6 +162,15 @@ def _check_names(
                 f"inputs {name!r} has several courses: variants needs {name!r}, the label of one "
                 "of them for each system."
             )
+
+
+def _check_coordinates(arguments: Arguments, model: System, given: Any) -> None:
+    """Refuse dimensions and coordinates that are called as results are."""
+    arrays = [given] if isinstance(given, xr.Dataset) else [*(given or {}).values()]
+    labelled = [a for a in arrays if isinstance(a, xr.Dataset | xr.DataArray)]
+    taken = {TIME, STATE, BOUND, *RESULTS, *model.signal_names}
+    for name in {str(n) for a in labelled for n in (*a.dims, *a.coords)} & taken:
+        arguments.refuse(f"variants have a dimension or coordinate {name!r}: results have it.")
 
 
 def _massless(model: System, name: str) -> str:

@@ -158,16 +158,16 @@ def asked_of(given: Arguments, model: System, times: Array, signals: Any, reduct
 
 
 def _reduced(given: Arguments, signal: str, kind: Any) -> Reduced:
-    if isinstance(kind, tuple) and len(kind) == 2 and kind[0] == "above":
+    if isinstance(kind, tuple) and len(kind) == 2 and shown(kind[0]) == "'above'":
         return Reduced(signal, "above", given.number(f"level of {signal!r}", kind[1]))
-    if kind == "above":
-        given.refuse(f"reductions {signal!r}: 'above' needs a level, ('above', 0.0).")
-        return Reduced(signal, "above")
     if not isinstance(kind, str):
         given.refuse(
             f"reductions {signal!r}: {shown(kind)} is none; there are {', '.join(REDUCTIONS)}."
         )
         return Reduced(signal, "max")
+    if kind == "above":
+        given.refuse(f"reductions {signal!r}: 'above' needs a level, ('above', 0.0).")
+        return Reduced(signal, "above")
     return Reduced(signal, given.among(f"reduction of {signal!r}", kind, REDUCTIONS))
 
 

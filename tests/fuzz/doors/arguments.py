@@ -84,6 +84,24 @@ CALLS = {
             "stop_at_outputs": False, "backend": "auto",
         },
     ),
+    "ensemble": (
+        kintrafo.ensemble,
+        {
+            "model": _CAR, "variants": {"damper_rate": [1000.0, 2000.0]}, "t_span": _SPAN,
+            "y0": _REST, "inputs": {"road_height": 0.01}, "signals": ["camber"],
+            "reductions": {"camber": "max"}, "t_eval": None, "rtol": 1e-6, "atol": 1e-9,
+            "max_step": np.inf, "first_step": None, "max_steps": 1000, "threads": 1,
+            "lanes": None, "progress": False,
+        },
+    ),
+    "variants": (
+        lambda **given: kintrafo.ensemble(_CAR, given, _SPAN, _REST),
+        {"damper_rate": [1000.0, 2000.0], "road_height": 0.0, "beta1_rate": 0.0},
+    ),
+    "reductions": (
+        lambda kind: kintrafo.ensemble(_CAR, None, _SPAN, _REST, reductions={"camber": kind}),
+        {"kind": "max"},
+    ),
     "SignalEvent": (
         lambda **given: kintrafo.simulate(
             _CAR, _SPAN, _REST, events=kintrafo.SignalEvent(**given)
