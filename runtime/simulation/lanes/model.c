@@ -5,6 +5,7 @@
 #include "elementary.h"
 
 #include <math.h>
+#include <stddef.h>
 
 #define KINTRAFO_LANES
 
