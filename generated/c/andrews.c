@@ -872,7 +872,6 @@ INLINED status_word compute(const enum andrews_function wanted,
         status |= finite_bit(out, 2, ANDREWS_STATUS_NOT_FINITE);
     }
 
-#ifndef KINTRAFO_LANES
     if (wanted == ANDREWS_RESIDUALS) {
         const double
             given_beta = given[0],
@@ -953,7 +952,6 @@ INLINED status_word compute(const enum andrews_function wanted,
         status |= guard_bit(k7_closure, c->k7_closure_floor, ANDREWS_STATUS_K7_CLOSURE);
         status |= finite_bit(out, 7, ANDREWS_STATUS_NOT_FINITE);
     }
-#endif
 
     if (wanted == ANDREWS_SIGNALS) {
         /* signals */
@@ -980,7 +978,6 @@ INLINED status_word compute(const enum andrews_function wanted,
         status |= finite_bit(out, 7, ANDREWS_STATUS_NOT_FINITE);
     }
 
-#ifndef KINTRAFO_LANES
     if (wanted == ANDREWS_DYNAMICS) {
         /* mass_matrix */
         out[0] = mass_beta_beta; /* M[beta,beta] */
@@ -999,9 +996,7 @@ INLINED status_word compute(const enum andrews_function wanted,
         status |= guard_bit(spring_length_squared, c->spring_length_squared_floor, ANDREWS_STATUS_SPRING_LENGTH_SQUARED);
         status |= finite_bit(out, 3, ANDREWS_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == ANDREWS_POSES) {
         /* relative_coordinates */
         out[0] = beta; /* beta */
@@ -1103,9 +1098,7 @@ INLINED status_word compute(const enum andrews_function wanted,
         status |= guard_bit(k7_closure, c->k7_closure_floor, ANDREWS_STATUS_K7_CLOSURE);
         status |= finite_bit(out, 133, ANDREWS_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == ANDREWS_JACOBIANS) {
         /* relative_jacobian by beta */
         out[0] = number(1.0); /* beta */
@@ -1213,7 +1206,6 @@ INLINED status_word compute(const enum andrews_function wanted,
         status |= guard_bit(k7_closure, c->k7_closure_floor, ANDREWS_STATUS_K7_CLOSURE);
         status |= finite_bit(out, 343, ANDREWS_STATUS_NOT_FINITE);
     }
-#endif
     return status;
 }
 

@@ -658,7 +658,6 @@ INLINED status_word compute(const enum andrews_function wanted,
 
     status_word status = {0};
 
-#ifndef KINTRAFO_LANES
     if (wanted == ANDREWS_RHS_JACOBIAN) {
         /* rhs_jacobian by beta, beta_rate */
         out[1] = number(1.0); /* d(beta)/dt */
@@ -675,9 +674,7 @@ INLINED status_word compute(const enum andrews_function wanted,
         status |= guard_bit(mass_beta_beta, 1e-280, ANDREWS_STATUS_PIVOT_BETA);
         status |= finite_bit(out, 4, ANDREWS_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == ANDREWS_LINEARISATION) {
         /* rhs_input_jacobian by drive_torque */
         out[1] = inverse_pivot_beta; /* d(beta_rate)/dt */
@@ -702,7 +699,6 @@ INLINED status_word compute(const enum andrews_function wanted,
         status |= guard_bit(mass_beta_beta, 1e-280, ANDREWS_STATUS_PIVOT_BETA);
         status |= finite_bit(out, 11, ANDREWS_STATUS_NOT_FINITE);
     }
-#endif
     return status;
 }
 

@@ -2059,7 +2059,6 @@ INLINED status_word compute(const enum double_wishbone_function wanted,
         status |= finite_bit(out, 4, DOUBLE_WISHBONE_STATUS_NOT_FINITE);
     }
 
-#ifndef KINTRAFO_LANES
     if (wanted == DOUBLE_WISHBONE_RESIDUALS) {
         const double
             given_arm_angle = given[0],
@@ -2089,7 +2088,6 @@ INLINED status_word compute(const enum double_wishbone_function wanted,
 
         status |= finite_bit(out, 4, DOUBLE_WISHBONE_STATUS_NOT_FINITE);
     }
-#endif
 
     if (wanted == DOUBLE_WISHBONE_SIGNALS) {
         /* signals */
@@ -2144,7 +2142,6 @@ INLINED status_word compute(const enum double_wishbone_function wanted,
         status |= finite_bit(out, 8, DOUBLE_WISHBONE_STATUS_NOT_FINITE);
     }
 
-#ifndef KINTRAFO_LANES
     if (wanted == DOUBLE_WISHBONE_DYNAMICS) {
         /* mass_matrix */
         /* M[arm_angle,arm_angle] */
@@ -2170,9 +2167,7 @@ INLINED status_word compute(const enum double_wishbone_function wanted,
         status |= guard_bit(cos_camber_squared, 1e-10, DOUBLE_WISHBONE_STATUS_COS_CAMBER_SQUARED);
         status |= finite_bit(out, 8, DOUBLE_WISHBONE_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == DOUBLE_WISHBONE_POSES) {
         /* relative_coordinates */
         out[0] = arm_angle; /* arm_angle */
@@ -2416,9 +2411,7 @@ INLINED status_word compute(const enum double_wishbone_function wanted,
         status |= guard_bit(tie_rod_cross_squared, 1e-10, DOUBLE_WISHBONE_STATUS_TIE_ROD_CROSS_SQUARED);
         status |= finite_bit(out, 112, DOUBLE_WISHBONE_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == DOUBLE_WISHBONE_JACOBIANS) {
         /* relative_jacobian by arm_angle, spin_angle */
         out[0] = number(1.0); /* arm_angle */
@@ -2464,7 +2457,6 @@ INLINED status_word compute(const enum double_wishbone_function wanted,
         status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, DOUBLE_WISHBONE_STATUS_KNUCKLE_CLOSURE);
         status |= finite_bit(out, 56, DOUBLE_WISHBONE_STATUS_NOT_FINITE);
     }
-#endif
     return status;
 }
 

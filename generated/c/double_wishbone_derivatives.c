@@ -2519,7 +2519,6 @@ INLINED status_word compute(const enum double_wishbone_function wanted,
 
     status_word status = {0};
 
-#ifndef KINTRAFO_LANES
     if (wanted == DOUBLE_WISHBONE_RHS_JACOBIAN) {
         /* rhs_jacobian by arm_angle, spin_angle, arm_angle_rate, spin_angle_rate */
         out[2] = number(1.0); /* d(arm_angle)/dt */
@@ -2541,9 +2540,7 @@ INLINED status_word compute(const enum double_wishbone_function wanted,
         status |= guard_bit(mass_arm_angle_arm_angle, 1e-280, DOUBLE_WISHBONE_STATUS_PIVOT_ARM_ANGLE);
         status |= finite_bit(out, 16, DOUBLE_WISHBONE_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == DOUBLE_WISHBONE_RHS_JACOBIAN_RACK_HELD) {
         /* rhs_jacobian_rack_held by arm_angle, spin_angle, arm_angle_rate, spin_angle_rate */
         out[2] = number(1.0); /* d(arm_angle)/dt */
@@ -2564,9 +2561,7 @@ INLINED status_word compute(const enum double_wishbone_function wanted,
         status |= guard_bit(mass_arm_angle_arm_angle, 1e-280, DOUBLE_WISHBONE_STATUS_PIVOT_ARM_ANGLE);
         status |= finite_bit(out, 16, DOUBLE_WISHBONE_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == DOUBLE_WISHBONE_LINEARISATION) {
         /* rhs_input_jacobian by rack_position, rack_velocity, rack_acceleration, spring_actuator,
            road_height */
@@ -2730,7 +2725,6 @@ INLINED status_word compute(const enum double_wishbone_function wanted,
         status |= guard_bit(mass_arm_angle_arm_angle, 1e-280, DOUBLE_WISHBONE_STATUS_PIVOT_ARM_ANGLE);
         status |= finite_bit(out, 137, DOUBLE_WISHBONE_STATUS_NOT_FINITE);
     }
-#endif
     return status;
 }
 

@@ -2251,7 +2251,6 @@ INLINED status_word compute(const enum double_wishbone_general_function wanted,
         status |= finite_bit(out, 4, DOUBLE_WISHBONE_GENERAL_STATUS_NOT_FINITE);
     }
 
-#ifndef KINTRAFO_LANES
     if (wanted == DOUBLE_WISHBONE_GENERAL_RESIDUALS) {
         const double
             given_arm_angle = given[0],
@@ -2281,7 +2280,6 @@ INLINED status_word compute(const enum double_wishbone_general_function wanted,
 
         status |= finite_bit(out, 4, DOUBLE_WISHBONE_GENERAL_STATUS_NOT_FINITE);
     }
-#endif
 
     if (wanted == DOUBLE_WISHBONE_GENERAL_SIGNALS) {
         /* signals */
@@ -2337,7 +2335,6 @@ INLINED status_word compute(const enum double_wishbone_general_function wanted,
         status |= finite_bit(out, 8, DOUBLE_WISHBONE_GENERAL_STATUS_NOT_FINITE);
     }
 
-#ifndef KINTRAFO_LANES
     if (wanted == DOUBLE_WISHBONE_GENERAL_DYNAMICS) {
         /* mass_matrix */
         /* M[arm_angle,arm_angle] */
@@ -2363,9 +2360,7 @@ INLINED status_word compute(const enum double_wishbone_general_function wanted,
         status |= guard_bit(cos_camber_squared, 1e-10, DOUBLE_WISHBONE_GENERAL_STATUS_COS_CAMBER_SQUARED);
         status |= finite_bit(out, 8, DOUBLE_WISHBONE_GENERAL_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == DOUBLE_WISHBONE_GENERAL_POSES) {
         /* relative_coordinates */
         out[0] = arm_angle; /* arm_angle */
@@ -2609,9 +2604,7 @@ INLINED status_word compute(const enum double_wishbone_general_function wanted,
         status |= guard_bit(tie_rod_cross_squared, 1e-10, DOUBLE_WISHBONE_GENERAL_STATUS_TIE_ROD_CROSS_SQUARED);
         status |= finite_bit(out, 112, DOUBLE_WISHBONE_GENERAL_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == DOUBLE_WISHBONE_GENERAL_JACOBIANS) {
         /* relative_jacobian by arm_angle, spin_angle */
         out[0] = number(1.0); /* arm_angle */
@@ -2657,7 +2650,6 @@ INLINED status_word compute(const enum double_wishbone_general_function wanted,
         status |= guard_bit(knuckle_closure, c->knuckle_closure_floor, DOUBLE_WISHBONE_GENERAL_STATUS_KNUCKLE_CLOSURE);
         status |= finite_bit(out, 56, DOUBLE_WISHBONE_GENERAL_STATUS_NOT_FINITE);
     }
-#endif
     return status;
 }
 

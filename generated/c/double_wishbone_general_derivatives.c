@@ -2873,7 +2873,6 @@ INLINED status_word compute(const enum double_wishbone_general_function wanted,
 
     status_word status = {0};
 
-#ifndef KINTRAFO_LANES
     if (wanted == DOUBLE_WISHBONE_GENERAL_RHS_JACOBIAN) {
         /* rhs_jacobian by arm_angle, spin_angle, arm_angle_rate, spin_angle_rate */
         out[2] = number(1.0); /* d(arm_angle)/dt */
@@ -2895,9 +2894,7 @@ INLINED status_word compute(const enum double_wishbone_general_function wanted,
         status |= guard_bit(mass_arm_angle_arm_angle, 1e-280, DOUBLE_WISHBONE_GENERAL_STATUS_PIVOT_ARM_ANGLE);
         status |= finite_bit(out, 16, DOUBLE_WISHBONE_GENERAL_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == DOUBLE_WISHBONE_GENERAL_RHS_JACOBIAN_RACK_HELD) {
         /* rhs_jacobian_rack_held by arm_angle, spin_angle, arm_angle_rate, spin_angle_rate */
         out[2] = number(1.0); /* d(arm_angle)/dt */
@@ -2918,9 +2915,7 @@ INLINED status_word compute(const enum double_wishbone_general_function wanted,
         status |= guard_bit(mass_arm_angle_arm_angle, 1e-280, DOUBLE_WISHBONE_GENERAL_STATUS_PIVOT_ARM_ANGLE);
         status |= finite_bit(out, 16, DOUBLE_WISHBONE_GENERAL_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == DOUBLE_WISHBONE_GENERAL_LINEARISATION) {
         /* rhs_input_jacobian by rack_position, rack_velocity, rack_acceleration, spring_actuator,
            road_height, road_velocity */
@@ -3091,7 +3086,6 @@ INLINED status_word compute(const enum double_wishbone_general_function wanted,
         status |= guard_bit(mass_arm_angle_arm_angle, 1e-280, DOUBLE_WISHBONE_GENERAL_STATUS_PIVOT_ARM_ANGLE);
         status |= finite_bit(out, 184, DOUBLE_WISHBONE_GENERAL_STATUS_NOT_FINITE);
     }
-#endif
     return status;
 }
 

@@ -2385,7 +2385,6 @@ INLINED status_word compute(const enum excavator_function wanted,
         status |= finite_bit(out, 6, EXCAVATOR_STATUS_NOT_FINITE);
     }
 
-#ifndef KINTRAFO_LANES
     if (wanted == EXCAVATOR_RESIDUALS) {
         const double
             given_boom_stroke = given[0],
@@ -2481,7 +2480,6 @@ INLINED status_word compute(const enum excavator_function wanted,
         status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_STATUS_BUCKET_CLOSURE);
         status |= finite_bit(out, 11, EXCAVATOR_STATUS_NOT_FINITE);
     }
-#endif
 
     if (wanted == EXCAVATOR_MARGINS) {
         /* margins */
@@ -2502,7 +2500,6 @@ INLINED status_word compute(const enum excavator_function wanted,
         status |= finite_bit(out, 13, EXCAVATOR_STATUS_NOT_FINITE);
     }
 
-#ifndef KINTRAFO_LANES
     if (wanted == EXCAVATOR_DYNAMICS) {
         /* mass_matrix */
         out[0] = mass_boom_stroke_boom_stroke; /* M[boom_stroke,boom_stroke] */
@@ -2537,9 +2534,7 @@ INLINED status_word compute(const enum excavator_function wanted,
         status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_STATUS_BUCKET_CLOSURE);
         status |= finite_bit(out, 15, EXCAVATOR_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == EXCAVATOR_POSES) {
         /* relative_coordinates */
         out[0] = boom_stroke; /* boom_stroke */
@@ -2719,9 +2714,7 @@ INLINED status_word compute(const enum excavator_function wanted,
         status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_STATUS_BUCKET_CLOSURE);
         status |= finite_bit(out, 209, EXCAVATOR_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == EXCAVATOR_JACOBIANS) {
         /* relative_jacobian by boom_stroke, arm_stroke, bucket_stroke */
         out[0] = number(1.0); /* boom_stroke */
@@ -3015,7 +3008,6 @@ INLINED status_word compute(const enum excavator_function wanted,
         status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_STATUS_BUCKET_CLOSURE);
         status |= finite_bit(out, 957, EXCAVATOR_STATUS_NOT_FINITE);
     }
-#endif
     return status;
 }
 

@@ -6125,7 +6125,6 @@ INLINED status_word compute(const enum excavator_function wanted,
 
     status_word status = {0};
 
-#ifndef KINTRAFO_LANES
     if (wanted == EXCAVATOR_RHS_JACOBIAN) {
         /* rhs_jacobian by boom_stroke, arm_stroke, bucket_stroke, boom_stroke_rate, arm_stroke_rate,
            bucket_stroke_rate */
@@ -6168,9 +6167,7 @@ INLINED status_word compute(const enum excavator_function wanted,
         status |= guard_bit(reduced_bucket_stroke_bucket_stroke_arm_stroke, 1e-280, EXCAVATOR_STATUS_PIVOT_BUCKET_STROKE);
         status |= finite_bit(out, 36, EXCAVATOR_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == EXCAVATOR_RHS_INPUT_JACOBIAN) {
         /* rhs_input_jacobian by boom_force, arm_force, bucket_force */
         out[9] = boom_stroke_acceleration__boom_force; /* d(boom_stroke_rate)/dt */
@@ -6199,7 +6196,6 @@ INLINED status_word compute(const enum excavator_function wanted,
         status |= guard_bit(reduced_bucket_stroke_bucket_stroke_arm_stroke, 1e-280, EXCAVATOR_STATUS_PIVOT_BUCKET_STROKE);
         status |= finite_bit(out, 18, EXCAVATOR_STATUS_NOT_FINITE);
     }
-#endif
     return status;
 }
 

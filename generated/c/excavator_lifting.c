@@ -1322,7 +1322,6 @@ INLINED status_word compute(const enum excavator_lifting_function wanted,
         status |= finite_bit(out, 2, EXCAVATOR_LIFTING_STATUS_NOT_FINITE);
     }
 
-#ifndef KINTRAFO_LANES
     if (wanted == EXCAVATOR_LIFTING_RESIDUALS) {
         const double
             given_boom_stroke = given[0],
@@ -1420,7 +1419,6 @@ INLINED status_word compute(const enum excavator_lifting_function wanted,
         status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE);
         status |= finite_bit(out, 12, EXCAVATOR_LIFTING_STATUS_NOT_FINITE);
     }
-#endif
 
     if (wanted == EXCAVATOR_LIFTING_MARGINS) {
         /* margins */
@@ -1438,7 +1436,6 @@ INLINED status_word compute(const enum excavator_lifting_function wanted,
         status |= finite_bit(out, 10, EXCAVATOR_LIFTING_STATUS_NOT_FINITE);
     }
 
-#ifndef KINTRAFO_LANES
     if (wanted == EXCAVATOR_LIFTING_DYNAMICS) {
         /* mass_matrix */
         out[0] = c->load_carried_inertia_xx; /* M[swing,swing] */
@@ -1461,9 +1458,7 @@ INLINED status_word compute(const enum excavator_lifting_function wanted,
         status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE);
         status |= finite_bit(out, 3, EXCAVATOR_LIFTING_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == EXCAVATOR_LIFTING_POSES) {
         /* relative_coordinates */
         out[0] = boom_stroke_position; /* boom_stroke */
@@ -1719,9 +1714,7 @@ INLINED status_word compute(const enum excavator_lifting_function wanted,
         status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE);
         status |= finite_bit(out, 228, EXCAVATOR_LIFTING_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == EXCAVATOR_LIFTING_JACOBIANS) {
         /* relative_jacobian by swing */
         out[11] = number(1.0); /* swing */
@@ -1769,7 +1762,6 @@ INLINED status_word compute(const enum excavator_lifting_function wanted,
         status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE);
         status |= finite_bit(out, 90, EXCAVATOR_LIFTING_STATUS_NOT_FINITE);
     }
-#endif
     return status;
 }
 

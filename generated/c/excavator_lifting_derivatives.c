@@ -2493,7 +2493,6 @@ INLINED status_word compute(const enum excavator_lifting_function wanted,
 
     status_word status = {0};
 
-#ifndef KINTRAFO_LANES
     if (wanted == EXCAVATOR_LIFTING_RHS_JACOBIAN) {
         /* rhs_jacobian by swing, swing_rate */
         out[1] = number(1.0); /* d(swing)/dt */
@@ -2512,9 +2511,7 @@ INLINED status_word compute(const enum excavator_lifting_function wanted,
         status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE);
         status |= finite_bit(out, 4, EXCAVATOR_LIFTING_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == EXCAVATOR_LIFTING_RHS_INPUT_JACOBIAN) {
         /* rhs_input_jacobian by boom_stroke_position, boom_stroke_velocity, boom_stroke_acceleration,
            arm_stroke_position, arm_stroke_velocity, arm_stroke_acceleration, bucket_stroke_position,
@@ -2542,9 +2539,7 @@ INLINED status_word compute(const enum excavator_lifting_function wanted,
         status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE);
         status |= finite_bit(out, 18, EXCAVATOR_LIFTING_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == EXCAVATOR_LIFTING_RHS_JACOBIAN_CYLINDERS_HELD) {
         /* rhs_jacobian_cylinders_held by swing, swing_rate */
         out[1] = number(1.0); /* d(swing)/dt */
@@ -2563,7 +2558,6 @@ INLINED status_word compute(const enum excavator_lifting_function wanted,
         status |= guard_bit(bucket_closure, c->bucket_closure_floor, EXCAVATOR_LIFTING_STATUS_BUCKET_CLOSURE);
         status |= finite_bit(out, 4, EXCAVATOR_LIFTING_STATUS_NOT_FINITE);
     }
-#endif
     return status;
 }
 

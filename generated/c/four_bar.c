@@ -466,7 +466,6 @@ INLINED status_word compute(const enum four_bar_function wanted,
         status |= finite_bit(out, 2, FOUR_BAR_STATUS_NOT_FINITE);
     }
 
-#ifndef KINTRAFO_LANES
     if (wanted == FOUR_BAR_RESIDUALS) {
         const double
             given_crank_angle = given[0],
@@ -502,7 +501,6 @@ INLINED status_word compute(const enum four_bar_function wanted,
         status |= guard_bit(rocker_closure, c->rocker_closure_floor, FOUR_BAR_STATUS_ROCKER_CLOSURE);
         status |= finite_bit(out, 3, FOUR_BAR_STATUS_NOT_FINITE);
     }
-#endif
 
     if (wanted == FOUR_BAR_SIGNALS) {
         /* signals */
@@ -527,7 +525,6 @@ INLINED status_word compute(const enum four_bar_function wanted,
         status |= finite_bit(out, 4, FOUR_BAR_STATUS_NOT_FINITE);
     }
 
-#ifndef KINTRAFO_LANES
     if (wanted == FOUR_BAR_DYNAMICS) {
         /* mass_matrix */
         out[0] = mass_crank_angle_crank_angle; /* M[crank_angle,crank_angle] */
@@ -543,9 +540,7 @@ INLINED status_word compute(const enum four_bar_function wanted,
         status |= guard_bit(spring_length_squared, c->spring_length_squared_floor, FOUR_BAR_STATUS_SPRING_LENGTH_SQUARED);
         status |= finite_bit(out, 3, FOUR_BAR_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == FOUR_BAR_POSES) {
         /* relative_coordinates */
         out[0] = crank_angle; /* crank_angle */
@@ -597,9 +592,7 @@ INLINED status_word compute(const enum four_bar_function wanted,
         status |= guard_bit(rocker_closure, c->rocker_closure_floor, FOUR_BAR_STATUS_ROCKER_CLOSURE);
         status |= finite_bit(out, 57, FOUR_BAR_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == FOUR_BAR_JACOBIANS) {
         /* relative_jacobian by crank_angle */
         out[0] = number(1.0); /* crank_angle */
@@ -642,7 +635,6 @@ INLINED status_word compute(const enum four_bar_function wanted,
         status |= guard_bit(rocker_closure, c->rocker_closure_floor, FOUR_BAR_STATUS_ROCKER_CLOSURE);
         status |= finite_bit(out, 75, FOUR_BAR_STATUS_NOT_FINITE);
     }
-#endif
     return status;
 }
 

@@ -394,7 +394,6 @@ INLINED status_word compute(const enum four_bar_function wanted,
 
     status_word status = {0};
 
-#ifndef KINTRAFO_LANES
     if (wanted == FOUR_BAR_RHS_JACOBIAN) {
         /* rhs_jacobian by crank_angle, crank_angle_rate */
         out[1] = number(1.0); /* d(crank_angle)/dt */
@@ -408,9 +407,7 @@ INLINED status_word compute(const enum four_bar_function wanted,
         status |= guard_bit(mass_crank_angle_crank_angle, 1e-280, FOUR_BAR_STATUS_PIVOT_CRANK_ANGLE);
         status |= finite_bit(out, 4, FOUR_BAR_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == FOUR_BAR_LINEARISATION) {
         /* rhs_input_jacobian by crank_torque */
         out[1] = inverse_pivot_crank_angle; /* d(crank_angle_rate)/dt */
@@ -434,7 +431,6 @@ INLINED status_word compute(const enum four_bar_function wanted,
         status |= guard_bit(mass_crank_angle_crank_angle, 1e-280, FOUR_BAR_STATUS_PIVOT_CRANK_ANGLE);
         status |= finite_bit(out, 14, FOUR_BAR_STATUS_NOT_FINITE);
     }
-#endif
     return status;
 }
 

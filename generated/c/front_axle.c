@@ -4343,7 +4343,6 @@ INLINED status_word compute(const enum front_axle_function wanted,
         status |= finite_bit(out, 8, FRONT_AXLE_STATUS_NOT_FINITE);
     }
 
-#ifndef KINTRAFO_LANES
     if (wanted == FRONT_AXLE_RESIDUALS) {
         const double
             given_right_beta1 = given[0],
@@ -4538,7 +4537,6 @@ INLINED status_word compute(const enum front_axle_function wanted,
 
         status |= finite_bit(out, 21, FRONT_AXLE_STATUS_NOT_FINITE);
     }
-#endif
 
     if (wanted == FRONT_AXLE_SIGNALS) {
         /* signals */
@@ -4676,7 +4674,6 @@ INLINED status_word compute(const enum front_axle_function wanted,
         status |= finite_bit(out, 22, FRONT_AXLE_STATUS_NOT_FINITE);
     }
 
-#ifndef KINTRAFO_LANES
     if (wanted == FRONT_AXLE_DYNAMICS) {
         /* mass_matrix */
         /* M[right_beta1,right_beta1] */
@@ -4719,9 +4716,7 @@ INLINED status_word compute(const enum front_axle_function wanted,
         status |= guard_bit(left_front_cos_camber_squared, 1e-10, FRONT_AXLE_STATUS_LEFT_FRONT_COS_CAMBER_SQUARED);
         status |= finite_bit(out, 24, FRONT_AXLE_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == FRONT_AXLE_POSES) {
         /* relative_coordinates */
         out[0] = right_beta1; /* right_beta1 */
@@ -5416,9 +5411,7 @@ INLINED status_word compute(const enum front_axle_function wanted,
         status |= guard_bit(shaft_level_squared_left_C, 1e-10, FRONT_AXLE_STATUS_SHAFT_LEVEL_SQUARED_LEFT_C);
         status |= finite_bit(out, 291, FRONT_AXLE_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == FRONT_AXLE_JACOBIANS) {
         /* relative_jacobian by right_beta1, right_beta5, left_beta1, left_beta5 */
         out[0] = number(1.0); /* right_beta1 */
@@ -5719,7 +5712,6 @@ INLINED status_word compute(const enum front_axle_function wanted,
         status |= guard_bit(shaft_level_squared_left_C, 1e-10, FRONT_AXLE_STATUS_SHAFT_LEVEL_SQUARED_LEFT_C);
         status |= finite_bit(out, 984, FRONT_AXLE_STATUS_NOT_FINITE);
     }
-#endif
     return status;
 }
 

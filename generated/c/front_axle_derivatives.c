@@ -4450,7 +4450,6 @@ INLINED status_word compute(const enum front_axle_function wanted,
 
     status_word status = {0};
 
-#ifndef KINTRAFO_LANES
     if (wanted == FRONT_AXLE_RHS_JACOBIAN) {
         /* rhs_jacobian by right_beta1, right_beta5, left_beta1, left_beta5, right_beta1_rate,
            right_beta5_rate, left_beta1_rate, left_beta5_rate */
@@ -4496,9 +4495,7 @@ INLINED status_word compute(const enum front_axle_function wanted,
         status |= guard_bit(mass_left_beta1_left_beta1, 1e-280, FRONT_AXLE_STATUS_PIVOT_LEFT_BETA1);
         status |= finite_bit(out, 64, FRONT_AXLE_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == FRONT_AXLE_RHS_JACOBIAN_RACK_HELD) {
         /* rhs_jacobian_rack_held by right_beta1, right_beta5, left_beta1, left_beta5, right_beta1_rate,
            right_beta5_rate, left_beta1_rate, left_beta5_rate */
@@ -4541,9 +4538,7 @@ INLINED status_word compute(const enum front_axle_function wanted,
         status |= guard_bit(mass_left_beta1_left_beta1, 1e-280, FRONT_AXLE_STATUS_PIVOT_LEFT_BETA1);
         status |= finite_bit(out, 64, FRONT_AXLE_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == FRONT_AXLE_LINEARISATION) {
         /* rhs_input_jacobian by rack_position, rack_velocity, rack_acceleration, right_strut_force,
            right_road_height, left_strut_force, left_road_height */
@@ -4935,7 +4930,6 @@ INLINED status_word compute(const enum front_axle_function wanted,
         status |= guard_bit(mass_left_beta1_left_beta1, 1e-280, FRONT_AXLE_STATUS_PIVOT_LEFT_BETA1);
         status |= finite_bit(out, 491, FRONT_AXLE_STATUS_NOT_FINITE);
     }
-#endif
     return status;
 }
 

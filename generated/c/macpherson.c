@@ -1937,7 +1937,6 @@ INLINED status_word compute(const enum macpherson_function wanted,
         status |= finite_bit(out, 4, MACPHERSON_STATUS_NOT_FINITE);
     }
 
-#ifndef KINTRAFO_LANES
     if (wanted == MACPHERSON_RESIDUALS) {
         const double
             given_beta1 = given[0],
@@ -2018,7 +2017,6 @@ INLINED status_word compute(const enum macpherson_function wanted,
 
         status |= finite_bit(out, 10, MACPHERSON_STATUS_NOT_FINITE);
     }
-#endif
 
     if (wanted == MACPHERSON_SIGNALS) {
         /* signals */
@@ -2073,7 +2071,6 @@ INLINED status_word compute(const enum macpherson_function wanted,
         status |= finite_bit(out, 8, MACPHERSON_STATUS_NOT_FINITE);
     }
 
-#ifndef KINTRAFO_LANES
     if (wanted == MACPHERSON_DYNAMICS) {
         /* mass_matrix */
         /* M[beta1,beta1] */
@@ -2096,9 +2093,7 @@ INLINED status_word compute(const enum macpherson_function wanted,
         status |= guard_bit(cos_camber_squared, 1e-10, MACPHERSON_STATUS_COS_CAMBER_SQUARED);
         status |= finite_bit(out, 8, MACPHERSON_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == MACPHERSON_POSES) {
         /* relative_coordinates */
         out[0] = beta1; /* beta1 */
@@ -2358,9 +2353,7 @@ INLINED status_word compute(const enum macpherson_function wanted,
         status |= guard_bit(shaft_level_squared_C, 1e-10, MACPHERSON_STATUS_SHAFT_LEVEL_SQUARED_C);
         status |= finite_bit(out, 118, MACPHERSON_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == MACPHERSON_JACOBIANS) {
         /* relative_jacobian by beta1, beta5 */
         out[0] = number(1.0); /* beta1 */
@@ -2477,7 +2470,6 @@ INLINED status_word compute(const enum macpherson_function wanted,
         status |= guard_bit(shaft_level_squared_C, 1e-10, MACPHERSON_STATUS_SHAFT_LEVEL_SQUARED_C);
         status |= finite_bit(out, 236, MACPHERSON_STATUS_NOT_FINITE);
     }
-#endif
     return status;
 }
 

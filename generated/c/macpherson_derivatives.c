@@ -1747,7 +1747,6 @@ INLINED status_word compute(const enum macpherson_function wanted,
 
     status_word status = {0};
 
-#ifndef KINTRAFO_LANES
     if (wanted == MACPHERSON_RHS_JACOBIAN) {
         /* rhs_jacobian by beta1, beta5, beta1_rate, beta5_rate */
         out[2] = number(1.0); /* d(beta1)/dt */
@@ -1767,9 +1766,7 @@ INLINED status_word compute(const enum macpherson_function wanted,
         status |= guard_bit(mass_beta1_beta1, 1e-280, MACPHERSON_STATUS_PIVOT_BETA1);
         status |= finite_bit(out, 16, MACPHERSON_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == MACPHERSON_RHS_JACOBIAN_RACK_HELD) {
         /* rhs_jacobian_rack_held by beta1, beta5, beta1_rate, beta5_rate */
         out[2] = number(1.0); /* d(beta1)/dt */
@@ -1788,9 +1785,7 @@ INLINED status_word compute(const enum macpherson_function wanted,
         status |= guard_bit(mass_beta1_beta1, 1e-280, MACPHERSON_STATUS_PIVOT_BETA1);
         status |= finite_bit(out, 16, MACPHERSON_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == MACPHERSON_LINEARISATION) {
         /* rhs_input_jacobian by rack_position, rack_velocity, rack_acceleration, strut_force,
            road_height */
@@ -1938,7 +1933,6 @@ INLINED status_word compute(const enum macpherson_function wanted,
         status |= guard_bit(mass_beta1_beta1, 1e-280, MACPHERSON_STATUS_PIVOT_BETA1);
         status |= finite_bit(out, 137, MACPHERSON_STATUS_NOT_FINITE);
     }
-#endif
     return status;
 }
 

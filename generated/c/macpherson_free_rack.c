@@ -2443,7 +2443,6 @@ INLINED status_word compute(const enum macpherson_free_rack_function wanted,
         status |= finite_bit(out, 6, MACPHERSON_FREE_RACK_STATUS_NOT_FINITE);
     }
 
-#ifndef KINTRAFO_LANES
     if (wanted == MACPHERSON_FREE_RACK_RESIDUALS) {
         const double
             given_beta1 = given[0],
@@ -2533,7 +2532,6 @@ INLINED status_word compute(const enum macpherson_free_rack_function wanted,
 
         status |= finite_bit(out, 12, MACPHERSON_FREE_RACK_STATUS_NOT_FINITE);
     }
-#endif
 
     if (wanted == MACPHERSON_FREE_RACK_SIGNALS) {
         /* signals */
@@ -2592,7 +2590,6 @@ INLINED status_word compute(const enum macpherson_free_rack_function wanted,
         status |= finite_bit(out, 10, MACPHERSON_FREE_RACK_STATUS_NOT_FINITE);
     }
 
-#ifndef KINTRAFO_LANES
     if (wanted == MACPHERSON_FREE_RACK_DYNAMICS) {
         /* mass_matrix */
         /* M[beta1,beta1] */
@@ -2626,9 +2623,7 @@ INLINED status_word compute(const enum macpherson_free_rack_function wanted,
         status |= guard_bit(cos_camber_squared, 1e-10, MACPHERSON_FREE_RACK_STATUS_COS_CAMBER_SQUARED);
         status |= finite_bit(out, 15, MACPHERSON_FREE_RACK_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == MACPHERSON_FREE_RACK_POSES) {
         /* relative_coordinates */
         out[0] = beta1; /* beta1 */
@@ -2867,9 +2862,7 @@ INLINED status_word compute(const enum macpherson_free_rack_function wanted,
         status |= guard_bit(shaft_level_squared_E, 1e-10, MACPHERSON_FREE_RACK_STATUS_SHAFT_LEVEL_SQUARED_E);
         status |= finite_bit(out, 120, MACPHERSON_FREE_RACK_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == MACPHERSON_FREE_RACK_JACOBIANS) {
         /* relative_jacobian by beta1, beta5, beta9 */
         out[0] = number(1.0); /* beta1 */
@@ -3099,7 +3092,6 @@ INLINED status_word compute(const enum macpherson_free_rack_function wanted,
         status |= guard_bit(shaft_level_squared_E, 1e-10, MACPHERSON_FREE_RACK_STATUS_SHAFT_LEVEL_SQUARED_E);
         status |= finite_bit(out, 576, MACPHERSON_FREE_RACK_STATUS_NOT_FINITE);
     }
-#endif
     return status;
 }
 

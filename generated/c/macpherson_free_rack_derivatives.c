@@ -2841,7 +2841,6 @@ INLINED status_word compute(const enum macpherson_free_rack_function wanted,
 
     status_word status = {0};
 
-#ifndef KINTRAFO_LANES
     if (wanted == MACPHERSON_FREE_RACK_RHS_JACOBIAN) {
         /* rhs_jacobian by beta1, beta5, beta9, beta1_rate, beta5_rate, beta9_rate */
         out[3] = number(1.0); /* d(beta1)/dt */
@@ -2875,9 +2874,7 @@ INLINED status_word compute(const enum macpherson_free_rack_function wanted,
         status |= guard_bit(reduced_beta9_beta9_beta1, 1e-280, MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA9);
         status |= finite_bit(out, 36, MACPHERSON_FREE_RACK_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == MACPHERSON_FREE_RACK_LINEARISATION) {
         /* rhs_input_jacobian by strut_force, road_height, rack_force */
         out[9] = beta1_acceleration__strut_force; /* d(beta1_rate)/dt */
@@ -3017,7 +3014,6 @@ INLINED status_word compute(const enum macpherson_free_rack_function wanted,
         status |= guard_bit(reduced_beta9_beta9_beta1, 1e-280, MACPHERSON_FREE_RACK_STATUS_PIVOT_BETA9);
         status |= finite_bit(out, 135, MACPHERSON_FREE_RACK_STATUS_NOT_FINITE);
     }
-#endif
     return status;
 }
 

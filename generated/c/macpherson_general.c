@@ -2504,7 +2504,6 @@ INLINED status_word compute(const enum macpherson_general_function wanted,
         status |= finite_bit(out, 4, MACPHERSON_GENERAL_STATUS_NOT_FINITE);
     }
 
-#ifndef KINTRAFO_LANES
     if (wanted == MACPHERSON_GENERAL_RESIDUALS) {
         const double
             given_beta1 = given[0],
@@ -2596,7 +2595,6 @@ INLINED status_word compute(const enum macpherson_general_function wanted,
 
         status |= finite_bit(out, 10, MACPHERSON_GENERAL_STATUS_NOT_FINITE);
     }
-#endif
 
     if (wanted == MACPHERSON_GENERAL_SIGNALS) {
         /* signals */
@@ -2661,7 +2659,6 @@ INLINED status_word compute(const enum macpherson_general_function wanted,
         status |= finite_bit(out, 11, MACPHERSON_GENERAL_STATUS_NOT_FINITE);
     }
 
-#ifndef KINTRAFO_LANES
     if (wanted == MACPHERSON_GENERAL_DYNAMICS) {
         /* mass_matrix */
         /* M[beta1,beta1] */
@@ -2687,9 +2684,7 @@ INLINED status_word compute(const enum macpherson_general_function wanted,
         status |= guard_bit(cos_camber_squared, 1e-10, MACPHERSON_GENERAL_STATUS_COS_CAMBER_SQUARED);
         status |= finite_bit(out, 8, MACPHERSON_GENERAL_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == MACPHERSON_GENERAL_POSES) {
         /* relative_coordinates */
         out[0] = beta1; /* beta1 */
@@ -2957,9 +2952,7 @@ INLINED status_word compute(const enum macpherson_general_function wanted,
         status |= guard_bit(shaft_level_squared_C, 1e-10, MACPHERSON_GENERAL_STATUS_SHAFT_LEVEL_SQUARED_C);
         status |= finite_bit(out, 118, MACPHERSON_GENERAL_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == MACPHERSON_GENERAL_JACOBIANS) {
         /* relative_jacobian by beta1, beta5 */
         out[0] = number(1.0); /* beta1 */
@@ -3078,7 +3071,6 @@ INLINED status_word compute(const enum macpherson_general_function wanted,
         status |= guard_bit(shaft_level_squared_C, 1e-10, MACPHERSON_GENERAL_STATUS_SHAFT_LEVEL_SQUARED_C);
         status |= finite_bit(out, 236, MACPHERSON_GENERAL_STATUS_NOT_FINITE);
     }
-#endif
     return status;
 }
 

@@ -2687,7 +2687,6 @@ INLINED status_word compute(const enum macpherson_general_function wanted,
 
     status_word status = {0};
 
-#ifndef KINTRAFO_LANES
     if (wanted == MACPHERSON_GENERAL_RHS_JACOBIAN) {
         /* rhs_jacobian by beta1, beta5, beta1_rate, beta5_rate */
         out[2] = number(1.0); /* d(beta1)/dt */
@@ -2710,9 +2709,7 @@ INLINED status_word compute(const enum macpherson_general_function wanted,
         status |= guard_bit(mass_beta1_beta1, 1e-280, MACPHERSON_GENERAL_STATUS_PIVOT_BETA1);
         status |= finite_bit(out, 16, MACPHERSON_GENERAL_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == MACPHERSON_GENERAL_RHS_JACOBIAN_RACK_HELD) {
         /* rhs_jacobian_rack_held by beta1, beta5, beta1_rate, beta5_rate */
         out[2] = number(1.0); /* d(beta1)/dt */
@@ -2734,9 +2731,7 @@ INLINED status_word compute(const enum macpherson_general_function wanted,
         status |= guard_bit(mass_beta1_beta1, 1e-280, MACPHERSON_GENERAL_STATUS_PIVOT_BETA1);
         status |= finite_bit(out, 16, MACPHERSON_GENERAL_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == MACPHERSON_GENERAL_LINEARISATION) {
         /* rhs_input_jacobian by rack_position, rack_velocity, rack_acceleration, strut_force,
            road_height, road_velocity */
@@ -2919,7 +2914,6 @@ INLINED status_word compute(const enum macpherson_general_function wanted,
         status |= guard_bit(mass_beta1_beta1, 1e-280, MACPHERSON_GENERAL_STATUS_PIVOT_BETA1);
         status |= finite_bit(out, 204, MACPHERSON_GENERAL_STATUS_NOT_FINITE);
     }
-#endif
     return status;
 }
 

@@ -328,7 +328,6 @@ INLINED status_word compute(const enum slider_crank_function wanted,
         status |= finite_bit(out, 2, SLIDER_CRANK_STATUS_NOT_FINITE);
     }
 
-#ifndef KINTRAFO_LANES
     if (wanted == SLIDER_CRANK_RESIDUALS) {
         const double
             given_crank_angle = given[0],
@@ -356,7 +355,6 @@ INLINED status_word compute(const enum slider_crank_function wanted,
         status |= guard_bit(piston_closure, c->piston_closure_floor, SLIDER_CRANK_STATUS_PISTON_CLOSURE);
         status |= finite_bit(out, 3, SLIDER_CRANK_STATUS_NOT_FINITE);
     }
-#endif
 
     if (wanted == SLIDER_CRANK_MARGINS) {
         /* margins */
@@ -366,7 +364,6 @@ INLINED status_word compute(const enum slider_crank_function wanted,
         status |= finite_bit(out, 2, SLIDER_CRANK_STATUS_NOT_FINITE);
     }
 
-#ifndef KINTRAFO_LANES
     if (wanted == SLIDER_CRANK_DYNAMICS) {
         /* mass_matrix */
         out[0] = mass_crank_angle_crank_angle; /* M[crank_angle,crank_angle] */
@@ -380,9 +377,7 @@ INLINED status_word compute(const enum slider_crank_function wanted,
         status |= guard_bit(piston_closure, c->piston_closure_floor, SLIDER_CRANK_STATUS_PISTON_CLOSURE);
         status |= finite_bit(out, 3, SLIDER_CRANK_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == SLIDER_CRANK_POSES) {
         /* relative_coordinates */
         out[0] = crank_angle; /* crank_angle */
@@ -429,9 +424,7 @@ INLINED status_word compute(const enum slider_crank_function wanted,
         status |= guard_bit(piston_closure, c->piston_closure_floor, SLIDER_CRANK_STATUS_PISTON_CLOSURE);
         status |= finite_bit(out, 57, SLIDER_CRANK_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == SLIDER_CRANK_JACOBIANS) {
         /* relative_jacobian by crank_angle */
         out[0] = number(1.0); /* crank_angle */
@@ -469,7 +462,6 @@ INLINED status_word compute(const enum slider_crank_function wanted,
         status |= guard_bit(piston_closure, c->piston_closure_floor, SLIDER_CRANK_STATUS_PISTON_CLOSURE);
         status |= finite_bit(out, 75, SLIDER_CRANK_STATUS_NOT_FINITE);
     }
-#endif
     return status;
 }
 

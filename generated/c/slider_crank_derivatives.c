@@ -251,7 +251,6 @@ INLINED status_word compute(const enum slider_crank_function wanted,
 
     status_word status = {0};
 
-#ifndef KINTRAFO_LANES
     if (wanted == SLIDER_CRANK_RHS_JACOBIAN) {
         /* rhs_jacobian by crank_angle, crank_angle_rate */
         out[1] = number(1.0); /* d(crank_angle)/dt */
@@ -263,9 +262,7 @@ INLINED status_word compute(const enum slider_crank_function wanted,
         status |= guard_bit(mass_crank_angle_crank_angle, 1e-280, SLIDER_CRANK_STATUS_PIVOT_CRANK_ANGLE);
         status |= finite_bit(out, 4, SLIDER_CRANK_STATUS_NOT_FINITE);
     }
-#endif
 
-#ifndef KINTRAFO_LANES
     if (wanted == SLIDER_CRANK_RHS_INPUT_JACOBIAN) {
         /* rhs_input_jacobian by crank_torque */
         out[1] = inverse_pivot_crank_angle; /* d(crank_angle_rate)/dt */
@@ -275,7 +272,6 @@ INLINED status_word compute(const enum slider_crank_function wanted,
         status |= guard_bit(mass_crank_angle_crank_angle, 1e-280, SLIDER_CRANK_STATUS_PIVOT_CRANK_ANGLE);
         status |= finite_bit(out, 2, SLIDER_CRANK_STATUS_NOT_FINITE);
     }
-#endif
     return status;
 }
 

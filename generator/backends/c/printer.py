@@ -460,12 +460,12 @@ class CPrinter:
         ]
         for function, part in zip(functions, whole.parts, strict=True):
             body = self._part(function, part, names)
-            text = [
+            lines += [
+                "",
                 f"    if (wanted == {self._wanted(function)}) {{",
                 *(f"    {line}" if line else "" for line in body[body[0] == "" :]),
                 "    }",
             ]
-            lines += ["", *(text if function.name in self._in_lanes else _plain(text))]
         return "\n".join([*lines, "    return status;", "}"])
 
     def _pointer(self, c: str, read: Collection[str]) -> list[str]:
