@@ -21,7 +21,7 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 from kintrafo import Model, System, ensemble, simulate, state_at_height
-from kintrafo.plots.figures import BLUE, STYLE
+from kintrafo.plots.figures import BLUE, GREEN, ORANGE, STYLE
 from kintrafo.simulation.lanes import library
 from kintrafo.simulation.lanes.run import usual_threads
 from kintrafo.systems.compile.compiler import find_compiler
@@ -300,12 +300,18 @@ def figure(found: list[Rate]) -> Figure:
     """Draw how the rate grows with the number of cars."""
     drawn = Figure(figsize=(6.4, 3.6), layout="constrained")
     axes = drawn.subplots()
-    shades = iter(np.linspace(0.35, 1.0, len({(r.what, r.threads) for r in found})))
+    tools = dict.fromkeys(rate.what for rate in found)
+    colours = dict(zip(tools, (ORANGE, "#56b4e9", BLUE, "#cc79a7", GREEN), strict=False))
     for what, threads in dict.fromkeys((rate.what, rate.threads) for rate in found):
         own = [rate for rate in found if (rate.what, rate.threads) == (what, threads)]
         label = f"{what.replace('`', '')}, {threads} thread{'s' * (threads > 1)}"
-        style = {"marker": "o", "color": BLUE, "alpha": next(shades), "label": label}
-        axes.plot([r.cars for r in own], [r.per_second for r in own], **style)
+        axes.plot(
+            [rate.cars for rate in own],
+            [rate.per_second for rate in own],
+            "o-" if threads == 1 else "s--",
+            color=colours[what],
+            label=label,
+        )
     axes.set(xscale="log", yscale="log", xlabel="cars", ylabel="simulated seconds in one")
     axes.legend(frameon=False, fontsize=8)
     return drawn

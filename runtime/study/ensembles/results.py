@@ -78,13 +78,11 @@ def _varied(model: System, variants: Variants, wide: Any) -> Data:
 
 def _message(done: NDArray[np.bool_], passed: NDArray[np.bool_]) -> str:
     failed, beyond = int((~done).sum()), int((done & passed).sum())
-    if not failed and not beyond:
-        return f"All {done.size} reached the end of the time."
-    return (
-        f"{done.size - failed} of {done.size} reached the end of the time, and `reason` says why "
-        f"the others did not; {beyond} passed a bound of what the model describes on the way, see "
-        "`beyond`."
-    )
+    told = f"{done.size - failed} of {done.size} reached the end of the time"
+    told += ", `reason` says why the others did not." if failed else "."
+    if beyond:
+        told += f" {beyond} passed a bound of what the model describes on the way, see `beyond`."
+    return told
 
 
 # -- reasons --------------------------------------------------------------------------------------
