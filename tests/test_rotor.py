@@ -7,6 +7,7 @@ where it is not, the unfolded equations must still be those of the oracle.
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 
 import mpmath
@@ -14,12 +15,14 @@ import numpy as np
 import pytest
 from cases import MODELS, Instant, car_parameters, counted_by, random_instants
 from changes import changed, named
-from kintrafo.generator import Body, Formulation, Rotor
+from kintrafo.generator import Body, Formulation, Motion, Rotor
 from kintrafo.generator.equations.outputs import Derivation
 from kintrafo.generator.mechanisms import MODELS as DECLARED
 from oracle.constraints import WHEEL, Array
 from oracle.newton import Mechanism
 from oracle.reference import INERTIA_ELEMENTS, Parameters, inertia
+from oracle_check import check_with_the_oracle
+from own_mechanisms import oblique_four_bar
 from own_models import derive
 from symbolic import constants_of, python
 
@@ -120,3 +123,15 @@ def test_unbalanced_wheel(name: str, seed: int) -> None:
         expected = solution.coordinate_accelerations[:count]
         # as for the other comparisons of accelerations with the oracle
         assert np.array(found[count:], dtype=float) == pytest.approx(expected, rel=1e-10, abs=1e-10)
+
+
+def test_a_rotor_whose_spin_is_given_carries_its_inertia_like_any_body(tmp_path):
+    model = oblique_four_bar()
+    (spinning,) = (joint for joint in model.independent if joint.name == "spinning")
+    driven = replace(
+        model,
+        name="driven_wheel",
+        independent=tuple(joint for joint in model.independent if joint != spinning),
+        prescribed={spinning: Motion("spin", "rad", "turn of the wheel")},
+    )
+    check_with_the_oracle(driven, tmp_path, reach=0.2)
