@@ -106,9 +106,9 @@ class Coordinates:
 
     @cached_property
     def rotors(self) -> dict[str, Body]:
-        """The bodies of revolution at the end of a chain, by their spin coordinate."""
+        """The bodies of revolution at the end of a chain, by their independent spin coordinate."""
         rotors = {}
-        for joint in self.driven:
+        for joint in self.model.independent:
             body = joint.second
             leaf = len(self._mechanism.joints_of(body.name)) == 1
             if isinstance(joint, Revolute) and leaf and body.rotor_axis is not None:
