@@ -155,7 +155,7 @@ def test_measured_actuator(run, tmp_path):
 
 
 def test_scenario_starts_at_rest_with_its_actuator():
-    result, motion = scenario.run_scenario(
+    result, motion = scenario.run(
         MODEL, scenario.Scenario(duration=0.1, inputs={"spring_actuator": 300.0})
     )
     moved = float(motion["wheel_center_z"].max() - motion["wheel_center_z"].min())

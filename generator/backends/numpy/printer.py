@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import sympy as sp
+
 from ...program.floors import ROUNDING
 from ..sharing import names_in
 from ..templates import template
@@ -47,12 +49,20 @@ class ArraysPrinter:
 
     def _prepare(self) -> str:
         loads = loaded("parameters", [e.name for e in self.model.parameters], self.model.prepare)
+        called = {
+            sp.Symbol(n): sp.Symbol(other) for n, other in names_in(self.model.prepare).items()
+        }
+
+        def told(expression: sp.Expr) -> str:
+            return formula(expression.xreplace(called), NUMPY)
+
         tests = [
             *(
-                f"not abs({a.quantity}) > ROUNDING{'' if a.scale == 1 else f' * {a.scale}'}"
+                f"not abs({told(a.quantity)}) > ROUNDING"
+                + ("" if a.scale == 1 else f" * {told(a.scale)}")
                 for a in self.model.assumptions
             ),
-            *(f"not abs({c.quantity}) <= {formula(c.least, NUMPY)}" for c in self.model.conditions),
+            *(f"not abs({told(c.quantity)}) <= {told(c.least)}" for c in self.model.conditions),
         ]
         holds = [f"{place}: {test}" for place, test in enumerate(tests)]
         return definition(self.model.prepare, "parameters", loads, holds)

@@ -165,10 +165,10 @@ CALLS = {
     ),
     "measured": (measurement.measured, {"path": "missing.csv", "speed": None}),
     "Scenario": (
-        lambda **given: scenario.play(_CAR, scenario.Scenario(**given)),
+        lambda **given: scenario.run(_CAR, scenario.Scenario(**given)),
         {"duration": 0.01, "output_step": 1e-3, "height": None, "spin_rate": 0.0, "inputs": {}},
     ),
-    "play": (scenario.play, {"model": _CAR, "scenario": scenario.Scenario(0.01)}),
+    "run": (scenario.run, {"model": _CAR, "scenario": scenario.Scenario(0.01)}),
     "Samples": (
         lambda **given: kintrafo.simulate(
             _CAR, _SPAN, _REST, inputs={"road_height": kintrafo.Samples(**given)}
