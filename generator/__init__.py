@@ -24,4 +24,4 @@ What a declaration is made of can be imported from here.
 
 from . import memory  # noqa: F401 (before SymPy is imported)
 from .declare import *  # noqa: F403 (the vocabulary, listed there)
-from .declare import __all__  # noqa: F401
+from .declare import __all__  # noqa: F401 (the same list)

@@ -7,14 +7,54 @@ from typing import TYPE_CHECKING
 
 import pytest
 from changes import changed
-from kintrafo.generator import Direction, Formulation, Weight
+from kintrafo.generator import (
+    UP,
+    Actuator,
+    AlongLine,
+    AppliedForce,
+    AppliedMoment,
+    Body,
+    DeclarationError,
+    Direction,
+    Displacement,
+    ForceElement,
+    Formulation,
+    Ground,
+    Input,
+    Length,
+    LinearSpring,
+    Point,
+    Progression,
+    SpringRate,
+    Stop,
+    Weight,
+)
 from oracle_check import check_with_the_oracle
 from own_forces import loaded_bar, loaded_crank
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
 TILTED = Weight(upward=Direction("uphill", (0.5, -0.4, 2.0)))
+
+
+CRANK, MARK = (
+    Body("crank", 1.0, (0.1, 0.0, 0.0), (1e-3, 1e-3, 1e-3)),
+    Point("mark", (0.2, 0.0, 0.1)),
+)
+LINE = AlongLine((Ground("base"), Point("seat", (0.0, 0.0, 0.0))), (CRANK, MARK))
+RATE = SpringRate("rate", 100.0, "rate")
+FREE = LinearSpring(RATE, free_length=Displacement("free", -0.1, "length without force"))
+TURN = Input("turn", "N m", "turn")
+
+
+def touched(name: str) -> Stop:
+    """Return a stop of the bump side."""
+    length = Length(f"{name}_length", 0.1, "length at which it is touched")
+    return Stop(
+        side="bump", length=length, rate=RATE, progression=Progression("cubic", 0.0, "cubic")
+    )
 
 
 def under_a_slope(model: Formulation) -> Formulation:
@@ -36,3 +76,19 @@ def test_only_the_direction_of_fixed_components_counts(tmp_path: Path) -> None:
     way = model.mechanism.joint("way")
     fixed = replace(way, direction=Direction("fixed_way", fixed=(1.0, 0.3, -0.2)))
     check_with_the_oracle(changed(model, (way, fixed)), tmp_path, reach=0.1, count=3)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "words"),
+    [
+        (lambda: AppliedForce(CRANK, MARK, UP, Input("push", "N m", "push")), "N is needed"),
+        (lambda: AppliedMoment(CRANK, UP, Input("turn", "N", "turn")), "N m is needed"),
+        (lambda: AppliedForce(Ground("base"), MARK, UP, Input("push", "N", "push")), "rests"),
+        (lambda: ForceElement("coil", LINE, (touched("a"), touched("b"))), "is there twice"),
+        (lambda: ForceElement("coil", LINE, (FREE,)), "no length is negative"),
+        (lambda: ForceElement("coil", LINE, (Actuator(TURN),)), "'turn' is in N m; N is needed"),
+    ],
+)
+def test_what_cannot_act_is_refused(wrong: Callable[[], object], words: str) -> None:
+    with pytest.raises(DeclarationError, match=words):
+        wrong()

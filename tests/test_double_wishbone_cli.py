@@ -164,7 +164,7 @@ def test_scenario_starts_at_rest_with_its_actuator():
 
 
 def test_events_of_a_strut_are_refused():
-    with pytest.raises(InputError, match=r"it comes with\. Known are: wheel_leaves_ground"):
+    with pytest.raises(InputError, match=r"come with its forces\. Known are: wheel_leaves_ground"):
         kintrafo.simulate(MODEL, (0.0, 0.1), MODEL.design_state, events="strut_fully_extended")
 
 

@@ -396,6 +396,11 @@ def test_an_interruption_ends_it(car: Model, start: Any) -> None:
 # -- arguments ----------------------------------------------------------------------------------
 
 
+def by_label(*cars: int) -> xr.DataArray:
+    """Return a row of numbers of labelled cars."""
+    return xr.DataArray([1e3, 2e3, 3e3], dims="car", coords={"car": list(cars)})
+
+
 WRONG: list[tuple[dict[str, Any], str]] = [
     ({"variants": {"spring_rat": [1.0]}}, "Did you mean spring_rate"),
     ({"variants": {"spring_rate": ["a"]}}, "numbers are needed"),
@@ -411,7 +416,7 @@ WRONG: list[tuple[dict[str, Any], str]] = [
     ({"variants": {"road_height": [0.0]}, "inputs": {"road_height": 0.1}}, "both"),
     ({"variants": xr.Dataset({"spring_rate": ("time", [2e4])})}, "coordinate 'time'"),
     ({"t_span": (1.0, 0.0)}, "the second later"),
-    ({"t_eval": [0.0, 2.0]}, "in order"),
+    ({"t_eval": [0.0, 2.0]}, "each later"),
     ({"signals": ["cambre"]}, "Did you mean camber"),
     ({"reductions": {"camber": "maximum"}}, "is not known"),
     ({"reductions": {"camber": "above"}}, "needs a level"),
@@ -424,8 +429,40 @@ WRONG: list[tuple[dict[str, Any], str]] = [
     ({"lanes": 3}, "on this machine there are"),
     ({"y0": np.ones((2, 4)), "variants": {"spring_rate": [1.0, 2.0, 3.0]}}, "go together"),
     ({"y0": [1.0]}, "last dimension must be 4"),
+    ({"variants": {"damper_rate": by_label(2, 0, 1), "spring_rate": by_label(0, 1, 2)}}, "order"),
+    ({"variants": xr.Dataset(coords={"damper_rat": [1.0, 2.0]})}, "Did you mean damper_rate"),
+    ({"variants": {"damper_rate": np.ma.masked_equal([1.0, 2.0], 1.0)}}, "one number, or a row"),
+    (
+        {"variants": {"strut_length_max": [0.8]}, "reductions": {"strut_length": "max"}},
+        "'strut_length_max' is both",
+    ),
     ({"model": "reference_car"}, "kintrafo.Model"),
 ]
+
+
+def test_rows_of_states_do_not_forget_their_inputs(car: Model) -> None:
+    steered = state_at_height(car, 0.32, rack_position=0.02)
+    with pytest.raises(InputError, match="rows of states that belong to rack_position"):
+        ensemble(car, None, (0.0, 1.0), [steered, steered])
+    given = {"road_height": steered.inputs[car.input_names.index("road_height")]}
+    found = ensemble(
+        car,
+        None,
+        (0.0, 0.01),
+        [steered, steered],
+        inputs={"rack_position": 0.02, **given},
+        signals=["toe"],
+        t_eval=[0.0],
+    )
+    assert found["toe"].values.ravel() == pytest.approx(
+        float(car.signal("toe", steered)), rel=1e-12
+    )
+
+
+def test_levels_that_look_alike_have_names_of_their_own(car: Model) -> None:
+    levels = [("above", 0.30000001), ("above", 0.3)]
+    found = ensemble(car, None, (0.0, 0.01), reductions={"wheel_center_z": levels})
+    assert {"wheel_center_z_above_0.30000001", "wheel_center_z_above_0.3"} <= set(found)
 
 
 @pytest.mark.parametrize(("wrong", "words"), WRONG, ids=[words for _, words in WRONG])

@@ -328,7 +328,7 @@ def test_strut_reaches_a_stop(backend, side, arm_rate):
 
 
 def test_a_stop_that_there_is_not():
-    with pytest.raises(InputError, match="no force that it comes with"):
+    with pytest.raises(InputError, match="is not one of macpherson"):
         simulate(MODEL, (0, 1), START, events="strut_reaches_bump_stop")
     soft = Model(Suspension.load("offset_strut_car").with_changes({"bump_stop": None}))
     with pytest.raises(InputError, match="bump_stop_rate is zero"):

@@ -15,6 +15,7 @@ from weakref import WeakKeyDictionary
 
 import sympy as sp
 
+from ..program.signs import LOCAL
 from .schedule import Assignment, Operation, Schedule, ordered
 
 if TYPE_CHECKING:
@@ -26,8 +27,6 @@ _found: WeakKeyDictionary[Function | Stage, tuple[Schedule, dict[str, str]]] = W
 
 _COMMUTATIVE = ("add", "multiply")
 _LEAVES = ("symbol", "number")
-_LOCAL = "shared_"
-"""How names begin that say nothing: those of common subexpressions."""
 
 
 def scheduled(emitted: Function | Stage) -> Schedule:
@@ -192,7 +191,7 @@ class _Values:
         for step in order.steps:
             value = values[step.name] = self._number(step.value, values)
             steps.append((value, step))
-            if not step.name.startswith(_LOCAL) and self.operations[value][0].operands:
+            if not step.name.startswith(LOCAL) and self.operations[value][0].operands:
                 self._name(value, step.name)
         results += [self._number(result, values) for result in order.results]
 
@@ -234,7 +233,7 @@ class _Values:
                 parts = tuple(place(operand, section) for operand in operands)
                 operation = Operation(operation.kind, parts, operation.of, operation.ready)
                 if value in repeated and value not in self.named:
-                    self._name(value, f"{_LOCAL}{next(numbers)}")
+                    self._name(value, f"{LOCAL}{next(numbers)}")
                 if value not in self.named:
                     return operation
                 assignments[value] = Assignment(self.named[value], operation, section)

@@ -42,6 +42,13 @@ if TYPE_CHECKING:
     from .paths import AnyPath
 
 
+def _of_either_sign(length: Parameter | None, path: AnyPath) -> list[str]:
+    """See that only the slide of a guide is compared with what may be negative."""
+    if path.of_either_sign or not isinstance(length, Displacement):
+        return []
+    return [f"{length.name!r} is a Displacement, and no length is negative; give a Length"]
+
+
 @dataclass(frozen=True)
 class Stretch:
     """The state of a force element.
@@ -123,9 +130,9 @@ class LinearSpring(AnyLaw):
 
     def problems(self, path: AnyPath) -> list[str]:
         """See that the path has the coordinate that it is free of force at."""
-        if self.free_slide is None or path.has_slide:
-            return []
-        return ["a free_slide needs a telescope; give its spring a free_length"]
+        if self.free_slide is not None and not path.has_slide:
+            return ["a free_slide needs a telescope; give its spring a free_length"]
+        return _of_either_sign(self.free_length, path)
 
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""
@@ -296,6 +303,10 @@ class Stop(AnyLaw):
     def meaning(self) -> str:
         """What that signal is."""
         return f"force of the {self.side} stop"
+
+    def problems(self, path: AnyPath) -> list[str]:
+        """See that the path can be as long as where it is touched."""
+        return _of_either_sign(self.length, path)
 
     def events_of_length(self, element: str) -> tuple[Event, ...]:
         """Return when it is touched."""

@@ -92,6 +92,8 @@ class AnyPath(ABC):
 
     words: ClassVar[Words] = _OF_A_LINE
     has_slide: ClassVar[bool] = False
+    of_either_sign: ClassVar[bool] = False
+    """Whether what is called its length may be negative: that of a guide."""
 
     def ranges_of_length(self, name: str) -> tuple[Range, ...]:
         """Return how long an element of this name can be."""
@@ -279,6 +281,7 @@ class AlongGuide(AnyPath):
     guide: Prismatic
 
     words: ClassVar[Words] = _OF_A_GUIDE
+    of_either_sign: ClassVar[bool] = True
 
     def course(self, at: Surroundings, name: str) -> Course:
         """Return the slide of the guide."""

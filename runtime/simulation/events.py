@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 from ..core.arguments import Arguments, shown
 from ..core.errors import InputError
@@ -90,7 +90,7 @@ def named_event(model: System, name: str) -> SignalEvent:
     }
     if name not in known:
         problem = (
-            f"event {name!r} is not known: {model.equations.NAME} has no force that it comes with. "
+            f"event {name!r} is not one of {model.equations.NAME}: events come with its forces. "
             f"{suggestion(name, known)}"
         )
         raise InputError([problem], "events")
@@ -120,7 +120,8 @@ def events_of(model: System, given: Event | Sequence[Event] | None) -> Events:
     Events
     """
     single = given is None or callable(given) or isinstance(given, str | SignalEvent)
-    listed: list[Any] = list(given) if isinstance(given, Sequence) and not single else [given]
+    several = isinstance(given, Sequence) and not isinstance(given, bytes)
+    listed: list[Any] = list(cast("Sequence[Any]", given)) if several and not single else [given]
     listed = [event for event in listed if event is not None]
     signal: list[tuple[int, SignalEvent]] = []
     functions: list[tuple[int, _CheckedFunction]] = []
@@ -132,7 +133,10 @@ def events_of(model: System, given: Event | Sequence[Event] | None) -> Events:
         elif callable(event):
             functions.append((index, _CheckedFunction.of(event)))
         else:
-            problem = f"event {shown(event)} is neither a name, nor a SignalEvent, nor a function."
+            problem = (
+                f"event {shown(event)} is neither a name, nor a SignalEvent, nor a function, nor a "
+                "list of these."
+            )
             raise InputError([problem], "events")
     order = tuple(i for i, _ in (*signal, *functions))
     return Events(tuple(e for _, e in signal), tuple(f for _, f in functions), order)

@@ -11,7 +11,7 @@ from ..bodies import Body
 from ..declared import declared
 from ..geometry import Direction, Point
 from ..inputs import Input
-from .force import Action, Force
+from .force import Action, Force, check_applied
 
 if TYPE_CHECKING:
     from ..surroundings import Surroundings
@@ -39,6 +39,9 @@ class AppliedForce(Force):
     direction: Direction
     input: Input
     follows: bool = False
+
+    def __post_init__(self) -> None:
+        check_applied("AppliedForce", self.body, self.input, "N")
 
     @property
     def identity(self) -> tuple[str, str]:

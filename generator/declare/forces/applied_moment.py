@@ -11,7 +11,7 @@ from ..bodies import Body
 from ..declared import declared
 from ..geometry import Direction
 from ..inputs import Input
-from .force import Action, Force
+from .force import Action, Force, check_applied
 
 if TYPE_CHECKING:
     from ..surroundings import Surroundings
@@ -41,6 +41,9 @@ class AppliedMoment(Force):
 
     turns_about: ClassVar[tuple[str, ...]] = ("direction",)
 
+    def __post_init__(self) -> None:
+        check_applied("AppliedMoment", self.body, self.input, "N m")
+
     @property
     def identity(self) -> tuple[str, str]:
         """Body and input: several may turn one body."""
@@ -48,10 +51,6 @@ class AppliedMoment(Force):
 
     def act(self, at: Surroundings) -> Action:
         """Append its power on the turning of the body."""
-        moment, line = (
-            sp.Symbol(self.input.name),
-            at.line(self.body.name, self.direction, self.follows),
-        )
-        return Action(
-            {k: moment * line.dot(t.angular) for k, t in at.twists(self.body.name).items()}
-        )
+        body, moment = self.body.name, sp.Symbol(self.input.name)
+        line = at.line(body, self.direction, self.follows)
+        return Action({k: moment * line.dot(t.angular) for k, t in at.twists(body).items()})

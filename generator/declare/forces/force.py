@@ -6,11 +6,16 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, ClassVar
 
+from ..bodies import Ground
+from ..declared import DeclarationError
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     import sympy as sp
 
+    from ..bodies import Body
+    from ..inputs import Input
     from ..joints import Joint
     from ..shown import Shown
     from ..surroundings import Surroundings
@@ -66,3 +71,14 @@ class Force(ABC):
         """Yield its signals, which may read the accelerations."""
         del at, action
         yield from ()
+
+
+def check_applied(kind: str, body: Body, given: Input, unit: str) -> None:
+    """See that what acts from outside is in its unit, and on something that moves."""
+    problems = []
+    if given.unit != unit:
+        problems.append(f"input {given.name!r} is in {given.unit}; {unit} is needed")
+    if isinstance(body, Ground):
+        problems.append(f"it acts on {body.name!r}, which rests; give a body that moves")
+    if problems:
+        raise DeclarationError(f"{kind} by {given.name!r}", problems)

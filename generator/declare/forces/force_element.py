@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..declared import DeclarationError, Name, declared
+from ..inputs import Input
 from ..laws import Law, Stretch
 from ..parameters import Parameter
 from ..paths import Path
@@ -55,6 +56,19 @@ class ForceElement(Force):
             for law in self.laws
             for number in vars(law).values()
             if isinstance(number, Parameter) and number.of_angle != self.turns
+        ]
+        problems += [
+            f"input {given.name!r} is in {given.unit}; {self.path.words.unit} is needed"
+            for law in self.laws
+            for given in vars(law).values()
+            if isinstance(given, Input) and given.unit != self.path.words.unit
+        ]
+        events = [e.name for law in self.laws for e in law.events_of_length(self.name)]
+        problems += [
+            f"event {name!r} is there twice; an element has one stop of each side: put the other "
+            "one on an element of its own"
+            for name in dict.fromkeys(events)
+            if events.count(name) > 1
         ]
         if problems:
             raise DeclarationError(f"ForceElement {self.name!r}", problems)

@@ -19,7 +19,7 @@ from ...systems.system import System
 from .drives import Drives, drives_of
 from .results import dataset_of
 from .variants import Variants, impossible_sets, variants_of
-from .wanted import asked_of, watched_limits
+from .wanted import Asked, asked_of, watched_limits
 
 Array = NDArray[np.float64]
 
@@ -128,11 +128,13 @@ def ensemble(
             asked = asked_of(given, model, times, signals, {} if reductions is None else reductions)
             accuracy = _accuracy(given, model, (rtol, atol, max_step, first_step, max_steps))
             courses = given.mapping("inputs", {} if inputs is None else inputs, "names, courses")
+            _check_rows(given, model, y0, {*courses, *_named(variants)})
             cores = usual_threads() if threads is None else threads
             cores = given.whole("threads", cores, most=_MOST_THREADS)
             width = _width(given, model, lanes)
             given.flag("progress", progress)
     own = variants_of(model, variants, courses, None if len(state) == 1 else len(state))
+    _check_results(asked, own)
     held = inputs_of(y0, model.names_of_states)
     drives = drives_of(model, courses, own, span, held=held, max_step=accuracy.max_step)
     asked = replace(asked, limits=watched_limits(model, own))
@@ -157,6 +159,38 @@ def _start(given: Arguments, model: System, y0: Any) -> Array:
     return np.atleast_2d(states)
 
 
+def _named(variants: Any) -> set[str]:
+    """Return the names of what varies, whatever was given."""
+    return set(map(str, variants)) if isinstance(variants, Mapping) else set()
+
+
+def _check_rows(given: Arguments, model: System, y0: Any, told: set[str]) -> None:
+    """Refuse rows of states that were found under inputs which nothing tells of."""
+    for row in y0 if isinstance(y0, list | tuple) else ():
+        held = inputs_of(row, model.names_of_states)
+        moved = [] if held is None else [model.input_names[i] for i in np.flatnonzero(held)]
+        forgotten = [name for name in moved if name not in told]
+        if forgotten:
+            given.refuse(
+                f"y0 has rows of states that belong to {', '.join(forgotten)}, and rows of numbers "
+                f"do not know that: give {' and '.join(forgotten)} in variants or inputs."
+            )
+            return
+
+
+def _check_results(asked: Asked, own: Variants) -> None:
+    """Refuse results that are called as what varies."""
+    varied = {*own.parameters, *own.inputs, *own.labels, *map(str, own.coordinates)}
+    results = {*asked.signals, *(reduced.name for reduced in asked.reduced)}
+    problems = [
+        f"{name!r} is both what varies and a result that was asked for: keep another one, such as "
+        "the signal itself over time."
+        for name in sorted(varied & results)
+    ]
+    if problems:
+        raise InputError(problems, "ensemble")
+
+
 def _span(given: Arguments, t_span: Any) -> tuple[float, float]:
     span = given.array("t_span", t_span, "s", finite=False)
     if not (span.shape == (2,) and np.isfinite(span).all() and span[0] < span[1]):
@@ -172,7 +206,10 @@ def _times(given: Arguments, t_eval: Any, span: tuple[float, float]) -> Array:
     if not given.refused and not (
         times[0] >= span[0] and times[-1] <= span[1] and (np.diff(times) > 0.0).all()
     ):
-        given.refuse(f"t_eval must go from {span[0]:g} s to {span[1]:g} s, in order.")
+        given.refuse(
+            f"t_eval: times from {span[0]:g} s to {span[1]:g} s are needed, each later than the "
+            "one before."
+        )
     return times
 
 

@@ -131,6 +131,8 @@ def _columns(arguments: Arguments, model: System, given: Any) -> dict[str, xr.Da
 
 def _row(values: Any) -> NDArray[Any] | None:
     """Return what is one value or a row of them; nothing for anything else."""
+    if np.ma.is_masked(values):
+        return None
     try:
         array = np.asarray(values)
     except (TypeError, ValueError):
@@ -169,8 +171,23 @@ def _check_coordinates(arguments: Arguments, model: System, given: Any) -> None:
     arrays = [given] if isinstance(given, xr.Dataset) else [*(given or {}).values()]
     labelled = [a for a in arrays if isinstance(a, xr.Dataset | xr.DataArray)]
     taken = {TIME, STATE, BOUND, *RESULTS, *model.signal_names}
+    if isinstance(given, xr.Dataset):
+        _check_dimensions(arguments, model, given)
     for name in {str(n) for a in labelled for n in (*a.dims, *a.coords)} & taken:
         arguments.refuse(f"variants have a dimension or coordinate {name!r}: results have it.")
+
+
+def _check_dimensions(arguments: Arguments, model: System, given: xr.Dataset) -> None:
+    """Refuse dimensions over which nothing goes: what is meant there has another name."""
+    known = [*model.equations.PARAMETERS, *model.state_names, *model.input_names]
+    columns = [given[name] for name in (*given.data_vars, *(n for n in given.coords if n in known))]
+    over = {dimension for column in columns for dimension in column.dims}
+    for dimension in given.dims:
+        if dimension not in over:
+            arguments.refuse(
+                f"variants: nothing goes over the dimension {dimension!r}. "
+                f"{suggestion(str(dimension), known)}"
+            )
 
 
 def _massless(model: System, name: str) -> str:
@@ -186,9 +203,15 @@ def _broadcast(
     """Return the columns over all dimensions, and these with their lengths."""
     start = {} if rows is None else {"": xr.DataArray(np.zeros(rows), dims=CAR)}
     try:
-        together = xr.broadcast(*start.values(), *columns.values())
+        # labels in another order would bring rows of the start to other systems
+        alike = xr.align(*start.values(), *columns.values(), join="exact")
+        together = xr.broadcast(*alike)
     except ValueError as error:
-        arguments.refuse(f"variants and the rows of y0 do not go together: {error}.")
+        what = "variants" if rows is None else "variants and the rows of y0"
+        arguments.refuse(
+            f"{what} do not go together: rows as long as each other, and the same labels in the "
+            f"same order, are needed ({error})."
+        )
         return {}, {}
     shape = dict(together[0].sizes) if together else {}
     if rows is not None and shape != {CAR: rows}:
@@ -201,9 +224,15 @@ def _broadcast(
 
 
 def _coordinates(given: Any, shape: Mapping[Hashable, int]) -> dict[Hashable, Any]:
-    if not isinstance(given, xr.Dataset):
-        return {}
-    return {n: c.variable for n, c in given.coords.items() if set(c.dims) <= set(shape)}
+    """Return the labels of the systems, as far as they were given."""
+    columns = [given] if isinstance(given, xr.Dataset) else [*(given or {}).values()]
+    labelled = [column for column in columns if isinstance(column, xr.Dataset | xr.DataArray)]
+    return {
+        name: labels.variable
+        for column in labelled
+        for name, labels in column.coords.items()
+        if labels.dims and set(labels.dims) <= set(shape)
+    }
 
 
 def _checked(

@@ -38,8 +38,11 @@ class Reduced:
     @property
     def name(self) -> str:
         """What the variable of the dataset is called."""
-        level = f"_{self.level:g}" if self.kind == "above" else ""
-        return f"{self.signal}_{self.kind}{level}"
+        if self.kind != "above":
+            return f"{self.signal}_{self.kind}"
+        short = f"{self.level:g}"
+        exact = short if float(short) == self.level else repr(self.level)
+        return f"{self.signal}_above_{exact}"
 
     @property
     def words(self) -> str:
