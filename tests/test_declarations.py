@@ -215,7 +215,7 @@ PULL = Input("pull", "N", "some force")
 
 
 def pulled_by(*inputs):
-    """Return the suspension with actuators in its strut."""
+    """Return the suspension with actuators in its strut, of inputs that all are forces there."""
     (strut,) = MECHANISM.elements
     pulled = replace(strut, laws=(*strut.laws, *map(Actuator, inputs)))
     return changed(MECHANISM, (strut, pulled))
@@ -224,9 +224,9 @@ def pulled_by(*inputs):
 @pytest.mark.parametrize(
     ("inputs", "words"),
     [
-        ((PULL, replace(PULL, unit="kN")), "2 different inputs are named 'pull'"),
+        ((PULL, replace(PULL, meaning="another force")), "2 different inputs are named 'pull'"),
         (
-            tuple(Input(f"rate_{i}", "N/s", "", derivative_of=PULL) for i in (1, 2)),
+            tuple(Input(f"rate_{i}", "N", "", derivative_of=PULL) for i in (1, 2)),
             "'rate_1' and 'rate_2' are both the derivative of 'pull'",
         ),
     ],
@@ -237,7 +237,7 @@ def test_an_input_is_the_derivative_of_another_one_once(inputs, words):
 
 
 def test_what_an_input_is_the_derivative_of_is_an_input():
-    pulled = pulled_by(Input("jerk", "N/s", "how it changes", derivative_of=PULL))
+    pulled = pulled_by(Input("jerk", "N", "how it changes", derivative_of=PULL))
     assert {"pull", "jerk"} <= {*pulled.input_names}
 
 
@@ -246,6 +246,6 @@ def test_a_prescribed_motion_has_its_rates():
     assert position.derivative_of is None
     assert velocity.derivative_of == position
     assert acceleration.derivative_of == velocity
-    other = Input("rack_speed", "m/s", "", derivative_of=position)
+    other = Input("rack_speed", "N", "", derivative_of=position)
     with pytest.raises(DeclarationError, match="are both the derivative of 'rack_position'"):
         replace(MODEL, mechanism=pulled_by(other))
