@@ -1,6 +1,6 @@
 """Where a motion leaves what a model describes.
 
-The equations go on there, and what they give has no meaning for the car.
+The equations go on there, and what they give has no meaning for the mechanism.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
@@ -24,34 +24,14 @@ class Bound:
     Attributes
     ----------
     signal : str
-    limit : float
-        SI units.
+    limit : float or ndarray
+        Of one system, or of each of many, SI units; infinite where there is none.
     above : bool
         Whether the signal must not be greater; else it must not be smaller.
     words : str
         What is the case beyond, ready for a sentence.
     possible : bool
-        Whether the car can go there, and only the data end.
-    """
-
-    signal: str
-    limit: float
-    above: bool
-    words: str
-    possible: bool = False
-
-
-@dataclass(frozen=True)
-class Limit:
-    """A bound of one system, or of each of many.
-
-    Attributes
-    ----------
-    signal : str
-    limit : float or ndarray
-        SI units; infinite where there is none.
-    above, words, possible
-        As of `Bound`.
+        Whether the mechanism can go there, and only the data end.
     """
 
     signal: str
@@ -61,46 +41,39 @@ class Limit:
     possible: bool
 
 
-def bounds_of(model: System) -> Iterator[Bound]:
-    """Yield what the signals of a model must not pass, as its forces were declared."""
-    for found in limits_of(model.equations.SIGNALS, model.parameters):
-        if np.isfinite(found.limit):
-            limit = float(found.limit)
-            yield Bound(found.signal, limit, found.above, found.words, found.possible)
-
-
-def limits_of(
-    signals: Mapping[str, Mapping[str, Any]], parameters: Mapping[str, Values]
-) -> Iterator[Limit]:
-    """Yield what signals must not pass.
+def bounds_of(model: System, varied: Mapping[str, Array] | None = None) -> Iterator[Bound]:
+    """Yield what the signals of a model must not pass, as its forces were declared.
 
     Parameters
     ----------
-    signals : mapping
-        What the manifest says of each signal.
-    parameters : mapping
-        By name: one value, or those of many systems; SI units.
+    model : System
+    varied : mapping, optional
+        Parameters of which each of many systems has its own, by name, SI units.
     """
-    for signal, described in signals.items():
+    parameters: Mapping[str, Values] = {**model.parameters, **(varied or {})}
+    for signal, described in model.equations.SIGNALS.items():
         for entry in described.get("ranges", ()):
-            yield from _ends(signal, entry, parameters)
+            for bound in _ends(signal, entry, parameters):
+                if np.isfinite(bound.limit).any():
+                    yield bound
 
 
 def _ends(
     signal: str, entry: Mapping[str, Any], parameters: Mapping[str, Values]
-) -> Iterator[Limit]:
-    """Yield the ends of a range, where it is not empty and not void."""
+) -> Iterator[Bound]:
+    """Yield the ends of a range; they are infinite where it is empty or void."""
     least = value_of(entry.get("least", -np.inf), parameters)
     most = value_of(entry.get("most", np.inf), parameters)
     void = value_of(entry.get("unless", 0.0), parameters)
     says = (np.asarray(least) < most) & (np.asarray(void) == 0.0)
     possible = entry.get("possible", False)
     if "most" in entry:
-        limit = np.where(says, most, np.inf)
-        yield Limit(signal, limit, above=True, words=entry["above"], possible=possible)
+        # an index that is empty makes a number of an array without dimensions
+        limit = np.where(says, most, np.inf)[()]
+        yield Bound(signal, limit, above=True, words=entry["above"], possible=possible)
     if "least" in entry:
-        limit = np.where(says, least, -np.inf)
-        yield Limit(signal, limit, above=False, words=entry["below"], possible=possible)
+        limit = np.where(says, least, -np.inf)[()]
+        yield Bound(signal, limit, above=False, words=entry["below"], possible=possible)
 
 
 @dataclass(frozen=True)

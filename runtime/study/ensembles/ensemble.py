@@ -14,12 +14,13 @@ from ...core.errors import InputError
 from ...simulation.lanes import library
 from ...simulation.lanes.problem import Accuracy, Problem, Systems
 from ...simulation.lanes.run import run, usual_threads
+from ...simulation.validity import bounds_of
 from ...systems.state import inputs_of
 from ...systems.system import System
 from .drives import Drives, drives_of
 from .results import dataset_of
 from .variants import Variants, impossible_sets, variants_of
-from .wanted import Asked, asked_of, watched_limits
+from .wanted import Asked, asked_of
 
 Array = NDArray[np.float64]
 
@@ -137,7 +138,7 @@ def ensemble(
     _check_results(asked, own)
     held = inputs_of(y0, model.names_of_states)
     drives = drives_of(model, courses, own, span, held=held, max_step=accuracy.max_step)
-    asked = replace(asked, limits=watched_limits(model, own))
+    asked = replace(asked, bounds=tuple(bounds_of(model, own.parameters)))
     systems = _systems(model, own, state, drives)
     problem = Problem(model, systems, asked.for_c(model), accuracy, width)
     with _shown_progress(own.count, wanted=progress) as report:

@@ -53,7 +53,7 @@ def dataset_of(
         **variants.coordinates,
         TIME: variable(TIME, asked.times, "time", "s"),
         STATE: np.array(model.state_names),
-        BOUND: np.array([f"{b.signal}: {b.words}" for b in asked.limits], dtype=str),
+        BOUND: np.array([f"{b.signal}: {b.words}" for b in asked.bounds], dtype=str),
         **_varied(model, variants, wide),
     }
     attributes = {"title": "ensemble of simulations", "message": _message(done, passed)}

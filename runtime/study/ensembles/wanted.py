@@ -1,6 +1,6 @@
 """What is kept of many motions: signals at times, reductions on the way, and what passes bounds."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,9 +9,8 @@ from numpy.typing import NDArray
 
 from ...core.arguments import Arguments, shown
 from ...simulation.lanes.problem import Kind, Outcome, Reduction, Wanted
-from ...simulation.validity import Limit, limits_of
+from ...simulation.validity import Bound
 from ...systems.system import System
-from .variants import Variants
 
 Array = NDArray[np.float64]
 
@@ -68,14 +67,14 @@ class Asked:
     signals : tuple of str
         Kept at all times.
     reduced : tuple of Reduced
-    limits : tuple of Limit
+    bounds : tuple of Bound
         What signals must not pass.
     """
 
     times: Array
     signals: tuple[str, ...]
     reduced: tuple[Reduced, ...]
-    limits: tuple[Limit, ...]
+    bounds: tuple[Bound, ...]
 
     @property
     def items(self) -> tuple[str, ...]:
@@ -101,7 +100,7 @@ class Asked:
         """Return the same as C takes it."""
         names = (*model.signal_names, *model.state_names)
         items, places = self.items, self.places()
-        limits = [np.atleast_1d(limit.limit) for limit in self.limits]
+        limits = [np.atleast_1d(bound.limit) for bound in self.bounds]
         return Wanted(
             times=self.times,
             items=np.array([names.index(item) for item in items], dtype=np.int32),
@@ -111,8 +110,8 @@ class Asked:
                 for s, kind, level in places
             ],
             weights=self.weights,
-            bound_items=np.array([names.index(b.signal) for b in self.limits], dtype=np.int32),
-            above=np.array([b.above for b in self.limits], dtype=np.int32),
+            bound_items=np.array([names.index(b.signal) for b in self.bounds], dtype=np.int32),
+            above=np.array([b.above for b in self.bounds], dtype=np.int32),
             limits=np.stack(np.broadcast_arrays(*limits), axis=-1) if limits else np.zeros((1, 0)),
         )
 
@@ -172,10 +171,3 @@ def _reduced(given: Arguments, signal: str, kind: Any) -> Reduced:
         given.refuse(f"reductions {signal!r}: 'above' needs a level, ('above', 0.0).")
         return Reduced(signal, "above")
     return Reduced(signal, given.among(f"reduction of {signal!r}", kind, REDUCTIONS))
-
-
-def watched_limits(model: System, variants: Variants) -> tuple[Limit, ...]:
-    """Return what the signals of any of the systems must not pass."""
-    values: Mapping[str, Any] = {**model.parameters, **variants.parameters}
-    limits = limits_of(model.equations.SIGNALS, values)
-    return tuple(limit for limit in limits if np.isfinite(limit.limit).any())
