@@ -289,7 +289,7 @@ def test_the_same_bits_beside_what_fails(car: Model, start: Any, mixed: xr.Datas
 
 def test_an_error_that_no_step_keeps(car: Model, start: Any, monkeypatch: Any) -> None:
     """What the arguments would refuse: no relative tolerance, and next to no absolute one."""
-    module = import_module("kintrafo.study.ensembles.ensemble")
+    module = import_module("kintrafo.simulation.accuracy")
     monkeypatch.setattr(module, "_SMALLEST_RTOL", 0.0)
     found = ensemble(car, None, SPAN, start, rtol=0.0, atol=1e-300)
     assert not found["success"][0]
@@ -415,8 +415,8 @@ WRONG: list[tuple[dict[str, Any], str]] = [
     ({"inputs": {"road": 0.0}}, "not an input"),
     ({"variants": {"road_height": [0.0]}, "inputs": {"road_height": 0.1}}, "both"),
     ({"variants": xr.Dataset({"spring_rate": ("time", [2e4])})}, "coordinate 'time'"),
-    ({"t_span": (1.0, 0.0)}, "the second later"),
-    ({"t_eval": [0.0, 2.0]}, "each later"),
+    ({"t_span": (1.0, 0.0)}, "goes forward"),
+    ({"t_eval": [0.0, 2.0]}, "each of them once"),
     ({"signals": ["cambre"]}, "Did you mean camber"),
     ({"reductions": {"camber": "maximum"}}, "is not known"),
     ({"reductions": {"camber": "above"}}, "needs a level"),

@@ -2,17 +2,17 @@
 
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..core.arguments import Arguments, shown
+from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..equations.errors import ModelError
 from ..systems.state import inputs_of
 from ..systems.system import System
+from .accuracy import accuracy_of, outputs_of, span_of
 from .courses import Signal
 from .dead_points import refuse
 from .events import Event, Events, events_of
@@ -37,8 +37,6 @@ Method = Literal[
 ]
 Backend = Literal["auto", "sundials", "scipy"]
 
-_MOST_STEPS = 2**62
-_SMALLEST_RTOL = 100.0 * np.finfo(float).eps
 # Default tolerances. An undamped wheel hop of 25 mm loses half a per cent of it in 1,000 s by BDF
 # with these, and 22 % with the others; ``python -m benchmarks.amplitude`` measures it.
 _TOLERANCE = (1e-6, 1e-9)
@@ -142,16 +140,29 @@ def simulate(
     (True, True)
     """
     usual = _TOLERANCE_OF_BDF if method == "BDF" else _TOLERANCE
-    state, times, options = _checked(
-        model, t_span, y0, t_eval, Options(
-            method,
-            usual[0] if rtol is None else rtol,
-            usual[1] if atol is None else atol,
-            max_step, first_step, max_steps, dense_output, stop_at_outputs,
-        )
-    )  # fmt: skip
+    with Arguments("simulate") as arguments:
+        arguments.kind("model", model, System, System.NEEDED)
+        arguments.among("method", method, SUNDIALS_METHODS | SCIPY_METHODS)
+        if not arguments.refused:
+            state = _state(arguments, model, y0)
+            span = span_of(arguments, t_span)
+            times = None if t_eval is None else outputs_of(arguments, t_eval, span)
+            accuracy = accuracy_of(
+                arguments,
+                state.size,
+                rtol=usual[0] if rtol is None else rtol,
+                atol=usual[1] if atol is None else atol,
+                max_step=max_step,
+                first_step=first_step,
+                max_steps=max_steps,
+            )
+            arguments.flag("dense_output", dense_output)
+            arguments.flag("stop_at_outputs", stop_at_outputs)
+    options = Options(
+        **vars(accuracy), method=method, dense_output=dense_output, stop_at_outputs=stop_at_outputs
+    )
     held = inputs_of(y0, model.names_of_states)
-    given = time_inputs(model, inputs, t_span, held=held, max_step=options.max_step)
+    given = time_inputs(model, inputs, span, held=held, max_step=options.max_step)
     watched = events_of(model, events)
     solve = _choose_backend(model, backend, options)
     return _Run(model, given, options, watched, times, solve).over(state)
@@ -160,29 +171,9 @@ def simulate(
 # -- arguments ----------------------------------------------------------------------------------
 
 
-def _checked(
-    model: System, t_span: Any, y0: Any, t_eval: Any, options: Options
-) -> tuple[Array, Array | None, Options]:
-    """Return the state, the times of the output and the options, or refuse them."""
-    with Arguments("simulate") as given:
-        given.kind("model", model, System, System.NEEDED)
-        given.among("method", options.method, SUNDIALS_METHODS | SCIPY_METHODS)
-        state = given.array("y0", y0, empty=True, finite=False)
-        span = given.array("t_span", t_span, "s", finite=False)
-        if not given.refused:
-            _check_state(given, model, state)
-            span_is_good = span.shape == (2,) and np.isfinite(span).all() and span[0] != span[1]
-            if not span_is_good:
-                given.refuse(f"t_span = {shown(t_span)}: two different finite times are needed.")
-            elif t_eval is not None:
-                t_eval = given.array("t_eval", t_eval, "s", empty=True, finite=False)
-                if not (given.refused or _in_order(t_eval, span)):
-                    given.refuse(f"t_eval must go from {span[0]:g} s to {span[1]:g} s, in order.")
-        options = _checked_options(given, options, state)
-    return state, t_eval, options
-
-
-def _check_state(given: Arguments, model: System, state: Array) -> None:
+def _state(given: Arguments, model: System, y0: Any) -> Array:
+    """Return the initial state, or refuse it."""
+    state = given.array("y0", y0, empty=True, finite=False)
     if state.shape != model.design_state.shape:
         given.refuse(
             f"y0 has shape {state.shape}; the state of {model.equations.NAME} has the elements "
@@ -191,40 +182,7 @@ def _check_state(given: Arguments, model: System, state: Array) -> None:
     elif not np.isfinite(state).all():
         bad = [n for n, v in zip(model.state_names, state, strict=True) if not np.isfinite(v)]
         given.refuse(f"y0 is NaN or infinite in {', '.join(bad)}.")
-
-
-def _checked_options(given: Arguments, options: Options, state: Array) -> Options:
-    rtol = given.number("rtol", options.rtol, advice="Try 1e-6.")
-    if not given.refused and not _SMALLEST_RTOL <= rtol < 1.0:
-        given.refuse(
-            f"rtol = {rtol:g}: from {_SMALLEST_RTOL:.3g} (what double precision can do) to below "
-            "1. Try 1e-6."
-        )
-    atol = given.array("atol", options.atol)
-    if not given.refused and not (atol.shape in ((), state.shape) and (atol > 0.0).all()):
-        given.refuse(
-            f"atol = {shown(options.atol)}: one positive number, or one for each of the "
-            f"{state.size} elements of the state."
-        )
-    first = options.first_step
-    return replace(
-        options,
-        rtol=rtol,
-        atol=np.full(state.shape, atol) if atol.ndim == 0 else atol,
-        max_step=given.step("max_step", options.max_step, "s"),
-        first_step=None if first is None else given.number("first_step", first, "s", above=0.0),
-        max_steps=given.count("max_steps", options.max_steps, most=_MOST_STEPS),
-        dense_output=given.flag("dense_output", options.dense_output),
-        stop_at_outputs=given.flag("stop_at_outputs", options.stop_at_outputs),
-    )
-
-
-def _in_order(times: Array, t_span: Array) -> bool:
-    if times.ndim != 1 or times.size == 0 or not np.isfinite(times).all():
-        return False
-    sign = 1.0 if t_span[1] > t_span[0] else -1.0
-    inside = sign * times[0] >= sign * t_span[0] and sign * times[-1] <= sign * t_span[1]
-    return bool(inside and (sign * np.diff(times) > 0.0).all())
+    return state
 
 
 def _choose_backend(model: System, backend: Backend, options: Options) -> Callable[..., Piece]:

@@ -16,6 +16,7 @@ from scipy.integrate import solve_ivp
 
 from ..equations.errors import ModelError
 from ..systems.system import System
+from .accuracy import Accuracy
 from .dead_points import Approach, DeadPoint, meanings
 from .events import Events
 from .signals import Segment, TimeInputs
@@ -44,16 +45,11 @@ SCIPY_METHODS = {
 _IMPLICIT = ("BDF", "Radau", "LSODA")
 
 
-@dataclass(frozen=True)
-class Options:
-    """How to integrate; the names are those of SciPy."""
+@dataclass(frozen=True, kw_only=True)
+class Options(Accuracy):
+    """How to integrate one motion; the names are those of SciPy."""
 
     method: str
-    rtol: float
-    atol: Any
-    max_step: float
-    first_step: float | None
-    max_steps: int
     dense_output: bool
     stop_at_outputs: bool
 

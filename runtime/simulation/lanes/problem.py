@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...systems.system import System
+from ..accuracy import Accuracy
 from ..dead_points import meanings
 from ..signals import TimeInputs
 from . import library
@@ -126,17 +127,6 @@ class Wanted:
     bound_items: Numbers
     above: Numbers
     limits: Array
-
-
-@dataclass(frozen=True)
-class Accuracy:
-    """How to integrate; the names are those of SciPy."""
-
-    rtol: float
-    atol: Array
-    max_step: float
-    first_step: float | None
-    max_steps: int
 
 
 class Outcome:

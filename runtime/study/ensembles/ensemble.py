@@ -11,8 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...core.arguments import Arguments, shown
 from ...core.errors import InputError
+from ...simulation.accuracy import accuracy_of, outputs_of, span_of
 from ...simulation.lanes import library
-from ...simulation.lanes.problem import Accuracy, Problem, Systems
+from ...simulation.lanes.problem import Problem, Systems
 from ...simulation.lanes.run import run, usual_threads
 from ...simulation.validity import bounds_of
 from ...systems.state import inputs_of
@@ -25,9 +26,7 @@ from .wanted import Asked, asked_of
 Array = NDArray[np.float64]
 
 _OUTPUTS = 201
-_MOST_STEPS = 2**62
 _MOST_THREADS = 1024
-_SMALLEST_RTOL = 100.0 * np.finfo(float).eps
 
 
 def ensemble(
@@ -125,9 +124,19 @@ def ensemble(
         if not given.refused:
             state = _start(given, model, y0)
             span = _span(given, t_span)
-            times = _times(given, t_eval, span)
+            times = outputs_of(
+                given, np.linspace(*span, _OUTPUTS) if t_eval is None else t_eval, span
+            )
             asked = asked_of(given, model, times, signals, {} if reductions is None else reductions)
-            accuracy = _accuracy(given, model, (rtol, atol, max_step, first_step, max_steps))
+            accuracy = accuracy_of(
+                given,
+                len(model.state_names),
+                rtol=rtol,
+                atol=atol,
+                max_step=max_step,
+                first_step=first_step,
+                max_steps=max_steps,
+            )
             courses = given.mapping("inputs", {} if inputs is None else inputs, "names, courses")
             _check_rows(given, model, y0, {*courses, *_named(variants)})
             cores = usual_threads() if threads is None else threads
@@ -193,45 +202,10 @@ def _check_results(asked: Asked, own: Variants) -> None:
 
 
 def _span(given: Arguments, t_span: Any) -> tuple[float, float]:
-    span = given.array("t_span", t_span, "s", finite=False)
-    if not (span.shape == (2,) and np.isfinite(span).all() and span[0] < span[1]):
-        given.refuse(f"t_span = {shown(t_span)}: two finite times, the second later, are needed.")
-        return 0.0, 1.0
-    return float(span[0]), float(span[1])
-
-
-def _times(given: Arguments, t_eval: Any, span: tuple[float, float]) -> Array:
-    if t_eval is None:
-        return np.linspace(*span, _OUTPUTS)
-    times = given.array("t_eval", t_eval, "s", dimensions=[1])
-    if not given.refused and not (
-        times[0] >= span[0] and times[-1] <= span[1] and (np.diff(times) > 0.0).all()
-    ):
-        given.refuse(
-            f"t_eval: times from {span[0]:g} s to {span[1]:g} s are needed, each later than the "
-            "one before."
-        )
-    return times
-
-
-def _accuracy(given: Arguments, model: System, options: tuple[Any, ...]) -> Accuracy:
-    rtol, atol, max_step, first_step, max_steps = options
-    size = len(model.state_names)
-    relative = given.number("rtol", rtol, least=_SMALLEST_RTOL, below=1.0, advice="Try 1e-6.")
-    absolute = given.array("atol", atol)
-    if not (absolute.shape in ((), (size,)) and (absolute > 0.0).all()):
-        given.refuse(
-            f"atol = {shown(atol)}: one positive number, or one for each of the {size} elements of "
-            "the state."
-        )
-        absolute = np.ones(())
-    return Accuracy(
-        relative,
-        np.broadcast_to(absolute, size).copy(),
-        given.step("max_step", max_step, "s"),
-        None if first_step is None else given.number("first_step", first_step, "s", above=0.0),
-        given.count("max_steps", max_steps, most=_MOST_STEPS),
-    )
+    first, last = span_of(given, t_span)
+    if last < first:
+        given.refuse(f"t_span = {shown(t_span)}: an ensemble goes forward, from earlier to later.")
+    return min(first, last), max(first, last)
 
 
 def _width(given: Arguments, model: System, lanes: Any) -> int:

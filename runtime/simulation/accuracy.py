@@ -1,0 +1,90 @@
+"""How accurately and for how long to integrate, as the caller says it; checked."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..core.arguments import Arguments, shown
+
+Array = NDArray[np.float64]
+
+_MOST_STEPS = 2**62
+_SMALLEST_RTOL = 100.0 * np.finfo(float).eps  # what double precision can do
+
+
+@dataclass(frozen=True, kw_only=True)
+class Accuracy:
+    """How to integrate; the names are those of SciPy.
+
+    Attributes
+    ----------
+    rtol : float
+    atol : ndarray
+        Of each element of the state.
+    max_step : float
+        [s], may be infinite.
+    first_step : float or None
+        [s]; None: to be chosen.
+    max_steps : int
+    """
+
+    rtol: float
+    atol: Array
+    max_step: float
+    first_step: float | None
+    max_steps: int
+
+
+def accuracy_of(
+    given: Arguments,
+    size: int,
+    *,
+    rtol: float,
+    atol: ArrayLike,
+    max_step: float,
+    first_step: float | None,
+    max_steps: int,
+) -> Accuracy:
+    """Check how accurately a state of some size is to be integrated."""
+    absolute = given.array("atol", atol)
+    if not (absolute.shape in ((), (size,)) and (absolute > 0.0).all()):
+        given.refuse(
+            f"atol = {shown(atol)}: one positive number, or one for each of the {size} elements of "
+            "the state."
+        )
+        absolute = np.ones(())
+    return Accuracy(
+        rtol=given.number("rtol", rtol, least=_SMALLEST_RTOL, below=1.0, advice="Try 1e-6."),
+        atol=np.broadcast_to(absolute, size).copy(),
+        max_step=given.step("max_step", max_step, "s"),
+        first_step=None if first_step is None else given.number(
+            "first_step", first_step, "s", above=0.0
+        ),
+        max_steps=given.count("max_steps", max_steps, most=_MOST_STEPS),
+    )  # fmt: skip
+
+
+def span_of(given: Arguments, t_span: Any) -> tuple[float, float]:
+    """Check first and last time [s]; the last may be the earlier one."""
+    span = given.array("t_span", t_span, "s", finite=False)
+    if span.shape == (2,) and np.isfinite(span).all() and span[0] != span[1]:
+        return float(span[0]), float(span[1])
+    given.refuse(f"t_span = {shown(t_span)}: two different finite times are needed.")
+    return 0.0, 1.0
+
+
+def outputs_of(given: Arguments, t_eval: Any, span: tuple[float, float]) -> Array:
+    """Check times of outputs, which go as the time span does [s]."""
+    times = given.array("t_eval", t_eval, "s", dimensions=[1])
+    if given.refused:
+        return times
+    sign = np.sign(span[1] - span[0])
+    inside = sign * times[0] >= sign * span[0] and sign * times[-1] <= sign * span[1]
+    if not (inside and (sign * np.diff(times) > 0.0).all()):
+        given.refuse(
+            f"t_eval: times from {span[0]:g} s to {span[1]:g} s are needed, in that order, each of "
+            "them once."
+        )
+    return times
