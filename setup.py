@@ -84,7 +84,7 @@ def solver_extension() -> Extension | None:
         runtime_library_dirs=[] if sys.platform == "win32" else homes,
         libraries=[*shared, "m"],
         extra_objects=[path.as_posix() for path in static],
-        depends=[(NATIVE / name).as_posix() for name in ("integrate.h", "margins.h", "versions.h")],
+        depends=_headers(NATIVE),
         extra_compile_args=[*FLAGS, *headers],
         extra_link_args=linked,
     )
@@ -105,13 +105,12 @@ class Lanes(Extension):
         self, name: str, source: str, *, renamed: Sequence[str] = (), fixed: Sequence[str] = (),
         macros: Sequence[tuple[str, str]] = (), depends: Sequence[str] = (),
     ) -> None:  # fmt: skip
-        headers = sorted(path.as_posix() for path in LANES.glob("*.h"))
         super().__init__(
             name,
             [],
             define_macros=list(macros),
             include_dirs=[SOURCES.as_posix()],
-            depends=[source, *fixed, *depends, *headers],
+            depends=[source, *fixed, *depends],
             optional=True,  # without it, everything but ensembles works
         )
         self.source, self.renamed = source, renamed
@@ -137,6 +136,10 @@ class Lanes(Extension):
         return [path for paths in made for path in paths]
 
 
+def _headers(*folders: Path) -> list[str]:
+    return sorted(path.as_posix() for folder in folders for path in folder.glob("*.h"))
+
+
 def _is_gcc(program: str) -> bool:
     command = [program, "--version"]
     # what runs is the compiler of this build
@@ -148,8 +151,12 @@ def lanes_extensions(wrappers: Iterable[Path]) -> Iterator[Lanes]:
     """Yield the solver in lanes, and the models that have no iteration."""
     if not WIDTHS:
         return
-    solver, fixed = (LANES / "integrate.c").as_posix(), (LANES / "width.c").as_posix()
-    yield Lanes("kintrafo.simulation.lanes._integrate", solver, fixed=[fixed])
+    yield Lanes(
+        "kintrafo.simulation.lanes._integrate",
+        (LANES / "integrate.c").as_posix(),
+        fixed=[(LANES / "width.c").as_posix()],
+        depends=_headers(LANES, NATIVE),
+    )
     for wrapper in wrappers:
         name = wrapper.stem.removeprefix("_")
         manifest = json.loads((GENERATED / f"{name}.json").read_text(encoding="utf-8"))
@@ -161,7 +168,10 @@ def lanes_extensions(wrappers: Iterable[Path]) -> Iterator[Lanes]:
                 (LANES / "model.c").as_posix(),
                 renamed=[f"{name}_{function}" for function in functions],
                 macros=[("MODEL", f'"{name}.c"')],
-                depends=[(SOURCES / f"{name}{end}").as_posix() for end in (".c", ".h")],
+                depends=[
+                    *((SOURCES / f"{name}{end}").as_posix() for end in (".c", ".h")),
+                    *((LANES / header).as_posix() for header in ("elementary.h", "vectors.h")),
+                ],
             )
 
 
@@ -210,7 +220,12 @@ Or name another compiler in the variable CC."""
 
 
 class Build(build_ext):
-    """Say what to install where a compiler is missing, and so when the solver was not built."""
+    """Compile on all cores; say what to install where a compiler is missing."""
+
+    def initialize_options(self) -> None:
+        """Begin with as many compilers at a time as there are cores."""
+        super().initialize_options()
+        self.parallel = os.cpu_count()
 
     def build_extensions(self) -> None:
         """Build all extension modules, if there is what compiles them."""
@@ -225,9 +240,11 @@ class Build(build_ext):
     def build_extension(self, ext: Extension) -> None:
         """Build an extension module; one in lanes for every width."""
         path = self.get_ext_fullpath(ext.name)
+        if not self.force and not newer_group([*ext.sources, *ext.depends], path):
+            return
+        # where the build of an optional one fails, an old one is not what these sources say
+        Path(path).unlink(missing_ok=True)
         if isinstance(ext, Lanes):
-            if not self.force and not newer_group(ext.depends, path):
-                return
             ext.extra_objects = ext.compile(self.compiler, self.build_temp)
         super().build_extension(ext)
 
@@ -254,5 +271,6 @@ MODULES = cythonize([*EXTENSIONS, *([SOLVER] if SOLVER else [])], build_dir="bui
 for module in MODULES:
     # a build of the solver that fails leaves SciPy; set here, since cythonize does not keep it
     module.optional = SOLVER is not None and module.name == SOLVER.name
-MODULES += lanes_extensions(sorted(GENERATED.glob("*.pyx")))
+# the longest first, so that no core waits for it at the end
+MODULES = [*lanes_extensions(sorted(GENERATED.glob("*.pyx"))), *MODULES]
 setup(ext_modules=MODULES, cmdclass={"build_ext": Build})

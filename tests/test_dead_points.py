@@ -1,10 +1,14 @@
 """No motion is reflected at a dead point, by any method, and those that turn before one go on."""
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 from kintrafo import Model, SimulationError, System, equilibrium, simulate
 from kintrafo.equations.errors import ClosureError
 from kintrafo.generated import four_bar, slider_crank
+from kintrafo.simulation import trust
 from kintrafo.simulation.solvers import native_available, native_methods
 from kintrafo.study.excitation import Course, excitation
 from kintrafo.systems.compile.build import compile_mechanism
@@ -18,6 +22,15 @@ def ended(system, start, end, **options):
     with pytest.raises(SimulationError, match=r"dead point|cannot close") as caught:
         simulate(system, (0.0, end), start, **options)
     return caught.value
+
+
+def test_scipy_and_c_go_by_the_same_numbers():
+    header = (Path(trust.__file__).parent / "native/trust.h").read_text()
+    found = re.findall(r"KT_(\w+) (?:= )?(\(1\.0 / 256\.0\)|[\d.e-]+)", header)
+    known = {name: value for name, value in vars(trust).items() if name.isupper()}
+    numbers = {name: 1.0 / 256.0 if "/" in text else float(text) for name, text in found}
+    assert numbers.pop("LITTLE") == 0.125  # SciPy's steps are looked at each
+    assert numbers == known
 
 
 @pytest.mark.parametrize("method", METHODS)

@@ -12,17 +12,9 @@ from numpy.typing import NDArray
 
 from ..equations.errors import ClosureError
 from ..systems.system import System
+from .trust import ACTS, NOTHING, PART, PLACES
 
 Array = NDArray[np.float64]
-
-# What a guard means for an integration: bits as in ``native/margins.h``.
-_ACTS, _PLACES = 1, 2
-# As in the emitted code and in ``native/margins.c``, where the reasons are.
-_PART = 0.5
-_NOTHING = 1e-10
-SMALLEST_PART = 1e-14
-LAPSE = 1.0 / 256.0
-LEFT = 4.0
 
 
 @cache
@@ -36,9 +28,9 @@ def meanings(equations: ModuleType) -> NDArray[np.int32]:
     places = set(acting["positions"]) | set(acting["orientations"])
     found = np.zeros(len(equations.GUARDS), dtype=np.int32)
     for guard in {*acting["rhs"], *acting.get("signals", ())}:
-        found[guard] |= _ACTS
+        found[guard] |= ACTS
     for guard in places & set(acting["rhs"]):
-        found[guard] |= _PLACES
+        found[guard] |= PLACES
     return found
 
 
@@ -85,7 +77,7 @@ class Approach:
     def __init__(self, model: System, inputs_at: Any, direction: float) -> None:
         self._model, self._inputs_at, self._direction = model, inputs_at, direction
         meaning = meanings(model.equations)
-        self._acts, self._places = (meaning & _ACTS) > 0, (meaning & _PLACES) > 0
+        self._acts, self._places = (meaning & ACTS) > 0, (meaning & PLACES) > 0
         self._greatest = model.usual_margins
         self._half = model.design_state.size // 2
 
@@ -120,10 +112,10 @@ class Approach:
         falling = self._places & (gained < 0.0)
         if not falling.any():
             return np.inf, None, False
-        over = falling & (now <= _NOTHING * self._greatest)
+        over = falling & (now <= NOTHING * self._greatest)
         chosen = over if over.any() else falling
         steps = np.full(now.size, np.inf)
-        steps[chosen] = -_PART * now[chosen] * lapse / gained[chosen]
+        steps[chosen] = -PART * now[chosen] * lapse / gained[chosen]
         nearest = int(np.argmin(steps))
         return float(steps[nearest]), nearest, bool(over.any())
 

@@ -9,7 +9,17 @@ from numpy.typing import NDArray
 from scipy.integrate import BDF, DOP853, LSODA, RK45, OdeSolver, Radau
 
 from ..equations.errors import ModelError
-from .dead_points import LAPSE, LEFT, SMALLEST_PART, Approach, DeadPoint
+from .dead_points import Approach, DeadPoint
+from .trust import (
+    LAPSE,
+    LEFT,
+    MOST_STUCK,
+    NEAR,
+    SHORTER,
+    SMALLEST_OF_STEP,
+    SMALLEST_OF_TIME,
+    SMALLEST_PART,
+)
 
 Array = NDArray[np.float64]
 
@@ -18,11 +28,6 @@ _METHODS = {"RK45": RK45, "DOP853": DOP853, "Radau": Radau, "BDF": BDF, "LSODA":
 # that kind would be needed. It happens where the error of a step is that of rounding, close to a
 # dead point. Steps grow tenfold at most, so that a first one that is too short takes some tens.
 _LOOKED_AT_EVERY, _NO_GAIN = 1000, 1e-8
-# As in ``native/integrate.c``: parts of the whole time and of the longest step.
-_SMALLEST_OF_TIME, _SMALLEST_OF_STEP = 1e-9, 1e-6
-_NEAR = 1e-3
-_MOST_STUCK = 8
-_SHORTER = 0.25
 _COUNTS = ("nfev", "njev", "nlu")
 
 
@@ -73,7 +78,7 @@ class _Steps(OdeSolver):
         super().__init__(fun, t0, y0, t_bound, **options)
         self._whole, self._longest, self._stuck = abs(t_bound - t0), 0.0, 0
         self._taken, self._noted = 0, t0
-        self._look(_SMALLEST_OF_STEP * self._whole)
+        self._look(SMALLEST_OF_STEP * self._whole)
 
     def step(self) -> str | None:
         while True:
@@ -96,7 +101,7 @@ class _Steps(OdeSolver):
                 self._longest = max(self._longest, step)
                 self._limit(now, gained, lapse)
                 return message
-            if _SHORTER * step < self._smallest():
+            if SHORTER * step < self._smallest():
                 raise DeadPoint(guard, time, state)
             self._anew(time, state, step)
 
@@ -129,7 +134,7 @@ class _Steps(OdeSolver):
 
     def _anew(self, time: float, state: Array, step: float) -> None:
         """Begin anew with a shorter step; raise what is being handled if it is too short."""
-        step *= _SHORTER
+        step *= SHORTER
         if step < self._smallest():
             raise  # noqa: PLE0704 (called where an error is handled, or after the same check)
         counts = {name: getattr(self, name) for name in _COUNTS}
@@ -139,17 +144,17 @@ class _Steps(OdeSolver):
             setattr(self, name, getattr(self, name) + count)
 
     def _smallest(self) -> float:
-        of_time = _SMALLEST_OF_TIME * self._whole
-        return min(of_time, _SMALLEST_OF_STEP * self._longest) if self._longest else of_time
+        of_time = SMALLEST_OF_TIME * self._whole
+        return min(of_time, SMALLEST_OF_STEP * self._longest) if self._longest else of_time
 
     def _look(self, lapse: float) -> None:
         self._limit(*self.watch.approach.look(self.t, self.y, lapse), lapse)
 
     def _limit(self, now: Array, gained: Array, lapse: float) -> None:
         self._trusted, guard, over = self.watch.approach.longest_step(now, gained, lapse)
-        stuck = lapse < LAPSE * self._smallest() and self._trusted < _NEAR * self._longest
+        stuck = lapse < LAPSE * self._smallest() and self._trusted < NEAR * self._longest
         self._stuck = self._stuck + 1 if stuck else 0
-        over = over or self._stuck >= _MOST_STUCK or self._trusted < SMALLEST_PART * abs(self.t)
+        over = over or self._stuck >= MOST_STUCK or self._trusted < SMALLEST_PART * abs(self.t)
         if guard is not None and over:
             time = self.t + self.direction * LEFT * self._trusted
             raise DeadPoint(guard, time, self.y)

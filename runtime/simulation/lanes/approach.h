@@ -1,31 +1,20 @@
 /*
  * How near each lane is to a dead point, and for how long its steps may be trusted there.
  *
- * It is what ../native/margins.h explains and ../native/margins.c and integrate.c do for one system, with
- * the same numbers, for the same reasons.
+ * It is what ../native/margins.h explains and ../native/margins.c and integrate.c do for one system.
  */
 #ifndef KINTRAFO_APPROACH_H
 #define KINTRAFO_APPROACH_H
 
+#include "../native/trust.h"
 #include "courses.h"
 
-enum { ACTS = 1, PLACES = 2, NO_GUARD = -1 };
-
-#define PART 0.5
-#define LITTLE 0.125
-#define NOTHING 1.0e-10
-#define LEFT 4.0
-#define LAPSE (1.0 / 256.0)
-#define SMALLEST_OF_TIME 1.0e-9
-#define SMALLEST_OF_STEP 1.0e-6
-#define NEAR 1.0e-3
-#define MOST_STUCK 8
-#define SMALLEST_PART 1.0e-14
+enum { NO_GUARD = -1 };
 
 static real smallest_step(const crew *w)
 {
-    double of_time = SMALLEST_OF_TIME * (w->p->end - w->p->start);
-    real of_step = SMALLEST_OF_STEP * w->longest;
+    double of_time = KT_SMALLEST_OF_TIME * (w->p->end - w->p->start);
+    real of_step = KT_SMALLEST_OF_STEP * w->longest;
     return choose((of_step > 0.0) & (of_step < of_time), of_step, SPREAD(of_time));
 }
 
@@ -39,7 +28,7 @@ static void blame(crew *w, bits lanes, int guard)
 static void see_crossed(crew *w, bits lanes)
 {
     for (int i = 0; i < w->p->guard_count; ++i) {
-        if (w->p->guards[i] & ACTS) {
+        if (w->p->guards[i] & KT_ACTS) {
             blame(w, lanes & ~(w->now[i] > 0.0), i);
         }
     }
@@ -48,12 +37,12 @@ static void see_crossed(crew *w, bits lanes)
 /* Return the lanes in which a margin has changed so much that its rate is needed. */
 static bits changed(const crew *w, real step, real next)
 {
-    real little = LITTLE / greater(next / step, SPREAD(1.0));
+    real little = KT_LITTLE / greater(next / step, SPREAD(1.0));
     bits found = {0};
     for (int i = 0; i < w->p->guard_count; ++i) {
-        if (w->p->guards[i] & PLACES) {
+        if (w->p->guards[i] & KT_PLACES) {
             real now = w->now[i], change = magnitude(now - w->before[i]);
-            found |= ~((change <= little * now) & (now > NOTHING * w->greatest[i]));
+            found |= ~((change <= little * now) & (now > KT_NOTHING * w->greatest[i]));
         }
     }
     return found;
@@ -75,7 +64,7 @@ static void look_ahead(crew *w, real time, real lapse)
 static void see_reflected(crew *w, bits lanes, real lapse, real step)
 {
     for (int i = 0; i < w->p->guard_count; ++i) {
-        if (w->p->guards[i] & PLACES) {
+        if (w->p->guards[i] & KT_PLACES) {
             real gained = w->ahead[i] - w->now[i];
             blame(w, lanes & (2.0 * w->now[i] * lapse < gained * step), i);
         }
@@ -88,10 +77,10 @@ static void limit(crew *w, bits lanes, real lapse, real step)
     real longest = SPREAD(INFINITY);
     bits over = {0}, nearest = (bits){0} + NO_GUARD;
     for (int i = 0; i < w->p->guard_count; ++i) {
-        if (w->p->guards[i] & PLACES) {
+        if (w->p->guards[i] & KT_PLACES) {
             real now = w->now[i], gone = now - w->ahead[i];
-            real allowed = PART * now * lapse / choose(gone > 0.0, gone, SPREAD(1.0));
-            bits nothing = now <= NOTHING * w->greatest[i];
+            real allowed = KT_PART * now * lapse / choose(gone > 0.0, gone, SPREAD(1.0));
+            bits nothing = now <= KT_NOTHING * w->greatest[i];
             bits sooner = (nothing & ~over) | (~(nothing ^ over) & (allowed < longest));
             sooner &= gone > 0.0;
             longest = choose(sooner, allowed, longest);
@@ -99,10 +88,10 @@ static void limit(crew *w, bits lanes, real lapse, real step)
             over = choose_bits(sooner, nothing, over);
         }
     }
-    bits slow = (step < smallest_step(w)) & (longest < NEAR * w->longest);
+    bits slow = (step < smallest_step(w)) & (longest < KT_NEAR * w->longest);
     w->stuck = choose_bits(lanes, slow & (w->stuck + 1), w->stuck);
     w->trusted = choose(lanes, longest, w->trusted);
-    over |= (w->stuck >= MOST_STUCK) | (longest < SMALLEST_PART * magnitude(w->time));
+    over |= (w->stuck >= KT_MOST_STUCK) | (longest < KT_SMALLEST_PART * magnitude(w->time));
     w->guard = choose_bits(lanes & over, nearest, w->guard);
 }
 

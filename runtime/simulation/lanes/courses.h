@@ -2,19 +2,8 @@
 #ifndef KINTRAFO_COURSES_H
 #define KINTRAFO_COURSES_H
 
+#include "../native/pieces.h"
 #include "crew.h"
-
-/* Times go forward mostly, so the piece of the last evaluation, or a near one, is the right one. */
-static int find_piece(const kt_course *course, int piece, double time)
-{
-    while (piece > 0 && time < course->breaks[piece]) {
-        --piece;
-    }
-    while (piece < course->pieces - 1 && time >= course->breaks[piece + 1]) {
-        ++piece;
-    }
-    return piece;
-}
 
 static void load_piece(course_now *now, const kt_course *course, int lane, int piece)
 {
@@ -49,7 +38,7 @@ static void follow_course(crew *w, int which, real time)
     for (int i = 0; i < WIDTH; ++i) {
         if (gone[i]) {
             const kt_course *course = &segment_of(w, i)->courses[which];
-            int piece = find_piece(course, now->piece[i], time[i]);
+            int piece = kt_find_piece(course->breaks, course->pieces, now->piece[i], time[i]);
             if (piece != now->piece[i]) {
                 load_piece(now, course, i, piece);
             }

@@ -14,8 +14,6 @@
 #define SAFE 0.9
 #define MOST_SHORTER 0.2
 #define MOST_LONGER 10.0
-/* Part of a step that remains after a state was refused. */
-#define SHORTER 0.25
 /* Part of the time below which a step is one of rounding. */
 #define ROUNDING 4.0e-16
 
@@ -272,7 +270,7 @@ static real next_step(crew *w, real step, real error, bits good)
 static bits ask_margins(crew *w, bits lanes, real reached, real step, real next, real *lapse)
 {
     w->guard = (bits){0} + NO_GUARD;
-    *lapse = choose(w->fresh, SPREAD(SMALLEST_OF_STEP * (w->p->end - w->p->start)), LAPSE * step);
+    *lapse = choose(w->fresh, SPREAD(KT_SMALLEST_OF_STEP * (w->p->end - w->p->start)), KT_LAPSE * step);
     w->margins(w->constants, w->end_state, w->inputs, w->now);
     see_crossed(w, lanes);
     bits looks = lanes & (w->guard == NO_GUARD) & (w->fresh | changed(w, step, next));
@@ -339,7 +337,7 @@ static void settle(crew *w, bits good, bits lands, bits refused, real step)
     }
     for (int l = 0; l < WIDTH; ++l) {
         if (over[l]) {
-            end_system(w, l, KT_DEAD_POINT, (int)w->guard[l], w->time[l] + LEFT * w->trusted[l]);
+            end_system(w, l, KT_DEAD_POINT, (int)w->guard[l], w->time[l] + KT_LEFT * w->trusted[l]);
         } else if (passed[l]) {
             pass_goal(w, l);
         } else if (stuck[l]) {
@@ -374,7 +372,7 @@ static void sweep(crew *w)
         limit(w, good & looks, lapse, step);
     }
     w->again = ~good;
-    w->step = choose(refused, SHORTER * step, next);
+    w->step = choose(refused, KT_SHORTER * step, next);
     w->tried -= w->running & ~fresh;
     if (any(fresh & good)) {
         w->step = choose(fresh & good & (w->step == 0.0), first_step(w), w->step);

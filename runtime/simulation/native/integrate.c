@@ -1,5 +1,6 @@
 #include "integrate.h"
 #include "margins.h"
+#include "pieces.h"
 #include "versions.h"
 
 #include <math.h>
@@ -66,23 +67,11 @@ static int append_state(kt_table *table, double time, const double *state, int c
 
 /* -- inputs ----------------------------------------------------------------------------------- */
 
-/* Steps go forward, so the piece of the last evaluation, or a near one, is the right one. */
-static int find_piece(const kt_spline *spline, int piece, double time)
-{
-    while (piece > 0 && time < spline->breaks[piece]) {
-        --piece;
-    }
-    while (piece < spline->pieces - 1 && time >= spline->breaks[piece + 1]) {
-        ++piece;
-    }
-    return piece;
-}
-
 static void evaluate_inputs(worker *w, double time)
 {
     for (int i = 0; i < w->problem->spline_count; ++i) {
         const kt_spline *s = &w->problem->splines[i];
-        int piece = w->piece[i] = find_piece(s, w->piece[i], time);
+        int piece = w->piece[i] = kt_find_piece(s->breaks, s->pieces, w->piece[i], time);
         double x = time - s->breaks[piece];
         const double *c = s->coefficients + piece;
         double a = c[0], b = c[s->pieces], d = c[2 * s->pieces], e = c[3 * s->pieces];
@@ -540,31 +529,10 @@ static void look_ahead(worker *w, double time, const double *state, double lapse
     evaluate_margins(w, time + signed_lapse, w->moved, w->margins.ahead);
 }
 
-/*
- * Part of a step over which the rates of the margins are measured, along a straight line of the motion.
- * The line leaves the motion with its acceleration, which is great near a dead point: a sixteenth of a
- * step made the time that is left ten times too long. A margin of 1e-10 of its greatest changes by 1e-13
- * of that within this part of a step, and its rounding is 1e-16 to 1e-15.
- */
-#define LAPSE (1.0 / 256.0)
-
-/* Parts of the whole time, and of the longest step: one below both, next to what is refused, is the end. */
-#define SMALLEST_OF_TIME 1.0e-9
-#define SMALLEST_OF_STEP 1.0e-6
-
-/* Part of the longest step: where less is left, a dead point is near. */
-#define NEAR 1.0e-3
-
-/* So many very short steps in a row near a dead point lead nowhere; one may end at an output. */
-#define MOST_STUCK 8
-
-/* Part of the time since zero that a clock of double precision tells apart, some times. */
-#define SMALLEST_PART 1.0e-14
-
 static double smallest_step(const worker *w)
 {
-    double of_time = SMALLEST_OF_TIME * fabs(w->end - w->start);
-    double of_step = SMALLEST_OF_STEP * w->longest_step;
+    double of_time = KT_SMALLEST_OF_TIME * fabs(w->end - w->start);
+    double of_step = KT_SMALLEST_OF_STEP * w->longest_step;
     return of_step > 0.0 && of_step < of_time ? of_step : of_time;
 }
 
@@ -581,7 +549,7 @@ static int end_at(worker *w, int guard, double left)
 /* Go back to the state that was reached and try a shorter step; KT_STATE when it is too short. */
 static int shorten(worker *w, double step)
 {
-    step *= 0.25;
+    step *= KT_SHORTER;
     if (!(step >= smallest_step(w))) { /* nor a NaN */
         return KT_STATE;
     }
@@ -637,8 +605,8 @@ static int doubt(worker *w, course *c, double reached, double step, int *looked)
     int guard = kt_crossed(&w->margins, w->margins.now);
     *looked = kt_changes(&w->margins, current_step(w) / step);
     if (guard == KT_NONE && *looked) {
-        look_ahead(w, reached, state, LAPSE * step);
-        guard = kt_reflected(&w->margins, LAPSE * step, step);
+        look_ahead(w, reached, state, KT_LAPSE * step);
+        guard = kt_reflected(&w->margins, KT_LAPSE * step, step);
     }
     if (guard != KT_NONE) {
         return guard;
@@ -658,9 +626,9 @@ static int limit(worker *w, course *c, double lapse)
 {
     int nearest = KT_NONE, over = 0;
     c->trusted = kt_longest_step(&w->margins, lapse, &nearest, &over);
-    int stuck = lapse < LAPSE * smallest_step(w) && c->trusted < NEAR * w->longest_step;
+    int stuck = lapse < KT_LAPSE * smallest_step(w) && c->trusted < KT_NEAR * w->longest_step;
     w->stuck = stuck ? w->stuck + 1 : 0;
-    over = over || w->stuck >= MOST_STUCK || c->trusted < SMALLEST_PART * fabs(w->result->time);
+    over = over || w->stuck >= KT_MOST_STUCK || c->trusted < KT_SMALLEST_PART * fabs(w->result->time);
     return over ? end_at(w, nearest, KT_LEFT * c->trusted) : KT_DONE;
 }
 
@@ -686,7 +654,7 @@ static int accept(worker *w, course *c, double reached)
     w->longest_step = fmax(w->longest_step, step);
     kt_reach(&w->margins);
     c->trusted = INFINITY;
-    int outcome = looked ? limit(w, c, LAPSE * step) : KT_DONE;
+    int outcome = looked ? limit(w, c, KT_LAPSE * step) : KT_DONE;
     return outcome;
 }
 
@@ -758,7 +726,7 @@ static int run(worker *w, const double *times, long count, int every_step)
 {
     kt_result *r = w->result;
     course c = {times, count, 1, every_step, w->end > w->start ? 1.0 : -1.0, INFINITY, 0};
-    double lapse = SMALLEST_OF_STEP * fabs(w->end - w->start);
+    double lapse = KT_SMALLEST_OF_STEP * fabs(w->end - w->start);
     if (append_state(&r->output, times[0], r->state, w->problem->state_count)) {
         return KT_MEMORY;
     }

@@ -4,24 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/*
- * Part of the time that is left, margin over rate, which a step may take. The root of a margin is used
- * up in twice that time: a step takes a quarter of it, see KT_LEFT.
- */
-#define PART 0.5
-
-/* Part of a margin that may change in a step before its rate is looked at. */
-#define LITTLE 0.125
-
-/*
- * Part of its greatest value below which a margin that falls is taken for zero. It is a difference of
- * numbers of that size or some ten times that, each with a rounding of 1e-16; the coordinates behind it
- * carry the errors of the integration, of which a hundredth is a part of 1e-12 or more. The height that
- * is its root is then a 100,000th of what it has been, and no motion of that accuracy tells whether it
- * turns before zero.
- */
-#define NOTHING 1.0e-10
-
 int kt_open_margins(kt_margins *m, int count, const int *meaning, const double *scale)
 {
     size_t size = (size_t)count * sizeof *m->now;
@@ -54,10 +36,10 @@ int kt_crossed(const kt_margins *m, const double *values)
 
 int kt_changes(const kt_margins *m, double next)
 {
-    double little = LITTLE / fmax(next, 1.0);
+    double little = KT_LITTLE / fmax(next, 1.0);
     for (int i = 0; i < m->count; ++i) {
         double now = m->now[i], change = fabs(now - m->before[i]);
-        int calm = change <= little * now && now > NOTHING * m->greatest[i];
+        int calm = change <= little * now && now > KT_NOTHING * m->greatest[i];
         if ((m->meaning[i] & KT_PLACES) && !calm) {
             return 1;
         }
@@ -93,8 +75,8 @@ double kt_longest_step(const kt_margins *m, double lapse, int *nearest, int *ove
         if (!(m->meaning[i] & KT_PLACES) || !(lost > 0.0)) {
             continue;
         }
-        double step = PART * now * lapse / lost;
-        int nothing = now <= NOTHING * m->greatest[i];
+        double step = KT_PART * now * lapse / lost;
+        int nothing = now <= KT_NOTHING * m->greatest[i];
         if (nothing > *over || (nothing == *over && step < longest)) {
             longest = step;
             *nearest = i;

@@ -13,14 +13,7 @@
 #ifndef KINTRAFO_MARGINS_H
 #define KINTRAFO_MARGINS_H
 
-/* What a guard of the model means for an integration; a guard may have both bits. */
-enum {
-    KT_ACTS = 1,  /* where its margin is not positive, the model refuses to be evaluated */
-    KT_PLACES = 2 /* it chooses a branch of where bodies are */
-};
-
-/* How much longer than the longest step the root of a margin takes to zero in a straight line. */
-#define KT_LEFT 4.0
+#include "trust.h"
 
 typedef struct {
     int count;
