@@ -436,8 +436,36 @@ WRONG: list[tuple[dict[str, Any], str]] = [
         {"variants": {"strut_length_max": [0.8]}, "reductions": {"strut_length": "max"}},
         "'strut_length_max' is both",
     ),
+    (
+        {"variants": {"spring_rate": xr.DataArray([20.0], dims="car", attrs={"units": "N/mm"})}},
+        "are in 'N/mm': they are needed in 'N/m'",
+    ),
     ({"model": "reference_car"}, "kintrafo.Model"),
 ]
+
+
+def test_labels_of_any_kind(car: Model, start: Any) -> None:
+    labels = xr.DataArray(np.array(["flat", 2, 2.5, "flat"], dtype=object), dims="car")
+    roads = {"flat": 0.0, 2: 0.01, 2.5: 0.02}
+    found = ensemble(
+        car, {"road_height": labels}, SPAN, start, inputs={"road_height": roads}, signals=["camber"]
+    )
+    heights = [roads[label] for label in labels.values]
+    same(found[["camber"]], ensemble(
+        car, {"road_height": heights}, SPAN, start, signals=["camber"]
+    )[["camber"]])  # fmt: skip
+    assert found["road_height"].values.tolist() == labels.values.tolist()
+
+
+def test_nothing_is_known_of_what_never_began(car: Model) -> None:
+    """Parameters out of their range, and parameters of no mechanism, that C finds."""
+    own = car.parameters
+    hinge = {f"arm_rear_{x}": [own[f"arm_rear_{x}"], own[f"arm_front_{x}"]] for x in "xyz"}
+    parameters = {"spring_rate": [-1.0, own["spring_rate"]], **hinge}
+    found = ensemble(car, parameters, SPAN)
+    assert not found["success"].any()
+    assert np.isnan(found["end_time"]).all()
+    assert np.isnan(found["final_state"]).all()
 
 
 def test_rows_of_states_do_not_forget_their_inputs(car: Model) -> None:

@@ -121,6 +121,11 @@ static void begin_system(crew *w, int lane)
     const waiting *q = &w->queue;
     int from = q->taken;
     long system = q->first + from;
+    if (q->failed[from]) { /* it never began: nothing is known of it but that */
+        p->ends[system] = KT_PARAMETERS;
+        p->codes[system] = (int)q->failed[from];
+        return;
+    }
     w->system[lane] = system;
     w->running[lane] = -1;
     for (int i = 0; i < p->constant_count; ++i) {
@@ -143,9 +148,6 @@ static void begin_system(crew *w, int lane)
     w->segment[lane] = 0;
     begin_outputs(w, lane);
     open_segment(w, lane);
-    if (q->failed[from]) {
-        end_system(w, lane, KT_PARAMETERS, (int)q->failed[from], p->start);
-    }
 }
 
 /* Give work to lanes that have none, as long as there is some. */

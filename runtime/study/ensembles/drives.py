@@ -10,7 +10,7 @@ from scipy.interpolate import PPoly
 
 from ...simulation.signals import Segment, Spline, TimeInputs, time_inputs
 from ...systems.system import System
-from .variants import Variants
+from .variants import Variants, numbered
 
 Array = NDArray[np.float64]
 
@@ -78,13 +78,10 @@ def _combinations(variants: Variants) -> tuple[list[dict[str, Any]], NDArray[np.
     of = np.zeros(variants.count, dtype=np.int64)
     rows: list[dict[str, Any]] = [{}]
     for name, labels in variants.labels.items():
-        known, which = np.unique(labels, return_inverse=True)
-        pairs, of = np.unique(of * known.size + which, return_inverse=True)
-        before, last = np.divmod(pairs, known.size)
-        rows = [
-            rows[i] | {name: known[j].item() if hasattr(known[j], "item") else known[j]}
-            for i, j in zip(before, last, strict=True)
-        ]
+        known, which = numbered(labels)
+        pairs, of = np.unique(of * len(known) + which, return_inverse=True)
+        before, last = np.divmod(pairs, len(known))
+        rows = [rows[i] | {name: known[j]} for i, j in zip(before, last, strict=True)]
     return rows, of
 
 

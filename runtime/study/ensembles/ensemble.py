@@ -138,13 +138,12 @@ def ensemble(
                 max_steps=max_steps,
             )
             courses = given.mapping("inputs", {} if inputs is None else inputs, "names, courses")
-            _check_rows(given, model, y0, {*courses, *_named(variants)})
             cores = usual_threads() if threads is None else threads
             cores = given.whole("threads", cores, most=_MOST_THREADS)
             width = _width(given, model, lanes)
             given.flag("progress", progress)
     own = variants_of(model, variants, courses, None if len(state) == 1 else len(state))
-    _check_results(asked, own)
+    _check_together(model, y0, courses, own, asked)
     held = inputs_of(y0, model.names_of_states)
     drives = drives_of(model, courses, own, span, held=held, max_step=accuracy.max_step)
     asked = replace(asked, bounds=tuple(bounds_of(model, own.parameters)))
@@ -169,9 +168,13 @@ def _start(given: Arguments, model: System, y0: Any) -> Array:
     return np.atleast_2d(states)
 
 
-def _named(variants: Any) -> set[str]:
-    """Return the names of what varies, whatever was given."""
-    return set(map(str, variants)) if isinstance(variants, Mapping) else set()
+def _check_together(
+    model: System, y0: Any, courses: Mapping[str, Any], own: Variants, asked: Asked
+) -> None:
+    """Refuse arguments that are right each for itself."""
+    with Arguments("ensemble") as given:
+        _check_rows(given, model, y0, {*courses, *own.inputs, *own.labels})
+        _check_results(given, asked, own)
 
 
 def _check_rows(given: Arguments, model: System, y0: Any, told: set[str]) -> None:
@@ -188,17 +191,15 @@ def _check_rows(given: Arguments, model: System, y0: Any, told: set[str]) -> Non
             return
 
 
-def _check_results(asked: Asked, own: Variants) -> None:
+def _check_results(given: Arguments, asked: Asked, own: Variants) -> None:
     """Refuse results that are called as what varies."""
     varied = {*own.parameters, *own.inputs, *own.labels, *map(str, own.coordinates)}
     results = {*asked.signals, *(reduced.name for reduced in asked.reduced)}
-    problems = [
-        f"{name!r} is both what varies and a result that was asked for: keep another one, such as "
-        "the signal itself over time."
-        for name in sorted(varied & results)
-    ]
-    if problems:
-        raise InputError(problems, "ensemble")
+    for name in sorted(varied & results):
+        given.refuse(
+            f"{name!r} is both what varies and a result that was asked for: keep another one, such "
+            "as the signal itself over time."
+        )
 
 
 def _span(given: Arguments, t_span: Any) -> tuple[float, float]:

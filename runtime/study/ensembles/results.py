@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ...core.quantities import variable
 from ...equations.errors import ModelError
-from ...equations.status import LAST_GUARD_BIT, NOT_FINITE
+from ...equations.status import NOT_FINITE, bit_of
 from ...simulation.lanes.problem import End, Outcome
 from ...systems.system import System
 from .variants import BOUND, STATE, TIME, Variants
@@ -127,9 +127,9 @@ def _told(model: System, end: End, code: int, max_steps: int) -> str:
 
 
 def _acting(model: System, status: int) -> Iterator[str]:
-    """Yield what the bits of a status word say; the last one is that of all guards behind it."""
+    """Yield what the bits of a status word say."""
     if status & NOT_FINITE:
         return
     for place, (_, meaning) in enumerate(model.equations.GUARDS):
-        if status >> min(place, LAST_GUARD_BIT) & 1:
+        if status >> bit_of(place) & 1:
             yield meaning

@@ -77,7 +77,8 @@ def variants_of(
         columns = _columns(arguments, model, given)
         if not arguments.refused:
             _check_names(arguments, model, columns, courses)
-            _check_coordinates(arguments, model, given)
+            _check_units(arguments, model, columns, choices)
+            _check_coordinates(arguments, model, given, columns)
         if not arguments.refused:
             columns, shape = _broadcast(arguments, columns, rows)
         if arguments.refused:
@@ -101,6 +102,13 @@ def impossible_sets(model: System, variants: Variants) -> NDArray[np.bool_]:
     return impossible(values, model.equations.PARAMETERS, variants.count)
 
 
+def numbered(labels: NDArray[Any]) -> tuple[list[Any], NDArray[np.int64]]:
+    """Return the different ones of some labels, of any kinds, and which of these each one is."""
+    listed = labels.tolist()
+    places = {label: place for place, label in enumerate(dict.fromkeys(listed))}
+    return list(places), np.array([places[label] for label in listed], dtype=np.int64)
+
+
 # -- reading --------------------------------------------------------------------------------------
 
 
@@ -110,7 +118,7 @@ def _columns(arguments: Arguments, model: System, given: Any) -> dict[str, xr.Da
         return {}
     if isinstance(given, xr.Dataset):
         # coordinates of the dataset may be what varies; others only label the systems
-        known = {*model.equations.PARAMETERS, *model.state_names, *model.input_names}
+        known = _described(model)
         names = [*given.data_vars, *(name for name in given.coords if name in known)]
         return {str(name): given[name].reset_coords(drop=True) for name in names}
     found = {}
@@ -129,6 +137,12 @@ def _columns(arguments: Arguments, model: System, given: Any) -> dict[str, xr.Da
     return found
 
 
+def _described(model: System) -> dict[str, Any]:
+    """Return what the manifest says of everything that can vary."""
+    equations = model.equations
+    return {**equations.PARAMETERS, **equations.STATE, **equations.INPUTS}
+
+
 def _row(values: Any) -> NDArray[Any] | None:
     """Return what is one value or a row of them; nothing for anything else."""
     if np.ma.is_masked(values):
@@ -144,8 +158,7 @@ def _check_names(
     arguments: Arguments, model: System, columns: Mapping[str, Any], courses: Mapping[str, Any]
 ) -> None:
     derived = derived_inputs(model.equations.INPUTS)
-    inputs = [name for name in model.input_names if name not in derived]
-    known = [*model.equations.PARAMETERS, *model.state_names, *inputs]
+    known = [name for name in _described(model) if name not in derived]
     for name in columns:
         if name in derived:
             arguments.refuse(f"variants {name!r} follows from {derived[name]!r}: vary that.")
@@ -166,27 +179,45 @@ def _check_names(
             )
 
 
-def _check_coordinates(arguments: Arguments, model: System, given: Any) -> None:
+def _check_units(
+    arguments: Arguments,
+    model: System,
+    columns: Mapping[str, xr.DataArray],
+    choices: Mapping[str, Any],
+) -> None:
+    """Refuse numbers that say that they are in another unit; labels have none."""
+    described = _described(model)
+    for name, column in columns.items():
+        told, unit = column.attrs.get("units"), described[name]["unit"]
+        if told is not None and told != unit and name not in choices:
+            arguments.refuse(
+                f"variants {name!r} are in {shown(told)}: they are needed in {unit!r}."
+            )
+
+
+def _check_coordinates(
+    arguments: Arguments, model: System, given: Any, columns: Mapping[str, xr.DataArray]
+) -> None:
     """Refuse dimensions and coordinates that are called as results are."""
     arrays = [given] if isinstance(given, xr.Dataset) else [*(given or {}).values()]
     labelled = [a for a in arrays if isinstance(a, xr.Dataset | xr.DataArray)]
     taken = {TIME, STATE, BOUND, *RESULTS, *model.signal_names}
     if isinstance(given, xr.Dataset):
-        _check_dimensions(arguments, model, given)
+        _check_dimensions(arguments, model, given, columns)
     for name in {str(n) for a in labelled for n in (*a.dims, *a.coords)} & taken:
         arguments.refuse(f"variants have a dimension or coordinate {name!r}: results have it.")
 
 
-def _check_dimensions(arguments: Arguments, model: System, given: xr.Dataset) -> None:
+def _check_dimensions(
+    arguments: Arguments, model: System, given: xr.Dataset, columns: Mapping[str, xr.DataArray]
+) -> None:
     """Refuse dimensions over which nothing goes: what is meant there has another name."""
-    known = [*model.equations.PARAMETERS, *model.state_names, *model.input_names]
-    columns = [given[name] for name in (*given.data_vars, *(n for n in given.coords if n in known))]
-    over = {dimension for column in columns for dimension in column.dims}
+    over = {dimension for column in columns.values() for dimension in column.dims}
     for dimension in given.dims:
         if dimension not in over:
             arguments.refuse(
                 f"variants: nothing goes over the dimension {dimension!r}. "
-                f"{suggestion(str(dimension), known)}"
+                f"{suggestion(str(dimension), _described(model))}"
             )
 
 
@@ -239,11 +270,10 @@ def _checked(
     arguments: Arguments, name: str, column: xr.DataArray, choices: Mapping[Any, Any] | None
 ) -> NDArray[Any]:
     """Return one value for each system."""
-    values = column.values.ravel()
-    values = np.repeat(values, 1) if values.size else values
+    values = column.values.flatten()
     if choices is None:
         return arguments.array(f"variants {name!r}", values, dimensions=[1])
-    strange = [label for label in np.unique(values).tolist() if label not in choices]
+    strange = [label for label in numbered(values)[0] if label not in choices]
     if strange:
         arguments.refuse(
             f"variants {name!r} has the label {shown(strange[0])}; its courses are "
