@@ -22,4 +22,4 @@ def environment() -> dict[str, str]:
 
 
 if __name__ == "__main__":
-    os.execvpe(sys.argv[1], sys.argv[1:], os.environ | environment())  # noqa: S606 (as it stands)
+    os.execvpe(sys.argv[1], sys.argv[1:], os.environ | environment())  # noqa: S606 (a command of the caller's, and no shell to read it another way)

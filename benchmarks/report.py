@@ -199,6 +199,7 @@ def fill_page(page: Path, blocks: Mapping[str, str]) -> None:
     text = page.read_text(encoding="utf-8")
     for name, block in blocks.items():
         begin, end = f"<!-- begin {name} -->", f"<!-- end {name} -->"
-        pattern = re.compile(re.escape(begin) + ".*?" + re.escape(end), re.DOTALL)
-        text = pattern.sub(lambda _, new=f"{begin}\n{block}\n{end}": new, text)  # type: ignore[misc]
+        before, found, rest = text.partition(begin)
+        if found:
+            text = f"{before}{begin}\n{block}\n{end}{rest.partition(end)[2]}"
     page.write_text(text, encoding="utf-8")

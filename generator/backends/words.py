@@ -49,9 +49,9 @@ def count_line(function: Function | Stage) -> str:
     return line + iterating if function.blocks else line
 
 
-def iteration_note(model: Derivation) -> str:
+def iteration_note(derivation: Derivation) -> str:
     """Say which loops of a model are solved by iteration; nothing where all have a closed form."""
-    blocks = blocks_of(model.functions.values())
+    blocks = blocks_of(derivation.functions.values())
     if not blocks:
         return ""
     found = "; ".join(block.doc for block in blocks)
@@ -71,18 +71,18 @@ def blocks_of(functions: Iterable[Function | Stage]) -> list[Block]:
     return list(found.values())
 
 
-def mechanism_hash(model: Derivation) -> str:
+def mechanism_hash(derivation: Derivation) -> str:
     """Return a hash of everything that the emitted arithmetic depends on; computed once."""
-    if model not in _hashes:
-        _hashes[model] = _hash(model)
-    return _hashes[model]
+    if derivation not in _hashes:
+        _hashes[derivation] = _hash(derivation)
+    return _hashes[derivation]
 
 
-def _hash(model: Derivation) -> str:
+def _hash(derivation: Derivation) -> str:
     digest = hashlib.sha256()
-    blocks = blocks_of(model.functions.values())
+    blocks = blocks_of(derivation.functions.values())
     once = (block.once for block in blocks)
-    for function in (model.prepare, model.design, *once, *model.emitted.values()):
+    for function in (derivation.prepare, derivation.design, *once, *derivation.emitted.values()):
         digest.update(function.name.encode())
         steps, results = written(function, FORMULA)
         for step in steps:

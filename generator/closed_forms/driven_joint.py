@@ -186,7 +186,7 @@ def _revolute_frame(
 def _beside(kin: Kinematics, joint: Revolute, child: str, axis: Vector) -> Vector:
     """Return any unit vector across a hinge whose angle counts from the design position.
 
-    A chassis axis where that makes the shortest equations; it is far enough from the hinge
+    An axis of the ground where that makes the shortest equations; it is far enough from the hinge
     with the default parameters, and no more is asked of it. Otherwise one without a singular
     direction of the hinge.
     """

@@ -1,4 +1,4 @@
-"""Models: what of a mechanism is state, what is prescribed, what has mass."""
+"""Formulations: what of a mechanism is state, what is prescribed, what has mass."""
 
 from __future__ import annotations
 
@@ -86,73 +86,73 @@ class Formulation:
         return any(body == massive.name for massive in self.massive)
 
 
-def _check(model: Formulation) -> None:
+def _check(formulation: Formulation) -> None:
     """Raise `DeclarationError` if a model contradicts its mechanism or itself."""
-    problems = unwritable("title of the model", model.title)
+    problems = unwritable("title of the model", formulation.title)
     problems += [
-        p for name, text in model.cites.items() for p in unwritable(f"cites: {name}", text)
+        p for name, text in formulation.cites.items() for p in unwritable(f"cites: {name}", text)
     ]
     problems += [
         f"variant {name!r} would be the function rhs_{name}, which there is already; rename it"
-        for name in model.held
+        for name in formulation.held
         if name in _FUNCTIONS
     ]
-    problems += _driven_problems(model)
-    problems += _input_problems(model)
-    problems += _mass_problems(model)
-    problems += _force_problems(model)
-    problems += _passive_problems(model)
+    problems += _driven_problems(formulation)
+    problems += _input_problems(formulation)
+    problems += _mass_problems(formulation)
+    problems += _force_problems(formulation)
+    problems += _passive_problems(formulation)
     if problems:
-        raise DeclarationError(model.name, problems)
+        raise DeclarationError(formulation.name, problems)
 
 
-def _driven_problems(model: Formulation) -> list[str]:
-    joints = model.mechanism.joints
-    problems = repeated("independent joint", [j.name for j in model.independent])
-    problems += strangers("independent joint", model.independent, joints)
-    problems += strangers("prescribed joint", model.prescribed, joints)
-    for variant, held in model.held.items():
+def _driven_problems(formulation: Formulation) -> list[str]:
+    joints = formulation.mechanism.joints
+    problems = repeated("independent joint", [j.name for j in formulation.independent])
+    problems += strangers("independent joint", formulation.independent, joints)
+    problems += strangers("prescribed joint", formulation.prescribed, joints)
+    for variant, held in formulation.held.items():
         problems += [
             f"held joint {j.name!r} of {variant!r} is not prescribed; only what is given can stand"
             for j in held
-            if j not in model.prescribed
+            if j not in formulation.prescribed
         ]
-    both = [j.name for j in model.independent if j in model.prescribed]
+    both = [j.name for j in formulation.independent if j in formulation.prescribed]
     problems += [f"joint {name!r} is both independent and prescribed" for name in both]
     problems += [
         f"joint {joint.name!r} is free, and nothing else says where {joint.second.name!r} is; make "
         "it independent"
         for joint in joints
-        if isinstance(joint, Free) and joint not in model.driven
+        if isinstance(joint, Free) and joint not in formulation.driven
     ]
     problems += [
         _undrivable("independent", j)
-        for j in model.independent
+        for j in formulation.independent
         if _has_many(j) and not isinstance(j, Free)
     ]
-    problems += [_undrivable("prescribed", j) for j in model.prescribed if _has_many(j)]
-    reported = [c.joint for c in model.mechanism.coordinates]
+    problems += [_undrivable("prescribed", j) for j in formulation.prescribed if _has_many(j)]
+    reported = [c.joint for c in formulation.mechanism.coordinates]
     problems += [
         f"independent joint {joint.name!r} has no reported coordinate; add its "
         f"{joint.coordinates[0]}(name, meaning) to the coordinates of the mechanism: it names the "
         "state"
-        for joint in model.independent
+        for joint in formulation.independent
         if joint not in reported and not _has_many(joint)
     ]
     return problems
 
 
-def _input_problems(model: Formulation) -> list[str]:
+def _input_problems(formulation: Formulation) -> list[str]:
     """Find motions that are given twice, and inputs of one name."""
     problems = repeated(
-        "motion of prescribed joints", [motion.name for motion in model.prescribed.values()]
+        "motion of prescribed joints", [motion.name for motion in formulation.prescribed.values()]
     )
-    entries = [entry for motion in model.prescribed.values() for entry in motion.inputs]
+    entries = [entry for motion in formulation.prescribed.values() for entry in motion.inputs]
     for entry in entries:
-        same = [i for i in model.mechanism.inputs if i.name == entry.name and i != entry]
+        same = [i for i in formulation.mechanism.inputs if i.name == entry.name and i != entry]
         problems += [f"{i.name!r} is an input of a force and of a motion; rename one" for i in same]
-    problems += input_problems(dict.fromkeys((*entries, *model.mechanism.inputs)))
-    return problems + input_name_problems(model.mechanism, entries)
+    problems += input_problems(dict.fromkeys((*entries, *formulation.mechanism.inputs)))
+    return problems + input_name_problems(formulation.mechanism, entries)
 
 
 def _has_many(joint: Joint) -> bool:
@@ -166,34 +166,34 @@ def _undrivable(how: str, joint: Joint) -> str:
     )
 
 
-def _mass_problems(model: Formulation) -> list[str]:
-    problems = strangers("massive body", model.massive, model.mechanism.bodies)
-    problems += repeated("massive body", [b.name for b in model.massive])
+def _mass_problems(formulation: Formulation) -> list[str]:
+    problems = strangers("massive body", formulation.massive, formulation.mechanism.bodies)
+    problems += repeated("massive body", [b.name for b in formulation.massive])
     problems += [
         f"massive body {body.name!r} is the ground, which does not move; leave it out"
-        for body in model.massive
+        for body in formulation.massive
         if isinstance(body, Ground)
     ]
     return problems
 
 
-def _force_problems(model: Formulation) -> list[str]:
+def _force_problems(formulation: Formulation) -> list[str]:
     """See that every force along a joint does work: there is none for a joint that follows."""
     return [
         f"{kind}: {joint.name!r} is neither independent nor prescribed, and a {kind} acts along "
         "such joints only. Make it independent, or let an Actuator in a ForceElement push between "
         "two points"
-        for kind, joint in ((type(f).__name__, f.along) for f in model.mechanism.forces)
-        if joint is not None and joint not in model.driven
+        for kind, joint in ((type(f).__name__, f.along) for f in formulation.mechanism.forces)
+        if joint is not None and joint not in formulation.driven
     ]
 
 
-def _passive_problems(model: Formulation) -> list[str]:
+def _passive_problems(formulation: Formulation) -> list[str]:
     """See that nothing with mass can spin about itself: nothing would determine its turn."""
     problems = []
-    for body in model.mechanism.passive_links:
-        if model.has_mass(body):
-            first, second = (j.name for j in model.mechanism.joints_of(body))
+    for body in formulation.mechanism.passive_links:
+        if formulation.has_mass(body):
+            first, second = (j.name for j in formulation.mechanism.joints_of(body))
             problems.append(
                 f"massive body {body!r} may turn about the line through its joints {first!r} and "
                 f"{second!r}, and nothing determines how. Make a cross of a ball joint, "

@@ -41,7 +41,7 @@ def find_assumptions(plan: Plan) -> list[Assumption]:
         If one of them is not zero with the default parameters.
     """
     found = [a for a in _assumptions(plan) if a.quantity != 0]
-    _check_defaults(plan.model, found)
+    _check_defaults(plan.formulation, found)
     return found
 
 
@@ -58,8 +58,8 @@ def define_assumptions(program: Program, assumed: Iterable[Assumption]) -> tuple
     return tuple(named.values())
 
 
-def _check_defaults(model: Formulation, found: list[Assumption]) -> None:
-    at_defaults = AtDefaults(model.mechanism)
+def _check_defaults(formulation: Formulation, found: list[Assumption]) -> None:
+    at_defaults = AtDefaults(formulation.mechanism)
     problems = []
     for assumption in found:
         value, scale = at_defaults(assumption.quantity), at_defaults(assumption.scale)
@@ -68,7 +68,7 @@ def _check_defaults(model: Formulation, found: list[Assumption]) -> None:
             off = _amount(value, assumption.unit)
             problems.append(f"{assumption.meaning}: it is off by {off}; {assumption.remedy}")
     if problems:
-        raise DeclarationError(model.name, problems)
+        raise DeclarationError(formulation.name, problems)
 
 
 def _amount(value: float, unit: str) -> str:
@@ -86,7 +86,7 @@ def _assumptions(plan: Plan) -> Iterator[Assumption]:
     for joint in plan.topology.mechanism.joints:
         if isinstance(joint, Universal) and joint.second.name in lines:
             yield from _of_shaft(joint, lines[joint.second.name])
-    yield from _of_rotors(plan.model)
+    yield from _of_rotors(plan.formulation)
 
 
 # -- loops in a plane -----------------------------------------------------------------------------
@@ -155,9 +155,9 @@ def _of_shaft(joint: Universal, ends: Sequence[Point]) -> Iterator[Assumption]:
 # -- rotors ---------------------------------------------------------------------------------------
 
 
-def _of_rotors(model: Formulation) -> Iterator[Assumption]:
+def _of_rotors(formulation: Formulation) -> Iterator[Assumption]:
     """Yield what leaves the inertia of a rotor unchanged by its spin."""
-    for joint in _bearings(model):
+    for joint in _bearings(formulation):
         body, axis = joint.second, joint.axis.vector
         assert body.rotor_axis is not None
         remedy = (
@@ -186,10 +186,10 @@ def _of_rotors(model: Formulation) -> Iterator[Assumption]:
             )
 
 
-def _bearings(model: Formulation) -> Iterator[Revolute]:
+def _bearings(formulation: Formulation) -> Iterator[Revolute]:
     """Yield the hinges of known angle that carry a rotor and nothing behind it."""
-    mechanism: Mechanism = model.mechanism
-    for joint in model.driven:
+    mechanism: Mechanism = formulation.mechanism
+    for joint in formulation.driven:
         rotor = joint.second.rotor_axis is not None
         end = len(mechanism.joints_of(joint.second.name)) == 1
         if isinstance(joint, Revolute) and rotor and end:

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 Steps = list[tuple[sp.Symbol, sp.Expr]]
 
 
-def design_state(model: Formulation, state: Sequence[str]) -> Function:
+def design_state(formulation: Formulation, state: Sequence[str]) -> Function:
     """Return the function from the parameters to the state at the design position, at rest.
 
     Parameters
@@ -32,7 +32,7 @@ def design_state(model: Formulation, state: Sequence[str]) -> Function:
     state
         Names of the elements of the state, in order.
     """
-    coordinates = design_coordinates(model)
+    coordinates = design_coordinates(formulation)
     steps = [Step(s, e, "design position") for found in coordinates.values() for s, e in found]
     values = tuple(sp.Symbol(n) if n in coordinates else sp.Integer(0) for n in state)
     doc = "State at the design position, at rest."
@@ -41,16 +41,16 @@ def design_state(model: Formulation, state: Sequence[str]) -> Function:
     )
 
 
-def design_coordinates(model: Formulation) -> dict[str, Steps]:
+def design_coordinates(formulation: Formulation) -> dict[str, Steps]:
     """Return the steps to each coordinate that is not zero at design, by its name.
 
     The last step of each is the coordinate itself [rad].
     """
     found = {}
-    derived = {sp.Symbol(n): value for n, value in model.mechanism.derived.items()}
-    for joint in model.independent:
+    derived = {sp.Symbol(n): value for n, value in formulation.mechanism.derived.items()}
+    for joint in formulation.independent:
         if isinstance(joint, Revolute) and joint.angle_to is not None:
-            entries = model.mechanism.coordinates
+            entries = formulation.mechanism.coordinates
             coordinate = next(c.name for c in entries if c.joint == joint)
             steps = _angle(coordinate, joint)
             found[coordinate] = [(s, e.xreplace(derived)) for s, e in steps]

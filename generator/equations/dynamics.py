@@ -106,7 +106,7 @@ class Dynamics:
         for name in reversed(self.placed):
             self.inertia.setdefault(name, Inertia.none())
         rotors = {body.name: k for k, body in self.coordinates.rotors.items()}
-        for body in self.moving.model.massive:
+        for body in self.moving.formulation.massive:
             if body.name in rotors:
                 self._fold_rotor(rotors[body.name], body)
             else:
@@ -152,7 +152,7 @@ class Dynamics:
         """Return the body axes at the design position, in ground axes."""
         names, part = ("first", "second", "third"), self.part_of[placed.body]
         x, y, z = (
-            self.program.vector(f"{placed.body}_{name}_in_chassis", part.to_ground(axis))
+            self.program.vector(f"{placed.body}_{name}_in_ground", part.to_ground(axis))
             for name, axis in zip(names, placed.design_axes, strict=True)
         )
         return x, y, z

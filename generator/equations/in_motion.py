@@ -59,7 +59,7 @@ class InMotion:
         held
             Prescribed joints that stand still in this variant.
         """
-        coordinates = Coordinates(plan.model, held)
+        coordinates = Coordinates(plan.formulation, held)
         common, groups = independent_groups(plan)
         parts = tuple(_moved(program, plan, common | group, coordinates) for group in groups)
         part_of: dict[str, Kinematics] = {}
@@ -69,14 +69,14 @@ class InMotion:
         return cls(program, coordinates, parts, placed, part_of)
 
     @property
-    def model(self) -> Formulation:
+    def formulation(self) -> Formulation:
         """Whose bodies they are."""
-        return self.coordinates.model
+        return self.coordinates.formulation
 
     @property
     def mechanism(self) -> Mechanism:
         """Whose bodies they are."""
-        return self.model.mechanism
+        return self.formulation.mechanism
 
     def part_with(self, *bodies: str) -> Kinematics | None:
         """Return the part that has some bodies, and their motion in equal axes, if there is one."""
@@ -102,7 +102,7 @@ def _moved(program: Program, plan: Plan, bodies: set[str], coordinates: Coordina
     What else takes part in them is of this part too, since nothing closes between two parts.
     """
     steps = [step for step in plan.steps if step.about in bodies]
-    ground = plan.model.mechanism.ground
+    ground = plan.formulation.mechanism.ground
     origin = next((point for step in steps if (point := step.origin_on(ground))), None)
     kin = Kinematics(program, coordinates, plan.loops, bodies, origin)
     for step in steps:
@@ -122,8 +122,8 @@ def _in_ground_axes(part: Kinematics, body: str, point: Point) -> PointMotion:
 
 def independent_groups(plan: Plan) -> tuple[set[str], list[set[str]]]:
     """Return the ground with what prescribed joints tie to it, and the groups of other bodies."""
-    mechanism, graph = plan.model.mechanism, plan.topology.graph
-    tied = nx.Graph([joint.bodies for joint in plan.model.prescribed])
+    mechanism, graph = plan.formulation.mechanism, plan.topology.graph
+    tied = nx.Graph([joint.bodies for joint in plan.formulation.prescribed])
     tied.add_node(mechanism.ground)
     common = nx.node_connected_component(tied, mechanism.ground)
     groups = nx.connected_components(graph.subgraph(set(graph) - common))

@@ -117,7 +117,7 @@ class Derivation:
         Places of all steps by their names: the order of the derivation.
     """
 
-    model: Formulation
+    formulation: Formulation
     plan: Plan
     state: tuple[Entry, ...]
     inputs: tuple[Input, ...]
@@ -138,43 +138,43 @@ class Derivation:
 
 
 @uncollected()
-def generate(model: Formulation, *, derivatives: bool = True) -> Derivation:
+def generate(formulation: Formulation, *, derivatives: bool = True) -> Derivation:
     """Derive a model and its functions.
 
     Parameters
     ----------
-    model
+    formulation
         Declaration.
     derivatives
         Also those of the right-hand side and of the signals by state and inputs, which take half
         of the time. A linearisation needs them, and a solver of stiff equations; no simulation
         with an explicit method does.
     """
-    return _Builder(model, derivatives=derivatives).build()
+    return _Builder(formulation, derivatives=derivatives).build()
 
 
-def _refuse_free(model: Formulation) -> None:
+def _refuse_free(formulation: Formulation) -> None:
     """See that the mechanism is fixed in the world: how it moves in it cannot be derived yet."""
     problems = [
         f"body {joint.second.name!r} moves freely in the world (joint {joint.name!r}), and there "
         "are no equations for that yet. Leave the joint out and let the body rest there, "
         f"Ground({joint.second.name!r}); topology and plan can be had as it is"
-        for joint in model.mechanism.joints
+        for joint in formulation.mechanism.joints
         if isinstance(joint, Free)
     ]
     if problems:
-        raise DeclarationError(model.name, problems)
+        raise DeclarationError(formulation.name, problems)
 
 
 class _Builder:
     """Collects the functions of one model from one program."""
 
-    def __init__(self, model: Formulation, *, derivatives: bool) -> None:
-        self.model = model
+    def __init__(self, formulation: Formulation, *, derivatives: bool) -> None:
+        self.formulation = formulation
         self.derivatives = derivatives
-        self.mechanism: Mechanism = model.mechanism
-        _refuse_free(model)
-        self.plan = Plan.of(model)
+        self.mechanism: Mechanism = formulation.mechanism
+        _refuse_free(formulation)
+        self.plan = Plan.of(formulation)
         self.assumed = find_assumptions(self.plan)
         self.constants = ConstantStage(
             tuple(sp.Symbol(p.name) for p in self.mechanism.parameters),
@@ -184,11 +184,12 @@ class _Builder:
         self.program = Program(self.constants)
         self.motion = InMotion.of(self.program, self.plan)
         self.moving = tuple(b.name for b in self.mechanism.moving)
-        self.massive = tuple(b for b in self.moving if model.has_mass(b))
+        self.massive = tuple(b for b in self.moving if formulation.has_mass(b))
         self._check_masses()
         self.dynamics = Dynamics(self.motion)
         self.relative = {part: RelativeCoordinates(part) for part in self.motion.parts}
         self.functions: dict[str, Function] = {}
+        self.variant_of: dict[str, str] = {}
         self.signals: list[Shown] = []
 
     def _check_masses(self) -> None:
@@ -198,19 +199,19 @@ class _Builder:
             f"independent joint {joint.name!r} moves no body of massive; name one there that it "
             "moves"
             for joint, k in zip(
-                self.model.independent, self.motion.coordinates.independent, strict=True
+                self.formulation.independent, self.motion.coordinates.independent, strict=True
             )
             if k not in moved
         ]
         if idle:
-            raise DeclarationError(self.model.name, idle)
+            raise DeclarationError(self.formulation.name, idle)
 
     def build(self) -> Derivation:
-        self._add_dynamics(self.dynamics, "")
-        for variant, joints in self.model.held.items():
+        self._add_dynamics(self.dynamics)
+        for variant, joints in self.formulation.held.items():
             names = [joint.name for joint in joints]
             held = Dynamics(InMotion.of(Program(self.constants), self.plan, names))
-            self._add_right_hand_side(held, f"_{variant}")
+            self._add_right_hand_side(held, variant)
         self._add_relative()
         self._add_poses()
         self._add_signals()
@@ -227,32 +228,31 @@ class _Builder:
         prepare = self.constants.function(self.functions.values(), assumed)
         self._check_symbols(prepare)
         return Derivation(
-            model=self.model,
+            formulation=self.formulation,
             plan=self.plan,
             state=self._state_entries(),
             inputs=tuple(self._inputs()),
             parameters=tuple(Entry(p.name, p.unit, p.meaning) for p in self.mechanism.parameters),
             relative=tuple(Entry(c.name, c.unit, c.meaning) for c in self.mechanism.coordinates),
             functions=self.functions,
-            emitted=staged(self.functions, self.model.cites),
+            emitted=staged(self.functions, self.formulation.cites),
             prepare=prepare,
-            design=design_state(self.model, [e.name for e in self._state_entries()]),
+            design=design_state(self.formulation, [e.name for e in self._state_entries()]),
             guards=guards,
             assumptions=assumed,
             conditions=tuple(self.constants.conditions.values()),
             moving_bodies=self.moving,
             massive_bodies=self.massive,
             signals=tuple(self.signals),
-            held_inputs={v: self._rate_inputs(j) for v, j in self.model.held.items()},
+            held_inputs={v: self._rate_inputs(j) for v, j in self.formulation.held.items()},
             order={name: place for place, name in enumerate(order)},
         )
 
     def _share(self) -> list[str]:
         """Write what the functions have in common in one way; return their steps in order."""
-        variants: dict[str, list[Function]] = {name: [] for name in ("", *self.model.held)}
+        variants: dict[str, list[Function]] = {name: [] for name in ("", *self.formulation.held)}
         for name, function in self.functions.items():
-            held = name.removeprefix("rhs_").removeprefix("jacobian_")
-            variants[held if held in self.model.held else ""].append(function)
+            variants[self.variant_of.get(name, "")].append(function)
         functions, order = share_together(variants, self.program.steps, self.constants.has)
         self.functions |= {function.name: function for function in functions}
         return order
@@ -269,7 +269,7 @@ class _Builder:
         given = {f"given_{c.name}" for c in self.mechanism.coordinates}
         states = {e.name for e in self._state_entries()}
         check_symbols(
-            self.model.name,
+            self.formulation.name,
             varying - given - states - {e.name for e in self._inputs()},
             [p.name for p in self.mechanism.parameters],
         )
@@ -277,10 +277,10 @@ class _Builder:
     def _varying_names(self) -> frozenset[str]:
         """Return the names of states, inputs and given coordinates."""
         coordinates = self.mechanism.coordinates
-        states = [c.name for c in coordinates if c.joint in self.model.independent]
+        states = [c.name for c in coordinates if c.joint in self.formulation.independent]
         rates = [f"{name}_rate" for name in states]
         given = [f"given_{c.name}" for c in coordinates]
-        return frozenset([*states, *rates, *given, *self.model.inputs])
+        return frozenset([*states, *rates, *given, *self.formulation.inputs])
 
     # -- arrays ---------------------------------------------------------------------------------
 
@@ -294,13 +294,17 @@ class _Builder:
 
     def _inputs(self) -> Iterator[Input]:
         """Yield what is given, but for forces along joints whose motion is: they do no work."""
-        acting = tuple(f for f in self.mechanism.forces if f.along not in self.model.prescribed)
+        acting = tuple(
+            f for f in self.mechanism.forces if f.along not in self.formulation.prescribed
+        )
         read = {part.name for part in parts(acting) if isinstance(part, Input)}
-        read |= {entry.name for motion in self.model.prescribed.values() for entry in motion.inputs}
-        yield from (entry for name, entry in self.model.inputs.items() if name in read)
+        read |= {
+            entry.name for motion in self.formulation.prescribed.values() for entry in motion.inputs
+        }
+        yield from (entry for name, entry in self.formulation.inputs.items() if name in read)
 
     def _rate_inputs(self, joints: Iterable[Joint]) -> tuple[str, ...]:
-        return tuple(rate for joint in joints for rate in self.model.prescribed[joint].rates)
+        return tuple(rate for joint in joints for rate in self.formulation.prescribed[joint].rates)
 
     def _acting_guards(self) -> tuple[Guard, ...]:
         """Return the guards of all functions; variants have the same ones under the same names."""
@@ -312,13 +316,13 @@ class _Builder:
         return [sp.Symbol(n) for n in (*names, *(f"{n}_rate" for n in names))]
 
     def _add(self, name: str, doc: str, results: dict[str, sp.Expr], *shape: int) -> None:
-        doc = _cited(doc, self.model.cites.get(name))
+        doc = _cited(doc, self.formulation.cites.get(name))
         self.functions[name] = self.program.pruned(name, doc, results, shape or None)
 
     # -- dynamics -------------------------------------------------------------------------------
 
-    def _add_dynamics(self, dynamics: Dynamics, suffix: str) -> None:
-        self._add_right_hand_side(dynamics, suffix)
+    def _add_dynamics(self, dynamics: Dynamics) -> None:
+        self._add_right_hand_side(dynamics)
         names = self.motion.coordinates.independent
         n = len(names)
         matrix = dynamics.full_mass_matrix()
@@ -344,17 +348,18 @@ class _Builder:
             dict(zip((f"Q[{k}]" for k in names), dynamics.full_forces(), strict=True)),
         )
 
-    def _add_right_hand_side(self, dynamics: Dynamics, suffix: str) -> None:
+    def _add_right_hand_side(self, dynamics: Dynamics, variant: str = "") -> None:
         names, program = self.motion.coordinates.independent, dynamics.program
         rates = {f"d({k})/dt": sp.Symbol(f"{k}_rate") for k in names}
         rates |= {f"d({k}_rate)/dt": dynamics.accelerations[k] for k in names}
-        what = "" if not suffix else f" with {suffix[1:].replace('_', ' ')}"
-        rhs, jacobian = f"rhs{suffix}", f"rhs_jacobian{suffix}"
+        what = f" with {variant.replace('_', ' ')}" if variant else ""
+        rhs, jacobian = ("_".join(filter(None, (n, variant))) for n in ("rhs", "rhs_jacobian"))
+        self.variant_of |= dict.fromkeys((rhs, jacobian), variant)
         self.functions[rhs] = program.pruned(rhs, f"Time derivative of the state{what}.", rates)
         self._add_derivatives(
             dynamics.program, jacobian, f"of {rhs}", rates.values(), list(rates), "state"
         )
-        if not suffix:
+        if not variant:
             self._add_derivatives(
                 program, "rhs_input_jacobian", "of rhs", rates.values(), list(rates), "inputs"
             )
@@ -543,7 +548,7 @@ class _Builder:
         for shown in (*self.dynamics.signals(), *declared):
             if shown.name in results:
                 problem = f"two signals are named {shown.name!r}; give the output another name"
-                raise DeclarationError(self.model.name, [problem])
+                raise DeclarationError(self.formulation.name, [problem])
             self.signals.append(shown)
             results[shown.name] = shown.value
         if not results:

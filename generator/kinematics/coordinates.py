@@ -24,7 +24,7 @@ class Coordinates:
 
     Parameters
     ----------
-    model
+    formulation
         Whose coordinates they are.
     held
         Prescribed joints that stand still in this variant.
@@ -46,17 +46,17 @@ class Coordinates:
     coordinate, and one for all others, whose biases are computed at the true rates.
     """
 
-    def __init__(self, model: Formulation, held: Iterable[str] = ()) -> None:
-        self.model = model
-        self._mechanism = model.mechanism
-        self._motions = {motion.name: motion for motion in model.prescribed.values()}
-        self._motion_of = {name: motion.name for name, motion in model.motions.items()}
+    def __init__(self, formulation: Formulation, held: Iterable[str] = ()) -> None:
+        self.formulation = formulation
+        self._mechanism = formulation.mechanism
+        self._motions = {motion.name: motion for motion in formulation.prescribed.values()}
+        self._motion_of = {name: motion.name for name, motion in formulation.motions.items()}
         self._held = frozenset(held)
-        self.driven = model.driven
+        self.driven = formulation.driven
         self._driven_names = frozenset(joint.name for joint in self.driven)
         self.symbols = {self.of(j): sp.Symbol(self._symbol(j)) for j in self.driven}
         self.moving = [self.of(j) for j in self.driven if j.name not in self._held]
-        self.independent = [self.of(j) for j in model.independent]
+        self.independent = [self.of(j) for j in formulation.independent]
 
     def of(self, joint: Joint) -> str:
         """Return the name of a driven joint's coordinate."""
@@ -108,7 +108,7 @@ class Coordinates:
     def rotors(self) -> dict[str, Body]:
         """The bodies of revolution at the end of a chain, by their independent spin coordinate."""
         rotors = {}
-        for joint in self.model.independent:
+        for joint in self.formulation.independent:
             body = joint.second
             leaf = len(self._mechanism.joints_of(body.name)) == 1
             if isinstance(joint, Revolute) and leaf and body.rotor_axis is not None:

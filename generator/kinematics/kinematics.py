@@ -78,7 +78,7 @@ class Kinematics:
     ) -> None:
         self.program = program
         self.coordinates = coordinates
-        self.mechanism = coordinates.model.mechanism
+        self.mechanism = coordinates.formulation.mechanism
         self._loops = loops
         self.at_defaults = AtDefaults(self.mechanism)
         self.bodies = frozenset(bodies)

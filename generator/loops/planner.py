@@ -100,7 +100,7 @@ class Plan:
 
     catalogue: ClassVar[Catalogue]
 
-    model: Formulation
+    formulation: Formulation
     topology: Topology
     transformers: list[Transformer] = field(default_factory=list)
     _known: Known = field(init=False, repr=False)
@@ -109,9 +109,9 @@ class Plan:
         self._known = Known(self._mechanism, self.topology)
 
     @classmethod
-    def of(cls, model: Formulation) -> Self:
+    def of(cls, formulation: Formulation) -> Self:
         """Analyse a model: choose the basis, the pairs and the order."""
-        plan = cls(model, Topology(model.mechanism))
+        plan = cls(formulation, Topology(formulation.mechanism))
         plan._known.placed.add(plan._mechanism.ground)
         plan._known.add_all(map(plan._mechanism.joint, plan._driven))
         plan._place_neighbours()
@@ -157,11 +157,11 @@ class Plan:
 
     @property
     def _driven(self) -> tuple[str, ...]:
-        return tuple(joint.name for joint in self.model.driven)
+        return tuple(joint.name for joint in self.formulation.driven)
 
     @property
     def _mechanism(self) -> Mechanism:
-        return self.model.mechanism
+        return self.formulation.mechanism
 
     # -- placing bodies -------------------------------------------------------------------------
 
@@ -192,7 +192,7 @@ class Plan:
 
     def _place_leftovers(self) -> None:
         for kind in self.catalogue.leftovers:
-            for step in kind.left(self._known, [body.name for body in self.model.massive]):
+            for step in kind.left(self._known, [body.name for body in self.formulation.massive]):
                 self._accept(step)
 
     # -- solving a loop -------------------------------------------------------------------------
@@ -240,7 +240,7 @@ class Plan:
         cycles = [cycle for cycle, _ in waiting]
         tried = (f.attempt(self._known, self._driven, cycles) for f in self.catalogue.iterations)
         attempt = next((a for a in tried if a), None)
-        if attempt is None or attempt.obstacle or not self.model.allow_iteration:
+        if attempt is None or attempt.obstacle or not self.formulation.allow_iteration:
             cycle = (attempt.cycles if attempt else cycles)[0]
             message = self._refusal(cycle, pair_candidates(self._known, cycle))
             hint = tilted(self._mechanism)
@@ -313,7 +313,7 @@ class Plan:
 
     def _miscounted(self) -> str:
         """Say by how much the driven coordinates differ from the degrees of freedom."""
-        driven = sum(j.freedoms for j in self.model.driven)
+        driven = sum(j.freedoms for j in self.formulation.driven)
         mobility = self.topology.mobility - len(self._mechanism.passive_links)
         if driven == mobility:
             return ""
@@ -347,8 +347,8 @@ class Plan:
         if missing:
             remedy = next(r for j in self._mechanism.joints if (r := self._leading_to(j)))
             message = (
-                f"model {self.model.name!r}: nothing determines the pose of {', '.join(missing)}; "
-                f"{remedy}"
+                f"model {self.formulation.name!r}: nothing determines the pose of "
+                f"{', '.join(missing)}; {remedy}"
             )
             raise NoClosedFormError(message, len(self.transformers))
 

@@ -109,15 +109,15 @@ class Search:
 
     Parameters
     ----------
-    model
+    formulation
         What it says of independent coordinates does not count.
     """
 
-    def __init__(self, model: Formulation) -> None:
-        self._model = model
-        mechanism = model.mechanism
+    def __init__(self, formulation: Formulation) -> None:
+        self._model = formulation
+        mechanism = formulation.mechanism
         self.mobility = Topology(mechanism).mobility - len(mechanism.passive_links)
-        given = model.motions
+        given = formulation.motions
         self._free = _free(mechanism)
         self.count = self.mobility - sum(j.freedoms for j in self._free) - len(given)
         self.candidates = [j.name for j in _candidates(mechanism) if j.name not in given]

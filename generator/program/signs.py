@@ -78,7 +78,8 @@ class _Signs:
             if unnamed and not says_nothing:
                 self.called[value] = first_free(f"minus_{step.symbol}", self._is_taken)
             return [Step(step.symbol, expression, step.section)]
-        minus = first_free(f"{LOCAL if says_nothing else 'minus_'}{step.symbol}", self._is_taken)
+        name = f"{step.symbol}_minus" if says_nothing else f"minus_{step.symbol}"
+        minus = first_free(name, self._is_taken)
         self.opposite[step.symbol] = -minus
         return [Step(minus, value, step.section), Step(step.symbol, -minus, step.section)]
 

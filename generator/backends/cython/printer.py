@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 class CythonPrinter:
     """Prints the addresses of the C functions of one model."""
 
-    def __init__(self, model: Derivation) -> None:
-        self.name = model.model.name
-        self._functions = model.emitted.values()
+    def __init__(self, derivation: Derivation) -> None:
+        self.name = derivation.formulation.name
+        self._functions = derivation.emitted.values()
 
     def addresses(self) -> str:
         """Return the text of the ``.pyx`` file."""

@@ -26,40 +26,44 @@ if TYPE_CHECKING:
 WIDTH = 100
 
 
-def manifest(model: Derivation) -> str:
+def manifest(derivation: Derivation) -> str:
     """Return the text of the file."""
-    return f"{_text(_facts(model), 0)}\n"
+    return f"{_text(_facts(derivation), 0)}\n"
 
 
-def _facts(model: Derivation) -> dict[str, Any]:
-    topology = model.plan.topology
-    name = model.model.name
-    parts = dict.fromkeys(f.part for f in model.emitted.values())
+def _facts(derivation: Derivation) -> dict[str, Any]:
+    topology = derivation.plan.topology
+    name = derivation.formulation.name
+    parts = dict.fromkeys(f.part for f in derivation.emitted.values())
     return {
         "name": name,
-        "title": model.model.title,
+        "title": derivation.formulation.title,
         "written_by": f"kintrafo {GENERATOR_VERSION}; do not edit: `make generate` writes it anew",
-        "mechanism": mechanism_hash(model),
-        "note": iteration_note(model),
+        "mechanism": mechanism_hash(derivation),
+        "note": iteration_note(derivation),
         "sources": [f"{name}.h", *(f"{'_'.join(filter(None, (name, p)))}.c" for p in parts)],
-        "parameters": parameters_of(model.model.mechanism),
-        "state": _described(model.state),
-        "inputs": _inputs(model.inputs),
-        "relative_coordinates": _described(model.relative),
-        "signals": {s.name: _signal(model.model.mechanism, s) for s in model.signals},
-        "bodies": model.moving_bodies,
-        "massive_bodies": model.massive_bodies,
-        "constants": model.prepare.labels,
-        "guards": [{"name": g.name, "unit": g.unit, "meaning": g.meaning} for g in model.guards],
-        "assumptions": _assumptions(model),
-        "held_variants": model.held_inputs,
-        "prepare": {"operations": _counts(model.prepare)},
+        "parameters": parameters_of(derivation.formulation.mechanism),
+        "state": _described(derivation.state),
+        "inputs": _inputs(derivation.inputs),
+        "relative_coordinates": _described(derivation.relative),
+        "signals": {
+            s.name: _signal(derivation.formulation.mechanism, s) for s in derivation.signals
+        },
+        "bodies": derivation.moving_bodies,
+        "massive_bodies": derivation.massive_bodies,
+        "constants": derivation.prepare.labels,
+        "guards": [
+            {"name": g.name, "unit": g.unit, "meaning": g.meaning} for g in derivation.guards
+        ],
+        "assumptions": _assumptions(derivation),
+        "held_variants": derivation.held_inputs,
+        "prepare": {"operations": _counts(derivation.prepare)},
         "stages": {
             stage.name: {"doc": stage.doc, "size": stage.size, "operations": _counts(stage)}
-            for stage in model.emitted.values()
-            if stage.name not in model.functions
+            for stage in derivation.emitted.values()
+            if stage.name not in derivation.functions
         },
-        "functions": _functions(model),
+        "functions": _functions(derivation),
         "mobility": topology.mobility,
         "numbers": topology.mechanism.numbers,
         "joints": [
@@ -75,7 +79,7 @@ def _facts(model: Derivation) -> dict[str, Any]:
         "cycles": [
             {"bodies": cycle.bodies, "length": cycle.length} for cycle in topology.candidate_cycles
         ],
-        "transformers": [_transformer(t) for t in model.plan.transformers],
+        "transformers": [_transformer(t) for t in derivation.plan.transformers],
     }
 
 
@@ -148,11 +152,11 @@ def _inputs(entries: Iterable[Input]) -> dict[str, dict[str, str | None]]:
     }
 
 
-def _assumptions(model: Derivation) -> list[dict[str, str]]:
+def _assumptions(derivation: Derivation) -> list[dict[str, str]]:
     """Return what is checked of a parameter set, in the order in which it is."""
     zero = [
         {"quantity": str(a.quantity), "unit": a.unit, "meaning": a.meaning, "remedy": a.remedy}
-        for a in model.assumptions
+        for a in derivation.assumptions
     ]
     not_zero = [
         {
@@ -162,27 +166,27 @@ def _assumptions(model: Derivation) -> list[dict[str, str]]:
             "meaning": c.meaning,
             "remedy": c.remedy,
         }
-        for c in model.conditions
+        for c in derivation.conditions
     ]
     return zero + not_zero
 
 
-def _functions(model: Derivation) -> dict[str, dict[str, Any]]:
+def _functions(derivation: Derivation) -> dict[str, dict[str, Any]]:
     """Return what is known of every array, and of what computes it."""
     found = {}
-    for emitted in model.emitted.values():
+    for emitted in derivation.emitted.values():
         start = 0
         for function in emitted.members:
             own: dict[str, Any] = {"operations": _counts(function)}
             if emitted.name != function.name:
                 own = {"stage": emitted.name, "start": start}
-            found[function.name] = _function(model, function) | own
+            found[function.name] = _function(derivation, function) | own
             start += function.size
-    return {name: found[name] for name in model.functions}
+    return {name: found[name] for name in derivation.functions}
 
 
-def _function(model: Derivation, function: Function) -> dict[str, Any]:
-    places = {guard.name: place for place, guard in enumerate(model.guards)}
+def _function(derivation: Derivation, function: Function) -> dict[str, Any]:
+    places = {guard.name: place for place, guard in enumerate(derivation.guards)}
     rows, columns = _split(function.labels)
     described: dict[str, Any] = {"doc": function.doc, "shape": function.shape, "labels": rows}
     described |= {"by": columns} if columns else {}

@@ -27,30 +27,32 @@ if TYPE_CHECKING:
 class ArraysPrinter:
     """Prints the functions of one model as Python over arrays."""
 
-    def __init__(self, model: Derivation) -> None:
-        self.model = model
+    def __init__(self, derivation: Derivation) -> None:
+        self.derivation = derivation
 
     def source(self) -> str:
         """Return the text of the file that stands in for the addresses of the C functions."""
-        names = ["prepare", "design_state", *self.model.emitted]
+        names = ["prepare", "design_state", *self.derivation.emitted]
         return template("numpy", "arrays.py").substitute(
-            name=self.model.model.name,
+            name=self.derivation.formulation.name,
             rounding=ROUNDING,
             functions="\n\n\n".join(
                 [
-                    *printed_blocks(blocks_of(self.model.emitted.values())),
+                    *printed_blocks(blocks_of(self.derivation.emitted.values())),
                     self._prepare(),
                     self._design(),
-                    *map(self._body, self.model.emitted.values()),
+                    *map(self._body, self.derivation.emitted.values()),
                 ]
             ),
             table="\n".join(f'    "{name}": {name},' for name in names),
         )
 
     def _prepare(self) -> str:
-        loads = loaded("parameters", [e.name for e in self.model.parameters], self.model.prepare)
+        loads = loaded(
+            "parameters", [e.name for e in self.derivation.parameters], self.derivation.prepare
+        )
         called = {
-            sp.Symbol(n): sp.Symbol(other) for n, other in names_in(self.model.prepare).items()
+            sp.Symbol(n): sp.Symbol(other) for n, other in names_in(self.derivation.prepare).items()
         }
 
         def told(expression: sp.Expr) -> str:
@@ -60,30 +62,33 @@ class ArraysPrinter:
             *(
                 f"not abs({told(a.quantity)}) > ROUNDING"
                 + ("" if a.scale == 1 else f" * {told(a.scale)}")
-                for a in self.model.assumptions
+                for a in self.derivation.assumptions
             ),
-            *(f"not abs({told(c.quantity)}) <= {told(c.least)}" for c in self.model.conditions),
+            *(
+                f"not abs({told(c.quantity)}) <= {told(c.least)}"
+                for c in self.derivation.conditions
+            ),
         ]
         holds = [f"{place}: {test}" for place, test in enumerate(tests)]
-        return definition(self.model.prepare, "parameters", loads, holds)
+        return definition(self.derivation.prepare, "parameters", loads, holds)
 
     def _design(self) -> str:
-        design = self.model.design
-        loads = loaded("parameters", [e.name for e in self.model.parameters], design)
+        design = self.derivation.design
+        loads = loaded("parameters", [e.name for e in self.derivation.parameters], design)
         return definition(design, "parameters", loads)
 
     def _body(self, function: Function | Stage) -> str:
         loads = [
-            *loaded("constants", self.model.prepare.labels, function),
-            *loaded("state", [e.name for e in self.model.state], function),
-            *loaded("inputs", [e.name for e in self.model.inputs], function),
+            *loaded("constants", self.derivation.prepare.labels, function),
+            *loaded("state", [e.name for e in self.derivation.state], function),
+            *loaded("inputs", [e.name for e in self.derivation.inputs], function),
         ]
         arguments = "constants, state, inputs"
         if reads_given(function):
             arguments += ", given"
-            names = [f"given_{e.name}" for e in self.model.relative]
+            names = [f"given_{e.name}" for e in self.derivation.relative]
             loads += loaded("given", names, function)
-        places = {guard.name: place for place, guard in enumerate(self.model.guards)}
+        places = {guard.name: place for place, guard in enumerate(self.derivation.guards)}
         called = names_in(function)
         holds = [
             f"{places[guard.name]}: {called.get(guard.quantity.name, guard.quantity)}"

@@ -14,17 +14,17 @@ if TYPE_CHECKING:
     from ...equations.outputs import Derivation
 
 
-def module(model: Derivation) -> str:
+def module(derivation: Derivation) -> str:
     """Return the text of the ``.py`` file."""
-    names = {"name": model.model.name, "title": model.model.title}
+    names = {"name": derivation.formulation.name, "title": derivation.formulation.title}
     return template("python", "model.py").substitute(names)
 
 
-def addresses_in(model: Derivation, library: str) -> str:
+def addresses_in(derivation: Derivation, library: str) -> str:
     """Return the text of a ``.py`` file that finds the functions in a library beside it."""
-    names = ["prepare", "design_state", *model.emitted]
+    names = ["prepare", "design_state", *derivation.emitted]
     return template("python", "addresses.py").substitute(
-        name=model.model.name,
+        name=derivation.formulation.name,
         library=library,
         functions="\n".join(f'        "{name}",' for name in names),
     )

@@ -37,7 +37,7 @@ def draw(plan: Plan, path: Path, *, force: bool = False) -> None:
     force
         Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
     """
-    mechanism, topology = plan.model.mechanism, plan.topology
+    mechanism, topology = plan.formulation.mechanism, plan.topology
     positions = nx.kamada_kawai_layout(topology.graph, weight=None)
     figure = Figure(figsize=(9.0, 6.2), layout="constrained")
     axes = figure.add_subplot()
@@ -89,7 +89,7 @@ def _draw_loop(
     shrink = 0.9
     xs = [center[0] + shrink * (c[0] - center[0]) for c in corners]
     ys = [center[1] + shrink * (c[1] - center[1]) for c in corners]
-    numbers = ", ".join(str(plan.model.mechanism.numbers[body]) for body in cycle.bodies)
+    numbers = ", ".join(str(plan.formulation.mechanism.numbers[body]) for body in cycle.bodies)
     axes.plot(
         xs,
         ys,

@@ -175,7 +175,7 @@ def build(
     """
     from ...generator.backends.files import own_files
 
-    library = f"lib{derived.model.name}.so" if compiler else None
+    library = f"lib{derived.formulation.name}.so" if compiler else None
     texts = own_files(derived, library)
     for file, text in texts.items():
         (folder / file).write_text(text, encoding="utf-8", newline="\n")

@@ -1,0 +1,308 @@
+"""Print the sources of a model: straight-line functions, each step of which is there once.
+
+No allocation, no global state, no ``pow``; every function returns a status word.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from typing import TYPE_CHECKING
+
+from ....equations import following
+from ...program.floors import ROUNDING
+from ..schedule import schedule
+from ..sharing import scheduled, together
+from ..templates import template
+from ..text import text_of, written, written_values
+from ..words import FORMULA, blocks_of, reads_given
+from .common import ARGUMENTS, WIDTH, CText
+from .iteration import call_of, once
+from .statements import declared, in_all_lanes, printed, wrapped
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Mapping, Sequence
+
+    import sympy as sp
+
+    from ...program.function import Block, Function, Stage
+    from ...program.steps import Guard
+    from ..sharing import Part
+
+COMPUTE = (
+    "/* All functions of this file: the steps, each once, and the results of the one wanted. */"
+)
+
+
+class Source(CText):
+    """The source files of one model."""
+
+    @property
+    def parts(self) -> list[str]:
+        """The source files of the model, by what their names add to the model's."""
+        return list(dict.fromkeys(["", *(f.part for f in self.derivation.emitted.values())]))
+
+    def file_name(self, part: str) -> str:
+        """Return the name of a source file."""
+        return "_".join(filter(None, (self.prefix, part))) + ".c"
+
+    def text(self, part: str = "") -> str:
+        """Return the text of a source file."""
+        functions = [f for f in self.derivation.emitted.values() if f.part == part]
+        text_functions = "\n#include <string.h>" if blocks_of(functions) else ""
+        null = "\n#include <stddef.h>" if any(map(reads_given, functions)) else ""
+        blocks = [
+            self.banner(),
+            f'#include "{self.prefix}.h"\n\n#include <math.h>{null}{text_functions}',
+            template("c", "inlined.c").template.strip(),
+            template("c", "scalars.c").template.strip(),
+            *self._blocks(blocks_of(functions)),
+            *([] if part else [*self._rounding(), self._prepare_body(), self._design_body()]),
+            *self._functions(functions),
+        ]
+        return "\n\n".join(blocks) + "\n"
+
+    @property
+    def _in_lanes(self) -> frozenset[str]:
+        """The functions that a simulation evaluates, of many systems at once."""
+        variants = (f"rhs_{variant}" for variant in self.derivation.held_inputs)
+        return frozenset({"rhs", *variants, "signals", "margins"})
+
+    def _rounding(self) -> list[str]:
+        if not self.derivation.assumptions:
+            return []
+        comment = (
+            "/* What is still zero: of an angle in rad, of a distance as a part of a length. */"
+        )
+        return [f"{comment}\n#define ROUNDING {ROUNDING}"]
+
+    def _blocks(self, blocks: Sequence[Block]) -> list[str]:
+        """Print what follows loops, and the equations of each."""
+        if not blocks:
+            return []
+        sizes = {
+            "unknowns": max(len(block.unknowns) for block in blocks),
+            "elements": max(len(block.elements) for block in blocks),
+            "driven": max(1, *(len(block.driven) for block in blocks)),
+        }
+        text = template("c", "follow.c").substitute(vars(following), **sizes).strip()
+        return [text, *(part for block in blocks for part in (once(block), call_of(block)))]
+
+    def _prepare_body(self) -> str:
+        prepare, count = self.derivation.prepare, f"{self.upper}_CONSTANT_COUNT"
+        values = [e.name for e in self.derivation.parameters]
+        kept = set(prepare.labels)
+        read = {s.name for s in prepare.free_symbols}
+        taken = read.union(step.name for step in scheduled(prepare).steps)
+        c = _free("c", taken)
+        names = {name: f"{c}->{name}" for name in prepare.labels}
+        results = written(prepare, FORMULA, names)[1]
+        lines = [
+            self.from_parameters("prepare", "constants", "status_word"),
+            "{",
+            f"    struct {self.prefix}_constants *const {c} = (void *)constants;",
+            *declared([f"{n} = parameters[{i}]" for i, n in enumerate(values) if n in read - kept]),
+            *(f"    {c}->{n} = parameters[{i}];" for i, n in enumerate(values) if n in kept),
+            *printed(scheduled(prepare).steps, names),
+            *(
+                f"    {names[name]} = {in_all_lanes(value)};"
+                for name, value in zip(prepare.labels, results, strict=True)
+                if value != names[name]  # one whose value another one has
+            ),
+            "",
+            f"    status_word failed = first_not_finite(constants, {count});",
+            *self._assumptions(c),
+            "    return failed;",
+            "}",
+        ]
+        return "\n".join(lines)
+
+    def _design_body(self) -> str:
+        design = self.derivation.design
+        read = {s.name for s in design.free_symbols}
+        values = [e.name for e in self.derivation.parameters]
+        loads = [f"{n} = parameters[{i}]" for i, n in enumerate(values) if n in read]
+        finite = self.enumerator("status", "not_finite")
+        results = written(design, FORMULA)[1]
+        return "\n".join(
+            [
+                self.from_parameters("design_state", "state", "status_word"),
+                "{",
+                *(declared(loads) or ["    (void)parameters;"]),
+                *printed(scheduled(design).steps, {}),
+                "",
+                *(f"    state[{i}] = {in_all_lanes(value)};" for i, value in enumerate(results)),
+                f"    return finite_bit(state, {len(self.derivation.state)}, {finite});",
+                "}",
+            ]
+        )
+
+    def _assumptions(self, c: str) -> list[str]:
+        """Return the checks of what must be zero, and of what must not; the first one counts."""
+
+        def constant(expression: sp.Expr) -> str:
+            return text_of(schedule(expression), FORMULA, lambda symbol: f"{c}->{symbol.name}")
+
+        tests = [
+            *(
+                f"fabs({constant(a.quantity)}) > ROUNDING"
+                + ("" if a.scale == 1 else f" * {constant(a.scale)}")
+                for a in self.derivation.assumptions
+            ),
+            *(
+                f"fabs({constant(k.quantity)}) <= {constant(k.least)}"
+                for k in self.derivation.conditions
+            ),
+        ]
+        numbered = [
+            f"    failed = either({test}, {self.upper}_CONSTANT_COUNT + {number}, failed);"
+            for number, test in enumerate(tests, 1)
+        ]
+        return numbered[::-1]
+
+    def _functions(self, functions: Sequence[Function | Stage]) -> list[str]:
+        """Print functions: what they compute, each step once, and each of them as a call of it."""
+        given = any(map(reads_given, functions))
+        wanted = ", ".join(map(self._wanted, functions))
+        return [
+            "\n".join(wrapped(f"enum {self.prefix}_function {{ {wanted} }};", 0)),
+            self._compute(functions, given=given),
+            *(self._call(f, given=given) for f in functions if f.name in self._in_lanes),
+            *_plain(
+                [self._call(f, given=given) for f in functions if f.name not in self._in_lanes]
+            ),
+        ]
+
+    def _wanted(self, function: Function | Stage) -> str:
+        return f"{self.upper}_{function.name.upper()}"
+
+    def _call(self, function: Function | Stage, *, given: bool) -> str:
+        arguments = [self._wanted(function), "constants", "state", "inputs"]
+        if given:
+            arguments.append("given" if reads_given(function) else "NULL")
+        call = f"compute({', '.join(arguments)}, out)"
+        return f"{self.signature(function, 'status_word')}\n{{\n    return {call};\n}}"
+
+    def _compute(self, functions: Sequence[Function | Stage], *, given: bool) -> str:
+        """Print what all functions compute, each step once."""
+        relative = {f"given_{e.name}" for e in self.derivation.relative}
+        whole = together(functions, self.derivation.order, relative)
+        c = _free("c", whole.names)
+        names = {name: f"{c}->{name}" for name in self.derivation.prepare.labels}
+        start = "INLINED status_word compute("
+        indent, more = " " * len(start), " const double *restrict given," * given
+        lines = [
+            COMPUTE,
+            f"{start}const enum {self.prefix}_function wanted,",
+            f"{indent}{ARGUMENTS}",
+            f"{indent}const double *restrict inputs,{more} double *restrict out)",
+            "{",
+            *self._pointer(c, whole.reads),
+            *self._loads(whole.reads),
+            *printed(whole.steps, names),
+            "",
+            "    status_word status = {0};",
+        ]
+        for function, part in zip(functions, whole.parts, strict=True):
+            body = self._part(function, part, names)
+            lines += [
+                "",
+                f"    if (wanted == {self._wanted(function)}) {{",
+                *(f"    {line}" if line else "" for line in body[body[0] == "" :]),
+                "    }",
+            ]
+        return "\n".join([*lines, "    return status;", "}"])
+
+    def _pointer(self, c: str, read: Collection[str]) -> list[str]:
+        """Return the declaration of the constants; mark what is not read."""
+        labels, states = self.derivation.prepare.labels, [e.name for e in self.derivation.state]
+        unread = {"state": states, "inputs": [e.name for e in self.derivation.inputs]}
+        lines = [f"    (void){n};" for n, names in unread.items() if not {*names} & {*read}]
+        if not {*labels} & {*read}:
+            return ["    (void)constants;", *lines]
+        pointer = f"    const struct {self.prefix}_constants *const {c} = (const void *)constants;"
+        return [pointer, *lines]
+
+    def _loads(self, read: Collection[str]) -> list[str]:
+        """Return the declarations of what is read of state, inputs and given coordinates."""
+        arrays = {
+            "state": [e.name for e in self.derivation.state],
+            "inputs": [e.name for e in self.derivation.inputs],
+            "given": [f"given_{e.name}" for e in self.derivation.relative],
+        }
+        return declared(
+            [
+                f"{name} = {array}[{i}]"
+                for array, names in arrays.items()
+                for i, name in enumerate(names)
+                if name in read
+            ]
+        )
+
+    def _part(self, function: Function | Stage, part: Part, names: Mapping[str, str]) -> list[str]:
+        """Print the results of a function, and the steps that it alone has."""
+        lines = [*self._loads(part.reads), *printed(part.steps, names)]
+        texts, start = written_values(part.results, FORMULA, names), 0
+        for member in function.members:
+            lines += self._results(member, texts[start : start + member.size], start)
+            start += member.size
+        return [*lines, "", *self._status_of(function, part, names)]
+
+    @staticmethod
+    def _results(part: Function, texts: Sequence[str], start: int) -> list[str]:
+        """Return the assignments of an array: row by row, and then what is zero."""
+        rows = [label.partition(" by ") for label in part.labels]
+        columns = dict.fromkeys(column for _, _, column in rows if column)
+        title = f"/* {part.name}{' by ' if columns else ''}{', '.join(columns)} */"
+        lines = [
+            "",
+            *textwrap.wrap(title, WIDTH, initial_indent="    ", subsequent_indent="       "),
+        ]
+        zeros, last = [], ""
+        for place, ((row, by, _), value) in enumerate(zip(rows, texts, strict=True), start):
+            if value == "0.0":
+                zeros.append(f"out[{place}]")
+                continue
+            text, label = f"out[{place}] = {in_all_lanes(value)};", f"/* {row} */"
+            fits = len(text) + len(label) < WIDTH - 8
+            if not (by and row == last):
+                lines += [] if fits else [f"    {label}"]
+                text += f" {label}" if fits else ""
+            lines += wrapped(text, 4)
+            last = row
+        if zeros:
+            lines += textwrap.wrap(
+                f"{' = '.join(zeros)} = {in_all_lanes('0.0')};",
+                WIDTH,
+                initial_indent="    ",
+                subsequent_indent="        ",
+            )
+        return lines
+
+    def _status_of(
+        self, function: Function | Stage, part: Part, names: Mapping[str, str]
+    ) -> list[str]:
+        """Collect the status: comparisons only, no branch.
+
+        A NaN or infinity that goes in comes out as one, or is caught by a guard.
+        """
+
+        def bit(guard: Guard) -> str:
+            floor = text_of(schedule(guard.floor), FORMULA, lambda s: names.get(s.name, s.name))
+            quantity = part.names.get(guard.quantity.name, guard.quantity)
+            return f"guard_bit({quantity}, {floor}, {self.enumerator('status', guard.name)})"
+
+        acting = {guard.name: guard for guard in function.guards}
+        bits = [bit(acting[g.name]) for g in self.derivation.guards if g.name in acting]
+        finite = self.enumerator("status", "not_finite")
+        bits.append(f"finite_bit(out, {function.size}, {finite})")
+        return [f"    status |= {bit};" for bit in bits]
+
+
+def _plain(texts: Sequence[str]) -> list[str]:
+    """Leave out, where numbers are vectors, what no simulation evaluates."""
+    return ["#ifndef KINTRAFO_LANES", *texts, "#endif"] if texts else []
+
+
+def _free(name: str, taken: Collection[str]) -> str:
+    """Return a name that nothing else in a function has."""
+    return next(n for n in (name, f"{name}_", f"{name}__") if n not in taken)

@@ -1,0 +1,69 @@
+"""Print statements: declarations, assignments, and the words between them."""
+
+from __future__ import annotations
+
+import string
+import textwrap
+from itertools import groupby
+from typing import TYPE_CHECKING
+
+from ..text import Written, written_steps
+from ..words import FORMULA
+from .common import WIDTH
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from ..schedule import Assignment
+
+_LETTERS = frozenset(string.ascii_letters) - {"e"}
+"""What a value has that is no number alone."""
+
+
+def printed(steps: Sequence[Assignment], names: Mapping[str, str]) -> list[str]:
+    """Return assignments, with the parts of the derivation in between."""
+    lines: list[str] = []
+    for section, group in groupby(written_steps(steps, FORMULA, names), key=lambda s: s.section):
+        lines += ["", f"    /* {section} */"]
+        for kind, run in groupby(group, key=_kind):
+            texts = [f"{step.name} = {in_all_lanes(step.text)}" for step in run]
+            lines += declared(texts) if kind == "const double" else _each(kind, texts)
+    return lines
+
+
+def declared(assignments: Sequence[str]) -> list[str]:
+    """Return the declaration of some numbers, one on a line."""
+    if not assignments:
+        return []
+    texts = [f"{text}," for text in assignments[:-1]] + [f"{assignments[-1]};"]
+    return ["    const double", *(line for text in texts for line in wrapped(text, 8))]
+
+
+def in_all_lanes(text: str) -> str:
+    """Write a value; one that is a number has to be told that it may stand for a vector."""
+    return text if set(text) & _LETTERS else f"number({text})"
+
+
+def _each(kind: str, assignments: Sequence[str]) -> list[str]:
+    """Return assignments that are statements of their own."""
+    start = f"{kind} " if kind else ""
+    return [line for text in assignments for line in wrapped(f"{start}{text};", 4)]
+
+
+def wrapped(text: str, indent: int) -> list[str]:
+    """Break a statement into lines."""
+    return textwrap.wrap(
+        text,
+        WIDTH,
+        initial_indent=" " * indent,
+        subsequent_indent=" " * (indent + 4),
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
+
+
+def _kind(step: Written) -> str:
+    """Return how a step is declared: a number, what an iteration returns, or an element."""
+    if step.kind == "iterate":
+        return f"const struct {step.of}"
+    return "" if "->" in step.name else "const double"
