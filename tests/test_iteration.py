@@ -492,8 +492,8 @@ def test_angles_of_the_links_can_be_reported() -> None:
 
 def design_angle(derived: Derivation) -> float:
     """Return the angle of the arm at the design position."""
-    parameters = {p.name: p.default for p in derived.model.mechanism.parameters}
-    return float(Built(derived.model, None, parameters).design[0])
+    parameters = {p.name: p.default for p in derived.formulation.mechanism.parameters}
+    return float(Built(derived.formulation, None, parameters).design[0])
 
 
 # -- what is refused ------------------------------------------------------------------------------

@@ -366,7 +366,7 @@ def test_guide_along_the_pins_is_a_guide_that_does_not_miss_them(built: Built) -
 
 def evaluated(derived: Any, state: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
     """Evaluate the right-hand side of a derived model in many digits."""
-    defaults = {p.name: p.default for p in derived.model.mechanism.parameters}
+    defaults = {p.name: p.default for p in derived.formulation.mechanism.parameters}
     values = constants_of(derived, defaults)
     values |= dict(zip([e.name for e in derived.state], map(mpf, state), strict=True))
     return np.array([float(x) for x in python(derived.functions["rhs"])(values)])

@@ -309,7 +309,7 @@ def test_what_is_common_is_what_sympy_finds() -> None:
 
 
 def test_without_derivatives_the_other_functions_are_the_same(four_bar: Derivation) -> None:
-    bare = generate(four_bar.model, derivatives=False)
+    bare = generate(four_bar.formulation, derivatives=False)
     left_out = {"rhs_jacobian", "rhs_input_jacobian", "signals_jacobian", "signals_input_jacobian"}
     assert four_bar.functions.keys() - bare.functions.keys() == left_out
     for name, function in bare.functions.items():
