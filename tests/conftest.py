@@ -28,6 +28,25 @@ if TYPE_CHECKING:
 settings.register_profile("calm", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("calm")
 
+# Each of them takes more than a fiftieth of the whole time.
+_LONGEST = (
+    "test_iteration_loops.py",
+    "test_mechanisms.py",
+    "test_report_browser.py",
+    "test_iteration.py",
+    "test_fuzz.py",
+    "test_sanitizers.py",
+    "test_own_mechanism.py",
+    "test_stages.py",
+    "test_copies.py",
+    "test_emitted_c.py",
+    "test_assumptions.py",
+    "test_cli_commands.py",
+    "test_conditioning.py",
+    "test_dead_points.py",
+    "test_general_free_rack.py",
+)
+
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption(
@@ -47,6 +66,12 @@ def pytest_itemcollected(item: pytest.Item) -> None:
     """Mark what holds numbers against an oracle: their last bits are a processor's."""
     if _compares(getattr(item, "module", None)):
         item.add_marker("numbers")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with the files that take longest, so that no process waits for one at the end."""
+    places = {name: place for place, name in enumerate(_LONGEST)}
+    items.sort(key=lambda item: places.get(item.path.name, len(places)))
 
 
 def pytest_collection_finish() -> None:

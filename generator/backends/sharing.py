@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass, field
-from itertools import count
+from itertools import chain, count
 from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
@@ -209,7 +209,7 @@ class _Values:
 
     def _name(self, value: int, name: str) -> None:
         if value not in self.named:
-            names = (name, *(f"{name}_{i}" for i in range(2, 100)))
+            names = chain((name,), (f"{name}_{i}" for i in count(2)))
             self.named[value] = next(n for n in names if n not in self.taken)
             self.taken.add(self.named[value])
 
