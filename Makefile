@@ -1,7 +1,7 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
 .PHONY: drawings help setup generate build run test test-elsewhere fuzz package lint tree types format baseline clean \
-	benchmark benchmark-andrews benchmark-bits benchmark-ensemble benchmark-growth benchmark-loops benchmark-page benchmark-peers benchmark-speed format-page front-axle-page report-assets
+	benchmark benchmark-andrews benchmark-bits benchmark-ensemble benchmark-growth benchmark-loops benchmark-page benchmark-peers benchmark-speed benchmark-studies format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
 EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/equations/*.pyx runtime/simulation/native/*.pyx runtime/simulation/*/*.[ch])
@@ -99,6 +99,9 @@ format-page: build ## The input file's JSON Schema, and its page in docs/
 benchmark-bits: build ## Which results are the same bits on another processor
 	@$(PYTHON) -m benchmarks.same_bits --page docs/conventions.md
 
+benchmark-studies: build ## How long sensitivity, tolerance and optimise take; the pictures of docs/studies.md
+	@$(PYTHON) -m benchmarks.studies
+
 benchmark-speed: build ## Times of everything, with pytest-benchmark (ARGS=--benchmark-compare)
 	@$(PYTHON) -m pytest -q benchmarks/test_speed.py -p no:xdist --benchmark-only \
 		--benchmark-columns=min,median,ops,rounds --benchmark-sort=name $(ARGS)
@@ -117,4 +120,4 @@ baseline: build ## Store the present operation counts as the baseline
 	@$(PYTHON) -m pytest -q tests/test_operation_counts.py --update-baseline
 
 clean: ## Remove everything that can be made again
-	rm -rf .venv build out dist *.egg-info generated/*.so runtime/*/*.so runtime/simulation/native/*.so .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf .venv build out dist *.egg-info generated/*.so runtime/*/*.so runtime/*/*/*.so .pytest_cache .mypy_cache .ruff_cache .hypothesis

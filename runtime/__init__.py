@@ -124,6 +124,7 @@ _INTERFACES = {
     "starter": ".suspension.starter",
     "sweep": ".study.sweep",
     "topology": ".systems.topology",
+    "variation": ".study.variation",
 }
 
 

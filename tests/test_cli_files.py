@@ -14,6 +14,7 @@ ROOT = Path(__file__).parent.parent
 CAR = "reference_car"
 TEXT = (ROOT / "runtime/suspension/data/reference_car.toml").read_text(encoding="utf-8")
 CHRONO = ROOT / "tests/data/chrono/MacPhersonStrut.json"
+STUDIES = ROOT / "tests/data/studies"
 FULL = Path("/dev/full")
 
 
@@ -33,6 +34,15 @@ WRITING = {
     "characteristics": (["characteristics", CAR, "-o", "a.nc"], "a_rack.nc"),
     "simulate": (["simulate", CAR, "-o", "a.parquet"], "a.parquet"),
     "compare": (["compare", CAR, CAR, "--plot", "a.pdf"], "a.pdf"),
+    "sensitivity": (
+        ["sensitivity", CAR, "--place", "hardpoints.ball_joint.z", "-o", "a.nc"],
+        "a.nc",
+    ),
+    "tolerance": (
+        ["tolerance", CAR, str(STUDIES / "tolerances.toml"), "--cars", 2, "--plot", "a.svg"],
+        "a.svg",
+    ),
+    "optimise": (["optimise", CAR, str(STUDIES / "goals.toml"), "-o", "a.toml"], "a.toml"),
     "report": (["report", CAR], f"{CAR}.html"),
     "paper": (["paper", "."], "figure_6_wheel_motion.svg"),
 }

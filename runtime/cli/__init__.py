@@ -13,10 +13,13 @@ from . import (
     import_chrono,
     kinematics,
     new,
+    optimise,
     paper,
     report,
     schema,
+    sensitivity,
     simulate,
+    tolerance,
     topology,
 )
 from .exits import guarded, standing_streams
@@ -49,6 +52,7 @@ def _flowing(docstring: str) -> str:
 _PANELS = {
     "Begin": (new, import_chrono, schema, check, topology),
     "Compute": (kinematics, characteristics, simulate, compare),
+    "Design": (sensitivity, tolerance, optimise),
     "Hand over": (report, paper, generate),
 }
 for panel, modules in _PANELS.items():

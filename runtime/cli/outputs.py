@@ -126,13 +126,18 @@ class Outputs:
         suffix : str, optional
             Goes behind the name of each file, where a command has several datasets.
         """
+        written = self.write_data(dataset, suffix)
+        if self.pages or self.figures:
+            rule: _Rule = {"force": self.force, "inputs": self.inputs}
+            written += self._drawn(dataset, title, names, suffix, rule)
+        return written
+
+    def write_data(self, dataset: "Dataset", suffix: str = "") -> list[Path]:
+        """Write the data files alone and return them."""
         from ..study import export
 
         rule: _Rule = {"force": self.force, "inputs": self.inputs}
-        written = [export.write(dataset, _named(path, suffix), **rule) for path in self.data]
-        if self.pages or self.figures:
-            written += self._drawn(dataset, title, names, suffix, rule)
-        return written
+        return [export.write(dataset, _named(path, suffix), **rule) for path in self.data]
 
     def _drawn(
         self, dataset: "Dataset", title: str, names: Sequence[str], suffix: str, rule: "_Rule"

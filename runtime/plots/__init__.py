@@ -3,6 +3,7 @@
 `curves`    the variables of a dataset, each in a figure or grouped on a page
 `figures`   the figures of the paper, and the style of them all
 `overview`  one picture of a suspension
+`variation` effects of values of the input file, and bands of tolerances
 """
 
 from .curves import FORMATS, check_formats, figure, grouped, write, write_overview

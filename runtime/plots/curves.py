@@ -17,17 +17,15 @@ from matplotlib import colormaps, rc_context
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.figure import Figure
-from matplotlib.text import Text
 from matplotlib.ticker import MaxNLocator, ScalarFormatter
 from numpy.typing import NDArray
 
 from ..core.arguments import Arguments, shown
 from ..core.errors import InputError
 from ..core.files import Paths, refuse, replacing
-from ..core.legible import legible
 from ..core.quantities import bracketed, display_of, displayed, long_name
 from ..study.characteristics.groups import ORDER, group_of
-from .figures import BLUE, GREEN, METADATA, ORANGE, STYLE, lay_out, save
+from .figures import BLUE, GREEN, METADATA, ORANGE, STYLE, lay_out, save, written_plainly
 
 Array = NDArray[np.float64]
 
@@ -263,11 +261,7 @@ def figure(
         axes.remove()
     _legend(result, panels[0], dataset[names[0]], alone=alone)
     result.suptitle("\n".join(line for line in (title, _held(dataset)) if line), fontsize=11)
-    for text in result.findobj(Text):
-        # what a person wrote stands there as it was written, dollars and all
-        text.set_parse_math(False)
-        text.set_text("\n".join(map(legible, text.get_text().split("\n"))))
-    return result
+    return written_plainly(result)
 
 
 def _curves(dataset: xr.Dataset) -> tuple[Hashable, ...]:

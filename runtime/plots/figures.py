@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 from numpy.typing import NDArray
 
 from ..core.files import Paths, refuse, replacing
@@ -70,6 +71,14 @@ def save(figure: Figure, path: str | Path, *, force: bool = False, inputs: Paths
     with replacing(path, force=force, inputs=inputs) as temporary:
         temporary.write_bytes(drawn.getvalue())
     return Path(path)
+
+
+def written_plainly(figure: Figure) -> Figure:
+    """Let what a person wrote stand there as it was written, dollars and all."""
+    for text in figure.findobj(Text):
+        text.set_parse_math(False)
+        text.set_text("\n".join(map(legible, text.get_text().split("\n"))))
+    return figure
 
 
 def lay_out(figure: Figure) -> Figure:

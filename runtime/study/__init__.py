@@ -7,6 +7,7 @@
 `measurement`, `excitation`    roads, racks and forces from a file, and from formulas besides
 `scenario`         a motion that is described by data
 `ensembles`        many cars at once
+`variation`        what becomes of the characteristics where values of the file change
 `recording`        a simulation as a labelled dataset
 `export`           datasets as files
 `paper`            what the paper shows of its suspension

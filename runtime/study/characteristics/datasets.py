@@ -1,6 +1,6 @@
 """Characteristics over wheel travel and over rack travel, as labelled arrays."""
 
-from collections.abc import Iterable
+from collections.abc import Container, Iterable
 
 import xarray as xr
 from numpy.typing import ArrayLike
@@ -15,14 +15,14 @@ from .catalogue import Quantity
 from .from_model import corner
 from .wheel import steer, steer_gradient
 
-_TRAVEL = Quantity(
+TRAVEL = Quantity(
     "wheel_travel",
     "m",
     "wheel travel",
     "height of the wheel centre above its design height",
     "positive in bump",
 )
-_RACK = Quantity(
+RACK = Quantity(
     "rack_position",
     "m",
     "rack displacement",
@@ -74,10 +74,8 @@ def travel(
         if travel is not None:
             travel = given.array("travel", travel, "m", dimensions=[1])
     travels = usual_travel(model, rack=rack_position) if travel is None else travel
-    angles = arm_angles(model, design_height(model) + travels, rack_position)
-    found = corner(model, angles, rack_position)
-    data = _evaluated(catalogue.CORNER + catalogue.TRAVEL, found)
-    return _dataset(data, _TRAVEL, travels, {_RACK: rack_position})
+    data = over_travel(model, travels, rack_position)
+    return _dataset(data, TRAVEL, travels, {RACK: rack_position})
 
 
 def steering(model: Model, rack: ArrayLike | None = None, *, travel: float = 0.0) -> xr.Dataset:
@@ -119,10 +117,31 @@ def steering(model: Model, rack: ArrayLike | None = None, *, travel: float = 0.0
         if rack is not None:
             rack = given.array("rack", rack, "m", dimensions=[1])
     racks = usual_rack(model, travel=travel) if rack is None else rack
+    return _dataset(over_rack(model, racks, travel), RACK, racks, {TRAVEL: travel})
+
+
+def over_travel(
+    model: Model, travels: Array, rack_position: float = 0.0, names: Container[str] | None = None
+) -> dict[Quantity, Array]:
+    """Return characteristics over wheel travel without labels, all or some; see `travel`."""
+    angles = arm_angles(model, design_height(model) + travels, rack_position)
+    quantities = _chosen(catalogue.CORNER + catalogue.TRAVEL, names)
+    return _evaluated(quantities, corner(model, angles, rack_position))
+
+
+def over_rack(
+    model: Model, racks: Array, travel: float = 0.0, names: Container[str] | None = None
+) -> dict[Quantity, Array]:
+    """Return characteristics over rack travel without labels, all or some; see `steering`."""
     own = _at_height(model, travel, racks)
-    other = _at_height(model.mirror_image, travel, racks)
-    data = _evaluated(catalogue.CORNER + catalogue.STEERING, own) | _both_sides(own, other)
-    return _dataset(data, _RACK, racks, {_TRAVEL: travel})
+    found = _evaluated(_chosen(catalogue.CORNER + catalogue.STEERING, names), own)
+    if _chosen(catalogue.AXLE.values(), names):
+        found |= _both_sides(own, _at_height(model.mirror_image, travel, racks))
+    return found
+
+
+def _chosen(quantities: Iterable[Quantity], names: Container[str] | None) -> tuple[Quantity, ...]:
+    return tuple(q for q in quantities if names is None or q.name in names)
 
 
 def _at_height(model: Model, travel: float, racks: Array) -> Corner:

@@ -25,6 +25,7 @@ from kintrafo import (
     roads,
     scenario,
     sweep,
+    variation,
 )
 from kintrafo.generated import four_bar
 from kintrafo.study.recording import dataset_of, statistics
@@ -54,6 +55,7 @@ NASTY = [
 ]  # fmt: skip
 
 _SPAN = (0.0, 0.01)
+_ROD = "hardpoints.tie_rod_inner.z"
 
 
 def _event(value, **attributes):
@@ -101,6 +103,39 @@ CALLS = {
     "reductions": (
         lambda kind: kintrafo.ensemble(_CAR, None, _SPAN, _REST, reductions={"camber": kind}),
         {"kind": "max"},
+    ),
+    "sensitivity": (
+        variation.sensitivity,
+        {
+            "suspension": _CAR.suspension, "places": [_ROD], "over": "travel",
+            "positions": [0.0, 0.01], "names": ["camber"],
+        },
+    ),
+    "tolerance": (
+        variation.tolerance,
+        {
+            "suspension": _CAR.suspension, "tolerances": {_ROD: 1.0}, "distribution": "normal",
+            "correlation": [[1.0]], "limits": {"toe": {"least": -1.0}}, "count": 2, "seed": 1,
+            "over": "travel", "positions": [0.0, 0.01], "names": ["camber"],
+        },
+    ),
+    "optimise": (
+        variation.optimise,
+        {
+            "suspension": _CAR.suspension, "free": {_ROD: 1.0},
+            "targets": {"bump_steer": {"value": 0.0, "within": 1.0}},
+            "limits": {"toe": {"least": -1.0}},
+        },
+    ),
+    "targets": (
+        lambda **given: variation.optimise(_CAR.suspension, {_ROD: 1.0}, {"toe": given}),
+        {"value": 0.0, "within": 1.0, "at_mm": [0.0, 1.0], "over": "travel"},
+    ),
+    "limits": (
+        lambda **given: variation.tolerance(
+            _CAR.suspension, {_ROD: 1.0}, limits={"toe": given}, count=2, positions=[0.0]
+        ),
+        {"least": -1.0, "most": 1.0, "at_mm": [0.0, 1.0], "over": "travel"},
     ),
     "SignalEvent": (
         lambda **given: kintrafo.simulate(

@@ -1,0 +1,100 @@
+"""How long studies of a suspension take: `make benchmark-studies` fills docs/studies.md."""
+
+import platform
+import shutil
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from kintrafo import Suspension, variation
+from kintrafo.plots import curves as plots
+from kintrafo.plots import variation as pictures
+from kintrafo.study.compare import compare
+from kintrafo.study.variation.curves import model_of
+
+from .report import fill_page
+
+ROOT = Path(__file__).parent.parent
+PAGE = ROOT / "docs/studies.md"
+IMAGES = ROOT / "docs/images"
+CAR = Suspension.load("reference_car")
+TRAVEL = np.linspace(-0.06, 0.06, 13)
+FREE = {"hardpoints.tie_rod_inner": 10.0, "hardpoints.tie_rod_outer": 10.0}
+TOE = {"toe": {"at_mm": (1e3 * TRAVEL).tolist(), "value": 0.0, "within": 0.05}}
+CARS = 500
+REPEATED = 5
+
+
+def main() -> None:
+    """Measure everything, draw, and fill the page."""
+    variation.sensitivity(CAR, ["hardpoints.ball_joint.z"])  # imports
+    rows = [
+        ("sensitivity: 21 coordinates, all characteristics at 81 positions", sensitivity),
+        (f"tolerance: {CARS} cars, toe at 13 positions", tolerance),
+        ("optimise: toe at 13 positions by 6 coordinates", optimise),
+    ]
+    table = ["| study of the reference car | ms | cars | ms a car |", "|---|---:|---:|---:|"]
+    for name, run in rows:
+        elapsed, cars = quickest(run)
+        table.append(f"| {name} | {1e3 * elapsed:.0f} | {cars} | {1e3 * elapsed / cars:.1f} |")
+    table += ["", f"On {platform.machine()}, one core, Python {platform.python_version()}; the"]
+    table[-1] += f" quickest of {REPEATED} runs."
+    print("\n".join(table))
+    fill_page(PAGE, {"studies": "\n".join(table)})
+    draw()
+
+
+def quickest(run: Callable[[], int]) -> tuple[float, int]:
+    """Return the shortest time of several runs, and how many cars each looks at."""
+    times = []
+    for _ in range(REPEATED):
+        begin = time.perf_counter()
+        cars = run()
+        times.append(time.perf_counter() - begin)
+    return min(times), cars
+
+
+def sensitivity() -> int:
+    """Find all derivatives by the hardpoints."""
+    return 4 * variation.sensitivity(CAR).sizes["place"]
+
+
+def tolerance() -> int:
+    """Look at many cars, and at the neighbours that tell shares of the variance."""
+    found = variation.tolerance(
+        CAR, {"hardpoints": 1.0}, count=CARS, positions=TRAVEL, names=["toe"]
+    )
+    return CARS + 4 * found.sizes["place"]
+
+
+def optimise() -> int:
+    """Bring toe to zero."""
+    found = variation.optimise(CAR, FREE, TOE)
+    if not found.success:
+        raise SystemExit(found.message)
+    return found.evaluations
+
+
+def draw() -> None:
+    """Draw the pictures of the page."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        bars = variation.sensitivity(CAR, positions=[0.0])
+        of = ["bump_steer", "camber_gradient"]
+        pictures.write_bars(bars, folder / "sensitivity.png", of, title="reference car, at design")
+        bands = variation.tolerance(
+            CAR, {"hardpoints": 1.0}, count=CARS, names=["bump_steer", "caster"]
+        )
+        title = f"{CARS} cars whose hardpoints are off by 1 mm at most (three sigma)"
+        pictures.write_bands(bands, folder / "tolerance.png", ["bump_steer", "caster"], title=title)
+        found = variation.optimise(CAR, FREE, TOE)
+        models = {"before": model_of(CAR), "after": model_of(found.suspension)}
+        plots.write_overview(compare(models), folder / "optimise.png", ["toe", "bump_steer"])
+        for picture in folder.iterdir():
+            shutil.copyfile(picture, IMAGES / picture.name)
+
+
+if __name__ == "__main__":
+    main()

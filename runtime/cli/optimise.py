@@ -1,0 +1,135 @@
+"""``kintrafo optimise``: values of a file that bring characteristics to targets."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.markup import escape
+from rich.table import Table
+
+from .console import console, print_json, progress_bar, say, significant
+from .exits import Exit
+from .options import File, Force, Json
+from .outputs import Outputs, name_files
+from .variation_options import Bars
+
+if TYPE_CHECKING:
+    from ..study.variation import Optimum
+
+EXAMPLES = (
+    "kintrafo optimise my_car.toml goals.toml",
+    "kintrafo optimise my_car.toml goals.toml -o better_car.toml --plot before_and_after.png",
+)
+
+
+def command(
+    file: File,
+    goals: Annotated[
+        Path,
+        typer.Argument(
+            metavar="GOALS",
+            help="TOML: values that are [free], and [targets] and [limits] of characteristics.",
+        ),
+    ],
+    *,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out",
+            "-o",
+            metavar="PATH",
+            help="Write the hardpoint file that was found: .toml.",
+            rich_help_panel="Output",
+        ),
+    ] = None,
+    plot: Bars = None,
+    force: Force = False,
+    json: Json = False,
+) -> None:
+    """Move values of the file until characteristics come to their targets, within limits.
+
+    The exit code is 1 where limits cannot be kept.
+    """
+    from ..core.files import refuse
+    from ..study import variation
+    from ..suspension.kinds import Suspension
+    from ..suspension.toml_writer import write_toml
+
+    inputs: list[str | Path] = [file, goals]
+    outputs = Outputs.of(None, plot, force=force, inputs=inputs)
+    if out is not None:
+        refuse([out], force=force, inputs=inputs, endings=[".toml"])
+    suspension = Suspension.load(file)
+    asked = variation.read(goals, ("free", "targets", "limits"))
+    with progress_bar("optimisation") as progress:
+        found = variation.optimise(
+            suspension,
+            asked.get("free", {}),
+            asked.get("targets", {}),
+            asked.get("limits"),
+            progress=lambda left: progress(1.0 - left),
+        )
+    written = _compared(found, outputs, file)
+    if out is not None:
+        head = [f"{file}, with values that kintrafo optimise found for {goals.name}."]
+        written.append(write_toml(found.suspension, out, head=head, force=force, inputs=inputs))
+    if json:
+        facts = {"moved": found.moved, "success": found.success, "message": found.message}
+        print_json(facts | {"suspension": found.suspension.to_dict()})
+    else:
+        _print(found, file)
+        name_files(written)
+    if not found.success:
+        raise typer.Exit(Exit.REFUSED)
+
+
+def _compared(found: "Optimum", outputs: Outputs, file: str) -> list[Path]:
+    """Write the curves of what there were targets for, before and after."""
+    written: list[Path] = []
+    if not outputs.pages:
+        return written
+    from ..study.compare import compare
+    from ..study.variation.curves import model_of
+
+    models = {"before": model_of(found.start), "after": model_of(found.suspension)}
+    for over in dict.fromkeys(target.over for target in found.targets):
+        names = [target.name for target in found.targets if target.over == over]
+        suffix = "" if over == "travel" else "_rack"
+        curves = compare(models, over=over)
+        written += outputs.write(curves, title=file, names=names, suffix=suffix)
+    return written
+
+
+def _print(found: "Optimum", file: str) -> None:
+    values = Table(title=escape(f"{file}: values that moved"))
+    values.add_column("value")
+    for column in ("was", "is", "moved by", "unit"):
+        values.add_column(column, justify="left" if column == "unit" else "right")
+    for place in found.places:
+        by = found.moved[place.name]
+        numbers = (f"{value:.3f}" for value in (place.value, place.value + by, by))
+        values.add_row(escape(place.name), *numbers, place.unit or "-")
+    console.print(values)
+    console.print(_goals(found))
+    say(f"{found.message}; {found.evaluations} suspensions were looked at.")
+
+
+def _goals(found: "Optimum") -> Table:
+    from ..core.quantities import bracketed, display_of
+    from ..study.variation.curves import KNOWN, model_of
+
+    table = Table(title="largest deviations from the targets")
+    table.add_column("characteristic")
+    for column in ("before", "after", "what matters"):
+        table.add_column(column, justify="right")
+    for target in found.targets:
+        attributes = KNOWN[target.over][target.name].attributes()
+        factor = display_of(attributes).factor
+        missed = [
+            abs(target.curves.of(model_of(suspension))[0] - target.value).max()
+            for suspension in (found.start, found.suspension)
+        ]
+        name = bracketed(KNOWN[target.over][target.name].long_name, attributes)
+        cells = (significant(float(v) * factor) for v in (*missed, target.within))
+        table.add_row(escape(name), *cells)
+    return table

@@ -1,0 +1,115 @@
+"""``kintrafo tolerance``: what tolerances of a file make of the characteristics."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.markup import escape
+from rich.table import Table
+
+from .console import console, print_json, progress_bar, say, significant
+from .options import File, Force, Json
+from .outputs import Out, Outputs, name_files
+from .variation_options import At, Bars, Of, Over, chosen
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+EXAMPLES = (
+    "kintrafo tolerance my_car.toml tolerances.toml",
+    "kintrafo tolerance my_car.toml tolerances.toml --cars 2000 --of toe --plot bands.png",
+)
+
+
+def command(
+    file: File,
+    tolerances: Annotated[
+        Path,
+        typer.Argument(
+            metavar="TOLERANCES",
+            help="TOML: [tolerances] of values, and [limits] of characteristics if there are some.",
+        ),
+    ],
+    *,
+    cars: Annotated[int, typer.Option(metavar="N", help="How many cars are drawn.")] = 500,
+    seed: Annotated[int, typer.Option(metavar="N", help="Other cars for another seed.")] = 1,
+    of: Of = None,
+    over: Over = "travel",
+    at: At = 0.0,
+    out: Out = None,
+    plot: Bars = None,
+    force: Force = False,
+    json: Json = False,
+) -> None:
+    """Bands of the characteristics of many cars whose values are off by chance, and their causes.
+
+    The table is about one position; data files have all.
+    """
+    from ..study import export, variation
+    from ..study.variation.curves import model_of
+    from ..suspension.kinds import Suspension
+
+    inputs: list[str | Path] = [file, tolerances]
+    outputs = Outputs.of(out, plot, force=force, inputs=inputs)
+    suspension = Suspension.load(file)
+    asked = variation.read(tolerances, ("distribution", "tolerances", "limits"))
+    names = chosen(model_of(suspension), of, over)
+    with progress_bar("cars") as progress:
+        dataset = variation.tolerance(
+            suspension,
+            asked.get("tolerances", {}),
+            distribution=asked.get("distribution", "normal"),
+            limits=asked.get("limits"),
+            count=cars,
+            seed=seed,
+            over=over,
+            names=None if out else names,
+            progress=progress,
+        )
+    written = outputs.write_data(dataset)
+    for path in outputs.pages:
+        from ..plots import variation as plots
+
+        title = f"{file}: {cars} cars within {tolerances.name}"
+        written.append(
+            plots.write_bands(dataset, path, names, title=title, force=force, inputs=inputs)
+        )
+    if json:
+        print_json(export.as_dict(dataset) | {"yield": dataset.attrs["yield"]})
+        return
+    console.print(_table(dataset, names, f"{file}: {cars} cars, at {at:g} mm", at))
+    say(f"{dataset.attrs['message']}; {100.0 * dataset.attrs['yield']:.1f} % within all limits.")
+    name_files(written)
+
+
+def _table(dataset: "Dataset", names: list[str], title: str, at: float) -> Table:
+    from ..core.quantities import bracketed, displayed, long_name
+    from ..study.variation.tolerance import QUANTILE
+
+    table = Table(title=escape(title))
+    table.add_column("characteristic")
+    for column in ("as drawn", "least", "5 %", "95 %", "greatest"):
+        table.add_column(column, justify="right")
+    table.add_column("caused most by")
+    for name in names:
+        data = dataset[name]
+        along = next(str(d) for d in data.dims if d != QUANTILE)
+        here = {along: at / 1e3}
+        least, low, _, high, most = displayed(data.sel(here, method="nearest"))
+        nominal = float(displayed(dataset[f"{name}_nominal"].sel(here, method="nearest")))
+        values = (significant(float(value)) for value in (nominal, least, low, high, most))
+        table.add_row(
+            escape(bracketed(long_name(data), data.attrs)), *values, _causes(dataset, name)
+        )
+    return table
+
+
+def _causes(dataset: "Dataset", name: str) -> str:
+    """Name the two values that cause most of the variance, over all positions."""
+    shares = dataset[f"{name}_share"]
+    first = shares.sortby(shares, ascending=False)[:2]
+    return ", ".join(
+        f"{str(place).removeprefix('hardpoints.')} {100.0 * float(share):.0f} %"
+        for place, share in zip(first["place"].values, first.values, strict=True)
+        if share > 0.005
+    )

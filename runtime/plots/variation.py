@@ -1,0 +1,159 @@
+"""What values of the input file do to the characteristics: bars of effects, bands of tolerances."""
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from ..core.files import Paths
+from ..core.quantities import bracketed, display_of, displayed, long_name
+from ..study.variation.sensitivity import effects
+from ..study.variation.tolerance import QUANTILE
+from .curves import check_formats
+from .figures import BLUE, ORANGE, STYLE, save, written_plainly
+
+_COLUMNS = 2
+# More bars than this are no ranking any more.
+_MOST_BARS = 10
+
+
+def write_bars(
+    dataset: xr.Dataset,
+    path: str | Path,
+    names: Sequence[str],
+    *,
+    at: float = 0.0,
+    title: str = "",
+    force: bool = False,
+    inputs: Paths = (),
+) -> Path:
+    """Write which values move characteristics most, each in its own axes.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        From `kintrafo.study.variation.sensitivity`.
+    path : str or pathlib.Path
+        The ending is the format: ``.png``, ``.svg`` or ``.pdf``.
+    names : sequence of str
+        Characteristics.
+    at : float, optional
+        Position [m].
+    title : str, optional
+    force : bool, optional
+        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
+    inputs : iterable of str or pathlib.Path, optional
+        Files that are never replaced.
+
+    Returns
+    -------
+    pathlib.Path
+    """
+    return _written(
+        lambda axes, name: _bars(axes, dataset, name, at),
+        names,
+        path,
+        height=2.6,
+        title=title,
+        force=force,
+        inputs=inputs,
+    )
+
+
+def write_bands(
+    dataset: xr.Dataset,
+    path: str | Path,
+    names: Sequence[str],
+    *,
+    title: str = "",
+    force: bool = False,
+    inputs: Paths = (),
+) -> Path:
+    """Write the bands of characteristics over the positions, each in its own axes.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        From `kintrafo.study.variation.tolerance`.
+    path, names, title, force, inputs
+        As of `write_bars`.
+
+    Returns
+    -------
+    pathlib.Path
+    """
+    return _written(
+        lambda axes, name: _bands(axes, dataset, name),
+        names,
+        path,
+        height=2.5,
+        title=title,
+        force=force,
+        inputs=inputs,
+    )
+
+
+def _written(
+    draw: Callable[[Axes, str], None],
+    names: Sequence[str],
+    path: str | Path,
+    *,
+    height: float,
+    title: str,
+    force: bool,
+    inputs: Paths,
+) -> Path:
+    check_formats([path])
+    columns = min(_COLUMNS, len(names))
+    rows = -(-len(names) // columns)
+    with rc_context(STYLE):
+        figure = Figure(figsize=(4.8 * columns, 0.7 + height * rows), layout="constrained")
+        panels = figure.subplots(rows, columns, squeeze=False).ravel()
+        for axes, name in zip(panels, names, strict=False):
+            draw(axes, name)
+        for axes in panels[len(names) :]:
+            axes.remove()
+        handles, labels = panels[0].get_legend_handles_labels()
+        if labels:
+            figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False)
+        figure.suptitle(title, fontsize=11)
+        return save(written_plainly(figure), path, force=force, inputs=inputs)
+
+
+def _bars(axes: Axes, dataset: xr.Dataset, name: str, at: float) -> None:
+    found = [(p, v) for p, v in effects(dataset, name, at) if np.isfinite(v)]
+    found = [(p, v) for p, v in found if abs(v) > 1e-6 * abs(found[0][1])][:_MOST_BARS]
+    places, values = [_short(place) for place, _ in found], [value for _, value in found]
+    axes.barh(places, values, color=[BLUE if v > 0.0 else ORANGE for v in values], height=0.7)
+    axes.invert_yaxis()
+    axes.axvline(0.0, color="#888888", linewidth=0.8)
+    axes.grid(visible=False, axis="y")
+    axes.tick_params(labelsize=8)
+    axes.xaxis.set_major_locator(MaxNLocator(nbins=5))
+    axes.set_xlabel(f"[{display_of(dataset[name].attrs).units}]", fontsize=9)
+    axes.set_title(long_name(dataset[name]).removeprefix("sensitivity of "), fontsize=10)
+
+
+def _short(place: str) -> str:
+    """Return how a value is called beside a bar: points without their section."""
+    return place.removeprefix("hardpoints.").replace(".", " ").replace("_", " ")
+
+
+def _bands(axes: Axes, dataset: xr.Dataset, name: str) -> None:
+    data = dataset[name]
+    along = next(str(d) for d in data.dims if d != QUANTILE)
+    position = displayed(dataset[along])
+    least, low, _, high, most = displayed(data.transpose(QUANTILE, along))
+    axes.fill_between(position, least, most, color=BLUE, alpha=0.15, label="all", linewidth=0)
+    axes.fill_between(position, low, high, color=BLUE, alpha=0.35, label="nine in ten", linewidth=0)
+    nominal = displayed(dataset[f"{name}_nominal"])
+    axes.plot(position, nominal, color="black", linewidth=1.4, label="as drawn")
+    axes.axvline(0.0, color="#888888", linewidth=0.8, zorder=1)
+    axes.margins(x=0.02)
+    axes.set_xlabel(bracketed(long_name(dataset[along]), dataset[along].attrs), fontsize=9)
+    axes.set_ylabel(bracketed(long_name(data), data.attrs), fontsize=9.5)

@@ -1,0 +1,210 @@
+"""Targets and limits of characteristics, as a file or a caller gives them."""
+
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError
+from ...core.quantities import display_of
+from ...core.suggestions import suggestion
+from ...suspension.input.toml_file import read_toml
+from ...suspension.kinds import Suspension
+from .curves import KNOWN, Curves, Over, model_of, there
+
+Array = NDArray[np.float64]
+
+# No characteristic is as great as this in any unit, and no deviation as small matters.
+_GREATEST, _LEAST = 1e9, 1e-9
+
+
+@dataclass(frozen=True)
+class Goal:
+    """Something about a characteristic at some positions.
+
+    Attributes
+    ----------
+    name : str
+        Characteristic.
+    over : str
+        'travel' or 'rack'.
+    at : ndarray, shape (n,)
+        Positions [m].
+    """
+
+    name: str
+    over: Over
+    at: Array
+
+    @property
+    def curves(self) -> Curves:
+        """What has to be evaluated for it."""
+        return Curves(self.over, self.at, (self.name,))
+
+
+@dataclass(frozen=True)
+class Target(Goal):
+    """What a characteristic is wanted to be.
+
+    Attributes
+    ----------
+    name, over, at
+        As of `Goal`.
+    value : ndarray, shape (n,)
+        SI units.
+    within : float
+        A deviation that matters, SI units: deviations are compared in parts of it.
+    """
+
+    value: Array
+    within: float
+
+
+@dataclass(frozen=True)
+class Limit(Goal):
+    """What a characteristic must not pass.
+
+    Attributes
+    ----------
+    name, over, at
+        As of `Goal`.
+    least, most : float
+        SI units; infinite where there is none.
+    """
+
+    least: float
+    most: float
+
+    def kept(self, values: Array) -> NDArray[np.bool_]:
+        """Tell which of some values are within the limit."""
+        return (values >= self.least) & (values <= self.most)
+
+
+def read(path: str | Path, sections: Collection[str]) -> dict[str, Any]:
+    """Read a TOML file of tolerances, targets and limits.
+
+    Parameters
+    ----------
+    path : str or pathlib.Path
+    sections : collection of str
+        Those that it may have.
+
+    Returns
+    -------
+    dict
+        The sections that it has.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, or has something else.
+    """
+    data = read_toml(Path(path))
+    problems = [
+        f"{key} is not known. {suggestion(key, sections)}" for key in data if key not in sections
+    ]
+    if problems:
+        raise InputError(problems, str(path))
+    return data
+
+
+def check_data(given: Arguments, suspension: Suspension, goals: Iterable[Goal]) -> None:
+    """Refuse goals about characteristics for which the file has not the data."""
+    model = model_of(suspension)
+    for goal in goals:
+        if goal.name not in there(model, goal.over):
+            given.refuse(
+                f"{goal.name} over {goal.over}: the file has not the data that this needs, see "
+                "[vehicle], [rack] and [tyre]."
+            )
+
+
+def targets_of(given: Arguments, described: Mapping[str, Any]) -> list[Target]:
+    """Read targets, by the names of characteristics; in millimetres and units for people."""
+    return [
+        Target(
+            name, table.over, table.at, table.numbers("value"), table.number("within", least=_LEAST)
+        )
+        for name, table in _tables(given, described, "targets", {"value", "within"})
+    ]
+
+
+def limits_of(given: Arguments, described: Mapping[str, Any]) -> list[Limit]:
+    """Read limits, by the names of characteristics; in millimetres and units for people."""
+    found = []
+    for name, table in _tables(given, described, "limits", {"least", "most"}):
+        least, most = (
+            table.number(key) if key in table.entries else sign * np.inf
+            for key, sign in (("least", -1.0), ("most", 1.0))
+        )
+        if not least < most:
+            given.refuse(f"[limits.{name}]: least must be smaller than most.")
+        if not {"least", "most"} & {*table.entries}:
+            given.refuse(f"[limits.{name}]: least or most is needed, in {table.unit}.")
+        found.append(Limit(name, table.over, table.at, least, most))
+    return found
+
+
+@dataclass(frozen=True)
+class _Table:
+    """A table of a file about one characteristic."""
+
+    given: Arguments
+    title: str
+    entries: Mapping[str, Any]
+    over: Over
+    at: Array
+    unit: str
+    factor: float
+
+    def number(self, key: str, *, least: float = -_GREATEST) -> float:
+        """Return a number in SI units."""
+        value = self._given(key)
+        name = f"{self.title} {key}"
+        number = self.given.number(name, value, self.unit, least=least, below=_GREATEST)
+        return number / self.factor
+
+    def numbers(self, key: str) -> Array:
+        """Return a number for each position in SI units; one stands for all."""
+        name = f"{self.title} {key}"
+        values = self.given.array(name, self._given(key), self.unit, dimensions=[0, 1])
+        if values.size not in (1, self.at.size):
+            self.given.refuse(
+                f"{name}: {values.size} numbers and {self.at.size} in at_mm: one for each position "
+                "is needed, or one for all."
+            )
+            return np.zeros_like(self.at)
+        if (np.abs(values) > _GREATEST).any():
+            self.given.refuse(f"{name}: numbers of {_GREATEST:g} {self.unit} or less are needed.")
+        return np.broadcast_to(values / self.factor, self.at.shape).copy()
+
+    def _given(self, key: str) -> Any:
+        if key not in self.entries:
+            self.given.refuse(f"{self.title}: {key} is missing, in {self.unit}.")
+        return self.entries.get(key, 1.0)
+
+
+def _tables(
+    given: Arguments, described: Mapping[str, Any], section: str, keys: set[str]
+) -> Iterable[tuple[str, _Table]]:
+    for name, table in described.items():
+        title = f"[{section}.{name}]"
+        if not isinstance(table, Mapping):
+            given.refuse(f"{title} must be a section, with at_mm and {' and '.join(sorted(keys))}.")
+            continue
+        for key in table.keys() - keys - {"over", "at_mm"}:
+            given.refuse(f"{title} {key} is not known: there are {', '.join(sorted(keys))}.")
+        over = given.among(f"{title} over", table.get("over", "travel"), KNOWN)
+        known = KNOWN[over]
+        if given.among("characteristic", name, known) != name:
+            continue
+        shown = display_of(known[name].attributes())
+        at = given.array(f"{title} at_mm", table.get("at_mm", 0.0), "mm", dimensions=[0, 1])
+        yield (
+            name,
+            _Table(given, title, table, over, np.atleast_1d(at) / 1e3, shown.units, shown.factor),
+        )

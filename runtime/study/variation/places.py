@@ -1,0 +1,120 @@
+"""The numbers of an input file that may vary, and how they are called."""
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from fnmatch import fnmatchcase
+from typing import Any
+
+from ...core.arguments import Arguments, shown
+from ...core.suggestions import suggestion
+from ...suspension.input.units import unit_of
+from ...suspension.kinds import Suspension
+
+_TO_SI = {"mm": 1e-3, "deg": math.pi / 180.0, "N/mm^3": 1e9}
+_SI = {"mm": "m", "deg": "rad", "N/mm^3": "N/m^3", "": "1"}
+
+
+@dataclass(frozen=True)
+class Place:
+    """A number of an input file.
+
+    Attributes
+    ----------
+    name : str
+        Section and key with dots between them, and the component of a point:
+        ``hardpoints.ball_joint.z``.
+    unit : str
+        In which a person reads it: ``mm``, ``deg``, ``N/m``; empty for a pure number.
+    value : float
+        In this unit.
+    in_file : float
+        What a value in this unit is multiplied with in the file: 0.001 for hardpoints in metres.
+    """
+
+    name: str
+    unit: str
+    value: float
+    in_file: float = 1.0
+
+    @property
+    def si_unit(self) -> str:
+        """The SI unit."""
+        return _SI.get(self.unit, self.unit)
+
+    @property
+    def to_si(self) -> float:
+        """What a value in the unit for people is multiplied with for SI units."""
+        return _TO_SI.get(self.unit, 1.0)
+
+    def moved(self, by: float) -> dict[str, float]:
+        """Return the change of the file that moves the value by an amount in SI units."""
+        return {self.name: (self.value + by / self.to_si) * self.in_file}
+
+
+def places_of(suspension: Suspension) -> dict[str, Place]:
+    """Return every number of a suspension's file, by name."""
+    data = suspension.to_dict()
+    in_file = 1e-3 if data["hardpoints"].pop("unit") == "m" else 1.0
+    return {place.name: place for place in _places(data, "", in_file)}
+
+
+def matching(given: Arguments, suspension: Suspension, patterns: Any) -> dict[str, Place]:
+    """Return the numbers that some patterns name, in the order of the file.
+
+    Parameters
+    ----------
+    given : Arguments
+        Gets what is wrong.
+    suspension : Suspension
+    patterns : sequence of str
+        A number, or all within a section or a point; ``*`` stands for anything:
+        ``hardpoints.*.z``.
+    """
+    known = places_of(suspension)
+    wanted: set[str] = set()
+    texts = isinstance(patterns, list | tuple) and all(isinstance(p, str) for p in patterns)
+    if not (texts and patterns):
+        given.refuse(f"places = {shown(patterns)}: a list of places is needed.")
+        return {}
+    for pattern in patterns:
+        found = {name for name in known if _fits(name, pattern)}
+        if not found:
+            levels = {".".join(name.split(".")[:depth]) for name in known for depth in (1, 2, 3)}
+            given.refuse(
+                f"{pattern} is no number of the input file, nor a section of it. "
+                f"{suggestion(pattern, sorted(levels)) if len(pattern) > 2 else ''}".strip()
+            )
+        wanted |= found
+    return {name: place for name, place in known.items() if name in wanted}
+
+
+def amounts(
+    given: Arguments, suspension: Suspension, by_pattern: Mapping[str, Any], what: str
+) -> dict[Place, float]:
+    """Return an amount in SI units for every number that a pattern names; later patterns count."""
+    found: dict[str, tuple[Place, float]] = {}
+    for pattern, amount in by_pattern.items():
+        for name, place in matching(given, suspension, [str(pattern)]).items():
+            checked = given.number(f"{what} of {pattern}", amount, place.unit, above=0.0)
+            found[name] = place, checked * place.to_si
+    return dict(found.values())
+
+
+def _fits(name: str, pattern: str) -> bool:
+    return fnmatchcase(name, pattern) or fnmatchcase(name, f"{pattern}.*")
+
+
+def _places(table: Mapping[str, Any], above: str, in_file: float) -> Iterator[Place]:
+    for key, value in table.items():
+        name = f"{above}{key}"
+        if isinstance(value, Mapping):
+            yield from _places(value, f"{name}.", in_file)
+            continue
+        of_points = above == "hardpoints."
+        unit, factor = ("mm", in_file) if of_points else (unit_of(key), 1.0)
+        if isinstance(value, list) and (of_points or key.endswith("com_mm") or key == "axis"):
+            for axis, component in zip("xyz", value, strict=True):
+                yield Place(f"{name}.{axis}", unit, component / factor, factor)
+        elif isinstance(value, float):
+            yield Place(name, unit, value)

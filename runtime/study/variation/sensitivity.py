@@ -1,0 +1,205 @@
+"""By how much each value of the input file moves each characteristic."""
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError, KintrafoError
+from ...core.quantities import Display, display_of
+from ...suspension.kinds import Suspension
+from .curves import ALONG, KNOWN, Curves, Over, changed, curves_of, model_of
+from .places import Place, matching
+
+Array = NDArray[np.float64]
+
+PLACE = "place"
+"""The dimension of the values that vary."""
+
+# Half of the longer of two steps, in SI units. The error of the difference is of fourth order:
+# (0.5 mm / 300 mm)^4 = 8e-12 of a curve that changes over 300 mm, and rounding is 1e-15 / 0.5 mm =
+# 2e-12 of it per millimetre.
+_STEPS = {"m": 5e-4, "rad": 1e-3}
+_RELATIVE_STEP = 1e-3
+# Two steps that disagree by more than these parts of the derivative, and of the greatest one of the
+# curve, see a kink, such as that of a stop that begins to act: there is no derivative. Of a smooth
+# curve they differ by (0.5 mm / 300 mm)^2 = 3e-6 of it, some times.
+_KINK, _KINK_OF_GREATEST = 1e-2, 1e-3
+# Rounding of a difference, as a part of the curve: 1e-12 over a step of a millimetre.
+_ROUNDING = 1e-9
+
+
+def sensitivity(
+    suspension: Suspension,
+    places: Sequence[str] = ("hardpoints",),
+    *,
+    over: Over = "travel",
+    positions: ArrayLike | None = None,
+    names: Sequence[str] | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> xr.Dataset:
+    """Return by how much values of the input file move the characteristics.
+
+    Parameters
+    ----------
+    suspension : Suspension
+    places : sequence of str, optional
+        The values: section and key with dots between them, such as ``hardpoints.ball_joint.z``. A
+        point or a section stands for all of its numbers, ``*`` for anything.
+    over : {'travel', 'rack'}, optional
+        What varies along the curves.
+    positions : array_like, optional
+        Wheel travel, or displacement of the rack [m]; by default the usual range.
+    names : sequence of str, optional
+        Characteristics; by default all.
+    progress : callable, optional
+        Called with the part that is done, up to 1.
+
+    Returns
+    -------
+    xarray.Dataset
+        Each characteristic over ``place`` and the positions: its derivative by the value, SI units,
+        each car's own position above its own design position. NaN where a curve has a kink, as
+        where a stop begins to act.
+
+    Raises
+    ------
+    InputError
+        If a place or a characteristic is not known, or the suspension cannot do with a
+        neighbouring value what was asked.
+
+    Notes
+    -----
+    The differences of four neighbouring suspensions for each value, of fourth order: of a
+    hardpoint 0.5 mm and 1 mm to either side.
+
+    Examples
+    --------
+    >>> car = Suspension.load("reference_car")
+    >>> found = sensitivity(car, ["hardpoints.tie_rod_inner.z"], positions=[0.0])
+    >>> round(float(np.rad2deg(found["bump_steer"][0, 0])) * 1e-6, 6)  # deg/mm per mm
+    0.001124
+    """
+    with Arguments("sensitivity") as given:
+        given.kind("suspension", suspension, Suspension, "a kintrafo.Suspension is needed")
+        given.function("progress", progress)
+        if not given.refused:
+            curves = curves_of(given, suspension, over, positions, names)
+            chosen = [*matching(given, suspension, places).values()]
+    found = []
+    for count, place in enumerate(chosen, 1):
+        found.append(derivative(suspension, place, curves))
+        if progress is not None:
+            progress(count / len(chosen))
+    return _dataset(curves, chosen, np.array(found))
+
+
+def derivative(suspension: Suspension, place: Place, curves: Curves) -> Array:
+    """Return the derivative of some curves by a value; of shape (names, positions), SI units."""
+    step = step_of(place)
+    at = {by: _moved(suspension, place, by * step, curves) for by in (-2.0, -1.0, 1.0, 2.0)}
+    with np.errstate(invalid="ignore"):  # a turning circle is infinite straight ahead
+        short, long = (at[1.0] - at[-1.0]) / (2.0 * step), (at[2.0] - at[-2.0]) / (4.0 * step)
+    result = (4.0 * short - long) / 3.0
+    rounding = _ROUNDING * np.maximum(_greatest(at[1.0]), 1.0)
+    tolerated = _KINK * np.abs(result) + _KINK_OF_GREATEST * _greatest(result) + rounding
+    result[np.abs(result) <= rounding] = 0.0
+    smooth: Array = np.where(np.abs(short - long) <= tolerated, result, np.nan)
+    return smooth
+
+
+def _greatest(values: Array) -> Array:
+    """Return the greatest absolute value of each row that is one."""
+    sizes = np.where(np.isfinite(values), np.abs(values), 0.0)
+    greatest: Array = sizes.max(axis=1, initial=0.0, keepdims=True)
+    return greatest
+
+
+def step_of(place: Place) -> float:
+    """Return the step of a difference, SI units."""
+    if place.si_unit in _STEPS:
+        return _STEPS[place.si_unit]
+    return _RELATIVE_STEP * abs(place.value * place.to_si or 1.0)
+
+
+def _moved(suspension: Suspension, place: Place, by: float, curves: Curves) -> Array:
+    try:
+        return curves.of(model_of(changed(suspension, place.moved(by))))
+    except KintrafoError as error:
+        problem = (
+            f"{place.name}: with {by / place.to_si:+g} {place.unit} there is no neighbour to "
+            f"compare with, since {error}"
+        )
+        raise InputError([problem], "sensitivity") from None
+
+
+def _dataset(curves: Curves, places: Sequence[Place], values: Array) -> xr.Dataset:
+    along = ALONG[curves.over]
+    units = {place.unit for place in places}
+    data = {
+        name: xr.Variable((PLACE, along.name), values[:, i], _attributes(curves, name, units))
+        for i, name in enumerate(curves.names)
+    }
+    labels = {"long_name": "value of the input file that moves"}
+    coordinates = {
+        PLACE: xr.Variable(PLACE, [place.name for place in places], labels),
+        "place_unit": xr.Variable(PLACE, [place.si_unit for place in places]),
+        along.name: xr.Variable(along.name, curves.positions, along.attributes()),
+    }
+    return xr.Dataset(data, coordinates, {"title": f"sensitivity over {along.long_name}"})
+
+
+def _attributes(curves: Curves, name: str, units: set[str]) -> dict[str, Any]:
+    """Describe a derivative; where the values have several units, it is shown by their SI units."""
+    quantity = KNOWN[curves.over][name]
+    attributes = quantity.attributes()
+    shown = display_of(attributes)
+    if len(units) == 1:
+        place = Place("", next(iter(units)), 0.0)
+        shown = Display(_per(shown.units, place.unit, " per "), shown.factor * place.to_si)
+        attributes |= {"units": _per(quantity.units, place.si_unit)}
+    else:
+        attributes |= {"units": _per(quantity.units, "place_unit")}
+        shown = Display(_per(shown.units, "place_unit", " per "), shown.factor)
+    return attributes | {
+        "long_name": f"sensitivity of {quantity.long_name}",
+        "sign": "positive where it grows with the value",
+        "display_units": shown.units,
+        "display_factor": shown.factor,
+    }
+
+
+def _per(unit: str, other: str, link: str = "/") -> str:
+    """Return the unit of a derivative."""
+    if other in ("", "1"):
+        return unit
+    return f"1/{other}" if unit == "1" else f"{unit}{link}{other}"
+
+
+def effects(dataset: xr.Dataset, name: str, at: float = 0.0) -> Iterator[tuple[str, float]]:
+    """Yield each value and what it does to a characteristic at a position, the largest first.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        From `sensitivity`.
+    name : str
+        Characteristic.
+    at : float, optional
+        Position [m]; the nearest that there is.
+
+    Yields
+    ------
+    str, float
+        The value's name, and the derivative in the unit for people.
+    """
+    data = dataset[name]
+    along = next(str(d) for d in data.dims if d != PLACE)
+    column = data.sel({along: at}, method="nearest")
+    shown = column.values * display_of(data.attrs).factor
+    order = np.argsort(-np.nan_to_num(np.abs(shown), nan=-1.0), kind="stable")
+    for place in order:
+        yield str(dataset[PLACE].values[place]), float(shown[place])

@@ -1,0 +1,258 @@
+"""What tolerances of the input file make of the characteristics: bands, yield and shares."""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Literal
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+from ...core.arguments import Arguments
+from ...core.errors import KintrafoError
+from ...core.quantities import variable
+from ...suspension.kinds import Suspension
+from .curves import ALONG, KNOWN, Curves, Over, Together, changed, curves_of, model_of
+from .goals import Limit, check_data, limits_of
+from .places import Place, amounts
+from .sensitivity import PLACE, derivative
+
+Array = NDArray[np.float64]
+Distribution = Literal["normal", "uniform"]
+
+QUANTILE, CAR = "quantile", "car"
+"""Dimensions of the bands, and of the cars."""
+
+QUANTILES = (0.0, 0.05, 0.5, 0.95, 1.0)
+
+# Of a normal distribution, its tolerance is so many standard deviations: 99.7 % lie within.
+_SIGMAS = 3.0
+_MOST_CARS = 1_000_000
+
+
+def tolerance(
+    suspension: Suspension,
+    tolerances: Mapping[str, float],
+    *,
+    distribution: Distribution = "normal",
+    correlation: ArrayLike | None = None,
+    limits: Mapping[str, Any] | None = None,
+    count: int = 500,
+    seed: int = 1,
+    over: Over = "travel",
+    positions: ArrayLike | None = None,
+    names: Sequence[str] | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> xr.Dataset:
+    """Return what becomes of the characteristics of many cars whose values differ by chance.
+
+    Parameters
+    ----------
+    suspension : Suspension
+    tolerances : mapping of str to float
+        How far values may be off to either side, in the unit of the input file for people (mm,
+        deg, N/m, ...), by their places as `sensitivity` takes them. Of several that name a value
+        the last counts.
+    distribution : {'normal', 'uniform'}, optional
+        Of each value: normal with a third of the tolerance as standard deviation, or anything
+        within the tolerance alike.
+    correlation : array_like, shape (values, values), optional
+        Of the values, in the order of the file, where they do not vary independently; of the
+        normal distribution only.
+    limits : mapping, optional
+        By characteristic: ``at_mm``, ``least`` and ``most``, in mm and the unit for people, as in a
+        file of limits.
+    count : int, optional
+        How many cars.
+    seed : int, optional
+        Of the generator of random numbers: the same cars for the same seed.
+    over : {'travel', 'rack'}, optional
+        What varies along the curves.
+    positions : array_like, optional
+        Wheel travel, or displacement of the rack [m]; by default the usual range.
+    names : sequence of str, optional
+        Characteristics; by default all.
+    progress : callable, optional
+        Called with the part that is done, up to 1.
+
+    Returns
+    -------
+    xarray.Dataset
+        Each characteristic over ``quantile`` and the positions: 0 and 1 are the least and the
+        greatest value of all cars. ``..._nominal`` is that of the suspension itself, and
+        ``..._share`` over ``place`` the part of its variance that each value causes, to first
+        order, over all positions. Over ``car``: ``within_limits``, ``reason`` where a car cannot be
+        built or does not reach a position, and which value each car has in ``value_of``. The
+        attribute ``yield`` is the part of cars within all limits.
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used.
+
+    Examples
+    --------
+    >>> car = Suspension.load("reference_car")
+    >>> found = tolerance(car, {"hardpoints": 1.0}, count=50, positions=[-0.05, 0.0, 0.05],
+    ...                   limits={"toe": {"at_mm": [-50.0, 50.0], "least": -0.3, "most": 0.3}})
+    >>> 0.0 < found.attrs["yield"] < 1.0
+    True
+    """
+    with Arguments("tolerance") as given:
+        given.kind("suspension", suspension, Suspension, "a kintrafo.Suspension is needed")
+        given.function("progress", progress)
+        count = given.whole("count", count, least=2, most=_MOST_CARS)
+        seed = given.whole("seed", seed, least=0)
+        given.among("distribution", distribution, ("normal", "uniform"))
+        bounds = limits_of(
+            given, given.mapping("limits", {} if limits is None else limits, "names and limits")
+        )
+        if not given.refused:
+            curves = curves_of(given, suspension, over, positions, names)
+            check_data(given, suspension, bounds)
+            by_pattern = given.mapping("tolerances", tolerances, "places and numbers")
+            spread = amounts(given, suspension, by_pattern, "tolerance")
+            if not spread:
+                given.refuse("tolerances: one or more are needed.")
+            root = _root_of(given, correlation, len(spread), distribution)
+    off = _drawn(distribution, root, count, seed) * np.array([*spread.values()])
+    cars = _Cars(suspension, [*spread], off, curves, bounds)
+    for car in range(count):
+        cars.see(car)
+        if progress is not None:
+            progress((car + 1) / count)
+    return _dataset(cars, _shares(suspension, spread, root, distribution, curves))
+
+
+# -- cars -----------------------------------------------------------------------------------------
+
+
+def _root_of(given: Arguments, correlation: Any, size: int, distribution: str) -> Array:
+    """Return a matrix that makes correlated numbers of independent ones."""
+    if correlation is None:
+        return np.eye(size)
+    matrix = given.array("correlation", correlation, dimensions=[2])
+    if distribution != "normal":
+        given.refuse("correlation: values vary together by a normal distribution only.")
+    if matrix.shape != (size, size):
+        given.refuse(f"correlation has the shape {matrix.shape}: ({size}, {size}) is needed.")
+    elif not (np.array_equal(matrix, matrix.T) and (np.diag(matrix) == 1.0).all()):
+        given.refuse("correlation: it must be symmetric, with ones on its diagonal.")
+    elif np.linalg.eigvalsh(matrix)[0] < -1e-12 * size:
+        given.refuse("correlation: no values vary like that (an eigenvalue is negative).")
+    if given.refused:
+        return np.eye(size)
+    sizes, vectors = np.linalg.eigh(matrix)
+    root: Array = vectors * np.sqrt(np.maximum(sizes, 0.0))
+    return root
+
+
+def _drawn(distribution: str, root: Array, count: int, seed: int) -> Array:
+    """Draw how far the values of each car are off, in parts of their tolerances."""
+    random = np.random.default_rng(seed)
+    if distribution == "uniform":
+        return random.uniform(-1.0, 1.0, (count, len(root)))
+    drawn: Array = random.standard_normal((count, len(root))) @ root.T / _SIGMAS
+    return drawn
+
+
+class _Cars:
+    """Cars that are looked at one after the other.
+
+    Parameters
+    ----------
+    suspension : Suspension
+    places : sequence of Place
+        What varies.
+    off : ndarray, shape (cars, places)
+        By how much, SI units.
+    curves : Curves
+    limits : sequence of Limit
+    """
+
+    def __init__(
+        self,
+        suspension: Suspension,
+        places: Sequence[Place],
+        off: Array,
+        curves: Curves,
+        limits: Sequence[Limit],
+    ) -> None:
+        self.suspension, self.places, self.off = suspension, places, off
+        self.curves, self.limits = curves, limits
+        self._look = Together([curves, *(limit.curves for limit in limits)])
+        self.nominal = curves.of(model_of(suspension))
+        self.values = np.full((len(off), *self.nominal.shape), np.nan)
+        self.reasons = np.full(len(off), "", dtype=object)
+        self.within = np.zeros(len(off), dtype=bool)
+
+    def see(self, car: int) -> None:
+        """Look at one car."""
+        changes: dict[str, float] = {}
+        for place, by in zip(self.places, self.off[car], strict=True):
+            changes |= place.moved(float(by))
+        try:
+            model = model_of(changed(self.suspension, changes))
+            self.values[car], *limited = self._look.of(model)
+            pairs = zip(self.limits, limited, strict=True)
+            self.within[car] = all(limit.kept(values).all() for limit, values in pairs)
+        except KintrafoError as error:
+            self.reasons[car] = str(error)
+
+
+# -- results --------------------------------------------------------------------------------------
+
+
+def _shares(
+    suspension: Suspension,
+    spread: Mapping[Place, float],
+    root: Array,
+    distribution: str,
+    curves: Curves,
+) -> Array:
+    """Return the part of the variance that each value causes to first order; (places, names).
+
+    Of correlated values it is that of their sum in which they have a part: it may be negative.
+    """
+    sigma = np.array([*spread.values()]) / (np.sqrt(3.0) if distribution == "uniform" else _SIGMAS)
+    slopes = np.array([derivative(suspension, place, curves) for place in spread])
+    moved = np.nan_to_num(slopes) * sigma[:, None, None]
+    together = np.einsum("ij,jnp->inp", root @ root.T, moved)
+    parts: Array = (moved * together).sum(axis=2)
+    whole = parts.sum(axis=0)
+    shares: Array = np.divide(parts, whole, out=np.full_like(parts, np.nan), where=whole > 0.0)
+    return shares
+
+
+def _dataset(cars: _Cars, shares: Array) -> xr.Dataset:
+    curves = cars.curves
+    along = ALONG[curves.over]
+    seen = cars.reasons == ""
+    bands = (
+        np.quantile(cars.values[seen], QUANTILES, axis=0)
+        if seen.any()
+        else np.full((len(QUANTILES), *cars.nominal.shape), np.nan)
+    )
+    data: dict[Any, Any] = {}
+    for i, name in enumerate(curves.names):
+        quantity = KNOWN[curves.over][name]
+        attributes = quantity.attributes()
+        data[name] = xr.Variable((QUANTILE, along.name), bands[:, i], attributes)
+        data[f"{name}_nominal"] = xr.Variable(along.name, cars.nominal[i], attributes)
+        meaning = f"part of the variance of {quantity.long_name}"
+        data[f"{name}_share"] = variable(PLACE, shares[:, i], meaning, "1")
+    data["within_limits"] = variable(CAR, cars.within, "whether the car is within all limits", "1")
+    data["reason"] = variable(CAR, cars.reasons.astype(str), "why a car has no curves", "1")
+    values = np.array([p.value * p.to_si for p in cars.places]) + cars.off
+    data["value_of"] = variable((CAR, PLACE), values, "value that the car has, in place_unit", "SI")
+    coordinates = {
+        QUANTILE: variable(QUANTILE, np.array(QUANTILES), "part of the cars that is below", "1"),
+        PLACE: [place.name for place in cars.places],
+        "place_unit": (PLACE, [place.si_unit for place in cars.places]),
+        along.name: xr.Variable(along.name, curves.positions, along.attributes()),
+    }
+    attributes = {
+        "title": f"tolerances over {along.long_name}",
+        "yield": float(cars.within.mean()),
+        "message": f"{int(seen.sum())} of {seen.size} cars have curves",
+    }
+    return xr.Dataset(data, coordinates, attributes)

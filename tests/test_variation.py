@@ -1,0 +1,364 @@
+"""Values that move: derivatives, tolerances and optima against oracles of their own."""
+
+import math
+import re
+import shlex
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from kintrafo import InputError, Model, Suspension, arm_angles, variation
+from kintrafo.core.quantities import display_of
+from kintrafo.study.characteristics.from_model import gaps
+from kintrafo.study.variation.curves import Curves, changed, model_of
+from kintrafo.study.variation.places import places_of
+from numpy.polynomial import Chebyshev
+from scipy.optimize import brentq
+from test_cli_commands import commands_of, kintrafo  # noqa: F401 (a fixture)
+
+ROOT = Path(__file__).parent.parent
+CAR = Suspension.load("reference_car")
+WISHBONES = Suspension.load("double_wishbone_car")
+ROD = "hardpoints.tie_rod_inner.z"
+
+
+def curve(suspension: Suspension, name: str, at: Any) -> np.ndarray:
+    return Curves("travel", np.atleast_1d(at), (name,)).of(model_of(suspension))[0]
+
+
+# -- sensitivity --------------------------------------------------------------------------------
+
+
+def test_the_steering_axis_turns_as_its_two_points_say() -> None:
+    """Caster is atan2(-k_x, k_z) of the line through two points that move with the file."""
+    points = CAR.hardpoints
+    along = points.metres("strut_top") - points.metres("ball_joint")
+    size = along[0] ** 2 + along[2] ** 2
+    found = variation.sensitivity(CAR, positions=[0.0], names=["caster"])["caster"][:, 0]
+    expected = {
+        "hardpoints.strut_top.x": -along[2] / size,
+        "hardpoints.ball_joint.x": along[2] / size,
+        "hardpoints.strut_top.z": along[0] / size,
+        "hardpoints.ball_joint.z": -along[0] / size,
+    }
+    for place in found["place"].values:
+        # the error of fourth order, (1 mm / 640 mm)^4, and rounding, 1e-16 / 0.5 mm, are below
+        assert float(found.sel(place=place)) == pytest.approx(expected.get(place, 0.0), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("car", "place"),
+    [
+        (CAR, ROD),
+        (CAR, "hardpoints.ball_joint.z"),
+        (CAR, "wheel.camber_deg"),
+        (WISHBONES, "hardpoints.upper_ball_joint.y"),
+    ],
+)
+@pytest.mark.parametrize("name", ["bump_steer", "camber", "roll_center_height_kinematic"])
+def test_derivatives_are_those_of_a_polynomial_through_many_neighbours(
+    car: Suspension, place: str, name: str
+) -> None:
+    at = np.array([-0.05, 0.0, 0.04])
+    where = places_of(car)[place]
+    reach = 4.0 * where.to_si  # 4 mm or degrees to either side
+    nodes = reach * np.cos(np.pi * (np.arange(9) + 0.5) / 9.0)
+    curves = np.array([curve(changed(car, where.moved(by)), name, at) for by in nodes])
+    expected = [
+        Chebyshev.fit(nodes, column, 8, domain=[-reach, reach]).deriv()(0.0) for column in curves.T
+    ]
+    found = variation.sensitivity(car, [place], positions=at, names=[name])[name][0]
+    # of both: some 1e-10 of what the curve is in a step
+    size = np.abs(curves).max() / 0.3
+    np.testing.assert_allclose(found, expected, rtol=1e-7, atol=1e-8 * size)
+
+
+def test_there_is_no_derivative_where_a_stop_begins_to_act() -> None:
+    stopped = CAR.with_changes({"bump_stop": {"clearance_mm": 30.0, "rate_N_per_m": 3e4}})
+    model = Model(stopped)
+
+    def gap(travel: float) -> float:
+        return float(gaps(model, arm_angles(model, 0.3 + travel))[0])
+
+    touches = brentq(gap, 0.02, 0.05, xtol=1e-9)
+    at = [touches - 1e-3, touches, touches + 1e-3]
+    found = variation.sensitivity(stopped, ["hardpoints.strut_top.z"], positions=at)
+    assert np.isnan(found["wheel_rate"].values).tolist() == [[False, True, False]]
+    assert np.isfinite(found["camber"].values).all()
+
+
+def test_the_unit_of_the_file_does_not_matter() -> None:
+    data = CAR.to_dict()
+    points = data["hardpoints"]
+    assert points.pop("unit") == "mm"
+    data["hardpoints"] = {name: [v / 1e3 for v in point] for name, point in points.items()}
+    metres = Suspension.from_dict(data | {"hardpoints": data["hardpoints"] | {"unit": "m"}})
+    one, other = (
+        variation.sensitivity(car, [ROD], positions=[0.02], names=["toe"])["toe"].values
+        for car in (CAR, metres)
+    )
+    # hardpoints differ by a rounding, which a step of 0.5 mm enlarges
+    np.testing.assert_allclose(one, other, rtol=1e-9)
+
+
+def test_units_of_values_are_told() -> None:
+    found = variation.sensitivity(CAR, [ROD, "wheel.toe_deg"], positions=[0.0], names=["toe"])
+    assert found["place_unit"].values.tolist() == ["m", "rad"]
+    # the toe of the file is that of the car
+    assert float(found["toe"].sel(place="wheel.toe_deg")[0]) == pytest.approx(1.0, rel=1e-9)
+    alone = variation.sensitivity(CAR, [ROD], positions=[0.0], names=["bump_steer"])
+    assert alone["bump_steer"].attrs["units"] == "rad/m/m"
+    assert display_of(alone["bump_steer"].attrs).units == "deg/mm per mm"
+    ((_, shown),) = variation.effects(alone, "bump_steer")
+    neighbours = [
+        math.degrees(curve(CAR.with_changes({ROD: 280.0 + by}), "bump_steer", 0.0)[0]) * 1e-3
+        for by in (-0.5, 0.5)
+    ]
+    assert shown == pytest.approx(neighbours[1] - neighbours[0], rel=1e-4)
+
+
+def test_masses_move_no_curve() -> None:
+    found = variation.sensitivity(
+        CAR, ["bodies.wheel"], positions=[-0.03, 0.03], names=["toe", "camber"]
+    )
+    assert found.sizes["place"] == 3
+    assert not found["toe"].values.any()
+
+
+# -- tolerance ----------------------------------------------------------------------------------
+
+
+def test_what_varies_little_varies_as_derivatives_say() -> None:
+    at = np.array([-0.05, 0.05])
+    tolerances = {"hardpoints": 0.3, ROD: 0.6}
+    names = ["toe"]
+    found = variation.tolerance(CAR, tolerances, count=400, positions=at, names=names, seed=7)
+    slopes = variation.sensitivity(CAR, positions=at, names=names)["toe"]
+    sigma = np.where(slopes["place"] == ROD, 0.6e-3, 0.3e-3) / 3.0
+    parts = (slopes.values * sigma[:, None]) ** 2
+    width = found["toe"].sel(quantile=0.95) - found["toe"].sel(quantile=0.05)
+    # a normal distribution has 90 % within 1.645 sigma; 400 cars tell quantiles to 8 % or so
+    expected = 2.0 * 1.645 * np.sqrt(parts.sum(axis=0))
+    np.testing.assert_allclose(width, expected, rtol=0.25)
+    share = found["toe_share"].values
+    np.testing.assert_allclose(share, parts.sum(axis=1) / parts.sum(), rtol=1e-6, atol=1e-12)
+    np.testing.assert_allclose(found["toe_nominal"], curve(CAR, "toe", at), rtol=1e-14)
+
+
+def test_points_that_are_off_together_turn_no_axis() -> None:
+    both = {"hardpoints.strut_top.x": 1.0, "hardpoints.ball_joint.x": 1.0}
+    options: dict[str, Any] = {"count": 20, "positions": [0.0], "names": ["caster"]}
+    apart = variation.tolerance(CAR, both, **options)
+    together = variation.tolerance(CAR, both, correlation=np.ones((2, 2)), **options)
+    spread = [np.ptp(found["caster"].values) for found in (apart, together)]
+    assert spread[0] > 1e-4
+    assert spread[1] < 1e-12  # of an angle of 0.05 rad
+
+
+def test_the_same_seed_makes_the_same_cars() -> None:
+    options: dict[str, Any] = {"count": 5, "positions": [0.03], "names": ["toe"]}
+    one, same, other = (
+        variation.tolerance(CAR, {ROD: 1.0}, seed=seed, **options) for seed in (1, 1, 2)
+    )
+    assert one.identical(same)
+    assert not (one["toe"] == other["toe"]).any()
+
+
+def test_uniform_values_keep_their_tolerance_and_limits_are_counted() -> None:
+    limit = {"bump_steer": {"least": 0.0061662}}  # that of the car itself
+    found = variation.tolerance(
+        CAR,
+        {ROD: 1.0},
+        distribution="uniform",
+        limits=limit,
+        count=60,
+        positions=[0.0],
+        names=["bump_steer"],
+    )
+    heights = found["value_of"].values[:, 0]
+    assert 0.279 <= heights.min() < 0.2791
+    assert 0.2809 < heights.max() <= 0.281
+    # bump steer grows with the height, so the limit is kept above the design position
+    assert found["within_limits"].values.tolist() == (heights >= 0.28).tolist()
+    assert found.attrs["yield"] == found["within_limits"].values.mean()
+
+
+def test_cars_that_cannot_be_say_why_and_are_within_no_limit() -> None:
+    wild = {"hardpoints.tie_rod_outer": 400.0}
+    found = variation.tolerance(CAR, wild, count=40, positions=[-0.05, 0.05], names=["toe"])
+    failed = found["reason"].values != ""
+    assert 0 < failed.sum() < 40
+    assert not found["within_limits"].values[failed].any()
+    assert found["within_limits"].values[~failed].all()
+    assert np.isfinite(found["toe"].values).all()
+
+
+# -- optimise -----------------------------------------------------------------------------------
+
+
+def test_a_car_finds_back_to_its_curves() -> None:
+    off = CAR.with_changes({ROD: 286.0, "hardpoints.tie_rod_outer.z": 255.0})
+    at = np.linspace(-60.0, 60.0, 7)
+    wanted = np.rad2deg(curve(CAR, "toe", at / 1e3))
+    found = variation.optimise(
+        off,
+        {ROD: 20.0, "hardpoints.tie_rod_outer.z": 20.0},
+        {"toe": {"at_mm": at.tolist(), "value": wanted.tolist(), "within": 1e-4}},
+    )
+    assert found.success, found.message
+    # to move is reckoned as a hundredth of what matters, and that is 1e-4 degrees
+    assert found.moved[ROD] == pytest.approx(-6.0, abs=0.02)
+    assert found.moved["hardpoints.tie_rod_outer.z"] == pytest.approx(5.0, abs=0.02)
+    assert found.start is off
+    np.testing.assert_allclose(
+        np.rad2deg(curve(found.suspension, "toe", at / 1e3)), wanted, atol=1e-4
+    )
+
+
+def test_a_limit_in_the_way_is_where_it_ends() -> None:
+    """Toe wants the rod low, bump steer may fall to a half of what it is."""
+    aims = {"toe": {"at_mm": [-50.0, 50.0], "value": 0.0, "within": 0.01}}
+    least = 0.003
+    found = variation.optimise(CAR, {ROD: 20.0}, aims, {"bump_steer": {"least": least}})
+    assert found.success, found.message
+
+    def above(height: float) -> float:
+        slope = curve(CAR.with_changes({ROD: height}), "bump_steer", 0.0)[0]
+        return math.degrees(slope) * 1e-3 - least
+
+    # a part of 1e-9 of the limit is kept, and the search ends with a part of 1e-8
+    assert 280.0 + found.moved[ROD] == pytest.approx(brentq(above, 260.0, 280.0), abs=1e-4)
+    free = variation.optimise(CAR, {ROD: 20.0}, aims)
+    assert free.moved[ROD] < found.moved[ROD] - 1.0
+
+
+def test_what_cannot_be_kept_is_no_success() -> None:
+    found = variation.optimise(
+        CAR,
+        {ROD: 1.0},
+        {"toe": {"at_mm": 50.0, "value": 0.0, "within": 0.01}},
+        {"bump_steer": {"most": -0.01}},
+    )
+    assert not found.success
+    assert "not within its limits: bump_steer" in found.message
+
+
+def test_of_equal_ways_the_shortest_is_taken() -> None:
+    """Two heights do the same to bump steer, nearly: neither runs to the end of its range."""
+    heights = {ROD: 50.0, "hardpoints.tie_rod_outer.z": 50.0}
+    found = variation.optimise(CAR, heights, {"bump_steer": {"value": 0.0, "within": 1e-3}})
+    assert found.success
+    assert found.message == "found"
+    assert max(abs(by) for by in found.moved.values()) < 10.0
+
+
+# -- what cannot be used ------------------------------------------------------------------------
+
+TOE = {"toe": {"value": 0.0, "within": 0.1}}
+
+WRONG = [
+    (lambda: variation.sensitivity(CAR, ["hardpoint"]), "Did you mean hardpoints"),
+    (lambda: variation.sensitivity(CAR, ROD), "a list of places"),
+    (lambda: variation.sensitivity(CAR, names=["camberr"]), "Did you mean camber"),
+    (lambda: variation.sensitivity(CAR, over="wheel"), "Known are: travel, rack"),
+    (lambda: variation.sensitivity("reference_car"), "a kintrafo.Suspension is needed"),
+    (lambda: variation.sensitivity(CAR, positions=[0.0, np.nan]), "finite number"),
+    (lambda: variation.tolerance(CAR, {}), "one or more are needed"),
+    (lambda: variation.tolerance(CAR, {ROD: -1.0}), "above 0 mm"),
+    (lambda: variation.tolerance(CAR, {ROD: 1.0}, count=1), "2 to 1e"),
+    (lambda: variation.tolerance(CAR, {ROD: 1.0}, distribution="even"), "normal, uniform"),
+    (lambda: variation.tolerance(CAR, {ROD: 1.0}, correlation=np.eye(2)), r"\(1, 1\) is needed"),
+    (
+        lambda: variation.tolerance(
+            CAR, {"hardpoints.ball_joint": 1.0}, correlation=2.0 * np.ones((3, 3)) - np.eye(3)
+        ),
+        "eigenvalue is negative",
+    ),
+    (lambda: variation.tolerance(CAR, {ROD: 1.0}, limits={"toe": {}}), "least or most is needed"),
+    (lambda: variation.optimise(CAR, {}, TOE), "free: one value or more"),
+    (lambda: variation.optimise(CAR, {ROD: 1.0}, {}), "targets: one or more"),
+    (lambda: variation.optimise(CAR, {ROD: 1.0}, {"toe": {"value": 0.0}}), "within is missing"),
+    (
+        lambda: variation.optimise(CAR, {ROD: 1.0}, {"toe": TOE["toe"] | {"at_mm": [1.0, 2.0, 3.0],
+                                                                       "value": [1.0, 2.0]}}),
+        "2 numbers and 3 in at_mm",
+    ),
+    (
+        lambda: variation.optimise(CAR, {ROD: 1.0}, {"toe": TOE["toe"] | {"at": 1.0}}),
+        "at is not known",
+    ),
+    (
+        lambda: variation.optimise(
+            CAR.with_changes({"vehicle.wheelbase_mm": None}),
+            {ROD: 1.0},
+            {"ackermann": {"over": "rack", "at_mm": 30.0, "value": 50.0, "within": 1.0}},
+        ),
+        "ackermann over rack: the file has not the data",
+    ),
+    (
+        lambda: variation.tolerance(
+            CAR.with_changes({"vehicle.wheelbase_mm": None}),
+            {ROD: 1.0},
+            limits={"anti_dive": {"least": 0.0}},
+        ),
+        "anti_dive over travel: the file has not the data",
+    ),
+    (
+        lambda: variation.optimise(
+            CAR, {ROD: 1.0}, TOE, {"toe": {"least": 1.0, "most": -1.0}}
+        ),
+        "least must be smaller than most",
+    ),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("call", "words"), WRONG, ids=[words for _, words in WRONG])
+def test_what_cannot_be_used(call: Any, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        call()
+
+
+def test_a_neighbour_that_cannot_be_is_named() -> None:
+    """The bearing is as far from the other one as points must be."""
+    close = {
+        f"hardpoints.arm_rear.{a}": v for a, v in zip("xyz", (168.9, -350.0, 205.0), strict=True)
+    }
+    with pytest.raises(InputError, match=r"arm_rear\.x: with \+0.5 mm there is no neighbour"):
+        variation.sensitivity(CAR.with_changes(close), ["hardpoints.arm_rear.x"], positions=[0.0])
+
+
+# -- commands -----------------------------------------------------------------------------------
+
+
+@pytest.mark.usefixtures("first_page_of_curves")
+def test_the_page_runs(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+    page = (ROOT / "docs/studies.md").read_text(encoding="utf-8")
+    for name, text in re.findall(r"```toml\n# (\S+)\n(.*?)```", page, flags=re.DOTALL):
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    for line in commands_of(page):
+        code, out, err = kintrafo(*shlex.split(line)[1:])
+        assert (code, bool(out)) == (0, True), (line, err)
+    assert {path.name for path in tmp_path.iterdir()} >= {
+        "bump_steer.png", "heights.nc", "bands.png", "better_car.toml", "before_and_after.png",
+    }  # fmt: skip
+    better = Suspension.load(tmp_path / "better_car.toml")
+    assert abs(curve(better, "toe", [-0.06, 0.06])).max() < abs(curve(CAR, "toe", 0.06)).max() / 5
+
+
+def test_commands_refuse_and_end_as_others_do(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+    (tmp_path / "a.toml").write_text("[limit.toe]\nleast = 0.0\n", encoding="utf-8")
+    code, _, err = kintrafo("tolerance", "reference_car", "a.toml")
+    assert code == 2
+    assert "Did you mean limits" in err
+    (tmp_path / "b.toml").write_text(
+        f'[free]\n"{ROD}" = 1.0\n[targets.toe]\nvalue = 0.0\nwithin = 1.0\n'
+        "[limits.bump_steer]\nmost = -0.01\n",
+        encoding="utf-8",
+    )
+    code, out, _ = kintrafo("optimise", "reference_car", "b.toml")
+    assert code == 1
+    assert "not within its limits" in out
+    code, _, err = kintrafo("sensitivity", "reference_car", "--of", "camberr")
+    assert code == 2
+    assert "Did you mean camber" in err
