@@ -43,6 +43,10 @@ WRITING = {
         "a.svg",
     ),
     "optimise": (["optimise", CAR, str(STUDIES / "goals.toml"), "-o", "a.toml"], "a.toml"),
+    "sweep": (
+        ["sweep", CAR, "wheel.toe_deg=0,1", "--duration", 0.01, "--plot", "a.png"],
+        "a.png",
+    ),
     "report": (["report", CAR], f"{CAR}.html"),
     "paper": (["paper", "."], "figure_6_wheel_motion.svg"),
 }

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import InputError, Model, Suspension, arm_angles, variation
+from kintrafo import InputError, Model, Suspension, arm_angles, roads, scenario, variation
 from kintrafo.core.quantities import display_of
 from kintrafo.study.characteristics.from_model import gaps
 from kintrafo.study.variation.curves import Curves, changed, model_of
@@ -253,11 +253,60 @@ def test_of_equal_ways_the_shortest_is_taken() -> None:
     assert max(abs(by) for by in found.moved.values()) < 10.0
 
 
+# -- sweep --------------------------------------------------------------------------------------
+
+BUMP = scenario.Scenario(
+    duration=0.4, output_step=0.01, inputs={"road_height": roads.step(0.01, at=0.05, end=0.4)}
+)
+
+
+def test_each_of_a_grid_moves_as_it_does_alone() -> None:
+    rates = {"strut.damper_rate_N_s_per_m": [800.0, 2000.0], "hardpoints.ball_joint.z": [170, 190]}
+    found = variation.sweep(CAR, rates, BUMP, signals=["camber"], reductions={"tyre_force": "min"})
+    assert found["camber"].dims == (*rates, "time")
+    assert found["hardpoints.ball_joint.z"].values.tolist() == [0.17, 0.19]
+    assert found["success"].values.all()
+    assert not found["reason"].values.any()
+    for i, rate in enumerate(rates["strut.damper_rate_N_s_per_m"]):
+        for j, height in enumerate(rates["hardpoints.ball_joint.z"]):
+            car = CAR.with_changes(dict(zip(rates, (rate, float(height)), strict=True)))
+            _, alone = scenario.run(Model(car), BUMP, method="DOP853", rtol=1e-9, atol=1e-12)
+            # both within some times rtol, 1e-6, of what swings
+            np.testing.assert_allclose(found["camber"][i, j], alone["camber"], atol=1e-6)
+            least = float(alone["tyre_force"].min())
+            assert float(found["tyre_force_min"][i, j]) == pytest.approx(least, rel=1e-4)
+
+
+def test_what_cannot_be_is_beside_what_can() -> None:
+    rates = [25e3, -1.0, 30e3]
+    found = variation.sweep(
+        CAR, {"strut.spring_rate_N_per_m": rates}, BUMP, reductions={"camber": "max"}
+    )
+    assert found["success"].values.tolist() == [True, False, True]
+    assert "out of range" in found["reason"].values[1]
+    assert np.isnan(found["camber_max"].values).tolist() == [False, True, False]
+    assert found.attrs["message"].startswith("2 of 3 reached the end")
+    with pytest.raises(InputError, match="none of the suspensions"):
+        variation.sweep(CAR, {"strut.spring_rate_N_per_m": [-1.0]}, BUMP)
+
+
 # -- what cannot be used ------------------------------------------------------------------------
 
 TOE = {"toe": {"value": 0.0, "within": 0.1}}
 
 WRONG = [
+    (lambda: variation.sweep(CAR, {"hardpoints.ball_joint": [1.0]}, BUMP), "stands for 3 numbers"),
+    (lambda: variation.sweep(CAR, {ROD: [280.0, 280.0]}, BUMP), "each is needed once"),
+    (lambda: variation.sweep(CAR, {}, BUMP), "one place or more"),
+    (lambda: variation.sweep(CAR, {ROD: [280.0]}, 1.0), "a Scenario is needed"),
+    (
+        lambda: variation.sweep(CAR, {"strut.friction_N": [0.0, 50.0]}, BUMP),
+        "ask for the equations",
+    ),
+    (
+        lambda: variation.sweep(CAR, {ROD: np.arange(1e6), "wheel.toe_deg": [0.0, 1.0]}, BUMP),
+        "combinations, at most",
+    ),
     (lambda: variation.sensitivity(CAR, ["hardpoint"]), "Did you mean hardpoints"),
     (lambda: variation.sensitivity(CAR, ROD), "a list of places"),
     (lambda: variation.sensitivity(CAR, names=["camberr"]), "Did you mean camber"),
@@ -341,6 +390,7 @@ def test_the_page_runs(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
         assert (code, bool(out)) == (0, True), (line, err)
     assert {path.name for path in tmp_path.iterdir()} >= {
         "bump_steer.png", "heights.nc", "bands.png", "better_car.toml", "before_and_after.png",
+        "damping.png", "damping.csv",
     }  # fmt: skip
     better = Suspension.load(tmp_path / "better_car.toml")
     assert abs(curve(better, "toe", [-0.06, 0.06])).max() < abs(curve(CAR, "toe", 0.06)).max() / 5
@@ -359,6 +409,13 @@ def test_commands_refuse_and_end_as_others_do(kintrafo: Any, tmp_path: Path) -> 
     code, out, _ = kintrafo("optimise", "reference_car", "b.toml")
     assert code == 1
     assert "not within its limits" in out
+    for wrong in (f"{ROD}=1:2", f"{ROD}=1:2:x", ROD, f"{ROD}=a"):
+        code, _, err = kintrafo("sweep", "reference_car", wrong)
+        assert code == 2
+        assert "PLACE=FROM:TO:COUNT" in " ".join(err.split())
+    code, out, _ = kintrafo("sweep", "reference_car", "strut.spring_rate_N_per_m=-1,25000")
+    assert code == 1
+    assert "1 of 2 reached the end" in out
     code, _, err = kintrafo("sensitivity", "reference_car", "--of", "camberr")
     assert code == 2
     assert "Did you mean camber" in err

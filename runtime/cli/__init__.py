@@ -19,6 +19,7 @@ from . import (
     schema,
     sensitivity,
     simulate,
+    sweep,
     tolerance,
     topology,
 )
@@ -52,7 +53,7 @@ def _flowing(docstring: str) -> str:
 _PANELS = {
     "Begin": (new, import_chrono, schema, check, topology),
     "Compute": (kinematics, characteristics, simulate, compare),
-    "Design": (sensitivity, tolerance, optimise),
+    "Design": (sensitivity, tolerance, optimise, sweep),
     "Hand over": (report, paper, generate),
 }
 for panel, modules in _PANELS.items():

@@ -132,12 +132,18 @@ class Outputs:
             written += self._drawn(dataset, title, names, suffix, rule)
         return written
 
-    def write_data(self, dataset: "Dataset", suffix: str = "") -> list[Path]:
-        """Write the data files alone and return them."""
+    def write_data(
+        self, dataset: "Dataset", suffix: str = "", *, rows: "Dataset | None" = None
+    ) -> list[Path]:
+        """Write the data files alone and return them; formats of rows may have less."""
         from ..study import export
 
         rule: _Rule = {"force": self.force, "inputs": self.inputs}
-        return [export.write(dataset, _named(path, suffix), **rule) for path in self.data]
+        flat = dataset if rows is None else rows
+        return [
+            export.write(dataset if path.suffix == ".nc" else flat, _named(path, suffix), **rule)
+            for path in self.data
+        ]
 
     def _drawn(
         self, dataset: "Dataset", title: str, names: Sequence[str], suffix: str, rule: "_Rule"

@@ -10,8 +10,9 @@ from rich.table import Table
 
 from .console import console, number, print_json, problems, say
 from .exits import Exit
-from .options import File, Force, Json, load, metres
+from .options import File, Force, Json, load
 from .outputs import Figures, Formats, Out, Outputs, Plot, name_files
+from .scenarios import scenario_of
 from .simulation_options import (
     Atol,
     Duration,
@@ -95,40 +96,26 @@ def command(
 
     Without --height it starts from rest on the road as it is at the beginning.
     """
-    from ..study.excitation import Course, excitation
-    from ..study.measurement import measured as read
-    from ..study.scenario import Scenario
-
     read_here = [Path(file), *([] if measured is None else [measured])]
     outputs = Outputs.of(out, plot, figures, formats, force=force, inputs=read_here)
     model = load(file)
-    if speed is not None and measured is None:
-        raise typer.BadParameter("only a road from --measured is driven on at a --speed")
-    recording = None if measured is None else read(measured, speed=_per_second(speed))
-    end = duration
-    if end is None:
-        end = 1.0 if recording is None else recording.duration
-    courses = {
-        "road_height": Course(
-            step=metres(road_step),
-            step_at=road_step_at,
-            sine=metres(road_sine),
-            frequency=road_frequency,
-        ),
-        "rack_position": Course(
-            held=metres(rack), sine=metres(rack_sine), frequency=rack_frequency
-        ),
-    }
-    inputs = excitation(courses, end, recording)
-    if model.free_rack:
-        _tell_of_the_free_rack(file, inputs)
-    scenario = Scenario(
-        duration=end,
-        output_step=output_step / 1e3,
-        height=metres(height),
-        spin_rate=spin * math.tau,
-        inputs=inputs,
+    scenario = scenario_of(
+        height=height,
+        spin=spin,
+        road_step=road_step,
+        road_step_at=road_step_at,
+        road_sine=road_sine,
+        road_frequency=road_frequency,
+        measured=measured,
+        speed=speed,
+        rack=rack,
+        rack_sine=rack_sine,
+        rack_frequency=rack_frequency,
+        duration=duration,
+        output_step=output_step,
     )
+    if model.free_rack:
+        _tell_of_the_free_rack(file, scenario.inputs)
     options = {
         "method": method,
         "rtol": rtol,
@@ -162,11 +149,6 @@ def _tell_of_the_free_rack(file: str, inputs: dict[str, Any]) -> None:
         problem = f"{reason}: its motion cannot be prescribed. Set their mass_kg to 0 to do so."
         raise InputError([problem], file)
     problems.print(f"note: {reason}, without a force on it.", style="yellow", markup=False)
-
-
-def _per_second(speed: float | None) -> float | None:
-    """Return a speed given in km/h in m/s."""
-    return None if speed is None else speed / 3.6
 
 
 def _played(

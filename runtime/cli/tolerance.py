@@ -43,7 +43,7 @@ def command(
 ) -> None:
     """Bands of the characteristics of many cars whose values are off by chance, and their causes.
 
-    The table is about one position; data files have all.
+    The table is about one position; data files have all, netCDF each car besides.
     """
     from ..study import export, variation
     from ..study.variation.curves import model_of
@@ -66,7 +66,8 @@ def command(
             names=None if out else names,
             progress=progress,
         )
-    written = outputs.write_data(dataset)
+    # cars and values would multiply the rows of a table: they are in netCDF
+    written = outputs.write_data(dataset, rows=dataset.drop_dims(["car", "place"]))
     for path in outputs.pages:
         from ..plots import variation as plots
 

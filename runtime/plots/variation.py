@@ -12,7 +12,7 @@ from matplotlib.ticker import MaxNLocator
 
 from ..core.files import Paths
 from ..core.quantities import bracketed, display_of, displayed, long_name
-from ..study.variation.sensitivity import effects
+from ..study.variation.sensitivity import PLACE, effects
 from ..study.variation.tolerance import QUANTILE
 from .curves import check_formats
 from .figures import BLUE, ORANGE, STYLE, save, written_plainly
@@ -128,7 +128,8 @@ def _written(
 def _bars(axes: Axes, dataset: xr.Dataset, name: str, at: float) -> None:
     found = [(p, v) for p, v in effects(dataset, name, at) if np.isfinite(v)]
     found = [(p, v) for p, v in found if abs(v) > 1e-6 * abs(found[0][1])][:_MOST_BARS]
-    places, values = [_short(place) for place, _ in found], [value for _, value in found]
+    words = dict(zip(dataset[PLACE].values, dataset["place_name"].values, strict=True))
+    places, values = [str(words[place]) for place, _ in found], [value for _, value in found]
     axes.barh(places, values, color=[BLUE if v > 0.0 else ORANGE for v in values], height=0.7)
     axes.invert_yaxis()
     axes.axvline(0.0, color="#888888", linewidth=0.8)
@@ -137,11 +138,6 @@ def _bars(axes: Axes, dataset: xr.Dataset, name: str, at: float) -> None:
     axes.xaxis.set_major_locator(MaxNLocator(nbins=5))
     axes.set_xlabel(f"[{display_of(dataset[name].attrs).units}]", fontsize=9)
     axes.set_title(long_name(dataset[name]).removeprefix("sensitivity of "), fontsize=10)
-
-
-def _short(place: str) -> str:
-    """Return how a value is called beside a bar: points without their section."""
-    return place.removeprefix("hardpoints.").replace(".", " ").replace("_", " ")
 
 
 def _bands(axes: Axes, dataset: xr.Dataset, name: str) -> None:

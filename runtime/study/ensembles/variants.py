@@ -164,7 +164,7 @@ def _check_names(
             arguments.refuse(f"variants {name!r} follows from {derived[name]!r}: vary that.")
         elif name not in known:
             arguments.refuse(f"variants {name!r} is not known. {suggestion(name, known)}")
-        elif body := _massless(model, name):
+        elif body := without_mass(model, name):
             arguments.refuse(
                 f"variants {name!r} changes nothing: the equations of {model.equations.NAME} leave "
                 f"the {body} without mass."
@@ -221,7 +221,7 @@ def _check_dimensions(
             )
 
 
-def _massless(model: System, name: str) -> str:
+def without_mass(model: System, name: str) -> str:
     """Return the body whose mass a parameter describes, and the equations leave out."""
     equations = model.equations
     out = [body for body in equations.BODIES if body not in equations.MASSIVE_BODIES]

@@ -8,9 +8,10 @@ from typing import Any
 
 from ...core.arguments import Arguments, shown
 from ...core.suggestions import suggestion
-from ...suspension.input.units import unit_of
+from ...suspension.input.units import unit_of, without_unit
 from ...suspension.kinds import Suspension
 
+_SPACES = str.maketrans("._", "  ")
 _TO_SI = {"mm": 1e-3, "deg": math.pi / 180.0, "N/mm^3": 1e9}
 _SI = {"mm": "m", "deg": "rad", "N/mm^3": "N/m^3", "": "1"}
 
@@ -36,6 +37,11 @@ class Place:
     unit: str
     value: float
     in_file: float = 1.0
+
+    @property
+    def words(self) -> str:
+        """What it is called for a person: ``ball joint z``, ``strut spring rate``."""
+        return without_unit(self.name).removeprefix("hardpoints.").translate(_SPACES)
 
     @property
     def si_unit(self) -> str:

@@ -147,6 +147,7 @@ def _dataset(curves: Curves, places: Sequence[Place], values: Array) -> xr.Datas
     coordinates = {
         PLACE: xr.Variable(PLACE, [place.name for place in places], labels),
         "place_unit": xr.Variable(PLACE, [place.si_unit for place in places]),
+        "place_name": xr.Variable(PLACE, [place.words for place in places]),
         along.name: xr.Variable(along.name, curves.positions, along.attributes()),
     }
     return xr.Dataset(data, coordinates, {"title": f"sensitivity over {along.long_name}"})

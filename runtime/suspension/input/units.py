@@ -45,6 +45,18 @@ def unit_of(key: str) -> str:
     return ""
 
 
+def without_unit(key: str) -> str:
+    """Return a key without the unit that it ends in.
+
+    Examples
+    --------
+    >>> without_unit("damper_rate_N_s_per_m")
+    'damper_rate'
+    """
+    ending = next((e for e in _UNIT_OF_ENDING if key.endswith(f"_{e}")), "")
+    return key.removesuffix(f"_{ending}")
+
+
 def in_metres(length: float, unit: LengthUnit) -> float:
     """Convert a length of an input file to metres.
 

@@ -127,6 +127,14 @@ CALLS = {
             "limits": {"toe": {"least": -1.0}},
         },
     ),
+    "variation.sweep": (
+        variation.sweep,
+        {
+            "suspension": _CAR.suspension, "values": {_ROD: [270.0, 280.0]},
+            "scenario": scenario.Scenario(duration=0.01), "signals": ["camber"],
+            "reductions": {"camber": "max"}, "rtol": 1e-6, "atol": 1e-9, "max_steps": 1000,
+        },
+    ),
     "targets": (
         lambda **given: variation.optimise(_CAR.suspension, {_ROD: 1.0}, {"toe": given}),
         {"value": 0.0, "within": 1.0, "at_mm": [0.0, 1.0], "over": "travel"},

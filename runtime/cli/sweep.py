@@ -1,0 +1,186 @@
+"""``kintrafo sweep``: the motion over a grid of values of a file."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.markup import escape
+from rich.table import Table
+
+from .console import console, print_json, progress_bar, say, significant
+from .exits import Exit
+from .options import File, Force, Json
+from .outputs import Out, Outputs, Plot, name_files
+from .scenarios import scenario_of
+from .simulation_options import (
+    Duration,
+    Height,
+    Measured,
+    OutputStep,
+    Rack,
+    RackFrequency,
+    RackSine,
+    RoadFrequency,
+    RoadSine,
+    RoadStep,
+    RoadStepAt,
+    Speed,
+    Spin,
+)
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+    from ..suspension.model import Model
+
+EXAMPLES = (
+    "kintrafo sweep my_car.toml strut.damper_rate_N_s_per_m=500:3000:11 --road-step 20",
+    "kintrafo sweep my_car.toml hardpoints.tie_rod_inner.z=270,280,290 --keep toe:max -o toe.csv",
+)
+
+_USUAL = ("wheel_acceleration:rms", "tyre_force:min", "tyre_force:rms")
+# So many combinations are a table that is read.
+_ROWS = 40
+
+
+def command(
+    file: File,
+    values: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="PLACE=VALUES...",
+            help="Values of the file that vary: from:to:count, or a list with commas.",
+        ),
+    ],
+    *,
+    keep: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="SIGNAL:KIND",
+            help="Kept of each motion: max, min, mean, rms, above:LEVEL. May be repeated. "
+            f"Default: {', '.join(_USUAL)}.",
+        ),
+    ] = None,
+    height: Height = None,
+    spin: Spin = 0.0,
+    road_step: RoadStep = None,
+    road_step_at: RoadStepAt = 0.1,
+    road_sine: RoadSine = None,
+    road_frequency: RoadFrequency = 1.0,
+    measured: Measured = None,
+    speed: Speed = None,
+    rack: Rack = None,
+    rack_sine: RackSine = None,
+    rack_frequency: RackFrequency = 1.0,
+    duration: Duration = None,
+    output_step: OutputStep = 1.0,
+    out: Out = None,
+    plot: Plot = None,
+    force: Force = False,
+    json: Json = False,
+) -> None:
+    """Simulate the suspension with all combinations of some values, many at once.
+
+    Each starts at its own rest, unless --height says where. The exit code is 1 where one does not
+    reach the end.
+    """
+    from ..study import export, variation
+    from ..study.variation.curves import model_of
+    from ..suspension.kinds import Suspension
+
+    inputs = [Path(file), *([] if measured is None else [measured])]
+    outputs = Outputs.of(out, plot, force=force, inputs=inputs)
+    suspension = Suspension.load(file)
+    scenario = scenario_of(
+        height=height,
+        spin=spin,
+        road_step=road_step,
+        road_step_at=road_step_at,
+        road_sine=road_sine,
+        road_frequency=road_frequency,
+        measured=measured,
+        speed=speed,
+        rack=rack,
+        rack_sine=rack_sine,
+        rack_frequency=rack_frequency,
+        duration=duration,
+        output_step=output_step,
+    )
+    grid = dict(map(_numbers, values))
+    if plot and len(grid) > 2:
+        raise typer.BadParameter("a figure shows one value or two; leave out --plot, or a value")
+    reductions = _reductions(model_of(suspension), keep or _USUAL)
+    with progress_bar("suspensions") as progress:
+        found = variation.sweep(
+            suspension, grid, scenario, reductions=reductions, progress=progress
+        )
+    kept = found.drop_dims(["time", "state_element", "bound"])
+    names = [str(n) for n in kept.data_vars if kept[n].dtype.kind == "f" and n != "end_time"]
+    written = outputs.write(kept, title=file, names=names)
+    if json:
+        print_json(export.as_dict(kept))
+    else:
+        console.print(_table(kept, names, file))
+        say(str(found.attrs["message"]))
+        name_files(written)
+    if not found["success"].all():
+        raise typer.Exit(Exit.REFUSED)
+
+
+def _numbers(text: str) -> tuple[str, list[float]]:
+    """Read values: ``place=from:to:count``, or ``place=a,b,c``."""
+    import numpy as np
+
+    place, mark, given = text.partition("=")
+    parts = given.split(":")
+    try:
+        if len(parts) == 3 and int(parts[2]) > 1:
+            return place, np.linspace(float(parts[0]), float(parts[1]), int(parts[2])).tolist()
+        if mark and len(parts) == 1:
+            return place, [float(number) for number in given.split(",")]
+    except ValueError:
+        pass
+    raise typer.BadParameter(
+        f"{text!r}: write PLACE=FROM:TO:COUNT with two values or more, or PLACE=VALUE,VALUE,..."
+    )
+
+
+def _reductions(model: "Model", kept: tuple[str, ...] | list[str]) -> dict[str, list[Any]]:
+    """Read what is kept of each motion; levels are in the units for people."""
+    from ..core.quantities import attributes, display_of
+
+    found: dict[str, list[Any]] = {}
+    for text in kept:
+        signal, _, kind = text.partition(":")
+        word, mark, level = kind.partition(":")
+        entry: Any = word
+        if mark and signal in model.signal_names:
+            unit = model.equations.SIGNALS[signal]["unit"]
+            try:
+                entry = word, float(level) / display_of(attributes("", unit)).factor
+            except ValueError:
+                raise typer.BadParameter(f"{text!r}: {level!r} is no number") from None
+        found.setdefault(signal, []).append(entry)
+    return found
+
+
+def _table(dataset: "Dataset", names: list[str], file: str) -> Table:
+    """Return a row for each combination, or of many the extremes."""
+    from ..core.quantities import bracketed, display_of, long_name
+
+    rows = dataset[names].to_dataframe().reset_index()
+    table = Table(title=escape(f"{file}: {len(rows)} suspensions"))
+    if len(rows) > _ROWS:
+        there = [rows[name].dropna() for name in names]
+        extremes = {i for some in there if some.size for i in (some.idxmin(), some.idxmax())}
+        rows = rows.loc[sorted(extremes)]
+        table.caption = "those with the smallest and the greatest numbers"
+    for name in rows.columns:
+        data = dataset[name]
+        words = str(name).replace("_", " ") if name in dataset.data_vars else long_name(data)
+        table.add_column(escape(bracketed(words, data.attrs)), justify="right")
+    factors = [display_of(dataset[name].attrs).factor for name in rows.columns]
+    for row in rows.itertuples(index=False):
+        pairs = zip(row, factors, strict=True)
+        table.add_row(*(significant(float(value) * factor) for value, factor in pairs))
+    return table
