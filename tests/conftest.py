@@ -7,6 +7,7 @@ reads this file as well, and they wait for it.
 from __future__ import annotations
 
 import gc
+import os
 from functools import cache
 from typing import TYPE_CHECKING
 
@@ -23,6 +24,10 @@ if TYPE_CHECKING:
 
     Pages = dict[str, tuple[Hashable, ...]]
     """Groups of curves by name, with their variables."""
+
+# SymPy reads it when it is imported, which some tests do before `kintrafo.generator.memory` can say
+# so. It is bounded, since a process derives dozens of models.
+os.environ.setdefault("SYMPY_CACHE_SIZE", "20000")
 
 # How long an example takes is the machine's affair, and that of what else it does.
 settings.register_profile("calm", deadline=None, suppress_health_check=[HealthCheck.too_slow])
