@@ -1,6 +1,6 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
-.PHONY: drawings help setup generate build run test test-elsewhere fuzz package lint tree types format baseline clean \
+.PHONY: drawings help setup sundials generate build run test test-elsewhere fuzz package wheel lint tree types format baseline clean \
 	benchmark benchmark-andrews benchmark-bits benchmark-ensemble benchmark-growth benchmark-loops benchmark-page benchmark-peers benchmark-speed benchmark-studies format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
@@ -20,6 +20,9 @@ build: .venv/.built ## Compile the generated models
 .venv/.built: .venv/.ready $(EMITTED)
 	@$(PYTHON) setup.py --quiet build_ext --inplace
 	@touch $@
+
+sundials: ## Build SUNDIALS anew, optimised, for the next build (set-up does it where there is none)
+	@.ci/sundials
 
 generate: .venv/.ready ## Derive the equations again and write generated/
 	@$(PYTHON) -m kintrafo.generator generate generated
@@ -106,6 +109,9 @@ benchmark-speed: build ## Times of everything, with pytest-benchmark (ARGS=--ben
 	@$(PYTHON) -m pytest -q benchmarks/test_speed.py -p no:xdist --benchmark-only \
 		--benchmark-columns=min,median,ops,rounds --benchmark-sort=name $(ARGS)
 
+# a package is built in a folder of its own
+package wheel: export SUNDIALS_ROOT := $(or $(SUNDIALS_ROOT),$(patsubst %/include,%,$(wildcard $(CURDIR)/build/sundials/include)))
+
 package: .venv/.ready ## Build a source package and a wheel from it, and import that
 	@rm -rf build/package && mkdir -p build
 	@$(PYTHON) -m build --no-isolation --outdir build/package . >build/package.log 2>&1 \
@@ -115,6 +121,9 @@ package: .venv/.ready ## Build a source package and a wheel from it, and import 
 		import kintrafo; print('packaged:', kintrafo.Model('reference_car')); \
 		from kintrafo.generator.mechanisms.four_bar import FOUR_BAR; \
 		print('compiled by it:', kintrafo.compile(FOUR_BAR, folder='cache').__name__)"
+
+wheel: package ## A wheel that needs neither compiler nor SUNDIALS, tried in an empty environment
+	@.ci/wheel
 
 baseline: build ## Store the present operation counts as the baseline
 	@$(PYTHON) -m pytest -q tests/test_operation_counts.py --update-baseline

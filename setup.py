@@ -38,11 +38,12 @@ WIDTHS = {} if sys.platform == "win32" else WIDTHS
 # equations are a sixth faster for it in four lanes.
 SCHEDULED = ["-fschedule-insns", "-fsched-pressure"]
 
-# Where SUNDIALS may be: in the place that the user names, or in the active environment, or of the
-# system. `.ci/setup` looks in the same places.
+# Where SUNDIALS may be: in the place that the user names, or built here by `.ci/sundials`, or in
+# the active environment, or of the system. `.ci/setup` looks in the same places, and builds it
+# rather than take that of Debian, which is not optimised.
 NAMED = os.environ.get("SUNDIALS_ROOT")
-PREFIXES = [NAMED] if NAMED else [os.environ.get("CONDA_PREFIX"), "/usr/local", "/usr"]
-PREFIXES += [] if NAMED else ["/opt/homebrew"]
+OTHERS = ["build/sundials", os.environ.get("CONDA_PREFIX"), "/usr/local", "/opt/homebrew", "/usr"]
+PREFIXES = [NAMED] if NAMED else OTHERS
 HEADER = "include/cvode/cvode.h"
 LIBRARIES = ["cvode", "arkode", "nvecserial", "sunmatrixdense", "sunlinsoldense"]
 
@@ -84,7 +85,7 @@ def solver_extension() -> Extension | None:
         runtime_library_dirs=[] if sys.platform == "win32" else homes,
         libraries=[*shared, "m"],
         extra_objects=[path.as_posix() for path in static],
-        depends=_headers(NATIVE),
+        depends=[*_headers(NATIVE), *(path.as_posix() for path in static)],
         extra_compile_args=[*FLAGS, *headers],
         extra_link_args=linked,
     )

@@ -13,7 +13,11 @@ from kintrafo.generated import _macpherson
 from kintrafo.simulation.solvers import native_available, native_version, sundials
 
 OF_EVERY_SYSTEM = {"linux-vdso", "linux-gate", "ld-linux", "libc", "libm", "libpthread"}
-ARCHIVES = list(Path("/usr/lib").glob("*-linux-gnu/libsundials_cvode.a"))
+ROOT = Path(__file__).parent.parent
+ARCHIVES = [
+    *ROOT.glob("build/sundials/lib/libsundials_cvode.a"),
+    *Path("/usr/lib").glob("*-linux-gnu/libsundials_cvode.a"),
+]
 
 needs_ldd = pytest.mark.skipif(shutil.which("ldd") is None, reason="no ldd")
 
@@ -26,11 +30,10 @@ def needed(module):
 
 
 def test_without_a_compiler_it_is_said_what_to_install(tmp_path):
-    root = Path(__file__).parent.parent
     places = [option for name in ("lib", "temp") for option in (f"--build-{name}", tmp_path / name)]
     done = subprocess.run(
         [sys.executable, "setup.py", "--quiet", "build_ext", *places],
-        cwd=root,
+        cwd=ROOT,
         env=os.environ | {"CC": "no-such-compiler"},
         capture_output=True,
         text=True,
@@ -52,7 +55,7 @@ def test_a_model_needs_nothing_but_the_c_library(module):
 @pytest.mark.skipif(not native_available(), reason="built without SUNDIALS")
 @pytest.mark.skipif(
     not ARCHIVES or "SUNDIALS_ROOT" in os.environ or "CONDA_PREFIX" in os.environ,
-    reason="not built with the static libraries of the system",
+    reason="not built with the static libraries of this folder or of the system",
 )
 def test_sundials_is_linked_statically():
     found = needed(sundials)

@@ -205,7 +205,8 @@ def with_sundials():
     """Return a compiler and flags for the SUNDIALS with which the project was built."""
     since_7 = int(native_version().split(".")[0]) >= 7
     libraries = [*SUNDIALS, "core" if since_7 else "generic"]
-    root = os.environ.get("SUNDIALS_ROOT")
+    built = ROOT / "build/sundials"
+    root = os.environ.get("SUNDIALS_ROOT") or (built if built.is_dir() else None)
     where = [f"-I{root}/include", f"-L{root}/lib", f"-Wl,-rpath,{root}/lib"] if root else []
     # Debian's and Homebrew's 7.x have MPI in their core
     compiler = "mpicc" if since_7 and shutil.which("mpicc") else "gcc"

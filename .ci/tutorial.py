@@ -1,0 +1,32 @@
+"""Run the commands of docs/tutorial.md in a folder, with the `kintrafo` that is on the path."""
+
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+PAGE = (Path(__file__).parent.parent / "docs/tutorial.md").read_text(encoding="utf-8")
+
+
+def main(folder: Path) -> None:
+    """Do what the page says, the change of the file included."""
+    if shutil.which("cc") or shutil.which("gcc"):
+        sys.exit("there is a compiler on the path")
+    (changed,) = re.findall(r"```toml\n(.*?)\n```", PAGE, flags=re.DOTALL)
+    for block in re.findall(r"```sh\n(.*?)```", PAGE, flags=re.DOTALL):
+        for line in block.splitlines():
+            command = shlex.split(line, comments=True)
+            if command[1] == "compare":
+                text = (folder / "my_car.toml").read_text(encoding="utf-8")
+                text = re.sub(r"^tie_rod_inner = .*$", changed, text, flags=re.MULTILINE)
+                (folder / "lower_rod.toml").write_text(text, encoding="utf-8")
+            done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)  # noqa: S603 (this project's page)
+            print("ok     " if done.returncode == 0 else "FAILED ", line)
+            if done.returncode:
+                sys.exit(done.stdout + done.stderr)
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))
