@@ -17,7 +17,7 @@ setup: .venv/.ready ## Create .venv and install everything (also done by the oth
 
 build: .venv/.built ## Compile the generated models
 
-.venv/.built: .venv/.ready $(EMITTED)
+.venv/.built: .venv/.ready $(EMITTED) $(wildcard build/sundials/lib/libsundials_cvode.a)
 	@$(PYTHON) setup.py --quiet build_ext --inplace
 	@touch $@
 
