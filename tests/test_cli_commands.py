@@ -134,6 +134,32 @@ def test_the_change_of_the_tutorial_turns_bump_steer_round():
     assert after < 0.0 < before
 
 
+def test_some_characteristics_are_compared(kintrafo, tmp_path):
+    kintrafo("new", "my_car.toml")
+    code, out, _ = kintrafo(
+        "compare",
+        CAR,
+        "my_car.toml",
+        "--of",
+        "toe",
+        "--of",
+        "camber",
+        "--plot",
+        "a.png",
+        "-o",
+        "a.csv",
+    )
+    assert code == 0
+    assert "toe angle" in out
+    assert "caster" not in out
+    assert "caster" in (tmp_path / "a.csv").read_text(encoding="utf-8")
+    height, width, _ = imread(tmp_path / "a.png").shape
+    assert width > height  # two curves beside each other
+    code, _, err = kintrafo("compare", CAR, "my_car.toml", "--of", "too")
+    assert code == 2
+    assert "Did you mean toe" in err
+
+
 def test_the_documentation_names_every_command():
     (table,) = re.findall(r"\| command \|.*?\n\n", PAGE, flags=re.DOTALL)
     named = re.findall(r"^\| `([\w-]+)", table, flags=re.MULTILINE)

@@ -7,7 +7,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from .console import console, print_json, progress_bar, significant
-from .options import Files, Force, Json, load
+from .options import Files, Force, Json, Of, among, load
 from .outputs import Figures, Formats, Out, Outputs, Plot, name_files
 
 if TYPE_CHECKING:
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 EXAMPLES = (
     "kintrafo compare reference_car my_car.toml",
     "kintrafo compare before.toml after.toml --over rack --plot difference.png -o both.csv",
+    "kintrafo compare before.toml after.toml --of toe --of bump_steer --plot steer.png",
 )
 
 
@@ -25,6 +26,7 @@ def command(
     files: Files,
     *,
     over: Annotated[Literal["travel", "rack"], typer.Option(help="What varies.")] = "travel",
+    of: Of = None,
     out: Out = None,
     plot: Plot = None,
     figures: Figures = None,
@@ -34,7 +36,8 @@ def command(
 ) -> None:
     """Compare the characteristics of two or more suspensions.
 
-    Differences are those from the first file: at design, and where they are largest.
+    Differences are those from the first file: at design, and where they are largest. Data files
+    have all characteristics.
     """
     from ..core.quantities import distinct
     from ..study import compare
@@ -43,8 +46,9 @@ def command(
     models = dict(zip(distinct(files), map(load, files), strict=True))
     with progress_bar("characteristics") as progress:
         dataset = compare.compare(models, over=over, progress=progress)
-    found = compare.differences(dataset)
-    written = outputs.write(dataset, title=" and ".join(models))
+    shown = among(of, map(str, dataset.data_vars)) if of else [str(n) for n in dataset.data_vars]
+    found = [difference for difference in compare.differences(dataset) if difference.name in shown]
+    written = outputs.write(dataset, title=" and ".join(models), names=shown if of else ())
     if json:
         print_json(
             [vars(difference) | {"units": _units(dataset, difference)} for difference in found]

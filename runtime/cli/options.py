@@ -1,5 +1,6 @@
 """Arguments that several commands share."""
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -64,6 +65,13 @@ RackExtent = Annotated[
         "--rack-extent", metavar="MM", help="Rack to either side. Default: 60, if reached."
     ),
 ]
+Of = Annotated[
+    list[str] | None,
+    typer.Option(
+        metavar="NAME",
+        help="Characteristics that are shown, such as bump_steer. May be repeated.",
+    ),
+]
 Step = Annotated[float, typer.Option(metavar="MM", help="Distance of the positions.")]
 
 
@@ -88,6 +96,15 @@ def load(file: str) -> "Model":
     # these equations may have to be derived first
     with problems.status("preparing the equations with a free rack"):
         return Model(suspension, free_rack=True)
+
+
+def among(wanted: list[str], known: Iterable[str]) -> list[str]:
+    """Return the characteristics that --of names, each once, or refuse those that there are not."""
+    from ..core.arguments import Arguments
+
+    with Arguments("--of") as given:
+        names = given.names("--of", wanted, known)
+    return list(dict.fromkeys(names))
 
 
 def metres(millimetres: float | None) -> float | None:

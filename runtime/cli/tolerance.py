@@ -8,9 +8,9 @@ from rich.markup import escape
 from rich.table import Table
 
 from .console import console, print_json, progress_bar, say, significant
-from .options import File, Force, Json
+from .options import File, Force, Json, Of
 from .outputs import Out, Outputs, name_files
-from .variation_options import At, Bars, Of, Over, chosen
+from .variation_options import At, Bars, Over, chosen
 
 if TYPE_CHECKING:
     from xarray import Dataset

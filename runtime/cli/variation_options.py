@@ -5,15 +5,11 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
+from .options import among
+
 if TYPE_CHECKING:
     from ..suspension.model import Model
 
-Of = Annotated[
-    list[str] | None,
-    typer.Option(
-        metavar="NAME", help="Characteristics, such as bump_steer. Default: some. May be repeated."
-    ),
-]
 Over = Annotated[Literal["travel", "rack"], typer.Option(help="What varies along the curves.")]
 At = Annotated[
     float, typer.Option(metavar="MM", help="Position that the table is about, of those there are.")
@@ -46,12 +42,9 @@ _USUAL = {
 
 def chosen(model: "Model", wanted: list[str] | None, over: Literal["travel", "rack"]) -> list[str]:
     """Return the characteristics that are shown, those that were asked for or the usual ones."""
-    from ..core.arguments import Arguments
     from ..study.variation.curves import there
 
     known = there(model, over)
     if wanted is None:
         return [name for name in _USUAL[over] if name in known]
-    with Arguments("--of") as given:
-        names = given.names("--of", wanted, known)
-    return list(dict.fromkeys(names))
+    return among(wanted, known)
