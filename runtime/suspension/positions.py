@@ -322,8 +322,11 @@ def _solve(
     errors = np.abs(table.height[index, ends] - heights)
     found: Array = np.where(errors[0] <= errors[1], low, high)
     error, angle = errors.min(axis=0), 0.5 * (low + high)
-    rows = np.arange(heights.size)
+    # at an end of the bracket Newton's step leads out of it by a rounding, as at the design position
+    rows = np.flatnonzero(error > np.spacing(np.abs(heights)))
     for count in range(_MOST_STEPS):
+        if rows.size == 0:
+            break
         at = angle[rows]
         height, slope = height_and_slope(model, at, racks[rows])
         excess = height - heights[rows]
@@ -338,8 +341,6 @@ def _solve(
             halve |= count % 2 == 0
         angle[rows] = np.where(halve, 0.5 * (low[rows] + high[rows]), newton)
         rows = rows[(excess != 0.0) & (np.abs(angle[rows] - at) > 4.0 * _EPSILON * at)]
-        if rows.size == 0:
-            break
     _refuse_missed(model, heights, racks, found, error)
     return found
 

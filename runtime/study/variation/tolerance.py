@@ -80,7 +80,7 @@ def tolerance(
         Each characteristic over ``quantile`` and the positions: 0 and 1 are the least and the
         greatest value of all cars. ``..._nominal`` is that of the suspension itself, and
         ``..._share`` over ``place`` the part of its variance that each value causes, to first
-        order, over all positions. Over ``car``: ``within_limits``, ``reason`` where a car cannot be
+        order, over all positions at which it has derivatives. Over ``car``: ``within_limits``, ``reason`` where a car cannot be
         built or does not reach a position, and which value each car has in ``value_of``. The
         attribute ``yield`` is the part of cars within all limits.
 
@@ -215,7 +215,7 @@ def _shares(
     """
     sigma = np.array([*spread.values()]) / (np.sqrt(3.0) if distribution == "uniform" else _SIGMAS)
     slopes = np.array([derivative(suspension, place, curves) for place in spread])
-    moved = np.nan_to_num(slopes) * sigma[:, None, None]
+    moved = np.where(np.isfinite(slopes), slopes, 0.0) * sigma[:, None, None]
     together = np.einsum("ij,jnp->inp", root @ root.T, moved)
     parts: Array = (moved * together).sum(axis=2)
     whole = parts.sum(axis=0)
