@@ -322,7 +322,7 @@ def _solve(
     errors = np.abs(table.height[index, ends] - heights)
     found: Array = np.where(errors[0] <= errors[1], low, high)
     error, angle = errors.min(axis=0), 0.5 * (low + high)
-    # at an end of the bracket Newton's step leads out of it by a rounding, as at the design position
+    # at an end of the bracket, as at design, Newton's step leads out of it by a rounding
     rows = np.flatnonzero(error > np.spacing(np.abs(heights)))
     for count in range(_MOST_STEPS):
         if rows.size == 0:

@@ -80,9 +80,9 @@ def tolerance(
         Each characteristic over ``quantile`` and the positions: 0 and 1 are the least and the
         greatest value of all cars. ``..._nominal`` is that of the suspension itself, and
         ``..._share`` over ``place`` the part of its variance that each value causes, to first
-        order, over all positions at which it has derivatives. Over ``car``: ``within_limits``, ``reason`` where a car cannot be
-        built or does not reach a position, and which value each car has in ``value_of``. The
-        attribute ``yield`` is the part of cars within all limits.
+        order, over all positions at which it has derivatives. Over ``car``: ``within_limits``,
+        ``reason`` where a car cannot be built or does not reach a position, and which value each
+        car has in ``value_of``. The attribute ``yield`` is the part of cars within all limits.
 
     Raises
     ------
