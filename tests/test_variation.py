@@ -142,8 +142,17 @@ def test_what_varies_little_varies_as_derivatives_say() -> None:
     expected = 2.0 * 1.645 * np.sqrt(parts.sum(axis=0))
     np.testing.assert_allclose(width, expected, rtol=0.25)
     share = found["toe_share"].values
-    np.testing.assert_allclose(share, parts.sum(axis=1) / parts.sum(), rtol=1e-6, atol=1e-12)
+    expected_share = (parts / parts.sum(axis=0)).mean(axis=1)
+    np.testing.assert_allclose(share, expected_share, rtol=1e-6, atol=1e-12)
+    assert share.sum() == pytest.approx(1.0, rel=1e-12)
     np.testing.assert_allclose(found["toe_nominal"], curve(CAR, "toe", at), rtol=1e-14)
+
+
+def test_what_does_not_vary_is_caused_by_nothing() -> None:
+    found = variation.tolerance(
+        CAR, {"bodies.wheel.mass_kg": 1.0}, count=3, positions=[0.0, 0.02], names=["toe"]
+    )
+    assert np.isnan(found["toe_share"].values).all()
 
 
 def test_points_that_are_off_together_turn_no_axis() -> None:

@@ -80,7 +80,7 @@ def tolerance(
         Each characteristic over ``quantile`` and the positions: 0 and 1 are the least and the
         greatest value of all cars. ``..._nominal`` is that of the suspension itself, and
         ``..._share`` over ``place`` the part of its variance that each value causes, to first
-        order, over all positions at which it has derivatives. Over ``car``: ``within_limits``,
+        order, in the mean of all positions at which it varies. Over ``car``: ``within_limits``,
         ``reason`` where a car cannot be built or does not reach a position, and which value each
         car has in ``value_of``. The attribute ``yield`` is the part of cars within all limits.
 
@@ -217,10 +217,13 @@ def _shares(
     slopes = np.array([derivative(suspension, place, curves) for place in spread])
     moved = np.where(np.isfinite(slopes), slopes, 0.0) * sigma[:, None, None]
     together = np.einsum("ij,jnp->inp", root @ root.T, moved)
-    parts: Array = (moved * together).sum(axis=2)
-    whole = parts.sum(axis=0)
-    shares: Array = np.divide(parts, whole, out=np.full_like(parts, np.nan), where=whole > 0.0)
-    return shares
+    parts = moved * together
+    whole = np.broadcast_to(parts.sum(axis=0), parts.shape)
+    # position by position: else those beside a pole would speak for all
+    shares = np.divide(parts, whole, out=np.zeros_like(parts), where=whole > 0.0)
+    varying = (whole[0] > 0.0).sum(axis=1)
+    result: Array = shares.sum(axis=2) / np.where(varying > 0, varying, np.nan)
+    return result
 
 
 def _dataset(cars: _Cars, shares: Array) -> xr.Dataset:
