@@ -9,10 +9,7 @@ from pathlib import Path
 
 import numpy as np
 from kintrafo import Suspension, variation
-from kintrafo.plots import curves as plots
 from kintrafo.plots import variation as pictures
-from kintrafo.study.compare import compare
-from kintrafo.study.variation.curves import model_of
 
 from .report import fill_page
 
@@ -23,6 +20,8 @@ CAR = Suspension.load("reference_car")
 TRAVEL = np.linspace(-0.06, 0.06, 13)
 FREE = {"hardpoints.tie_rod_inner": 10.0, "hardpoints.tie_rod_outer": 10.0}
 TOE = {"toe": {"at_mm": (1e3 * TRAVEL).tolist(), "value": 0.0, "within": 0.05}}
+HEIGHT = {"roll_center_height_kinematic": {"at_mm": 0.0, "least": 100.0}}
+LIMITS = {"bump_steer": {"at_mm": [-20.0, 0.0, 20.0], "least": 0.005, "most": 0.008}}
 CARS = 500
 REPEATED = 5
 
@@ -87,11 +86,15 @@ def draw() -> None:
         bands = variation.tolerance(
             CAR, {"hardpoints": 1.0}, count=CARS, names=["bump_steer", "caster"]
         )
-        title = f"{CARS} cars whose hardpoints are off by 1 mm at most (three sigma)"
-        pictures.write_bands(bands, folder / "tolerance.png", ["bump_steer", "caster"], title=title)
-        found = variation.optimise(CAR, FREE, TOE)
-        models = {"before": model_of(CAR), "after": model_of(found.suspension)}
-        plots.write_overview(compare(models), folder / "optimise.png", ["toe", "bump_steer"])
+        pictures.write_bands(
+            bands,
+            folder / "tolerance.png",
+            ["bump_steer", "caster"],
+            limits=variation.limits(LIMITS),
+            title=f"{CARS} cars whose hardpoints are off by 1 mm at most (three sigma)",
+        )
+        found = variation.optimise(CAR, FREE, TOE, HEIGHT)
+        pictures.write_optimum(found, folder / "optimise.png", title="reference car")
         for picture in folder.iterdir():
             shutil.copyfile(picture, IMAGES / picture.name)
 

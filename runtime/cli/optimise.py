@@ -69,7 +69,15 @@ def command(
             asked.get("limits"),
             progress=lambda left: progress(1.0 - left),
         )
-    written = _compared(found, outputs, file)
+    written: list[Path] = []
+    for path in outputs.pages:
+        from ..plots import variation as plots
+
+        written.append(
+            plots.write_optimum(
+                found, path, title=f"{file}: {goals.name}", force=force, inputs=inputs
+            )
+        )
     if out is not None:
         head = [f"{file}, with values that kintrafo optimise found for {goals.name}."]
         written.append(write_toml(found.suspension, out, head=head, force=force, inputs=inputs))
@@ -81,23 +89,6 @@ def command(
         name_files(written)
     if not found.success:
         raise typer.Exit(Exit.REFUSED)
-
-
-def _compared(found: "Optimum", outputs: Outputs, file: str) -> list[Path]:
-    """Write the curves of what there were targets for, before and after."""
-    written: list[Path] = []
-    if not outputs.pages:
-        return written
-    from ..study.compare import compare
-    from ..study.variation.curves import model_of
-
-    models = {"before": model_of(found.start), "after": model_of(found.suspension)}
-    for over in dict.fromkeys(target.over for target in found.targets):
-        names = [target.name for target in found.targets if target.over == over]
-        suffix = "" if over == "travel" else "_rack"
-        curves = compare(models, over=over)
-        written += outputs.write(curves, title=file, names=names, suffix=suffix)
-    return written
 
 
 def _print(found: "Optimum", file: str) -> None:

@@ -72,8 +72,11 @@ def command(
         from ..plots import variation as plots
 
         title = f"{file}: {cars} cars within {tolerances.name}"
+        limits = variation.limits(asked.get("limits", {}))
         written.append(
-            plots.write_bands(dataset, path, names, title=title, force=force, inputs=inputs)
+            plots.write_bands(
+                dataset, path, names, limits=limits, title=title, force=force, inputs=inputs
+            )
         )
     if json:
         print_json(export.as_dict(dataset) | {"yield": dataset.attrs["yield"]})

@@ -1,7 +1,8 @@
-"""What values of the input file do to the characteristics: bars of effects, bands of tolerances."""
+"""What values of the input file do to the characteristics: bars, bands, before and after."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -12,12 +13,18 @@ from matplotlib.ticker import MaxNLocator
 
 from ..core.files import Paths
 from ..core.quantities import bracketed, display_of, displayed, long_name
+from ..study.compare import common_positions
+from ..study.variation.curves import ALONG, KNOWN, Curves, model_of
+from ..study.variation.goals import Limit
+from ..study.variation.optimise import Optimum
 from ..study.variation.sensitivity import PLACE, effects
 from ..study.variation.tolerance import QUANTILE
 from .curves import check_formats
 from .figures import BLUE, ORANGE, STYLE, save, written_plainly
 
 _COLUMNS = 2
+# Before and after, told apart in black and white too.
+_PAIR = ((BLUE, "-"), (ORANGE, "--"))
 # More bars than this are no ranking any more.
 _MOST_BARS = 10
 
@@ -70,6 +77,7 @@ def write_bands(
     path: str | Path,
     names: Sequence[str],
     *,
+    limits: Sequence[Limit] = (),
     title: str = "",
     force: bool = False,
     inputs: Paths = (),
@@ -82,13 +90,15 @@ def write_bands(
         From `kintrafo.study.variation.tolerance`.
     path, names, title, force, inputs
         As of `write_bars`.
+    limits : sequence of Limit, optional
+        Drawn where they are about one of the curves.
 
     Returns
     -------
     pathlib.Path
     """
     return _written(
-        lambda axes, name: _bands(axes, dataset, name),
+        lambda axes, name: _bands(axes, dataset, name, limits),
         names,
         path,
         height=2.5,
@@ -96,6 +106,54 @@ def write_bands(
         force=force,
         inputs=inputs,
     )
+
+
+def write_optimum(
+    found: Optimum,
+    path: str | Path,
+    *,
+    title: str = "",
+    force: bool = False,
+    inputs: Paths = (),
+) -> Path:
+    """Write what there were targets and limits for, before and after, with these.
+
+    Parameters
+    ----------
+    found : Optimum
+        From `kintrafo.study.variation.optimise`.
+    path, title, force, inputs
+        As of `write_bars`.
+
+    Returns
+    -------
+    pathlib.Path
+    """
+    models = {"before": model_of(found.start), "after": model_of(found.suspension)}
+    goals = [*found.targets, *found.limits]
+    panels = {f"{goal.name} over {goal.over}": goal for goal in goals}
+    positions = {over: common_positions(models, over=over) for over in {g.over for g in goals}}
+
+    def draw(axes: Axes, key: str) -> None:
+        panel = panels[key]
+        along = positions[panel.over]
+        quantity, over = KNOWN[panel.over][panel.name], ALONG[panel.over]
+        factor, step = (
+            display_of(quantity.attributes()).factor,
+            display_of(over.attributes()).factor,
+        )
+        for (label, model), (colour, dashes) in zip(models.items(), _PAIR, strict=True):
+            values = Curves(panel.over, along, (panel.name,)).of(model)[0]
+            axes.plot(step * along, factor * values, dashes, color=colour, label=label)
+        for target in (t for t in found.targets if (t.name, t.over) == (panel.name, panel.over)):
+            axes.errorbar(
+                step * target.at, factor * target.value, factor * target.within,
+                fmt="o", color="black", markersize=3, linewidth=1.0, capsize=2, label="target",
+            )  # fmt: skip
+        _limits(axes, found.limits, panel.name, panel.over)
+        _around(axes, over.attributes() | {"long_name": over.long_name}, quantity.attributes())
+
+    return _written(draw, [*panels], path, height=2.6, title=title, force=force, inputs=inputs)
 
 
 def _written(
@@ -118,9 +176,16 @@ def _written(
             draw(axes, name)
         for axes in panels[len(names) :]:
             axes.remove()
-        handles, labels = panels[0].get_legend_handles_labels()
-        if labels:
-            figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False)
+        found = [panel.get_legend_handles_labels() for panel in panels[: len(names)]]
+        named = {
+            label: line
+            for lines, labels in found
+            for line, label in zip(lines, labels, strict=True)
+        }
+        if named:
+            figure.legend(
+                named.values(), named.keys(), loc="outside lower center", ncols=4, frameon=False
+            )
         figure.suptitle(title, fontsize=11)
         return save(written_plainly(figure), path, force=force, inputs=inputs)
 
@@ -140,7 +205,7 @@ def _bars(axes: Axes, dataset: xr.Dataset, name: str, at: float) -> None:
     axes.set_title(long_name(dataset[name]).removeprefix("sensitivity of "), fontsize=10)
 
 
-def _bands(axes: Axes, dataset: xr.Dataset, name: str) -> None:
+def _bands(axes: Axes, dataset: xr.Dataset, name: str, limits: Sequence[Limit]) -> None:
     data = dataset[name]
     along = next(str(d) for d in data.dims if d != QUANTILE)
     position = displayed(dataset[along])
@@ -149,7 +214,28 @@ def _bands(axes: Axes, dataset: xr.Dataset, name: str) -> None:
     axes.fill_between(position, low, high, color=BLUE, alpha=0.35, label="nine in ten", linewidth=0)
     nominal = displayed(dataset[f"{name}_nominal"])
     axes.plot(position, nominal, color="black", linewidth=1.4, label="as drawn")
+    over = next(over for over, quantity in ALONG.items() if quantity.name == along)
+    _limits(axes, limits, name, over)
+    _around(axes, dataset[along].attrs, data.attrs)
+
+
+def _limits(axes: Axes, limits: Sequence[Limit], name: str, over: str) -> None:
+    """Mark the least and the greatest value that a characteristic may have: arrows stand beyond."""
+    factor = display_of(KNOWN[over][name].attributes()).factor
+    step = display_of(ALONG[over].attributes()).factor
+    for limit in (found for found in limits if (found.name, found.over) == (name, over)):
+        for bound, marker in ((limit.least, 6), (limit.most, 7)):  # carets up and down
+            if np.isfinite(bound):
+                at = np.full(limit.at.size, factor * bound)
+                axes.plot(
+                    step * limit.at, at, ":", marker=marker, color="#aa0000", linewidth=1.2,
+                    label="limit",
+                )  # fmt: skip
+
+
+def _around(axes: Axes, along: Mapping[str, Any], values: Mapping[str, Any]) -> None:
+    """Say what the axes are, and mark the design position."""
     axes.axvline(0.0, color="#888888", linewidth=0.8, zorder=1)
     axes.margins(x=0.02)
-    axes.set_xlabel(bracketed(long_name(dataset[along]), dataset[along].attrs), fontsize=9)
-    axes.set_ylabel(bracketed(long_name(data), data.attrs), fontsize=9.5)
+    axes.set_xlabel(bracketed(str(along["long_name"]), along), fontsize=9)
+    axes.set_ylabel(bracketed(str(values["long_name"]), values), fontsize=9.5)

@@ -4,13 +4,13 @@
 `tolerance`      bands and yield of many cars that differ as drawings allow
 `optimise`       values that bring characteristics to targets, within limits
 `sweep`          the motion over a grid of values
-`read`           a file of tolerances, or of targets
+`read`, `limits` a file of tolerances or of targets, and its limits
 """
 
-from .goals import read
+from .goals import limits, read
 from .optimise import Optimum, optimise
 from .sensitivity import effects, sensitivity
 from .sweep import sweep
 from .tolerance import tolerance
 
-__all__ = ["Optimum", "effects", "optimise", "read", "sensitivity", "sweep", "tolerance"]
+__all__ = ["Optimum", "effects", "limits", "optimise", "read", "sensitivity", "sweep", "tolerance"]

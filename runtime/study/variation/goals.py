@@ -112,6 +112,12 @@ def read(path: str | Path, sections: Collection[str]) -> dict[str, Any]:
     return data
 
 
+def limits(described: Mapping[str, Any]) -> list[Limit]:
+    """Read limits by themselves, for a picture: as those of `tolerance` and `optimise`."""
+    with Arguments("limits") as given:
+        return limits_of(given, given.mapping("limits", described, "names and limits"))
+
+
 def check_data(given: Arguments, suspension: Suspension, goals: Iterable[Goal]) -> None:
     """Refuse goals about characteristics for which the file has not the data."""
     model = model_of(suspension)
