@@ -326,6 +326,7 @@ WRONG = [
     (lambda: variation.tolerance(CAR, {ROD: -1.0}), "above 0 mm"),
     (lambda: variation.tolerance(CAR, {ROD: 1.0}, count=1), "2 to 1e"),
     (lambda: variation.tolerance(CAR, {ROD: 1.0}, distribution="even"), "normal, uniform"),
+    (lambda: variation.tolerance(CAR, {ROD: 1.0}, count=100_000), "Name fewer, or fewer positions"),
     (lambda: variation.tolerance(CAR, {ROD: 1.0}, correlation=np.eye(2)), r"\(1, 1\) is needed"),
     (
         lambda: variation.tolerance(
@@ -394,6 +395,10 @@ def test_the_page_runs(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
     page = (ROOT / "docs/studies.md").read_text(encoding="utf-8")
     for name, text in re.findall(r"```toml\n# (\S+)\n(.*?)```", page, flags=re.DOTALL):
         (tmp_path / name).write_text(text, encoding="utf-8")
+    (block,) = re.findall(r"```python\n(.*?)```", page, flags=re.DOTALL)
+    found: dict[str, Any] = {}
+    exec(block, found)  # noqa: S102 (this project's own page)
+    assert found["found"]["bump_steer_share"].sum() == pytest.approx(1.0, rel=1e-12)
     for line in commands_of(page):
         code, out, err = kintrafo(*shlex.split(line)[1:])
         assert (code, bool(out)) == (0, True), (line, err)

@@ -27,6 +27,8 @@ QUANTILES = (0.0, 0.05, 0.5, 0.95, 1.0)
 # Of a normal distribution, its tolerance is so many standard deviations: 99.7 % lie within.
 _SIGMAS = 3.0
 _MOST_CARS = 1_000_000
+# So many numbers take 0.8 GB until their quantiles are found.
+_MOST_NUMBERS = 100_000_000
 
 
 def tolerance(
@@ -114,6 +116,13 @@ def tolerance(
             if not spread:
                 given.refuse("tolerances: one or more are needed.")
             root = _root_of(given, correlation, len(spread), distribution)
+            numbers = count * len(curves.names) * curves.positions.size
+            if numbers > _MOST_NUMBERS:
+                given.refuse(
+                    f"count = {count}: {len(curves.names)} characteristics at "
+                    f"{curves.positions.size} positions make {numbers:.3g} numbers, and at most "
+                    f"{_MOST_NUMBERS:.3g} are kept. Name fewer, or fewer positions."
+                )
     off = _drawn(distribution, root, count, seed) * np.array([*spread.values()])
     cars = _Cars(suspension, [*spread], off, curves, bounds)
     for car in range(count):
