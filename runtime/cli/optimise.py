@@ -60,7 +60,7 @@ def command(
     if out is not None:
         refuse([out], force=force, inputs=inputs, endings=[".toml"])
     suspension = Suspension.load(file)
-    asked = variation.read(goals, ("free", "targets", "limits"))
+    asked = variation.read(goals)
     with progress_bar("optimisation") as progress:
         found = variation.optimise(
             suspension,

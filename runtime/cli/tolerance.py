@@ -52,7 +52,7 @@ def command(
     inputs: list[str | Path] = [file, tolerances]
     outputs = Outputs.of(out, plot, force=force, inputs=inputs)
     suspension = Suspension.load(file)
-    asked = variation.read(tolerances, ("distribution", "tolerances", "limits"))
+    asked = variation.read(tolerances)
     names = chosen(model_of(suspension), of, over)
     with progress_bar("cars") as progress:
         dataset = variation.tolerance(

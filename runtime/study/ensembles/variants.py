@@ -151,7 +151,9 @@ def _row(values: Any) -> NDArray[Any] | None:
         array = np.asarray(values)
     except (TypeError, ValueError):
         return None
-    return array if array.ndim < 2 else None
+    # numbers, or labels of any kinds
+    plain = array.dtype != object or all(isinstance(v, str | float | int) for v in array.flat)
+    return array if array.ndim < 2 and plain else None
 
 
 def _check_names(

@@ -1,6 +1,6 @@
 """Targets and limits of characteristics, as a file or a caller gives them."""
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,6 +18,7 @@ from .curves import KNOWN, Curves, Over, model_of, there
 
 Array = NDArray[np.float64]
 
+_SECTIONS = ("distribution", "tolerances", "free", "targets", "limits")
 # No characteristic is as great as this in any unit, and no deviation as small matters.
 _GREATEST, _LEAST = 1e9, 1e-9
 
@@ -84,14 +85,12 @@ class Limit(Goal):
         return (values >= self.least) & (values <= self.most)
 
 
-def read(path: str | Path, sections: Collection[str]) -> dict[str, Any]:
-    """Read a TOML file of tolerances, targets and limits.
+def read(path: str | Path) -> dict[str, Any]:
+    """Read a TOML file of tolerances, free values, targets and limits; it may have all of them.
 
     Parameters
     ----------
     path : str or pathlib.Path
-    sections : collection of str
-        Those that it may have.
 
     Returns
     -------
@@ -103,9 +102,11 @@ def read(path: str | Path, sections: Collection[str]) -> dict[str, Any]:
     InputError
         If it cannot be read, or has something else.
     """
+    with Arguments("studies") as given:
+        given.path("path", path)
     data = read_toml(Path(path))
     problems = [
-        f"{key} is not known. {suggestion(key, sections)}" for key in data if key not in sections
+        f"{key} is not known. {suggestion(key, _SECTIONS)}" for key in data if key not in _SECTIONS
     ]
     if problems:
         raise InputError(problems, str(path))

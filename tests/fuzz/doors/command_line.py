@@ -58,6 +58,14 @@ NUMBERS = (
 )
 FLAGS = ("--json", "--force", "--force")
 COARSE = ("--step", "40")
+VALUES = (
+    "wheel.toe_deg=0,1",
+    "wheel.toe_deg=0:1:2",
+    "wheel.toe_deg=0:1:1e9",
+    "x=1",
+    "=",
+    "wheel=1",
+)
 OPTIONS = {
     "new": ("--suspension", "--template"),
     "import-chrono": ("--tire", "--side"),
@@ -69,7 +77,11 @@ OPTIONS = {
     "simulate": ("-o", "--road-step", "--road-sine", "--road-frequency", "--measured", "--speed",
                  "--rack", "--rack-sine", "--height", "--spin", "--output-step", "--method",
                  "--rtol", "--atol", "--road-step-at"),
-    "compare": ("-o", "--over"),
+    "compare": ("-o", "--over", "--of"),
+    "sensitivity": ("-o", "--plot", "--place", "--of", "--over", "--at"),
+    "tolerance": ("-o", "--plot", "--of", "--over", "--at", "--seed"),
+    "optimise": ("-o", "--plot"),
+    "sweep": ("-o", "--plot", "--keep", "--height", "--road-step", "--measured"),
     "report": ("--title",),
     "paper": ("--data",),
     "generate": ("--to", "--model", "--numpy"),
@@ -79,11 +91,25 @@ WORDS = {
     "--template": (*packaged(), "x"),
     "--side": ("left", "right", "x"),
     "--over": ("travel", "rack", "both", "x"),
+    "--place": ("wheel", "hardpoints.tie_rod_inner.z", "vehicle", "rack.axis", "*", "x", ""),
+    "--of": ("toe", "ackermann", "x", ""),
+    "--keep": ("toe:max", "tyre_force:above:1", "toe", "toe:above", "x:max", ""),
     "--method": ("BDF", "Adams", "Verner", "Radau", "RK45", "x", ""),
     "--model": ("four_bar", "x"),
 }
 PATHS = ("-o", "--plot", "--to", "--data", "--tire", "--measured", "--title")
 CLEAR = (RefusedError,)
+STUDY = b"""
+[tolerances]
+"hardpoints.tie_rod_inner.z" = 1.0
+[free]
+"hardpoints.tie_rod_inner.z" = 1.0
+[targets.toe]
+value = 0.1
+within = 1.0
+[limits.bump_steer]
+least = -1.0
+"""
 MECHANISM = "from kintrafo.generator.mechanisms.four_bar import FOUR_BAR\n"
 
 
@@ -151,6 +177,8 @@ def _content(random: Generator, ending: str) -> bytes:
         return MECHANISM.encode()
     if ending == ".json":
         return (DATA / "MacPhersonStrut.json").read_bytes()
+    if ending == ".toml" and random.random() < 0.3:
+        return STUDY
     if ending == ".csv" and random.random() < 0.5:
         return b"time_s,road_height_mm\n0,0\n0.1,5\n"
     return TEXTS[random.integers(len(TEXTS))]
@@ -169,7 +197,13 @@ def _arguments(random: Generator, names: list[str]) -> list[str]:
             arguments += [option, *_value(random, option, names)]
     if command in ("kinematics", "characteristics") and "--step" not in arguments:
         arguments += COARSE
-    if command == "simulate":
+    if command == "sensitivity" and "--place" not in arguments:
+        arguments += ["--place", "hardpoints.tie_rod_inner.z"]
+    if command == "tolerance":
+        arguments += ["--cars", "2"]
+    if command == "sweep":
+        arguments.append(str(random.choice(VALUES)))
+    if command in ("simulate", "sweep"):
         arguments += ["--duration", "0.02"]
     if random.random() < 0.4:
         arguments.append(FLAGS[random.integers(len(FLAGS))])
