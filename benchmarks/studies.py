@@ -91,7 +91,7 @@ def draw() -> None:
             folder / "tolerance.png",
             ["bump_steer", "caster"],
             limits=variation.limits(LIMITS),
-            title=f"{CARS} cars whose hardpoints are off by 1 mm at most (three sigma)",
+            title=f"{CARS} cars: 1 mm is three standard deviations of each coordinate",
         )
         found = variation.optimise(CAR, FREE, TOE, HEIGHT)
         pictures.write_optimum(found, folder / "optimise.png", title="reference car")

@@ -48,7 +48,7 @@ def command(
 ) -> None:
     """Move values of the file until characteristics come to their targets, within limits.
 
-    The exit code is 1 where limits cannot be kept.
+    The exit code is 1 where limits cannot be kept, or the search does not come to its end.
     """
     from ..core.files import refuse
     from ..study import variation
@@ -120,7 +120,8 @@ def _goals(found: "Optimum") -> Table:
             abs(target.curves.of(model_of(suspension))[0] - target.value).max()
             for suspension in (found.start, found.suspension)
         ]
-        name = bracketed(KNOWN[target.over][target.name].long_name, attributes)
+        words = KNOWN[target.over][target.name].long_name
+        name = bracketed(f"{words} over the rack" if target.over == "rack" else words, attributes)
         cells = (significant(float(v) * factor) for v in (*missed, target.within))
         table.add_row(escape(name), *cells)
     return table

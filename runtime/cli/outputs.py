@@ -141,7 +141,9 @@ class Outputs:
         rule: _Rule = {"force": self.force, "inputs": self.inputs}
         flat = dataset if rows is None else rows
         return [
-            export.write(dataset if path.suffix == ".nc" else flat, _named(path, suffix), **rule)
+            export.write(
+                dataset if path.suffix.lower() == ".nc" else flat, _named(path, suffix), **rule
+            )
             for path in self.data
         ]
 

@@ -1,6 +1,7 @@
 """``kintrafo sensitivity``: by how much each value of a file moves each characteristic."""
 
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from math import isfinite
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.markup import escape
@@ -9,10 +10,12 @@ from rich.table import Column, Table
 from .console import console, print_json, progress_bar, significant
 from .options import File, Force, Json, Of
 from .outputs import Out, Outputs, name_files
-from .variation_options import At, Bars, Over, chosen
+from .variation_options import At, Bars, Over, along, chosen, positions_with
 
 if TYPE_CHECKING:
     from xarray import Dataset
+
+    from ..study.variation.sensitivity import Effect
 
 # So many values are named in the table of several characteristics.
 _GREATEST = 4
@@ -53,18 +56,22 @@ def command(
 
     outputs = Outputs.of(out, plot, force=force, inputs=[file])
     suspension = Suspension.load(file)
-    names = chosen(model_of(suspension), of, over)
-    # what is shown is at one position; data files have all of everything
-    looked_at: dict[str, Any] = {} if out else {"names": names, "positions": [at / 1e3]}
+    model = model_of(suspension)
+    names = chosen(model, of, over)
     with progress_bar("sensitivity") as progress:
         dataset = variation.sensitivity(
-            suspension, place or ("hardpoints",), over=over, progress=progress, **looked_at
+            suspension,
+            place or ("hardpoints",),
+            over=over,
+            positions=positions_with(model, over, at),
+            names=None if out else names,
+            progress=progress,
         )
     written = outputs.write_data(dataset)
     for path in outputs.pages:
         from ..plots import variation as plots
 
-        title = f"{file}: effect of values, at {at:g} mm of {_along(over)}"
+        title = f"{file}: effect of values, {along(over, at)}"
         written.append(
             plots.write_bars(
                 dataset, path, names, at=at / 1e3, title=title, force=force, inputs=[file]
@@ -73,47 +80,42 @@ def command(
     if json:
         print_json(export.as_dict(dataset[names]))
         return
-    console.print(_table(dataset, names, file, over, at))
+    console.print(_table(dataset, names, file, along(over, at), at))
     name_files(written)
 
 
-def _along(over: Literal["travel", "rack"]) -> str:
-    return "wheel travel" if over == "travel" else "the rack"
-
-
-def _table(
-    dataset: "Dataset", names: list[str], file: str, over: Literal["travel", "rack"], at: float
-) -> Table:
+def _table(dataset: "Dataset", names: list[str], file: str, where: str, at: float) -> Table:
     """Return the effects: of one characteristic all of them, of several the greatest of each."""
     from ..study.variation import effects
 
     found = {name: list(effects(dataset, name, at / 1e3)) for name in names}
-    title = f"{file}: effect of values on characteristics, at {at:g} mm of {_along(over)}"
     if len(names) == 1:
         (name,) = names
-        title = f"{file}: effect of values on {_words(dataset, name)}, at {at:g} mm"
-        table = Table("value", Column(_unit(dataset, name), justify="right"), title=escape(title))
-        for place, effect in found[name]:
-            table.add_row(escape(place), significant(effect))
+        title = f"{file}: effect of values on {_words(dataset, name)}, {where}"
+        table = Table("value", Column("effect", justify="right"), "unit", title=escape(title))
+        for effect in found[name]:
+            table.add_row(escape(effect.place), significant(effect.size), escape(effect.unit))
         return table
+    title = f"{file}: effect of values on characteristics, {where}"
     table = Table("characteristic", "unit", "moved most by", title=escape(title))
     for name in names:
-        greatest = [(place, effect) for place, effect in found[name][:_GREATEST] if effect]
-        moved = ", ".join(f"{_short(place)} {effect:+.3g}" for place, effect in greatest)
-        table.add_row(_words(dataset, name), _unit(dataset, name), escape(moved or "none of them"))
+        for unit in dict.fromkeys(effect.unit for effect in found[name]):
+            same = [effect for effect in found[name] if effect.unit == unit]
+            table.add_row(_words(dataset, name), escape(unit), escape(_greatest(same)))
     return table
+
+
+def _greatest(effects: "list[Effect]") -> str:
+    """Name the values that move a characteristic most; the largest stand first."""
+    moved = [effect for effect in effects if isfinite(effect.size) and effect.size]
+    words = [f"{_short(effect.place)} {effect.size:+.3g}" for effect in moved[:_GREATEST]]
+    return ", ".join(words) or "none of them"
 
 
 def _words(dataset: "Dataset", name: str) -> str:
     from ..core.quantities import long_name
 
     return escape(long_name(dataset[name]).removeprefix("sensitivity of "))
-
-
-def _unit(dataset: "Dataset", name: str) -> str:
-    from ..core.quantities import display_of
-
-    return escape(display_of(dataset[name].attrs).units)
 
 
 def _short(place: str) -> str:

@@ -10,10 +10,14 @@ from rich.table import Table
 from .console import console, print_json, progress_bar, say, significant
 from .options import File, Force, Json, Of
 from .outputs import Out, Outputs, name_files
-from .variation_options import At, Bars, Over, chosen
+from .variation_options import At, Bars, Over, along, chosen, positions_with
 
 if TYPE_CHECKING:
     from xarray import Dataset
+
+# Where the cars deviate by more or less than that much of what they do to first order, shares tell
+# nothing. Twenty cars tell their deviation to 1 / sqrt(40) = 0.16, so that this is three of it.
+_NOT_OF_FIRST_ORDER = 0.5
 
 EXAMPLES = (
     "kintrafo tolerance my_car.toml tolerances.toml",
@@ -43,7 +47,7 @@ def command(
 ) -> None:
     """Bands of the characteristics of many cars whose values are off by chance, and their causes.
 
-    The table is about one position; data files have all, netCDF each car besides.
+    The table is about one position; data files have all, netCDF the shares and each car besides.
     """
     from ..study import export, variation
     from ..study.variation.curves import model_of
@@ -53,7 +57,8 @@ def command(
     outputs = Outputs.of(out, plot, force=force, inputs=inputs)
     suspension = Suspension.load(file)
     asked = variation.read(tolerances)
-    names = chosen(model_of(suspension), of, over)
+    model = model_of(suspension)
+    names = chosen(model, of, over)
     with progress_bar("cars") as progress:
         dataset = variation.tolerance(
             suspension,
@@ -63,6 +68,7 @@ def command(
             count=cars,
             seed=seed,
             over=over,
+            positions=positions_with(model, over, at),
             names=None if out else names,
             progress=progress,
         )
@@ -71,7 +77,7 @@ def command(
     for path in outputs.pages:
         from ..plots import variation as plots
 
-        title = f"{file}: {cars} cars within {tolerances.name}"
+        title = f"{file}: {cars} cars by {tolerances.name}"
         limits = variation.limits(asked.get("limits", {}))
         written.append(
             plots.write_bands(
@@ -81,8 +87,9 @@ def command(
     if json:
         print_json(export.as_dict(dataset) | {"yield": dataset.attrs["yield"]})
         return
-    console.print(_table(dataset, names, f"{file}: {cars} cars, at {at:g} mm", at))
-    say(f"{dataset.attrs['message']}; {100.0 * dataset.attrs['yield']:.1f} % within all limits.")
+    console.print(_table(dataset, names, f"{file}: {cars} cars, {along(over, at)}", at))
+    told = f"; {100.0 * dataset.attrs['yield']:.1f} % within all limits."
+    say(f"{dataset.attrs['message']}{told if asked.get('limits') else '.'}")
     name_files(written)
 
 
@@ -97,23 +104,24 @@ def _table(dataset: "Dataset", names: list[str], title: str, at: float) -> Table
     table.add_column("caused most by")
     for name in names:
         data = dataset[name]
-        along = next(str(d) for d in data.dims if d != QUANTILE)
-        here = {along: at / 1e3}
-        least, low, _, high, most = displayed(data.sel(here, method="nearest"))
-        nominal = float(displayed(dataset[f"{name}_nominal"].sel(here, method="nearest")))
+        position = next(str(d) for d in data.dims if d != QUANTILE)
+        here = dataset.sel({position: at / 1e3}, method="nearest")
+        least, low, _, high, most = displayed(here[name])
+        nominal = float(displayed(here[f"{name}_nominal"]))
         values = (significant(float(value)) for value in (nominal, least, low, high, most))
-        table.add_row(
-            escape(bracketed(long_name(data), data.attrs)), *values, _causes(dataset, name)
-        )
+        table.add_row(escape(bracketed(long_name(data), data.attrs)), *values, _causes(here, name))
     return table
 
 
-def _causes(dataset: "Dataset", name: str) -> str:
-    """Name the two values that cause most of the variance, over all positions."""
-    shares = dataset[f"{name}_share"]
+def _causes(here: "Dataset", name: str) -> str:
+    """Name the two values that cause most of the variance at a position."""
+    if abs(float(here[f"{name}_first_order"]) - 1.0) > _NOT_OF_FIRST_ORDER:
+        return "not to first order"
+    shares = here[f"{name}_share"].dropna("place")
     first = shares.sortby(shares, ascending=False)[:2]
-    return ", ".join(
+    words = ", ".join(
         f"{str(place).removeprefix('hardpoints.')} {100.0 * float(share):.0f} %"
         for place, share in zip(first["place"].values, first.values, strict=True)
         if share > 0.005
     )
+    return words or "-"

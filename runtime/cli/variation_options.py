@@ -1,19 +1,19 @@
 """Arguments of the commands about values that vary."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
 from .options import among
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from ..suspension.model import Model
 
 Over = Annotated[Literal["travel", "rack"], typer.Option(help="What varies along the curves.")]
-At = Annotated[
-    float, typer.Option(metavar="MM", help="Position that the table is about, of those there are.")
-]
+At = Annotated[float, typer.Option(metavar="MM", help="Position that the table is about.")]
 Bars = Annotated[
     list[Path] | None,
     typer.Option(
@@ -48,3 +48,21 @@ def chosen(model: "Model", wanted: list[str] | None, over: Literal["travel", "ra
     if wanted is None:
         return [name for name in _USUAL[over] if name in known]
     return among(wanted, known)
+
+
+def positions_with(model: "Model", over: Literal["travel", "rack"], at: float) -> "NDArray[Any]":
+    """Return the usual positions and the one that the table is about [m]."""
+    import numpy as np
+
+    from ..core.errors import InputError
+    from ..study.sweep import usual_rack, usual_travel
+
+    if not np.isfinite(at):
+        raise InputError([f"--at {at}: a finite number of mm is needed."], "positions")
+    usual = usual_travel if over == "travel" else usual_rack
+    return np.union1d(usual(model), [at / 1e3])
+
+
+def along(over: Literal["travel", "rack"], at: float) -> str:
+    """Say where something is: 'at 20 mm of wheel travel'."""
+    return f"at {at:g} mm of {'wheel travel' if over == 'travel' else 'the rack'}"

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from textwrap import fill
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,7 @@ from ..study.compare import common_positions
 from ..study.variation.curves import ALONG, KNOWN, Curves, model_of
 from ..study.variation.goals import Limit
 from ..study.variation.optimise import Optimum
-from ..study.variation.sensitivity import PLACE, effects
+from ..study.variation.sensitivity import PLACE, Effect, effects
 from ..study.variation.tolerance import QUANTILE
 from .curves import check_formats
 from .figures import BLUE, ORANGE, STYLE, save, written_plainly
@@ -27,6 +28,10 @@ _COLUMNS = 2
 _PAIR = ((BLUE, "-"), (ORANGE, "--"))
 # More bars than this are no ranking any more.
 _MOST_BARS = 10
+# Few bars do not become fatter than these many.
+_LEAST_ROOM = 4
+# So many letters of a name stand beside an axis of these pictures.
+_LETTERS = 28
 
 
 def write_bars(
@@ -39,7 +44,7 @@ def write_bars(
     force: bool = False,
     inputs: Paths = (),
 ) -> Path:
-    """Write which values move characteristics most, each in its own axes.
+    """Write which values move characteristics most, each in its own axes for each unit.
 
     Parameters
     ----------
@@ -61,9 +66,14 @@ def write_bars(
     -------
     pathlib.Path
     """
+    panels = {
+        f"{name} {unit}": (name, [effect for effect in found if effect.unit == unit])
+        for name, found in ((name, list(effects(dataset, name, at))) for name in names)
+        for unit in dict.fromkeys(effect.unit for effect in found)
+    }
     return _written(
-        lambda axes, name: _bars(axes, dataset, name, at),
-        names,
+        lambda axes, key: _bars(axes, dataset, *panels[key]),
+        [*panels],
         path,
         height=2.6,
         title=title,
@@ -190,18 +200,23 @@ def _written(
         return save(written_plainly(figure), path, force=force, inputs=inputs)
 
 
-def _bars(axes: Axes, dataset: xr.Dataset, name: str, at: float) -> None:
-    found = [(p, v) for p, v in effects(dataset, name, at) if np.isfinite(v)]
-    found = [(p, v) for p, v in found if abs(v) > 1e-6 * abs(found[0][1])][:_MOST_BARS]
+def _bars(axes: Axes, dataset: xr.Dataset, name: str, found: Sequence[Effect]) -> None:
+    defined = [effect for effect in found if np.isfinite(effect.size)]
+    moved = [e for e in defined if e.size and abs(e.size) > 1e-6 * abs(defined[0].size)]
     words = dict(zip(dataset[PLACE].values, dataset["place_name"].values, strict=True))
-    places, values = [str(words[place]) for place, _ in found], [value for _, value in found]
+    places = [str(words[effect.place]) for effect in moved[:_MOST_BARS]]
+    values = [effect.size for effect in moved[:_MOST_BARS]]
+    if not values:
+        nothing = "none of them moves it" if defined else "no derivative here"
+        axes.text(0.5, 0.5, nothing, ha="center", va="center", transform=axes.transAxes)
+        axes.set_yticks([])
     axes.barh(places, values, color=[BLUE if v > 0.0 else ORANGE for v in values], height=0.7)
-    axes.invert_yaxis()
+    axes.set_ylim(max(len(values), _LEAST_ROOM) - 0.5, -0.5)
     axes.axvline(0.0, color="#888888", linewidth=0.8)
     axes.grid(visible=False, axis="y")
     axes.tick_params(labelsize=8)
     axes.xaxis.set_major_locator(MaxNLocator(nbins=5))
-    axes.set_xlabel(f"[{display_of(dataset[name].attrs).units}]", fontsize=9)
+    axes.set_xlabel(f"[{found[0].unit}]", fontsize=9)
     axes.set_title(long_name(dataset[name]).removeprefix("sensitivity of "), fontsize=10)
 
 
@@ -238,4 +253,4 @@ def _around(axes: Axes, along: Mapping[str, Any], values: Mapping[str, Any]) -> 
     axes.axvline(0.0, color="#888888", linewidth=0.8, zorder=1)
     axes.margins(x=0.02)
     axes.set_xlabel(bracketed(str(along["long_name"]), along), fontsize=9)
-    axes.set_ylabel(bracketed(str(values["long_name"]), values), fontsize=9.5)
+    axes.set_ylabel(fill(bracketed(str(values["long_name"]), values), _LETTERS), fontsize=9.5)

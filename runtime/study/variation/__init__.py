@@ -9,8 +9,18 @@
 
 from .goals import limits, read
 from .optimise import Optimum, optimise
-from .sensitivity import effects, sensitivity
+from .sensitivity import Effect, effects, sensitivity
 from .sweep import sweep
 from .tolerance import tolerance
 
-__all__ = ["Optimum", "effects", "limits", "optimise", "read", "sensitivity", "sweep", "tolerance"]
+__all__ = [
+    "Effect",
+    "Optimum",
+    "effects",
+    "limits",
+    "optimise",
+    "read",
+    "sensitivity",
+    "sweep",
+    "tolerance",
+]

@@ -120,18 +120,36 @@ def limits(described: Mapping[str, Any]) -> list[Limit]:
 
 
 def check_data(given: Arguments, suspension: Suspension, goals: Iterable[Goal]) -> None:
-    """Refuse goals about characteristics for which the file has not the data."""
+    """Refuse goals about what the suspension has not: no data in the file, or no number there.
+
+    Raises
+    ------
+    PositionError
+        If the suspension does not reach a position.
+    """
     model = model_of(suspension)
     for goal in goals:
+        name = f"{goal.name} over {goal.over}"
         if goal.name not in there(model, goal.over):
             given.refuse(
-                f"{goal.name} over {goal.over}: the file has not the data that this needs, see "
-                "[vehicle], [rack] and [tyre]."
+                f"{name}: the file has not the data that this needs, see [vehicle], [rack] and "
+                "[tyre]."
+            )
+            continue
+        missing = goal.at[~np.isfinite(goal.curves.of(model)[0])]
+        if missing.size:
+            places = ", ".join(f"{1e3 * at:g} mm" for at in missing)
+            given.refuse(
+                f"{name}: it has no finite value at {places}, as a turning circle straight ahead. "
+                "Leave that position out of at_mm."
             )
 
 
 def targets_of(given: Arguments, described: Mapping[str, Any]) -> list[Target]:
-    """Read targets, by the names of characteristics; in millimetres and units for people."""
+    """Read targets, by the names of characteristics; in millimetres and units for people.
+
+    A characteristic has a table, or several in a list: over travel and over the rack.
+    """
     return [
         Target(
             name, table.over, table.at, table.numbers("value"), table.number("within", least=_LEAST)
@@ -141,7 +159,7 @@ def targets_of(given: Arguments, described: Mapping[str, Any]) -> list[Target]:
 
 
 def limits_of(given: Arguments, described: Mapping[str, Any]) -> list[Limit]:
-    """Read limits, by the names of characteristics; in millimetres and units for people."""
+    """Read limits, by the names of characteristics, as `targets_of`."""
     found = []
     for name, table in _tables(given, described, "limits", {"least", "most"}):
         least, most = (
@@ -198,7 +216,7 @@ class _Table:
 def _tables(
     given: Arguments, described: Mapping[str, Any], section: str, keys: set[str]
 ) -> Iterable[tuple[str, _Table]]:
-    for name, table in described.items():
+    for name, table in _listed(described):
         title = f"[{section}.{name}]"
         if not isinstance(table, Mapping):
             given.refuse(f"{title} must be a section, with at_mm and {' and '.join(sorted(keys))}.")
@@ -215,3 +233,10 @@ def _tables(
             name,
             _Table(given, title, table, over, np.atleast_1d(at) / 1e3, shown.units, shown.factor),
         )
+
+
+def _listed(described: Mapping[str, Any]) -> Iterable[tuple[str, Any]]:
+    """Yield every table with its name, those of lists one after the other."""
+    for name, tables in described.items():
+        for table in tables if isinstance(tables, list | tuple) else [tables]:
+            yield name, table

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares, minimize
 
 from ...core.arguments import Arguments
-from ...core.errors import KintrafoError
+from ...core.errors import InputError, KintrafoError
 from ...suspension.kinds import Suspension
 from .curves import Together, changed, model_of
 from .goals import Limit, Target, check_data, limits_of, targets_of
@@ -24,12 +24,20 @@ _IMPOSSIBLE = 1e6
 # well, that which moves least is taken.
 _RELUCTANCE = 0.01
 # Part of a limit by which it is kept for sure, whatever rounding does.
-_MARGIN = 1e-9
+_MARGIN = 1e-7
 # Steps of the solvers, and the part of the cost below which there is nothing to gain.
 _MOST_STEPS = 100
 _NOTHING_TO_GAIN = 1e-8
 # Nearer to the end of its range than this part of it, a value is at the end.
 _AT_THE_END = 1e-6
+# A value that changes targets by less than this part of what matters, over its range, is idle.
+_IDLE = 1e-6
+# What SLSQP's exit codes mean here.
+_GAVE_UP = {
+    4: "the limits exclude each other",
+    8: "no step from here makes it better",
+    9: f"no end within {_MOST_STEPS} steps",
+}
 
 
 @dataclass(frozen=True)
@@ -49,9 +57,11 @@ class Optimum:
     targets : tuple of Target
     limits : tuple of Limit
     success : bool
-        Whether the solver has come to its end and all limits are kept.
+        Whether the solver has come to its end and all limits are kept. Targets may be missed, as
+        little as it can be.
     message : str
-        What there is to say about it: limits that are not kept, values at the ends of their ranges.
+        What there is to say about it: limits that are not kept, targets that are missed by more
+        than what matters, values that are at the ends of their ranges or move nothing.
     evaluations : int
         How many suspensions were looked at.
     """
@@ -88,9 +98,10 @@ def optimise(
         N/m, ...), by their places as `sensitivity` takes them. Everything else stays.
     targets : mapping
         By characteristic: ``at_mm``, positions; ``value``, one for all or one for each; ``within``,
-        a deviation that matters; ``over``, 'travel' or 'rack'. In mm and units for people.
+        a deviation that matters; ``over``, 'travel' or 'rack'. In mm and units for people. Or a
+        list of several such.
     limits : mapping, optional
-        By characteristic: ``at_mm``, ``least``, ``most``, ``over``.
+        By characteristic: ``at_mm``, ``least``, ``most``, ``over``, or a list of several such.
     progress : callable, optional
         Called after every step of the solver with the cost that is left, as a part of that at the
         start.
@@ -102,7 +113,7 @@ def optimise(
     Raises
     ------
     InputError
-        If an argument cannot be used.
+        If an argument cannot be used, or no free value moves a target.
     PositionError
         If the suspension does not reach a position as it is.
 
@@ -138,45 +149,50 @@ def optimise(
                 given.refuse("free: one value or more is needed.")
             if not aims:
                 given.refuse("targets: one or more are needed.")
-    search = _Search(suspension, reach, aims, bounds)
-    search.look_at_the_start()
-    found = _solved(search, progress)
-    return search.optimum(np.clip(found.x, -1.0, 1.0), ended=found.success, said=found.message)
+    search = _Search(suspension, reach, aims, bounds, progress)
+    idle = search.idle(np.zeros(len(reach)))
+    if len(idle) == len(reach):
+        raise InputError([f"free: nothing of {', '.join(idle)} moves a target."], "optimise")
+    return search.optimum(*_solved(search))
 
 
-def _solved(search: "_Search", progress: Callable[[float], None] | None) -> Any:
-    """Return what SciPy's solvers say."""
-    size = len(search.places)
-    begin = search.cost(np.zeros(size)) or 1.0
-
-    def seen(intermediate_result: Any) -> None:
-        if progress is not None:
-            progress(search.cost(intermediate_result.x) / begin)
-
+def _solved(search: "_Search") -> tuple[Array, str]:
+    """Return the values that SciPy's solvers find, and why they gave up if they did."""
+    start = np.zeros(len(search.places))
     found = least_squares(
         search.deviations,
-        np.zeros(size),
+        start,
         search.slopes,
         bounds=(-1.0, 1.0),
         xtol=_NOTHING_TO_GAIN,
         ftol=_NOTHING_TO_GAIN,
         gtol=_NOTHING_TO_GAIN,
         max_nfev=_MOST_STEPS,
-        callback=seen,
     )
     if not search.limits or (search.room(found.x) >= 0.0).all():
-        return found
-    within_limits: Any = minimize
-    return within_limits(
+        return found.x, "" if found.success else _GAVE_UP[9]
+    # from beyond the limits, and where that leads nowhere, from where the file is
+    tried = [_within_limits(search, found.x)]
+    if tried[0][1]:
+        tried.append(_within_limits(search, start))
+    return min(
+        tried, key=lambda t: (t[1] != "", (search.room(t[0]) < 0.0).any(), search.cost(t[0]))
+    )
+
+
+def _within_limits(search: "_Search", start: Array) -> tuple[Array, str]:
+    slsqp: Any = minimize
+    found = slsqp(
         search.cost,
-        found.x,
+        start,
         jac=search.gradient,
-        bounds=[(-1.0, 1.0)] * size,
+        bounds=[(-1.0, 1.0)] * start.size,
         constraints={"type": "ineq", "fun": search.room, "jac": search.room_slopes},
         method="SLSQP",
         options={"maxiter": _MOST_STEPS, "ftol": _NOTHING_TO_GAIN},
-        callback=seen,
     )
+    said = "" if found.success else _GAVE_UP.get(found.status, found.message)
+    return np.clip(found.x, -1.0, 1.0), said
 
 
 class _Search:
@@ -188,6 +204,7 @@ class _Search:
         reach: Mapping[Place, float],
         targets: Sequence[Target],
         limits: Sequence[Limit],
+        progress: Callable[[float], None] | None,
     ) -> None:
         self.suspension = suspension
         self.places, self.reach = tuple(reach), np.array([*reach.values()])
@@ -195,10 +212,8 @@ class _Search:
         self._goals: tuple[Target | Limit, ...] = (*self.targets, *self.limits)
         self._look = Together([goal.curves for goal in self._goals])
         self._values: dict[bytes, list[Array] | None] = {}
-
-    def look_at_the_start(self) -> None:
-        """See that the suspension takes the positions as it is."""
-        self._look.of(model_of(self.suspension))
+        self._progress = progress
+        self._begin = self.cost(np.zeros(len(reach))) or 1.0
 
     def at(self, x: Array) -> Suspension:
         """Return the suspension with some values."""
@@ -208,13 +223,15 @@ class _Search:
         return changed(self.suspension, changes)
 
     def values(self, x: Array) -> list[Array] | None:
-        """Return the values of each target and each limit; None where there is no suspension."""
+        """Return the values of each target and each limit; None where there are none."""
         key = x.tobytes()
         if key not in self._values:
             try:
-                self._values[key] = [values[0] for values in self._look.of(model_of(self.at(x)))]
+                found = [values[0] for values in self._look.of(model_of(self.at(x)))]
             except KintrafoError:
-                self._values[key] = None
+                found = [np.array(np.nan)]
+            finite = all(np.isfinite(values).all() for values in found)
+            self._values[key] = found if finite else None
         return self._values[key]
 
     def derivatives(self, x: Array) -> list[Array]:
@@ -231,7 +248,29 @@ class _Search:
         if len(possible) < 2:
             return [np.zeros(goal.at.size) for goal in self._goals]
         (first, low), (last, high) = possible[0], possible[-1]
-        return [np.nan_to_num((b - a) / (last - first)) for a, b in zip(low, high, strict=True)]
+        return [(b - a) / (last - first) for a, b in zip(low, high, strict=True)]
+
+    def idle(self, x: Array) -> list[str]:
+        """Name the values that move no target, neither here nor from one end to the other."""
+        return [
+            place.name
+            for which, place in enumerate(self.places)
+            if not (self._matter(self._difference(x, which)) or self._matter(self._range(x, which)))
+        ]
+
+    def _range(self, x: Array, which: int) -> list[Array]:
+        """Return by how much everything differs between the ends of the range of a value."""
+        ends = np.array([x, x])
+        ends[:, which] = -1.0, 1.0
+        low, high = (self.values(end) for end in ends)
+        if low is None or high is None:
+            return [np.zeros(goal.at.size) for goal in self._goals]
+        return [b - a for a, b in zip(low, high, strict=True)]
+
+    def _matter(self, changes: Sequence[Array]) -> bool:
+        """Tell whether changes of the targets are more than rounding."""
+        pairs = zip(self.targets, changes, strict=False)
+        return any((np.abs(change) > _IDLE * target.within).any() for target, change in pairs)
 
     # -- targets ----------------------------------------------------------------------------------
 
@@ -245,7 +284,9 @@ class _Search:
         return np.concatenate([*missed, _RELUCTANCE * x])
 
     def slopes(self, x: Array) -> Array:
-        """Return the derivatives of the deviations."""
+        """Return the derivatives of the deviations; every step of a solver asks for them once."""
+        if self._progress is not None:
+            self._progress(self.cost(x) / self._begin)
         pairs = zip(self.targets, self.derivatives(x), strict=False)
         slopes = [slope / target.within for target, slope in pairs]
         return np.concatenate([*slopes, _RELUCTANCE * np.eye(x.size)])
@@ -287,22 +328,34 @@ class _Search:
 
     # -- result -----------------------------------------------------------------------------------
 
-    def optimum(self, x: Array, *, ended: bool, said: str) -> Optimum:
+    def optimum(self, x: Array, gave_up: str) -> Optimum:
         """Return what was found in words and numbers."""
-        found = (self.values(x) or [])[len(self.targets) :]
+        values = self.values(x) or [np.full(goal.at.size, np.nan) for goal in self._goals]
+        missed = [
+            target.name
+            for target, value in zip(self.targets, values, strict=False)
+            if not (np.abs(value - target.value) <= target.within).all()
+        ]
         broken = [
             limit.name
-            for limit, values in zip(self.limits, found, strict=True)
-            if not limit.kept(values).all()
+            for limit, value in zip(self.limits, values[len(self.targets) :], strict=True)
+            if not limit.kept(value).all()
         ]
         at_end = [
             place.name
             for place, part in zip(self.places, x, strict=True)
             if abs(part) > 1.0 - _AT_THE_END
         ]
-        words = [] if ended else [f"the solver gave up: {said}"]
-        words += [f"not within its limits: {', '.join(broken)}"] if broken else []
-        words += [f"at the end of its range: {', '.join(at_end)}"] if at_end else []
+        facts = {
+            "the solver gave up": [gave_up] if gave_up else [],
+            "not within its limits": broken,
+            "further off than what matters": missed,
+            "at the end of its range": at_end,
+            "moves no target": self.idle(x),
+        }
+        words = [
+            f"{fact}: {', '.join(dict.fromkeys(names))}" for fact, names in facts.items() if names
+        ]
         moved = {
             place.name: float(by / place.to_si)
             for place, by in zip(self.places, x * self.reach, strict=True)
@@ -314,7 +367,7 @@ class _Search:
             moved=moved,
             targets=self.targets,
             limits=self.limits,
-            success=bool(ended and not broken),
+            success=not (gave_up or broken),
             message="; ".join(words) or "found",
             evaluations=len(self._values),
         )

@@ -98,13 +98,16 @@ def matching(given: Arguments, suspension: Suspension, patterns: Any) -> dict[st
 def amounts(
     given: Arguments, suspension: Suspension, by_pattern: Mapping[str, Any], what: str
 ) -> dict[Place, float]:
-    """Return an amount in SI units for every number that a pattern names; later patterns count."""
+    """Return an amount in SI units for every number that a pattern names; later patterns count.
+
+    They are in the order of the file, whatever that of the patterns is.
+    """
     found: dict[str, tuple[Place, float]] = {}
     for pattern, amount in by_pattern.items():
         for name, place in matching(given, suspension, [str(pattern)]).items():
             checked = given.number(f"{what} of {pattern}", amount, place.unit, above=0.0)
             found[name] = place, checked * place.to_si
-    return dict(found.values())
+    return dict(found[name] for name in places_of(suspension) if name in found)
 
 
 def _fits(name: str, pattern: str) -> bool:

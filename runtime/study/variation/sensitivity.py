@@ -1,7 +1,7 @@
 """By how much each value of the input file moves each characteristic."""
 
-from collections.abc import Callable, Iterator, Sequence
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -24,12 +24,24 @@ PLACE = "place"
 # 2e-12 of it per millimetre.
 _STEPS = {"m": 5e-4, "rad": 1e-3}
 _RELATIVE_STEP = 1e-3
-# Two steps that disagree by more than these parts of the derivative, and of the greatest one of the
-# curve, see a kink, such as that of a stop that begins to act: there is no derivative. Of a smooth
-# curve they differ by (0.5 mm / 300 mm)^2 = 3e-6 of it, some times.
-_KINK, _KINK_OF_GREATEST = 1e-2, 1e-3
-# Rounding of a difference, as a part of the curve: 1e-12 over a step of a millimetre.
-_ROUNDING = 1e-9
+# Differences of fourth order, and of second order beside them, by steps from where the value is:
+# with neighbours on both sides, and with those of one side where the other cannot be, as below a
+# mass of zero.
+_BOTH_SIDES = (
+    {-2: 1 / 12, -1: -8 / 12, 1: 8 / 12, 2: -1 / 12},
+    {-1: -1 / 2, 1: 1 / 2},
+)
+_ONE_SIDE = (
+    {0: -25 / 12, 1: 4.0, 2: -3.0, 3: 4 / 3, 4: -1 / 4},
+    {0: -3 / 2, 1: 2.0, 2: -1 / 2},
+)
+# Two orders that disagree by more than these parts of the derivative, and of the greatest one of
+# the curve, see a kink, such as that of a stop that begins to act: there is no derivative. Of a
+# smooth curve they differ by (0.5 mm / 300 mm)^2 = 3e-6 of it, some times.
+_KINK, _KINK_OF_GREATEST = 3e-3, 3e-4
+# Rounding of a curve, as a part of its greatest value, or of 1 rad, 1 m, ...: loops that are solved
+# one after the other, and their rates, leave some thousand roundings of 2e-16.
+ROUNDING = 1e-12
 
 
 def sensitivity(
@@ -68,13 +80,14 @@ def sensitivity(
     Raises
     ------
     InputError
-        If a place or a characteristic is not known, or the suspension cannot do with a
-        neighbouring value what was asked.
+        If a place or a characteristic is not known, or the suspension cannot do what was asked
+        with neighbouring values of either side.
 
     Notes
     -----
     The differences of four neighbouring suspensions for each value, of fourth order: of a
-    hardpoint 0.5 mm and 1 mm to either side.
+    hardpoint 0.5 mm and 1 mm to either side. Where one side cannot be, as with a friction of zero,
+    up to 2 mm to the other.
 
     Examples
     --------
@@ -99,16 +112,35 @@ def sensitivity(
 
 def derivative(suspension: Suspension, place: Place, curves: Curves) -> Array:
     """Return the derivative of some curves by a value; of shape (names, positions), SI units."""
-    step = step_of(place)
-    at = {by: _moved(suspension, place, by * step, curves) for by in (-2.0, -1.0, 1.0, 2.0)}
+    orders, step, at = _neighbours(suspension, place, curves)
     with np.errstate(invalid="ignore"):  # a turning circle is infinite straight ahead
-        short, long = (at[1.0] - at[-1.0]) / (2.0 * step), (at[2.0] - at[-2.0]) / (4.0 * step)
-    result = (4.0 * short - long) / 3.0
-    rounding = _ROUNDING * np.maximum(_greatest(at[1.0]), 1.0)
-    tolerated = _KINK * np.abs(result) + _KINK_OF_GREATEST * _greatest(result) + rounding
-    result[np.abs(result) <= rounding] = 0.0
-    smooth: Array = np.where(np.abs(short - long) <= tolerated, result, np.nan)
+        fourth, second = (
+            np.sum([weight * at[by] for by, weight in order.items()], axis=0) / step
+            for order in orders
+        )
+    rounding = ROUNDING * np.maximum(_greatest(at[1]), 1.0) / abs(step)
+    tolerated = _KINK * np.abs(fourth) + _KINK_OF_GREATEST * _greatest(fourth) + rounding
+    fourth[np.abs(fourth) <= rounding] = 0.0
+    smooth: Array = np.where(np.abs(second - fourth) <= tolerated, fourth, np.nan)
     return smooth
+
+
+def _neighbours(
+    suspension: Suspension, place: Place, curves: Curves
+) -> tuple[Sequence[Mapping[int, float]], float, dict[int, Array]]:
+    """Return the differences that can be taken, their step, and the curves so many steps off."""
+    size = step_of(place)
+    refused = []
+    for orders, step in ((_BOTH_SIDES, size), (_ONE_SIDE, size), (_ONE_SIDE, -size)):
+        try:
+            return (
+                orders,
+                step,
+                {by: _moved(suspension, place, by * step, curves) for by in orders[0]},
+            )
+        except InputError as error:
+            refused.append(error)
+    raise refused[0]
 
 
 def _greatest(values: Array) -> Array:
@@ -122,7 +154,7 @@ def step_of(place: Place) -> float:
     """Return the step of a difference, SI units."""
     if place.si_unit in _STEPS:
         return _STEPS[place.si_unit]
-    return _RELATIVE_STEP * abs(place.value * place.to_si or 1.0)
+    return _RELATIVE_STEP * (abs(place.value) or 1.0) * place.to_si
 
 
 def _moved(suspension: Suspension, place: Place, by: float, curves: Curves) -> Array:
@@ -138,33 +170,33 @@ def _moved(suspension: Suspension, place: Place, by: float, curves: Curves) -> A
 
 def _dataset(curves: Curves, places: Sequence[Place], values: Array) -> xr.Dataset:
     along = ALONG[curves.over]
-    units = {place.unit for place in places}
     data = {
-        name: xr.Variable((PLACE, along.name), values[:, i], _attributes(curves, name, units))
+        name: xr.Variable((PLACE, along.name), values[:, i], _attributes(curves, name, places))
         for i, name in enumerate(curves.names)
     }
     labels = {"long_name": "value of the input file that moves"}
     coordinates = {
         PLACE: xr.Variable(PLACE, [place.name for place in places], labels),
         "place_unit": xr.Variable(PLACE, [place.si_unit for place in places]),
+        "place_display_unit": xr.Variable(PLACE, [place.unit for place in places]),
+        "place_display_factor": xr.Variable(PLACE, [1.0 / place.to_si for place in places]),
         "place_name": xr.Variable(PLACE, [place.words for place in places]),
         along.name: xr.Variable(along.name, curves.positions, along.attributes()),
     }
     return xr.Dataset(data, coordinates, {"title": f"sensitivity over {along.long_name}"})
 
 
-def _attributes(curves: Curves, name: str, units: set[str]) -> dict[str, Any]:
+def _attributes(curves: Curves, name: str, places: Sequence[Place]) -> dict[str, Any]:
     """Describe a derivative; where the values have several units, it is shown by their SI units."""
     quantity = KNOWN[curves.over][name]
     attributes = quantity.attributes()
     shown = display_of(attributes)
-    if len(units) == 1:
-        place = Place("", next(iter(units)), 0.0)
-        shown = Display(_per(shown.units, place.unit, " per "), shown.factor * place.to_si)
-        attributes |= {"units": _per(quantity.units, place.si_unit)}
-    else:
-        attributes |= {"units": _per(quantity.units, "place_unit")}
-        shown = Display(_per(shown.units, "place_unit", " per "), shown.factor)
+    units = {(place.si_unit, place.unit, place.to_si) for place in places}
+    si_unit, unit, to_si = (
+        next(iter(units)) if len(units) == 1 else ("place_unit", "place_unit", 1.0)
+    )
+    attributes |= {"units": _per(quantity.units, si_unit)}
+    shown = Display(_per(shown.units, unit, " per "), shown.factor * to_si)
     return attributes | {
         "long_name": f"sensitivity of {quantity.long_name}",
         "sign": "positive where it grows with the value",
@@ -180,8 +212,28 @@ def _per(unit: str, other: str, link: str = "/") -> str:
     return f"1/{other}" if unit == "1" else f"{unit}{link}{other}"
 
 
-def effects(dataset: xr.Dataset, name: str, at: float = 0.0) -> Iterator[tuple[str, float]]:
-    """Yield each value and what it does to a characteristic at a position, the largest first.
+class Effect(NamedTuple):
+    """What a value of the input file does to a characteristic.
+
+    Attributes
+    ----------
+    place : str
+        The value's name.
+    size : float
+        The derivative, in the units for people of both.
+    unit : str
+        'deg/mm per mm'
+    """
+
+    place: str
+    size: float
+    unit: str
+
+
+def effects(dataset: xr.Dataset, name: str, at: float = 0.0) -> Iterator[Effect]:
+    """Yield what each value does to a characteristic at a position, the largest first.
+
+    A millimetre and a degree cannot be compared: values of one unit come together.
 
     Parameters
     ----------
@@ -194,13 +246,19 @@ def effects(dataset: xr.Dataset, name: str, at: float = 0.0) -> Iterator[tuple[s
 
     Yields
     ------
-    str, float
-        The value's name, and the derivative in the unit for people.
+    Effect
     """
     data = dataset[name]
     along = next(str(d) for d in data.dims if d != PLACE)
-    column = data.sel({along: at}, method="nearest")
-    shown = column.values * display_of(data.attrs).factor
-    order = np.argsort(-np.nan_to_num(np.abs(shown), nan=-1.0), kind="stable")
-    for place in order:
-        yield str(dataset[PLACE].values[place]), float(shown[place])
+    column = data.sel({along: at}, method="nearest").values
+    quantity = next(known[name] for known in KNOWN.values() if name in known)
+    shown = display_of(quantity.attributes())
+    units = dataset["place_display_unit"].values.tolist()
+    sizes = column * shown.factor / dataset["place_display_factor"].values
+    found = [
+        Effect(str(place), float(size), _per(shown.units, unit, " per "))
+        for place, size, unit in zip(dataset[PLACE].values, sizes, units, strict=True)
+    ]
+    for unit in dict.fromkeys(effect.unit for effect in found):
+        same = [effect for effect in found if effect.unit == unit]
+        yield from sorted(same, key=lambda e: -abs(e.size) if np.isfinite(e.size) else 1.0)

@@ -8,13 +8,13 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from ...core.arguments import Arguments
-from ...core.errors import KintrafoError
+from ...core.errors import InputError, KintrafoError
 from ...core.quantities import variable
 from ...suspension.kinds import Suspension
 from .curves import ALONG, KNOWN, Curves, Over, Together, changed, curves_of, model_of
 from .goals import Limit, check_data, limits_of
 from .places import Place, amounts
-from .sensitivity import PLACE, derivative
+from .sensitivity import PLACE, ROUNDING, derivative
 
 Array = NDArray[np.float64]
 Distribution = Literal["normal", "uniform"]
@@ -51,12 +51,12 @@ def tolerance(
     ----------
     suspension : Suspension
     tolerances : mapping of str to float
-        How far values may be off to either side, in the unit of the input file for people (mm,
-        deg, N/m, ...), by their places as `sensitivity` takes them. Of several that name a value
-        the last counts.
+        How far values are off to either side, in the unit of the input file for people (mm, deg,
+        N/m, ...), by their places as `sensitivity` takes them. Of several that name a value the
+        last counts.
     distribution : {'normal', 'uniform'}, optional
-        Of each value: normal with a third of the tolerance as standard deviation, or anything
-        within the tolerance alike.
+        Of each value: normal with a third of the tolerance as standard deviation, so that three in
+        a thousand are off by more, or anything within the tolerance alike.
     correlation : array_like, shape (values, values), optional
         Of the values, in the order of the file, where they do not vary independently; of the
         normal distribution only.
@@ -80,11 +80,14 @@ def tolerance(
     -------
     xarray.Dataset
         Each characteristic over ``quantile`` and the positions: 0 and 1 are the least and the
-        greatest value of all cars. ``..._nominal`` is that of the suspension itself, and
-        ``..._share`` over ``place`` the part of its variance that each value causes, to first
-        order, in the mean of all positions at which it varies. Over ``car``: ``within_limits``,
-        ``reason`` where a car cannot be built or does not reach a position, and which value each
-        car has in ``value_of``. The attribute ``yield`` is the part of cars within all limits.
+        greatest value of all cars. ``..._nominal`` is that of the suspension itself.
+        ``..._share`` over ``place`` and the positions is the part of its variance that each value
+        causes to first order, NaN where it does not vary or has no derivative, as at a kink;
+        ``..._first_order`` is the standard deviation that the shares are about, as a part of that
+        of the cars: where it is not about 1, as where stops act in some cars only, shares say
+        little. Over ``car``: ``within_limits``, ``reason`` where a car cannot be built or does not
+        reach a position, and which value each car has in ``value_of``. The attribute ``yield`` is
+        the part of cars within all limits.
 
     Raises
     ------
@@ -125,11 +128,12 @@ def tolerance(
                 )
     off = _drawn(distribution, root, count, seed) * np.array([*spread.values()])
     cars = _Cars(suspension, [*spread], off, curves, bounds)
+    parts = _parts(suspension, spread, root, distribution, curves)
     for car in range(count):
         cars.see(car)
         if progress is not None:
             progress((car + 1) / count)
-    return _dataset(cars, _shares(suspension, spread, root, distribution, curves))
+    return _dataset(cars, parts)
 
 
 # -- cars -----------------------------------------------------------------------------------------
@@ -211,47 +215,53 @@ class _Cars:
 # -- results --------------------------------------------------------------------------------------
 
 
-def _shares(
+def _parts(
     suspension: Suspension,
     spread: Mapping[Place, float],
     root: Array,
     distribution: str,
     curves: Curves,
 ) -> Array:
-    """Return the part of the variance that each value causes to first order; (places, names).
+    """Return the variance that each value causes to first order; (places, names, positions).
 
     Of correlated values it is that of their sum in which they have a part: it may be negative.
     """
     sigma = np.array([*spread.values()]) / (np.sqrt(3.0) if distribution == "uniform" else _SIGMAS)
-    slopes = np.array([derivative(suspension, place, curves) for place in spread])
-    moved = np.where(np.isfinite(slopes), slopes, 0.0) * sigma[:, None, None]
-    together = np.einsum("ij,jnp->inp", root @ root.T, moved)
-    parts = moved * together
-    whole = np.broadcast_to(parts.sum(axis=0), parts.shape)
-    # position by position: else those beside a pole would speak for all
-    shares = np.divide(parts, whole, out=np.zeros_like(parts), where=whole > 0.0)
-    varying = (whole[0] > 0.0).sum(axis=1)
-    result: Array = shares.sum(axis=2) / np.where(varying > 0, varying, np.nan)
-    return result
+    moved = sigma[:, None, None] * np.array([_slope(suspension, p, curves) for p in spread])
+    parts: Array = moved * np.einsum("ij,jnp->inp", root @ root.T, moved)
+    return parts
 
 
-def _dataset(cars: _Cars, shares: Array) -> xr.Dataset:
+def _slope(suspension: Suspension, place: Place, curves: Curves) -> Array:
+    """Return the derivative by a value; NaN where no neighbour can be."""
+    try:
+        return derivative(suspension, place, curves)
+    except InputError:
+        return np.full((len(curves.names), curves.positions.size), np.nan)
+
+
+def _dataset(cars: _Cars, parts: Array) -> xr.Dataset:
     curves = cars.curves
     along = ALONG[curves.over]
     seen = cars.reasons == ""
-    bands = (
-        np.quantile(cars.values[seen], QUANTILES, axis=0)
-        if seen.any()
-        else np.full((len(QUANTILES), *cars.nominal.shape), np.nan)
-    )
+    nothing = np.full(cars.nominal.shape, np.nan)
+    with np.errstate(invalid="ignore", divide="ignore"):  # a turning circle may be infinite
+        bands = np.quantile(cars.values[seen], QUANTILES, axis=0) if seen.any() else [nothing] * 5
+        variance = parts.sum(axis=0)
+        shares = np.where(variance > 0.0, parts / variance, np.nan)
+        deviation = cars.values[seen].std(axis=0) if seen.any() else nothing
+        varies = deviation > ROUNDING * np.maximum(np.abs(cars.nominal), 1.0)
+        first_order = np.where(varies, np.sqrt(variance) / deviation, np.nan)
     data: dict[Any, Any] = {}
     for i, name in enumerate(curves.names):
         quantity = KNOWN[curves.over][name]
         attributes = quantity.attributes()
-        data[name] = xr.Variable((QUANTILE, along.name), bands[:, i], attributes)
+        data[name] = xr.Variable((QUANTILE, along.name), [band[i] for band in bands], attributes)
         data[f"{name}_nominal"] = xr.Variable(along.name, cars.nominal[i], attributes)
         meaning = f"part of the variance of {quantity.long_name}"
-        data[f"{name}_share"] = variable(PLACE, shares[:, i], meaning, "1")
+        data[f"{name}_share"] = variable((PLACE, along.name), shares[:, i], meaning, "1")
+        meaning = f"standard deviation of {quantity.long_name} to first order, as a part"
+        data[f"{name}_first_order"] = variable(along.name, first_order[i], meaning, "1")
     data["within_limits"] = variable(CAR, cars.within, "whether the car is within all limits", "1")
     data["reason"] = variable(CAR, cars.reasons.astype(str), "why a car has no curves", "1")
     values = np.array([p.value * p.to_si for p in cars.places]) + cars.off
