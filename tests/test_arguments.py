@@ -77,5 +77,18 @@ def test_numbers_of_other_kinds_are_numbers():
         assert given.array("x", [Fraction(1, 2), 1]).tolist() == [0.5, 1.0]
 
 
+def test_times_of_other_kinds_are_times():
+    from decimal import Decimal
+
+    times = kintrafo.scenario.Scenario(duration=Decimal("0.5"), output_step=Decimal("0.2")).times()
+    assert times.tolist() == [0.0, 0.2, 0.4, 0.5]
+
+
+def test_names_that_are_none_are_refused():
+    odd = kintrafo.Samples(np.arange(3.0), np.zeros(3), between=np.zeros(4))
+    with pytest.raises(kintrafo.InputError, match="there are monotone, spline, linear"):
+        kintrafo.simulate(CAR, SPAN, REST, inputs={"road_height": odd})
+
+
 def test_what_is_long_is_cut():
     assert len(shown(list(range(1000)))) < 70

@@ -92,7 +92,7 @@ def _padded(name: str, curve: PPoly, t_span: tuple[float, float]) -> PPoly:
 
 
 def _sampled(name: str, samples: Samples, t_span: tuple[float, float], rates: int) -> list[PPoly]:
-    if samples.between not in WAYS:
+    if not (isinstance(samples.between, str) and samples.between in WAYS):
         problem = f"{name!r}: between = {samples.between!r}; there are {', '.join(WAYS)}."
         raise InputError([problem], "inputs")
     try:

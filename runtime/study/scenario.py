@@ -50,18 +50,18 @@ class Scenario:
     def times(self) -> Array:
         """Return the times of the output, the first and the last included [s]."""
         with Arguments("simulation") as given:
-            given.number("duration", self.duration, "s", above=0.0)
-            given.number("output step", self.output_step, "s", above=0.0)
-            if not given.refused and self.duration / self.output_step > _MOST_OUTPUTS:
+            duration = given.number("duration", self.duration, "s", above=0.0)
+            step = given.number("output step", self.output_step, "s", above=0.0)
+            if not given.refused and duration / step > _MOST_OUTPUTS:
                 given.refuse(
-                    f"an output every {self.output_step:g} s for {self.duration:g} s makes more "
-                    f"than {_MOST_OUTPUTS} rows. Choose a larger output step."
+                    f"an output every {step:g} s for {duration:g} s makes more than "
+                    f"{_MOST_OUTPUTS} rows. Choose a larger output step."
                 )
-        count = int(np.floor(self.duration / self.output_step + 1e-9))
-        times = np.linspace(0.0, count * self.output_step, count + 1)
-        if self.duration - times[-1] > 1e-9 * self.output_step:
-            return np.array([*times, self.duration])
-        times[-1] = self.duration
+        count = int(np.floor(duration / step + 1e-9))
+        times = np.linspace(0.0, count * step, count + 1)
+        if duration - times[-1] > 1e-9 * step:
+            return np.array([*times, duration])
+        times[-1] = duration
         return times
 
     def start(self, model: Model) -> Array:
