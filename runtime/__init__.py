@@ -115,6 +115,7 @@ _INTERFACES = {
     "compare": ".study.compare",
     "excitation": ".study.excitation",
     "export": ".study.export",
+    "loads": ".study.loads",
     "measurement": ".study.measurement",
     "plots": ".plots",
     "report": ".report",

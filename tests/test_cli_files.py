@@ -33,6 +33,9 @@ WRITING = {
     "kinematics --figures": (["kinematics", CAR, "--step", 40, "--figures", "."], "camber.png"),
     "characteristics": (["characteristics", CAR, "-o", "a.nc"], "a_rack.nc"),
     "simulate": (["simulate", CAR, "-o", "a.parquet"], "a.parquet"),
+    "simulate --loads": (["simulate", CAR, "--loads", "a.csv"], "a.csv"),
+    "loads": (["loads", CAR, "-o", "a.nc"], "a.nc"),
+    "loads --plot": (["loads", CAR, "--case", "brake", "--plot", "a.png"], "a_brake.png"),
     "compare": (["compare", CAR, CAR, "--plot", "a.pdf"], "a.pdf"),
     "sensitivity": (
         ["sensitivity", CAR, "--place", "hardpoints.ball_joint.z", "-o", "a.nc"],

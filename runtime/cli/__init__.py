@@ -12,6 +12,7 @@ from . import (
     generate,
     import_chrono,
     kinematics,
+    loads,
     new,
     optimise,
     paper,
@@ -52,7 +53,7 @@ def _flowing(docstring: str) -> str:
 # In the order in which an engineer needs them.
 _PANELS = {
     "Begin": (new, import_chrono, schema, check, topology),
-    "Compute": (kinematics, characteristics, simulate, compare),
+    "Compute": (kinematics, characteristics, simulate, loads, compare),
     "Design": (sensitivity, tolerance, optimise, sweep),
     "Hand over": (report, paper, generate),
 }

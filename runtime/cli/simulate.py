@@ -2,7 +2,7 @@
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.markup import escape
@@ -45,6 +45,7 @@ EXAMPLES = (
     "kintrafo simulate reference_car --height 305",
     "kintrafo simulate my_car.toml --road-step 20 --road-step-at 0.1 -o bump.csv --plot bump.png",
     "kintrafo simulate my_car.toml --road-sine 10 --road-frequency 2 --duration 5",
+    "kintrafo simulate my_car.toml --road-step 60 --loads loads.csv",
     "kintrafo simulate my_car.toml --measured road.csv --speed 60 -o ride.nc",
 )
 
@@ -89,6 +90,14 @@ def command(
     plot: Plot = None,
     figures: Figures = None,
     formats: Formats = None,
+    loads: Annotated[
+        list[Path] | None,
+        typer.Option(
+            metavar="PATH",
+            help="Write the loads on every part: .csv (mm), .nc or .parquet. May be repeated.",
+            rich_help_panel="Output",
+        ),
+    ] = None,
     force: Force = False,
     json: Json = False,
 ) -> None:
@@ -98,6 +107,7 @@ def command(
     """
     read_here = [Path(file), *([] if measured is None else [measured])]
     outputs = Outputs.of(out, plot, figures, formats, force=force, inputs=read_here)
+    on_parts = Outputs.of(loads, None, force=force, inputs=read_here)
     model = load(file)
     scenario = scenario_of(
         height=height,
@@ -125,6 +135,11 @@ def command(
     }
     result, motion = _played(model, scenario, options, outputs, file, silent=json)
     written = outputs.write(motion, title=file, names=_drawn(motion))
+    if loads:
+        from ..study import loads as study
+
+        found = study.along(model, result)
+        written += on_parts.write_data(found, rows=study.table(found))
     left = result.validity
     if json:
         print_json(_summary(result, motion))

@@ -38,6 +38,7 @@ from .input.vehicle import Gravity, Steering, Tyre, Vehicle, Wheel
 from .places import put, reverse
 from .starter import DEFAULT
 from .strokes import Strokes
+from .structure import Structure
 
 # The top-level key that says which suspension a file describes.
 KIND = "suspension"
@@ -302,6 +303,10 @@ class Suspension(Section):
     @abstractmethod
     def drawing(self) -> Drawing:
         """Return how the suspension is drawn."""
+
+    @abstractmethod
+    def structure(self) -> Structure:
+        """Return the joints and the lines of force, for the loads on its parts."""
 
     @abstractmethod
     def links_at(self, points: Mapping[str, Array]) -> tuple[Plane, Plane]:

@@ -96,12 +96,12 @@ def spindle_offset(corner: Corner) -> Array:
 
 def contact(corner: Corner) -> Array:
     """Return the contact point: the lowest point of the wheel as a thin disc [m]."""
-    return _lowest_point(corner.center, corner.axis, _radius(corner))
+    return lowest_point(corner.center, corner.axis, _radius(corner))
 
 
 def half_track_change(corner: Corner) -> Array:
     """Return how much farther outboard the contact is than at design [m]."""
-    design = _lowest_point(corner.design_center, corner.design_axis, _radius(corner))
+    design = lowest_point(corner.design_center, corner.design_axis, _radius(corner))
     change: Array = corner.vehicle.side * (contact(corner)[..., 1] - design[1])
     return change
 
@@ -230,7 +230,8 @@ def _turned_axis(corner: Corner, motion: Motion) -> Array:
     return np.cross(motion.turning, corner.axis)
 
 
-def _lowest_point(center: Array, axis: Array, radius: float) -> Array:
+def lowest_point(center: Array, axis: Array, radius: float) -> Array:
+    """Return the lowest point of a thin disc about an axis [m]."""
     across = axis[..., 2:]
     upward = (UP - axis * across) / np.sqrt(1.0 - across**2)
     return center - radius * upward

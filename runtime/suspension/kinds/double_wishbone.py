@@ -25,6 +25,7 @@ from ..input.section import NonNegative, Number, Positive, Section, Triple
 from ..input.units import in_metres
 from ..input.vectors import Vector, distance_from_line, unit_vector
 from ..strokes import Strokes
+from ..structure import FORCES_OF_A_DAMPER, Ball, Hinge, Line, Structure, steered
 
 _UP = np.array([0.0, 0.0, 1.0])
 
@@ -461,6 +462,21 @@ damper has a rate or a curve; the stops are touched by its length."""
             upright=self.hardpoints.STEERING_AXIS,
             brackets={name: (place, "spring_seat") for name, place in held.items()},
         )
+
+    # -- what holds it together -----------------------------------------------------------------
+
+    def structure(self) -> Structure:
+        """Return the joints; spring, damper and stops act between chassis and lower arm."""
+        arms = [
+            joint
+            for ball, bearings in self.hardpoints.ARMS.items()
+            for arm in [ball.replace("ball_joint", "arm")]
+            for joint in (Hinge("chassis", arm, bearings), Ball(arm, "knuckle", (ball,)))
+        ]
+        ends = ("chassis", "lower_arm", ("spring_top", "spring_seat"))
+        damper = (*FORCES_OF_A_DAMPER, self.NAMES.actuator)
+        lines = (Line("spring", ("spring_force",), *ends), Line("damper", damper, *ends))
+        return Structure(steered(*arms), lines)
 
     # -- what its characteristics are computed from ---------------------------------------------
 

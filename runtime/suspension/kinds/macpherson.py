@@ -27,6 +27,16 @@ from ..input.strut import Strut
 from ..input.units import in_metres
 from ..input.vectors import Vector, unit_vector
 from ..strokes import Strokes
+from ..structure import (
+    FORCES_OF_A_DAMPER,
+    Ball,
+    Cross,
+    Hinge,
+    Line,
+    Structure,
+    Telescope,
+    steered,
+)
 
 # Where the knuckle's centre of mass lies on the strut axis, above the ball joint, if not given.
 _DEFAULT_COM_ALONG_STRUT_MM = 120.0
@@ -326,6 +336,23 @@ the strut extended (`spring_preload_N`), or by its force at the design position
             upright=("ball_joint", clamp),
             brackets={},
         )
+
+    # -- what holds it together -----------------------------------------------------------------
+
+    def structure(self) -> Structure:
+        """Return the joints; the spring stands on the chassis, beside the mount of the strut."""
+        joints = (
+            Hinge("chassis", "control_arm", self.hardpoints.ARMS["ball_joint"]),
+            Ball("control_arm", "knuckle", ("ball_joint",)),
+            Cross("chassis", "upper_strut", ("strut_top",), "strut_lower", (1.0, 0.0, 0.0)),
+            Telescope("upper_strut", "knuckle", ("strut_lower",), "strut_top"),
+        )
+        damper = (*FORCES_OF_A_DAMPER, self.NAMES.actuator)
+        lines = (
+            Line("spring", ("spring_force",), "chassis", "knuckle", ("spring_top", "spring_seat")),
+            Line("damper", damper, "upper_strut", "knuckle", ("strut_top", "strut_lower")),
+        )
+        return Structure(steered(*joints), lines)
 
     # -- what its characteristics are computed from ---------------------------------------------
 

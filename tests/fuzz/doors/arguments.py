@@ -20,6 +20,7 @@ from kintrafo import (
     compare,
     excitation,
     export,
+    loads,
     measurement,
     plots,
     roads,
@@ -104,6 +105,24 @@ CALLS = {
         lambda kind: kintrafo.ensemble(_CAR, None, _SPAN, _REST, reductions={"camber": kind}),
         {"kind": "max"},
     ),
+    "loads.static": (
+        loads.static,
+        {"model": _CAR, "cases": {"a": {"contact_g": [0.0, 0.0, 1.0]}}, "static_load": 3000.0},
+    ),
+    "load case": (
+        lambda **given: loads.static(_CAR, {"a": given}),
+        {
+            "contact_N": [0.0, 100.0, 3000.0], "contact_g": [0.1, 0.0, 0.0], "rack_mm": 10.0,
+            "center_Nm": [10.0, 0.0, 0.0],
+        },
+    ),
+    "load case at a travel": (
+        lambda **given: loads.static(_CAR, {"a": given}),
+        {"travel_mm": 10.0, "contact_N": [100.0, 0.0, 0.0]},
+    ),
+    "loads.along": (loads.along, {"model": _CAR, "result": None}),
+    "loads.table": (loads.table, {"dataset": None}),
+    "loads.envelope": (loads.envelope, {"dataset": None}),
     "sensitivity": (
         variation.sensitivity,
         {

@@ -77,6 +77,7 @@ OPTIONS = {
     "simulate": ("-o", "--road-step", "--road-sine", "--road-frequency", "--measured", "--speed",
                  "--rack", "--rack-sine", "--height", "--spin", "--output-step", "--method",
                  "--rtol", "--atol", "--road-step-at"),
+    "loads": ("-o", "--plot", "--cases", "--case", "--part"),
     "compare": ("-o", "--over", "--of"),
     "sensitivity": ("-o", "--plot", "--place", "--of", "--over", "--at"),
     "tolerance": ("-o", "--plot", "--of", "--over", "--at", "--seed"),
@@ -94,10 +95,12 @@ WORDS = {
     "--place": ("wheel", "hardpoints.tie_rod_inner.z", "vehicle", "rack.axis", "*", "x", ""),
     "--of": ("toe", "ackermann", "x", ""),
     "--keep": ("toe:max", "tyre_force:above:1", "toe", "toe:above", "x:max", ""),
+    "--case": ("static", "brake", "x", ""),
+    "--part": ("knuckle", "chassis", "x", ""),
     "--method": ("BDF", "Adams", "Verner", "Radau", "RK45", "x", ""),
     "--model": ("four_bar", "x"),
 }
-PATHS = ("-o", "--plot", "--to", "--data", "--tire", "--measured", "--title")
+PATHS = ("-o", "--plot", "--cases", "--to", "--data", "--tire", "--measured", "--title")
 CLEAR = (RefusedError,)
 STUDY = b"""
 [tolerances]

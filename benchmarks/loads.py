@@ -1,0 +1,69 @@
+"""How long the loads on all parts take: `make benchmark-loads` fills docs/loads.md."""
+
+import platform
+import shutil
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from kintrafo import Model, equilibrium, loads, roads, simulate
+from kintrafo.plots import loads as pictures
+
+from .report import fill_page, milliseconds, seconds_of
+
+ROOT = Path(__file__).parent.parent
+PAGE = ROOT / "docs/loads.md"
+PICTURE = ROOT / "docs/images/loads.png"
+MODELS = {name: Model(name) for name in ("reference_car", "double_wishbone_car")}
+OUTPUTS = 10_000
+REPEATED = 5
+
+
+def main() -> None:
+    """Measure everything, draw, and fill the page."""
+    random = np.random.default_rng(1)
+    cases = {
+        f"case_{i}": {"contact_N": [*random.uniform(-2e3, 2e3, 2), random.uniform(3e3, 5e3)]}
+        for i in range(20)
+    }
+    table = ["| | reference car, ms | double wishbone, ms |", "|---|---:|---:|"]
+    for words, work in (
+        ("20 load cases, all parts", lambda model: lambda: loads.static(model, cases)),
+        (f"along a motion, {OUTPUTS} outputs, all parts", _along),
+    ):
+        times = [milliseconds(_quickest(work(model))) for model in MODELS.values()]
+        table.append(f"| {words} | {' | '.join(times)} |")
+    table += ["", f"On {platform.machine()}, Python {platform.python_version()}; the quickest of"]
+    table[-1] += f" {REPEATED} runs."
+    print("\n".join(table))
+    fill_page(PAGE, {"loads": "\n".join(table)})
+    _draw()
+
+
+def _quickest(call: Callable[[], object]) -> float:
+    return min(seconds_of(call) for _ in range(REPEATED))
+
+
+def _along(model: Model) -> Callable[[], object]:
+    bump = {"road_height": roads.step(0.03, at=0.05, end=1.0)}
+    times = np.linspace(0.0, 1.0, OUTPUTS)
+    motion = simulate(
+        model, (0.0, 1.0), equilibrium(model, spin_rate=50.0), inputs=bump, t_eval=times
+    )
+    return lambda: loads.along(model, motion)
+
+
+def _draw() -> None:
+    """Draw the picture of the page."""
+    found = loads.static(MODELS["reference_car"])
+    with tempfile.TemporaryDirectory() as name:
+        path = Path(name) / "loads.png"
+        (written,) = pictures.write_free_bodies(
+            found, [path], "brake", ["knuckle"], title="reference car"
+        )
+        shutil.copyfile(written, PICTURE)
+
+
+if __name__ == "__main__":
+    main()

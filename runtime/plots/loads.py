@@ -1,0 +1,120 @@
+"""Free bodies: every part of a suspension with the forces on it."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib import rc_context
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
+
+from ..core.files import Paths
+from ..suspension.structure import GROUND
+from .curves import check_formats
+from .figures import BLUE, ORANGE, STYLE, save, written_plainly
+
+# Seen from behind and from the right: which axes of the chassis lie across and upward.
+_VIEWS = {"from behind": (1, 2, -1.0), "from the right": (0, 2, 1.0)}
+# The longest arrow of a part, as a part of the part's greatest extent, and the least extent [m].
+_LONGEST, _LEAST_EXTENT = 0.6, 0.15
+# Forces below this part of the greatest on a part are not drawn.
+_SMALL = 0.03
+# Couples below this are not told [N m].
+_SMALL_MOMENT = 1.0
+
+
+def write_free_bodies(
+    dataset: xr.Dataset,
+    paths: Sequence[Path],
+    case: str,
+    parts: Sequence[str] | None = None,
+    *,
+    title: str = "",
+    force: bool = False,
+    inputs: Paths = (),
+) -> list[Path]:
+    """Write the moving parts of a suspension with the forces on them, in two views.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        From `kintrafo.loads.static`.
+    paths : sequence of pathlib.Path
+        The case's name goes behind each file's name; the ending is the format.
+    case : str
+        Load case.
+    parts : sequence of str, optional
+        By default all that move.
+    title : str, optional
+    force : bool, optional
+        Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
+    inputs : iterable of str or pathlib.Path, optional
+        Files that are never replaced.
+
+    Returns
+    -------
+    list of pathlib.Path
+    """
+    check_formats(paths)
+    here = dataset.sel(case=case)
+    known = dict.fromkeys(str(part) for part in here["part"].values)
+    shown = [part for part in (parts or known) if part not in GROUND] or [*known]
+    written = []
+    with rc_context(STYLE):
+        figure = Figure(figsize=(7.4, 0.6 + 2.5 * len(shown)), layout="constrained")
+        grid = figure.subplots(len(shown), len(_VIEWS), squeeze=False)
+        for row, part in zip(grid, shown, strict=True):
+            chosen = here.isel(load=(here["part"] == part).values)
+            for axes, view in zip(row, _VIEWS, strict=True):
+                _draw(axes, chosen, view)
+                axes.set_title(f"{part.replace('_', ' ')}, {view}", fontsize=9.5)
+        figure.suptitle(f"{title}: forces on the parts in {case}", fontsize=11)
+        for path in paths:
+            named = path.with_name(f"{path.stem}_{case}{path.suffix}")
+            written.append(save(written_plainly(figure), named, force=force, inputs=inputs))
+    return written
+
+
+def _draw(axes: Axes, loads: xr.Dataset, view: str) -> None:
+    across, upward, sense = _VIEWS[view]
+    places = 1e3 * loads["at"].values[:, [across, upward]] * [sense, 1.0]
+    forces = loads["force"].values[:, [across, upward]] * [sense, 1.0]
+    sizes = np.linalg.norm(loads["force"].values, axis=1)
+    couples = np.linalg.norm(loads["moment"].values, axis=1)
+    held = places[loads["point"].values != "mass"]
+    outline = held[_around(held)]
+    axes.fill(*outline.T, facecolor="#eeeeee", edgecolor="#888888", joinstyle="round")
+    axes.plot(*held.T, "o", color="black", markersize=3)
+    extent = max(float(np.ptp(places, axis=0).max()), 1e3 * _LEAST_EXTENT)
+    scale = _LONGEST * extent / max(float(sizes.max()), 1.0)
+    halo = [withStroke(linewidth=2.5, foreground="white")]
+    for i in np.flatnonzero(sizes > _SMALL * sizes.max()):
+        place, push, by = places[i], forces[i], loads["by"].values[i]
+        colour = ORANGE if by in ("road", "drive", "gravity") else BLUE
+        tail = place - scale * push
+        style: dict[str, Any] = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.4}
+        axes.annotate("", xy=(place[0], place[1]), xytext=(tail[0], tail[1]), arrowprops=style)
+        words = f"{sizes[i]:.0f} N"
+        words += f", {couples[i]:.0f} N m" if couples[i] > _SMALL_MOMENT else ""
+        axes.annotate(
+            words, (tail[0], tail[1]), fontsize=7.5, color=colour, ha="center", path_effects=halo,
+            va="bottom" if push[1] <= 0.0 else "top",
+        )  # fmt: skip
+        axes.plot(*tail, alpha=0.0)  # so that arrows are within the axes
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.margins(0.15)
+    axes.tick_params(labelsize=7)
+    sides = {1: "y [mm], to the left" if sense > 0 else "-y [mm], to the right", 0: "x [mm]"}
+    axes.set_xlabel(sides[across], fontsize=8)
+    axes.set_ylabel("z [mm]", fontsize=8)
+
+
+def _around(places: np.ndarray) -> list[int]:
+    """Return the points in the order of their directions from the middle."""
+    distinct = {tuple(place): i for i, place in enumerate(places.round(3).tolist())}
+    rows = [*distinct.values()]
+    arms = places[rows] - places[rows].mean(axis=0)
+    return [rows[i] for i in np.argsort(np.arctan2(arms[:, 1], arms[:, 0]), kind="stable")]

@@ -1,0 +1,15 @@
+"""The forces in a suspension: what every joint, spring and bearing carries.
+
+`static`    in load cases, at rest
+`along`     along a simulation
+`envelope`  the extremes of load cases
+`table`     a column for each component
+`read`      a file of load cases
+"""
+
+from .along import along
+from .cases import read, standard_cases
+from .dataset import envelope, table
+from .static import static
+
+__all__ = ["along", "envelope", "read", "standard_cases", "static", "table"]

@@ -1,0 +1,150 @@
+"""The loads on every part of a suspension that moves: Newton and Euler along a simulation."""
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ...core.quantities import variable
+from ...simulation.result import Simulation
+from ...suspension.model import Model
+from ...systems.inputs import rates_of
+from ..recording import TIME
+from .dataset import dataset_of
+from .poses import CENTER, Poses
+from .reactions import Equations, Load
+
+Array = NDArray[np.float64]
+
+# Accelerations of parts are the derivative of their velocities along the motion, by a difference of
+# fourth order over a step in which no state changes by more than this [rad, m, rad/s, m/s]: its
+# error is of the fourth power of that, and rounding 1e-16 over it.
+_STEP = 1e-3
+_WEIGHTS = {-2: 1 / 12, -1: -8 / 12, 1: 8 / 12, 2: -1 / 12}
+# So many moments are looked at together, for the memory of it.
+_TOGETHER = 2000
+
+
+def along(model: Model, result: Simulation) -> xr.Dataset:
+    """Return the loads on every part at each output of a simulation.
+
+    Parameters
+    ----------
+    model : Model
+        The one that was simulated.
+    result : Simulation
+
+    Returns
+    -------
+    xarray.Dataset
+        As of `static`, over ``time`` [s] instead of cases. Besides what acts, ``by`` inertia names
+        minus mass times acceleration and minus the rate of the moment of momentum, so that the sum
+        over each part is zero. ``holding_force`` [N] is the force along the damper that the motion
+        would need besides: its size is the error of the result.
+
+    Raises
+    ------
+    InputError
+        If the result is not a motion of this model.
+
+    Examples
+    --------
+    >>> from kintrafo import simulate, state_at_height
+    >>> model = Model("reference_car")
+    >>> motion = simulate(model, (0.0, 0.1), state_at_height(model, 0.325))
+    >>> found = along(model, motion)
+    >>> bool(abs(found["holding_force"]).max() < 1e-5)
+    True
+    """
+    with Arguments("along") as given:
+        given.kind("model", model, Model, Model.NEEDED)
+        given.kind("result", result, Simulation, "what kintrafo.simulate returns is needed")
+        if not given.refused and tuple(result.signals) != model.signal_names:
+            given.refuse(f"result: it is not a motion of this model, {model!r}.")
+    size = result.t.size
+    found = [
+        in_motion(model, result.y.T[rows], result.inputs[rows])
+        for begin in range(0, size, _TOGETHER)
+        for rows in [slice(begin, min(begin + _TOGETHER, size))]
+    ]
+    time = variable(TIME, result.t, "time", "s")
+    dataset = xr.concat(found, TIME, data_vars="minimal").assign_coords({TIME: time})
+    rules = "; ".join(model.suspension.structure().rules)
+    return dataset.assign_attrs(title="loads along a motion", rules=rules)
+
+
+def in_motion(model: Model, states: Array, inputs: Array) -> xr.Dataset:
+    """Return the loads in some states, of shape (n, states), as over time."""
+    poses = Poses.of(model, states, inputs)
+    equations = Equations(poses)
+    acting = [*equations.known(), _road(poses), *_inertia(poses, equations.parts)]
+    unknowns = equations.solve(equations.applied(acting))
+    found = dataset_of(poses, TIME, equations.carried(unknowns) + acting)
+    meaning = "force along the damper that the motion would need besides"
+    found["holding_force"] = variable(TIME, unknowns[:, -1], meaning, "N")
+    return found
+
+
+def _road(poses: Poses) -> Load:
+    """Return the force of the tyre, which acts in the plane of the wheel through its centre."""
+    model = poses.model
+    force = model.signal("tyre_force", poses.states, poses.inputs)
+    across = poses.axis[:, 2:]
+    upward = (np.array([0.0, 0.0, 1.0]) - poses.axis * across) / np.sqrt(1.0 - across**2)
+    return Load("wheel", CENTER, "road", force[:, None] * upward, np.zeros(3), poses.points[CENTER])
+
+
+def _inertia(poses: Poses, parts: tuple[str, ...]) -> list[Load]:
+    """Return what the acceleration of each part takes, as loads."""
+    model = poses.model
+    twists = model.evaluate("velocities", poses.states, poses.inputs)
+    rates = _rates_of_twists(model, poses.states, poses.inputs)
+    loads = []
+    for part in parts:
+        mass = model.parameters[f"{part}_mass"]
+        if mass == 0.0:
+            continue
+        which = model.equations.BODIES.index(part)
+        turning, rate = twists[:, which, :3], rates[:, which]
+        inertia = poses.turned[part] @ _inertia_at_design(poses, part) @ poses.turned[part].mT
+        momentum = np.einsum("nij,nj->ni", inertia, turning)
+        moment = np.einsum("nij,nj->ni", inertia, rate[:, :3]) + np.cross(turning, momentum)
+        loads.append(
+            Load(part, "mass", "inertia", -mass * rate[:, 3:], -moment, poses.centers[part])
+        )
+    return loads
+
+
+def _inertia_at_design(poses: Poses, part: str) -> Array:
+    """Return the inertia tensor of a part about its centre of mass at design, (3, 3) [kg m^2]."""
+    values = poses.model.parameters
+    if part == "wheel":
+        axis = poses.model.suspension.wheel.spin_axis(poses.model.suspension.vehicle.sign)
+        spin, across = values["wheel_inertia_spin"], values["wheel_inertia_diametral"]
+        symmetric: Array = across * np.eye(3) + (spin - across) * np.outer(axis, axis)
+        return symmetric
+    xx, yy, zz, xy, xz, yz = (
+        values[f"{part}_inertia_{name}"] for name in ("xx", "yy", "zz", "xy", "xz", "yz")
+    )
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+
+
+def _rates_of_twists(model: Model, states: Array, inputs: Array) -> Array:
+    """Return the rates of the parts' angular and linear velocities along the motion."""
+    by_time = model.evaluate("rhs", states, inputs)
+    inputs_by_time = np.zeros_like(inputs)
+    if not model.free_rack:
+        names = ("rack_position", *rates_of("rack_position", model.equations.INPUTS))
+        position, velocity, acceleration = (model.input_names.index(name) for name in names)
+        inputs_by_time[:, position] = inputs[:, velocity]
+        inputs_by_time[:, velocity] = inputs[:, acceleration]
+    fastest = np.maximum(
+        np.abs(by_time).max(axis=1), np.abs(inputs_by_time).max(axis=1, initial=0.0)
+    )
+    step = _STEP / np.maximum(fastest, 1.0)[:, None]
+    total = np.zeros((*states.shape[:1], len(model.equations.BODIES), 6))
+    for by, weight in _WEIGHTS.items():
+        moved = (states + by * step * by_time, inputs + by * step * inputs_by_time)
+        total += weight * model.evaluate("velocities", *moved)
+    rates: Array = total / step[:, :, None]
+    return rates

@@ -1,0 +1,131 @@
+"""Loads on parts as a dataset, and the extremes of them."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ...core.quantities import variable
+from ...suspension.structure import GROUND
+from .poses import Poses
+from .reactions import Load
+
+Array = NDArray[np.float64]
+
+CASE, LOAD, AXIS, PART = "case", "load", "axis", "part"
+"""Dimensions of the loads."""
+
+_NEEDED = "what kintrafo.loads.static or along returns is needed"
+
+
+def dataset_of(poses: Poses, over: str, loads: Sequence[Load]) -> xr.Dataset:
+    """Return loads over the positions.
+
+    Parameters
+    ----------
+    poses : Poses
+    over : str
+        Dimension of the positions.
+    loads : sequence of Load
+        All that there are.
+    """
+    count = len(poses.states)
+    fields = {
+        name: _stacked([getattr(load, name) for load in loads], count)
+        for name in ("force", "moment", "at")
+    }
+    still = np.broadcast_to(np.eye(3), (count, 3, 3))
+    turned = np.stack(
+        [still if load.part in GROUND else poses.turned[load.part] for load in loads], axis=1
+    )
+    dims = (over, LOAD, AXIS)
+    data = {
+        "force": variable(dims, fields["force"], "force on the part, chassis axes", "N"),
+        "moment": variable(dims, fields["moment"], "moment about the point, chassis axes", "N m"),
+        "at": variable(dims, fields["at"], "where it acts, chassis axes", "m"),
+    }
+    for name in ("force", "moment"):
+        inside = np.einsum("nlij,nli->nlj", turned, fields[name])
+        meaning = f"{name} on the part, in the axes that the part had at design"
+        data[f"{name}_in_part"] = variable(dims, inside, meaning, data[name].attrs["units"])
+    parts = [load.part for load in loads]
+    moving = list(dict.fromkeys(part for part in parts if part not in GROUND))
+    sums = [fields["force"][:, [p == part for p in parts]].sum(axis=1) for part in moving]
+    residual = np.linalg.norm(sums, axis=-1).T
+    meaning = "what is left of the sum of the forces on a part"
+    data["residual"] = variable((over, "moving_part"), residual, meaning, "N")
+    coordinates = {
+        LOAD: [f"{load.part} at {load.point} by {load.by}" for load in loads],
+        PART: (LOAD, parts),
+        "point": (LOAD, [load.point for load in loads]),
+        "by": (LOAD, [load.by for load in loads]),
+        AXIS: ["x", "y", "z"],
+        "moving_part": moving,
+    }
+    return xr.Dataset(data, coordinates)
+
+
+def envelope(dataset: xr.Dataset) -> xr.Dataset:
+    """Return the least and the greatest of every load, and in which cases they are.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        From `static`; cases that are not carried are left out.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``force_min``, ``force_max``, ``moment_min``, ``moment_max`` over ``load`` and ``axis``, and
+        for each of them the case, ``force_min_case`` and so on.
+    """
+    with Arguments("envelope") as given:
+        given.kind("dataset", dataset, xr.Dataset, _NEEDED)
+        if not given.refused and not {CASE, LOAD, AXIS} <= {*dataset.dims}:
+            given.refuse(
+                "dataset: what kintrafo.loads.static returns is needed, over case and load."
+            )
+    found = {}
+    for name in ("force", "moment"):
+        for end in ("min", "max"):
+            values = dataset[name]
+            key = f"{name}_{end}"
+            found[key] = getattr(values, end)(CASE).assign_attrs(values.attrs)
+            found[f"{key}_case"] = getattr(values, f"idx{end}")(CASE).drop_attrs()
+    return xr.Dataset(found, attrs={"title": "envelope of the loads"})
+
+
+def table(dataset: xr.Dataset) -> xr.Dataset:
+    """Return loads with a column for each component, as a strength engineer's program reads them.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        From `static` or `along`.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``force_x`` to ``moment_z`` and ``at_x`` to ``at_z`` over case, or time, and load: a row for
+        each load on each part, chassis axes.
+    """
+    with Arguments("table") as given:
+        given.kind("dataset", dataset, xr.Dataset, _NEEDED)
+        if not given.refused and not {LOAD, AXIS} <= {*dataset.dims}:
+            given.refuse(f"dataset: {_NEEDED}.")
+    columns = {
+        f"{name}_{axis}": dataset[name].sel({AXIS: axis}, drop=True)
+        for name in ("force", "moment", "at")
+        for axis in dataset[AXIS].values
+    }
+    for name, column in columns.items():
+        words = str(column.attrs["long_name"]).split(",", maxsplit=1)
+        column.attrs["long_name"] = f"{words[0]}, {name[-1]}"
+    return xr.Dataset(columns, attrs=dataset.attrs)
+
+
+def _stacked(values: Sequence[Array], count: int) -> Array:
+    """Return vectors behind each other, (count, loads, 3)."""
+    return np.stack([np.broadcast_to(value, (count, 3)) for value in values], axis=1)

@@ -1,0 +1,109 @@
+"""Where the parts of a suspension are, and what acts on them from outside."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...suspension.corner import UP
+from ...suspension.model import Model
+from ...suspension.points import hardpoints
+from ..characteristics.from_model import vehicle
+from ..characteristics.wheel import lowest_point
+
+Array = NDArray[np.float64]
+
+CONTACT, CENTER = "contact", "wheel_center"
+"""Where loads act on a wheel: at its lowest point, and at its centre."""
+
+
+@dataclass(frozen=True)
+class Poses:
+    """A suspension in many positions; arrays have one leading dimension, that of the positions.
+
+    Attributes
+    ----------
+    model : Model
+    states, inputs : ndarray
+        As in the compiled module.
+    points : dict of str to ndarray
+        Hardpoints, and ``contact`` where the wheel's radius is known [m].
+    centers, turned : dict of str to ndarray
+        Centre of mass [m] and rotation from design of each part.
+    axis : ndarray, shape (n, 3)
+        Spin axis of the wheel, pointing outboard.
+    """
+
+    model: Model
+    states: Array
+    inputs: Array
+    points: dict[str, Array]
+    centers: dict[str, Array]
+    turned: dict[str, Array]
+    axis: Array
+
+    @classmethod
+    def of(cls, model: Model, states: Array, inputs: Array) -> "Poses":
+        """Return the positions of some states."""
+        bodies = model.equations.BODIES
+        centers = model.evaluate("positions", states, inputs)
+        rotations = model.evaluate("orientations", states, inputs)
+        turned = {name: rotations[..., i, :, :] for i, name in enumerate(bodies)}
+        side = model.suspension.vehicle.sign
+        axis = turned["knuckle"] @ (side * model.suspension.wheel.spin_axis(side))
+        points = hardpoints(model, states, inputs)
+        radius = vehicle(model.suspension).tyre_radius
+        if radius is not None:
+            points[CONTACT] = lowest_point(points[CENTER], axis, radius)
+        return cls(
+            model=model,
+            states=states,
+            inputs=inputs,
+            points=points,
+            centers={name: centers[..., i, :] for i, name in enumerate(bodies)},
+            turned=turned,
+            axis=axis,
+        )
+
+    @property
+    def design(self) -> dict[str, Array]:
+        """The hardpoints at design [m]."""
+        points = self.model.suspension.hardpoints
+        return {name: points.metres(name) for name in (*points.names(), *points.STAND_INS)}
+
+    def weights(self) -> dict[str, Array]:
+        """Return the weight of each part, (3,) [N]."""
+        model = self.model
+        masses = {name: model.parameters[f"{name}_mass"] for name in model.equations.BODIES}
+        return {name: -mass * model.parameters["gravity"] * UP for name, mass in masses.items()}
+
+    def forces_along_lines(self) -> dict[str, Array]:
+        """Return the force of each line of the structure, positive when it pushes, (n,) [N]."""
+        values = self.model.signals(self.states, self.inputs)
+        values |= dict(zip(self.model.input_names, np.moveaxis(self.inputs, -1, 0), strict=True))
+        nothing = np.zeros(self.states.shape[:-1])
+        return {
+            line.name: sum((values[name] for name in line.signals if name in values), nothing)
+            for line in self.model.suspension.structure().lines
+        }
+
+    def wheel_axes(self) -> Array:
+        """Return the axes of the wheel on the road as rows, (n, 3, 3): forward, left, up.
+
+        Forward is horizontal in the plane of the wheel, as in the tyre axes of ISO 8855.
+        """
+        side = self.model.suspension.vehicle.sign
+        forward = np.cross(side * self.axis, UP)
+        forward /= np.linalg.norm(forward, axis=-1, keepdims=True)
+        return np.stack([forward, np.cross(UP, forward), np.broadcast_to(UP, forward.shape)], -2)
+
+
+def wrench_about(point: Array, at: Array, force: Array, moment: Array | float = 0.0) -> Array:
+    """Return force and moment about a point, (..., 6), of a force and a moment elsewhere."""
+    return np.concatenate(np.broadcast_arrays(force, moment + np.cross(at - point, force)), axis=-1)
+
+
+def gathered(wrenches: Mapping[str, Array], parts: tuple[str, ...]) -> Array:
+    """Return wrenches of parts behind each other, (..., 6 parts)."""
+    return np.concatenate(np.broadcast_arrays(*(wrenches[part] for part in parts)), axis=-1)

@@ -1,0 +1,163 @@
+"""The forces in the joints: Newton and Euler for every part, linear in what the joints carry."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.errors import InputError
+from ...suspension.structure import GROUND, Joint, Line
+from .poses import Poses, wrench_about
+
+Array = NDArray[np.float64]
+
+# Rounding of loads, 1e-16, that equations so near to singular enlarge to 1e-4 of them.
+_WORST_CONDITION = 1e12
+
+
+@dataclass(frozen=True)
+class Load:
+    """A force and a moment on a part.
+
+    Attributes
+    ----------
+    part, point : str
+        On which part, and where: a hardpoint, ``contact``, or ``mass`` for its centre of mass.
+    by : str
+        What exerts it: another part, or ``spring``, ``damper``, ``road``, ``gravity``.
+    force, moment, at : ndarray, shape (..., 3)
+        Chassis axes, the moment about the point [N], [N m], [m].
+    """
+
+    part: str
+    point: str
+    by: str
+    force: Array
+    moment: Array
+    at: Array
+
+
+class Equations:
+    """Equilibrium of all parts in many positions, factored for any loads.
+
+    Parameters
+    ----------
+    poses : Poses
+
+    Notes
+    -----
+    The unknowns are what the joints carry and, last, a force along the damper that holds the
+    suspension where it is; it is zero where the loads are in equilibrium.
+    """
+
+    def __init__(self, poses: Poses) -> None:
+        self.poses = poses
+        structure = poses.model.suspension.structure()
+        self.joints, self.lines, self.parts = structure.joints, structure.lines, structure.parts
+        self._rows = {part: slice(6 * i, 6 * i + 6) for i, part in enumerate(self.parts)}
+        self._units = [
+            joint.unit_loads(poses.points, poses.turned, poses.design) for joint in self.joints
+        ]
+        self._inverse = self._inverted()
+
+    def _inverted(self) -> Array:
+        size = 6 * len(self.parts)
+        matrix = np.zeros((*self.poses.states.shape[:-1], size, size))
+        column = 0
+        for joint, units in zip(self.joints, self._units, strict=True):
+            columns = slice(column, column + units.shape[-1])
+            for i, point in enumerate(joint.at):
+                for part, sign in ((joint.second, 1.0), (joint.first, -1.0)):
+                    if part not in GROUND:
+                        moved = _about(self.poses, part, point, units[..., i, :, :])
+                        matrix[..., self._rows[part], columns] += sign * moved
+            column = columns.stop
+        for part, load in self._pushing(self.lines[-1]):
+            matrix[..., self._rows[part], column] = load
+        inverse: Array = np.linalg.inv(matrix)
+        condition = np.abs(matrix).sum(-2).max(-1) * np.abs(inverse).sum(-2).max(-1)
+        if not (condition < _WORST_CONDITION).all():
+            height = 1e3 * float(self.poses.points["wheel_center"][condition.argmax(), 2])
+            problem = (
+                f"at a wheel height of {height:.6g} mm the joints cannot carry a load: the linkage "
+                "is at a dead point there."
+            )
+            raise InputError([problem], "loads")
+        return inverse
+
+    def _pushing(self, line: Line) -> Iterator[tuple[str, Array]]:
+        """Yield the wrenches of a unit force along a line on parts that move."""
+        points, centers = self.poses.points, self.poses.centers
+        along = line.direction(points)
+        for part, point, sign in zip((line.first, line.second), line.at, (-1.0, 1.0), strict=True):
+            if part not in GROUND:
+                yield part, wrench_about(centers[part], points[point], sign * along)
+
+    def solve(self, applied: Array) -> Array:
+        """Return the unknowns under loads on the parts.
+
+        Parameters
+        ----------
+        applied : ndarray, shape (n, 6 parts) or (n, 6 parts, cases)
+            Force and moment about the centre of mass of each part.
+        """
+        vectors = applied if applied.ndim == self._inverse.ndim else applied[..., None]
+        found: Array = -self._inverse @ vectors
+        return found if applied.ndim == self._inverse.ndim else found[..., 0]
+
+    def applied(self, loads: list[Load]) -> Array:
+        """Return loads as a vector, (n, 6 parts)."""
+        total = np.zeros(self._inverse.shape[:-1])
+        for load in loads:
+            if load.part not in GROUND:
+                center = self.poses.centers[load.part]
+                wrench = wrench_about(center, load.at, load.force, load.moment)
+                total[..., self._rows[load.part]] += wrench
+        return total
+
+    def known(self) -> list[Load]:
+        """Return what acts without anybody's doing: weights, spring, damper and stops."""
+        poses, still = self.poses, np.zeros(3)
+        weights, forces = poses.weights(), poses.forces_along_lines()
+        loads = [
+            Load(part, "mass", "gravity", weights[part], still, poses.centers[part])
+            for part in self.parts
+            if weights[part].any()
+        ]
+        for line in self.lines:
+            push = forces[line.name][..., None] * line.direction(poses.points)
+            for part, point, sign in (
+                (line.first, line.at[0], -1.0),
+                (line.second, line.at[1], 1.0),
+            ):
+                loads.append(Load(part, point, line.name, sign * push, still, poses.points[point]))
+        return loads
+
+    def carried(self, unknowns: Array) -> list[Load]:
+        """Return what the joints carry, on both of the parts of each."""
+        loads, column = [], 0
+        for joint, units in zip(self.joints, self._units, strict=True):
+            carried = unknowns[..., column : column + units.shape[-1]]
+            column += units.shape[-1]
+            at_points = np.einsum("...pru,...u->...pr", units, carried)
+            for i, point in enumerate(joint.at):
+                wrench = at_points[..., i, :]
+                loads += _on_both(joint, point, wrench, self.poses.points[point])
+        return loads
+
+
+def _on_both(joint: Joint, point: str, wrench: Array, at: Array) -> list[Load]:
+    """Return what a joint carries at a point as loads on both parts."""
+    force, moment = wrench[..., :3], wrench[..., 3:]
+    return [
+        Load(joint.second, point, joint.first, force, moment, at),
+        Load(joint.first, point, joint.second, -force, -moment, at),
+    ]
+
+
+def _about(poses: Poses, part: str, point: str, units: Array) -> Array:
+    """Return unit loads at a point as columns of forces and moments about a centre of mass."""
+    arm = poses.points[point] - poses.centers[part]
+    forces, moments = units[..., :3, :], units[..., 3:, :]
+    return np.concatenate([forces, moments + np.cross(arm[..., :, None], forces, axis=-2)], -2)

@@ -1,0 +1,254 @@
+"""The loads on every part of a suspension that stands still under load cases."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+from scipy.optimize.elementwise import find_root
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError
+from ...core.quantities import variable
+from ...suspension.model import Model
+from ...suspension.positions import PositionError, arm_angles, design_height, equilibrium
+from ...suspension.reach import at_rest, travel_range
+from .cases import Case, cases_of, standard_cases
+from .dataset import CASE, dataset_of
+from .poses import CENTER, CONTACT, Poses
+from .reactions import Equations, Load
+
+Array = NDArray[np.float64]
+
+# Positions over the travel between which an equilibrium is looked for: every 2 mm or so.
+_GRID = 101
+
+
+def static(
+    model: Model,
+    cases: Mapping[str, Any] | None = None,
+    *,
+    static_load: float | None = None,
+) -> xr.Dataset:
+    """Return the loads on every part in some load cases, each at rest.
+
+    Parameters
+    ----------
+    model : Model
+    cases : mapping, optional
+        By name: ``contact_N`` and ``contact_Nm``, force and moment at the lowest point of the
+        wheel, whose brake holds it; ``center_N`` and ``center_Nm``, at the wheel centre; all of
+        them three numbers in the axes of the tyre. ``contact_g`` and ``center_g`` in parts of the
+        static load. ``rack_mm``; ``travel_mm`` where the suspension is to stand there, instead of
+        a vertical force at the contact. By default usual cases.
+    static_load : float, optional
+        Vertical force on the wheel [N]; by default that of the rest on the road at z = 0.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``case``, ``load`` and ``axis``: ``force`` [N] and ``moment`` [N m] about the point at
+        which it acts (``at`` [m]), in chassis axes, and ``force_in_part`` and ``moment_in_part`` in
+        the axes that the part had at design. Every load says on which ``part`` it is, at which
+        ``point`` and ``by`` whom: what two parts exert on each other is there twice, with both
+        signs. Over ``case``: ``travel`` and ``rack`` [m], ``wheel_load`` [N], and ``reason`` where
+        the suspension cannot carry the case. ``residual`` over ``part`` is what is left of the sum
+        of the forces on it [N].
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used.
+
+    Notes
+    -----
+    Equilibrium of every part, linear in the forces of the joints. The suspension goes to the
+    stable position nearest to design in which spring and stops carry the case. Two bearings of an
+    arm on one axis share the force along it equally: statics does not decide that.
+
+    Examples
+    --------
+    >>> found = static(Model("reference_car"), {"static": {"contact_g": [0, 0, 1]}})
+    >>> mount = found.sel(case="static", axis="z", load=found["point"] == "spring_top")
+    >>> [round(float(force)) for force in mount["force"]]
+    [3331]
+    """
+    with Arguments("loads") as given:
+        given.kind("model", model, Model, Model.NEEDED)
+        if not given.refused:
+            described = standard_cases(model.suspension.vehicle.sign) if cases is None else cases
+            described = given.mapping("cases", described, "names and load cases")
+            if static_load is None:
+                static_load = _at_rest_on_the_road(given, model, described)
+            else:
+                static_load = given.number("static_load", static_load, "N", above=0.0)
+            wanted = cases_of(given, described, static_load)
+            if not wanted and not given.refused:
+                given.refuse("cases: one or more are needed.")
+            if model.suspension.tyre_radius() is None:
+                given.refuse("[tyre] radius_mm is needed: where the road touches the wheel.")
+    angles, reasons = _positions(model, wanted)
+    return _dataset(model, wanted, angles, reasons)
+
+
+def _at_rest_on_the_road(given: Arguments, model: Model, described: Mapping[str, Any]) -> float:
+    """Return the vertical force on the wheel at rest, where a case needs it [N]."""
+    tables = [table for table in described.values() if isinstance(table, Mapping)]
+    if not any(key.endswith("_g") for table in tables for key in map(str, table)):
+        return 0.0
+    try:
+        rest = equilibrium(model)
+    except PositionError as error:
+        given.refuse(f"static_load is needed, [N]: {error}")
+        return 1.0
+    poses = Poses.of(model, *at_rest(model, [rest[0]]))
+    # the tyre pushes in the plane of the wheel
+    upright = np.sqrt(1.0 - poses.axis[0, 2] ** 2)
+    return float(model.signal("tyre_force", rest, model.inputs())) * float(upright)
+
+
+# -- positions ------------------------------------------------------------------------------------
+
+
+def _positions(model: Model, cases: Sequence[Case]) -> tuple[Array, list[str]]:
+    """Return the arm angle of each case, and why there is none."""
+    angles = np.full(len(cases), np.nan)
+    reasons = [""] * len(cases)
+    for i, case in enumerate(cases):
+        if case.travel is None:
+            continue
+        try:
+            angles[i] = arm_angles(model, design_height(model) + case.travel, case.rack)
+        except PositionError as error:
+            reasons[i] = str(error)
+    for rack in dict.fromkeys(case.rack for case in cases if case.travel is None):
+        rows = [i for i, c in enumerate(cases) if c.travel is None and c.rack == rack]
+        try:
+            found, told = _equilibria(model, rack, [cases[i] for i in rows])
+        except PositionError as error:
+            found, told = np.full(len(rows), np.nan), [str(error)] * len(rows)
+        angles[rows] = found
+        for i, reason in zip(rows, told, strict=True):
+            reasons[i] = reason
+    return angles, reasons
+
+
+def _equilibria(model: Model, rack: float, cases: Sequence[Case]) -> tuple[Array, list[str]]:
+    """Return where the suspension carries some cases: nothing has to hold it besides."""
+    reach = travel_range(model, rack)
+    # a linkage that locks at the end of its reach carries anything, with forces that break it
+    grid = np.linspace(*reach.arm_angle, _GRID)[1:-1]
+    everywhere = Equations(Poses.of(model, *at_rest(model, grid, rack)))
+    holding = np.stack([_holding(everywhere, [case] * grid.size) for case in cases])
+    # from low to high the wheel needs less and less of a push to stay, where it is stable
+    stable: NDArray[np.bool_] = (holding[:, :-1] >= 0.0) & (holding[:, 1:] < 0.0)
+    distance = np.where(stable, np.abs(grid[:-1] - model.design_state[0]), np.inf)
+    there = np.flatnonzero(stable.any(axis=1))
+    at = distance.argmin(axis=1)[there]
+    angles = np.full(len(cases), np.nan)
+    if there.size:
+
+        def left(angle: Array, row: Array) -> Array:
+            poses = Poses.of(model, *at_rest(model, angle, rack))
+            return _holding(Equations(poses), [cases[int(i)] for i in row])
+
+        elementwise: Any = find_root  # its stubs know no arguments beside the first
+        bracket = grid[at], grid[at + 1]
+        angles[there] = elementwise(left, bracket, args=(there.astype(float),)).x
+    reasons = [
+        "" if np.isfinite(angle) else _out_of_reach(reach.height, held)
+        for angle, held in zip(angles, holding, strict=True)
+    ]
+    return angles, reasons
+
+
+def _out_of_reach(height: tuple[float, float], held: Array) -> str:
+    low, high = (1e3 * end for end in height)
+    return (
+        f"spring and stops do not carry it between wheel heights of {low:.1f} mm and {high:.1f} "
+        f"mm: a push of {held[0]:.4g} N along the damper is missing near the lower end, and of "
+        f"{held[-1]:.4g} N near the upper one. Give the file its stops, or the case its travel_mm."
+    )
+
+
+def _holding(equations: Equations, cases: Sequence[Case]) -> Array:
+    """Return the force along the damper that has to hold each position besides [N]."""
+    outside = _outside(equations.poses, cases)
+    unknowns = equations.solve(equations.applied(equations.known() + outside))
+    holding: Array = unknowns[..., -1]
+    return holding
+
+
+def _outside(poses: Poses, cases: Sequence[Case]) -> list[Load]:
+    """Return what acts on the wheel in each position."""
+    axes = poses.wheel_axes()
+
+    def turned(vectors: list[Array]) -> Array:
+        rotated: Array = np.einsum("nij,ni->nj", axes, np.array(vectors))
+        return rotated
+
+    return [
+        Load(
+            "wheel",
+            CONTACT,
+            "road",
+            turned([case.contact for case in cases]),
+            turned([case.contact_moment for case in cases]),
+            poses.points[CONTACT],
+        ),
+        Load(
+            "wheel",
+            CENTER,
+            "drive",
+            turned([case.center for case in cases]),
+            turned([case.center_moment for case in cases]),
+            poses.points[CENTER],
+        ),
+    ]
+
+
+# -- results --------------------------------------------------------------------------------------
+
+
+def _dataset(
+    model: Model, cases: Sequence[Case], angles: Array, reasons: Sequence[str]
+) -> xr.Dataset:
+    carried = np.flatnonzero(np.isfinite(angles))
+    if not carried.size:
+        names = [f"{c.name}: {reason}" for c, reason in zip(cases, reasons, strict=True)]
+        raise InputError(["none of the cases can be carried", *names[:3]], "loads")
+    possible = [case for case, angle in zip(cases, angles, strict=True) if np.isfinite(angle)]
+    racks = np.array([case.rack for case in possible])
+    poses = Poses.of(model, *at_rest(model, angles[carried], racks))
+    equations = Equations(poses)
+    outside = _outside(poses, possible)
+    applied = equations.applied(equations.known() + outside)
+    road, _ = outside
+    held = np.array([case.travel is not None for case in possible])
+    # what a vertical force of 1 N does, where it is what holds the suspension
+    upward = Load("wheel", CONTACT, "road", poses.wheel_axes()[:, 2], np.zeros(3), road.at)
+    by_one = equations.solve(equations.applied([upward]))
+    unknowns = equations.solve(applied)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        vertical = np.where(held, -unknowns[:, -1] / by_one[:, -1], 0.0)
+    unknowns = unknowns + vertical[:, None] * by_one
+    pushed = road.force + vertical[:, None] * upward.force
+    outside[0] = Load("wheel", CONTACT, "road", pushed, road.moment, road.at)
+    found = dataset_of(poses, CASE, equations.carried(unknowns) + equations.known() + outside)
+    found = found.assign_coords({CASE: [case.name for case in possible]})
+    travel = poses.points[CENTER][:, 2] - design_height(model)
+    found["travel"] = variable(CASE, travel, "wheel travel, positive in bump", "m")
+    found["rack"] = variable(CASE, racks, "displacement of the rack", "m")
+    found["wheel_load"] = variable(CASE, pushed[:, 2], "vertical force of the road", "N")
+    found["holding_force"] = variable(
+        CASE, unknowns[:, -1], "force along the damper that holds the suspension besides", "N"
+    )
+    found = found.reindex({CASE: [case.name for case in cases]})
+    found["reason"] = variable(CASE, np.array(reasons), "why the case cannot be carried", "1")
+    found.attrs |= {
+        "title": "loads in load cases",
+        "rules": "; ".join(model.suspension.structure().rules),
+        "message": f"{carried.size} of {len(cases)} cases are carried",
+    }
+    return found

@@ -1,0 +1,232 @@
+"""What holds the parts of a suspension together: its joints, and the forces along lines.
+
+A joint says which forces and moments it can carry, as unit loads on its second part; on the first
+one they are the opposite. Arrays have any leading dimensions, one element for each position.
+"""
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Points = Mapping[str, Array]
+
+GROUND = ("chassis", "rack")
+"""Parts that do not move under loads."""
+
+FORCES_OF_A_DAMPER = ("damper_force", "friction_force", "bump_stop_force", "rebound_stop_force")
+"""Signals that act along a damper, of the equations that have them."""
+
+
+@dataclass(frozen=True)
+class Joint(ABC):
+    """Two parts that touch at hardpoints.
+
+    Attributes
+    ----------
+    first, second : str
+        The parts.
+    at : tuple of str
+        The hardpoints at which they touch.
+    """
+
+    first: str
+    second: str
+    at: tuple[str, ...]
+
+    RULE: ClassVar[str] = ""
+    """What decides where statics alone does not."""
+
+    @abstractmethod
+    def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
+        """Return what the joint can carry.
+
+        Parameters
+        ----------
+        points : mapping
+            Hardpoints by name, each of shape (..., 3) [m].
+        turned : mapping
+            Rotation of each part from design, each of shape (..., 3, 3).
+        design : mapping
+            Hardpoints at design, each of shape (3,) [m].
+
+        Returns
+        -------
+        ndarray, shape (..., touching points, 6, unknowns)
+            Force and moment on the second part at each point.
+        """
+
+
+class Ball(Joint):
+    """A ball joint: a force."""
+
+    def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
+        """Return the three forces."""
+        del turned, design
+        return _spread(np.eye(6)[:, :3], points[self.at[0]])
+
+
+class Fixed(Joint):
+    """What holds in every direction, as a wheel bearing with its brake: force and moment."""
+
+    def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
+        """Return three forces and three moments."""
+        del turned, design
+        return _spread(np.eye(6), points[self.at[0]])
+
+
+@dataclass(frozen=True)
+class Cross(Joint):
+    """A universal joint: a force, and a moment across both of its axes.
+
+    Attributes
+    ----------
+    shaft : str
+        The other end of the second part.
+    axis : tuple of float
+        Of the first part, which does not turn.
+    """
+
+    shaft: str
+    axis: tuple[float, float, float]
+
+    def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
+        """Return three forces and a moment."""
+        (center,) = self.at
+        first = np.array(self.axis)
+        second = turned[self.second] @ np.cross(design[self.shaft] - design[center], first)
+        loads = np.zeros((*points[center].shape[:-1], 1, 6, 4))
+        loads[..., 0, :3, :3] = np.eye(3)
+        loads[..., 0, 3:, 3] = _unit(np.cross(first, second))
+        return loads
+
+
+class Hinge(Joint):
+    """Two bearings on an axis: forces across it at each, and along it at both alike."""
+
+    RULE = "two bearings on an axis share the force along it equally"
+
+    def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
+        """Return two forces across the axis at each bearing, and one along it at both."""
+        del turned, design
+        along, across, other = _frame(points[self.at[1]] - points[self.at[0]])
+        loads = np.zeros((*along.shape[:-1], 2, 6, 5))
+        for bearing in (0, 1):
+            loads[..., bearing, :3, 2 * bearing] = across
+            loads[..., bearing, :3, 2 * bearing + 1] = other
+            loads[..., bearing, :3, 4] = 0.5 * along
+        return loads
+
+
+@dataclass(frozen=True)
+class Telescope(Joint):
+    """A tube and a rod: forces and moments across their axis, about a point on it.
+
+    Attributes
+    ----------
+    end : str
+        Another point on the axis.
+    """
+
+    end: str
+
+    RULE = "the couple of a telescope is told about its lower end"
+
+    def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
+        """Return two forces and two moments."""
+        del turned, design
+        (center,) = self.at
+        _, across, other = _frame(points[self.end] - points[center])
+        loads = np.zeros((*across.shape[:-1], 1, 6, 4))
+        for rows in (slice(0, 3), slice(3, 6)):
+            column = 0 if rows.start == 0 else 2
+            loads[..., 0, rows, column] = across
+            loads[..., 0, rows, column + 1] = other
+        return loads
+
+
+@dataclass(frozen=True)
+class Line:
+    """What pushes two parts apart along the line of two hardpoints: a spring, a damper, a stop.
+
+    Attributes
+    ----------
+    name : str
+        What it is called: 'spring'.
+    signals : tuple of str
+        The signals of the equations, or inputs, that are its force, positive when it pushes; those
+        that the equations have not are zero.
+    first, second : str
+        The parts.
+    at : tuple of str
+        The hardpoints, of the first part and of the second one.
+    """
+
+    name: str
+    signals: tuple[str, ...]
+    first: str
+    second: str
+    at: tuple[str, str]
+
+    def direction(self, points: Points) -> Array:
+        """Return the unit vector from the first to the second point, (..., 3)."""
+        return _unit(points[self.at[1]] - points[self.at[0]])
+
+
+@dataclass(frozen=True)
+class Structure:
+    """What holds the parts of a suspension together.
+
+    Attributes
+    ----------
+    joints : sequence of Joint
+    lines : sequence of Line
+        The last one is that of the damper.
+    """
+
+    joints: Sequence[Joint]
+    lines: Sequence[Line]
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """The parts that move."""
+        found = dict.fromkeys(part for j in self.joints for part in (j.first, j.second))
+        return tuple(part for part in found if part not in GROUND)
+
+    @property
+    def rules(self) -> tuple[str, ...]:
+        """What decides where statics alone does not."""
+        return tuple(dict.fromkeys(joint.RULE for joint in self.joints if joint.RULE))
+
+
+def steered(*joints: Joint) -> tuple[Joint, ...]:
+    """Return joints with those that every steered wheel has: tie rod and wheel bearing."""
+    return (
+        *joints,
+        Ball("knuckle", "tie_rod", ("tie_rod_outer",)),
+        Cross("rack", "tie_rod", ("tie_rod_inner",), "tie_rod_outer", (0.0, 0.0, 1.0)),
+        Fixed("knuckle", "wheel", ("wheel_center",)),
+    )
+
+
+def _spread(loads: Array, point: Array) -> Array:
+    """Return the same loads for every position, at one point."""
+    return np.broadcast_to(loads, (*point.shape[:-1], 1, *loads.shape))
+
+
+def _unit(vectors: Array) -> Array:
+    lengths: Array = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    return vectors / lengths
+
+
+def _frame(axis: Array) -> tuple[Array, Array, Array]:
+    """Return a unit vector along an axis and two across it."""
+    along = _unit(axis)
+    # the chassis axis that is most nearly across
+    aside = np.eye(3)[np.abs(along).argmin(axis=-1)]
+    across = _unit(np.cross(along, aside))
+    return along, across, np.cross(along, across)

@@ -1,0 +1,341 @@
+"""Loads on parts: against multipliers, the compiled equations of motion, and statics by hand."""
+
+import math
+import re
+import shlex
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from cases import Instant
+from kintrafo import InputError, Model, Suspension, arm_angles, equilibrium, loads, roads, simulate
+from kintrafo.study.loads.along import in_motion
+from kintrafo.suspension.positions import design_height
+from kintrafo.suspension.reach import at_rest
+from oracle.constraints import ARM, BODIES, KNUCKLE, RACK, TIE_ROD, UPPER_STRUT, WHEEL
+from oracle.newton import Mechanism
+from test_cli_commands import commands_of, kintrafo  # noqa: F401 (a fixture)
+
+ROOT = Path(__file__).parent.parent
+CAR = Suspension.load("reference_car")
+WISHBONES = Suspension.load("double_wishbone_car")
+OFFSET = Suspension.load("offset_strut_car")
+STOPPED = CAR.with_changes(
+    {
+        "bump_stop": {"clearance_mm": 40.0, "rate_N_per_m": 2e5},
+        "rebound_stop": {"clearance_mm": 60.0, "rate_N_per_m": 2e5},
+    }
+)
+STILL = {"static": {"contact_g": [0.0, 0.0, 1.0]}}
+
+
+def heavy(suspension: Suspension) -> Suspension:
+    """Return a suspension all of whose parts have mass, beside every axis."""
+    changes: dict[str, Any] = {}
+    for i, body in enumerate(("tie_rod", "upper_strut", "rack")):
+        center = {"tie_rod": [-120.0, -510.0, 255.0], "upper_strut": [-15.0, -600.0, 770.0]}
+        changes[f"bodies.{body}.mass_kg"] = 1.0 + i
+        changes[f"bodies.{body}.com_mm"] = center.get(body, [-140.0, -300.0, 280.0])
+        for element, value in {"xx": 0.02, "yy": 0.015, "zz": 0.012, "xy": 0.002}.items():
+            changes[f"bodies.{body}.inertia_{element}_kg_m2"] = value
+    return suspension.with_changes(changes)
+
+
+def total(found: xr.Dataset, part: str, by: str, about: np.ndarray) -> np.ndarray:
+    """Return force and moment about a point that one part exerts on another."""
+    chosen = found.isel(load=((found["part"] == part) & (found["by"] == by)).values)
+    force, moment = chosen["force"].values[0], chosen["moment"].values[0]
+    arms = chosen["at"].values[0] - about
+    return np.concatenate([force.sum(0), (moment + np.cross(arms, force)).sum(0)])
+
+
+# -- what moves ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("free", [False, True])
+@pytest.mark.parametrize("seed", range(4))
+def test_joints_carry_what_multipliers_say(seed: int, free: bool) -> None:
+    """Newton and Euler in closed form against maximal coordinates, in any motion."""
+    random = np.random.default_rng(seed)
+    model = Model(heavy(OFFSET) if free else OFFSET, free_rack=free)
+    names = ("beta1", "spin", "rack", "beta1_rate", "spin_rate", "rack_rate", "rack_acceleration",
+             "road_height", "strut_force", "rack_force")  # fmt: skip
+    sizes = (0.05, 1.0, 0.02, 2.0, 60.0, 0.3, 5.0, 0.01, 300.0, 500.0)
+    values = dict(zip(names, random.uniform(-1.0, 1.0, len(names)) * sizes, strict=True))
+    values["beta1"] += model.design_state[0]
+    if free:
+        values["rack_acceleration"] = 0.0
+    instant = Instant(**values)
+    state, inputs = instant.arrays(model.equations)
+    found = in_motion(model, state[None], inputs[None])
+    oracle = Mechanism(dict(model.parameters))
+    pose = instant.pose(oracle)
+    solved = instant.solution(model.equations, oracle)
+    _, rows = oracle.joints.evaluate(pose)
+    count = rows.shape[0]
+    bodies = np.concatenate(
+        [np.repeat(oracle.joints.point_bodies, 3, axis=0), oracle.joints.angle_bodies,
+         oracle.joints.plane_bodies]
+    )  # fmt: skip
+    largest = abs(found["force"].values).max()
+    pairs = [(0, ARM), (ARM, KNUCKLE), (KNUCKLE, UPPER_STRUT), (0, UPPER_STRUT),
+             (KNUCKLE, TIE_ROD), (RACK, TIE_ROD), (KNUCKLE, WHEEL)]  # fmt: skip
+    for first, second in pairs:
+        own = (bodies == (first, second)).all(axis=1)
+        wrench = -(rows[own].T @ solved.multipliers[:count][own]).reshape(6, 6)[second - 1]
+        part = BODIES[second - 1]
+        by = "chassis" if first == 0 else BODIES[first - 1]
+        ours = total(found, part, by, pose.position[second - 1])
+        np.testing.assert_allclose(ours, wrench, rtol=0.0, atol=1e-9 * largest)
+
+
+@pytest.mark.parametrize("car", [CAR, WISHBONES, OFFSET], ids=lambda car: car.TITLE)
+def test_joints_do_no_work(car: Suspension) -> None:
+    """Whatever moves, what a joint exerts on its two parts has no power together."""
+    model = Model(car)
+    random = np.random.default_rng(3)
+    states = np.tile(model.design_state, (6, 1)) + random.uniform(-0.1, 0.1, (6, 4))
+    states[:, 2:] = random.uniform(-3.0, 3.0, (6, 2))
+    inputs = np.zeros((6, len(model.input_names)))
+    inputs[:, :3] = random.uniform(-0.02, 0.02, (6, 3))
+    found = in_motion(model, states, inputs)
+    bodies = model.equations.BODIES
+    twists = model.evaluate("velocities", states, inputs)
+    centers = model.evaluate("positions", states, inputs)
+    powers: dict[frozenset[str], np.ndarray] = {}
+    for i, (part, by) in enumerate(zip(found["part"].values, found["by"].values, strict=True)):
+        if by in ("gravity", "inertia", "spring", "damper", "road") or part == "chassis":
+            continue
+        which = bodies.index(part)
+        at = found["at"].values[:, i] - centers[:, which]
+        speed = twists[:, which, 3:] + np.cross(twists[:, which, :3], at)
+        power = (found["force"].values[:, i] * speed).sum(-1)
+        power += (found["moment"].values[:, i] * twists[:, which, :3]).sum(-1)
+        pair = frozenset((part, by))
+        powers[pair] = powers.get(pair, 0.0) + power
+    assert len(powers) == len(car.structure().joints)
+    for pair, power in powers.items():
+        # newtons times metres a second, of some 10 kN and 1 m/s
+        assert abs(power).max() < 1e-8, pair
+
+
+@pytest.mark.parametrize(
+    ("car", "free"), [(CAR, False), (WISHBONES, False), (STOPPED, False), (heavy(CAR), True)]
+)
+def test_motions_need_no_other_force(car: Suspension, free: bool) -> None:
+    """The compiled equations and the balance of every part agree: nothing is left to hold."""
+    model = Model(car, free_rack=free)
+    rest = equilibrium(model, spin_rate=50.0)
+    bump = {"road_height": roads.step(0.05, at=0.02, end=0.3)}
+    motion = simulate(model, (0.0, 0.3), rest, inputs=bump)
+    found = loads.along(model, motion)
+    assert found.sizes["time"] == motion.t.size
+    largest = abs(found["force"].values).max()
+    assert largest > 5e3
+    # rates of velocities by differences are right to some 1e-11
+    assert abs(found["holding_force"].values).max() < 1e-9 * largest
+    assert found["residual"].values.max() < 1e-9 * largest
+    # without a brake the bearing of the wheel carries nothing about its axis
+    bearing = found.sel(load="wheel at wheel_center by knuckle")
+    axis = model.suspension.wheel.spin_axis(model.suspension.vehicle.sign)
+    assert abs(bearing["moment_in_part"].values @ axis).max() < 1e-9 * largest
+
+
+# -- load cases ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("car", [CAR, WISHBONES, OFFSET], ids=lambda car: car.TITLE)
+def test_at_rest_it_stands_as_the_equations_say(car: Suspension) -> None:
+    model = Model(car)
+    rest = equilibrium(model)
+    found = loads.static(model, STILL).sel(case="static")
+    height = float(model.signal("wheel_center_z", rest, model.inputs()))
+    travel = height - design_height(model)
+    # the road's force is at the contact, and that of the tyre at the centre: the same but for the
+    # camber and toe of the wheel
+    assert float(found["travel"]) == pytest.approx(travel, abs=1e-3)
+    assert abs(float(found["holding_force"])) < 1e-8
+    assert float(found["residual"].max()) < 1e-8
+
+
+@pytest.mark.parametrize("car", [STOPPED, WISHBONES, OFFSET], ids=lambda car: car.TITLE)
+def test_work_of_the_loads_is_taken_up_by_spring_and_stops(car: Suspension) -> None:
+    """Virtual work, with derivatives of where things are: no joint appears in it."""
+    model = Model(car)
+    cases = {
+        "brake": {"contact_N": [-3000.0, 200.0, 4500.0], "contact_Nm": [0.0, 0.0, 80.0]},
+        "drive": {"contact_N": [0.0, -800.0, 3500.0], "center_N": [1500.0, 0.0, 100.0],
+                  "center_Nm": [10.0, -20.0, 30.0], "rack_mm": 25.0},
+    }  # fmt: skip
+    found = loads.static(model, cases)
+    for name in cases:
+        case = found.sel(case=name)
+        rack = float(case["rack"])
+        work = 0.0
+        for part, point, by in (
+            ("wheel", "contact", "road"),
+            ("wheel", "wheel_center", "drive"),
+            *((body, "mass", "gravity") for body in model.equations.MASSIVE_BODIES),
+        ):
+            load = case.sel(load=f"{part} at {point} by {by}")
+            moved, turned = by_travel(model, float(case["travel"]), rack, part, load["at"].values)
+            work += load["force"].values @ moved + load["moment"].values @ turned
+        work += lengthening(model, float(case["travel"]), rack)
+        # central differences of 10 um over some 0.1 m: 1e-8 of some 5 kN
+        assert abs(work) < 1e-3
+
+
+def state_of(model: Model, travel: float, rack: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return state and inputs of a position at rest."""
+    return at_rest(model, arm_angles(model, design_height(model) + travel, rack), rack)
+
+
+def by_travel(
+    model: Model, travel: float, rack: float, part: str, at: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return how a point of a part moves and turns per wheel travel, the brake closed."""
+    # a braked wheel turns with the knuckle
+    which = model.equations.BODIES.index("knuckle" if part == "wheel" else part)
+    step = 1e-5
+    places, turns = [], []
+    for by in (-step, 0.0, step):
+        state = state_of(model, travel + by, rack)
+        places.append(model.evaluate("positions", *state)[which])
+        turns.append(model.evaluate("orientations", *state)[which])
+    spin = (turns[2] - turns[0]) / (2.0 * step) @ turns[1].T
+    turning = np.array([spin[2, 1], spin[0, 2], spin[1, 0]])
+    return (places[2] - places[0]) / (2.0 * step) + np.cross(turning, at - places[1]), turning
+
+
+def lengthening(model: Model, travel: float, rack: float) -> float:
+    """Return the work of spring and stops per wheel travel."""
+    step, total = 1e-5, 0.0
+    here = model.signals(*state_of(model, travel, rack))
+    around = [model.signals(*state_of(model, travel + by, rack)) for by in (-step, step)]
+    for name, force in here.items():
+        if not name.endswith("_force") or name == "tyre_force":
+            continue
+        path = "spring" if name == "spring_force" or "strut_length" not in here else "strut"
+        path = path if f"{path}_length" in here else "strut"
+        low, high = (signals[f"{path}_length"] for signals in around)
+        total += float(force * (high - low) / (2.0 * step))
+    return total
+
+
+def test_a_wheel_held_at_a_travel_takes_the_load_that_presses_it_there() -> None:
+    model = Model(CAR)
+    pressed = loads.static(model, {"a": {"contact_N": [-500.0, 300.0, 4400.0]}})
+    travel = 1e3 * float(pressed["travel"][0])
+    held = loads.static(model, {"a": {"contact_N": [-500.0, 300.0, 0.0], "travel_mm": travel}})
+    assert float(held["wheel_load"][0]) == pytest.approx(4400.0, rel=1e-9)
+    # forces of 10 kN; the travel is passed on in millimetres
+    np.testing.assert_allclose(held["force"], pressed["force"], atol=1e-6)
+
+
+def test_the_other_side_carries_the_mirror_image() -> None:
+    model = Model(WISHBONES)
+    case = {"contact_N": [-2000.0, 900.0, 4200.0], "contact_Nm": [30.0, 0.0, 40.0]}
+    there = {"contact_N": [-2000.0, -900.0, 4200.0], "contact_Nm": [-30.0, 0.0, -40.0]}
+    one, other = (
+        loads.static(m, {"a": c}) for m, c in ((model, case), (model.mirror_image, there))
+    )
+    np.testing.assert_allclose(other["force"], one["force"] * [1.0, -1.0, 1.0], atol=1e-6)
+    np.testing.assert_allclose(other["moment"], one["moment"] * [-1.0, 1.0, -1.0], atol=1e-6)
+
+
+def test_forces_have_the_axes_of_the_tyre() -> None:
+    """A steered wheel is braked along its own plane."""
+    model = Model(CAR)
+    found = loads.static(model, {"a": {"contact_N": [-1000.0, 0.0, 3800.0], "rack_mm": 40.0}})
+    force = found["force"].sel(case="a", load="wheel at contact by road").values
+    state = state_of(model, float(found["travel"][0]), 0.04)
+    steer = float(model.signal("steer", *state))
+    assert abs(steer) > 0.2
+    assert math.atan2(-force[1], -force[0]) == pytest.approx(steer, abs=1e-12)
+    bearing = found.sel(case="a", load="wheel at wheel_center by knuckle")
+    axis = CAR.wheel.spin_axis(-1.0)
+    # the brake holds the wheel: force times radius, but for the camber
+    torque = abs(float(bearing["moment_in_part"].values @ axis))
+    assert torque == pytest.approx(1000.0 * 0.3, rel=0.01)
+
+
+def test_stops_carry_what_springs_do_not() -> None:
+    hard = {"bump_3g": {"contact_g": [0.0, 0.0, 3.0]}}
+    stopped = loads.static(Model(STOPPED), hard)
+    assert 0.04 < float(stopped["travel"][0]) < 0.1
+    damper = stopped.sel(case="bump_3g", load="knuckle at strut_lower by damper")["force"].values
+    assert np.linalg.norm(damper) > 4e3
+    with pytest.raises(InputError, match="a: spring and stops do not carry it"):
+        loads.static(Model(CAR), {"a": {"contact_N": [0.0, 0.0, 1e6]}})
+    some = loads.static(Model(CAR), STILL | {"a": {"contact_N": [0.0, 0.0, 1e6]}})
+    assert some.attrs["message"] == "1 of 2 cases are carried"
+    assert "Give the file its stops" in str(some["reason"].values[1])
+    assert np.isnan(some["force"].values[1]).all()
+
+
+def test_envelope_names_the_cases() -> None:
+    found = loads.static(Model(STOPPED))
+    assert not found["reason"].values.any()
+    ends = loads.envelope(found)
+    values = found["force"].sel(load="control_arm at arm_front by chassis", axis="x")
+    end = ends.sel(load="control_arm at arm_front by chassis", axis="x")
+    assert float(end["force_max"]) == values.max()
+    assert str(end["force_max_case"].values) == str(values["case"][values.values.argmax()].values)
+
+
+def test_two_bearings_share_what_is_along_their_axis() -> None:
+    found = loads.static(Model(CAR), {"a": {"contact_N": [-2000.0, 0.0, 3800.0]}}).sel(case="a")
+    front, rear = (
+        found["force"].sel(load=f"control_arm at {point} by chassis").values
+        for point in ("arm_front", "arm_rear")
+    )
+    assert front[0] == pytest.approx(rear[0], rel=1e-12)  # the axis is that of the car
+    assert "share the force along it equally" in found.attrs["rules"]
+
+
+WRONG = [
+    ({}, "one or more are needed"),
+    ({"a": 1.0}, "must be a section"),
+    ({"../a": {"contact_g": [0.0, 0.0, 1.0]}}, "letters, digits"),
+    ({"a": {"contact": [0.0, 0.0, 1.0]}}, "Did you mean contact_"),
+    ({"a": {"contact_N": [0.0, 1.0]}}, "three numbers are needed"),
+    ({"a": {"contact_N": [0.0, np.nan, 1.0]}}, "finite"),
+    ({"a": {"contact_N": [0.0, 0.0, 1e12]}}, "each below 1e"),
+    ({"a": {"contact_N": [0.0, 0.0, 1.0], "travel_mm": 3.0}}, "cannot be given besides"),
+    ({"a": {"travel_mm": 900.0}}, "a: wheel height 1200 mm is out of reach"),
+    ({"a": {"rack_mm": 900.0}}, "a: "),
+]
+
+
+@pytest.mark.parametrize(("cases", "words"), WRONG)
+def test_what_cannot_be_used(cases: Any, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        loads.static(Model(CAR), cases)
+
+
+@pytest.mark.usefixtures("first_page_of_curves")
+def test_the_page_runs(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+    page = (ROOT / "docs/loads.md").read_text(encoding="utf-8")
+    (cases,) = re.findall(r"```toml\n# cases.toml\n(.*?)```", page, flags=re.DOTALL)
+    (tmp_path / "cases.toml").write_text(cases, encoding="utf-8")
+    (block,) = re.findall(r"```python\n(.*?)```", page, flags=re.DOTALL)
+    exec(block, {})
+    lines = [shlex.split(line)[1:] for line in commands_of(page)]
+    ends = {tuple(line): kintrafo(*line) for line in lines}
+    assert all((code, bool(out)) == (0, True) for code, out, _ in ends.values())
+    (bottomed,) = [out for words, (_, out, _) in ends.items() if "--cases" in words]
+    assert re.search(r"wheel travel .* 60.0 ", bottomed)
+    assert {path.name for path in tmp_path.iterdir()} >= {"free_body_brake.png", "loads.csv"}
+
+
+def test_a_file_of_cases(tmp_path: Path) -> None:
+    path = tmp_path / "cases.toml"
+    path.write_text("static_load_N = 4000.0\n[cases.a]\ncontact_g = [0, 0, 1]\n", encoding="utf-8")
+    read = loads.read(path)
+    found = loads.static(Model(CAR), read["cases"], static_load=read["static_load_N"])
+    assert float(found["wheel_load"][0]) == pytest.approx(4000.0, rel=1e-12)
+    path.write_text("[case.a]\n", encoding="utf-8")
+    with pytest.raises(InputError, match="Did you mean cases"):
+        loads.read(path)
