@@ -72,7 +72,7 @@ def static(
     >>> found = static(Model("reference_car"), {"static": {"contact_g": [0, 0, 1]}})
     >>> mount = found.sel(case="static", axis="z", load=found["point"] == "spring_top")
     >>> [round(float(force)) for force in mount["force"]]
-    [3331]
+    [3541]
     """
     with Arguments("loads") as given:
         given.kind("model", model, Model, Model.NEEDED)
