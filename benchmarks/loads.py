@@ -8,13 +8,23 @@ from pathlib import Path
 
 import numpy as np
 from kintrafo import Model, equilibrium, loads, roads, simulate
+from kintrafo.plots import curves
 from kintrafo.plots import loads as pictures
 
 from .report import fill_page, milliseconds, seconds_of
 
 ROOT = Path(__file__).parent.parent
 PAGE = ROOT / "docs/loads.md"
-PICTURE = ROOT / "docs/images/loads.png"
+IMAGES = ROOT / "docs/images"
+BUSHES = {
+    name: {
+        f"{arm}_front": {"axial_N_per_mm": 1500.0, "radial_N_per_mm": 8000.0},
+        f"{arm}_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": [1200.0, 2500.0],
+                        "axis": [0.0, 0.0, 1.0], "radial_axis": [1.0, 0.0, 0.0]},
+        "wheel_center": {"tilt_Nm_per_deg": 4000.0},
+    }
+    for name, arm in (("reference_car", "arm"), ("double_wishbone_car", "lower_arm"))
+}  # fmt: skip
 MODELS = {name: Model(name) for name in ("reference_car", "double_wishbone_car")}
 OUTPUTS = 10_000
 REPEATED = 5
@@ -30,6 +40,7 @@ def main() -> None:
     table = ["| | reference car, ms | double wishbone, ms |", "|---|---:|---:|"]
     for words, work in (
         ("20 load cases, all parts", lambda model: lambda: loads.static(model, cases)),
+        ("compliance at 100 positions, three bushes", _compliance),
         (f"along a motion, {OUTPUTS} outputs, all parts", _along),
     ):
         times = [milliseconds(_quickest(work(model))) for model in MODELS.values()]
@@ -39,6 +50,12 @@ def main() -> None:
     print("\n".join(table))
     fill_page(PAGE, {"loads": "\n".join(table)})
     _draw()
+
+
+def _compliance(model: Model) -> Callable[[], object]:
+    (bushes,) = (BUSHES[name] for name, known in MODELS.items() if known is model)
+    travels = np.linspace(-0.06, 0.06, 100)
+    return lambda: loads.compliance(model, bushes, travels)
 
 
 def _quickest(call: Callable[[], object]) -> float:
@@ -55,14 +72,20 @@ def _along(model: Model) -> Callable[[], object]:
 
 
 def _draw() -> None:
-    """Draw the picture of the page."""
+    """Draw the pictures of the page."""
     found = loads.static(MODELS["reference_car"])
     with tempfile.TemporaryDirectory() as name:
         path = Path(name) / "loads.png"
         (written,) = pictures.write_free_bodies(
             found, [path], "brake", ["knuckle"], title="reference car"
         )
-        shutil.copyfile(written, PICTURE)
+        shutil.copyfile(written, IMAGES / "loads.png")
+        car = MODELS["reference_car"]
+        sheet = loads.compliance(car, BUSHES["reference_car"])
+        curves.write_overview(
+            sheet.drop_dims(["moved", "by"]), path, title=f"reference car, {sheet.attrs['held']}"
+        )
+        shutil.copyfile(path, IMAGES / "compliance.png")
 
 
 if __name__ == "__main__":

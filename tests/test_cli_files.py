@@ -36,6 +36,7 @@ WRITING = {
     "simulate --loads": (["simulate", CAR, "--loads", "a.csv"], "a.csv"),
     "loads": (["loads", CAR, "-o", "a.nc"], "a.nc"),
     "loads --plot": (["loads", CAR, "--case", "brake", "--plot", "a.png"], "a_brake.png"),
+    "compliance": (["compliance", CAR, str(STUDIES / "bushes.toml"), "--plot", "a.svg"], "a.svg"),
     "compare": (["compare", CAR, CAR, "--plot", "a.pdf"], "a.pdf"),
     "sensitivity": (
         ["sensitivity", CAR, "--place", "hardpoints.ball_joint.z", "-o", "a.nc"],

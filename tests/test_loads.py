@@ -318,8 +318,8 @@ def test_what_cannot_be_used(cases: Any, words: str) -> None:
 @pytest.mark.usefixtures("first_page_of_curves")
 def test_the_page_runs(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
     page = (ROOT / "docs/loads.md").read_text(encoding="utf-8")
-    (cases,) = re.findall(r"```toml\n# cases.toml\n(.*?)```", page, flags=re.DOTALL)
-    (tmp_path / "cases.toml").write_text(cases, encoding="utf-8")
+    for name, text in re.findall(r"```toml\n# (\S+)\n(.*?)```", page, flags=re.DOTALL):
+        (tmp_path / name).write_text(text, encoding="utf-8")
     (block,) = re.findall(r"```python\n(.*?)```", page, flags=re.DOTALL)
     exec(block, {})
     lines = [shlex.split(line)[1:] for line in commands_of(page)]
@@ -327,7 +327,11 @@ def test_the_page_runs(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
     assert all((code, bool(out)) == (0, True) for code, out, _ in ends.values())
     (bottomed,) = [out for words, (_, out, _) in ends.items() if "--cases" in words]
     assert re.search(r"wheel travel .* 60.0 ", bottomed)
-    assert {path.name for path in tmp_path.iterdir()} >= {"free_body_brake.png", "loads.csv"}
+    assert {path.name for path in tmp_path.iterdir()} >= {
+        "free_body_brake.png",
+        "loads.csv",
+        "compliance.csv",
+    }
 
 
 def test_a_file_of_cases(tmp_path: Path) -> None:

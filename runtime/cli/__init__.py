@@ -9,6 +9,7 @@ from . import (
     characteristics,
     check,
     compare,
+    compliance,
     generate,
     import_chrono,
     kinematics,
@@ -53,7 +54,7 @@ def _flowing(docstring: str) -> str:
 # In the order in which an engineer needs them.
 _PANELS = {
     "Begin": (new, import_chrono, schema, check, topology),
-    "Compute": (kinematics, characteristics, simulate, loads, compare),
+    "Compute": (kinematics, characteristics, simulate, loads, compliance, compare),
     "Design": (sensitivity, tolerance, optimise, sweep),
     "Hand over": (report, paper, generate),
 }

@@ -10,7 +10,7 @@ from rich.table import Table
 
 from .console import console, print_json, say
 from .exits import Exit
-from .options import File, Force, Json, among
+from .options import File, Force, Json, among, load
 from .outputs import Out, Outputs, name_files
 
 if TYPE_CHECKING:
@@ -64,14 +64,11 @@ def command(
     """
     from ..study import export
     from ..study import loads as study
-    from ..suspension.kinds import Suspension
-    from ..suspension.model import Model
 
     inputs: list[str | Path] = [file, *([] if cases is None else [cases])]
-    suspension = Suspension.load(file)
-    model = Model(suspension, free_rack=bool(suspension.neglected_masses()))
+    model = load(file)
     described = {} if cases is None else study.read(cases)
-    named = described.get("cases", study.standard_cases(suspension.vehicle.sign))
+    named = described.get("cases", study.standard_cases(model.suspension.vehicle.sign))
     shown = among(case, [str(name) for name in named]) if case else None
     suffixes = [f"_{name}" for name in shown or named]
     outputs = Outputs.of(out, None, force=force, inputs=inputs)
@@ -134,7 +131,7 @@ def _components(found: "Dataset", case: str, parts: list[str] | None, file: str)
     table = Table(title=escape(f"{file}: loads in {case}, chassis axes"))
     table.add_column("on the part, at, by")
     for column in ("Fx [N]", "Fy", "Fz", "Mx [N m]", "My", "Mz"):
-        table.add_column(column, justify="right")
+        table.add_column(escape(column), justify="right")
     for i in _rows(found, parts):
         numbers = (*here["force"].values[i], *here["moment"].values[i])
         table.add_row(escape(_label(found, i)), *(_cell(float(number)) for number in numbers))

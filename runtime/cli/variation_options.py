@@ -52,15 +52,21 @@ def chosen(model: "Model", wanted: list[str] | None, over: Literal["travel", "ra
 
 def positions_with(model: "Model", over: Literal["travel", "rack"], at: float) -> "NDArray[Any]":
     """Return the usual positions and the one that the table is about [m]."""
+    from ..study.sweep import usual_rack, usual_travel
+
+    usual = usual_travel if over == "travel" else usual_rack
+    return with_position(usual(model), at)
+
+
+def with_position(usual: "NDArray[Any]", at: float) -> "NDArray[Any]":
+    """Return positions and the one that a table is about [m]."""
     import numpy as np
 
     from ..core.errors import InputError
-    from ..study.sweep import usual_rack, usual_travel
 
     if not np.isfinite(at):
         raise InputError([f"--at {at}: a finite number of mm is needed."], "positions")
-    usual = usual_travel if over == "travel" else usual_rack
-    return np.union1d(usual(model), [at / 1e3])
+    return np.union1d(usual, [at / 1e3])
 
 
 def along(over: Literal["travel", "rack"], at: float) -> str:

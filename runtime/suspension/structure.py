@@ -60,6 +60,15 @@ class Joint(ABC):
             Force and moment on the second part at each point.
         """
 
+    def tensions(self, points: Points) -> Array:
+        """Return loads that are in equilibrium by themselves, which statics does not decide.
+
+        Returns
+        -------
+        ndarray, shape (..., touching points, 6, tensions)
+        """
+        return np.zeros((*points[self.at[0]].shape[:-1], len(self.at), 6, 0))
+
 
 class Ball(Joint):
     """A ball joint: a force."""
@@ -119,6 +128,13 @@ class Hinge(Joint):
             loads[..., bearing, :3, 2 * bearing] = across
             loads[..., bearing, :3, 2 * bearing + 1] = other
             loads[..., bearing, :3, 4] = 0.5 * along
+        return loads
+
+    def tensions(self, points: Points) -> Array:
+        """Return a force along the axis at one bearing, and its opposite at the other."""
+        along, _, _ = _frame(points[self.at[1]] - points[self.at[0]])
+        loads = np.zeros((*along.shape[:-1], 2, 6, 1))
+        loads[..., 0, :3, 0], loads[..., 1, :3, 0] = along, -along
         return loads
 
 
@@ -185,7 +201,7 @@ class Structure:
     ----------
     joints : sequence of Joint
     lines : sequence of Line
-        The last one is that of the damper.
+        That of the spring, and that of the damper.
     """
 
     joints: Sequence[Joint]

@@ -44,14 +44,16 @@ class Equations:
     Parameters
     ----------
     poses : Poses
+    holding : str, optional
+        The line along which the suspension is held: 'damper' or 'spring'.
 
     Notes
     -----
-    The unknowns are what the joints carry and, last, a force along the damper that holds the
+    The unknowns are what the joints carry and, last, a force along a line that holds the
     suspension where it is; it is zero where the loads are in equilibrium.
     """
 
-    def __init__(self, poses: Poses) -> None:
+    def __init__(self, poses: Poses, holding: str = "damper") -> None:
         self.poses = poses
         structure = poses.model.suspension.structure()
         self.joints, self.lines, self.parts = structure.joints, structure.lines, structure.parts
@@ -59,9 +61,10 @@ class Equations:
         self._units = [
             joint.unit_loads(poses.points, poses.turned, poses.design) for joint in self.joints
         ]
-        self._inverse = self._inverted()
+        (held,) = (line for line in self.lines if line.name == holding)
+        self._inverse = self._inverted(held)
 
-    def _inverted(self) -> Array:
+    def _inverted(self, held: Line) -> Array:
         size = 6 * len(self.parts)
         matrix = np.zeros((*self.poses.states.shape[:-1], size, size))
         column = 0
@@ -73,7 +76,7 @@ class Equations:
                         moved = _about(self.poses, part, point, units[..., i, :, :])
                         matrix[..., self._rows[part], columns] += sign * moved
             column = columns.stop
-        for part, load in self._pushing(self.lines[-1]):
+        for part, load in self._pushing(held):
             matrix[..., self._rows[part], column] = load
         inverse: Array = np.linalg.inv(matrix)
         condition = np.abs(matrix).sum(-2).max(-1) * np.abs(inverse).sum(-2).max(-1)
@@ -126,25 +129,48 @@ class Equations:
             if weights[part].any()
         ]
         for line in self.lines:
-            push = forces[line.name][..., None] * line.direction(poses.points)
-            for part, point, sign in (
-                (line.first, line.at[0], -1.0),
-                (line.second, line.at[1], 1.0),
-            ):
-                loads.append(Load(part, point, line.name, sign * push, still, poses.points[point]))
+            loads += self._along(line, forces[line.name])
         return loads
+
+    def pushed(self, line: str) -> list[Load]:
+        """Return a unit force along a line, on both of its parts."""
+        (found,) = (known for known in self.lines if known.name == line)
+        return self._along(found, np.ones(self._inverse.shape[:-2]))
+
+    def _along(self, line: Line, force: Array) -> list[Load]:
+        points = self.poses.points
+        push = force[..., None] * line.direction(points)
+        ends = ((line.first, line.at[0], -push), (line.second, line.at[1], push))
+        return [
+            Load(part, point, line.name, end, np.zeros(3), points[point])
+            for part, point, end in ends
+        ]
 
     def carried(self, unknowns: Array) -> list[Load]:
         """Return what the joints carry, on both of the parts of each."""
-        loads, column = [], 0
-        for joint, units in zip(self.joints, self._units, strict=True):
-            carried = unknowns[..., column : column + units.shape[-1]]
-            column += units.shape[-1]
-            at_points = np.einsum("...pru,...u->...pr", units, carried)
+        loads = []
+        for joint, at_points in zip(self.joints, self.at_joints(unknowns[..., None]), strict=True):
             for i, point in enumerate(joint.at):
-                wrench = at_points[..., i, :]
+                wrench = at_points[..., i, :, 0]
                 loads += _on_both(joint, point, wrench, self.poses.points[point])
         return loads
+
+    def at_joints(self, unknowns: Array) -> Iterator[Array]:
+        """Yield what each joint carries on its second part.
+
+        Parameters
+        ----------
+        unknowns : ndarray, shape (n, unknowns, cases)
+
+        Yields
+        ------
+        ndarray, shape (n, touching points, 6, cases)
+        """
+        column = 0
+        for units in self._units:
+            carried = unknowns[:, column : column + units.shape[-1]]
+            column += units.shape[-1]
+            yield np.einsum("npru,nuc->nprc", units, carried)
 
 
 def _on_both(joint: Joint, point: str, wrench: Array, at: Array) -> list[Load]:

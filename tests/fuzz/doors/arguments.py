@@ -120,6 +120,20 @@ CALLS = {
         lambda **given: loads.static(_CAR, {"a": given}),
         {"travel_mm": 10.0, "contact_N": [100.0, 0.0, 0.0]},
     ),
+    "compliance": (
+        loads.compliance,
+        {
+            "model": _CAR, "bushings": {"arm_rear": {"radial_N_per_mm": 1e3}}, "travel": [0.0],
+            "rack_position": 0.0, "held": "height",
+        },
+    ),
+    "bush": (
+        lambda **given: loads.compliance(_CAR, {"arm_rear": given}, [0.0]),
+        {
+            "axial_N_per_mm": 1e3, "radial_N_per_mm": [1e3, 2e3], "axis": [1.0, 0.1, 0.0],
+            "radial_axis": [0.0, 0.0, 1.0],
+        },
+    ),
     "loads.along": (loads.along, {"model": _CAR, "result": None}),
     "loads.table": (loads.table, {"dataset": None}),
     "loads.envelope": (loads.envelope, {"dataset": None}),

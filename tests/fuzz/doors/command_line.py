@@ -78,6 +78,7 @@ OPTIONS = {
                  "--rack", "--rack-sine", "--height", "--spin", "--output-step", "--method",
                  "--rtol", "--atol", "--road-step-at"),
     "loads": ("-o", "--plot", "--cases", "--case", "--part"),
+    "compliance": ("-o", "--plot", "--held", "--at", "--rack", "--bump"),
     "compare": ("-o", "--over", "--of"),
     "sensitivity": ("-o", "--plot", "--place", "--of", "--over", "--at"),
     "tolerance": ("-o", "--plot", "--of", "--over", "--at", "--seed"),
@@ -97,12 +98,15 @@ WORDS = {
     "--keep": ("toe:max", "tyre_force:above:1", "toe", "toe:above", "x:max", ""),
     "--case": ("static", "brake", "x", ""),
     "--part": ("knuckle", "chassis", "x", ""),
+    "--held": ("height", "spring", "x"),
     "--method": ("BDF", "Adams", "Verner", "Radau", "RK45", "x", ""),
     "--model": ("four_bar", "x"),
 }
 PATHS = ("-o", "--plot", "--cases", "--to", "--data", "--tire", "--measured", "--title")
 CLEAR = (RefusedError,)
 STUDY = b"""
+[bushings.arm_rear]
+radial_N_per_mm = 1000.0
 [tolerances]
 "hardpoints.tie_rod_inner.z" = 1.0
 [free]

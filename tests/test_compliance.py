@@ -1,0 +1,319 @@
+"""Compliance: the unit-load theorem against stiffnesses in maximal coordinates."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from kintrafo import InputError, Model, Suspension, arm_angles, characteristics, loads
+from kintrafo.suspension.positions import design_height
+from kintrafo.suspension.reach import at_rest
+from oracle.constraints import Assembler, Pose
+
+# Without preload, as the linear theory has it, and with a stop that just touches.
+FREE = {"bump_stop": {"clearance_mm": 0.0, "rate_N_per_m": 5e4}, "wheel.camber_deg": -1.0,
+        "wheel.toe_deg": 0.3, "gravity.acceleration_m_per_s2": 0.0}  # fmt: skip
+STRUT = Suspension.load("offset_strut_car").with_changes(
+    FREE
+    | dict.fromkeys(("strut.spring_preload_N", "strut.spring_free_length_mm", "rebound_stop"))
+    | {"strut.spring_force_at_design_N": 0.0}
+)
+WISHBONES = Suspension.load("double_wishbone_car").with_changes(
+    FREE | {"spring.free_length_mm": None, "spring.force_at_design_N": 0.0}
+)
+BUSHES: dict[str, dict[str, Any]] = {
+    "arm_front": {"axial_N_per_mm": 1500.0, "radial_N_per_mm": [8000.0, 5000.0]},
+    "arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": [1200.0, 2500.0],
+                 "axis": [1.0, 0.2, 0.1], "radial_axis": [0.0, 1.0, 1.0]},
+    "tie_rod_inner": {"axial_N_per_mm": 9000.0, "radial_N_per_mm": 4000.0},
+    "wheel_center": {"axial_N_per_mm": 50e3, "radial_N_per_mm": 80e3, "tilt_Nm_per_deg": 4000.0},
+}  # fmt: skip
+BUSHES_OF = {
+    STRUT: BUSHES
+    | {
+        "strut_top": {"axial_N_per_mm": 1500.0, "radial_N_per_mm": 700.0},
+        "ball_joint": {"radial_N_per_mm": 30e3, "axial_N_per_mm": 20e3, "axis": [0.0, 0.1, 1.0]},
+    },
+    WISHBONES: {
+        f"{arm}_{name}" if name.startswith("arm") else name: bush
+        for arm in ("lower", "upper")
+        for name, bush in BUSHES.items()
+    },
+}
+# Joints by hand, the arms' hinges as two points: what touches, the parts, and where.
+POINTS = {
+    STRUT: [("arm_front", 0, "control_arm"), ("arm_rear", 0, "control_arm"),
+            ("ball_joint", "control_arm", "knuckle")],
+    WISHBONES: [(f"{arm}_{end}", first, second) for arm in ("lower", "upper")
+                for end, first, second in (("arm_front", 0, f"{arm}_arm"),
+                                           ("arm_rear", 0, f"{arm}_arm"),
+                                           ("ball_joint", f"{arm}_arm", "knuckle"))],
+}  # fmt: skip
+X, Z = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
+
+
+class Stiffness:
+    """A suspension as bodies on springs, held where its joints do not give way."""
+
+    def __init__(self, car: Suspension, travel: float, rack: float) -> None:
+        self.car, self.model = car, Model(car)
+        state = at_rest(
+            self.model, arm_angles(self.model, design_height(self.model) + travel, rack), rack
+        )
+        self.bodies = ("chassis", *self.model.equations.BODIES)
+        self.pose = Pose(
+            self.model.evaluate("positions", *state), self.model.evaluate("orientations", *state)
+        )
+        self.rack = rack
+        points = car.hardpoints
+        self.at = {name: points.metres(name) for name in (*points.names(), *points.STAND_INS)}
+        parameters = self.model.parameters
+        centers = [
+            self.at["wheel_center"]
+            if body == "wheel"
+            else [parameters[f"{body}_com_{axis}"] for axis in "xyz"]
+            for body in self.bodies[1:]
+        ]
+        self.centres = np.array([np.zeros(3), *centers])
+
+    def index(self, body: str | int) -> int:
+        return body if isinstance(body, int) else self.bodies.index(body)
+
+    def rows(self, build: Any) -> np.ndarray:
+        """Return the rows of equations that are written down by some code."""
+        assembler = Assembler(self.centres)
+        build(assembler)
+        _, rows = assembler.equations().evaluate(self.pose)
+        return rows
+
+    def point(self, name: str, first: str | int, second: str) -> np.ndarray:
+        """Return the displacement of a joint's second part against the first, (3, 36)."""
+        bodies = self.index(first), self.index(second)
+        return -self.rows(lambda a: a.spherical(*bodies, self.at[name]))
+
+    def placed(self, name: str, body: str | int) -> np.ndarray:
+        which = self.index(body)
+        if which == 0:
+            return self.at[name]
+        center, turned = self.pose.position[which - 1], self.pose.rotation[which - 1]
+        return center + turned @ (self.at[name] - self.centres[which])
+
+    def along(self, first: str | int, start: str, second: str, end: str) -> np.ndarray:
+        """Return how a distance grows, (36,)."""
+        away = self.placed(end, second) - self.placed(start, first)
+        away /= np.linalg.norm(away)
+        row = np.zeros((7, 6))
+        for body, name, sign in ((first, start, -1.0), (second, end, 1.0)):
+            which = self.index(body)
+            center = self.pose.position[which - 1] if which else np.zeros(3)
+            row[which] += sign * np.concatenate(
+                [away, np.cross(self.placed(name, body) - center, away)]
+            )
+        return row[1:].ravel()
+
+    def flexibility(self, bushes: dict[str, Any], held: str) -> np.ndarray:
+        """Return displacement and rotation of the contact by force and moment there."""
+        stiff, rigid = np.zeros((36, 36)), [np.eye(36)[6 * self.index("rack") - 6 :][:6]]
+        knuckle, wheel, rod = map(self.index, ("knuckle", "wheel", "tie_rod"))
+        shaft = self.at["tie_rod_outer"] - self.at["tie_rod_inner"]
+        spin = self.car.wheel.spin_axis(-1.0)
+        across, other = np.linalg.svd(spin[None])[2][1:]
+        # all of these are at points: some hold, some give way
+        joints = [
+            *POINTS[self.car],
+            ("tie_rod_outer", "knuckle", "tie_rod"),
+            ("tie_rod_inner", "rack", "tie_rod"),
+            ("wheel_center", "knuckle", "wheel"),
+        ]
+        rigid.append(
+            self.rows(lambda a: a.perpendicular(self.index("rack"), rod, Z, np.cross(Z, shaft)))
+        )
+        if self.car is STRUT:
+            strut = self.index("upper_strut")
+            axis = self.at["strut_top"] - self.at["strut_lower"]
+            joints.append(("strut_top", 0, "upper_strut"))
+            ends = (self.at["strut_lower"], self.at["strut_top"])
+            rigid.append(self.rows(lambda a: a.cylindrical(knuckle, strut, axis, ends)))
+            rigid.append(self.rows(lambda a: a.perpendicular(0, strut, X, np.cross(X, axis))))
+            spring = self.along(0, "spring_top", "knuckle", "spring_seat")
+            stop = self.along("upper_strut", "strut_top", "knuckle", "strut_lower")
+            rate = self.car.strut.spring_rate_N_per_m
+        else:
+            spring = stop = self.along(0, "spring_top", "lower_arm", "spring_seat")
+            rate = self.car.spring.rate_N_per_m
+        turning = self.rows(
+            lambda a: [a.perpendicular(knuckle, wheel, spin, v) for v in (across, other)]
+        )
+        rigid.append(self.rows(lambda a: a.perpendicular(knuckle, wheel, across, other)))
+        if "wheel_center" in bushes:
+            stiff += turning.T @ turning * bushes["wheel_center"]["tilt_Nm_per_deg"] * 180.0 / np.pi
+        else:
+            rigid.append(turning)
+        for name, first, second in joints:
+            rows = self.point(name, first, second)
+            if name not in bushes:
+                rigid.append(rows)
+                continue
+            matrix = self.matrix(name, bushes[name])
+            fixed_in = (
+                np.eye(3) if first in (0, "rack") else self.pose.rotation[self.index(first) - 1]
+            )
+            stiff += rows.T @ fixed_in @ matrix @ fixed_in.T @ rows
+        moved = self.moved()
+        if held == "locked":
+            rigid.append(spring[None])
+        else:
+            stiff += rate * np.outer(spring, spring) + 5e4 * np.outer(stop, stop)
+        if held == "height":
+            rigid.append(moved[2][None])
+        return moved @ minimum(stiff, np.vstack(rigid), moved.T)
+
+    def moved(self) -> np.ndarray:
+        """Return displacement and rotation of the contact by those of the bodies, (6, 36)."""
+        assert self.bodies[-1] == "wheel"
+        rows = np.zeros((6, 36))
+        rows[:, -6:] = np.eye(6)
+        x, y, z = self.contact() - self.pose.position[-1]
+        rows[:3, -3:] = np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
+        return rows
+
+    def matrix(self, name: str, bush: dict[str, Any]) -> np.ndarray:
+        """Return a bush's stiffness in chassis axes at design, (3, 3) [N/m]."""
+        ends = {"strut_top": ("strut_lower", "strut_top"),
+                "tie_rod_inner": ("tie_rod_inner", "tie_rod_outer")}  # fmt: skip
+        if "axis" in bush:
+            axis = np.array(bush["axis"])
+        elif name == "wheel_center":
+            axis = self.car.wheel.spin_axis(-1.0)
+        else:
+            arm = name.replace("front", "").replace("rear", "")
+            start, end = ends.get(name, (f"{arm}front", f"{arm}rear"))
+            axis = self.at[end] - self.at[start]
+        axis = axis / np.linalg.norm(axis)
+        first = np.array(bush.get("radial_axis", [0.0, 0.0, 1.0]))
+        first = first - (first @ axis) * axis
+        first /= np.linalg.norm(first)
+        radial = np.broadcast_to(bush["radial_N_per_mm"], 2)
+        rates = 1e3 * np.array([bush["axial_N_per_mm"], *radial])
+        rows = np.stack([axis, first, np.cross(axis, first)])
+        return rows.T @ np.diag(rates) @ rows
+
+    def contact(self) -> np.ndarray:
+        axis = self.pose.rotation[-1] @ self.car.wheel.spin_axis(-1.0)
+        upward = Z - axis[2] * axis
+        radius = self.car.tyre_radius()
+        assert radius is not None
+        return self.pose.position[-1] - radius * upward / np.linalg.norm(upward)
+
+
+def minimum(stiff: np.ndarray, held: np.ndarray, loads: np.ndarray) -> np.ndarray:
+    """Return the displacements of least energy under loads, some of them zero."""
+    # so that stiffnesses of 1e6 N/m and constraints of 1 are of a size
+    held = 1e5 * held
+    matrix = np.block([[stiff, held.T], [held, np.zeros((len(held), len(held)))]])
+    right = np.vstack([loads, np.zeros((len(held), loads.shape[1]))])
+    return np.linalg.lstsq(matrix, right, rcond=1e-15)[0][: len(stiff)]
+
+
+@pytest.mark.parametrize("held", ["spring", "locked", "height"])
+@pytest.mark.parametrize("some", [False, True])
+@pytest.mark.parametrize("car", [STRUT, WISHBONES], ids=lambda car: car.TITLE)
+def test_the_wheel_gives_way_as_springs_do(car: Suspension, some: bool, held: Any) -> None:
+    """Forces by statics and least energy against stiffnesses and constraints, two theories."""
+    bushes = BUSHES_OF[car]
+    if some:
+        bushes = {name: bushes[name] for name in bushes if "rear" in name or "tie" in name}
+    # spring and stop are free of force at design; 1e-9 m beyond it the stop has its rate
+    rack = 0.03 if held == "locked" else 0.0
+    found = loads.compliance(Model(car), bushes, [1e-9], rack_position=rack, held=held)
+    ours = found["flexibility"].values[0]
+    springs = Stiffness(car, 1e-9, rack)
+    theirs = springs.flexibility(bushes, held)
+    forward = np.cross(springs.pose.rotation[-1] @ car.wheel.spin_axis(-1.0), Z)
+    forward /= np.linalg.norm(forward)
+    axes = np.stack([forward, np.cross(Z, forward), Z])
+    both = np.kron(np.eye(2), axes)
+    np.testing.assert_allclose(
+        ours, both @ theirs @ both.T, rtol=0.0, atol=1e-6 * abs(theirs).max()
+    )
+
+
+# -- what is told ---------------------------------------------------------------------------------
+
+
+def test_signs_and_units() -> None:
+    """A soft rear bush: braking and a lateral force turn the wheel as they turn the arm."""
+    model = Model("reference_car")
+    found = loads.compliance(model, {"arm_rear": {"radial_N_per_mm": 1000.0}}, [0.0])
+    at = found.isel(wheel_travel=0)
+    flexible = at["flexibility"].sel(moved="x", by="fx")
+    # a right wheel: inward is to the left, as y is; its contact moves by what the force does
+    sideways = float(at["flexibility"].sel(moved="y", by="fy"))
+    assert float(at["displacement_by_lateral"]) == pytest.approx(sideways, rel=1e-12)
+    assert float(at["displacement_by_braking"]) == pytest.approx(float(flexible), rel=1e-12)
+    steer = float(at["flexibility"].sel(moved="rz", by="fy"))
+    # toe-in of a right wheel is to the left
+    assert float(at["toe_by_lateral"]) == pytest.approx(steer, rel=1e-3)
+    assert found["toe_by_lateral"].attrs["display_units"] == "deg/kN"
+    assert found["toe_by_aligning"].attrs["units"] == "rad/(N m)"
+    assert float(at["toe_by_aligning"]) < 0.0 < float(at["displacement_by_braking"])
+
+
+def test_the_other_side_is_the_mirror_image() -> None:
+    model = Model("double_wishbone_car")
+    bush = {"lower_arm_rear": {"axial_N_per_mm": 500.0, "radial_N_per_mm": [900.0, 2000.0],
+                               "axis": [1.0, 0.3, 0.2]}}  # fmt: skip
+    mirrored = {"lower_arm_rear": bush["lower_arm_rear"] | {"axis": [1.0, -0.3, 0.2]}}
+    one = loads.compliance(model, bush, [-0.03, 0.04])
+    other = loads.compliance(model.mirror_image, mirrored, [-0.03, 0.04])
+    for name in one:
+        if name != "flexibility":
+            np.testing.assert_allclose(other[name], one[name], rtol=1e-9, err_msg=str(name))
+
+
+def test_a_stiffer_bush_gives_less() -> None:
+    model = Model("reference_car")
+    soft, stiff, rigid = (
+        loads.compliance(model, {"arm_rear": {"radial_N_per_mm": k}}, [0.0], held="locked")
+        for k in (1e3, 2e3, 1e11)
+    )
+    np.testing.assert_allclose(soft["flexibility"], 2.0 * stiff["flexibility"], rtol=1e-9)
+    np.testing.assert_allclose(soft["flexibility"], 1e8 * rigid["flexibility"], rtol=1e-9)
+
+
+def test_height_and_spring() -> None:
+    """The contact stays where it is; or goes with the spring, however stiff the bushes."""
+    model = Model("reference_car")
+    bush = {"arm_rear": {"radial_N_per_mm": 1e9}}
+    held = loads.compliance(model, bush, [0.0], held="height")["flexibility"][0]
+    free = loads.compliance(model, bush, [0.0], held="spring")["flexibility"][0]
+    assert abs(held.sel(moved="z").values).max() < 1e-18
+    rate = float(characteristics.travel(model, [0.0])["wheel_rate"][0])
+    # per travel of the wheel centre, and the contact rises with the camber's gain, too
+    assert float(free.sel(moved="z", by="fz")) == pytest.approx(1.0 / rate, rel=0.02)
+
+
+WRONG: list[tuple[Any, dict[str, Any], str]] = [
+    ({}, {}, "bushings: one or more"),
+    ({"arm": {}}, {}, "Did you mean arm_"),
+    ({"arm_rear": 1.0}, {}, "must be a section"),
+    ({"arm_rear": {"radial": 1.0}}, {}, "Did you mean radial_"),
+    ({"arm_rear": {"radial_N_per_mm": 0.0}}, {}, "of 0.001 N/mm or more"),
+    ({"arm_rear": {"radial_N_per_mm": [1.0, 2.0, 3.0]}}, {}, "a number is needed, or two"),
+    ({"arm_rear": {"axis": [0.0, 0.0, 0.0]}}, {}, "not all zero"),
+    ({"arm_rear": {"radial_axis": [1.0, 0.0, 0.0]}}, {}, "lies along the axis"),
+    ({"arm_rear": {"tilt_Nm_per_deg": 1.0}}, {}, "only a wheel bearing"),
+    ({"arm_rear": {"radial_N_per_mm": 1e3}}, {"held": "body"}, "height, spring, locked"),
+    ({"arm_rear": {"radial_N_per_mm": 1e3}}, {"travel": [np.nan]}, "finite"),
+]
+
+
+@pytest.mark.parametrize(("bushings", "options", "words"), WRONG)
+def test_what_cannot_be_used(bushings: Any, options: dict[str, Any], words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        loads.compliance(Model("reference_car"), bushings, **options)
+
+
+def test_without_a_spring_nothing_holds_the_wheel() -> None:
+    loose = Suspension.load("reference_car").with_changes({"strut.spring_rate_N_per_m": 0.0})
+    with pytest.raises(InputError, match="nothing holds it"):
+        loads.compliance(Model(loose), {"arm_rear": {"radial_N_per_mm": 1e3}}, [0.0])
