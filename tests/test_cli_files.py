@@ -73,6 +73,13 @@ def test_no_command_writes_over_what_it_did_not_write(kintrafo, tmp_path, comman
     assert (tmp_path / name).read_text() == "a year of work"
 
 
+def test_no_file_is_written_twice(kintrafo, tmp_path):  # noqa: F811
+    code, _, err = kintrafo("simulate", CAR, "-o", "a.csv", "--loads", "a.csv", "--duration", 0.01)
+    assert code == 2
+    assert "named twice" in err
+    assert not [*tmp_path.iterdir()]
+
+
 @pytest.mark.parametrize("command", ["new", "schema", "kinematics", "import-chrono"])
 def test_force_and_again(kintrafo, tmp_path, command):  # noqa: F811
     arguments, name = WRITING[command]

@@ -83,6 +83,19 @@ def test_parquet_keeps_values_and_descriptions(tmp_path):
     assert found["rack_position"].to_pylist() == [-0.03, 0.0, 0.03, 0.05] * 3
 
 
+def test_what_is_no_number_stays_none_in_every_format(tmp_path):
+    values = np.array([1.0, np.nan, np.inf, -np.inf, 1e-30, -2.0])
+    dataset = xr.Dataset({"a": ("i", values), "b": ("i", np.full(6, np.nan))}, {"i": range(6)})
+    for ending in ("csv", "nc", "parquet"):
+        export.write(dataset, tmp_path / f"a.{ending}")
+    rows = list(csv.DictReader((tmp_path / "a.csv").read_text().splitlines()))
+    assert [row["a"] for row in rows] == ["1", "", "inf", "-inf", "0", "-2"]
+    assert {row["b"] for row in rows} == {""}
+    with xr.open_dataset(tmp_path / "a.nc", engine="scipy") as read:
+        np.testing.assert_array_equal(read["a"], values)
+    np.testing.assert_array_equal(pq.read_table(tmp_path / "a.parquet")["a"].to_numpy(), values)
+
+
 def test_csv_is_in_the_units_of_people(tmp_path):
     path = export.write(GRID, tmp_path / "a.csv")
     with path.open(encoding="utf-8", newline="") as file:

@@ -267,12 +267,64 @@ def test_stops_carry_what_springs_do_not() -> None:
     assert 0.04 < float(stopped["travel"][0]) < 0.1
     damper = stopped.sel(case="bump_3g", load="knuckle at strut_lower by damper")["force"].values
     assert np.linalg.norm(damper) > 4e3
-    with pytest.raises(InputError, match="a: spring and stops do not carry it"):
+    with pytest.raises(InputError, match="N too much for spring and stops"):
         loads.static(Model(CAR), {"a": {"contact_N": [0.0, 0.0, 1e6]}})
     some = loads.static(Model(CAR), STILL | {"a": {"contact_N": [0.0, 0.0, 1e6]}})
     assert some.attrs["message"] == "1 of 2 cases are carried"
-    assert "Give the file its stops" in str(some["reason"].values[1])
+    assert "Give the file its [bump_stop]" in str(some["reason"].values[1])
+    with_stops = Model(STOPPED.with_changes({"bump_stop.rate_N_per_m": 3e4}))
+    crushed = loads.static(with_stops, STILL | {"a": {"contact_N": [0.0, 0.0, 1e6]}})
+    assert "Give the file" not in str(crushed["reason"].values[1])
     assert np.isnan(some["force"].values[1]).all()
+
+
+def test_a_wheel_is_not_pulled_down() -> None:
+    found = loads.static(Model(WISHBONES), STILL | {"droop": {"travel_mm": -190.0}})
+    assert "would have to pull" in str(found["reason"].values[1])
+    assert np.isnan(found["wheel_load"].values[1])
+
+
+def test_a_spring_without_leverage_is_no_dead_point() -> None:
+    """Where the leverage of the damper passes zero, joints are as sound as anywhere."""
+    odd = WISHBONES.with_changes({f"hardpoints.spring_top.{a}": v for a, v in
+                                  zip("xyz", (-30.0, -500.0, 320.0), strict=True)})  # fmt: skip
+    kerb = {"contact_g": [0.0, 1.5, 2.0]}
+    found = loads.static(Model(odd), STILL | {"kerb": kerb}, static_load=3800.0)
+    assert str(found["reason"].values[0]) == ""
+    assert "it is not carried" in str(found["reason"].values[1])
+
+
+def test_a_motion_of_another_car_is_none_of_this() -> None:
+    model = Model(CAR)
+    motion = simulate(model, (0.0, 0.05), equilibrium(model))
+    for other in (CAR.with_changes({"strut.spring_rate_N_per_m": 60e3}), CAR.mirrored()):
+        with pytest.raises(InputError, match="not a motion of this model"):
+            loads.along(Model(other), motion)
+
+
+def test_couples_are_shown_without_a_force(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+    (tmp_path / "c.toml").write_text(
+        "[cases.couple]\ntravel_mm = 0\ncenter_Nm = [0, 400, 0]\n[cases.far]\n"
+        "contact_N = [0, 0, 1e6]\n",
+        encoding="utf-8",
+    )
+    code, out, _ = kintrafo("loads", "reference_car", "--cases", "c.toml", "--case", "couple",
+                            "--part", "wheel", "-o", "c.csv")  # fmt: skip
+    assert code == 1
+    assert re.search(r"drive .* 400", out)
+    # what has no number is none in the file either
+    rows = [line.split(",") for line in (tmp_path / "c.csv").read_text().splitlines()]
+    far = [row for row in rows if row[1] == "far"]
+    assert far
+    assert all(row[5:14] == [""] * 9 and "too much" in ",".join(row[14:]) for row in far)
+
+
+def test_tables_need_all_of_it() -> None:
+    found = loads.static(Model(CAR), STILL)
+    for wrong in (found[["force"]], loads.envelope(found)):
+        for function in (loads.table, loads.envelope):
+            with pytest.raises(InputError, match="is needed, over"):
+                function(wrong)
 
 
 def test_envelope_names_the_cases() -> None:
@@ -298,6 +350,7 @@ def test_two_bearings_share_what_is_along_their_axis() -> None:
 WRONG = [
     ({}, "one or more are needed"),
     ({"a": 1.0}, "must be a section"),
+    ({1: {"contact_g": [0.0, 0.0, 1.0]}, "1": {"contact_g": [0.0, 0.0, 1.0]}}, "text of letters"),
     ({"../a": {"contact_g": [0.0, 0.0, 1.0]}}, "letters, digits"),
     ({"a": {"contact": [0.0, 0.0, 1.0]}}, "Did you mean contact_"),
     ({"a": {"contact_N": [0.0, 1.0]}}, "three numbers are needed"),
@@ -332,6 +385,30 @@ def test_the_page_runs(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
         "loads.csv",
         "compliance.csv",
     }
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("cases = 3", "no section"),
+        ("", "no section"),
+        ("[cases]\n", "one or more are needed"),
+        ("static_load_N = 1e308\n[cases.a]\ncontact_g = [0, 0, 1]", "below 1e"),
+        ("[cases]\na = 3", "must be a section"),
+    ],
+)
+def test_files_that_are_none(kintrafo: Any, tmp_path: Path, text: str, words: str) -> None:  # noqa: F811
+    (tmp_path / "c.toml").write_text(text, encoding="utf-8")
+    code, _, err = kintrafo("loads", "reference_car", "--cases", "c.toml")
+    assert code == 2
+    assert words in " ".join(err.split())
+
+
+@pytest.mark.parametrize("option", ["--part", "--case"])
+def test_options_are_named(kintrafo: Any, option: str) -> None:  # noqa: F811
+    code, _, err = kintrafo("loads", "reference_car", option, "nothing")
+    assert code == 2
+    assert f"{option} 'nothing' is not known" in " ".join(err.split())
 
 
 def test_a_file_of_cases(tmp_path: Path) -> None:

@@ -412,6 +412,10 @@ WRONG = [
     (lambda: variation.sweep(CAR, {"hardpoints.ball_joint": [1.0]}, BUMP), "stands for 3 numbers"),
     (lambda: variation.sweep(CAR, {ROD: [280.0, 280.0]}, BUMP), "each is needed once"),
     (lambda: variation.sweep(CAR, {}, BUMP), "one place or more"),
+    (
+        lambda: variation.sweep(CAR, {ROD: [280.0], f"{ROD[:-1]}[z]": [281.0]}, BUMP),
+        "named twice",
+    ),
     (lambda: variation.sweep(CAR, {ROD: [280.0]}, 1.0), "a Scenario is needed"),
     (
         lambda: variation.sweep(CAR, {"strut.friction_N": [0.0, 50.0]}, BUMP),
@@ -543,7 +547,9 @@ def test_commands_refuse_and_end_as_others_do(kintrafo: Any, tmp_path: Path) -> 
         code, _, err = kintrafo(command, *files, "--at", "nan")
         assert code == 2
         assert "a finite number of mm" in " ".join(err.split())
-    for wrong in (f"{ROD}=1:2", f"{ROD}=1:2:x", ROD, f"{ROD}=a"):
+    code, _, err = kintrafo("sweep", "reference_car", f"{ROD}=270", f"{ROD}=280")
+    assert (code, "named twice" in " ".join(err.split())) == (2, True)
+    for wrong in (f"{ROD}=1:2:1000000000", f"{ROD}=1:2", f"{ROD}=1:2:x", ROD, f"{ROD}=a"):
         code, _, err = kintrafo("sweep", "reference_car", wrong)
         assert code == 2
         assert "PLACE=FROM:TO:COUNT" in " ".join(err.split())

@@ -69,12 +69,12 @@ def command(
     model = load(file)
     described = {} if cases is None else study.read(cases)
     named = described.get("cases", study.standard_cases(model.suspension.vehicle.sign))
-    shown = among(case, [str(name) for name in named]) if case else None
+    shown = among(case, [*named], "--case") if case else None
     suffixes = [f"_{name}" for name in shown or named]
     outputs = Outputs.of(out, None, force=force, inputs=inputs)
     pages = Outputs.of(None, plot, force=force, inputs=inputs, suffixes=suffixes)
     found = study.static(model, named, static_load=described.get("static_load_N"))
-    parts = among(part, [*dict.fromkeys(found["part"].values)]) if part else None
+    parts = among(part, [*dict.fromkeys(found["part"].values)], "--part") if part else None
     written = outputs.write_data(found, rows=study.table(found))
     if pages.pages:
         from ..plots import loads as plots
@@ -114,8 +114,8 @@ def _overview(found: "Dataset", parts: list[str] | None, file: str) -> Table:
     for name in found["case"].values:
         table.add_column(escape(str(name)), justify="right")
     table.add_row("wheel load", *(_cell(float(load)) for load in found["wheel_load"].values))
-    travels = (f"{1e3 * travel:.1f}" for travel in found["travel"].values + 0.0)
-    table.add_row("wheel travel [mm]", *(t.replace("nan", "-") for t in travels))
+    travels = (f"{1e3 * travel:.1f}".replace("-0.0", "0.0") for travel in found["travel"].values)
+    table.add_row(escape("wheel travel [mm]"), *(t.replace("nan", "-") for t in travels))
     table.add_section()
     sizes = np.linalg.norm(found["force"].values, axis=-1)
     for i in _rows(found, parts):
@@ -143,7 +143,8 @@ def _rows(found: "Dataset", parts: list[str] | None) -> list[int]:
     import numpy as np
 
     given = [*found["part"].values]
-    strong = np.nan_to_num(np.abs(found["force"].values)).max(axis=(0, 2)) > 0.0
+    sizes = np.abs(found["force"].values) + np.abs(found["moment"].values)
+    strong = np.nan_to_num(sizes).max(axis=(0, 2)) > 0.0
     if parts:
         return [i for i, name in enumerate(given) if name in parts and strong[i]]
     seen: set[frozenset[str]] = set()

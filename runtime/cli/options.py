@@ -98,12 +98,12 @@ def load(file: str) -> "Model":
         return Model(suspension, free_rack=True)
 
 
-def among(wanted: list[str], known: Iterable[str]) -> list[str]:
-    """Return the characteristics that --of names, each once, or refuse those that there are not."""
+def among(wanted: list[str], known: Iterable[str], option: str = "--of") -> list[str]:
+    """Return what an option names, each once, or refuse what there is not."""
     from ..core.arguments import Arguments
 
-    with Arguments("--of") as given:
-        names = given.names("--of", wanted, known)
+    with Arguments(option) as given:
+        names = given.names(option, wanted, known)
     return list(dict.fromkeys(names))
 
 

@@ -105,9 +105,12 @@ def command(
 
     Without --height it starts from rest on the road as it is at the beginning.
     """
+    from ..core.files import refuse
+
     read_here = [Path(file), *([] if measured is None else [measured])]
     outputs = Outputs.of(out, plot, figures, formats, force=force, inputs=read_here)
     on_parts = Outputs.of(loads, None, force=force, inputs=read_here)
+    refuse([*outputs.data, *outputs.pages, *on_parts.data], force=force, inputs=read_here)
     model = load(file)
     scenario = scenario_of(
         height=height,

@@ -33,6 +33,9 @@ if TYPE_CHECKING:
 
     from ..suspension.model import Model
 
+# More values of one place than anybody looks at.
+_MOST_VALUES = 100_000
+
 EXAMPLES = (
     "kintrafo sweep my_car.toml strut.damper_rate_N_s_per_m=500:3000:11 --road-step 20",
     "kintrafo sweep my_car.toml hardpoints.tie_rod_inner.z=270,280,290 --keep toe:max -o toe.csv",
@@ -107,6 +110,8 @@ def command(
         output_step=output_step,
     )
     grid = dict(map(_numbers, values))
+    if len(grid) < len(values):
+        raise typer.BadParameter("a place is named twice: write all of its values together")
     if plot and len(grid) > 2:
         raise typer.BadParameter("a figure shows one value or two; leave out --plot, or a value")
     reductions = _reductions(model_of(suspension), keep or _USUAL)
@@ -134,14 +139,15 @@ def _numbers(text: str) -> tuple[str, list[float]]:
     place, mark, given = text.partition("=")
     parts = given.split(":")
     try:
-        if len(parts) == 3 and int(parts[2]) > 1:
+        if len(parts) == 3 and 1 < int(parts[2]) <= _MOST_VALUES:
             return place, np.linspace(float(parts[0]), float(parts[1]), int(parts[2])).tolist()
         if mark and len(parts) == 1:
             return place, [float(number) for number in given.split(",")]
     except ValueError:
         pass
     raise typer.BadParameter(
-        f"{text!r}: write PLACE=FROM:TO:COUNT with two values or more, or PLACE=VALUE,VALUE,..."
+        f"{text!r}: write PLACE=FROM:TO:COUNT with 2 to {_MOST_VALUES} values, or "
+        "PLACE=VALUE,VALUE,..."
     )
 
 

@@ -104,13 +104,18 @@ def refuse(
     ------
     InputError
         If a file is there that is not empty and not as this program wrote it, and `force` does not
-        say that it is replaced; if it is read; if it is no ordinary file; if its name ends wrongly.
+        say that it is replaced; if it is read; if it is no ordinary file; if its name ends wrongly;
+        if it is named twice.
     """
     read = list(inputs)
     found = {}
+    named: set[Path] = set()
     for path in map(Path, paths):
         with told(path):
-            problem = _wrong_ending(path, endings) or _in_the_way(_resolved(path), force, read)
+            whole = _resolved(path)
+            problem = _wrong_ending(path, endings) or _in_the_way(whole, force, read)
+            problem = problem or ("it is named twice." if whole in named else "")
+            named.add(whole)
         if problem:
             found[str(path)] = problem
     if len(found) > 1:

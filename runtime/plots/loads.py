@@ -61,7 +61,7 @@ def write_free_bodies(
     check_formats(paths)
     here = dataset.sel(case=case)
     known = dict.fromkeys(str(part) for part in here["part"].values)
-    shown = [part for part in (parts or known) if part not in GROUND] or [*known]
+    shown = parts or [part for part in known if part not in GROUND]
     written = []
     with rc_context(STYLE):
         figure = Figure(figsize=(7.4, 0.6 + 2.5 * len(shown)), layout="constrained")
@@ -91,7 +91,8 @@ def _draw(axes: Axes, loads: xr.Dataset, view: str) -> None:
     extent = max(float(np.ptp(places, axis=0).max()), 1e3 * _LEAST_EXTENT)
     scale = _LONGEST * extent / max(float(sizes.max()), 1.0)
     halo = [withStroke(linewidth=2.5, foreground="white")]
-    for i in np.flatnonzero(sizes > _SMALL * sizes.max()):
+    strong = sizes > _SMALL * sizes.max()
+    for i in np.flatnonzero(strong | (couples > _SMALL_MOMENT)):
         place, push, by = places[i], forces[i], loads["by"].values[i]
         colour = ORANGE if by in ("road", "drive", "gravity") else BLUE
         tail = place - scale * push

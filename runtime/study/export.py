@@ -117,7 +117,9 @@ def _write_csv(dataset: xr.Dataset, path: Path) -> None:
     frame = _flat(dataset)
     for name in frame.select_dtypes("number").columns:
         values = frame[name] * display_of(dataset[name].attrs).factor
-        frame[name] = values.where(values.abs() > _ROUNDING * values.abs().max(), 0.0)
+        greatest = values[np.isfinite(values)].abs().max()
+        # what is no number stays none, and what is infinite says nothing about rounding
+        frame[name] = values.mask(values.abs() <= _ROUNDING * greatest, 0.0)
     for name in frame.select_dtypes(exclude="number").columns:
         frame[name] = [_harmless(str(text)) for text in frame[name]]
     frame.columns = [_harmless(bracketed(name, dataset[name].attrs)) for name in frame.columns]

@@ -232,9 +232,14 @@ def _turned_axis(corner: Corner, motion: Motion) -> Array:
 
 def lowest_point(center: Array, axis: Array, radius: float) -> Array:
     """Return the lowest point of a thin disc about an axis [m]."""
+    return center - radius * upward_across(axis)
+
+
+def upward_across(axis: Array) -> Array:
+    """Return the unit vector across an axis that points upward most: in the plane of a wheel."""
     across = axis[..., 2:]
-    upward = (UP - axis * across) / np.sqrt(1.0 - across**2)
-    return center - radius * upward
+    upward: Array = (UP - axis * across) / np.sqrt(1.0 - across**2)
+    return upward
 
 
 def _contact_velocity(corner: Corner) -> Array:

@@ -9,6 +9,7 @@ from ...core.quantities import variable
 from ...simulation.result import Simulation
 from ...suspension.model import Model
 from ...systems.inputs import rates_of
+from ..characteristics.wheel import upward_across
 from ..recording import TIME
 from .dataset import dataset_of
 from .poses import CENTER, Poses
@@ -21,6 +22,8 @@ Array = NDArray[np.float64]
 # error is of the fourth power of that, and rounding 1e-16 over it.
 _STEP = 1e-3
 _WEIGHTS = {-2: 1 / 12, -1: -8 / 12, 1: 8 / 12, 2: -1 / 12}
+# Signals of the same car in the same states agree to that, whatever computed them.
+_SAME = 1e-6
 # So many moments are looked at together, for the memory of it.
 _TOGETHER = 2000
 
@@ -39,8 +42,10 @@ def along(model: Model, result: Simulation) -> xr.Dataset:
     xarray.Dataset
         As of `static`, over ``time`` [s] instead of cases. Besides what acts, ``by`` inertia names
         minus mass times acceleration and minus the rate of the moment of momentum, so that the sum
-        over each part is zero. ``holding_force`` [N] is the force along the damper that the motion
-        would need besides: its size is the error of the result.
+        over each part is zero. ``holding_force`` [N] is a vertical force on the wheel that the
+        motion would need besides: none where the equations of motion and the balance of the parts
+        agree. How exact the motion is, the tolerances of the simulation decide. The road pushes at
+        the wheel centre, in the plane of the wheel, as in the equations.
 
     Raises
     ------
@@ -59,7 +64,7 @@ def along(model: Model, result: Simulation) -> xr.Dataset:
     with Arguments("along") as given:
         given.kind("model", model, Model, Model.NEEDED)
         given.kind("result", result, Simulation, "what kintrafo.simulate returns is needed")
-        if not given.refused and tuple(result.signals) != model.signal_names:
+        if not given.refused and not _is_motion_of(model, result):
             given.refuse(f"result: it is not a motion of this model, {model!r}.")
     size = result.t.size
     found = [
@@ -73,14 +78,26 @@ def along(model: Model, result: Simulation) -> xr.Dataset:
     return dataset.assign_attrs(title="loads along a motion", rules=rules)
 
 
+def _is_motion_of(model: Model, result: Simulation) -> bool:
+    """Tell whether a result has the signals that the model has in its states."""
+    if tuple(result.signals) != model.signal_names:
+        return False
+    again = model.signals(result.y.T, result.inputs)
+    return all(
+        np.allclose(values, again[name], rtol=_SAME, atol=_SAME, equal_nan=True)
+        for name, values in result.signals.items()
+    )
+
+
 def in_motion(model: Model, states: Array, inputs: Array) -> xr.Dataset:
     """Return the loads in some states, of shape (n, states), as over time."""
     poses = Poses.of(model, states, inputs)
     equations = Equations(poses)
+    equations.check()
     acting = [*equations.known(), _road(poses), *_inertia(poses, equations.parts)]
     unknowns = equations.solve(equations.applied(acting))
     found = dataset_of(poses, TIME, equations.carried(unknowns) + acting)
-    meaning = "force along the damper that the motion would need besides"
+    meaning = "vertical force at the wheel that the motion would need besides"
     found["holding_force"] = variable(TIME, unknowns[:, -1], meaning, "N")
     return found
 
@@ -89,9 +106,8 @@ def _road(poses: Poses) -> Load:
     """Return the force of the tyre, which acts in the plane of the wheel through its centre."""
     model = poses.model
     force = model.signal("tyre_force", poses.states, poses.inputs)
-    across = poses.axis[:, 2:]
-    upward = (np.array([0.0, 0.0, 1.0]) - poses.axis * across) / np.sqrt(1.0 - across**2)
-    return Load("wheel", CENTER, "road", force[:, None] * upward, np.zeros(3), poses.points[CENTER])
+    push = force[:, None] * upward_across(poses.axis)
+    return Load("wheel", CENTER, "road", push, np.zeros(3), poses.points[CENTER])
 
 
 def _inertia(poses: Poses, parts: tuple[str, ...]) -> list[Load]:

@@ -80,7 +80,7 @@ def bushes_of(given: Arguments, model: Model, described: Mapping[str, Any]) -> l
         if not isinstance(table, Mapping):
             given.refuse(f"{title} must be a section, with {', '.join(_KEYS)}.")
             continue
-        for key in table.keys() - set(_KEYS):
+        for key in (key for key in table if key not in _KEYS):
             given.refuse(f"{title} {key} is not known. {suggestion(str(key), _KEYS)}")
         axes = _axes(given, title, table, model, joints[point])
         compliance = np.zeros((6, 6))

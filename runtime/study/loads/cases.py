@@ -23,7 +23,7 @@ _KEYS = (
     *(f"{place}_{unit}" for place in ("contact", "center") for unit in ("N", "g", "Nm")),
 )
 # No suspension carries more than this, in N, N m or parts of its static load.
-_GREATEST = 1e9
+GREATEST = 1e9
 
 
 @dataclass(frozen=True)
@@ -80,6 +80,8 @@ def read(path: str | Path) -> dict[str, Any]:
     unknown = [
         f"{key} is not known. {suggestion(key, _SECTIONS)}" for key in data if key not in _SECTIONS
     ]
+    if not isinstance(data.get("cases"), dict):
+        unknown.append("there is no section [cases.NAME]: write one or more.")
     if unknown:
         raise InputError(unknown, str(path))
     return data
@@ -100,12 +102,12 @@ def cases_of(given: Arguments, described: Mapping[str, Any], static_load: float)
     cases = []
     for name, table in described.items():
         title = f"[cases.{name}]"
-        if not re.fullmatch(r"[\w.-]+", str(name)):
-            given.refuse(f"{title}: names have letters, digits, and _ - . only.")
+        if not (isinstance(name, str) and re.fullmatch(r"[\w.-]+", name)):
+            given.refuse(f"{title}: a name is a text of letters, digits, and _ - . only.")
         if not isinstance(table, Mapping):
             given.refuse(f"{title} must be a section, with {', '.join(_KEYS)}.")
             continue
-        for key in table.keys() - set(_KEYS):
+        for key in (key for key in table if key not in _KEYS):
             given.refuse(f"{title} {key} is not known. {suggestion(str(key), _KEYS)}")
         travel = _number(given, title, table, "travel_mm")
         found = {
@@ -120,7 +122,7 @@ def cases_of(given: Arguments, described: Mapping[str, Any], static_load: float)
             )
         cases.append(
             Case(
-                str(name),
+                name,
                 contact=found["contact"],
                 contact_moment=_vector(given, title, table, "contact_Nm"),
                 center=found["center"],
@@ -157,7 +159,7 @@ def _number(given: Arguments, title: str, table: Mapping[str, Any], key: str) ->
     if key not in table:
         return None
     unit = key.rpartition("_")[2]
-    return given.number(f"{title} {key}", table[key], unit, least=-_GREATEST, below=_GREATEST)
+    return given.number(f"{title} {key}", table[key], unit, least=-GREATEST, below=GREATEST)
 
 
 def _vector(given: Arguments, title: str, table: Mapping[str, Any], key: str) -> Array:
@@ -166,7 +168,7 @@ def _vector(given: Arguments, title: str, table: Mapping[str, Any], key: str) ->
         return np.zeros(3)
     unit = key.rpartition("_")[2]
     values = given.array(f"{title} {key}", table[key], unit, dimensions=[1])
-    if values.shape == (3,) and (np.abs(values) < _GREATEST).all():
+    if values.shape == (3,) and (np.abs(values) < GREATEST).all():
         return values
-    given.refuse(f"{title} {key}: three numbers are needed, x, y and z, each below {_GREATEST:g}.")
+    given.refuse(f"{title} {key}: three numbers are needed, x, y and z, each below {GREATEST:g}.")
     return np.zeros(3)

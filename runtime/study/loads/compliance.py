@@ -203,6 +203,7 @@ class _Forces:
     def __init__(self, poses: Poses, *, stopped: bool) -> None:
         self.stopped = stopped
         equations = Equations(poses, "spring")
+        equations.check()
         still, at = np.zeros(3), poses.points[CONTACT]
         loads = [Load("wheel", CONTACT, "road", axis, still, at) for axis in np.eye(3)]
         loads += [Load("wheel", CONTACT, "road", still, axis, at) for axis in np.eye(3)]

@@ -52,10 +52,13 @@ def dataset_of(poses: Poses, over: str, loads: Sequence[Load]) -> xr.Dataset:
         data[f"{name}_in_part"] = variable(dims, inside, meaning, data[name].attrs["units"])
     parts = [load.part for load in loads]
     moving = list(dict.fromkeys(part for part in parts if part not in GROUND))
-    sums = [fields["force"][:, [p == part for p in parts]].sum(axis=1) for part in moving]
-    residual = np.linalg.norm(sums, axis=-1).T
-    meaning = "what is left of the sum of the forces on a part"
-    data["residual"] = variable((over, "moving_part"), residual, meaning, "N")
+    left = [_sum(fields, [p == part for p in parts], poses.centers[part]) for part in moving]
+    for name, unit, sums in zip(
+        ("", "_moment"), ("N", "N m"), zip(*left, strict=True), strict=True
+    ):
+        meaning = f"what is left of the sum of the {'moments' if name else 'forces'} on a part"
+        sizes = np.linalg.norm(sums, axis=-1).T
+        data[f"residual{name}"] = variable((over, "moving_part"), sizes, meaning, unit)
     coordinates = {
         LOAD: [f"{load.part} at {load.point} by {load.by}" for load in loads],
         PART: (LOAD, parts),
@@ -65,6 +68,13 @@ def dataset_of(poses: Poses, over: str, loads: Sequence[Load]) -> xr.Dataset:
         "moving_part": moving,
     }
     return xr.Dataset(data, coordinates)
+
+
+def _sum(fields: dict[str, Array], rows: list[bool], about: Array) -> tuple[Array, Array]:
+    """Return the sum of some loads, and of their moments about a point, (count, 3)."""
+    force, moment, at = (fields[name][:, rows] for name in ("force", "moment", "at"))
+    turning = moment + np.cross(at - about[:, None], force)
+    return force.sum(axis=1), turning.sum(axis=1)
 
 
 def envelope(dataset: xr.Dataset) -> xr.Dataset:
@@ -83,10 +93,7 @@ def envelope(dataset: xr.Dataset) -> xr.Dataset:
     """
     with Arguments("envelope") as given:
         given.kind("dataset", dataset, xr.Dataset, _NEEDED)
-        if not given.refused and not {CASE, LOAD, AXIS} <= {*dataset.dims}:
-            given.refuse(
-                "dataset: what kintrafo.loads.static returns is needed, over case and load."
-            )
+        _check(given, dataset, CASE)
     found = {}
     for name in ("force", "moment"):
         for end in ("min", "max"):
@@ -113,8 +120,7 @@ def table(dataset: xr.Dataset) -> xr.Dataset:
     """
     with Arguments("table") as given:
         given.kind("dataset", dataset, xr.Dataset, _NEEDED)
-        if not given.refused and not {LOAD, AXIS} <= {*dataset.dims}:
-            given.refuse(f"dataset: {_NEEDED}.")
+        _check(given, dataset)
     columns = {
         f"{name}_{axis}": dataset[name].sel({AXIS: axis}, drop=True)
         for name in ("force", "moment", "at")
@@ -123,7 +129,18 @@ def table(dataset: xr.Dataset) -> xr.Dataset:
     for name, column in columns.items():
         words = str(column.attrs["long_name"]).split(",", maxsplit=1)
         column.attrs["long_name"] = f"{words[0]}, {name[-1]}"
+    if "reason" in dataset:
+        columns["reason"] = dataset["reason"]
     return xr.Dataset(columns, attrs=dataset.attrs)
+
+
+def _check(given: Arguments, dataset: xr.Dataset, *further: str) -> None:
+    """Refuse a dataset that is none of loads."""
+    if given.refused:
+        return
+    dimensions = {LOAD, AXIS, *further} <= {*dataset.dims}
+    if not (dimensions and {"force", "moment", "at"} <= {*map(str, dataset)}):
+        given.refuse(f"dataset: {_NEEDED}, over {', '.join((*further, LOAD, AXIS))}.")
 
 
 def _stacked(values: Sequence[Array], count: int) -> Array:

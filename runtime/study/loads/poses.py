@@ -1,6 +1,5 @@
 """Where the parts of a suspension are, and what acts on them from outside."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -102,8 +101,3 @@ class Poses:
 def wrench_about(point: Array, at: Array, force: Array, moment: Array | float = 0.0) -> Array:
     """Return force and moment about a point, (..., 6), of a force and a moment elsewhere."""
     return np.concatenate(np.broadcast_arrays(force, moment + np.cross(at - point, force)), axis=-1)
-
-
-def gathered(wrenches: Mapping[str, Array], parts: tuple[str, ...]) -> Array:
-    """Return wrenches of parts behind each other, (..., 6 parts)."""
-    return np.concatenate(np.broadcast_arrays(*(wrenches[part] for part in parts)), axis=-1)

@@ -2,18 +2,26 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import InputError
+from ...suspension.corner import UP
 from ...suspension.structure import GROUND, Joint, Line
-from .poses import Poses, wrench_about
+from .poses import CENTER, CONTACT, Poses, wrench_about
 
 Array = NDArray[np.float64]
 
-# Rounding of loads, 1e-16, that equations so near to singular enlarge to 1e-4 of them.
-_WORST_CONDITION = 1e12
+# Rounding of loads, 1e-16, that equations so near to singular enlarge to 1e-6 of them; of cars
+# within their travel it is some hundreds.
+_WORST_CONDITION = 1e10
+
+DEAD_POINT = (
+    "the linkage is at a dead point, or what holds it has no leverage: the joints carry anything."
+)
+"""Why there are no loads."""
 
 
 @dataclass(frozen=True)
@@ -44,16 +52,22 @@ class Equations:
     Parameters
     ----------
     poses : Poses
-    holding : str, optional
-        The line along which the suspension is held: 'damper' or 'spring'.
+    holding : {'road', 'spring'}, optional
+        What holds the suspension where it is: a vertical force on the wheel at its contact, or a
+        force along its spring.
+
+    Attributes
+    ----------
+    sound : ndarray of bool, shape (n,)
+        False at a dead point, where what is carried has no bound.
 
     Notes
     -----
-    The unknowns are what the joints carry and, last, a force along a line that holds the
-    suspension where it is; it is zero where the loads are in equilibrium.
+    The unknowns are what the joints carry and, last, the force that holds the suspension; it is
+    zero where the loads are in equilibrium.
     """
 
-    def __init__(self, poses: Poses, holding: str = "damper") -> None:
+    def __init__(self, poses: Poses, holding: Literal["road", "spring"] = "road") -> None:
         self.poses = poses
         structure = poses.model.suspension.structure()
         self.joints, self.lines, self.parts = structure.joints, structure.lines, structure.parts
@@ -61,10 +75,19 @@ class Equations:
         self._units = [
             joint.unit_loads(poses.points, poses.turned, poses.design) for joint in self.joints
         ]
-        (held,) = (line for line in self.lines if line.name == holding)
-        self._inverse = self._inverted(held)
+        matrix = self._matrix()
+        held = self._upward() if holding == "road" else self.pushed("spring")
+        matrix[..., -1] = self.applied(held)
+        self._inverse, self.sound = _inverted(matrix)
 
-    def _inverted(self, held: Line) -> Array:
+    def _upward(self) -> list[Load]:
+        """Return a vertical force of 1 N on the wheel at its contact, or else at its centre."""
+        points = self.poses.points
+        at = points.get(CONTACT, points[CENTER])
+        return [Load("wheel", CONTACT, "road", UP, np.zeros(3), at)]
+
+    def _matrix(self) -> Array:
+        """Return what the joints carry as columns, and room for one more."""
         size = 6 * len(self.parts)
         matrix = np.zeros((*self.poses.states.shape[:-1], size, size))
         column = 0
@@ -76,26 +99,13 @@ class Equations:
                         moved = _about(self.poses, part, point, units[..., i, :, :])
                         matrix[..., self._rows[part], columns] += sign * moved
             column = columns.stop
-        for part, load in self._pushing(held):
-            matrix[..., self._rows[part], column] = load
-        inverse: Array = np.linalg.inv(matrix)
-        condition = np.abs(matrix).sum(-2).max(-1) * np.abs(inverse).sum(-2).max(-1)
-        if not (condition < _WORST_CONDITION).all():
-            height = 1e3 * float(self.poses.points["wheel_center"][condition.argmax(), 2])
-            problem = (
-                f"at a wheel height of {height:.6g} mm the joints cannot carry a load: the linkage "
-                "is at a dead point there."
-            )
-            raise InputError([problem], "loads")
-        return inverse
+        return matrix
 
-    def _pushing(self, line: Line) -> Iterator[tuple[str, Array]]:
-        """Yield the wrenches of a unit force along a line on parts that move."""
-        points, centers = self.poses.points, self.poses.centers
-        along = line.direction(points)
-        for part, point, sign in zip((line.first, line.second), line.at, (-1.0, 1.0), strict=True):
-            if part not in GROUND:
-                yield part, wrench_about(centers[part], points[point], sign * along)
+    def check(self) -> None:
+        """Refuse dead points."""
+        if not self.sound.all():
+            height = 1e3 * float(self.poses.points[CENTER][~self.sound][0, 2])
+            raise InputError([f"at a wheel height of {height:.6g} mm: {DEAD_POINT}"], "loads")
 
     def solve(self, applied: Array) -> Array:
         """Return the unknowns under loads on the parts.
@@ -111,7 +121,7 @@ class Equations:
 
     def applied(self, loads: list[Load]) -> Array:
         """Return loads as a vector, (n, 6 parts)."""
-        total = np.zeros(self._inverse.shape[:-1])
+        total = np.zeros((*self.poses.states.shape[:-1], 6 * len(self.parts)))
         for load in loads:
             if load.part not in GROUND:
                 center = self.poses.centers[load.part]
@@ -135,7 +145,7 @@ class Equations:
     def pushed(self, line: str) -> list[Load]:
         """Return a unit force along a line, on both of its parts."""
         (found,) = (known for known in self.lines if known.name == line)
-        return self._along(found, np.ones(self._inverse.shape[:-2]))
+        return self._along(found, np.ones(self.poses.states.shape[:-1]))
 
     def _along(self, line: Line, force: Array) -> list[Load]:
         points = self.poses.points
@@ -171,6 +181,18 @@ class Equations:
             carried = unknowns[:, column : column + units.shape[-1]]
             column += units.shape[-1]
             yield np.einsum("npru,nuc->nprc", units, carried)
+
+
+def _inverted(matrix: Array) -> tuple[Array, NDArray[np.bool_]]:
+    """Return inverse matrices, and which of them are no nonsense."""
+    try:
+        inverse: Array = np.linalg.inv(matrix).astype(float)
+    except np.linalg.LinAlgError:
+        # one that is singular to the last bit spoils all
+        sound = np.linalg.cond(matrix) < _WORST_CONDITION
+        return np.linalg.pinv(matrix).astype(float), sound
+    condition = np.abs(matrix).sum(-2).max(-1) * np.abs(inverse).sum(-2).max(-1)
+    return inverse, condition < _WORST_CONDITION
 
 
 def _on_both(joint: Joint, point: str, wrench: Array, at: Array) -> list[Load]:

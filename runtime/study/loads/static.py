@@ -11,13 +11,14 @@ from scipy.optimize.elementwise import find_root
 from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.quantities import variable
+from ...suspension.corner import UP
 from ...suspension.model import Model
 from ...suspension.positions import PositionError, arm_angles, design_height, equilibrium
 from ...suspension.reach import at_rest, travel_range
-from .cases import Case, cases_of, standard_cases
+from .cases import GREATEST, Case, cases_of, standard_cases
 from .dataset import CASE, dataset_of
 from .poses import CENTER, CONTACT, Poses
-from .reactions import Equations, Load
+from .reactions import DEAD_POINT, Equations, Load
 
 Array = NDArray[np.float64]
 
@@ -82,7 +83,9 @@ def static(
             if static_load is None:
                 static_load = _at_rest_on_the_road(given, model, described)
             else:
-                static_load = given.number("static_load", static_load, "N", above=0.0)
+                static_load = given.number(
+                    "static_load", static_load, "N", above=0.0, below=GREATEST
+                )
             wanted = cases_of(given, described, static_load)
             if not wanted and not given.refused:
                 given.refuse("cases: one or more are needed.")
@@ -115,34 +118,45 @@ def _positions(model: Model, cases: Sequence[Case]) -> tuple[Array, list[str]]:
     """Return the arm angle of each case, and why there is none."""
     angles = np.full(len(cases), np.nan)
     reasons = [""] * len(cases)
-    for i, case in enumerate(cases):
-        if case.travel is None:
-            continue
-        try:
-            angles[i] = arm_angles(model, design_height(model) + case.travel, case.rack)
-        except PositionError as error:
-            reasons[i] = str(error)
-    for rack in dict.fromkeys(case.rack for case in cases if case.travel is None):
-        rows = [i for i, c in enumerate(cases) if c.travel is None and c.rack == rack]
-        try:
-            found, told = _equilibria(model, rack, [cases[i] for i in rows])
-        except PositionError as error:
-            found, told = np.full(len(rows), np.nan), [str(error)] * len(rows)
-        angles[rows] = found
-        for i, reason in zip(rows, told, strict=True):
-            reasons[i] = reason
+    for rack in dict.fromkeys(case.rack for case in cases):
+        free = [i for i, c in enumerate(cases) if c.rack == rack and c.travel is None]
+        held = [i for i, c in enumerate(cases) if c.rack == rack and c.travel is not None]
+        found = [(i, _held(model, cases[i])) for i in held]
+        if free:
+            found += zip(free, _equilibria(model, rack, [cases[i] for i in free]), strict=True)
+        for i, (angle, reason) in found:
+            angles[i], reasons[i] = angle, reason
     return angles, reasons
 
 
-def _equilibria(model: Model, rack: float, cases: Sequence[Case]) -> tuple[Array, list[str]]:
-    """Return where the suspension carries some cases: nothing has to hold it besides."""
-    reach = travel_range(model, rack)
+def _held(model: Model, case: Case) -> tuple[float, str]:
+    """Return where a suspension stands that is held at a travel, or why it cannot."""
+    height = design_height(model) + (case.travel or 0.0)
+    try:
+        angle = float(arm_angles(model, height, case.rack))
+    except PositionError as error:
+        return np.nan, str(error)
+    equations = Equations(Poses.of(model, *at_rest(model, [angle], case.rack)))
+    (vertical,) = _holding(equations, [case])
+    if not np.isfinite(vertical):
+        return np.nan, DEAD_POINT
+    if vertical < 0.0:
+        return np.nan, f"the road would have to pull the wheel there with {-vertical:.4g} N."
+    return angle, ""
+
+
+def _equilibria(model: Model, rack: float, cases: Sequence[Case]) -> list[tuple[float, str]]:
+    """Return where the suspension carries some cases, nothing holding it, or why it does not."""
+    try:
+        reach = travel_range(model, rack)
+    except PositionError as error:
+        return [(np.nan, str(error))] * len(cases)
     # a linkage that locks at the end of its reach carries anything, with forces that break it
     grid = np.linspace(*reach.arm_angle, _GRID)[1:-1]
     everywhere = Equations(Poses.of(model, *at_rest(model, grid, rack)))
     holding = np.stack([_holding(everywhere, [case] * grid.size) for case in cases])
-    # from low to high the wheel needs less and less of a push to stay, where it is stable
-    stable: NDArray[np.bool_] = (holding[:, :-1] >= 0.0) & (holding[:, 1:] < 0.0)
+    # from low to high the wheel needs more and more of a load to stay, where it is stable
+    stable: NDArray[np.bool_] = (holding[:, :-1] <= 0.0) & (holding[:, 1:] > 0.0)
     distance = np.where(stable, np.abs(grid[:-1] - model.design_state[0]), np.inf)
     there = np.flatnonzero(stable.any(axis=1))
     at = distance.argmin(axis=1)[there]
@@ -156,27 +170,35 @@ def _equilibria(model: Model, rack: float, cases: Sequence[Case]) -> tuple[Array
         elementwise: Any = find_root  # its stubs know no arguments beside the first
         bracket = grid[at], grid[at + 1]
         angles[there] = elementwise(left, bracket, args=(there.astype(float),)).x
-    reasons = [
-        "" if np.isfinite(angle) else _out_of_reach(reach.height, held)
+    return [
+        (float(angle), "" if np.isfinite(angle) else _not_carried(model, reach.height, held))
         for angle, held in zip(angles, holding, strict=True)
     ]
-    return angles, reasons
 
 
-def _out_of_reach(height: tuple[float, float], held: Array) -> str:
+def _not_carried(model: Model, height: tuple[float, float], held: Array) -> str:
+    """Say why spring and stops do not carry a case, and what would help."""
     low, high = (1e3 * end for end in height)
-    return (
-        f"spring and stops do not carry it between wheel heights of {low:.1f} mm and {high:.1f} "
-        f"mm: a push of {held[0]:.4g} N along the damper is missing near the lower end, and of "
-        f"{held[-1]:.4g} N near the upper one. Give the file its stops, or the case its travel_mm."
-    )
+    ends = f"between wheel heights of {low:.1f} mm and {high:.1f} mm"
+    advice = "Give the case its travel_mm, or correct the forces."
+    if held[-1] < 0.0:
+        problem = f"{-held[-1]:.4g} N too much for spring and stops even near the upper end"
+        if model.suspension.bump_stop is None:
+            advice = "Give the file its [bump_stop], or the case its travel_mm."
+    elif held[0] > 0.0:
+        problem = f"spring and stops push by {held[0]:.4g} N too much even near the lower end"
+        if model.suspension.rebound_stop is None:
+            advice = "Give the file its [rebound_stop], or the case its travel_mm."
+    else:
+        problem = "no position is stable"
+    return f"it is not carried {ends}: {problem}. {advice}"
 
 
 def _holding(equations: Equations, cases: Sequence[Case]) -> Array:
-    """Return the force along the damper that has to hold each position besides [N]."""
+    """Return the vertical force of the road that each position needs besides [N]."""
     outside = _outside(equations.poses, cases)
     unknowns = equations.solve(equations.applied(equations.known() + outside))
-    holding: Array = unknowns[..., -1]
+    holding: Array = np.where(equations.sound, unknowns[..., -1], np.nan)
     return holding
 
 
@@ -225,15 +247,11 @@ def _dataset(
     outside = _outside(poses, possible)
     applied = equations.applied(equations.known() + outside)
     road, _ = outside
-    held = np.array([case.travel is not None for case in possible])
-    # what a vertical force of 1 N does, where it is what holds the suspension
-    upward = Load("wheel", CONTACT, "road", poses.wheel_axes()[:, 2], np.zeros(3), road.at)
-    by_one = equations.solve(equations.applied([upward]))
     unknowns = equations.solve(applied)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        vertical = np.where(held, -unknowns[:, -1] / by_one[:, -1], 0.0)
-    unknowns = unknowns + vertical[:, None] * by_one
-    pushed = road.force + vertical[:, None] * upward.force
+    # the road has what holds a suspension that is held, and nothing has what is left of others
+    held = np.array([case.travel is not None for case in possible])
+    vertical = np.where(held, unknowns[:, -1], 0.0)
+    pushed = road.force + vertical[:, None] * UP
     outside[0] = Load("wheel", CONTACT, "road", pushed, road.moment, road.at)
     found = dataset_of(poses, CASE, equations.carried(unknowns) + equations.known() + outside)
     found = found.assign_coords({CASE: [case.name for case in possible]})
@@ -242,7 +260,7 @@ def _dataset(
     found["rack"] = variable(CASE, racks, "displacement of the rack", "m")
     found["wheel_load"] = variable(CASE, pushed[:, 2], "vertical force of the road", "N")
     found["holding_force"] = variable(
-        CASE, unknowns[:, -1], "force along the damper that holds the suspension besides", "N"
+        CASE, unknowns[:, -1] - vertical, "vertical force at the contact that is missing", "N"
     )
     found = found.reindex({CASE: [case.name for case in cases]})
     found["reason"] = variable(CASE, np.array(reasons), "why the case cannot be carried", "1")

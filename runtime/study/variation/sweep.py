@@ -116,6 +116,8 @@ def _axes(given: Arguments, suspension: Suspension, grid: Mapping[Any, Any]) -> 
             numbers = given.array(f"values of {name}", along, place.unit, dimensions=[0, 1])
             if np.unique(numbers).size != numbers.size:
                 given.refuse(f"values of {name}: each is needed once.")
+            if place in axes:
+                given.refuse(f"{name} stands for {place.name}, which is named twice.")
             axes[place] = np.atleast_1d(numbers) * place.to_si
     if not axes:
         given.refuse("values: one place or more is needed.")
