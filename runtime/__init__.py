@@ -119,6 +119,7 @@ _INTERFACES = {
     "measurement": ".study.measurement",
     "plots": ".plots",
     "report": ".report",
+    "rig": ".study.rig",
     "roads": ".simulation.roads",
     "scenario": ".study.scenario",
     "schema": ".suspension.schema",

@@ -72,8 +72,9 @@ LINES = commands_of(PAGE)
 # whole reports: test_report.py
 @pytest.mark.usefixtures("coarse_report", "each_page_of_curves_once")
 def test_the_documented_commands_run(kintrafo, tmp_path):
-    (road,) = re.findall(r"```csv\n(.*?)```", PAGE, flags=re.DOTALL)
-    (tmp_path / "road.csv").write_text(road, encoding="utf-8")
+    tables = re.findall(r"```csv\n(.*?)```", PAGE, flags=re.DOTALL)
+    for name, text in zip(("rig.csv", "road.csv"), tables, strict=True):
+        (tmp_path / name).write_text(text, encoding="utf-8")
     for name in ("MacPhersonStrut.json", "RigidTire.json"):
         shutil.copy(ROOT / "tests/data/chrono" / name, tmp_path)
     assert len(LINES) > 15

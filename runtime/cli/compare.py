@@ -6,7 +6,7 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
-from .console import console, print_json, progress_bar, significant
+from .console import console, print_json, progress_bar, say, significant
 from .options import Files, Force, Json, Of, among, load
 from .outputs import Figures, Formats, Out, Outputs, Plot, name_files
 
@@ -14,10 +14,12 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
     from ..study.compare import Difference
+    from ..suspension.model import Model
 
 EXAMPLES = (
     "kintrafo compare reference_car my_car.toml",
     "kintrafo compare before.toml after.toml --over rack --plot difference.png -o both.csv",
+    "kintrafo compare rig.csv my_car.toml --plot measured.png",
     "kintrafo compare before.toml after.toml --of toe --of bump_steer --plot steer.png",
 )
 
@@ -34,30 +36,57 @@ def command(
     force: Force = False,
     json: Json = False,
 ) -> None:
-    """Compare the characteristics of two or more suspensions.
+    """Compare the characteristics of two or more suspensions, or with curves that were measured.
 
     Differences are those from the first file: at design, and where they are largest. Data files
-    have all characteristics.
+    have all characteristics. A file .csv has measured curves, wheel_travel [mm] or rack_position
+    [mm] and toe [deg] and so on in its first line: the others are compared with it.
     """
-    from ..core.quantities import distinct
     from ..study import compare
 
     outputs = Outputs.of(out, plot, figures, formats, force=force, inputs=files)
-    models = dict(zip(distinct(files), map(load, files), strict=True))
-    with progress_bar("characteristics") as progress:
-        dataset = compare.compare(models, over=over, progress=progress)
+    measured = [file for file in files if file.lower().endswith(".csv")]
+    if measured:
+        dataset = _beside(files, measured)
+    else:
+        models = _models(files)
+        with progress_bar("characteristics") as progress:
+            dataset = compare.compare(models, over=over, progress=progress)
     shown = among(of, map(str, dataset.data_vars)) if of else [str(n) for n in dataset.data_vars]
     found = [difference for difference in compare.differences(dataset) if difference.name in shown]
-    written = outputs.write(dataset, title=" and ".join(models), names=shown if of else ())
+    first, *others = (str(name) for name in dataset["data_set"].values)
+    title = " and ".join([first, *others])
+    written = outputs.write(dataset, title=title, names=shown if of else ())
     if json:
         print_json(
             [vars(difference) | {"units": _units(dataset, difference)} for difference in found]
         )
         return
-    for name in list(models)[1:]:
+    for name in others:
         chosen = [difference for difference in found if difference.data_set == name]
-        console.print(_table(dataset, chosen, next(iter(models)), name))
+        console.print(_table(dataset, chosen, first, name))
+    if dataset.attrs.get("left_out"):
+        say(f"columns that were not read: {dataset.attrs['left_out']}.")
     name_files(written)
+
+
+def _models(files: list[str]) -> "dict[str, Model]":
+    from ..core.quantities import distinct
+
+    return dict(zip(distinct(files), map(load, files), strict=True))
+
+
+def _beside(files: list[str], measured: list[str]) -> "Dataset":
+    """Return the curves of suspensions beside those of a measurement."""
+    from ..study import rig
+
+    if len(measured) > 1:
+        raise typer.BadParameter(f"one file of measured curves, not {len(measured)}")
+    curves = rig.measured_curves(measured[0])
+    models = _models([file for file in files if file not in measured])
+    if not models:
+        raise typer.BadParameter("a hardpoint file is needed besides the measured curves")
+    return rig.beside(curves, models, measured[0])
 
 
 def _units(dataset: "Dataset", difference: "Difference") -> str:

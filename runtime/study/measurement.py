@@ -11,16 +11,12 @@ from numpy.typing import NDArray
 
 from ..core.arguments import Arguments
 from ..core.errors import InputError
-from ..core.files import reason
 from ..core.suggestions import nearest, suggestion
 from ..simulation.interpolation import Between, Samples
 from ..suspension.kinds import KINDS
+from .csv_columns import Sheet
 
 Array = NDArray[np.float64]
-
-_DELIMITERS = ("\t", ";", ",")
-# Problems with single rows are listed up to this number.
-_MOST_LISTED = 5
 
 
 class _Column(NamedTuple):
@@ -98,36 +94,17 @@ def measured(path: str | Path, *, speed: float | None = None) -> Measurement:
         given.kind("path", path, (str, Path), "the path of a CSV file is needed")
         if speed is not None:
             given.number("speed", speed, "m/s", above=0.0)
-    source = str(path)
-    lines = _lines_of(Path(path))
-    if not lines:
-        raise InputError(["the file is empty. The first line names the columns."], source)
-    delimiter = next((d for d in _DELIMITERS if d in lines[0][1]), ",")
-    names = _cells(lines[0][1], delimiter)
-    _check_names(names, source)
-    table = _numbers(lines[1:], names, delimiter, source)
+    sheet = Sheet.read(Path(path))
+    _check_names(sheet.names, sheet.source)
+    table = sheet.numbers(_COLUMNS)
     columns = {
         _COLUMNS[name].quantity: table[:, i] * _COLUMNS[name].factor
-        for i, name in enumerate(names)
+        for i, name in enumerate(sheet.names)
         if name in _COLUMNS
     }
-    times = _times(columns, [number for number, _ in lines[1:]], speed, source)
+    times = _times(columns, sheet.line_numbers, speed, sheet.source)
     values = {name: column for name, column in columns.items() if name not in _ABSCISSAE}
     return Measurement(times, values)
-
-
-def _lines_of(path: Path) -> list[tuple[int, str]]:
-    """Return the lines that hold something, with their numbers."""
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        problem = f"the file cannot be read: {reason(error)}"
-        raise InputError([problem], str(path)) from None
-    except UnicodeDecodeError:
-        problem = "the file is not text in UTF-8. Save it as CSV with UTF-8 encoding."
-        raise InputError([problem], str(path)) from None
-    numbered = enumerate(text.splitlines(), start=1)
-    return [(number, line) for number, line in numbered if line.strip() and line[0] != "#"]
 
 
 def _check_names(names: list[str], source: str) -> None:
@@ -160,55 +137,6 @@ def _check_names(names: list[str], source: str) -> None:
 def _resembles(name: str) -> bool:
     """Tell whether a column that is not known was probably meant to be one that is."""
     return name.partition("_")[0].lower() in {known.partition("_")[0] for known in _COLUMNS}
-
-
-def _cells(line: str, delimiter: str) -> list[str]:
-    return [cell.strip().strip('"') for cell in line.split(delimiter)]
-
-
-def _numbers(lines: list[tuple[int, str]], names: list[str], delimiter: str, source: str) -> Array:
-    """Return the numbers of the known columns, and NaN for the others."""
-    problems = []
-    if len(lines) < 2:
-        problems.append(f"rows of numbers: {len(lines)}; at least two are needed.")
-    rows = []
-    for number, line in lines:
-        cells = _cells(line, delimiter)
-        problem, values = _row(names, cells, delimiter)
-        rows.append(values)
-        if problem:
-            problems.append(f"line {number} {problem}")
-        if len(problems) > _MOST_LISTED:
-            problems[_MOST_LISTED:] = ["and perhaps more lines."]
-            break
-    if problems:
-        raise InputError(problems, source)
-    return np.array(rows)
-
-
-def _row(names: list[str], cells: list[str], delimiter: str) -> tuple[str, list[float]]:
-    """Return what is wrong with a row, empty if nothing is, and its values."""
-    if len(cells) != len(names):
-        counts = f"has {len(cells)} values; the first line names {len(names)} columns."
-        return f"{counts} Separate them alike.", []
-    values = [
-        _number(cell, delimiter) if name in _COLUMNS else math.nan
-        for name, cell in zip(names, cells, strict=True)
-    ]
-    for name, cell, value in zip(names, cells, values, strict=True):
-        if name in _COLUMNS and not math.isfinite(value):
-            return f"has {name} = {cell!r}; a finite number is needed.", values
-    return "", values
-
-
-def _number(cell: str, delimiter: str) -> float:
-    """Return the number in a cell; NaN where there is none."""
-    if "_" in cell:  # Python's own way to group digits, and a slip of the pen in a file
-        return math.nan
-    try:
-        return float(cell if delimiter == "," else cell.replace(",", "."))
-    except ValueError:
-        return math.nan
 
 
 def _times(

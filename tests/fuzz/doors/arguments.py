@@ -23,6 +23,7 @@ from kintrafo import (
     loads,
     measurement,
     plots,
+    rig,
     roads,
     scenario,
     sweep,
@@ -133,6 +134,10 @@ CALLS = {
             "axial_N_per_mm": 1e3, "radial_N_per_mm": [1e3, 2e3], "axis": [1.0, 0.1, 0.0],
             "radial_axis": [0.0, 0.0, 1.0],
         },
+    ),
+    "rig.measured_curves": (rig.measured_curves, {"path": "no.csv"}),
+    "rig.beside": (
+        rig.beside, {"measured": None, "models": {"a": _CAR}, "name": "measured"},
     ),
     "loads.along": (loads.along, {"model": _CAR, "result": None}),
     "loads.table": (loads.table, {"dataset": None}),

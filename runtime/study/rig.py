@@ -1,0 +1,223 @@
+"""Curves that were measured on a rig: reading them, and characteristics beside them."""
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ..core.arguments import Arguments
+from ..core.errors import InputError
+from ..core.suggestions import nearest
+from ..suspension.model import Model
+from . import characteristics
+from .characteristics import catalogue
+from .characteristics.catalogue import Quantity
+from .characteristics.datasets import RACK, TRAVEL
+from .compare import DATA_SET
+from .csv_columns import Sheet
+
+Array = NDArray[np.float64]
+
+_UNITS = {
+    "m": ("m", 1.0),
+    "mm": ("m", 1e-3),
+    "rad": ("rad", 1.0),
+    "deg": ("rad", math.pi / 180.0),
+    "\u00b0": ("rad", math.pi / 180.0),
+    "N": ("N", 1.0),
+    "kN": ("N", 1e3),
+    "%": ("1", 1e-2),
+    "1": ("1", 1.0),
+    "-": ("1", 1.0),
+    "": ("1", 1.0),
+}
+_KNOWN = {
+    TRAVEL.name: {q.name: q for q in catalogue.CORNER + catalogue.TRAVEL},
+    RACK.name: {
+        q.name: q for q in (*catalogue.CORNER, *catalogue.STEERING, *catalogue.AXLE.values())
+    },
+}
+_EVERY = {name: quantity for known in _KNOWN.values() for name, quantity in known.items()}
+_ALONG = {TRAVEL.name: TRAVEL, RACK.name: RACK}
+
+
+def measured_curves(path: str | Path) -> xr.Dataset:
+    """Read curves from a CSV file.
+
+    The first line names the columns, each with its unit in brackets: ``wheel_travel [mm]`` or
+    ``rack_position [mm]``, and characteristics, such as ``toe [deg]`` or ``wheel_rate [N/mm]``, by
+    their names in kintrafo. Columns of other names are left out. Rows may be in any order, and a
+    position may be there more than once, as of a loop with friction. A cell may be empty. Where
+    both positions are there, one must be the same in all rows: the suspension is held there.
+
+    Parameters
+    ----------
+    path : str or pathlib.Path
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``wheel_travel`` or ``rack_position`` [m]; SI units. The attribute ``left_out`` names
+        the columns that were not read.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be used.
+    """
+    with Arguments("measured_curves") as given:
+        given.path("path", path)
+    sheet = Sheet.read(Path(path))
+    split = {name: _split(name) for name in sheet.names}
+    places = [name for name, (quantity, _) in split.items() if quantity in _ALONG]
+    curves = {name: _EVERY[q] for name, (q, _) in split.items() if q in _EVERY}
+    _check(sheet, split, curves, places)
+    numbers = sheet.numbers((*places, *curves), may_be_empty=curves)
+    table = {
+        split[name][0]: numbers[:, i] * _factor(split[name][1])
+        for i, name in enumerate(sheet.names)
+        if name in (*places, *curves)
+    }
+    varying, held = _told_apart(sheet, {split[name][0]: table[split[name][0]] for name in places})
+    along = _ALONG[varying]
+    data = {
+        quantity.name: xr.Variable(varying, table[quantity.name], quantity.attributes())
+        for quantity in curves.values()
+        if quantity.name in _KNOWN[varying]
+    }
+    coordinates = {varying: xr.Variable(varying, table[varying], along.attributes())}
+    coordinates |= {name: xr.Variable((), at, _ALONG[name].attributes()) for name, at in held}
+    read = {name for name in sheet.names if name in places or split[name][0] in data}
+    left = ", ".join(name for name in sheet.names if name not in read)
+    return xr.Dataset(data, coordinates, {"title": "measured curves", "left_out": left})
+
+
+def _told_apart(sheet: Sheet, places: Mapping[str, Array]) -> tuple[str, list[tuple[str, float]]]:
+    """Return which position varies, and where the other one is held if it is there."""
+    varying = [name for name, values in places.items() if np.ptp(values) > 0.0]
+    if len(varying) != 1:
+        problem = (
+            f"one of {' and '.join(places)} must vary along the curves, and the other be held; "
+            f"{len(varying)} vary."
+        )
+        raise InputError([problem], sheet.source)
+    held = [(name, float(values[0])) for name, values in places.items() if name not in varying]
+    return varying[0], held
+
+
+def beside(measured: xr.Dataset, models: Mapping[str, Model], name: str = "measured") -> xr.Dataset:
+    """Return characteristics at the positions of measured curves, beside these.
+
+    Parameters
+    ----------
+    measured : xarray.Dataset
+        From `measured_curves`.
+    models : mapping of str to Model
+        By the names that stand beside their curves.
+    name : str, optional
+        That of the measurement.
+
+    Returns
+    -------
+    xarray.Dataset
+        As of `kintrafo.compare.compare`, with what was measured as the first ``data_set``.
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used.
+    PositionError
+        If a suspension does not reach a position.
+    """
+    with Arguments("beside") as given:
+        given.dataset(measured)
+        for model in given.mapping("models", models, "names and models").values():
+            given.kind("model", model, Model, Model.NEEDED)
+        if not (models or given.refused):
+            given.refuse("models is empty: one or more are needed.")
+        if not given.refused and len({*measured.dims} & {*_ALONG}) != 1:
+            given.refuse("measured: what kintrafo.rig.measured_curves returns is needed.")
+    found = [measured]
+    for model in models.values():
+        whole = _curves(model, measured)
+        found.append(whole[[n for n in map(str, measured) if n in whole]])
+    names = xr.Variable(DATA_SET, [name, *models], {"long_name": "data set"})
+    # positions are the same and may repeat: nothing is to be aligned
+    return xr.concat(
+        found, names, join="override", coords="minimal", compat="override",
+        combine_attrs="override",
+    )  # fmt: skip
+
+
+def _curves(model: Model, measured: xr.Dataset) -> xr.Dataset:
+    """Return the characteristics at the positions of a measurement."""
+
+    def held(name: str) -> float:
+        return float(measured[name]) if name in measured.coords else 0.0
+
+    if TRAVEL.name in measured.dims:
+        travels = measured[TRAVEL.name].values
+        return characteristics.travel(model, travels, rack_position=held(RACK.name))
+    return characteristics.steering(model, measured[RACK.name].values, travel=held(TRAVEL.name))
+
+
+def _split(column: str) -> tuple[str, str]:
+    """Return name and unit of a column: ``toe [deg]``, ``toe (deg)``, ``motion_ratio``."""
+    found = re.fullmatch(r"\s*(\w+)\s*(?:[\[(]([^\])]*)[\])])?\s*", column)
+    return (found[1], (found[2] or "").strip()) if found else (column, "")
+
+
+def _check(
+    sheet: Sheet,
+    split: Mapping[str, tuple[str, str]],
+    curves: Mapping[str, Quantity],
+    places: Sequence[str],
+) -> None:
+    names = [split[name][0] for name in (*places, *curves)]
+    problems = [
+        f"{name} stands in {names.count(name)} columns. Keep one of them."
+        for name in dict.fromkeys(names)
+        if names.count(name) > 1
+    ]
+    units = dict.fromkeys(places, "m") | {name: quantity.units for name, quantity in curves.items()}
+    for name, unit in units.items():
+        given = split[name][1]
+        if _in_si(given)[0] != unit:
+            problems.append(
+                f"column {name!r}: the unit {given or '(none)'} does not fit {split[name][0]}, "
+                f"which is in {unit} or what people use of it."
+            )
+    if not places:
+        problems.append(
+            f"one column {TRAVEL.name} [mm] or {RACK.name} [mm] is needed; the first line has "
+            f"{sheet.names}."
+        )
+    if not curves and not problems:
+        others = [quantity for quantity, _ in split.values() if quantity not in _ALONG]
+        hints = [f"Did you mean {h}?" for h in (nearest(name, _EVERY) for name in others) if h]
+        problems.append(
+            " ".join([f"no characteristic is among the columns {sheet.names}.", *hints[:1]])
+        )
+    if problems:
+        raise InputError(problems, sheet.source)
+
+
+def _in_si(unit: str) -> tuple[str, float]:
+    """Return the SI unit of one for people, and the factor to it; empty if it is not known."""
+    parts = [_UNITS.get(part.strip()) for part in unit.split("/")]
+    known = [part for part in parts if part is not None]
+    if len(known) < len(parts) or len(parts) > 2:
+        return "", math.nan
+    factor = known[0][1] / (known[1][1] if len(known) == 2 else 1.0)
+    if len(known) == 1 or known[1][0] == "1":
+        return known[0][0], factor
+    return ("1" if known[0][0] == known[1][0] else f"{known[0][0]}/{known[1][0]}"), factor
+
+
+def _factor(unit: str) -> float:
+    """Return what a number in a unit is multiplied with for one in its SI unit."""
+    return _in_si(unit)[1]

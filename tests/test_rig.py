@@ -1,0 +1,113 @@
+"""Measured curves: read as they were written, and characteristics at the same positions."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from kintrafo import InputError, Model, PositionError, characteristics, compare, export, rig
+from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
+
+MODEL = Model("reference_car")
+LOOP = """# a loop, as a rig records it
+wheel_travel [mm];toe [deg];camber (rad);motion_ratio;wheel_rate [N/mm];remark [-]
+-40;0,1;0,002;0,95;22,1;a
+0;0;0;0,95;22,5;b
+40;-0,1;-0,002;;22,9;c
+0;0,02;0,0001;0,95;22,4;d
+"""
+
+
+@pytest.fixture
+def loop(tmp_path: Path) -> Path:
+    path = tmp_path / "rig.csv"
+    path.write_text(LOOP, encoding="utf-8")
+    return path
+
+
+def test_units_and_order_are_those_of_the_file(loop: Path) -> None:
+    found = rig.measured_curves(loop)
+    np.testing.assert_allclose(found["wheel_travel"], [-0.04, 0.0, 0.04, 0.0], rtol=1e-15)
+    np.testing.assert_allclose(found["toe"], np.deg2rad([0.1, 0.0, -0.1, 0.02]), rtol=1e-15)
+    assert found["camber"].values.tolist() == [0.002, 0.0, -0.002, 0.0001]
+    np.testing.assert_allclose(found["wheel_rate"], [22.1e3, 22.5e3, 22.9e3, 22.4e3], rtol=1e-15)
+    assert np.isnan(found["motion_ratio"].values).tolist() == [False, False, True, False]
+    assert found.attrs["left_out"] == "remark [-]"
+
+
+@pytest.mark.parametrize("over", ["travel", "rack"])
+def test_what_is_exported_is_read_back(tmp_path: Path, over: str) -> None:
+    """Our own curves as CSV, in units of people, are those of the car to the digits written."""
+    curves = characteristics.travel if over == "travel" else characteristics.steering
+    positions = [-0.03, 0.01, 0.03]
+    written = curves(MODEL, positions)
+    export.write(written, tmp_path / "a.csv")
+    read = rig.measured_curves(tmp_path / "a.csv")
+    assert {*map(str, read)} >= {"toe", "camber", "scrub_radius"}
+    both = rig.beside(read, {"car": MODEL})
+    assert both["data_set"].values.tolist() == ["measured", "car"]
+    for name in read:
+        # nine digits are written
+        np.testing.assert_allclose(both[name][0], both[name][1], rtol=1e-7, atol=1e-12)
+    assert {*read} == {*written}
+    # held elsewhere, they are those of there
+    held = {"rack_position": 0.02} if over == "travel" else {"travel": 0.02}
+    export.write(curves(MODEL, positions, **held), tmp_path / "b.csv")
+    both = rig.beside(rig.measured_curves(tmp_path / "b.csv"), {"car": MODEL})
+    np.testing.assert_allclose(both["toe"][0], both["toe"][1], rtol=1e-7)
+
+
+def test_characteristics_are_those_at_the_positions(loop: Path) -> None:
+    both = rig.beside(rig.measured_curves(loop), {"car": MODEL}, "rig")
+    expected = characteristics.travel(MODEL, [-0.04, 0.0, 0.04, 0.0])
+    for name in ("toe", "camber", "wheel_rate"):
+        np.testing.assert_array_equal(both[name].sel(data_set="car"), expected[name])
+    toe = next(d for d in compare.differences(both) if d.name == "toe")
+    off = expected["toe"].values - np.deg2rad([0.1, 0.0, -0.1, 0.02])
+    worst = abs(off).argmax()
+    assert (toe.where, toe.largest) == (expected["wheel_travel"].values[worst], off[worst])
+
+
+WRONG = [
+    ("toe [deg]\n1\n2\n", "one column wheel_travel"),
+    ("wheel_travel [mm],rack_position [mm],toe [deg]\n1,2,0\n2,3,0\n", "2 vary"),
+    ("wheel_travel [mm],toe [deg]\n1,2\n1,3\n", "0 vary"),
+    ("wheel_travel [mm],speed\n1,2\n2,3\n", "no characteristic"),
+    ("wheel_travel [mm],cambr [deg]\n1,2\n2,3\n", "Did you mean camber"),
+    ("wheel_travel [mm],toe\n1,2\n2,3\n", "unit \\(none\\) does not fit toe"),
+    ("wheel_travel [deg],toe [deg]\n1,2\n2,3\n", "unit deg does not fit wheel_travel"),
+    ("wheel_travel [mm],toe [mm]\n1,2\n2,3\n", "unit mm does not fit toe"),
+    ("wheel_travel [mm],toe [deg],toe [rad]\n1,2,3\n2,3,4\n", "stands in 2 columns"),
+    ("wheel_travel [mm],toe [deg]\n1,2\n,3\n", "line 3 has wheel_travel"),
+    ("wheel_travel [mm],toe [deg]\n1,2\n2,x\n", "line 3 has toe"),
+    ("wheel_travel [mm],toe [deg]\n1,2\n", "at least two"),
+    ("", "empty"),
+]
+
+
+@pytest.mark.parametrize(("text", "words"), WRONG)
+def test_what_cannot_be_used(tmp_path: Path, text: str, words: str) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=words):
+        rig.measured_curves(path)
+
+
+def test_positions_out_of_reach(tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text("wheel_travel [mm],toe [deg]\n0,0\n2000,1\n", encoding="utf-8")
+    with pytest.raises(PositionError, match="out of reach"):
+        rig.beside(rig.measured_curves(path), {"car": MODEL})
+
+
+def test_the_command(kintrafo: Any, loop: Path, tmp_path: Path) -> None:  # noqa: F811
+    code, out, err = kintrafo(
+        "compare", "reference_car", loop.name, "--plot", "a.png", "-o", "a.csv"
+    )
+    assert (code, err) == (0, "")
+    assert "reference_car compared with rig.csv" in " ".join(out.split())
+    assert "columns that were not read: remark [-]" in out
+    assert {path.name for path in tmp_path.iterdir()} == {"rig.csv", "a.png", "a.csv"}
+    code, _, err = kintrafo("compare", loop.name, loop.name)
+    assert code == 2
+    assert "one file of measured curves" in " ".join(err.split())
