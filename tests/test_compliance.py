@@ -299,6 +299,7 @@ WRONG: list[tuple[Any, dict[str, Any], str]] = [
     ({"arm_rear": {"radial": 1.0}}, {}, "Did you mean radial_"),
     ({"arm_rear": {"radial_N_per_mm": 0.0}}, {}, "of 0.001 N/mm or more"),
     ({"arm_rear": {"radial_N_per_mm": [1.0, 2.0, 3.0]}}, {}, "a number is needed, or two"),
+    ({"arm_rear": {"axis": [1.0, 0.0, 0.0]}}, {}, "is needed, or it is rigid"),
     ({"arm_rear": {"axis": [0.0, 0.0, 0.0]}}, {}, "not all zero"),
     ({"arm_rear": {"radial_axis": [1.0, 0.0, 0.0]}}, {}, "lies along the axis"),
     ({"arm_rear": {"tilt_Nm_per_deg": 1.0}}, {}, "only a wheel bearing"),

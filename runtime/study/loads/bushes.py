@@ -18,7 +18,8 @@ from .poses import CENTER
 
 Array = NDArray[np.float64]
 
-_KEYS = ("axial_N_per_mm", "radial_N_per_mm", "axis", "radial_axis", "tilt_Nm_per_deg")
+_STIFFNESSES = ("axial_N_per_mm", "radial_N_per_mm", "tilt_Nm_per_deg")
+_KEYS = (*_STIFFNESSES, "axis", "radial_axis")
 _PER_MM, _PER_DEG = 1e3, 180.0 / np.pi
 # No bush is softer or stiffer than this, in its units for people.
 _SOFTEST, _STIFFEST = 1e-3, 1e12
@@ -82,6 +83,8 @@ def bushes_of(given: Arguments, model: Model, described: Mapping[str, Any]) -> l
             continue
         for key in (key for key in table if key not in _KEYS):
             given.refuse(f"{title} {key} is not known. {suggestion(str(key), _KEYS)}")
+        if not any(key in table for key in _STIFFNESSES):
+            given.refuse(f"{title}: one of {', '.join(_STIFFNESSES)} is needed, or it is rigid.")
         axes = _axes(given, title, table, model, joints[point])
         compliance = np.zeros((6, 6))
         compliance[:3, :3] = axes.T @ np.diag(_translations(given, title, table)) @ axes
