@@ -319,6 +319,16 @@ def test_couples_are_shown_without_a_force(kintrafo: Any, tmp_path: Path) -> Non
     assert all(row[5:14] == [""] * 9 and "too much" in ",".join(row[14:]) for row in far)
 
 
+def test_extremes_are_printed(kintrafo: Any) -> None:  # noqa: F811
+    code, out, _ = kintrafo("loads", "offset_strut_car", "--envelope", "--part", "knuckle")
+    assert code == 0
+    ends = loads.envelope(loads.static(Model(OFFSET)))
+    end = ends.sel(load="knuckle at ball_joint by control_arm", axis="x")
+    for name in ("min", "max"):
+        words = rf"{end[f'force_{name}_case'].values} +{round(float(end[f'force_{name}']))}\b"
+        assert re.search(words, out), words
+
+
 def test_tables_need_all_of_it() -> None:
     found = loads.static(Model(CAR), STILL)
     for wrong in (found[["force"]], loads.envelope(found)):

@@ -43,6 +43,10 @@ def command(
             metavar="NAME", help="Show loads on these parts: knuckle, chassis. May be repeated."
         ),
     ] = None,
+    envelope: Annotated[
+        bool,
+        typer.Option("--envelope", help="Show the extremes of every component, and their cases."),
+    ] = False,
     out: Out = None,
     plot: Annotated[
         list[Path] | None,
@@ -89,7 +93,9 @@ def command(
     else:
         for name in shown or ():
             console.print(_components(found, name, parts, file))
-        if not shown:
+        if envelope:
+            console.print(_extremes(found, study.envelope(found), parts, file))
+        elif not shown:
             console.print(_overview(found, parts, file))
         _tell(found)
         name_files(written)
@@ -135,6 +141,25 @@ def _components(found: "Dataset", case: str, parts: list[str] | None, file: str)
     for i in _rows(found, parts):
         numbers = (*here["force"].values[i], *here["moment"].values[i])
         table.add_row(escape(_label(found, i)), *(_cell(float(number)) for number in numbers))
+    return table
+
+
+def _extremes(found: "Dataset", ends: "Dataset", parts: list[str] | None, file: str) -> Table:
+    """Return the least and the greatest of each component, with the cases in which they are."""
+    table = Table(title=escape(f"{file}: extremes of the forces [N], chassis axes"))
+    table.add_column("on the part, at, by")
+    for column in ("Fx", "Fy", "Fz"):
+        table.add_column(column, justify="right")
+    for i in _rows(found, parts):
+        cells = [
+            "\n".join(
+                f"{ends[f'force_{end}_case'].values[i, axis]} "
+                f"{_cell(float(ends[f'force_{end}'].values[i, axis])):>7}"
+                for end in ("min", "max")
+            )
+            for axis in range(3)
+        ]
+        table.add_row(escape(_label(found, i)), *map(escape, cells))
     return table
 
 
