@@ -214,19 +214,28 @@ def minimum(stiff: np.ndarray, held: np.ndarray, loads: np.ndarray) -> np.ndarra
     return np.linalg.lstsq(matrix, right, rcond=1e-15)[0][: len(stiff)]
 
 
-@pytest.mark.parametrize("held", ["spring", "locked", "height"])
+@pytest.mark.parametrize(
+    ("held", "travel", "rack"),
+    [
+        # spring and stop are free of force at design; 1e-9 m beyond it the stop has its rate
+        ("spring", 1e-9, 0.0),
+        ("height", 1e-9, 0.0),
+        ("locked", 0.06, 0.03),
+        ("locked", -0.05, -0.03),
+    ],
+)
 @pytest.mark.parametrize("some", [False, True])
 @pytest.mark.parametrize("car", [STRUT, WISHBONES], ids=lambda car: car.TITLE)
-def test_the_wheel_gives_way_as_springs_do(car: Suspension, some: bool, held: Any) -> None:
+def test_the_wheel_gives_way_as_springs_do(
+    car: Suspension, some: bool, held: Any, travel: float, rack: float
+) -> None:
     """Forces by statics and least energy against stiffnesses and constraints, two theories."""
     bushes = BUSHES_OF[car]
     if some:
         bushes = {name: bushes[name] for name in bushes if "rear" in name or "tie" in name}
-    # spring and stop are free of force at design; 1e-9 m beyond it the stop has its rate
-    rack = 0.03 if held == "locked" else 0.0
-    found = loads.compliance(Model(car), bushes, [1e-9], rack_position=rack, held=held)
+    found = loads.compliance(Model(car), bushes, [travel], rack_position=rack, held=held)
     ours = found["flexibility"].values[0]
-    springs = Stiffness(car, 1e-9, rack)
+    springs = Stiffness(car, travel, rack)
     theirs = springs.flexibility(bushes, held)
     forward = np.cross(springs.pose.rotation[-1] @ car.wheel.spin_axis(-1.0), Z)
     forward /= np.linalg.norm(forward)
@@ -280,6 +289,25 @@ def test_a_stiffer_bush_gives_less() -> None:
     np.testing.assert_allclose(soft["flexibility"], 1e8 * rigid["flexibility"], rtol=1e-9)
 
 
+def test_a_rod_gives_way_at_either_end() -> None:
+    model = Model("reference_car")
+    inner, outer = (
+        loads.compliance(model, {f"tie_rod_{end}": {"axial_N_per_mm": 500.0}}, [0.0])
+        for end in ("inner", "outer")
+    )
+    np.testing.assert_allclose(inner["flexibility"], outer["flexibility"], rtol=1e-9, atol=1e-18)
+
+
+def test_a_locked_spring_needs_no_rate() -> None:
+    car = Suspension.load("reference_car")
+    bush = {"arm_rear": {"radial_N_per_mm": np.array([1e3, 2e3])}}
+    one, other = (
+        loads.compliance(Model(c), bush, [0.0], held="locked")["flexibility"]
+        for c in (car, car.with_changes({"strut.spring_rate_N_per_m": 0.0}))
+    )
+    np.testing.assert_allclose(one, other, rtol=1e-9, atol=1e-18)
+
+
 def test_height_and_spring() -> None:
     """The contact stays where it is; or goes with the spring, however stiff the bushes."""
     model = Model("reference_car")
@@ -300,7 +328,10 @@ WRONG: list[tuple[Any, dict[str, Any], str]] = [
     ({"arm_rear": {"radial_N_per_mm": 0.0}}, {}, "of 0.001 N/mm or more"),
     ({"arm_rear": {"radial_N_per_mm": [1.0, 2.0, 3.0]}}, {}, "a number is needed, or two"),
     ({"arm_rear": {"axis": [1.0, 0.0, 0.0]}}, {}, "is needed, or it is rigid"),
-    ({"arm_rear": {"axis": [0.0, 0.0, 0.0]}}, {}, "not all zero"),
+    ({"arm_rear": {"axial_N_per_mm": 1.0, "axis": [0.0, 0.0, 0.0]}}, {}, "three numbers"),
+    ({"arm_rear": {"axial_N_per_mm": 1.0, "axis": [1e300, 0.0, 0.0]}}, {}, "three numbers"),
+    ({"ball_joint": {"axial_N_per_mm": 1.0}}, {}, "axis is needed"),
+    ({"strut_lower": {"axial_N_per_mm": 1.0}}, {}, "nothing along its axis"),
     ({"arm_rear": {"radial_axis": [1.0, 0.0, 0.0]}}, {}, "lies along the axis"),
     ({"arm_rear": {"tilt_Nm_per_deg": 1.0}}, {}, "only a wheel bearing"),
     ({"arm_rear": {"radial_N_per_mm": 1e3}}, {"held": "body"}, "height, spring, locked"),

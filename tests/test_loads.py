@@ -365,6 +365,7 @@ WRONG = [
     ({"a": {"contact": [0.0, 0.0, 1.0]}}, "Did you mean contact_"),
     ({"a": {"contact_N": [0.0, 1.0]}}, "three numbers are needed"),
     ({"a": {"contact_N": [0.0, np.nan, 1.0]}}, "finite"),
+    ({"a": {"contact_N": [0.0, 0.0, -1.0]}}, "road only pushes"),
     ({"a": {"contact_N": [0.0, 0.0, 1e12]}}, "each below 1e"),
     ({"a": {"contact_N": [0.0, 0.0, 1.0], "travel_mm": 3.0}}, "cannot be given besides"),
     ({"a": {"travel_mm": 900.0}}, "a: wheel height 1200 mm is out of reach"),

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 from kintrafo import InputError, Model, PositionError, characteristics, compare, export, rig
+from kintrafo.plots.curves import _alone
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 MODEL = Model("reference_car")
@@ -82,6 +83,9 @@ WRONG = [
     ("wheel_travel [mm],toe [deg]\n1,2\n2,x\n", "line 3 has toe"),
     ("wheel_travel [mm],toe [deg]\n1,2\n", "at least two"),
     ("", "empty"),
+    ("wheel_travel [mm],toe [deg],toe [deg]\n1,2,3\n2,3,4\n", "toe stands in 2 columns"),
+    ("wheel_travel [mm];wheel_rate [N/m]\n1;25,000\n2.5;26,000\n", "points and commas"),
+    ("rack_position [mm],wheel_rate [N/mm]\n1,2\n2,3\n", "known over wheel_travel only"),
 ]
 
 
@@ -91,6 +95,35 @@ def test_what_cannot_be_used(tmp_path: Path, text: str, words: str) -> None:
     path.write_text(text, encoding="utf-8")
     with pytest.raises(InputError, match=words):
         rig.measured_curves(path)
+
+
+def test_cells_of_spreadsheets(tmp_path: Path) -> None:
+    """Quoted cells, a held position that trembles, and what is infinite."""
+    path = tmp_path / "a.csv"
+    text = 'rack_position [mm],wheel_travel [mm],"toe [deg]","a; remark",turning_circle [m]\n'
+    text += '-20,5.0,"1.5","a, b",11\n0,5.001,2.5,"",inf\n20,5.0,3.5,c,\n'
+    path.write_text(text, encoding="utf-8")
+    found = rig.measured_curves(path)
+    np.testing.assert_allclose(np.rad2deg(found["toe"]), [1.5, 2.5, 3.5])
+    assert np.isnan(found["turning_circle"].values).tolist() == [False, True, True]
+    assert float(found["wheel_travel"]) == pytest.approx(0.005, abs=1e-6)
+
+
+def test_differences_are_where_both_are_known(tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text("wheel_travel [mm],toe [deg],camber [deg]\n40,,1\n0,,\n0,2,\n", "utf-8")
+    both = rig.beside(rig.measured_curves(path), {"car": MODEL})
+    toe, camber = compare.differences(both)
+    assert np.rad2deg(toe.first) == pytest.approx(2.0)
+    assert np.isnan([camber.first, camber.at_design]).all()
+    assert camber.where == pytest.approx(0.04)
+    with pytest.raises(InputError, match="that of a model"):
+        rig.beside(rig.measured_curves(path), {"measured": MODEL})
+
+
+def test_points_with_gaps_are_drawn() -> None:
+    values = np.array([1.0, np.nan, 2.0, 3.0, np.nan, 4.0])
+    assert _alone(values).tolist() == [True, False, False, False, False, True]
 
 
 def test_positions_out_of_reach(tmp_path: Path) -> None:
@@ -108,6 +141,8 @@ def test_the_command(kintrafo: Any, loop: Path, tmp_path: Path) -> None:  # noqa
     assert "reference_car compared with rig.csv" in " ".join(out.split())
     assert "columns that were not read: remark [-]" in out
     assert {path.name for path in tmp_path.iterdir()} == {"rig.csv", "a.png", "a.csv"}
+    code, _, err = kintrafo("compare", "reference_car", loop.name, "--over", "rack")
+    assert (code, "are not over that" in " ".join(err.split())) == (2, True)
     code, _, err = kintrafo("compare", loop.name, loop.name)
     assert code == 2
     assert "one file of measured curves" in " ".join(err.split())

@@ -27,7 +27,10 @@ EXAMPLES = (
 def command(
     files: Files,
     *,
-    over: Annotated[Literal["travel", "rack"], typer.Option(help="What varies.")] = "travel",
+    over: Annotated[
+        Literal["travel", "rack"] | None,
+        typer.Option(help="What varies. Default: travel, or that of the measured curves."),
+    ] = None,
     of: Of = None,
     out: Out = None,
     plot: Plot = None,
@@ -47,11 +50,11 @@ def command(
     outputs = Outputs.of(out, plot, figures, formats, force=force, inputs=files)
     measured = [file for file in files if file.lower().endswith(".csv")]
     if measured:
-        dataset = _beside(files, measured)
+        dataset = _beside(files, measured, over)
     else:
         models = _models(files)
         with progress_bar("characteristics") as progress:
-            dataset = compare.compare(models, over=over, progress=progress)
+            dataset = compare.compare(models, over=over or "travel", progress=progress)
     shown = among(of, map(str, dataset.data_vars)) if of else [str(n) for n in dataset.data_vars]
     found = [difference for difference in compare.differences(dataset) if difference.name in shown]
     first, *others = (str(name) for name in dataset["data_set"].values)
@@ -76,13 +79,17 @@ def _models(files: list[str]) -> "dict[str, Model]":
     return dict(zip(distinct(files), map(load, files), strict=True))
 
 
-def _beside(files: list[str], measured: list[str]) -> "Dataset":
+def _beside(files: list[str], measured: list[str], over: str | None) -> "Dataset":
     """Return the curves of suspensions beside those of a measurement."""
     from ..study import rig
 
     if len(measured) > 1:
         raise typer.BadParameter(f"one file of measured curves, not {len(measured)}")
     curves = rig.measured_curves(measured[0])
+    if over is not None and not any(
+        str(along).endswith((over, f"{over}_position")) for along in curves.dims
+    ):
+        raise typer.BadParameter(f"--over {over}: the measured curves are not over that")
     models = _models([file for file in files if file not in measured])
     if not models:
         raise typer.BadParameter("a hardpoint file is needed besides the measured curves")

@@ -278,6 +278,9 @@ def _draw(axes: Axes, data: xr.DataArray) -> str:
         axes.plot(position, values, dashes, color=colour)[0]
         for (_, values), (colour, dashes) in zip(lines, styles, strict=True)
     ]
+    for (_, values), (colour, _) in zip(lines, styles, strict=True):
+        alone = _alone(values)
+        axes.plot(position[alone], values[alone], "o", color=colour, markersize=3.5)
     if along in _WITH_DESIGN:
         axes.axvline(0.0, color="#888888", linewidth=0.8, zorder=1)
         for (_, values), (colour, _) in zip(lines, styles, strict=True):
@@ -295,6 +298,12 @@ def _draw(axes: Axes, data: xr.DataArray) -> str:
         axis.set_major_locator(MaxNLocator(nbins=7, steps=_TICK_STEPS))
         axis.set_major_formatter(ScalarFormatter(useOffset=False))
     return along
+
+
+def _alone(values: Array) -> NDArray[np.bool_]:
+    """Return which values have none beside them, so that no line shows them."""
+    known = np.isfinite(np.pad(values, 1, constant_values=np.nan))
+    return known[1:-1] & ~known[:-2] & ~known[2:]
 
 
 def _describe_alone(axes: Axes, data: xr.DataArray) -> None:

@@ -19,6 +19,9 @@ Over = Literal["travel", "rack"]
 
 DATA_SET = "data_set"
 
+# A position so near to zero is that of design, of a rig as well [m].
+_AT_DESIGN = 5e-4
+
 
 def compare(
     models: Mapping[str, Model],
@@ -162,8 +165,10 @@ def _difference(name: str, data: xr.DataArray, label: str) -> Difference:
     other = np.asarray(data.sel({DATA_SET: label}).values, dtype=np.float64)
     both = np.isfinite(first) & np.isfinite(other)
     change = np.subtract(other, first, out=np.full(first.shape, np.nan), where=both)
-    design = int(np.argmin(np.abs(positions)))
+    design = int(np.argmin(np.where(both, np.abs(positions), np.inf)))
     worst = int(np.nanargmax(np.abs(change))) if both.any() else design
+    if not abs(positions[design]) <= _AT_DESIGN:
+        first, other = np.full((2, positions.size), np.nan)
     return Difference(
         name=name,
         data_set=label,

@@ -1,6 +1,8 @@
 """Numbers by columns from CSV files, as spreadsheets and loggers write them."""
 
+import csv
 import math
+import re
 from collections.abc import Container
 from dataclasses import dataclass
 from pathlib import Path
@@ -48,7 +50,8 @@ class Sheet:
         if not lines:
             problem = "the file is empty. The first line names the columns."
             raise InputError([problem], str(path))
-        delimiter = next((d for d in _DELIMITERS if d in lines[0][1]), ",")
+        outside_quotes = re.sub(r'"[^"]*"', "", lines[0][1])
+        delimiter = next((d for d in _DELIMITERS if d in outside_quotes), ",")
         return cls(str(path), _cells(lines[0][1], delimiter), lines[1:], delimiter)
 
     @property
@@ -64,7 +67,7 @@ class Sheet:
         known : container of str
             Columns that are read.
         may_be_empty : container of str, optional
-            Those of them in which a cell may have nothing: NaN.
+            Those of them in which a cell may have nothing, or what is infinite: NaN.
 
         Raises
         ------
@@ -83,9 +86,24 @@ class Sheet:
             if len(problems) > _MOST_LISTED:
                 problems[_MOST_LISTED:] = ["and perhaps more lines."]
                 break
+        problems += self._marks(known)
         if problems:
             raise InputError(problems, self.source)
         return np.array(rows)
+
+    def _marks(self, known: Container[str]) -> list[str]:
+        """Refuse numbers with points and with commas: one of them may be that of thousands."""
+        if self._delimiter == ",":
+            return []
+        columns = [i for i, name in enumerate(self.names) if name in known]
+        cells = [_cells(line, self._delimiter) for _, line in self._lines]
+        text = "".join("".join(row[i : i + 1]) for row in cells for i in columns)
+        marks = {mark for mark in ",." if mark in text}
+        if len(marks) < 2:
+            return []
+        return [
+            "numbers have points and commas: write one of them, for decimals, and no thousands."
+        ]
 
     def _row(
         self, cells: list[str], known: Container[str], may_be_empty: Container[str]
@@ -99,10 +117,10 @@ class Sheet:
             for name, cell in zip(self.names, cells, strict=True)
         ]
         for name, cell, value in zip(self.names, cells, values, strict=True):
-            nothing = not cell and name in may_be_empty
+            nothing = name in may_be_empty and (not cell or math.isinf(value))
             if name in known and not (math.isfinite(value) or nothing):
                 return f"has {name} = {cell!r}; a finite number is needed.", values
-        return "", values
+        return "", [value if math.isfinite(value) else math.nan for value in values]
 
     def _number(self, cell: str) -> float:
         """Return the number in a cell; NaN where there is none."""
@@ -129,4 +147,8 @@ def _lines_of(path: Path) -> list[tuple[int, str]]:
 
 
 def _cells(line: str, delimiter: str) -> list[str]:
-    return [cell.strip().strip('"') for cell in line.split(delimiter)]
+    try:
+        (cells,) = csv.reader([line], delimiter=delimiter, skipinitialspace=True)
+    except (csv.Error, ValueError):  # a cell without end
+        cells = line.split(delimiter)
+    return [cell.strip() for cell in cells]

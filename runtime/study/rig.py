@@ -43,6 +43,8 @@ _KNOWN = {
 }
 _EVERY = {name: quantity for known in _KNOWN.values() for name, quantity in known.items()}
 _ALONG = {TRAVEL.name: TRAVEL, RACK.name: RACK}
+# What is held moves by less than this [m], and by less than this part of what does not.
+_NOISE, _PART_OF_NOISE = 1e-4, 1e-2
 
 
 def measured_curves(path: str | Path) -> xr.Dataset:
@@ -52,7 +54,8 @@ def measured_curves(path: str | Path) -> xr.Dataset:
     ``rack_position [mm]``, and characteristics, such as ``toe [deg]`` or ``wheel_rate [N/mm]``, by
     their names in kintrafo. Columns of other names are left out. Rows may be in any order, and a
     position may be there more than once, as of a loop with friction. A cell may be empty. Where
-    both positions are there, one must be the same in all rows: the suspension is held there.
+    both positions are there, one must be the same in all rows, to 0.1 mm: the suspension is held
+    there, at its mean.
 
     Parameters
     ----------
@@ -89,6 +92,10 @@ def measured_curves(path: str | Path) -> xr.Dataset:
         for quantity in curves.values()
         if quantity.name in _KNOWN[varying]
     }
+    if not data:
+        other = next(name for name in _KNOWN if name != varying)
+        problem = f"{', '.join(q.name for q in curves.values())}: known over {other} only."
+        raise InputError([problem], sheet.source)
     coordinates = {varying: xr.Variable(varying, table[varying], along.attributes())}
     coordinates |= {name: xr.Variable((), at, _ALONG[name].attributes()) for name, at in held}
     read = {name for name in sheet.names if name in places or split[name][0] in data}
@@ -98,14 +105,16 @@ def measured_curves(path: str | Path) -> xr.Dataset:
 
 def _told_apart(sheet: Sheet, places: Mapping[str, Array]) -> tuple[str, list[tuple[str, float]]]:
     """Return which position varies, and where the other one is held if it is there."""
-    varying = [name for name, values in places.items() if np.ptp(values) > 0.0]
+    spread = {name: float(np.ptp(values)) for name, values in places.items()}
+    least = min(_NOISE, _PART_OF_NOISE * max(spread.values()))
+    varying = [name for name in places if spread[name] > least]
     if len(varying) != 1:
         problem = (
             f"one of {' and '.join(places)} must vary along the curves, and the other be held; "
             f"{len(varying)} vary."
         )
         raise InputError([problem], sheet.source)
-    held = [(name, float(values[0])) for name, values in places.items() if name not in varying]
+    held = [(name, float(v.mean())) for name, v in places.items() if name not in varying]
     return varying[0], held
 
 
@@ -137,6 +146,9 @@ def beside(measured: xr.Dataset, models: Mapping[str, Model], name: str = "measu
         given.dataset(measured)
         for model in given.mapping("models", models, "names and models").values():
             given.kind("model", model, Model, Model.NEEDED)
+        given.text("name", name)
+        if not given.refused and name in models:
+            given.refuse(f"name = {name!r} is that of a model, too. Choose another one.")
         if not (models or given.refused):
             given.refuse("models is empty: one or more are needed.")
         if not given.refused and len({*measured.dims} & {*_ALONG}) != 1:
@@ -177,7 +189,8 @@ def _check(
     curves: Mapping[str, Quantity],
     places: Sequence[str],
 ) -> None:
-    names = [split[name][0] for name in (*places, *curves)]
+    read = {*places, *curves}
+    names = [split[name][0] for name in sheet.names if name in read]
     problems = [
         f"{name} stands in {names.count(name)} columns. Keep one of them."
         for name in dict.fromkeys(names)

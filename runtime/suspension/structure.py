@@ -60,6 +60,11 @@ class Joint(ABC):
             Force and moment on the second part at each point.
         """
 
+    def axis(self, points: Points) -> Array | None:
+        """Return the direction that sets its bushes apart from others; None where none does."""
+        del points
+        return None
+
     def tensions(self, points: Points) -> Array:
         """Return loads that are in equilibrium by themselves, which statics does not decide.
 
@@ -70,8 +75,21 @@ class Joint(ABC):
         return np.zeros((*points[self.at[0]].shape[:-1], len(self.at), 6, 0))
 
 
+@dataclass(frozen=True)
 class Ball(Joint):
-    """A ball joint: a force."""
+    """A ball joint: a force.
+
+    Attributes
+    ----------
+    end : str
+        The other end of a rod that ends there; empty where none does.
+    """
+
+    end: str = ""
+
+    def axis(self, points: Points) -> Array | None:
+        """Return that of the rod."""
+        return _unit(points[self.end] - points[self.at[0]]) if self.end else None
 
     def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
         """Return the three forces."""
@@ -96,17 +114,21 @@ class Cross(Joint):
     ----------
     shaft : str
         The other end of the second part.
-    axis : tuple of float
+    first_axis : tuple of float
         Of the first part, which does not turn.
     """
 
     shaft: str
-    axis: tuple[float, float, float]
+    first_axis: tuple[float, float, float]
+
+    def axis(self, points: Points) -> Array | None:
+        """Return that of the shaft."""
+        return _unit(points[self.shaft] - points[self.at[0]])
 
     def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
         """Return three forces and a moment."""
         (center,) = self.at
-        first = np.array(self.axis)
+        first = np.array(self.first_axis)
         second = turned[self.second] @ np.cross(design[self.shaft] - design[center], first)
         loads = np.zeros((*points[center].shape[:-1], 1, 6, 4))
         loads[..., 0, :3, :3] = np.eye(3)
@@ -118,6 +140,10 @@ class Hinge(Joint):
     """Two bearings on an axis: forces across it at each, and along it at both alike."""
 
     RULE = "two bearings on an axis share the force along it equally"
+
+    def axis(self, points: Points) -> Array | None:
+        """Return that through both bearings."""
+        return _unit(points[self.at[1]] - points[self.at[0]])
 
     def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
         """Return two forces across the axis at each bearing, and one along it at both."""
@@ -151,6 +177,10 @@ class Telescope(Joint):
     end: str
 
     RULE = "the couple of a telescope is told about its lower end"
+
+    def axis(self, points: Points) -> Array | None:
+        """Return that along which it slides."""
+        return _unit(points[self.end] - points[self.at[0]])
 
     def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
         """Return two forces and two moments."""
@@ -223,7 +253,7 @@ def steered(*joints: Joint) -> tuple[Joint, ...]:
     """Return joints with those that every steered wheel has: tie rod and wheel bearing."""
     return (
         *joints,
-        Ball("knuckle", "tie_rod", ("tie_rod_outer",)),
+        Ball("knuckle", "tie_rod", ("tie_rod_outer",), "tie_rod_inner"),
         Cross("rack", "tie_rod", ("tie_rod_inner",), "tie_rod_outer", (0.0, 0.0, 1.0)),
         Fixed("knuckle", "wheel", ("wheel_center",)),
     )

@@ -1,6 +1,6 @@
 """Bushes: how far joints give way, as a file or a caller describes them."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,7 +13,7 @@ from ...core.errors import InputError
 from ...core.suggestions import suggestion
 from ...suspension.input.toml_file import read_toml
 from ...suspension.model import Model
-from ...suspension.structure import GROUND, Joint
+from ...suspension.structure import GROUND, Joint, Telescope
 from .poses import CENTER
 
 Array = NDArray[np.float64]
@@ -63,11 +63,13 @@ def read_bushes(path: str | Path) -> dict[str, Any]:
     with Arguments("bushings") as given:
         given.path("path", path)
     data = read_toml(Path(path))
-    unknown = [f"{key} is not known: there is bushings." for key in data if key != "bushings"]
-    if unknown:
-        raise InputError(unknown, str(path))
-    bushings = data.get("bushings", {})
-    return dict(bushings) if isinstance(bushings, Mapping) else {"bushings": bushings}
+    problems = [f"{key} is not known: there is bushings." for key in data if key != "bushings"]
+    bushings = data.get("bushings")
+    if not isinstance(bushings, dict):
+        problems.append("there is no section [bushings.POINT]: write one or more.")
+    if problems:
+        raise InputError(problems, str(path))
+    return dict(bushings or {})
 
 
 def bushes_of(given: Arguments, model: Model, described: Mapping[str, Any]) -> list[Bush]:
@@ -102,7 +104,7 @@ def _translations(given: Arguments, title: str, table: Mapping[str, Any]) -> lis
     """Return the compliances along the axis and in both directions across it [m/N]."""
     axial = _stiffness(given, title, table, "axial_N_per_mm")
     radial = table.get("radial_N_per_mm", np.inf)
-    if isinstance(radial, Sequence) and not isinstance(radial, str):
+    if isinstance(radial, list | tuple | np.ndarray) and np.ndim(radial):
         if len(radial) != 2:
             given.refuse(f"{title} radial_N_per_mm: a number is needed, or two.")
             return [0.0, 0.0, 0.0]
@@ -125,7 +127,13 @@ def _axes(
     given: Arguments, title: str, table: Mapping[str, Any], model: Model, joint: Joint
 ) -> Array:
     """Return the axes of a bush as rows: its own, and the two across it."""
-    along = _direction(given, title, table, "axis", _usual_axis(model, joint))
+    usual_axis = _usual_axis(model, joint)
+    if usual_axis is None and "axis" not in table:
+        given.refuse(f"{title} axis is needed: no direction there is that of a bush by itself.")
+        return np.eye(3)
+    along = _direction(given, title, table, "axis", usual_axis)
+    if isinstance(joint, Telescope) and "axial_N_per_mm" in table:
+        given.refuse(f"{title} axial_N_per_mm: a telescope carries nothing along its axis.")
     # the first of the radial directions, for two stiffnesses: as upright as it can be
     usual = np.eye(3)[0 if abs(along[2]) > np.cos(_LEAST_ANGLE) else 2]
     aside = _direction(given, title, table, "radial_axis", usual)
@@ -137,28 +145,24 @@ def _axes(
     return np.stack([along, np.cross(across, along), across])
 
 
-def _usual_axis(model: Model, joint: Joint) -> Array:
+def _usual_axis(model: Model, joint: Joint) -> Array | None:
     """Return the axis that a bush has where nothing is said, at design."""
     points = model.suspension.hardpoints
-    if len(joint.at) == 2:
-        return _unit(points.metres(joint.at[1]) - points.metres(joint.at[0]))
-    other = getattr(joint, "shaft", None) or getattr(joint, "end", None)
-    if other is not None:
-        return _unit(points.metres(other) - points.metres(joint.at[0]))
     if joint.at == (CENTER,):
         return model.suspension.wheel.spin_axis(model.suspension.vehicle.sign)
-    return np.array([0.0, 0.0, 1.0])
+    return joint.axis({name: points.metres(name) for name in (*points.names(), *points.STAND_INS)})
 
 
 def _direction(
-    given: Arguments, title: str, table: Mapping[str, Any], key: str, usual: Array
+    given: Arguments, title: str, table: Mapping[str, Any], key: str, usual: Array | None
 ) -> Array:
-    if key not in table:
+    if key not in table and usual is not None:
         return usual
     values = given.array(f"{title} {key}", table[key], dimensions=[1])
-    if values.shape != (3,) or not 1e-6 < np.linalg.norm(values) < 1e6:
-        given.refuse(f"{title} {key}: three numbers that are not all zero are needed.")
-        return usual
+    if values.shape != (3,) or not 1e-6 < np.abs(values).max() < 1e6:
+        problem = "three numbers are needed, of which the largest is between 1e-6 and 1e6."
+        given.refuse(f"{title} {key}: {problem}")
+        return np.array([1.0, 0.0, 0.0])
     return _unit(values)
 
 

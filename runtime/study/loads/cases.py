@@ -120,6 +120,11 @@ def cases_of(given: Arguments, described: Mapping[str, Any], static_load: float)
                 f"{title}: travel_mm holds the suspension by the vertical force at the contact, "
                 "which cannot be given besides. Leave one of them out (a third number of 0)."
             )
+        if found["contact"][2] < 0.0:
+            given.refuse(
+                f"{title}: the vertical force at the contact is {found['contact'][2]:.4g} N, and a "
+                "road only pushes: 0 N or more is needed. What pulls belongs to center_N."
+            )
         cases.append(
             Case(
                 name,

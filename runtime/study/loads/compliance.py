@@ -98,10 +98,10 @@ def compliance(
     bushings : mapping
         By hardpoint: ``axial_N_per_mm`` along its axis and ``radial_N_per_mm`` across it, one
         number or two; what is left out is rigid. ``axis``, by default that of the arm's bearings,
-        of the strut, the tie rod or the wheel, and ``radial_axis``, the direction of the first of
-        two radial numbers: chassis axes at design; they turn with the part that is nearer to the
-        chassis. At ``wheel_center``, the bearing, ``tilt_Nm_per_deg`` about all axes across the
-        spin axis.
+        of the strut, the tie rod or the wheel; at other ball joints it must be given.
+        ``radial_axis``, the direction of the first of two radial numbers. Both in chassis axes at
+        design; they turn with the part that is nearer to the chassis. At ``wheel_center``, the
+        bearing, ``tilt_Nm_per_deg`` about all axes across the spin axis.
     travel : array_like, shape (n,), optional
         Heights of the wheel centre above its design height [m]; by default the usual range.
     rack_position : float, optional
@@ -164,16 +164,17 @@ def compliance(
 def _flexibility(poses: Poses, there: Corner, bushes: list[Bush], held: Held) -> Array:
     """Return displacement and rotation of the contact by loads on it, chassis axes, (n, 6, 6)."""
     forces = _Forces(poses, stopped=bool(there.stops) and held != "locked")
-    spring, stops = _compliance_of_lines(there)
     structure = poses.model.suspension.structure()
     by_point = {bush.point: bush for bush in bushes}
-    energy = 0.0 if held == "locked" else _energy(forces.spring, spring[:, None, None])
+    energy = np.zeros((len(poses.states), *2 * forces.spring.shape[-1:]))
+    if held != "locked":
+        spring, stops = _compliance_of_lines(there)
+        energy += _energy(forces.spring, spring[:, None, None])
     for joint, carried in zip(structure.joints, forces.carried, strict=True):
         for i, point in enumerate(joint.at):
             if point in by_point:
                 soft = world_compliance(by_point[point], joint, poses.turned)
-                energy = energy + _energy(carried[:, i], soft)
-    energy = energy + np.zeros((len(poses.states), 1, 1))
+                energy += _energy(carried[:, i], soft)
     if forces.stopped:
         acting = np.isfinite(stops)
         energy[acting, -1, -1] += stops[acting]
@@ -247,7 +248,7 @@ def _compliance_of_lines(there: Corner) -> tuple[Array, Array]:
     if not (rates > 0.0).all():
         at = 1e3 * (there.center - there.design_center)[rates.argmin(), 2]
         problem = (
-            f"at a wheel travel of {at:.4g} mm the spring has a rate of {rates.min():.4g} N/m at "
+            f"at a wheel travel of {at:.1f} mm the spring has a rate of {rates.min():.4g} N/m at "
             "the wheel: nothing holds it. Enter a rate, or another travel."
         )
         raise InputError([problem], "compliance")

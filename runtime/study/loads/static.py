@@ -186,7 +186,7 @@ def _not_carried(model: Model, height: tuple[float, float], held: Array) -> str:
         if model.suspension.bump_stop is None:
             advice = "Give the file its [bump_stop], or the case its travel_mm."
     elif held[0] > 0.0:
-        problem = f"spring and stops push by {held[0]:.4g} N too much even near the lower end"
+        problem = f"it lifts the wheel by {held[0]:.4g} N too much even near the lower end"
         if model.suspension.rebound_stop is None:
             advice = "Give the file its [rebound_stop], or the case its travel_mm."
     else:
