@@ -82,13 +82,12 @@ def _models(files: list[str]) -> "dict[str, Model]":
 def _beside(files: list[str], measured: list[str], over: str | None) -> "Dataset":
     """Return the curves of suspensions beside those of a measurement."""
     from ..study import rig
+    from ..study.characteristics.datasets import ALONG
 
     if len(measured) > 1:
         raise typer.BadParameter(f"one file of measured curves, not {len(measured)}")
     curves = rig.measured_curves(measured[0])
-    if over is not None and not any(
-        str(along).endswith((over, f"{over}_position")) for along in curves.dims
-    ):
+    if over is not None and ALONG[over].name not in curves.dims:
         raise typer.BadParameter(f"--over {over}: the measured curves are not over that")
     models = _models([file for file in files if file not in measured])
     if not models:

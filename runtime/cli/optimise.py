@@ -107,7 +107,8 @@ def _print(found: "Optimum", file: str) -> None:
 
 def _goals(found: "Optimum") -> Table:
     from ..core.quantities import bracketed, display_of
-    from ..study.variation.curves import KNOWN, model_of
+    from ..study.characteristics.datasets import KNOWN
+    from ..study.variation.curves import model_of
 
     table = Table(title="largest deviations from the targets")
     table.add_column("characteristic")

@@ -14,8 +14,9 @@ from matplotlib.ticker import MaxNLocator
 
 from ..core.files import Paths
 from ..core.quantities import bracketed, display_of, displayed, long_name
+from ..study.characteristics.datasets import ALONG, KNOWN
 from ..study.compare import common_positions
-from ..study.variation.curves import ALONG, KNOWN, Curves, model_of
+from ..study.variation.curves import Curves, model_of
 from ..study.variation.goals import Limit
 from ..study.variation.optimise import Optimum
 from ..study.variation.sensitivity import PLACE, Effect, effects

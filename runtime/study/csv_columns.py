@@ -97,9 +97,8 @@ class Sheet:
             return []
         columns = [i for i, name in enumerate(self.names) if name in known]
         cells = [_cells(line, self._delimiter) for _, line in self._lines]
-        text = "".join("".join(row[i : i + 1]) for row in cells for i in columns)
-        marks = {mark for mark in ",." if mark in text}
-        if len(marks) < 2:
+        text = "".join(row[i] for row in cells for i in columns if i < len(row))
+        if not ("," in text and "." in text):
             return []
         return [
             "numbers have points and commas: write one of them, for decimals, and no thousands."

@@ -14,9 +14,8 @@ from ..core.errors import InputError
 from ..core.suggestions import nearest
 from ..suspension.model import Model
 from . import characteristics
-from .characteristics import catalogue
 from .characteristics.catalogue import Quantity
-from .characteristics.datasets import RACK, TRAVEL
+from .characteristics.datasets import ALONG, KNOWN, RACK, TRAVEL
 from .compare import DATA_SET
 from .csv_columns import Sheet
 
@@ -35,14 +34,9 @@ _UNITS = {
     "-": ("1", 1.0),
     "": ("1", 1.0),
 }
-_KNOWN = {
-    TRAVEL.name: {q.name: q for q in catalogue.CORNER + catalogue.TRAVEL},
-    RACK.name: {
-        q.name: q for q in (*catalogue.CORNER, *catalogue.STEERING, *catalogue.AXLE.values())
-    },
-}
-_EVERY = {name: quantity for known in _KNOWN.values() for name, quantity in known.items()}
-_ALONG = {TRAVEL.name: TRAVEL, RACK.name: RACK}
+_EVERY = {name: quantity for known in KNOWN.values() for name, quantity in known.items()}
+_ALONG = {quantity.name: quantity for quantity in ALONG.values()}
+_KNOWN = {ALONG[over].name: known for over, known in KNOWN.items()}
 # What is held moves by less than this [m], and by less than this part of what does not.
 _NOISE, _PART_OF_NOISE = 1e-4, 1e-2
 

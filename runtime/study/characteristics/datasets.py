@@ -30,6 +30,15 @@ RACK = Quantity(
     "positive along the rack's axis",
 )
 
+ALONG = {"travel": TRAVEL, "rack": RACK}
+"""What varies along the curves."""
+
+KNOWN: dict[str, dict[str, Quantity]] = {
+    "travel": {q.name: q for q in catalogue.CORNER + catalogue.TRAVEL},
+    "rack": {q.name: q for q in (*catalogue.CORNER, *catalogue.STEERING, *catalogue.AXLE.values())},
+}
+"""Characteristics by name, over wheel travel and over the rack."""
+
 
 def travel(
     model: Model, travel: ArrayLike | None = None, *, rack_position: float = 0.0

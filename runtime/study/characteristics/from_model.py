@@ -31,7 +31,7 @@ def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -
     states, inputs = at_rest(model, arm_angle, rack_position)
     points = hardpoints(model, states, inputs)
     turned = model.evaluate("orientations", states, inputs)[..., _knuckle(model), :, :]
-    design_axis = _design_axis(model.suspension)
+    at_design = design_axis(model.suspension)
     by_arm = _motion(model, points, states, inputs, "arm")
     by_rack = _motion(model, points, states, inputs, "rack")
     travel = by_arm.per(by_arm.velocity[..., 2])
@@ -41,8 +41,8 @@ def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -
         vehicle=vehicle(model.suspension),
         center=points["wheel_center"],
         design_center=model.suspension.hardpoints.metres("wheel_center"),
-        axis=turned @ design_axis,
-        design_axis=design_axis,
+        axis=turned @ at_design,
+        design_axis=at_design,
         lower=points[low],
         upper=points[high],
         travel=travel,
@@ -105,7 +105,7 @@ def _metres(length: float | None) -> float | None:
     return None if length is None else in_metres(length, "mm")
 
 
-def _design_axis(suspension: Suspension) -> Array:
+def design_axis(suspension: Suspension) -> Array:
     """Return the spin axis at design, pointing outboard."""
     side = suspension.vehicle.sign
     return side * suspension.wheel.spin_axis(side)

@@ -9,12 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.arguments import Arguments
-from ...core.errors import InputError
 from ...core.suggestions import suggestion
-from ...suspension.input.toml_file import read_toml
+from ...suspension.input.toml_file import read_sections
+from ...suspension.input.vectors import unit_vector
 from ...suspension.model import Model
 from ...suspension.structure import GROUND, Joint, Telescope
-from .poses import CENTER
+from ..characteristics.from_model import design_axis
+from .poses import CENTER, rotated
 
 Array = NDArray[np.float64]
 
@@ -60,16 +61,10 @@ def read_bushes(path: str | Path) -> dict[str, Any]:
     InputError
         If it cannot be read, or has something else.
     """
-    with Arguments("bushings") as given:
-        given.path("path", path)
-    data = read_toml(Path(path))
-    problems = [f"{key} is not known: there is bushings." for key in data if key != "bushings"]
-    bushings = data.get("bushings")
-    if not isinstance(bushings, dict):
-        problems.append("there is no section [bushings.POINT]: write one or more.")
-    if problems:
-        raise InputError(problems, str(path))
-    return dict(bushings or {})
+    bushings: dict[str, Any] = read_sections(path, ["bushings"], needed="bushings.POINT")[
+        "bushings"
+    ]
+    return bushings
 
 
 def bushes_of(given: Arguments, model: Model, described: Mapping[str, Any]) -> list[Bush]:
@@ -147,10 +142,9 @@ def _axes(
 
 def _usual_axis(model: Model, joint: Joint) -> Array | None:
     """Return the axis that a bush has where nothing is said, at design."""
-    points = model.suspension.hardpoints
     if joint.at == (CENTER,):
-        return model.suspension.wheel.spin_axis(model.suspension.vehicle.sign)
-    return joint.axis({name: points.metres(name) for name in (*points.names(), *points.STAND_INS)})
+        return design_axis(model.suspension)
+    return joint.axis(model.suspension.hardpoints.at_design())
 
 
 def _direction(
@@ -163,20 +157,11 @@ def _direction(
         problem = "three numbers are needed, of which the largest is between 1e-6 and 1e6."
         given.refuse(f"{title} {key}: {problem}")
         return np.array([1.0, 0.0, 0.0])
-    return _unit(values)
-
-
-def _unit(vector: Array) -> Array:
-    direction: Array = vector / np.linalg.norm(vector)
-    return direction
+    return unit_vector(values)
 
 
 def world_compliance(bush: Bush, joint: Joint, turned: Mapping[str, Array]) -> Array:
     """Return a compliance in chassis axes, the joint's first part having turned, (..., 6, 6)."""
     if joint.first in GROUND:
         return bush.compliance
-    rotation = turned[joint.first]
-    both = np.zeros((*rotation.shape[:-2], 6, 6))
-    both[..., :3, :3] = both[..., 3:, 3:] = rotation
-    turned_compliance: Array = both @ bush.compliance @ both.mT
-    return turned_compliance
+    return rotated(bush.compliance, turned[joint.first])

@@ -10,9 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.arguments import Arguments
-from ...core.errors import InputError
 from ...core.suggestions import suggestion
-from ...suspension.input.toml_file import read_toml
+from ...suspension.input.toml_file import read_sections
 
 Array = NDArray[np.float64]
 
@@ -74,17 +73,7 @@ def read(path: str | Path) -> dict[str, Any]:
     InputError
         If it cannot be read, or has something else.
     """
-    with Arguments("cases") as given:
-        given.path("path", path)
-    data = read_toml(Path(path))
-    unknown = [
-        f"{key} is not known. {suggestion(key, _SECTIONS)}" for key in data if key not in _SECTIONS
-    ]
-    if not isinstance(data.get("cases"), dict):
-        unknown.append("there is no section [cases.NAME]: write one or more.")
-    if unknown:
-        raise InputError(unknown, str(path))
-    return data
+    return read_sections(path, _SECTIONS, needed="cases.NAME")
 
 
 def cases_of(given: Arguments, described: Mapping[str, Any], static_load: float) -> list[Case]:

@@ -21,7 +21,7 @@ from ..characteristics.datasets import TRAVEL
 from ..characteristics.from_model import corner
 from ..sweep import usual_travel
 from .bushes import Bush, bushes_of, world_compliance
-from .poses import CENTER, CONTACT, Poses
+from .poses import CENTER, CONTACT, Poses, rotated
 from .reactions import Equations, Load
 
 Array = NDArray[np.float64]
@@ -268,11 +268,9 @@ def _dataset(
     for test in _TESTS:
         for quantity, values in _told(test, poses, there, flexibility):
             found[quantity.name] = xr.Variable(TRAVEL.name, values, quantity.attributes())
-    both = np.zeros((len(travels), 6, 6))
-    both[:, :3, :3] = both[:, 3:, 3:] = axes
     words = "displacement and rotation of the contact by force and moment there, tyre axes"
     found["flexibility"] = variable(
-        (TRAVEL.name, "moved", "by"), both @ flexibility @ both.mT, words, "SI"
+        (TRAVEL.name, "moved", "by"), rotated(flexibility, axes), words, "SI"
     )
     coordinates = {
         TRAVEL.name: xr.Variable(TRAVEL.name, travels, TRAVEL.attributes()),

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from ...suspension.corner import UP
 from ...suspension.model import Model
 from ...suspension.points import hardpoints
-from ..characteristics.from_model import vehicle
+from ..characteristics.from_model import design_axis, vehicle
 from ..characteristics.wheel import lowest_point
 
 Array = NDArray[np.float64]
@@ -49,8 +49,7 @@ class Poses:
         centers = model.evaluate("positions", states, inputs)
         rotations = model.evaluate("orientations", states, inputs)
         turned = {name: rotations[..., i, :, :] for i, name in enumerate(bodies)}
-        side = model.suspension.vehicle.sign
-        axis = turned["knuckle"] @ (side * model.suspension.wheel.spin_axis(side))
+        axis = turned["knuckle"] @ design_axis(model.suspension)
         points = hardpoints(model, states, inputs)
         radius = vehicle(model.suspension).tyre_radius
         if radius is not None:
@@ -68,8 +67,7 @@ class Poses:
     @property
     def design(self) -> dict[str, Array]:
         """The hardpoints at design [m]."""
-        points = self.model.suspension.hardpoints
-        return {name: points.metres(name) for name in (*points.names(), *points.STAND_INS)}
+        return self.model.suspension.hardpoints.at_design()
 
     def weights(self) -> dict[str, Array]:
         """Return the weight of each part, (3,) [N]."""
@@ -96,6 +94,14 @@ class Poses:
         forward = np.cross(side * self.axis, UP)
         forward /= np.linalg.norm(forward, axis=-1, keepdims=True)
         return np.stack([forward, np.cross(UP, forward), np.broadcast_to(UP, forward.shape)], -2)
+
+
+def rotated(matrix: Array, rotation: Array) -> Array:
+    """Return a matrix of forces and moments, (..., 6, 6), in axes that are turned."""
+    both = np.zeros((*rotation.shape[:-2], 6, 6))
+    both[..., :3, :3] = both[..., 3:, 3:] = rotation
+    result: Array = both @ matrix @ both.mT
+    return result
 
 
 def wrench_about(point: Array, at: Array, force: Array, moment: Array | float = 0.0) -> Array:

@@ -15,6 +15,7 @@ from ...suspension.corner import UP
 from ...suspension.model import Model
 from ...suspension.positions import PositionError, arm_angles, design_height, equilibrium
 from ...suspension.reach import at_rest, travel_range
+from ..characteristics.wheel import upward_across
 from .cases import GREATEST, Case, cases_of, standard_cases
 from .dataset import CASE, dataset_of
 from .poses import CENTER, CONTACT, Poses
@@ -54,8 +55,10 @@ def static(
         the axes that the part had at design. Every load says on which ``part`` it is, at which
         ``point`` and ``by`` whom: what two parts exert on each other is there twice, with both
         signs. Over ``case``: ``travel`` and ``rack`` [m], ``wheel_load`` [N], and ``reason`` where
-        the suspension cannot carry the case. ``residual`` over ``part`` is what is left of the sum
-        of the forces on it [N].
+        the suspension cannot carry the case. ``residual`` [N] and ``residual_moment`` [N m] over
+        ``moving_part`` are what is left of the sums of forces and moments on it, and
+        ``holding_force`` [N] the vertical force at the contact that is missing: all of them none,
+        to rounding.
 
     Raises
     ------
@@ -107,8 +110,8 @@ def _at_rest_on_the_road(given: Arguments, model: Model, described: Mapping[str,
         return 1.0
     poses = Poses.of(model, *at_rest(model, [rest[0]]))
     # the tyre pushes in the plane of the wheel
-    upright = np.sqrt(1.0 - poses.axis[0, 2] ** 2)
-    return float(model.signal("tyre_force", rest, model.inputs())) * float(upright)
+    upright = float(upward_across(poses.axis)[0, 2])
+    return upright * float(model.signal("tyre_force", rest, model.inputs()))
 
 
 # -- positions ------------------------------------------------------------------------------------

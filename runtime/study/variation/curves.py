@@ -10,22 +10,11 @@ from numpy.typing import NDArray
 from ...core.arguments import Arguments
 from ...suspension.kinds import Suspension
 from ...suspension.model import Model
-from ..characteristics import catalogue
-from ..characteristics.catalogue import Quantity
-from ..characteristics.datasets import RACK, TRAVEL, over_rack, over_travel
+from ..characteristics.datasets import ALONG, over_rack, over_travel
 from ..sweep import usual_rack, usual_travel
 
 Array = NDArray[np.float64]
 Over = Literal["travel", "rack"]
-
-ALONG = {"travel": TRAVEL, "rack": RACK}
-"""What varies along the curves."""
-
-KNOWN: dict[str, dict[str, Quantity]] = {
-    "travel": {q.name: q for q in catalogue.CORNER + catalogue.TRAVEL},
-    "rack": {q.name: q for q in (*catalogue.CORNER, *catalogue.STEERING, *catalogue.AXLE.values())},
-}
-"""Characteristics by name, over wheel travel and over the rack."""
 
 
 @dataclass(frozen=True)

@@ -9,12 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.arguments import Arguments
-from ...core.errors import InputError
 from ...core.quantities import display_of
-from ...core.suggestions import suggestion
-from ...suspension.input.toml_file import read_toml
+from ...suspension.input.toml_file import read_sections
 from ...suspension.kinds import Suspension
-from .curves import KNOWN, Curves, Over, model_of, there
+from ..characteristics.datasets import KNOWN
+from .curves import Curves, Over, model_of, there
 
 Array = NDArray[np.float64]
 
@@ -102,15 +101,7 @@ def read(path: str | Path) -> dict[str, Any]:
     InputError
         If it cannot be read, or has something else.
     """
-    with Arguments("studies") as given:
-        given.path("path", path)
-    data = read_toml(Path(path))
-    problems = [
-        f"{key} is not known. {suggestion(key, _SECTIONS)}" for key in data if key not in _SECTIONS
-    ]
-    if problems:
-        raise InputError(problems, str(path))
-    return data
+    return read_sections(path, _SECTIONS)
 
 
 def limits(described: Mapping[str, Any]) -> list[Limit]:

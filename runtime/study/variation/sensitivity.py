@@ -11,7 +11,8 @@ from ...core.arguments import Arguments
 from ...core.errors import InputError, KintrafoError
 from ...core.quantities import Display, display_of
 from ...suspension.kinds import Suspension
-from .curves import ALONG, KNOWN, Curves, Over, changed, curves_of, model_of
+from ..characteristics.datasets import ALONG, KNOWN
+from .curves import Curves, Over, changed, curves_of, model_of
 from .places import Place, matching
 
 Array = NDArray[np.float64]

@@ -11,7 +11,8 @@ from ...core.arguments import Arguments
 from ...core.errors import InputError, KintrafoError
 from ...core.quantities import variable
 from ...suspension.kinds import Suspension
-from .curves import ALONG, KNOWN, Curves, Over, Together, changed, curves_of, model_of
+from ..characteristics.datasets import ALONG, KNOWN
+from .curves import Curves, Over, Together, changed, curves_of, model_of
 from .goals import Limit, check_data, limits_of
 from .places import Place, amounts
 from .sensitivity import PLACE, ROUNDING, derivative

@@ -82,6 +82,10 @@ class Hardpoints(Section):
             return self.metres(self.STAND_INS[name])
         return np.array([in_metres(value, self.unit) for value in point])
 
+    def at_design(self) -> dict[str, Vector]:
+        """Return all hardpoints, those that are left out where their stand-ins are [m]."""
+        return {name: self.metres(name) for name in (*self.names(), *self.STAND_INS)}
+
     @classmethod
     def names(cls) -> list[str]:
         """Return the keys of the hardpoints that every file has."""

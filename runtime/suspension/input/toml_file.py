@@ -2,13 +2,16 @@
 
 import re
 import tomllib
+from collections.abc import Sequence
 from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any
 
+from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.files import reason
 from ...core.legible import short
+from ...core.suggestions import suggestion
 
 _DEEP = "Tables or lists stand in each other too deeply. No key of a suspension does."
 # A key of a hundred parts, in time linear in the length; tomllib's grows with the square of them.
@@ -45,6 +48,38 @@ def read_toml(file: Path | Traversable) -> dict[str, Any]:
     except ValueError:  # Python's limit of 4300 digits, which tomllib lets pass
         problem = "A number has thousands of digits. Write it with an exponent, as 1.5e6."
         raise InputError([problem], str(file)) from None
+
+
+def read_sections(path: str | Path, known: Sequence[str], needed: str = "") -> dict[str, Any]:
+    """Read a TOML file that has some sections and nothing else.
+
+    Parameters
+    ----------
+    path : str or pathlib.Path
+    known : sequence of str
+        The sections and keys that it may have.
+    needed : str, optional
+        A section that it must have: ``cases.NAME`` is one of several in ``cases``.
+
+    Returns
+    -------
+    dict
+        The file's content.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, has something else, or not what is needed.
+    """
+    with Arguments("file") as given:
+        given.path("path", path)
+    data = read_toml(Path(path))
+    problems = [f"{key} is not known. {suggestion(key, known)}" for key in data if key not in known]
+    if needed and not isinstance(data.get(needed.partition(".")[0]), dict):
+        problems.append(f"there is no section [{needed}]: write one or more.")
+    if problems:
+        raise InputError(problems, str(path))
+    return data
 
 
 def _text_of(file: Path | Traversable) -> str:
