@@ -73,11 +73,12 @@ def _along(model: Model) -> Callable[[], object]:
 
 def _draw() -> None:
     """Draw the pictures of the page."""
-    found = loads.static(MODELS["reference_car"])
+    # its strut stands beside the ball joint, so that their forces do not cover each other
+    found = loads.static(Model("offset_strut_car"))
     with tempfile.TemporaryDirectory() as name:
         path = Path(name) / "loads.png"
         (written,) = pictures.write_free_bodies(
-            found, [path], "brake", ["knuckle"], title="reference car"
+            found, [path], "brake", ["knuckle"], title="offset strut"
         )
         shutil.copyfile(written, IMAGES / "loads.png")
         car = MODELS["reference_car"]
