@@ -1,7 +1,7 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
 .PHONY: drawings help setup sundials generate build run test test-elsewhere fuzz package wheel lint tree types format baseline clean \
-	benchmark benchmark-andrews benchmark-bits benchmark-ensemble benchmark-growth benchmark-loads benchmark-loops benchmark-page benchmark-peers benchmark-speed benchmark-studies format-page front-axle-page report-assets
+	benchmark benchmark-andrews benchmark-axles benchmark-bits benchmark-ensemble benchmark-growth benchmark-loads benchmark-loops benchmark-page benchmark-peers benchmark-speed benchmark-studies format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
 EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/equations/*.pyx runtime/simulation/native/*.pyx runtime/simulation/*/*.[ch])
@@ -101,6 +101,9 @@ format-page: build ## The input file's JSON Schema, and its page in docs/
 
 benchmark-bits: build ## Which results are the same bits on another processor
 	@$(PYTHON) -m benchmarks.same_bits --page docs/conventions.md
+
+benchmark-axles: build ## How long the motions of an axle take; the picture of docs/axles.md
+	@$(PYTHON) -m benchmarks.axles
 
 benchmark-loads: build ## How long the loads on all parts take; the picture of docs/loads.md
 	@$(PYTHON) -m benchmarks.loads

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from .simulation.result import Simulation, SimulationError
     from .simulation.simulate import simulate
     from .study.ensembles import ensemble
+    from .suspension.axle import Axle
+    from .suspension.axle.equations import AxleModel
     from .suspension.kinds import Suspension
     from .suspension.model import Model
     from .suspension.positions import (
@@ -44,6 +46,8 @@ if TYPE_CHECKING:
 __version__ = version("kintrafo")
 
 __all__ = [
+    "Axle",
+    "AxleModel",
     "ClosureError",
     "CompilerError",
     "InputError",
@@ -81,6 +85,8 @@ _MODULES = {
     ".core.errors": ("InputError", "KintrafoError"),
     ".simulation.events": ("SignalEvent",),
     ".equations.errors": ("ClosureError", "ModelError", "ParameterError"),
+    ".suspension.axle": ("Axle",),
+    ".suspension.axle.equations": ("AxleModel",),
     ".suspension.kinds": ("Suspension",),
     ".simulation.interpolation": ("Samples",),
     ".systems.linearisation": ("Linearisation", "linearise"),
@@ -109,6 +115,7 @@ _OTHER_NAMES = {"compile": "compile_mechanism"}
 
 # Modules that are themselves part of the interface, and where they are.
 _INTERFACES = {
+    "axles": ".study.axles",
     "characteristics": ".study.characteristics",
     "checkup": ".study.checkup",
     "chrono": ".suspension.chrono",

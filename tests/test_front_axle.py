@@ -358,8 +358,7 @@ def test_halves_of_the_bar_may_have_mass() -> None:
         "bar_inertia_xy": 4e-3,
     }
     given = parameters_of(1, **heavy)
-    massive = (declaration.ARM, declaration.KNUCKLE, declaration.WHEEL, declaration.BAR)
-    model = declaration.model(declaration.mechanism(), massive)
+    model = declaration.model(declaration.mechanism(), with_mass=("bar",))
     at = Compared.of(1)
     state, inputs = at.state[0], at.inputs[0]
     named = dict(zip(at.axle.input_names, map(float, inputs), strict=True))

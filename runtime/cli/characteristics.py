@@ -1,14 +1,16 @@
 """``kintrafo characteristics``: all characteristics over wheel travel and over the rack."""
 
+from math import radians
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.markup import escape
 from rich.table import Table
 
+from . import axles
 from .console import console, print_json, significant
-from .options import Bump, File, Force, Json, RackExtent, Rebound, Step, load, metres
-from .outputs import Figures, Formats, Out, Outputs, Plot, name_files
+from .options import Bump, File, Force, Json, Of, RackExtent, Rebound, Step, among, load, metres
+from .outputs import Figures, Formats, Out, Outputs, Plot, name_files, named
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -17,6 +19,7 @@ EXAMPLES = (
     "kintrafo characteristics reference_car",
     "kintrafo characteristics my_car.toml -o curves.csv --plot curves.pdf",
     "kintrafo characteristics my_car.toml --figures figures --format svg",
+    "kintrafo characteristics reference_axle --motion bump --motion roll -o axle.csv",
 )
 
 
@@ -26,6 +29,20 @@ def command(
     rebound: Rebound = None,
     bump: Bump = None,
     rack_extent: RackExtent = None,
+    motion: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME",
+            help="Of an axle: what the rig does, of bump, roll, left, right, steer. May be "
+            "repeated. Default: bump, roll, left, steer.",
+        ),
+    ] = None,
+    roll: Annotated[
+        float | None,
+        typer.Option(
+            metavar="DEG", help="Of an axle: roll to either side. Default: 4, if reached."
+        ),
+    ] = None,
     step: Step = 2.0,
     travel: Annotated[
         float, typer.Option(metavar="MM", help="Wheel travel, where the rack varies.")
@@ -33,6 +50,7 @@ def command(
     rack: Annotated[
         float, typer.Option(metavar="MM", help="Rack displacement, where the travel varies.")
     ] = 0.0,
+    of: Of = None,
     out: Out = None,
     plot: Plot = None,
     figures: Figures = None,
@@ -42,10 +60,14 @@ def command(
 ) -> None:
     """All characteristics over wheel travel, and over the rack; a table of them at design.
 
-    Each data file and page is written twice, with _travel and _rack behind its name.
+    Each data file and page is written twice, with _travel and _rack behind its name. Of an axle
+    they go over the motions of a rig, with _bump, _roll, _left and _steer.
     """
     from ..study import characteristics, export, sweep
+    from ..study.axles.motions import MOTIONS, Extent
 
+    of_axle = axles.is_axle(file)
+    chosen = among(motion or ["bump", "roll", "left", "steer"], MOTIONS, "--motion")
     outputs = Outputs.of(
         out,
         plot,
@@ -53,8 +75,20 @@ def command(
         formats,
         force=force,
         inputs=[file],
-        suffixes=("_travel", "_rack"),
+        suffixes=[f"_{name}" for name in (chosen if of_axle else ("travel", "rack"))],
     )
+    if of_axle:
+        extent = Extent(
+            rebound=metres(rebound),
+            bump=metres(bump),
+            roll=None if roll is None else radians(roll),
+            rack=metres(rack_extent),
+            step=step / 1e3,
+        )
+        held = {"travel": travel / 1e3, "rack": rack / 1e3}
+        axles.characteristics(file, chosen, extent, held, outputs, of=of, json=json)
+        return
+    axles.refuse_options("the file of an axle", {"--motion": motion, "--roll": roll})
     model = load(file)
     ends: dict[str, Any] = {"rebound": metres(rebound), "bump": metres(bump)}
     at_travel, at_rack, spacing = travel / 1e3, rack / 1e3, step / 1e3
@@ -64,10 +98,11 @@ def command(
         "travel": characteristics.travel(model, travels, rack_position=at_rack),
         "rack": characteristics.steering(model, racks, travel=at_travel),
     }
+    drawn = named(of, curves)
     written = [
         path
         for over, dataset in curves.items()
-        for path in outputs.write(dataset, title=file, suffix=f"_{over}")
+        for path in outputs.write(dataset, title=file, suffix=f"_{over}", names=drawn[over])
     ]
     if json:
         print_json({f"over_{over}": export.as_dict(curves[over]) for over in curves})

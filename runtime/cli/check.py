@@ -6,6 +6,7 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
+from . import axles
 from .console import console, print_json, say
 from .exits import Exit
 from .options import File, Json, load
@@ -13,7 +14,11 @@ from .options import File, Json, load
 if TYPE_CHECKING:
     from ..study.checkup import Checkup
 
-EXAMPLES = ("kintrafo check reference_car", "kintrafo check my_car.toml --json")
+EXAMPLES = (
+    "kintrafo check reference_car",
+    "kintrafo check my_car.toml --json",
+    "kintrafo check reference_axle",
+)
 
 
 def command(file: File, *, json: Json = False) -> None:
@@ -25,6 +30,9 @@ def command(file: File, *, json: Json = False) -> None:
     from ..core.errors import InputError
     from ..study.checkup import as_dict, checkup, readable
 
+    if axles.is_axle(file):
+        axles.check(file, json=json, print_side=lambda one, name: console.print(_table(one, name)))
+        return
     readable(file)
     try:
         found = checkup(load(file))

@@ -1,11 +1,12 @@
 """``kintrafo compare``: curves of several suspensions over each other, and what differs."""
 
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 from rich.markup import escape
 from rich.table import Table
 
+from . import axles
 from .console import console, print_json, progress_bar, say, significant
 from .options import Files, Force, Json, Of, among, load
 from .outputs import Figures, Formats, Out, Outputs, Plot, name_files
@@ -28,8 +29,11 @@ def command(
     files: Files,
     *,
     over: Annotated[
-        Literal["travel", "rack"] | None,
-        typer.Option(help="What varies. Default: travel, or that of the measured curves."),
+        Literal["travel", "rack", "bump", "roll", "left", "right", "steer"] | None,
+        typer.Option(
+            help="What varies: travel or rack, of axles the motion of the rig. Default: travel, "
+            "bump, or that of the measured curves."
+        ),
     ] = None,
     of: Of = None,
     out: Out = None,
@@ -49,12 +53,17 @@ def command(
 
     outputs = Outputs.of(out, plot, figures, formats, force=force, inputs=files)
     measured = [file for file in files if file.lower().endswith(".csv")]
-    if measured:
+    if axles.all_axles(files):
+        dataset = axles.compared(files, over)
+    elif over not in (None, "travel", "rack"):
+        raise typer.BadParameter(f"--over {over} is only for the files of axles")
+    elif measured:
         dataset = _beside(files, measured, over)
     else:
         models = _models(files)
         with progress_bar("characteristics") as progress:
-            dataset = compare.compare(models, over=over or "travel", progress=progress)
+            along: Any = over or "travel"
+            dataset = compare.compare(models, over=along, progress=progress)
     shown = among(of, map(str, dataset.data_vars)) if of else [str(n) for n in dataset.data_vars]
     found = [difference for difference in compare.differences(dataset) if difference.name in shown]
     first, *others = (str(name) for name in dataset["data_set"].values)

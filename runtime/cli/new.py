@@ -12,6 +12,7 @@ from .options import Force
 EXAMPLES = (
     "kintrafo new my_car.toml",
     "kintrafo new my_car.toml --suspension double_wishbone",
+    "kintrafo new my_axle.toml --axle",
     "kintrafo new my_car.toml --template chrono_generic --force",
 )
 
@@ -31,12 +32,18 @@ def command(
         str | None,
         typer.Option(metavar="NAME", help="Packaged data set to copy. Default: by --suspension."),
     ] = None,
+    axle: Annotated[
+        bool, typer.Option("--axle", help="Write the file of an axle, which names its sides.")
+    ] = False,
     force: Force = False,
 ) -> None:
     """Write an annotated hardpoint file to begin with: every key, its unit and its sign."""
     from ..suspension.kinds import KINDS
     from ..suspension.starter import write_starter
 
-    copied = KINDS[suspension].STARTER if template is None else template
+    if axle and template is not None:
+        raise typer.BadParameter("--axle and --template are both given")
+    usual = "reference_axle" if axle else KINDS[suspension].STARTER
+    copied = usual if template is None else template
     say(f"  {write_starter(path, template=copied, force=force)}")
     say(f"Edit it, then: kintrafo check {path}")

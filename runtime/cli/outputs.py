@@ -1,6 +1,6 @@
 """Data files and figures: the options for them, and writing them."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TypedDict
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, TypedDict
 import typer
 
 from .console import progress_bar, say
+from .options import among
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -113,6 +114,7 @@ class Outputs:
         title: str,
         names: Sequence[str] = (),
         suffix: str = "",
+        drawn: "Dataset | None" = None,
     ) -> list[Path]:
         """Write the files and return them; nothing has been printed that could go wrong before.
 
@@ -125,11 +127,14 @@ class Outputs:
             The curves of the page; all of them by default.
         suffix : str, optional
             Goes behind the name of each file, where a command has several datasets.
+        drawn : xarray.Dataset, optional
+            The data as they are drawn, where that is another form of them.
         """
         written = self.write_data(dataset, suffix)
         if self.pages or self.figures:
             rule: _Rule = {"force": self.force, "inputs": self.inputs}
-            written += self._drawn(dataset, title, names, suffix, rule)
+            curves = dataset if drawn is None else drawn
+            written += self._drawn(curves, title, names, suffix, rule)
         return written
 
     def write_data(
@@ -168,6 +173,19 @@ class Outputs:
                     **rule,
                 )
         return written
+
+
+def named(of: list[str] | None, drawn: "Mapping[str, Dataset]") -> dict[str, list[str]]:
+    """Return which curves of several datasets are drawn: those that are named, where they are.
+
+    An empty list says all of them. One that none of the datasets has is refused.
+    """
+    if not of:
+        return {key: [] for key in drawn}
+    known = dict.fromkeys(str(name) for dataset in drawn.values() for name in dataset)
+    wanted = among(of, known)
+    # a page has a curve at least: where there is none of these, it has all
+    return {key: [n for n in wanted if n in dataset] for key, dataset in drawn.items()}
 
 
 def name_files(files: Sequence[Path]) -> None:

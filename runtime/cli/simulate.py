@@ -1,6 +1,7 @@
 """``kintrafo simulate``: the motion over a road."""
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -8,6 +9,7 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
+from . import axles
 from .console import console, number, print_json, problems, say
 from .exits import Exit
 from .options import File, Force, Json, load
@@ -32,6 +34,7 @@ from .simulation_options import (
     Rtol,
     Speed,
     Spin,
+    Wheels,
 )
 
 if TYPE_CHECKING:
@@ -39,7 +42,6 @@ if TYPE_CHECKING:
 
     from ..simulation.result import Simulation
     from ..study.scenario import Scenario
-    from ..suspension.model import Model
 
 EXAMPLES = (
     "kintrafo simulate reference_car --height 305",
@@ -47,6 +49,7 @@ EXAMPLES = (
     "kintrafo simulate my_car.toml --road-sine 10 --road-frequency 2 --duration 5",
     "kintrafo simulate my_car.toml --road-step 60 --loads loads.csv",
     "kintrafo simulate my_car.toml --measured road.csv --speed 60 -o ride.nc",
+    "kintrafo simulate reference_axle --road-step 20 --wheels left",
 )
 
 # On the page of curves, in this order; what stands still is left out.
@@ -76,6 +79,7 @@ def command(
     road_frequency: RoadFrequency = 1.0,
     measured: Measured = None,
     speed: Speed = None,
+    wheels: Wheels = None,
     rack: Rack = None,
     rack_sine: RackSine = None,
     rack_frequency: RackFrequency = 1.0,
@@ -103,15 +107,17 @@ def command(
 ) -> None:
     """Simulate the suspension over a step, a sine or a measured road, with its rack moving.
 
-    Without --height it starts from rest on the road as it is at the beginning.
+    Without --height it starts from rest on the road as it is at the beginning. The equations of an
+    axle are derived and compiled when they are first needed, which takes some seconds.
     """
     from ..core.files import refuse
+    from ..suspension.model import Model
 
     read_here = [Path(file), *([] if measured is None else [measured])]
     outputs = Outputs.of(out, plot, figures, formats, force=force, inputs=read_here)
     on_parts = Outputs.of(loads, None, force=force, inputs=read_here)
     refuse([*outputs.data, *outputs.pages, *on_parts.data], force=force, inputs=read_here)
-    model = load(file)
+    ride = _ride(file, wheels, {"--height": height, "--loads": loads})
     scenario = scenario_of(
         height=height,
         spin=spin,
@@ -127,7 +133,7 @@ def command(
         duration=duration,
         output_step=output_step,
     )
-    if model.free_rack:
+    if isinstance(ride.model, Model) and ride.model.free_rack:
         _tell_of_the_free_rack(file, scenario.inputs)
     options = {
         "method": method,
@@ -136,18 +142,18 @@ def command(
         "max_step": math.inf if max_step is None else max_step / 1e3,
         "max_steps": max_steps,
     }
-    result, motion = _played(model, scenario, options, outputs, file, silent=json)
-    written = outputs.write(motion, title=file, names=_drawn(motion))
+    result, motion = _played(ride, scenario, options, outputs, file, silent=json)
+    written = _written(ride, motion, outputs, file)
     if loads:
         from ..study import loads as study
 
-        found = study.along(model, result)
+        found = study.along(ride.model, result)
         written += on_parts.write_data(found, rows=study.table(found))
     left = result.validity
     if json:
         print_json(_summary(result, motion))
     else:
-        console.print(_table(motion, file))
+        console.print(_table(motion, file, ride.curves))
         for line in _told(result):
             say(line)
         name_files(written)
@@ -156,6 +162,17 @@ def command(
         problems.print(f"{head}: {excursion}", style=style, highlight=False, markup=False)
     if not all(excursion.bound.possible for excursion in left):
         raise typer.Exit(Exit.REFUSED)
+
+
+def _ride(file: str, wheels: str | None, of_one: dict[str, Any]) -> axles.Ride:
+    """Return what is simulated, and how: a suspension, or an axle."""
+    if axles.is_axle(file):
+        axles.refuse_options("the file of one suspension", of_one)
+        return axles.ride(file, wheels or "both")
+    from ..study.scenario import run
+
+    axles.refuse_options("the file of an axle", {"--wheels": wheels})
+    return axles.Ride(load(file), run, _DRAWN)
 
 
 def _tell_of_the_free_rack(file: str, inputs: dict[str, Any]) -> None:
@@ -170,7 +187,7 @@ def _tell_of_the_free_rack(file: str, inputs: dict[str, Any]) -> None:
 
 
 def _played(
-    model: "Model",
+    ride: axles.Ride,
     scenario: "Scenario",
     options: dict[str, Any],
     outputs: Outputs,
@@ -181,27 +198,26 @@ def _played(
     """Simulate; where that cannot be finished, write the motion up to there."""
     from ..simulation.result import SimulationError
     from ..study.recording import dataset_of
-    from ..study.scenario import run
 
     try:
         with problems.status("integrating"):
-            return run(model, scenario, **options)
+            return ride.run(ride.model, scenario, **options)
     except SimulationError as error:
         if error.partial is not None and error.partial.t.size > 1:
-            motion = dataset_of(model, error.partial)
-            written = outputs.write(motion, title=f"{title}, unfinished", names=_drawn(motion))
+            motion = dataset_of(ride.model, error.partial)
+            written = _written(ride, motion, outputs, f"{title}, unfinished")
             name_files(() if silent else written)
         reason = error.reason.replace("max_steps", "--max-steps").replace("rtol", "--rtol")
         raise SimulationError(reason, error.time, error.state, error.partial) from error
 
 
-def _drawn(motion: "Dataset") -> list[str]:
-    """Return the curves of the page that are not constant."""
-    return [
-        name
-        for name in _DRAWN
-        if name in motion and float(motion[name].max() - motion[name].min()) > 0.0
-    ]
+def _written(ride: axles.Ride, motion: "Dataset", outputs: Outputs, title: str) -> list[Path]:
+    """Write the motion; its page has the curves that are not constant."""
+    drawn = ride.drawn(motion)
+    names = dict.fromkeys(n for c in ride.curves for n in (c, c.removeprefix("left_")))
+    known = [name for name in names if name in drawn]
+    varying = [n for n in known if float(drawn[n].max() - drawn[n].min()) > 0.0]
+    return outputs.write(motion, title=title, names=varying, drawn=drawn)
 
 
 def _crossings(result: "Simulation") -> tuple[list[float], list[float]]:
@@ -236,7 +252,7 @@ def _summary(result: "Simulation", motion: "Dataset") -> dict[str, Any]:
     }
 
 
-def _table(motion: "Dataset", file: str) -> Table:
+def _table(motion: "Dataset", file: str, curves: Sequence[str]) -> Table:
     from ..core.quantities import bracketed, display_of, long_name
     from ..study.recording import statistics
 
@@ -245,7 +261,7 @@ def _table(motion: "Dataset", file: str) -> Table:
     for column in ("smallest", "largest", "mean", "rms about it", "last"):
         table.add_column(column, justify="right")
     found = statistics(motion)
-    for name in (name for name in _DRAWN if name in motion):
+    for name in (name for name in curves if name in motion):
         data = motion[name]
         factor = display_of(data.attrs).factor
         values = vars(found[name]).values()

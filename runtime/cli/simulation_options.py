@@ -1,7 +1,7 @@
 """The arguments of ``kintrafo simulate``, with the units of the command line."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -45,6 +45,12 @@ Speed = Annotated[
     float | None,
     typer.Option(
         metavar="KM/H", help="Speed on a road given over distance_m.", rich_help_panel="Road"
+    ),
+]
+Wheels = Annotated[
+    Literal["both", "left", "right"] | None,
+    typer.Option(
+        help="Of an axle: under which wheels the road is. Default: both.", rich_help_panel="Road"
     ),
 ]
 Rack = Annotated[

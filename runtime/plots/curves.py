@@ -36,7 +36,7 @@ _DASHES = ("-", "--", "-.", ":")
 # The dimension of several suspensions that are compared.
 _FAMILY = "data_set"
 # Positions have a design value at zero; time has not.
-_WITH_DESIGN = ("wheel_travel", "rack_position")
+_WITH_DESIGN = ("wheel_travel", "rack_position", "roll_angle", "steering_wheel_angle")
 # More lines than this are a carpet: some of them are drawn.
 _MOST_LINES = 7
 _COLUMNS = 3
@@ -259,7 +259,10 @@ def figure(
             axes.set_xlabel(_with_sign(dataset[along]), fontsize=10 if alone else 9)
     for axes in panels[len(names) :]:
         axes.remove()
-    _legend(result, panels[0], dataset[names[0]], alone=alone)
+    for axes, name in zip(panels, names, strict=False):
+        if dataset[name].ndim > 1:
+            _legend(result, axes, dataset[name], alone=alone)
+            break
     result.suptitle("\n".join(line for line in (title, _held(dataset)) if line), fontsize=11)
     return written_plainly(result)
 
@@ -392,9 +395,7 @@ def _typeset(text: str) -> str:
 
 
 def _legend(result: Figure, axes: Axes, data: xr.DataArray, *, alone: bool) -> None:
-    """Name the lines once, where there are several: below a curve, or in the first of a page."""
-    if data.ndim == 1:
-        return
+    """Name the lines of a curve: below it where it is alone, or in its panel of a page."""
     along, lines = _lines(data)
     across = next(d for d in data.dims if d != along)
     handles = [line for line in axes.get_lines() if line.get_linestyle() != "None"][: len(lines)]

@@ -10,7 +10,6 @@ from scipy.integrate import trapezoid
 from ..core.arguments import Arguments
 from ..core.quantities import variable
 from ..simulation.result import Simulation
-from ..suspension.model import Model
 from ..systems.system import System
 
 Array = NDArray[np.float64]
@@ -18,12 +17,12 @@ Array = NDArray[np.float64]
 TIME = "time"
 
 
-def dataset_of(model: Model, result: Simulation) -> xr.Dataset:
+def dataset_of(model: System, result: Simulation) -> xr.Dataset:
     """Return signals, states and inputs of a simulation, with their descriptions.
 
     Parameters
     ----------
-    model : Model
+    model : System or Model
         The one that was simulated.
     result : Simulation
 
@@ -34,7 +33,7 @@ def dataset_of(model: Model, result: Simulation) -> xr.Dataset:
 
     Examples
     --------
-    >>> from kintrafo import simulate, state_at_height
+    >>> from kintrafo import Model, simulate, state_at_height
     >>> model = Model("reference_car")
     >>> result = simulate(model, (0.0, 0.1), state_at_height(model, 0.325))
     >>> dataset_of(model, result)["camber"].attrs["units"]

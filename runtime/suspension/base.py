@@ -36,12 +36,17 @@ from .input.units import in_metres
 from .input.vectors import components, unit_vector
 from .input.vehicle import Gravity, Steering, Tyre, Vehicle, Wheel
 from .places import put, reverse
-from .starter import DEFAULT
+from .starter import DEFAULT, packaged_axles
 from .strokes import Strokes
 from .structure import Structure
 
 # The top-level key that says which suspension a file describes.
 KIND = "suspension"
+
+_AN_AXLE = (
+    "this is the file of an axle, and one suspension is needed here. Give the hardpoint file that "
+    "it names as `side`, `right` or `left`."
+)
 
 # A wheel centre lower than this above z = 0 says that z = 0 is not the ground, in m.
 _SMALLEST_WHEEL_RADIUS = 0.1
@@ -147,6 +152,8 @@ class Suspension(Section):
         """
         with Arguments(cls.__name__) as given:
             given.path("path_or_name", path_or_name)
+        if path_or_name in packaged_axles():
+            raise InputError([_AN_AXLE], str(path_or_name))
         file = find(path_or_name)
         # Printing the path inside the package would not help whoever asked for a name.
         return cls.from_dict(read_toml(file), source=str(path_or_name))
@@ -483,6 +490,8 @@ def _kind_of(data: Mapping[str, Any], wanted: type[SuspensionT]) -> type[Suspens
         If there is no such kind, it is not the one that is wanted, or it is not said although the
         hardpoints are not those of a MacPherson suspension.
     """
+    if "axle" in data and "hardpoints" not in data:
+        raise InputError([_AN_AXLE])
     name = data.get(KIND, DEFAULT)
     if not isinstance(name, str) or name not in _known:
         meant = suggestion(str(name), known_kinds())

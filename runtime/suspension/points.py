@@ -1,5 +1,7 @@
 """Where the hardpoints are in a given position of the suspension."""
 
+from collections.abc import Mapping
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -32,18 +34,44 @@ def hardpoints(model: Model, state: ArrayLike, inputs: ArrayLike | None = None) 
     """
     with Arguments("hardpoints") as given:
         given.kind("model", model, Model, Model.NEEDED)
-    points, bodies = model.suspension.hardpoints, model.equations.BODIES
-    design_centers = _centers_of_mass(model)
+    points = model.suspension.hardpoints
+    moved = carried(
+        model, {p: (body, points.metres(p)) for p, body in points.CARRIERS.items()}, state, inputs
+    )
+    fixed = [p for p in (*points.names(), *points.STAND_INS) if p not in points.CARRIERS]
+    shape = next(iter(moved.values())).shape[:-1]
+    return moved | {point: np.broadcast_to(points.metres(point), (*shape, 3)) for point in fixed}
+
+
+def carried(
+    model: Model,
+    points: Mapping[str, tuple[str, Array]],
+    state: ArrayLike,
+    inputs: ArrayLike | None = None,
+) -> dict[str, Array]:
+    """Return where points of moving bodies are.
+
+    Parameters
+    ----------
+    model : Model
+    points : mapping
+        By names of any choice, the body and the place at design, chassis axes [m].
+    state, inputs : array_like
+        One state or many, as in the compiled module.
+
+    Returns
+    -------
+    dict
+        Position of each [m], shape (..., 3).
+    """
+    bodies, at_design = model.equations.BODIES, _centers_of_mass(model)
     centers = model.evaluate("positions", state, inputs)
     rotations = model.evaluate("orientations", state, inputs)
-    moved = {}
-    for point, body in points.CARRIERS.items():
-        index = bodies.index(body)
-        arm = points.metres(point) - design_centers[body]
-        moved[point] = centers[..., index, :] + rotations[..., index, :, :] @ arm
-    fixed = [p for p in (*points.names(), *points.STAND_INS) if p not in points.CARRIERS]
-    shape = centers.shape[:-2]
-    return moved | {point: np.broadcast_to(points.metres(point), (*shape, 3)) for point in fixed}
+    return {
+        name: centers[..., index, :] + rotations[..., index, :, :] @ (place - at_design[body])
+        for name, (body, place) in points.items()
+        for index in [bodies.index(body)]
+    }
 
 
 def _centers_of_mass(model: Model) -> dict[str, Array]:

@@ -11,6 +11,7 @@ from typing import Any
 
 from pydantic.json_schema import models_json_schema
 
+from .axle.file import AxleFile
 from .base import KIND
 from .input.bodies import RigidBody
 from .input.section import Section
@@ -54,6 +55,13 @@ _EVERY_BODY = """\
 
 Except for the wheel, which is round and has keys of its own. The inertia is the tensor about the
 centre of mass, in chassis axes; `xy` is the element of the matrix, minus the product of inertia.
+"""
+
+_AN_AXLE = """\
+## An axle
+
+A file of its own, which names the hardpoint files of its sides; `kintrafo new FILE --axle` writes
+one. See [Axles](axles.md).
 """
 
 _TABLE_HEAD = "| key | unit | allowed | left out | meaning |\n|---|---|---|---|---|"
@@ -126,7 +134,17 @@ def page_text() -> str:
         own = [section for section in kind.model_fields if section not in shared]
         parts.append(f'## {_capital(kind.TITLE)}\n\n`{KIND} = "{name}"`{kind.PAGE}\n')
         parts += _described(sections, kind, own)
+    parts += _axle()
     return "\n".join(parts).rstrip() + "\n"
+
+
+def _axle() -> Iterator[str]:
+    """Describe the file of an axle."""
+    _, made = models_json_schema([(AxleFile, "validation")])
+    sections = {name: _with_units(section) for name, section in made["$defs"].items()}
+    yield _AN_AXLE
+    yield from _table(sections[AxleFile.__name__])
+    yield from _described(sections, AxleFile, AxleFile.model_fields)
 
 
 def _shared() -> set[str]:
@@ -206,7 +224,7 @@ def _allowed(entry: dict[str, Any]) -> str:
         if "minimum" in option:
             low = f"{option['minimum']:g}"
             return f"{low} to {option['maximum']:g}" if "maximum" in option else f"{low} or more"
-    return "a number"
+    return "a number" if any(o.get("type") in ("number", "integer") for o in options) else "text"
 
 
 def _at_most(option: dict[str, Any]) -> str:

@@ -9,6 +9,7 @@ from ..core.suggestions import suggestion
 from .data import data_sets
 
 _ENDING = ".toml"
+_AXLES = f"{__package__}.axle.data"
 
 DEFAULT = "macpherson"
 """The kind of a file that does not say it."""
@@ -42,6 +43,17 @@ def packaged() -> tuple[str, ...]:
     return tuple(data_sets())
 
 
+def packaged_axles() -> tuple[str, ...]:
+    """Return the names of the axles that come with kintrafo.
+
+    Examples
+    --------
+    >>> packaged_axles()
+    ('reference_axle',)
+    """
+    return tuple(data_sets(_AXLES))
+
+
 def write_starter(
     path: str | Path, *, template: str = "reference_car", force: bool = False
 ) -> Path:
@@ -52,7 +64,7 @@ def write_starter(
     path : str or pathlib.Path
         A name that ends in ``.toml``.
     template : str, optional
-        Name of the packaged data set that is copied.
+        Name of the packaged data set that is copied: of a suspension, or of an axle.
     force : bool, optional
         Whether a file that somebody else wrote or changed is replaced, see `kintrafo.core.files`.
 
@@ -65,13 +77,12 @@ def write_starter(
     InputError
         If there is a file already, or the name cannot be used.
     """
-    if template not in packaged():
-        problem = (
-            f"no data set {template!r} comes with kintrafo. {suggestion(template, packaged())}"
-        )
+    known = data_sets() | data_sets(_AXLES)
+    if template not in known:
+        problem = f"no data set {template!r} comes with kintrafo. {suggestion(template, known)}"
         raise InputError([problem], "template")
     refuse([path], force=force, endings=[_ENDING])
-    text = _with_limits(data_sets()[template].read_text(encoding="utf-8"))
+    text = _with_limits(known[template].read_text(encoding="utf-8"))
     with replacing(path, force=force) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")
     return Path(path)

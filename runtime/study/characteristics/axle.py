@@ -58,14 +58,16 @@ def turning_circle(left: Array, right: Array, wheelbase: float) -> Array:
     return np.where(_turning(left, right), diameter, np.inf)
 
 
-def steering_ratio(left_gradient: Array, right_gradient: Array, travel_per_turn: float) -> Array:
+def steering_ratio(
+    left_gradient: Array, right_gradient: Array, travel_per_turn: float | Array
+) -> Array:
     """Return the derivative of the steering wheel's angle by the mean steer angle [1].
 
     Parameters
     ----------
     left_gradient, right_gradient : ndarray
         Derivatives of the steer angles by rack travel [rad/m].
-    travel_per_turn : float
+    travel_per_turn : float or ndarray
         Rack travel for one turn of the steering wheel [m].
 
     Returns

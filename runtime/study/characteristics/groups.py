@@ -21,6 +21,7 @@ _PREFIXES = {
     "Wheel path": (
         "half_track",
         "track",
+        "inclination",
         "wheelbase",
         "contact",
         "wheel_center",
@@ -37,9 +38,29 @@ _PREFIXES = {
         "tyre",
         "wheel_force",
         "wheel_load",
+        "bar_",
+        "link_",
+        "roll_stiffness",
+        "roll_moment",
     ),
-    "Steering": ("steer_", "ackermann", "turning", "steering_ratio", "steering_gradient"),
-    "Roll and pitch centres": ("roll_", "swing_arm", "side_view", "instant", "anti_", "pitch"),
+    "Steering": (
+        "steer_",
+        "steering_wheel",
+        "rack",
+        "ackermann",
+        "turning",
+        "steering_ratio",
+        "steering_gradient",
+    ),
+    "Roll and pitch centres": (
+        "roll_",
+        "jacking",
+        "swing_arm",
+        "side_view",
+        "instant",
+        "anti_",
+        "pitch",
+    ),
 }
 
 ORDER = (*_PREFIXES, OTHER)

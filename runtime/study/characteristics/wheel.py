@@ -118,13 +118,13 @@ def roll_center_height_kinematic(corner: Corner) -> Array:
     The normal is that of the path of the contact point, fixed to the wheel carrier, seen from the
     front.
     """
-    velocity = _contact_velocity(corner)
+    velocity = contact_velocity(corner)
     return _quotient(contact(corner)[..., 1] * velocity[..., 1], velocity[..., 2])
 
 
 def swing_arm_length_kinematic(corner: Corner) -> Array:
     """Return the lateral distance of contact and instant centre in front view [m]."""
-    velocity, turning = _contact_velocity(corner), corner.travel.turning
+    velocity, turning = contact_velocity(corner), corner.travel.turning
     return _quotient(corner.vehicle.side * velocity[..., 2], turning[..., 0])
 
 
@@ -143,7 +143,7 @@ def swing_arm_length_geometric(corner: Corner) -> Array:
 
 def side_view_swing_arm_angle(corner: Corner) -> Array:
     """Return the slope of the contact's path in side view, wheel locked [rad]."""
-    velocity = _contact_velocity(corner)
+    velocity = contact_velocity(corner)
     angle: Array = np.arctan2(velocity[..., 0], velocity[..., 2])
     return angle
 
@@ -160,7 +160,7 @@ def anti_dive(corner: Corner) -> Array:
     share = vehicle.front_brake_share
     if wheelbase is None or height is None or share is None:
         raise _missing("wheelbase, center_of_gravity_height and front_brake_share")
-    velocity = _contact_velocity(corner)
+    velocity = contact_velocity(corner)
     return _quotient(share * wheelbase / height * velocity[..., 0], velocity[..., 2])
 
 
@@ -175,6 +175,14 @@ def motion_ratio(corner: Corner) -> Array:
 def damper_motion_ratio(corner: Corner) -> Array:
     """Return the compression of the damper per wheel travel [1]."""
     return -corner.damper.slope
+
+
+def wheel_force(corner: Corner) -> Array:
+    """Return the vertical force at the wheel that spring and stops take, by virtual work [N]."""
+    force = np.zeros_like(corner.arm_rotation)
+    for spring in (corner.spring, *corner.stops):
+        force = force - spring.force * spring.stroke.slope
+    return force
 
 
 def wheel_rate(corner: Corner) -> Array:
@@ -242,7 +250,7 @@ def upward_across(axis: Array) -> Array:
     return upward
 
 
-def _contact_velocity(corner: Corner) -> Array:
+def contact_velocity(corner: Corner) -> Array:
     """Return the velocity of the contact point, fixed to the carrier, per wheel travel."""
     motion = corner.travel
     return motion.velocity + np.cross(motion.turning, contact(corner) - corner.center)

@@ -1,5 +1,6 @@
 """Data sets that come with the project."""
 
+from collections.abc import Mapping
 from importlib import resources
 from importlib.resources.abc import Traversable
 from pathlib import Path
@@ -11,15 +12,17 @@ from ...core.suggestions import suggestion
 _ENDING = ".toml"
 
 
-def data_sets() -> dict[str, Traversable]:
+def data_sets(package: str = __package__) -> dict[str, Traversable]:
     """Return the files of the data sets, by their names in order."""
-    files = sorted(resources.files(__package__).iterdir(), key=lambda file: file.name)
+    files = sorted(resources.files(package).iterdir(), key=lambda file: file.name)
     return {f.name.removesuffix(_ENDING): f for f in files if f.name.endswith(_ENDING)}
 
 
-def find(path_or_name: str | Path) -> Path | Traversable:
+def find(
+    path_or_name: str | Path, packaged: Mapping[str, Traversable] | None = None
+) -> Path | Traversable:
     """Return the packaged file of this name, or else the file at this path."""
-    packaged = data_sets()
+    packaged = data_sets() if packaged is None else packaged
     if isinstance(path_or_name, str) and path_or_name in packaged:
         return packaged[path_or_name]
     path = Path(path_or_name)

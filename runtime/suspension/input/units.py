@@ -12,6 +12,8 @@ _UNIT_OF_ENDING = {
     "m_per_s2": "m/s^2",
     "m_per_s": "m/s",
     "kg_m2": "kg m^2",
+    "Nm_per_deg": "N m/deg",
+    "GPa": "GPa",
     "kg": "kg",
     "N": "N",
     "mm": "mm",

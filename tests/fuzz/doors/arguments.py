@@ -15,6 +15,7 @@ import kintrafo
 import numpy as np
 import xarray as xr
 from kintrafo import (
+    axles,
     characteristics,
     checkup,
     compare,
@@ -43,6 +44,13 @@ _REST = kintrafo.equilibrium(_CAR)
 _LINEAR = kintrafo.linearise(_CAR, _REST)
 _RESULT = kintrafo.simulate(_CAR, (0.0, 0.01), _REST)
 _DATASET = dataset_of(_CAR, _RESULT)
+_AXLE = kintrafo.Axle.load("reference_axle")
+_BAR = {
+    "unit": "mm", "bush": [240.0, -400.0, 320.0], "link_top": [30.0, -580.0, 330.0],
+    "link_foot": [30.0, -580.0, 200.0], "link_on": "control_arm", "axis": [0.0, 1.0, 0.0],
+    "rate_Nm_per_deg": None, "diameter_mm": 20.0, "length_mm": 800.0, "inner_diameter_mm": 0.0,
+}  # fmt: skip
+_EXTENT = axles.Extent(rebound=0.01, bump=0.01, roll=0.01, rack=0.01, step=0.01)
 _ONE_CURVE = _DATASET[["camber"]]
 
 NASTY = [
@@ -291,6 +299,46 @@ CALLS = {
         lambda **given: next(kintrafo.proposals(**given)),
         {"declared": "/missing.py", "name": None, "seconds": 1.0},
     ),
+    "Axle.load": (kintrafo.Axle.load, {"path_or_name": "reference_axle"}),
+    "Axle.from_dict": (
+        kintrafo.Axle.from_dict,
+        {"data": {"axle": "front", "side": "reference_car"}, "source": "a", "folder": "."},
+    ),
+    "axle": (
+        lambda **given: axles.bump(kintrafo.Axle.from_dict({"axle": "front", **given}), [0.0]),
+        {
+            "side": "reference_car", "anti_roll_bar": _BAR, "brakes": {"torque_on": "body"},
+            "drive": {"share": 0.5}, "steering": {"angle_deg": [-9.0, 9.0], "rack_mm": [1.0, 0.0]},
+        },
+    ),
+    "anti_roll_bar": (
+        lambda **given: axles.roll(
+            kintrafo.Axle.from_dict(
+                {"axle": "rear", "side": "reference_car", "anti_roll_bar": given}
+            ),
+            [0.0, 0.01],
+        ),
+        _BAR | {"free_twist_deg": 1.0},
+    ),
+    "axles.bump": (axles.bump, {"axle": _AXLE, "travel": [0.0, 0.01], "rack_position": 0.0}),
+    "axles.roll": (axles.roll, {"axle": _AXLE, "angle": [0.0, 0.01], "rack_position": 0.0}),
+    "axles.single": (
+        axles.single,
+        {"axle": _AXLE, "travel": [0.0, 0.01], "side": "left", "rack_position": 0.0},
+    ),
+    "axles.steer": (
+        axles.steer, {"axle": _AXLE, "angle": [0.0, 0.1], "rack": None, "travel": 0.0}
+    ),
+    "axles.over": (
+        axles.over,
+        {"axle": _AXLE, "motion": "roll", "extent": _EXTENT, "rack": 0.0, "travel": 0.0},
+    ),
+    "Extent": (
+        lambda **given: axles.over(_AXLE, "bump", axles.Extent(**given)),
+        {"rebound": 0.01, "bump": 0.02, "step": 0.01},
+    ),
+    "axles.compare": (axles.compare, {"axles": {"a": _AXLE, "b": _AXLE}, "over": "left"}),
+    "axles.by_side": (axles.by_side, {"dataset": _DATASET}),
     "Suspension.load": (kintrafo.Suspension.load, {"path_or_name": "reference_car"}),
     "Suspension.from_dict": (kintrafo.Suspension.from_dict, {"data": {}}),
     "Suspension.with_changes": (_CAR.suspension.with_changes, {"changes": {}}),

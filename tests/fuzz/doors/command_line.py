@@ -67,16 +67,17 @@ VALUES = (
     "wheel=1",
 )
 OPTIONS = {
-    "new": ("--suspension", "--template"),
+    "new": ("--suspension", "--template", "--axle"),
     "import-chrono": ("--tire", "--side"),
     "schema": (),
     "check": ("--json",),
     "topology": ("--free-rack", "--json"),
     "kinematics": ("-o", "--plot", "--over", "--bump", "--rebound", "--travel", "--rack", "--step"),
-    "characteristics": ("-o", "--bump", "--rebound", "--travel", "--rack", "--rack-extent"),
+    "characteristics": ("-o", "--bump", "--rebound", "--travel", "--rack", "--rack-extent",
+                        "--motion", "--roll", "--of"),
     "simulate": ("-o", "--road-step", "--road-sine", "--road-frequency", "--measured", "--speed",
                  "--rack", "--rack-sine", "--height", "--spin", "--output-step", "--method",
-                 "--rtol", "--atol", "--road-step-at"),
+                 "--rtol", "--atol", "--road-step-at", "--wheels"),
     "loads": ("-o", "--plot", "--cases", "--case", "--part"),
     "compliance": ("-o", "--plot", "--held", "--at", "--rack", "--bump"),
     "compare": ("-o", "--over", "--of"),
@@ -92,7 +93,9 @@ WORDS = {
     "--suspension": ("macpherson", "double_wishbone", "x"),
     "--template": (*packaged(), "x"),
     "--side": ("left", "right", "x"),
-    "--over": ("travel", "rack", "both", "x"),
+    "--over": ("travel", "rack", "both", "roll", "x"),
+    "--motion": ("bump", "roll", "left", "steer", "x", ""),
+    "--wheels": ("left", "both", "x"),
     "--place": ("wheel", "hardpoints.tie_rod_inner.z", "vehicle", "rack.axis", "*", "x", ""),
     "--of": ("toe", "ackermann", "x", ""),
     "--keep": ("toe:max", "tyre_force:above:1", "toe", "toe:above", "x:max", ""),
@@ -195,7 +198,9 @@ def _arguments(random: Generator, names: list[str]) -> list[str]:
     command = str(random.choice(list(OPTIONS), p=_WEIGHTS))
     arguments = [command]
     for _ in range(random.choice([0, 1, 1, 1, 1, 2, 2])):
-        known = str(random.choice(packaged()))
+        # the equations of an axle would have to be compiled
+        axles = () if command == "simulate" else ("reference_axle",)
+        known = str(random.choice((*packaged(), *axles)))
         arguments.append(known if random.random() < 0.4 else names[random.integers(len(names))])
     options = OPTIONS[command]
     for _ in range(random.integers(0, 4)):
@@ -231,7 +236,7 @@ _WEIGHTS = [
 
 
 def _value(random: Generator, option: str, names: list[str]) -> list[str]:
-    if option in ("--json", "--free-rack", "--numpy"):
+    if option in ("--json", "--free-rack", "--numpy", "--axle"):
         return []
     if option in WORDS:
         return [str(random.choice(WORDS[option]))]

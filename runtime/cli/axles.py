@@ -1,0 +1,244 @@
+"""What the commands do with the file of an axle."""
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import typer
+from rich.markup import escape
+from rich.table import Table
+
+from .console import console, curve_table, print_json, problems, say, significant
+from .exits import Exit
+from .outputs import Outputs, name_files, named
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+    from ..simulation.result import Simulation
+    from ..study.axles.motions import Extent
+    from ..study.checkup import Checkup
+
+# Beside the tables at design: what changes over roll, and over steering.
+_OVER_ROLL = (
+    "roll_moment",
+    "roll_stiffness",
+    "roll_center_height",
+    "roll_center_lateral",
+    "inclination_left",
+    "inclination_right",
+)
+_OVER_STEERING = ("steer_left", "steer_right", "ackermann", "turning_circle", "steering_ratio")
+# On the page of curves of a simulation, for both sides.
+_DRAWN = ("wheel_center_z", "wheel_acceleration", "tyre_force", "camber", "toe")
+
+
+def is_axle(file: str) -> bool:
+    """Tell whether a file is that of an axle."""
+    from ..suspension.axle.axle import is_axle as found
+
+    return found(file)
+
+
+def all_axles(files: list[str]) -> bool:
+    """Tell whether files are those of axles; refuse axles beside suspensions."""
+    axles = [file for file in files if is_axle(file)]
+    if axles and len(axles) < len(files):
+        other = next(file for file in files if file not in axles)
+        message = f"{axles[0]} is an axle and {other} is not: compare files of one sort"
+        raise typer.BadParameter(message)
+    return bool(axles)
+
+
+def refuse_options(sort: str, given: Mapping[str, Any]) -> None:
+    """Refuse options that the files of one sort do not have."""
+    for option, value in given.items():
+        if value is not None:
+            raise typer.BadParameter(f"{option} is only for {sort}")
+
+
+def characteristics(
+    file: str,
+    motions: list[str],
+    extent: "Extent",
+    held: Mapping[str, float],
+    outputs: Outputs,
+    *,
+    of: list[str] | None,
+    json: bool,
+) -> None:
+    """All characteristics of an axle over the motions of a rig."""
+    from ..study import axles, export
+    from ..suspension.axle import Axle
+
+    axle = Axle.load(file)
+    curves = {motion: axles.over(axle, motion, extent, **held) for motion in motions}
+    drawn = {motion: axles.by_side(dataset) for motion, dataset in curves.items()}
+    names = named(of, drawn)
+    written = []
+    for motion, dataset in curves.items():
+        written += outputs.write(
+            dataset,
+            title=f"{file}: {axles.MOTIONS[motion]}",
+            names=names[motion],
+            suffix=f"_{motion}",
+            drawn=drawn[motion],
+        )
+    if json:
+        print_json({f"over_{motion}": export.as_dict(curves[motion]) for motion in curves})
+        return
+    for motion, dataset in curves.items():
+        for table in _TABLES.get(motion, _of_one_wheel)(dataset, file):
+            console.print(table)
+    name_files(written)
+
+
+def _of_bump(dataset: "Dataset", file: str) -> list[Table]:
+    """Return what there is at design: of each wheel, and of the axle."""
+    wheels, whole = _sorted_names(dataset)
+    by_wheel = _table(f"{file}: each wheel over parallel travel, at design", ("left", "right"))
+    for stem in wheels:
+        sides = [dataset[f"{stem}_{side}"] for side in ("left", "right")]
+        _add(by_wheel, _words(sides[0]), sides)
+    by_axle = _table(f"{file}: the axle, at design", ("value",))
+    for name in whole:
+        _add(by_axle, _words(dataset[name]), [dataset[name]])
+    return [by_wheel, by_axle]
+
+
+def _table(title: str, columns: tuple[str, ...]) -> Table:
+    table = Table(title=escape(title))
+    table.add_column("characteristic")
+    for column in columns:
+        table.add_column(column, justify="right")
+    table.add_column("unit")
+    table.add_column("sign")
+    return table
+
+
+def _words(data: Any) -> str:
+    from ..core.quantities import long_name
+
+    return long_name(data).removesuffix(", left").removesuffix(", right")
+
+
+def _add(table: Table, words: str, columns: list[Any]) -> None:
+    from ..core.quantities import display_of, displayed
+
+    (along,) = columns[0].dims
+    index = int(abs(columns[0][along].values).argmin())
+    values = [significant(float(displayed(data)[index])) for data in columns]
+    unit = display_of(columns[0].attrs).units.replace("1", "-")
+    table.add_row(words, *values, unit, str(columns[0].attrs.get("sign", "")))
+
+
+def _sorted_names(dataset: "Dataset") -> tuple[list[str], list[str]]:
+    """Return what both wheels have, without the side, and what the axle has."""
+    names = [str(name) for name in dataset]
+    wheels = [n.removesuffix("_left") for n in names if n.endswith("_left")]
+    sides = tuple(f"{stem}_{side}" for stem in wheels for side in ("left", "right"))
+    return wheels, [name for name in names if name not in sides]
+
+
+def _of_roll(dataset: "Dataset", file: str) -> list[Table]:
+    names = [name for name in _OVER_ROLL if name in dataset]
+    return [curve_table(dataset, names, f"{file}: roll of the body")]
+
+
+def _of_steering(dataset: "Dataset", file: str) -> list[Table]:
+    names = [name for name in _OVER_STEERING if name in dataset]
+    return [curve_table(dataset, names, f"{file}: steering")]
+
+
+def _of_one_wheel(dataset: "Dataset", file: str) -> list[Table]:
+    wanted = ("wheel_force_left", "wheel_force_right", "bar_torque", "track", "roll_center_height")
+    names = [name for name in wanted if name in dataset]
+    return [curve_table(dataset, names, f"{file}: {dataset.attrs['title']}")]
+
+
+_TABLES: dict[str, Callable[["Dataset", str], list[Table]]] = {
+    "bump": _of_bump,
+    "roll": _of_roll,
+    "steer": _of_steering,
+}
+
+
+def compared(files: list[str], over: str | None) -> "Dataset":
+    """Return the characteristics of several axles over one motion."""
+    from ..core.quantities import distinct
+    from ..study import axles
+    from ..suspension.axle import Axle
+
+    motion = over or "bump"
+    if motion not in axles.MOTIONS:
+        raise typer.BadParameter(f"--over {over}: of axles it is {', '.join(axles.MOTIONS)}")
+    found = dict(zip(distinct(files), map(Axle.load, files), strict=True))
+    return axles.compare(found, over=motion)
+
+
+def check(file: str, *, json: bool, print_side: Callable[["Checkup", str], None]) -> None:
+    """Say what is wrong with an axle and its sides, or sum it up."""
+    from ..core.errors import InputError
+    from ..study.axles import checkup
+    from ..suspension.axle import Axle
+
+    try:
+        axle = Axle.load(file)
+        found = checkup.checkup(axle)
+    except InputError as error:
+        if json:
+            print_json({"problems": list(error.problems)})
+        else:
+            say(str(error))
+        raise typer.Exit(Exit.REFUSED) from None
+    if json:
+        print_json(checkup.as_dict(found))
+    else:
+        for one in found.sides.values():
+            print_side(one, file)
+        table = Table(title=f"{escape(file)}: {escape(axle.heading())}", show_header=False)
+        for name, text in found.rows.items():
+            table.add_row(name, escape(text))
+        console.print(table)
+        for kind, texts in (("problem", found.problems), ("note", found.notes)):
+            for text in texts:
+                say(f"{kind}: {text}")
+        if not found.problems:
+            say("No problems found.")
+    if found.problems:
+        raise typer.Exit(Exit.REFUSED)
+
+
+class Ride(NamedTuple):
+    """What ``kintrafo simulate`` simulates.
+
+    Attributes
+    ----------
+    model : Model or AxleModel
+    run : callable
+        Takes the model, a scenario and options of `kintrafo.simulate`.
+    curves : sequence of str
+        What stands in the table and on the page, in this order.
+    drawn : callable
+        Takes the motion, and returns it as it is drawn.
+    """
+
+    model: Any
+    run: Callable[..., tuple["Simulation", "Dataset"]]
+    curves: Sequence[str]
+    drawn: Callable[["Dataset"], "Dataset"] = lambda motion: motion
+
+
+def ride(file: str, wheels: str) -> Ride:
+    """Return an axle to be simulated over a road under one wheel or both."""
+    from ..study.axles import ride as study
+    from ..suspension.axle import Axle
+    from ..suspension.axle.equations import AxleModel
+
+    axle = Axle.load(file)
+    with problems.status("preparing the equations of the axle") as status:
+        model = AxleModel(axle, progress=lambda text: status.update(f"the axle: {text}"))
+    stems = ("road_height", *(f"{axle.end}_{part}" for part in _DRAWN))
+    of_wheels = [f"{side}_{stem}" for stem in stems for side in ("left", "right")]
+    curves = ("rack_position", *of_wheels, "bar_angle", "bar_spring_moment")
+    return Ride(model, partial(study.run, wheels=wheels), curves, study.by_side)

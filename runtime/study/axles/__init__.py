@@ -1,0 +1,20 @@
+"""Characteristics of an axle as a rig finds them: parallel travel, roll, one wheel, steering.
+
+    `motions`    where the wheels are: `bump`, `roll`, `single`, `steer`
+    `pair`       both wheels and the anti-roll bar in many positions
+    `rolling`    roll centre, roll stiffness and jacking: the formulas
+    `pitching`   anti-dive, anti-lift and anti-squat: the formulas
+    `catalogue`  name, unit, definition and sign of each
+    `datasets`   the labelled arrays
+    `compare`    several axles over one motion
+    `checkup`    a first look
+    `ride`       at rest and over a road, by the equations of the whole axle
+
+What a single wheel does is in `kintrafo.characteristics`. Definitions and signs: docs/axles.md.
+"""
+
+from .compare import compare, over
+from .datasets import bump, by_side, roll, single, steer
+from .motions import MOTIONS, Extent
+
+__all__ = ["MOTIONS", "Extent", "bump", "by_side", "compare", "over", "roll", "single", "steer"]

@@ -1,0 +1,333 @@
+"""Characteristics of an axle over the motions of a rig, as labelled arrays."""
+
+from collections.abc import Iterable
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike
+
+from ...core.arguments import Arguments
+from ...suspension.axle import Axle
+from ...suspension.axle.axle import LEFT, RIGHT
+from ...suspension.corner import Array
+from ..characteristics import axle as of_both
+from ..characteristics import catalogue as of_wheels
+from ..characteristics.catalogue import Quantity
+from ..characteristics.datasets import RACK, TRAVEL
+from ..characteristics.wheel import steer as steer_angle
+from ..characteristics.wheel import steer_gradient
+from . import motions
+from .catalogue import OVER_STEERING, OVER_TRAVEL, Measure
+from .motions import Extent
+from .pair import Pair
+
+ROLL = Quantity(
+    "roll_angle",
+    "rad",
+    "roll angle",
+    "angle of the body to the line through the wheel centres, which move oppositely",
+    "positive with the right side down",
+)
+_SIDES = xr.Variable("data_set", [LEFT, RIGHT], {"long_name": "side"})
+STEERING_WHEEL = Quantity(
+    "steering_wheel_angle",
+    "rad",
+    "steering-wheel angle",
+    "angle of the steering wheel from its middle position",
+    "positive to the left",
+)
+
+
+def bump(axle: Axle, travel: ArrayLike | None = None, *, rack_position: float = 0.0) -> xr.Dataset:
+    """Return the characteristics over parallel wheel travel, the rack held.
+
+    Parameters
+    ----------
+    axle : Axle
+    travel : array_like, shape (n,), optional
+        Heights of both wheel centres above design [m]; by default from -80 mm to 80 mm, or as far
+        as both go.
+    rack_position : float, optional
+        Displacement of the rack [m].
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``wheel_travel`` [m]. What each wheel has ends in ``_left`` and ``_right``. SI units;
+        attributes as of `kintrafo.characteristics.travel`. What needs data of the vehicle that are
+        not given is left out.
+
+    Raises
+    ------
+    PositionError
+        If a travel is out of reach; the message states the range.
+    InputError
+        If a value is not finite, or a drop link does not reach.
+
+    Examples
+    --------
+    >>> from kintrafo import Axle
+    >>> curves = bump(Axle.load("reference_axle"), [-0.05, 0.0, 0.05])
+    >>> (curves["roll_center_height"].values * 1e3).round(1).tolist()
+    [224.8, 106.3, -18.2]
+    """
+    rack, travels = _checked(axle, rack_position, "travel", travel, "m")
+    values = motions.travels(axle, Extent()) if travels is None else travels
+    pair = Pair.at(axle, values, values, rack)
+    title = "characteristics over parallel wheel travel"
+    return _dataset(pair, OVER_TRAVEL, TRAVEL, values, {RACK: rack}, title)
+
+
+def roll(axle: Axle, angle: ArrayLike | None = None, *, rack_position: float = 0.0) -> xr.Dataset:
+    """Return the characteristics over roll of the body, the wheels moving oppositely.
+
+    Parameters
+    ----------
+    axle : Axle
+    angle : array_like, shape (n,), optional
+        Roll angles of the body, positive with the right side down [rad]; by default from -4 deg to
+        4 deg, or as far as both wheels go.
+    rack_position : float, optional
+        Displacement of the rack [m].
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``roll_angle`` [rad], otherwise as of `bump`.
+
+    Raises
+    ------
+    PositionError, InputError
+        As `bump`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from kintrafo import Axle
+    >>> curves = roll(Axle.load("reference_axle"), np.deg2rad([0.0, 2.0]))
+    >>> curves["roll_stiffness"].attrs["display_units"]
+    'N m/deg'
+    """
+    rack, angles = _checked(axle, rack_position, "angle", angle, "rad")
+    values = motions.rolls(axle, Extent()) if angles is None else angles
+    pair = Pair.at(axle, *motions.opposite(axle, values), rack)
+    title = "characteristics over roll"
+    return _dataset(pair, OVER_TRAVEL, ROLL, values, {RACK: rack}, title)
+
+
+def single(
+    axle: Axle, travel: ArrayLike | None = None, *, side: str = LEFT, rack_position: float = 0.0
+) -> xr.Dataset:
+    """Return the characteristics over the travel of one wheel, the other one at design.
+
+    Parameters
+    ----------
+    axle : Axle
+    travel : array_like, shape (n,), optional
+        Heights of the wheel centre above design [m]; by default from -80 mm to 80 mm, or as far as
+        it goes.
+    side : {'left', 'right'}, optional
+        Which wheel moves.
+    rack_position : float, optional
+        Displacement of the rack [m].
+
+    Returns
+    -------
+    xarray.Dataset
+        As of `bump`.
+
+    Raises
+    ------
+    PositionError, InputError
+        As `bump`.
+    """
+    with Arguments("axle") as given:
+        given.among("side", side, (LEFT, RIGHT))
+    rack, travels = _checked(axle, rack_position, "travel", travel, "m")
+    values = motions.travels(axle, Extent(), (side,)) if travels is None else travels
+    both = {side: values, (RIGHT if side == LEFT else LEFT): np.zeros_like(values)}
+    pair = Pair.at(axle, both[LEFT], both[RIGHT], rack)
+    title = f"characteristics over travel of the {side} wheel"
+    return _dataset(pair, OVER_TRAVEL, TRAVEL, values, {RACK: rack}, title)
+
+
+def steer(
+    axle: Axle,
+    angle: ArrayLike | None = None,
+    *,
+    rack: ArrayLike | None = None,
+    travel: float = 0.0,
+) -> xr.Dataset:
+    """Return the characteristics over the steering wheel, or over the rack.
+
+    Parameters
+    ----------
+    axle : Axle
+    angle : array_like, shape (n,), optional
+        Angles of the steering wheel, positive to the left [rad].
+    rack : array_like, shape (n,), optional
+        Displacements of the rack instead [m]. By default the steering wheel turns, if the files say
+        how it moves the rack, and the rack moves by 60 mm to either side, or as far as it goes.
+    travel : float, optional
+        Height of both wheel centres above design [m].
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``steering_wheel_angle`` [rad] or ``rack_position`` [m], otherwise as of `bump`.
+
+    Raises
+    ------
+    PositionError, InputError
+        As `bump`; also if an angle is beyond the curve, or nothing says how the angle moves the
+        rack.
+    """
+    with Arguments("axle") as given:
+        given.kind("axle", axle, Axle, Axle.NEEDED)
+        travel = given.number("travel", travel, "m")
+        if angle is not None and rack is not None:
+            given.refuse("angle and rack are both given. Give one of them.")
+        angles = None if angle is None else given.array("angle", angle, "rad", dimensions=[1])
+        racks = None if rack is None else given.array("rack", rack, "m", dimensions=[1])
+        if not given.refused and angles is not None:
+            _refuse_angles(given, axle, angles)
+    if angles is None and racks is None:
+        angles = motions.steering_angles(axle, Extent())
+        racks = motions.racks(axle, Extent()) if angles is None else None
+    title = "characteristics over steering"
+    if angles is None:
+        assert racks is not None
+        found = Pair.at(axle, travel, travel, racks)
+        dataset = _dataset(found, OVER_STEERING, RACK, racks, {TRAVEL: travel}, title)
+        return dataset.assign(_variables(_of_both(found, None), RACK))
+    positions, per_turn = _rack_of(axle, angles)
+    found = Pair.at(axle, travel, travel, positions)
+    held = {TRAVEL: travel}
+    dataset = _dataset(found, OVER_STEERING, STEERING_WHEEL, angles, held, title)
+    dataset = dataset.assign(_variables({RACK: positions}, STEERING_WHEEL))
+    return dataset.assign(_variables(_of_both(found, per_turn), STEERING_WHEEL))
+
+
+def by_side(dataset: xr.Dataset) -> xr.Dataset:
+    """Return a dataset in which the two wheels are a dimension, as they are drawn.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        From `bump`, `roll`, `single` or `steer`.
+
+    Returns
+    -------
+    xarray.Dataset
+        Where there are ``camber_left`` and ``camber_right`` there is ``camber`` over ``data_set``,
+        left and right.
+    """
+    with Arguments("axle") as given:
+        given.dataset(dataset)
+    return by_ends(dataset, "{stem}_{side}")
+
+
+def by_ends(dataset: xr.Dataset, pattern: str) -> xr.Dataset:
+    """Return a dataset in which variables are together whose names differ by the side."""
+    together: dict[str, xr.DataArray] = {}
+    for name, data in dataset.items():
+        stem = next((s for side in _SIDES.values if (s := _stem(str(name), side, pattern))), "")
+        sides = [pattern.format(stem=stem, side=side) for side in _SIDES.values]
+        if not stem or not all(side in dataset for side in sides):
+            together[str(name)] = data
+        elif stem not in together:
+            words = str(data.attrs["long_name"]).removesuffix(f", {LEFT}")
+            words = words.removesuffix(f", {RIGHT}")
+            both = xr.concat([dataset[side] for side in sides], _SIDES, combine_attrs="override")
+            together[stem] = both.assign_attrs(long_name=words)
+    return xr.Dataset(together, attrs=dataset.attrs)
+
+
+def _stem(name: str, side: str, pattern: str) -> str:
+    """Return a name without its side; empty if it has not this one."""
+    before, after = pattern.format(stem="\0", side=side).split("\0")
+    if name.startswith(before) and name.endswith(after):
+        return name[len(before) : len(name) - len(after)]
+    return ""
+
+
+def _checked(
+    axle: Axle, rack_position: float, name: str, along: ArrayLike | None, unit: str
+) -> tuple[float, Array | None]:
+    with Arguments("axle") as given:
+        given.kind("axle", axle, Axle, Axle.NEEDED)
+        rack = given.number("rack_position", rack_position, "m")
+        if along is None:
+            return rack, None
+        return rack, given.array(name, along, unit, dimensions=[1])
+
+
+def _refuse_angles(given: Arguments, axle: Axle, angles: Array) -> None:
+    if axle.steering is None and motions.travel_per_turn(axle) is None:
+        given.refuse(
+            "angle: nothing says how the steering wheel moves the rack. Give [rack] "
+            "travel_per_turn_mm in the hardpoint file, or [steering] in the axle's; or give rack."
+        )
+    elif axle.steering is not None:
+        low, high = axle.steering.limits()
+        beyond = angles[(angles < low) | (angles > high)]
+        if beyond.size:
+            given.refuse(
+                f"angle = {np.degrees(beyond[0]):g} deg is beyond the curve of [steering], from "
+                f"{np.degrees(low):g} deg to {np.degrees(high):g} deg. Add points to it."
+            )
+
+
+def _rack_of(axle: Axle, angles: Array) -> tuple[Array, Array]:
+    """Return rack displacements at angles, and the travel for a turn there, with its sign [m]."""
+    if axle.steering is not None:
+        return axle.steering.rack(angles), axle.steering.travel_per_turn(angles)
+    amount = motions.travel_per_turn(axle)
+    assert amount is not None
+    # the files give it without sign: the wheel turned to the left steers to the left
+    per_turn = amount * _sense_of_rack(axle)
+    return angles * per_turn / (2.0 * np.pi), np.full_like(angles, per_turn)
+
+
+def _sense_of_rack(axle: Axle) -> float:
+    """Return +1 where a positive displacement of the rack steers to the left, or -1."""
+    design = Pair.at(axle, 0.0, 0.0, 0.0)
+    return float(np.sign(sum(steer_gradient(corner) for corner in design.corners.values())))
+
+
+def _of_both(pair: Pair, per_turn: Array | None) -> dict[Quantity, Array]:
+    """Return what both wheels decide together when they are steered."""
+    left, right = pair.corners[LEFT], pair.corners[RIGHT]
+    angles = steer_angle(left), steer_angle(right)
+    values = {}
+    if left.vehicle.wheelbase is not None:
+        track = motions.track(pair.axle)
+        values["ackermann_error"] = of_both.ackermann_error(*angles, left.vehicle.wheelbase, track)
+        values["ackermann"] = of_both.ackermann(*angles, left.vehicle.wheelbase, track)
+        values["turning_circle"] = of_both.turning_circle(*angles, left.vehicle.wheelbase)
+    if per_turn is not None:
+        gradients = steer_gradient(left), steer_gradient(right)
+        values["steering_ratio"] = of_both.steering_ratio(*gradients, np.abs(per_turn))
+    return {of_wheels.AXLE[name]: array for name, array in values.items()}
+
+
+def _dataset(
+    pair: Pair,
+    measures: Iterable[Measure],
+    over: Quantity,
+    along: Array,
+    held: dict[Quantity, float],
+    title: str,
+) -> xr.Dataset:
+    coordinates = {over.name: xr.Variable(over.name, along, over.attributes())}
+    for quantity, value in held.items():
+        coordinates[quantity.name] = xr.Variable((), float(value), quantity.attributes())
+    data = {m.quantity: m.formula(pair) for m in measures if m.has_all(pair.axle)}
+    return xr.Dataset(_variables(data, over), coordinates, {"title": title})
+
+
+def _variables(data: dict[Quantity, Array], over: Quantity) -> dict[str, xr.Variable]:
+    return {
+        quantity.name: xr.Variable(over.name, values, quantity.attributes())
+        for quantity, values in data.items()
+    }

@@ -1,0 +1,185 @@
+"""An axle at rest and over a road: its own equations, in which the bar couples the wheels."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import root
+
+from ...core.arguments import Arguments
+from ...simulation.result import Simulation
+from ...simulation.signals import time_inputs
+from ...simulation.simulate import simulate
+from ...suspension.axle.axle import LEFT, RIGHT
+from ...suspension.axle.equations import AxleModel
+from ...suspension.positions import PositionError
+from ...suspension.positions import equilibrium as of_one_side
+from ...systems.state import State
+from ..recording import dataset_of
+from ..scenario import Scenario
+from .datasets import by_ends
+
+Array = NDArray[np.float64]
+
+WHEELS = {"both": (LEFT, RIGHT), LEFT: (LEFT,), RIGHT: (RIGHT,)}
+"""Under which wheels a road is, by name."""
+
+_NEEDED = "a kintrafo.AxleModel is needed"
+# What is left of the forces at rest, over those of the bar that is bent by a degree or of gravity.
+_AT_REST = 1e-9
+
+
+def equilibrium(
+    model: AxleModel,
+    *,
+    rack_position: float = 0.0,
+    road_height: Mapping[str, float] | None = None,
+    spin_rate: float = 0.0,
+) -> State:
+    """Return the state of an axle at rest, the body held.
+
+    Parameters
+    ----------
+    model : AxleModel
+    rack_position : float, optional
+        Displacement of the rack [m].
+    road_height : mapping of str to float, optional
+        Height of the road under the wheels 'left' and 'right' [m], zero where it is not given.
+    spin_rate : float, optional
+        Rate of both wheels relative to their carriers, positive rolling forward [rad/s].
+
+    Returns
+    -------
+    State
+        Nearest to where each side would rest without the bar.
+
+    Raises
+    ------
+    PositionError
+        If there is no stable one.
+
+    Examples
+    --------
+    >>> from kintrafo import Axle, AxleModel
+    >>> model = AxleModel(Axle.load("reference_axle"))
+    >>> rest = equilibrium(model)
+    >>> round(float(model.signal("left_front_wheel_center_z", rest)), 6)
+    0.3
+    """
+    with Arguments("equilibrium") as given:
+        given.kind("model", model, AxleModel, _NEEDED)
+        rack = given.number("rack_position", rack_position, "m")
+        spin = given.number("spin_rate", spin_rate, "rad/s")
+        roads = dict(given.mapping("road_height", road_height or {}, "sides and heights"))
+        for side, height in roads.items():
+            given.among("side", side, (LEFT, RIGHT))
+            roads[side] = given.number(f"road_height of the {side} wheel", height, "m")
+    corners = model.axle.models
+    rest = {
+        side: of_one_side(corner, rack_position=rack, road_height=roads.get(side, 0.0))
+        for side, corner in corners.items()
+    }
+    inputs = model.inputs(
+        {"rack_position": rack} | {f"{side}_road_height": h for side, h in roads.items()}
+    )
+    arm = corners[RIGHT].names.arm
+    arms = [model.state_names.index(f"{side}_{arm}") for side in corners]
+
+    def at(angles: ArrayLike) -> Array:
+        state = model.design_state.copy()
+        state[arms] = angles
+        return state
+
+    def moments(angles: ArrayLike) -> Array:
+        return np.asarray(model.evaluate("forces", at(angles), inputs)[arms])
+
+    start = np.array([float(rest[s][corners[s].state_names.index(arm)]) for s in corners])
+    found = root(moments, start, options={"xtol": 1e-14})
+    stiffness = _slopes(moments, found.x)
+    # nothing is nearer to zero than the stiffness times the rounding of an angle
+    small = _AT_REST * max(float(np.abs(stiffness).max()), 1.0)
+    stable = bool(np.all(np.linalg.eigvals(stiffness).real < 0.0))
+    if not np.abs(moments(found.x)).max() <= small or not stable:
+        message = (
+            "the axle has no stable equilibrium near that of its sides. Check the anti-roll bar's "
+            "free_twist_deg and rate, or the heights of the road."
+        )
+        raise PositionError(message)
+    state = at(found.x)
+    for side, corner in corners.items():
+        state[model.state_names.index(f"{side}_{corner.names.spin}_rate")] = spin
+    return State.of(state, inputs, model.names_of_states)
+
+
+def _slopes(moments: Any, at: Array, step: float = 1e-6) -> Array:
+    """Return the derivatives of the moments by the arms' angles."""
+    columns = [moments(at + d) - moments(at - d) for d in step * np.eye(at.size)]
+    return np.stack(columns, -1) / (2.0 * step)
+
+
+def run(
+    model: AxleModel, scenario: Scenario, *, wheels: str = "both", **options: Any
+) -> tuple[Simulation, xr.Dataset]:
+    """Simulate an axle over a road, from rest.
+
+    Parameters
+    ----------
+    model : AxleModel
+    scenario : Scenario
+        Its ``road_height`` is the road under the wheels that are named; the others have a level
+        one. Inputs of the axle may be given by their own names as well.
+    wheels : {'both', 'left', 'right'}, optional
+    **options : Any
+        Of `kintrafo.simulate`: ``method``, ``rtol``, ``atol``, ...
+
+    Returns
+    -------
+    Simulation
+    xarray.Dataset
+        Signals, states and inputs over time, see `kintrafo.study.recording.dataset_of`.
+
+    Raises
+    ------
+    InputError, PositionError, SimulationError
+        As `kintrafo.simulate` and `equilibrium`.
+    """
+    with Arguments("simulation") as given:
+        given.kind("model", model, AxleModel, _NEEDED)
+        given.kind("scenario", scenario, Scenario, "a Scenario is needed")
+        given.among("wheels", wheels, WHEELS)
+        if not given.refused and scenario.height is not None:
+            given.refuse("height: an axle starts from rest. Leave it out.")
+    inputs = dict(scenario.inputs)
+    road = inputs.pop("road_height", None)
+    if road is not None:
+        inputs |= {f"{side}_road_height": road for side in WHEELS[wheels]}
+    times = scenario.times()
+    span = (0.0, scenario.duration)
+    courses = time_inputs(model, inputs, span)
+    first = dict(zip(model.input_names, courses.at(0.0, courses.segments[0]), strict=True))
+    start = equilibrium(
+        model,
+        rack_position=float(first["rack_position"]),
+        road_height={side: float(first[f"{side}_road_height"]) for side in (LEFT, RIGHT)},
+        spin_rate=scenario.spin_rate,
+    )
+    result = simulate(model, span, start, inputs=inputs, t_eval=times, **options)
+    return result, _told(dataset_of(model, result))
+
+
+def by_side(motion: xr.Dataset) -> xr.Dataset:
+    """Return a motion in which the two sides are a dimension, as it is drawn."""
+    return by_ends(motion, "{side}_{stem}")
+
+
+def _told(motion: xr.Dataset) -> xr.Dataset:
+    """Say in words, too, which side a signal is of."""
+    if "bar_spring_moment" in motion:
+        motion["bar_spring_moment"].attrs["long_name"] = "moment of the anti-roll bar"
+    for name, data in motion.items():
+        side = str(name).partition("_")[0]
+        if side in (LEFT, RIGHT):
+            data.attrs["long_name"] = f"{data.attrs['long_name']}, {side}"
+    return motion

@@ -1,0 +1,286 @@
+"""An axle: what the sections of its file make together."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+from pydantic import ValidationError
+
+from ...core.arguments import Arguments, shown
+from ...core.errors import InputError
+from ...core.suggestions import suggestion
+from ..data import data_sets, find
+from ..input.messages import messages_of
+from ..input.toml_file import read_toml
+from ..kinds import Suspension
+from ..model import Model
+from .bar import AntiRollBar, HalfBar
+from .file import SIDES, AxleFile, Brakes, Drive, End
+from .steering import SteeringCurve
+
+KIND = "axle"
+"""The top-level key that says that a file describes an axle."""
+
+RIGHT, LEFT = "right", "left"
+
+# Bodies that no drop link is joined to.
+_NEVER_PULLED = ("tie_rod", "rack")
+# The racks of two sides are one, if their axes agree to that.
+_SAME_AXIS = 1e-9
+
+
+@dataclass(frozen=True)
+class Axle:
+    """Two suspensions on one rack, with an anti-roll bar. Immutable.
+
+    Make one with `load` or `from_dict`.
+
+    Attributes
+    ----------
+    end : str
+        'front' or 'rear'.
+    right, left : Suspension
+    symmetric : bool
+        Whether one side is the mirror image of the other, by how the file gives them.
+    bar : AntiRollBar or None
+    bar_side : str
+        The side whose points the bar has.
+    steering : SteeringCurve or None
+        None: the ``travel_per_turn_mm`` of the suspension counts.
+    brakes : Brakes
+    drive : Drive or None
+
+    Examples
+    --------
+    >>> axle = Axle.load("reference_axle")
+    >>> axle.left.vehicle.side, axle.bar.link_on
+    ('left', 'control_arm')
+    """
+
+    end: End
+    right: Suspension
+    left: Suspension
+    symmetric: bool
+    bar: AntiRollBar | None
+    bar_side: str
+    steering: SteeringCurve | None
+    brakes: Brakes
+    drive: Drive | None
+
+    NEEDED = 'a kintrafo.Axle, such as Axle.load("reference_axle"), is needed'
+
+    @classmethod
+    def load(cls, path_or_name: str | Path) -> Self:
+        """Read an axle from a TOML file, and the hardpoint files that it names.
+
+        Parameters
+        ----------
+        path_or_name : str or pathlib.Path
+            The file; or, as a string, the name of one that comes with kintrafo:
+            ``"reference_axle"``.
+
+        Raises
+        ------
+        InputError
+            If a file cannot be read or no axle can be like this; it lists everything that is wrong.
+        """
+        with Arguments(cls.__name__) as given:
+            given.path("path_or_name", path_or_name)
+        packaged = packaged_axles()
+        file = find(path_or_name, packaged)
+        folder = file.parent if isinstance(file, Path) else Path()
+        return cls.from_dict(read_toml(file), source=str(path_or_name), folder=folder)
+
+    @classmethod
+    def from_dict(
+        cls,
+        data: Mapping[str, Any],
+        source: str = "input data",
+        *,
+        folder: str | Path = ".",
+    ) -> Self:
+        """Make an axle from nested dictionaries with the keys of the file.
+
+        Parameters
+        ----------
+        data : mapping
+            The sections, with their keys and units as in the file. A side is the name of a file, a
+            `Suspension`, or the nested dictionaries of one.
+        source : str, optional
+            Where the data come from, for error messages.
+        folder : str or pathlib.Path, optional
+            From where paths of sides are counted.
+
+        Raises
+        ------
+        InputError
+            If no axle can be like this; it lists everything that is wrong.
+        """
+        with Arguments(source) as checked:
+            for key in checked.mapping("data", data, "keys and values of an axle's file"):
+                checked.kind("key of data", key, str, "a text is needed")
+            checked.path("folder", folder)
+        if KIND not in data:
+            _refuse_other_files(data, source)
+        try:
+            described = AxleFile(**data)
+        except ValidationError as error:
+            raise InputError(messages_of(error, AxleFile, data), source) from None
+        sides = _sides_of(described, Path(folder), source)
+        bar_side = sides["side"].vehicle.side if "side" in sides else RIGHT
+        if "side" in sides:
+            one = sides["side"]
+            sides = {one.vehicle.side: one}
+            sides[LEFT if bar_side == RIGHT else RIGHT] = one.mirrored()
+        axle = cls(
+            end=described.axle,
+            right=sides[RIGHT],
+            left=sides[LEFT],
+            symmetric=described.side is not None,
+            bar=described.anti_roll_bar,
+            bar_side=bar_side,
+            steering=described.steering,
+            brakes=described.brakes,
+            drive=described.drive,
+        )
+        problems = [*_problems_of_sides(axle), *_problems_of_bar(axle)]
+        if problems:
+            raise InputError(problems, source)
+        return axle
+
+    @property
+    def sides(self) -> dict[str, Suspension]:
+        """The suspensions by their sides, the left one first."""
+        return {LEFT: self.left, RIGHT: self.right}
+
+    @cached_property
+    def models(self) -> dict[str, Model]:
+        """The compiled equations of each side by itself, the left one first."""
+        return {side: Model(suspension) for side, suspension in self.sides.items()}
+
+    @cached_property
+    def halves(self) -> dict[str, HalfBar]:
+        """The halves of the anti-roll bar by their sides; empty without a bar."""
+        if self.bar is None:
+            return {}
+        return {side: self.bar.half(mirrored=side != self.bar_side) for side in self.sides}
+
+    def heading(self) -> str:
+        """Return what the axle is called."""
+        kinds = " and ".join(dict.fromkeys(side.TITLE for side in self.sides.values()))
+        return f"{self.end} axle, {kinds}"
+
+
+def packaged_axles() -> dict[str, Any]:
+    """Return the files of the axles that come with kintrafo, by their names."""
+    return data_sets(f"{__package__}.data")
+
+
+def is_axle(path_or_name: str | Path) -> bool:
+    """Tell whether a file, or a packaged name, is that of an axle.
+
+    What is not there, or cannot be read, is none: whoever reads it then says why.
+    """
+    if path_or_name in packaged_axles():
+        return True
+    if path_or_name in data_sets() or not Path(path_or_name).is_file():
+        return False
+    try:
+        return KIND in read_toml(Path(path_or_name))
+    except InputError:
+        return False
+
+
+def _refuse_other_files(data: Mapping[str, Any], source: str) -> None:
+    problem = f'{KIND} is missing: where the axle is. Add a line `{KIND} = "front"` or "rear".'
+    if "hardpoints" in data:
+        problem = (
+            "this is the file of one suspension, not of an axle. Name it in an axle's file, as "
+            "`side`; `kintrafo new FILE --axle` writes one."
+        )
+    raise InputError([problem], source)
+
+
+def _sides_of(described: AxleFile, folder: Path, source: str) -> dict[str, Suspension]:
+    """Return the suspensions that are given, by the keys that give them."""
+    found: dict[str, Suspension] = {}
+    problems = []
+    for key in SIDES:
+        given = getattr(described, key)
+        if given is None:
+            continue
+        try:
+            found[key] = _suspension(given, key, folder)
+        except InputError as error:
+            named = f"{key} = {shown(given)}" if isinstance(given, str) else key
+            problems += [f"{named}: {problem}" for problem in error.problems]
+    if problems:
+        raise InputError(problems, source)
+    return found
+
+
+def _suspension(given: Any, key: str, folder: Path) -> Suspension:
+    if isinstance(given, Suspension):
+        return given
+    if isinstance(given, Mapping):
+        return Suspension.from_dict(given)
+    if isinstance(given, str) and given in data_sets():
+        return Suspension.load(given)
+    if isinstance(given, str | Path):
+        if is_axle(folder / given):
+            raise InputError([f"{given} is itself an axle. Name a hardpoint file."], key)
+        return Suspension.load(folder / given)
+    problem = f"{shown(given)}: the name of a hardpoint file is needed."
+    raise InputError([problem], key)
+
+
+def _problems_of_sides(axle: Axle) -> list[str]:
+    problems = [
+        f'{side}: its file says [vehicle] side = "{suspension.vehicle.side}". Exchange the two, or '
+        "correct the file."
+        for side, suspension in axle.sides.items()
+        if suspension.vehicle.side != side
+    ]
+    if axle.right.suspension != axle.left.suspension:
+        problems.append(
+            f"right is a {axle.right.TITLE} and left a {axle.left.TITLE}: both sides of an axle "
+            "are of one kind."
+        )
+    axes = [
+        np.array(side.rack.axis) / np.linalg.norm(side.rack.axis)
+        for side in (axle.right, axle.left)
+    ]
+    if not axle.symmetric and np.abs(axes[0] - axes[1]).max() > _SAME_AXIS:
+        problems.append(
+            f"[rack] axis is {list(axle.right.rack.axis)} of the right side and "
+            f"{list(axle.left.rack.axis)} of the left: they have one rack. Make them equal."
+        )
+    return problems
+
+
+def _problems_of_bar(axle: Axle) -> list[str]:
+    if axle.bar is None:
+        return []
+    bodies = axle.right.bodies.rigid()
+    known = [name for name in bodies if name not in _NEVER_PULLED]
+    problems = []
+    if axle.bar.link_on not in known:
+        meant = suggestion(axle.bar.link_on, known)
+        problems.append(
+            f'[anti_roll_bar] link_on = "{axle.bar.link_on}" is no part of a {axle.right.TITLE} '
+            f"that a drop link can be joined to. {meant}"
+        )
+    sign = axle.sides[axle.bar_side].vehicle.sign
+    across = [
+        name for name in ("bush", "link_top", "link_foot") if sign * axle.bar.metres(name)[1] <= 0.0
+    ]
+    if across:
+        listed = ", ".join(f"{name} = {list(getattr(axle.bar, name))}" for name in across)
+        problems.append(
+            f"[anti_roll_bar] {listed} {axle.bar.unit}: not on the {axle.bar_side} side, whose "
+            "points the section has. y points left: correct the sign of y."
+        )
+    return problems

@@ -1,0 +1,1 @@
+"""Axles that come with the project."""

@@ -1,0 +1,92 @@
+"""The equations of motion of an axle, derived and compiled when they are first needed."""
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError
+from ...systems.compile.build import compile_mechanism, require_generator
+from ...systems.system import System
+from ..input.vectors import components
+from .axle import LEFT, RIGHT, Axle
+
+
+class AxleModel(System):
+    """The compiled equations of an axle: both suspensions, the rack and the anti-roll bar.
+
+    They are derived and compiled when they are first needed, as by `kintrafo.compile`, and kept.
+
+    Parameters
+    ----------
+    axle : Axle
+    progress : callable, optional
+        Called with what is being done, in a few words.
+
+    Attributes
+    ----------
+    axle : Axle
+    parameters, constants, design_state
+        As of `System`. Names of states, inputs and signals are those of the suspension, after
+        ``right_`` and ``left_``; the bar has ``bar_angle`` and ``bar_spring_moment``.
+    """
+
+    def __init__(self, axle: Axle, *, progress: Callable[[str], None] | None = None) -> None:
+        with Arguments("AxleModel") as given:
+            given.kind("axle", axle, Axle, Axle.NEEDED)
+            given.function("progress", progress)
+        require_generator()
+        from ...generator.mechanisms import MODELS  # noqa: PLC0415 (an extra)
+        from ...generator.mechanisms import axle as page  # noqa: PLC0415
+
+        name = _corner_of(axle)
+        corner = next(model for model in MODELS if model.name == name)
+        pulls = axle.bar.link_on if axle.bar else ""
+        parts = (name, axle.end, "axle", pulls, "" if axle.symmetric else "two_sides")
+        declared = page.mechanism(
+            "_".join(part for part in parts if part),
+            axle.heading().capitalize(),
+            corner,
+            pulls=pulls,
+            own=not axle.symmetric,
+            end=axle.end,
+        )
+        equations = compile_mechanism(page.model(corner, declared), progress=progress)
+        super().__init__(equations, _parameters(axle, set(equations.PARAMETERS)))
+        self.axle = axle
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return partial(AxleModel), (self.axle,)
+
+    def __repr__(self) -> str:
+        return f"<AxleModel {self.equations.NAME}>"
+
+
+def _corner_of(axle: Axle) -> str:
+    """Return the name of the equations of one side that have everything that both have."""
+    names = {str(model.equations.NAME): side for side, model in axle.models.items()}
+    if len(names) != 1:
+        problem = (
+            f"the sides have different equations, {' and '.join(names)}: what one has and the "
+            "other has not, such as a stop or a damper curve, must be in both files. Add it there."
+        )
+        raise InputError([problem], "AxleModel")
+    return next(iter(names))
+
+
+def _parameters(axle: Axle, known: set[str]) -> dict[str, float]:
+    values = dict(axle.models[RIGHT].parameters)
+    if not axle.symmetric:
+        values |= {f"{LEFT}_{name}": v for name, v in axle.models[LEFT].parameters.items()}
+    if axle.bar is not None:
+        values |= {"bar_rate": axle.bar.rate(), "bar_free_angle": axle.bar.free_twist()}
+        for side, prefix in ((RIGHT, ""), (LEFT, f"{LEFT}_")):
+            half = axle.halves[side]
+            for name, vector in (
+                ("bar_bush", half.bush),
+                ("bar_axis", half.axis),
+                ("link_top", half.top),
+                ("link_foot", half.foot),
+            ):
+                values |= components(f"{prefix}{name}", vector)
+    return {name: value for name, value in values.items() if name in known}

@@ -1,0 +1,523 @@
+"""Axles: against their own compiled equations, differences, formulas by hand, and mirror images."""
+
+import re
+import shlex
+from pathlib import Path
+from typing import Any
+
+import kept
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from kintrafo import Axle, AxleModel, InputError, Model, PositionError, Suspension, axles, roads
+from kintrafo.study.axles import checkup, motions, ride
+from kintrafo.study.axles import rolling as formulas
+from kintrafo.study.axles.pair import Pair
+from kintrafo.study.characteristics import wheel
+from kintrafo.study.compare import differences
+from kintrafo.study.scenario import Scenario
+from kintrafo.suspension.axle.bar import AntiRollBar
+from kintrafo.suspension.positions import arm_angles, design_height
+from kintrafo.systems.compile.compiler import find_compiler
+from scipy.optimize import brentq
+from test_cli_commands import commands_of, kintrafo  # noqa: F401 (a fixture)
+
+ROOT = Path(__file__).parent.parent
+AXLE = Axle.load("reference_axle")
+CAR = Suspension.load("reference_car")
+WISHBONES = Suspension.load("double_wishbone_car")
+BAR = AXLE.bar.model_dump(exclude_none=True)
+# A rear axle whose sides differ, with stops that act, and a bar that is bent at design.
+LOPSIDED: dict[str, Any] = {
+    "axle": "rear",
+    "right": WISHBONES.with_changes({"bump_stop": {"clearance_mm": 5.0, "rate_N_per_m": 1e5}}),
+    "left": WISHBONES.mirrored().with_changes(
+        {
+            "bump_stop": {"clearance_mm": 8.0, "rate_N_per_m": 1e5},
+            "spring.rate_N_per_m": 65e3,
+            "hardpoints.lower_ball_joint.z": 190.0,
+        }
+    ),
+    "anti_roll_bar": {
+        "unit": "mm",
+        "bush": [-250.0, -380.0, 260.0],
+        "link_top": [-60.0, -600.0, 300.0],
+        "link_foot": [-50.0, -610.0, 195.0],
+        "link_on": "knuckle",
+        "axis": [0.1, 1.0, -0.05],
+        "rate_Nm_per_deg": 25.0,
+        "free_twist_deg": 1.5,
+    },
+    "drive": {"share": 0.6},
+    "brakes": {"torque_on": "body"},
+}
+BENT = Axle.from_dict(LOPSIDED)
+needs_compiler = pytest.mark.skipif(find_compiler() is None, reason="no C compiler")
+
+
+def somewhere(seed: int, count: int = 20, size: float = 0.05) -> tuple[np.ndarray, ...]:
+    """Return travels of both wheels and displacements of the rack [m]."""
+    random = np.random.default_rng(seed)
+    left, right = random.uniform(-size, size, (2, count))
+    return left, right, random.uniform(-0.02, 0.02, count)
+
+
+# -- the anti-roll bar --------------------------------------------------------------------------
+
+
+@settings(max_examples=60)
+@given(st.integers(0, 10**6))
+def test_the_half_of_a_bar_turns_to_where_its_link_fits(seed: int) -> None:
+    """The angle against a search for the length of the link, its rate against a difference."""
+    random = np.random.default_rng(seed)
+    half = BENT.bar.half(mirrored=bool(seed % 2))
+    foot = half.foot + random.uniform(-0.03, 0.03, 3)
+    length = np.linalg.norm(half.top - half.foot)
+
+    def misfit(turn: float) -> float:
+        return float(np.linalg.norm(half.top_at(np.array(turn)) - foot) - length)
+
+    found = float(half.turn(foot))
+    # the branch of design: the nearest change of sign to zero
+    assert abs(found) < np.pi / 4
+    near = brentq(misfit, found - 0.05, found + 0.05, xtol=1e-14)
+    assert found == pytest.approx(near, abs=1e-12)
+    velocity = random.uniform(-1.0, 1.0, 3)
+    by = 1e-6
+    slope = (half.turn(foot + by * velocity) - half.turn(foot - by * velocity)) / (2.0 * by)
+    rate = half.rate_of_turn(foot, np.array(found), velocity)
+    assert rate == pytest.approx(slope, rel=1e-6, abs=1e-8)  # rounding 1e-16 over the step
+
+
+def test_a_bar_by_its_dimensions() -> None:
+    """The twist of a round bar, and the bending of its arms as those of cantilevers."""
+    given = BAR | {"rate_Nm_per_deg": None, "diameter_mm": 22.0, "length_mm": 900.0}
+    bar = AntiRollBar(**given)
+    polar = np.pi * 0.022**4 / 32.0
+    lever = 0.01**2 + 0.21**2  # of link_top about the bush, across y
+    twist = 79.3e9 * polar / 0.9
+    arm = 3.0 * (2.6 * 79.3e9) * (polar / 2.0) / np.sqrt(lever)  # torque by the angle of one arm
+    assert bar.rate() == pytest.approx(1.0 / (1.0 / twist + 2.0 / arm), rel=1e-12)
+    tube = AntiRollBar(**given | {"inner_diameter_mm": 14.0})
+    assert tube.rate() / bar.rate() == pytest.approx(1.0 - (14.0 / 22.0) ** 4, rel=1e-12)
+
+
+# -- against the equations of the whole axle ----------------------------------------------------
+
+
+@pytest.fixture(scope="module", params=["reference", "bent"])
+def compiled(request: pytest.FixtureRequest) -> AxleModel:
+    if find_compiler() is None:
+        pytest.skip("no C compiler")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("KINTRAFO_CACHE", str(kept.KEPT / "axles"))
+        patch.setenv("CFLAGS", "-O0")
+        return AxleModel({"reference": AXLE, "bent": BENT}[request.param])
+
+
+def placed(model: AxleModel, travels: dict[str, np.ndarray], racks: np.ndarray) -> Any:
+    """Return states and inputs of a whole axle at rest."""
+    states = np.tile(model.design_state, (racks.size, 1))
+    inputs = np.zeros((racks.size, len(model.input_names)))
+    inputs[:, model.input_names.index("rack_position")] = racks
+    for side, corner in model.axle.models.items():
+        column = model.state_names.index(f"{side}_{corner.names.arm}")
+        states[:, column] = arm_angles(corner, design_height(corner) + travels[side], racks)
+    return states, inputs
+
+
+def without_weight(model: AxleModel) -> AxleModel:
+    """Return the axle on which springs, stops and bar act alone."""
+    zero = {n: 0.0 for n in model.parameters if n.endswith(("tyre_rate", "gravity"))}
+    other = AxleModel.__new__(AxleModel)
+    super(AxleModel, other).__init__(model.equations, model.parameters | zero)
+    return other
+
+
+def test_the_bar_and_the_forces_are_those_of_the_whole_axle(compiled: AxleModel) -> None:
+    """Twist, and the wheels' forces by virtual work, against the emitted equations."""
+    left, right, racks = somewhere(1)
+    pair = Pair.at(compiled.axle, left, right, racks)
+    states, inputs = placed(compiled, pair.travel, racks)
+    twist = compiled.signal("bar_angle", states, inputs)
+    np.testing.assert_allclose(pair.twist, twist, rtol=0.0, atol=1e-12)
+    moment = compiled.signal("bar_spring_moment", states, inputs)
+    # 1e-12 of angles, times the rate
+    np.testing.assert_allclose(pair.torque, -moment, rtol=0.0, atol=1e-8)
+    forces = without_weight(compiled).evaluate("forces", states, inputs)
+    for side, corner in compiled.axle.models.items():
+        arm = compiled.state_names.index(f"{side}_{corner.names.arm}")
+        unit = states.copy()
+        unit[:, compiled.state_names.index(f"{side}_{corner.names.arm}_rate")] = 1.0
+        rise = compiled.signal(f"{side}_{compiled.axle.end}_wheel_velocity", unit, inputs)
+        expected = -forces[:, arm] / rise
+        np.testing.assert_allclose(formulas.wheel_force(pair, side), expected, rtol=1e-9)
+
+
+def test_an_axle_rests_where_nothing_pulls(compiled: AxleModel) -> None:
+    state = ride.equilibrium(compiled, road_height={"left": 0.02}, rack_position=0.01)
+    rates = compiled.evaluate("rhs", state, state.inputs)
+    assert np.abs(rates).max() < 1e-8
+    assert compiled.eigenvalues(state, state.inputs).real.max() < 1e-8
+
+
+def test_a_road_under_one_wheel_moves_both(compiled: AxleModel) -> None:
+    road = roads.step(0.02, at=0.05, end=1.5)
+    scenario = Scenario(duration=1.5, inputs={"road_height": road})
+    result, motion = ride.run(compiled, scenario, wheels="right", rtol=1e-9, atol=1e-11)
+    rest = ride.equilibrium(compiled, road_height={"right": 0.02})
+    arms = [i for i, name in enumerate(compiled.state_names) if "arm" in name or "beta1" in name]
+    # a wheel hop dies out: its damping is a fifth of the critical at 12 Hz
+    np.testing.assert_allclose(result.y[arms, -1], rest[arms], atol=1e-8)
+    assert motion["left_road_height"].values.max() == 0.0
+    centre = motion[f"left_{compiled.axle.end}_wheel_center_z"]
+    assert float(centre[-1] - centre[0]) > 1e-4
+    assert centre.attrs["long_name"].endswith(", left")
+    drawn = ride.by_side(motion)
+    assert drawn["road_height"].dims == ("data_set", "time")
+
+
+# -- against differences ------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("axle", [AXLE, BENT], ids=["reference", "bent"])
+def test_stiffness_is_the_derivative_of_the_forces(axle: Axle) -> None:
+    left, right, racks = somewhere(2, size=0.04)
+    pair = Pair.at(axle, left, right, racks)
+    whole = formulas.springs(pair) + formulas.bar(pair)
+    step = 1e-4
+    for column, moved in enumerate(([1.0, 0.0], [0.0, 1.0])):
+        ends = [
+            Pair.at(axle, left + sign * step * moved[0], right + sign * step * moved[1], racks)
+            for sign in (1.0, -1.0)
+        ]
+        for row, side in enumerate(("left", "right")):
+            forward, back = (formulas.wheel_force(end, side) for end in ends)
+            slope = (forward - back) / (2.0 * step)
+            # the third derivative of the force times the square of the step: 1e-8 of the rate
+            np.testing.assert_allclose(whole[:, row, column], slope, rtol=1e-5, atol=2.0)
+
+
+@pytest.mark.parametrize("axle", [AXLE, BENT], ids=["reference", "bent"])
+def test_the_roll_centre_is_where_the_contacts_do_not_slide(axle: Axle) -> None:
+    """At the centre of a small roll of the ground both contacts, on their paths, move along it."""
+    left, right, racks = somewhere(3, size=0.03)
+    pair = Pair.at(axle, left, right, racks)
+    lateral, height = formulas.roll_center(pair)
+    tilt = -formulas.roll_angle(pair)
+    middle = 0.5 * sum(wheel.contact(corner)[:, 1:] for corner in pair.corners.values())
+    along = np.stack([np.cos(tilt), np.sin(tilt)], -1)
+    across = np.stack([-np.sin(tilt), np.cos(tilt)], -1)
+    center = middle + lateral[:, None] * along + height[:, None] * across
+    for corner in pair.corners.values():
+        velocity = wheel.contact_velocity(corner)[:, 1:]
+        arm = wheel.contact(corner)[:, 1:] - center
+        # a path is turned about the centre: its direction stands across the arm
+        np.testing.assert_allclose(np.einsum("ni,ni->n", velocity, arm), 0.0, atol=1e-9)
+
+
+def test_in_the_middle_the_axle_is_what_its_sides_are() -> None:
+    from kintrafo import characteristics
+
+    travels = np.linspace(-0.05, 0.05, 11)
+    whole = axles.bump(AXLE, travels)
+    one = characteristics.travel(Model(CAR), travels)
+    for name, other in (
+        ("roll_center_height", "roll_center_height_kinematic"),
+        ("anti_dive_right", "anti_dive"),
+        ("camber_right", "camber"),
+        ("wheel_rate_left", "wheel_rate"),
+    ):
+        np.testing.assert_allclose(whole[name], one[other], rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(whole["roll_center_lateral"], 0.0, atol=1e-9)
+    # half the track squared, for each wheel
+    half = 0.5 * whole["track"]
+    np.testing.assert_allclose(
+        whole["roll_stiffness_springs"], 2.0 * whole["wheel_rate_left"] * half**2, rtol=1e-9
+    )
+    np.testing.assert_allclose(whole["bar_torque"], 0.0, atol=1e-8)
+
+
+def test_rates_in_roll_are_derivatives() -> None:
+    angles = np.deg2rad(np.linspace(-2.0, 2.0, 401))
+    curves = axles.roll(AXLE, angles)
+    # levers change by what the track does: a hundredth, in the second order at design
+    slope = np.gradient(curves["roll_moment"].values, angles)[200]
+    assert float(curves["roll_stiffness"][200]) == pytest.approx(slope, rel=2e-2)
+    for side in ("left", "right"):
+        for rate, angle in (("roll_steer", "steer"), ("roll_camber", "camber")):
+            found = np.gradient(curves[f"{angle}_{side}"].values, angles)[200]
+            assert float(curves[f"{rate}_{side}"][200]) == pytest.approx(found, rel=1e-4)
+
+
+@pytest.mark.parametrize("end", ["front", "rear"])
+@pytest.mark.parametrize("torque_on", ["body", "carrier"])
+def test_anti_features_are_the_slopes_of_paths(end: str, torque_on: str) -> None:
+    """From where the points are a little higher and a little lower."""
+    data = {
+        "axle": end,
+        "side": CAR,
+        "drive": {"share": 0.4, "torque_on": torque_on},
+        "brakes": {"torque_on": torque_on},
+    }
+    axle, step = Axle.from_dict(data), 1e-4
+    found = axles.bump(axle, [-step, 0.0, step])
+    pair = Pair.at(axle, [-step, 0.0, step], [-step, 0.0, step], 0.0)
+    corner = pair.corners["right"]
+    path = corner.center
+    if torque_on == "carrier":  # a point that is fixed to the carrier, the contact at design
+        arm = (wheel.contact(corner) - corner.center)[1]
+        turn = corner.travel.turning[1]
+        path = corner.center + arm + np.linspace(-step, step, 3)[:, None] * np.cross(turn, arm)
+    slope = (path[2, 0] - path[0, 0]) / (path[2, 2] - path[0, 2])
+    part = slope * 2.6 / 0.55
+    sense = {"front": 1.0, "rear": -1.0}[end]
+    names = {"front": ("anti_dive", "anti_lift"), "rear": ("anti_lift", "anti_squat")}[end]
+    shares = {"front": (0.7, 0.4), "rear": (0.3, 0.4)}[end]
+    for name, share in zip(names, shares, strict=True):
+        assert float(found[f"{name}_right"][1]) == pytest.approx(sense * share * part, rel=1e-5)
+
+
+# -- mirrors ------------------------------------------------------------------------------------
+
+
+def test_the_mirror_image_exchanges_the_sides() -> None:
+    bar = BENT.bar.model_dump(exclude_none=True)
+    image = bar | {
+        "bush": [-250.0, 380.0, 260.0],
+        "link_top": [-60.0, 600.0, 300.0],
+        "link_foot": [-50.0, 610.0, 195.0],
+        "axis": [-0.1, 1.0, 0.05],
+    }
+    right = WISHBONES.with_changes({"vehicle.wheelbase_mm": 2700.0})
+    one = Axle.from_dict({"axle": "rear", "side": right, "anti_roll_bar": bar})
+    two = Axle.from_dict({"axle": "rear", "side": right.mirrored(), "anti_roll_bar": image})
+    angles = np.deg2rad([-2.0, 0.0, 1.0])
+    first, second = axles.roll(one, angles), axles.roll(two, angles)
+    for name in first:
+        np.testing.assert_allclose(first[name], second[name], rtol=1e-9, atol=1e-9, err_msg=name)
+    back = axles.roll(one, -angles)
+    for name in ("camber", "wheel_force", "inclination", "jacking"):
+        if name != "wheel_force":  # the bar is bent at design
+            np.testing.assert_allclose(back[f"{name}_left"], first[f"{name}_right"], atol=1e-9)
+
+
+# -- steering -----------------------------------------------------------------------------------
+
+
+def test_the_steering_wheel_turns_the_wheels() -> None:
+    angles = np.deg2rad([-200.0, 0.0, 100.0])
+    by_ratio = axles.steer(AXLE, angles)
+    assert by_ratio["steer_left"].values[2] > 0.0
+    np.testing.assert_allclose(by_ratio["rack_position"], -0.05 * angles / (2.0 * np.pi))
+    given = {"axle": "front", "side": "reference_car"}
+    straight = {"angle_deg": [-720.0, 720.0], "rack_mm": [100.0, -100.0]}
+    by_curve = axles.steer(Axle.from_dict(given | {"steering": straight}), angles)
+    for name in by_curve:
+        np.testing.assert_allclose(by_curve[name], by_ratio[name], rtol=1e-9, atol=1e-12)
+    curved = {"angle_deg": [-540.0, -180.0, 0.0, 180.0, 540.0], "rack_mm": [72, 25, 0, -25, -72]}
+    curved["rack_mm"] = [float(value) for value in curved["rack_mm"]]
+    dense = np.deg2rad(np.linspace(-90.0, 90.0, 181))
+    found = axles.steer(Axle.from_dict(given | {"steering": curved}), dense)
+    mean = 0.5 * (found["steer_left"] + found["steer_right"]).values
+    ratio = 1.0 / np.gradient(mean, dense)[90]
+    # the curve's second derivative jumps at its points: the difference is of first order there
+    assert float(found["steering_ratio"][90]) == pytest.approx(ratio, rel=1e-3)
+
+
+def test_without_a_ratio_the_rack_moves() -> None:
+    car = CAR.with_changes({"rack.travel_per_turn_mm": None})
+    axle = Axle.from_dict({"axle": "front", "side": car})
+    assert axles.steer(axle, rack=[0.0, 0.01])["steer_left"].dims == ("rack_position",)
+    assert "rack_position" in axles.steer(axle).dims
+    with pytest.raises(InputError, match="travel_per_turn_mm"):
+        axles.steer(axle, [0.0])
+
+
+# -- files, and what is wrong with them ---------------------------------------------------------
+
+WRONG = {
+    "two ways": ({"side": "reference_car", "left": "reference_car"}, "side and left given"),
+    "no side": ({}, "neither given"),
+    "not there": ({"side": "nowhere.toml"}, "There is no such file"),
+    "an axle": ({"side": 3.0}, "name of a hardpoint file is needed"),
+    "exchanged": ({"right": CAR.mirrored(), "left": CAR}, "Exchange the two"),
+    "kinds": ({"right": CAR, "left": WISHBONES.mirrored()}, "of one kind"),
+    "racks": (
+        {"right": CAR, "left": CAR.mirrored().with_changes({"rack.axis": [0.0, 1.0, 0.1]})},
+        "they have one rack",
+    ),
+    "part": ({"side": CAR, "anti_roll_bar": BAR | {"link_on": "knukle"}}, "Did you mean knuckle"),
+    "rod": ({"side": CAR, "anti_roll_bar": BAR | {"link_on": "tie_rod"}}, "no part"),
+    "bar's side": (
+        {"side": CAR, "anti_roll_bar": BAR | {"bush": [240.0, 400.0, 320.0]}},
+        "correct the sign of y",
+    ),
+    "no rate": (
+        {"side": CAR, "anti_roll_bar": BAR | {"rate_Nm_per_deg": None}},
+        "needs rate_Nm_per_deg",
+    ),
+    "two rates": ({"side": CAR, "anti_roll_bar": BAR | {"diameter_mm": 20.0}}, "both give"),
+    "nothing left": (
+        {
+            "side": CAR,
+            "anti_roll_bar": BAR
+            | {"rate_Nm_per_deg": None, "diameter_mm": 20.0, "length_mm": 800.0}
+            | {"inner_diameter_mm": 20.0},
+        },
+        "leaves nothing",
+    ),
+    "axis": ({"side": CAR, "anti_roll_bar": BAR | {"axis": [0.0, -1.0, 0.0]}}, "to the left"),
+    "lever": (
+        {"side": CAR, "anti_roll_bar": BAR | {"link_top": [240.0, -580.0, 320.0]}},
+        "from the bar's axis",
+    ),
+    "link": (
+        {"side": CAR, "anti_roll_bar": BAR | {"link_foot": BAR["link_top"]}},
+        "0.000 mm apart",
+    ),
+    "dead centre": (
+        {
+            "side": CAR,
+            "anti_roll_bar": BAR
+            | {"bush": [30.0, -400.0, 430.0], "link_top": [30.0, -580.0, 330.0]},
+        },
+        "dead centre",
+    ),
+    "along x": (
+        {"side": CAR, "anti_roll_bar": BAR | {"link_foot": [130.0, -580.0, 330.0]}},
+        "from the x axis",
+    ),
+    "curve": (
+        {"side": CAR, "steering": {"angle_deg": [0.0, 10.0], "rack_mm": [1.0]}},
+        "as many are needed",
+    ),
+    "back": (
+        {"side": CAR, "steering": {"angle_deg": [-9, 0, 9.0], "rack_mm": [1.0, 2.0, 1.0]}},
+        "does not turn back",
+    ),
+    "share": ({"side": CAR, "drive": {"share": 1.5}}, "0 to 1"),
+    "brakes": ({"side": CAR, "brakes": {"torque_on": "hub"}}, "'body' or 'carrier'"),
+    "key": ({"side": CAR, "antiroll_bar": {}}, "Did you mean anti_roll_bar"),
+    "a suspension": ({"axle": None, "hardpoints": {}}, "must be 'front' or 'rear'"),
+}
+
+
+@pytest.mark.parametrize(("data", "message"), WRONG.values(), ids=WRONG)
+def test_what_is_wrong_is_named(data: dict[str, Any], message: str) -> None:
+    with pytest.raises(InputError, match=re.escape(message)):
+        Axle.from_dict({"axle": "front", **data})
+
+
+def test_files_of_the_other_sort_are_told() -> None:
+    for name in ("reference_axle", {"axle": "front", "side": "reference_car"}):
+        read = Suspension.load if isinstance(name, str) else Suspension.from_dict
+        with pytest.raises(InputError, match="file of an axle"):
+            read(name)
+    with pytest.raises(InputError, match="not of an axle"):
+        Axle.from_dict(CAR.to_dict())
+
+
+def test_sides_are_found_beside_the_file(tmp_path: Path) -> None:
+    (tmp_path / "sub").mkdir()
+    text = 'axle = "rear"\nside = "sub/mine.toml"\n'
+    (tmp_path / "axle.toml").write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=r"mine\.toml"):
+        Axle.load(tmp_path / "axle.toml")
+    from kintrafo.suspension.starter import write_starter
+
+    write_starter(tmp_path / "sub" / "mine.toml")
+    axle = Axle.load(tmp_path / "axle.toml")
+    assert axle.left.vehicle.side == "left"
+    assert axle.symmetric
+    assert axle.bar is None
+    assert "bar_torque" not in axles.bump(axle, [0.0])
+
+
+def test_what_is_out_of_reach_is_refused() -> None:
+    with pytest.raises(PositionError, match="roll of 30 deg is out of reach: the left wheel"):
+        axles.roll(AXLE, np.deg2rad([0.0, 30.0]))
+    short = BAR | {"link_top": [30.0, -580.0, 215.0], "bush": [60.0, -400.0, 215.0]}
+    axle = Axle.from_dict({"axle": "front", "side": CAR, "anti_roll_bar": short})
+    with pytest.raises(InputError, match=r"does not reach its lever at .* mm of wheel travel"):
+        axles.bump(axle)
+    assert any("does not reach" in text for text in checkup.checkup(axle).problems)
+    curve = {"angle_deg": [-90.0, 90.0], "rack_mm": [10.0, -10.0]}
+    axle = Axle.from_dict({"axle": "front", "side": CAR, "steering": curve})
+    with pytest.raises(InputError, match="beyond the curve"):
+        axles.steer(axle, [2.0])
+
+
+def test_sides_with_different_equations_have_none_together() -> None:
+    left = CAR.mirrored().with_changes({"tyre.lifts_off": True})
+    axle = Axle.from_dict({"axle": "front", "right": CAR, "left": left})
+    assert float(axles.bump(axle, [0.0])["track"][0]) == pytest.approx(1.52)
+    with pytest.raises(InputError, match="must be in both files"):
+        AxleModel(axle)
+
+
+# -- several axles, and the commands ------------------------------------------------------------
+
+
+def test_axles_are_compared() -> None:
+    stiff = Axle.from_dict(
+        {"axle": "front", "side": CAR, "anti_roll_bar": BAR | {"rate_Nm_per_deg": 35.0}}
+    )
+    bare = Axle.from_dict({"axle": "front", "side": CAR})
+    found = {d.name: d for d in differences(axles.compare({"a": AXLE, "b": stiff}, over="roll"))}
+    rates = axles.bump(AXLE, [0.0])
+    assert found["roll_stiffness"].at_design == pytest.approx(float(rates["roll_stiffness_bar"][0]))
+    assert found["camber_left"].largest == 0.0
+    assert "bar_torque" not in axles.compare({"a": AXLE, "b": bare}, over="left")
+    assert set(axles.compare({"a": AXLE, "b": bare}, over="steer").dims) == {
+        "data_set",
+        "steering_wheel_angle",
+    }
+
+
+def test_both_wheels_are_drawn_together() -> None:
+    drawn = axles.by_side(axles.roll(AXLE, np.deg2rad([0.0, 1.0])))
+    assert drawn["camber"].dims == ("data_set", "roll_angle")
+    assert drawn["camber"].attrs["long_name"] == "camber"
+    assert drawn["roll_moment"].dims == ("roll_angle",)
+    assert not [name for name in drawn if str(name).endswith(("_left", "_right"))]
+
+
+def test_usual_positions_are_within_reach() -> None:
+    extent = motions.Extent(rebound=0.04, bump=0.03, step=0.01)
+    assert motions.travels(AXLE, extent)[[0, -1]].tolist() == [-0.04, 0.03]
+    with pytest.raises(InputError, match="roll = -1 rad"):
+        motions.rolls(AXLE, motions.Extent(roll=-1.0))
+
+
+@needs_compiler
+@pytest.mark.usefixtures("coarse_report", "first_page_of_curves")
+def test_the_commands_of_the_page_run(kintrafo: Any, tmp_path: Path, monkeypatch: Any) -> None:  # noqa: F811
+    monkeypatch.setenv("KINTRAFO_CACHE", str(kept.KEPT / "axles"))
+    monkeypatch.setenv("CFLAGS", "-O0")
+    page = (ROOT / "docs/axles.md").read_text(encoding="utf-8")
+    for line in commands_of(page):
+        program, *arguments = shlex.split(line)
+        assert program == "kintrafo"
+        code, out, err = kintrafo(*arguments)
+        assert (code, bool(out)) == (0, True), (line, err)
+    assert (tmp_path / "curves_roll.csv").read_text().startswith("roll_angle")
+
+
+def test_commands_refuse_what_only_the_other_sort_has(kintrafo: Any) -> None:  # noqa: F811
+    for line, word in (
+        ("characteristics reference_car --roll 3", "--roll is only for the file of an axle"),
+        ("characteristics reference_axle --motion bmp", "bump"),
+        ("simulate reference_car --wheels left", "--wheels is only"),
+        ("simulate reference_axle --height 300", "--height is only"),
+        ("compare reference_axle reference_car", "files of one sort"),
+        ("compare reference_car reference_car --over roll", "only for the files of axles"),
+        ("compare reference_axle reference_axle --over rack", "of axles it is bump"),
+        ("report reference_axle", "file of an axle"),
+        ("new x.toml --axle --template reference_car", "both given"),
+    ):
+        code, _, err = kintrafo(*line.split())
+        text = " ".join(err.replace("│", " ").split())
+        assert code == 2, line
+        assert word in text, (line, text)
