@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kintrafo import Axle, AxleModel, InputError, Model, PositionError, Suspension, axles, roads
+from kintrafo.report import axle_chapter
 from kintrafo.study.axles import checkup, motions, ride
 from kintrafo.study.axles import rolling as formulas
 from kintrafo.study.axles.pair import Pair
@@ -491,6 +492,20 @@ def test_usual_positions_are_within_reach() -> None:
         motions.rolls(AXLE, motions.Extent(roll=-1.0))
 
 
+def test_an_axle_has_a_chapter_in_the_report() -> None:
+    chapter = axle_chapter(BENT)
+    wheels, whole = chapter.tables
+    assert len(chapter.pictures) == 4
+    assert all(picture.source.startswith("data:image/svg") for picture in chapter.pictures)
+    rows = {row[0]: row for row in whole.rows}
+    rate = float(axles.bump(BENT, [0.0])["roll_stiffness"][0]) * np.pi / 180.0
+    assert float(rows["roll stiffness"][1]) == pytest.approx(rate, rel=1e-4)
+    assert "camber" in {row[0] for row in wheels.rows}  # the sides differ
+    alike = {row[0] for row in axle_chapter(AXLE).tables[0].rows}
+    assert "camber" not in alike
+    assert {"roll steer", "anti-dive", "force of the drop link"} <= alike
+
+
 @needs_compiler
 @pytest.mark.usefixtures("coarse_report", "first_page_of_curves")
 def test_the_commands_of_the_page_run(kintrafo: Any, tmp_path: Path, monkeypatch: Any) -> None:  # noqa: F811
@@ -514,7 +529,7 @@ def test_commands_refuse_what_only_the_other_sort_has(kintrafo: Any) -> None:  #
         ("compare reference_axle reference_car", "files of one sort"),
         ("compare reference_car reference_car --over roll", "only for the files of axles"),
         ("compare reference_axle reference_axle --over rack", "of axles it is bump"),
-        ("report reference_axle", "file of an axle"),
+        ("loads reference_axle", "file of an axle"),
         ("new x.toml --axle --template reference_car", "both given"),
     ):
         code, _, err = kintrafo(*line.split())

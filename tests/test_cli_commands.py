@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from kintrafo import Model, Suspension, characteristics, cli
-from kintrafo.cli.console import number, significant
+from kintrafo.core.tabulated import number, significant
 from matplotlib.image import imread
 
 ROOT = Path(__file__).parent.parent

@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from kintrafo import InputError, Model, state_at_height
+from kintrafo import InputError, Model, loads, state_at_height
+from kintrafo.report import compliance_chapter, loads_chapter
 from kintrafo.report.curves import curves
 from kintrafo.report.encode import packed, rounded
 from kintrafo.report.grid import Axis, Grid
@@ -391,3 +392,29 @@ def test_lock_file_names_no_registry():
     text = (FOLDER / "web/package-lock.json").read_text(encoding="utf-8")
     assert '"resolved"' not in text
     assert '"integrity"' in text
+
+
+# -- chapters -----------------------------------------------------------------------------------
+
+
+@pytest.mark.usefixtures("coarse_report")
+def test_chapters_stand_in_the_page():
+    model = Model("reference_car")
+    cases = {"still": {"contact_g": [0.0, 0.0, 1.0]}, "far": {"contact_N": [0.0, 0.0, 1e6]}}
+    loaded = loads_chapter(loads.static(model, cases))
+    assert "1 of 2 cases are carried" in loaded.words[0]
+    assert loaded.words[1].startswith("far:")
+    (picture,) = loaded.pictures  # a case that is not carried has none
+    kind, _, coded = picture.source.partition(";base64,")
+    assert kind == "data:image/png"
+    assert len(base64.b64decode(coded)) > 5000
+    bushes = {"arm_rear": {"radial_N_per_mm": 1200.0}}
+    soft = compliance_chapter(loads.compliance(model, bushes, [-0.01, 0.0, 0.01]))
+    text = render(model, chapters=[loaded, soft])
+    assert "<h2>Load cases</h2>" in text
+    assert text.index("<h2>Load cases</h2>") < text.index("<h2>Compliance</h2>")
+    assert text.count('<figure class="picture">') == 2
+    for chapter in (loaded, soft):
+        for row in chapter.tables[0].rows:
+            assert len(row) == len(chapter.tables[0].columns)
+            assert f'<th scope="row">{row[0]}</th>' in text

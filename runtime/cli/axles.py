@@ -8,7 +8,7 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
-from .console import console, curve_table, print_json, problems, say, significant
+from .console import console, curve_table, print_json, print_table, problems, say
 from .exits import Exit
 from .outputs import Outputs, name_files, named
 
@@ -19,16 +19,25 @@ if TYPE_CHECKING:
     from ..study.axles.motions import Extent
     from ..study.checkup import Checkup
 
-# Beside the tables at design: what changes over roll, and over steering.
-_OVER_ROLL = (
-    "roll_moment",
-    "roll_stiffness",
+# Beside the tables at design: what changes over roll, over steering, and over one wheel's travel.
+_TOLD = {
+    "roll": (
+        "roll_moment",
+        "roll_stiffness",
+        "roll_center_height",
+        "roll_center_lateral",
+        "inclination_left",
+        "inclination_right",
+    ),
+    "steer": ("steer_left", "steer_right", "ackermann", "turning_circle", "steering_ratio"),
+}
+_OF_ONE_WHEEL = (
+    "wheel_force_left",
+    "wheel_force_right",
+    "bar_torque",
+    "track",
     "roll_center_height",
-    "roll_center_lateral",
-    "inclination_left",
-    "inclination_right",
 )
-_OVER_STEERING = ("steer_left", "steer_right", "ackermann", "turning_circle", "steering_ratio")
 # On the page of curves of a simulation, for both sides.
 _DRAWN = ("wheel_center_z", "wheel_acceleration", "tyre_force", "camber", "toe")
 
@@ -69,6 +78,7 @@ def characteristics(
 ) -> None:
     """All characteristics of an axle over the motions of a rig."""
     from ..study import axles, export
+    from ..study.axles.sheet import at_design
     from ..suspension.axle import Axle
 
     axle = Axle.load(file)
@@ -88,79 +98,13 @@ def characteristics(
         print_json({f"over_{motion}": export.as_dict(curves[motion]) for motion in curves})
         return
     for motion, dataset in curves.items():
-        for table in _TABLES.get(motion, _of_one_wheel)(dataset, file):
-            console.print(table)
+        if motion == "bump":
+            for table in at_design(dataset, f"{file}: "):
+                print_table(table)
+            continue
+        told = [name for name in _TOLD.get(motion, _OF_ONE_WHEEL) if name in dataset]
+        console.print(curve_table(dataset, told, f"{file}: {axles.MOTIONS[motion]}"))
     name_files(written)
-
-
-def _of_bump(dataset: "Dataset", file: str) -> list[Table]:
-    """Return what there is at design: of each wheel, and of the axle."""
-    wheels, whole = _sorted_names(dataset)
-    by_wheel = _table(f"{file}: each wheel over parallel travel, at design", ("left", "right"))
-    for stem in wheels:
-        sides = [dataset[f"{stem}_{side}"] for side in ("left", "right")]
-        _add(by_wheel, _words(sides[0]), sides)
-    by_axle = _table(f"{file}: the axle, at design", ("value",))
-    for name in whole:
-        _add(by_axle, _words(dataset[name]), [dataset[name]])
-    return [by_wheel, by_axle]
-
-
-def _table(title: str, columns: tuple[str, ...]) -> Table:
-    table = Table(title=escape(title))
-    table.add_column("characteristic")
-    for column in columns:
-        table.add_column(column, justify="right")
-    table.add_column("unit")
-    table.add_column("sign")
-    return table
-
-
-def _words(data: Any) -> str:
-    from ..core.quantities import long_name
-
-    return long_name(data).removesuffix(", left").removesuffix(", right")
-
-
-def _add(table: Table, words: str, columns: list[Any]) -> None:
-    from ..core.quantities import display_of, displayed
-
-    (along,) = columns[0].dims
-    index = int(abs(columns[0][along].values).argmin())
-    values = [significant(float(displayed(data)[index])) for data in columns]
-    unit = display_of(columns[0].attrs).units.replace("1", "-")
-    table.add_row(words, *values, unit, str(columns[0].attrs.get("sign", "")))
-
-
-def _sorted_names(dataset: "Dataset") -> tuple[list[str], list[str]]:
-    """Return what both wheels have, without the side, and what the axle has."""
-    names = [str(name) for name in dataset]
-    wheels = [n.removesuffix("_left") for n in names if n.endswith("_left")]
-    sides = tuple(f"{stem}_{side}" for stem in wheels for side in ("left", "right"))
-    return wheels, [name for name in names if name not in sides]
-
-
-def _of_roll(dataset: "Dataset", file: str) -> list[Table]:
-    names = [name for name in _OVER_ROLL if name in dataset]
-    return [curve_table(dataset, names, f"{file}: roll of the body")]
-
-
-def _of_steering(dataset: "Dataset", file: str) -> list[Table]:
-    names = [name for name in _OVER_STEERING if name in dataset]
-    return [curve_table(dataset, names, f"{file}: steering")]
-
-
-def _of_one_wheel(dataset: "Dataset", file: str) -> list[Table]:
-    wanted = ("wheel_force_left", "wheel_force_right", "bar_torque", "track", "roll_center_height")
-    names = [name for name in wanted if name in dataset]
-    return [curve_table(dataset, names, f"{file}: {dataset.attrs['title']}")]
-
-
-_TABLES: dict[str, Callable[["Dataset", str], list[Table]]] = {
-    "bump": _of_bump,
-    "roll": _of_roll,
-    "steer": _of_steering,
-}
 
 
 def compared(files: list[str], over: str | None) -> "Dataset":

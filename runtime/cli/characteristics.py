@@ -7,8 +7,9 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
+from ..core.tabulated import significant
 from . import axles
-from .console import console, print_json, significant
+from .console import console, print_json
 from .options import Bump, File, Force, Json, Of, RackExtent, Rebound, Step, among, load, metres
 from .outputs import Figures, Formats, Out, Outputs, Plot, name_files, named
 

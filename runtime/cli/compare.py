@@ -6,8 +6,9 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
+from ..core.tabulated import significant
 from . import axles
-from .console import console, print_json, progress_bar, say, significant
+from .console import console, print_json, progress_bar, say
 from .options import Files, Force, Json, Of, among, load
 from .outputs import Figures, Formats, Out, Outputs, Plot, name_files
 

@@ -1,19 +1,14 @@
 """``kintrafo compliance``: how the wheel gives way on its bushes."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated, Literal
 
 import typer
-from rich.markup import escape
-from rich.table import Table
 
-from .console import console, print_json, say, significant
+from .console import print_json, print_table, say
 from .options import Bump, File, Force, Json, Rebound, load, metres
 from .outputs import Out, Outputs, Plot, name_files
 from .variation_options import At, with_position
-
-if TYPE_CHECKING:
-    from xarray import Dataset
 
 EXAMPLES = (
     "kintrafo compliance my_car.toml bushes.toml",
@@ -47,6 +42,7 @@ def command(
     """
     from ..study import export, sweep
     from ..study import loads as study
+    from ..study.loads.sheets import compliances
 
     outputs = Outputs.of(out, plot, force=force, inputs=[file, bushes])
     model = load(file)
@@ -67,27 +63,7 @@ def command(
     if json:
         print_json(export.as_dict(found))
         return
-    console.print(_table(curves, file, at))
+    title = f"{file}: compliance, at {at:g} mm of wheel travel"
+    print_table(compliances(curves, title, at / 1e3))
     say(f"{found.attrs['held']}; relaxed bushes, linear.")
     name_files(written)
-
-
-def _table(found: "Dataset", file: str, at: float) -> Table:
-    """Return the sheet: a row for each load, as a rig's summary has it."""
-    from ..core.quantities import display_of, displayed, long_name
-
-    table = Table(title=escape(f"{file}: compliance, at {at:g} mm of wheel travel"))
-    table.add_column("by")
-    table.add_column("per")
-    for column in ("toe-in [deg]", "camber [deg]", "along the force [mm]"):
-        table.add_column(escape(column), justify="right")
-    here = found.sel(wheel_travel=at / 1e3, method="nearest")
-    for name in (str(name) for name in here if str(name).startswith("toe_by_")):
-        load = name.removeprefix("toe_by_")
-        cells = [
-            significant(float(displayed(here[key]))) if key in here else "-"
-            for key in (name, f"camber_by_{load}", f"displacement_by_{load}")
-        ]
-        per = display_of(here[name].attrs).units.partition("/")[2]
-        table.add_row(long_name(here[name]).partition(" by a ")[2], per, *cells)
-    return table

@@ -12,13 +12,15 @@ from rich.markup import escape
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
+from ..core.tabulated import number
+
 if TYPE_CHECKING:
     from xarray import Dataset
 
+    from ..core.tabulated import Tabulated
+
 # Where the output goes into a file, it is wide enough for the tables.
 _WIDTH_OF_FILES = 110
-# Smaller than this, a number is a rounding error in every unit of the tables.
-_ROUNDING = 1e-9
 # Every so many positions are in a table, so that round distances stay round.
 _STRIDES = [factor * 10**power for power in range(9) for factor in (1, 2, 5)]
 
@@ -94,17 +96,11 @@ def _rows(positions: Any) -> list[int]:
     return list(range(zero % stride, count, stride))
 
 
-def number(value: float) -> str:
-    """Return a number for a column of a table: three decimals, and no minus before a zero."""
-    return _special(value) or (f"{value:.3f}" if abs(value) >= 5e-4 else "0.000")
-
-
-def significant(value: float) -> str:
-    """Return a number of unknown size for a table: five digits; what is rounding is zero."""
-    return _special(value) or (f"{value:.5g}" if abs(value) > _ROUNDING else "0")
-
-
-def _special(value: float) -> str:
-    if math.isnan(value):
-        return "-"
-    return "infinite" if math.isinf(value) else ""
+def print_table(table: "Tabulated") -> None:
+    """Print a table: words to the left, numbers to the right."""
+    made = Table(title=escape(table.title))
+    for index, heading in enumerate(table.columns):
+        made.add_column(escape(heading), justify="left" if index in table.words else "right")
+    for row in table.rows:
+        made.add_row(*map(escape, row))
+    console.print(made)

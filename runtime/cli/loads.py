@@ -1,6 +1,5 @@
 """``kintrafo loads``: the forces on every part in load cases."""
 
-from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -8,16 +7,14 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
-from .console import console, print_json, say
+from ..core.tabulated import whole
+from .console import console, print_json, print_table, say
 from .exits import Exit
 from .options import File, Force, Json, among, load
 from .outputs import Out, Outputs, name_files
 
 if TYPE_CHECKING:
     from xarray import Dataset
-
-# What acts by itself, not between parts at a joint.
-_ACTING = ("spring", "damper", "road", "drive")
 
 EXAMPLES = (
     "kintrafo loads reference_car",
@@ -68,6 +65,7 @@ def command(
     """
     from ..study import export
     from ..study import loads as study
+    from ..study.loads.sheets import overview
 
     inputs: list[str | Path] = [file, *([] if cases is None else [cases])]
     model = load(file)
@@ -96,7 +94,7 @@ def command(
         if envelope:
             console.print(_extremes(found, study.envelope(found), parts, file))
         elif not shown:
-            console.print(_overview(found, parts, file))
+            print_table(overview(found, f"{file}: sizes of the forces [N]", parts or ()))
         _tell(found)
         name_files(written)
     if found["reason"].values.any():
@@ -111,50 +109,34 @@ def _tell(found: "Dataset") -> None:
     say(f"{found.attrs['message']}; {found.attrs['rules']}.")
 
 
-def _overview(found: "Dataset", parts: list[str] | None, file: str) -> Table:
-    """Return the size of every force in every case."""
-    import numpy as np
-
-    table = Table(title=escape(f"{file}: sizes of the forces [N]"))
-    table.add_column("at")
-    for name in found["case"].values:
-        table.add_column(escape(str(name)), justify="right")
-    table.add_row("wheel load", *(_cell(float(load)) for load in found["wheel_load"].values))
-    travels = (f"{1e3 * travel:.1f}".replace("-0.0", "0.0") for travel in found["travel"].values)
-    table.add_row(escape("wheel travel [mm]"), *(t.replace("nan", "-") for t in travels))
-    table.add_section()
-    sizes = np.linalg.norm(found["force"].values, axis=-1)
-    for i in _rows(found, parts):
-        point, by = str(found["point"].values[i]), str(found["by"].values[i])
-        name = by if by in _ACTING else point
-        table.add_row(escape(name), *(_cell(float(size)) for size in sizes[:, i]))
-    return table
-
-
 def _components(found: "Dataset", case: str, parts: list[str] | None, file: str) -> Table:
     """Return forces and moments of one case."""
+    from ..study.loads.sheets import shown_rows
+
     here = found.sel(case=case)
     table = Table(title=escape(f"{file}: loads in {case}, chassis axes"))
     table.add_column("on the part, at, by")
     for column in ("Fx [N]", "Fy", "Fz", "Mx [N m]", "My", "Mz"):
         table.add_column(escape(column), justify="right")
-    for i in _rows(found, parts):
+    for i in shown_rows(found, parts or ()):
         numbers = (*here["force"].values[i], *here["moment"].values[i])
-        table.add_row(escape(_label(found, i)), *(_cell(float(number)) for number in numbers))
+        table.add_row(escape(_label(found, i)), *(whole(float(number)) for number in numbers))
     return table
 
 
 def _extremes(found: "Dataset", ends: "Dataset", parts: list[str] | None, file: str) -> Table:
     """Return the least and the greatest of each component, with the cases in which they are."""
+    from ..study.loads.sheets import shown_rows
+
     table = Table(title=escape(f"{file}: extremes of the forces [N], chassis axes"))
     table.add_column("on the part, at, by")
     for column in ("Fx", "Fy", "Fz"):
         table.add_column(column, justify="right")
-    for i in _rows(found, parts):
+    for i in shown_rows(found, parts or ()):
         cells = [
             "\n".join(
                 f"{ends[f'force_{end}_case'].values[i, axis]} "
-                f"{_cell(float(ends[f'force_{end}'].values[i, axis])):>7}"
+                f"{whole(float(ends[f'force_{end}'].values[i, axis])):>7}"
                 for end in ("min", "max")
             )
             for axis in range(3)
@@ -163,34 +145,6 @@ def _extremes(found: "Dataset", ends: "Dataset", parts: list[str] | None, file: 
     return table
 
 
-def _rows(found: "Dataset", parts: list[str] | None) -> list[int]:
-    """Return the loads that are shown: of what two parts exert on each other one, if not asked."""
-    import numpy as np
-
-    given = [*found["part"].values]
-    sizes = np.abs(found["force"].values) + np.abs(found["moment"].values)
-    strong = np.nan_to_num(sizes).max(axis=(0, 2)) > 0.0
-    if parts:
-        return [i for i, name in enumerate(given) if name in parts and strong[i]]
-    seen: set[frozenset[str]] = set()
-    rows = []
-    for i, (name, point, by) in enumerate(
-        zip(given, found["point"].values, found["by"].values, strict=True)
-    ):
-        pair = frozenset((by,) if by in _ACTING else (f"{name} {point}", f"{by} {point}"))
-        if strong[i] and pair not in seen and by != "gravity":
-            rows.append(i)
-            seen.add(pair)
-    return rows
-
-
 def _label(found: "Dataset", row: int) -> str:
     part, point, by = (str(found[name].values[row]) for name in ("part", "point", "by"))
     return f"{part}, {point}, {by}"
-
-
-def _cell(value: float) -> str:
-    """Return a force in whole newtons."""
-    if not isfinite(value):
-        return "-"
-    return f"{round(value)}"

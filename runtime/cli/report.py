@@ -1,16 +1,24 @@
 """``kintrafo report``: one file to send to a colleague."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from . import axles
 from .console import problems, say
 from .options import File, Force, load
+
+if TYPE_CHECKING:
+    from ..report import Chapter
+    from ..suspension.axle import Axle
+    from ..suspension.model import Model
 
 EXAMPLES = (
     "kintrafo report reference_car",
     'kintrafo report my_car.toml front_axle.html --title "Front axle, stage 2"',
+    "kintrafo report my_car.toml --loads --bushes bushes.toml",
+    "kintrafo report reference_axle",
 )
 
 
@@ -22,19 +30,80 @@ def command(
     ] = None,
     *,
     title: Annotated[str | None, typer.Option(help="Heading of the report.")] = None,
+    loads: Annotated[
+        bool, typer.Option("--loads", help="With the usual load cases and their free bodies.")
+    ] = False,
+    cases: Annotated[
+        Path | None,
+        typer.Option(metavar="PATH", help="With the load cases of this file (TOML)."),
+    ] = None,
+    bushes: Annotated[
+        Path | None,
+        typer.Option(metavar="PATH", help="With the compliance on the bushes of this file (TOML)."),
+    ] = None,
     force: Force = False,
 ) -> None:
-    """Write a report that opens in any browser: the mechanism to move by hand, curves, data."""
+    """Write a report that opens in any browser: the mechanism to move by hand, curves, data.
+
+    Of an axle it has one side to be moved, and what a rig finds of both.
+    """
     from ..core.files import refuse
     from ..report import ENDINGS
 
     target = path or Path(f"{Path(file).stem}.html")
-    refuse([target], force=force, inputs=[file], endings=ENDINGS)
-    model = load(file)
+    inputs: list[str | Path] = [file, *(read for read in (cases, bushes) if read is not None)]
+    refuse([target], force=force, inputs=inputs, endings=ENDINGS)
+    model, title, axle = _subject(file, title)
     with problems.status("report") as status:
         from ..report import write
 
+        chapters = [*_of_axle(axle), *_of_loads(model, cases, wanted=loads)]
+        chapters += _of_bushes(model, bushes)
         written = write(
-            model, target, title=title, progress=status.update, force=force, inputs=[file]
+            model,
+            target,
+            title=title,
+            chapters=chapters,
+            progress=status.update,
+            force=force,
+            inputs=inputs,
         )
     say(f"  {written}")
+
+
+def _subject(file: str, title: str | None) -> "tuple[Model, str | None, Axle | None]":
+    """Return what is moved by hand, the heading, and the axle of which it is one side."""
+    if not axles.is_axle(file):
+        return load(file), title, None
+    from ..suspension.axle import Axle
+
+    axle = Axle.load(file)
+    heading = axle.heading()
+    return axle.models[axle.bar_side], title or heading[:1].upper() + heading[1:], axle
+
+
+def _of_axle(axle: "Axle | None") -> "list[Chapter]":
+    from ..report import axle_chapter
+
+    return [] if axle is None else [axle_chapter(axle)]
+
+
+def _of_loads(model: "Model", cases: Path | None, *, wanted: bool) -> "list[Chapter]":
+    from ..report import loads_chapter
+    from ..study import loads as study
+
+    if cases is None and not wanted:
+        return []
+    described = {} if cases is None else study.read(cases)
+    named = described.get("cases", study.standard_cases(model.suspension.vehicle.sign))
+    load_at_rest = described.get("static_load_N")
+    return [loads_chapter(study.static(model, named, static_load=load_at_rest))]
+
+
+def _of_bushes(model: "Model", bushes: Path | None) -> "list[Chapter]":
+    from ..report import compliance_chapter
+    from ..study import loads as study
+
+    if bushes is None:
+        return []
+    return [compliance_chapter(study.compliance(model, study.read_bushes(bushes)))]

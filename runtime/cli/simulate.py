@@ -9,8 +9,9 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
+from ..core.tabulated import number
 from . import axles
-from .console import console, number, print_json, problems, say
+from .console import console, print_json, problems, say
 from .exits import Exit
 from .options import File, Force, Json, load
 from .outputs import Figures, Formats, Out, Outputs, Plot, name_files

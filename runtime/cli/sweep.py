@@ -7,7 +7,8 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
-from .console import console, print_json, progress_bar, say, significant
+from ..core.tabulated import significant
+from .console import console, print_json, progress_bar, say
 from .exits import Exit
 from .options import File, Force, Json
 from .outputs import Out, Outputs, Plot, name_files

@@ -7,7 +7,8 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
-from .console import console, print_json, progress_bar, say, significant
+from ..core.tabulated import significant
+from .console import console, print_json, progress_bar, say
 from .options import File, Force, Json, Of
 from .outputs import Out, Outputs, name_files
 from .variation_options import At, Bars, Over, along, chosen, positions_with

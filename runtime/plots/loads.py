@@ -59,23 +59,32 @@ def write_free_bodies(
     list of pathlib.Path
     """
     check_formats(paths)
+    written = []
+    with rc_context(STYLE):
+        words = f"{title}: forces on the parts in {case}"
+        figure = free_bodies(dataset, case, parts, title=words)
+        for path in paths:
+            named = path.with_name(f"{path.stem}_{case}{path.suffix}")
+            written.append(save(figure, named, force=force, inputs=inputs))
+    return written
+
+
+def free_bodies(
+    dataset: xr.Dataset, case: str, parts: Sequence[str] | None = None, *, title: str = ""
+) -> Figure:
+    """Draw the moving parts of a suspension with the forces on them; see `write_free_bodies`."""
     here = dataset.sel(case=case)
     known = dict.fromkeys(str(part) for part in here["part"].values)
     shown = parts or [part for part in known if part not in GROUND]
-    written = []
-    with rc_context(STYLE):
-        figure = Figure(figsize=(7.4, 0.6 + 2.5 * len(shown)), layout="constrained")
-        grid = figure.subplots(len(shown), len(_VIEWS), squeeze=False)
-        for row, part in zip(grid, shown, strict=True):
-            chosen = here.isel(load=(here["part"] == part).values)
-            for axes, view in zip(row, _VIEWS, strict=True):
-                _draw(axes, chosen, view)
-                axes.set_title(f"{part.replace('_', ' ')}, {view}", fontsize=9.5)
-        figure.suptitle(f"{title}: forces on the parts in {case}", fontsize=11)
-        for path in paths:
-            named = path.with_name(f"{path.stem}_{case}{path.suffix}")
-            written.append(save(written_plainly(figure), named, force=force, inputs=inputs))
-    return written
+    figure = Figure(figsize=(7.4, 0.6 + 2.5 * len(shown)), layout="constrained")
+    grid = figure.subplots(len(shown), len(_VIEWS), squeeze=False)
+    for row, part in zip(grid, shown, strict=True):
+        chosen = here.isel(load=(here["part"] == part).values)
+        for axes, view in zip(row, _VIEWS, strict=True):
+            _draw(axes, chosen, view)
+            axes.set_title(f"{part.replace('_', ' ')}, {view}", fontsize=9.5)
+    figure.suptitle(title, fontsize=11)
+    return written_plainly(figure)
 
 
 def _draw(axes: Axes, loads: xr.Dataset, view: str) -> None:

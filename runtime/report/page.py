@@ -1,6 +1,6 @@
 """The HTML report: one file that opens anywhere, without a network."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib import resources
 from importlib.metadata import version
@@ -17,6 +17,7 @@ from ..study.characteristics.groups import ORDER
 from ..study.paper import SPIN_RATE
 from ..suspension.model import Model
 from .accuracy import Accuracy, measure
+from .chapters.chapter import Chapter
 from .curves import Curve, curves, gaps_on, only_over_rack
 from .grid import Grid
 from .motion import DROP, Motion, NoMotion, simulated_second
@@ -51,6 +52,7 @@ def write(
     path: str | Path,
     *,
     title: str | None = None,
+    chapters: Sequence[Chapter] = (),
     progress: Callable[[str], None] | None = None,
     force: bool = False,
     inputs: Paths = (),
@@ -68,6 +70,9 @@ def write(
         are made.
     title : str, optional
         Heading of the page; by default it says what the suspension is.
+    chapters : sequence of Chapter, optional
+        What stands there besides: see `kintrafo.report.axle_chapter`, `loads_chapter` and
+        `compliance_chapter`.
     progress : callable, optional
         Called with a few words on what is being done.
     force : bool, optional
@@ -89,7 +94,7 @@ def write(
     """
     tell = progress or (lambda _: None)
     refuse([path], force=force, inputs=inputs, endings=ENDINGS)
-    text = render(model, title=title, tell=tell)
+    text = render(model, title=title, chapters=chapters, tell=tell)
     tell("writing the page")
     with replacing(path, force=force, inputs=inputs) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")
@@ -97,7 +102,11 @@ def write(
 
 
 def render(
-    model: Model, *, title: str | None = None, tell: Callable[[str], None] = lambda _: None
+    model: Model,
+    *,
+    title: str | None = None,
+    chapters: Sequence[Chapter] = (),
+    tell: Callable[[str], None] = lambda _: None,
 ) -> str:
     """Return the report as text; see `write`."""
     samples = _sample(model, tell)
@@ -113,6 +122,7 @@ def render(
         rows=summary(samples.curves, samples.grid, samples.looks, model.suspension.suspension),
         inputs=input_tables(model.suspension),
         parts=model.suspension.drawing().legend,
+        chapters=chapters,
         drop=DROP,
         spin=SPIN_RATE / (2.0 * np.pi),
         data=Markup(_data(model, samples)),  # noqa: S704 (page_data leaves no end tag in it)
@@ -194,6 +204,7 @@ def _environment() -> Environment:
         lstrip_blocks=True,
     )
     environment.filters["fixed"] = _fixed
+    environment.filters["minus"] = _with_minus
     environment.filters["upper_limit"] = _upper_limit
     return environment
 
@@ -204,6 +215,11 @@ def _fixed(value: float, places: int) -> str:
         return "\u2013"
     text = f"{abs(value):.{places}f}"
     return f"\u2212{text}" if value < 0.0 and float(text) != 0.0 else text
+
+
+def _with_minus(text: str) -> str:
+    """Write a number with a true minus sign."""
+    return text.replace("-", "\u2212") if text[1:2].isdigit() else text
 
 
 def _upper_limit(error: float) -> str:

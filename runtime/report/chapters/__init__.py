@@ -1,0 +1,14 @@
+"""What a report has besides the suspension that is moved: a file for each kind of chapter.
+
+`chapter`     what a chapter is
+`axle`        both wheels and the anti-roll bar over the motions of a rig
+`loads`       load cases, with the free bodies
+`compliance`  how the wheel gives way on its bushes
+"""
+
+from .axle import axle_chapter
+from .chapter import Chapter
+from .compliance import compliance_chapter
+from .loads import loads_chapter
+
+__all__ = ["Chapter", "axle_chapter", "compliance_chapter", "loads_chapter"]

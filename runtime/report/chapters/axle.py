@@ -1,0 +1,86 @@
+"""The chapter about an axle."""
+
+import numpy as np
+import xarray as xr
+from matplotlib import rc_context
+
+from ...core.arguments import Arguments
+from ...plots.curves import figure
+from ...plots.figures import STYLE
+from ...study import axles
+from ...study.axles.sheet import at_design
+from ...study.characteristics.datasets import KNOWN
+from ...suspension.axle import Axle
+from .chapter import Chapter, Picture
+
+# The curves of each motion; those that an axle does not have are left out.
+_DRAWN = {
+    "roll": (
+        "roll_moment",
+        "roll_stiffness",
+        "roll_center_height",
+        "roll_center_lateral",
+        "camber",
+        "inclination",
+        "steer",
+        "jacking",
+        "link_force",
+    ),
+    "bump": (
+        "roll_center_height",
+        "track_change",
+        "roll_stiffness",
+        "anti_dive",
+        "anti_lift",
+        "anti_squat",
+    ),
+    "left": ("wheel_force", "bar_torque", "roll_center_height"),
+    "steer": ("steer", "ackermann", "turning_circle", "steering_ratio", "camber", "rack_position"),
+}
+
+
+def axle_chapter(axle: Axle) -> Chapter:
+    """Return what a rig finds of both wheels.
+
+    Parameters
+    ----------
+    axle : Axle
+
+    Returns
+    -------
+    Chapter
+    """
+    with Arguments("axle_chapter") as given:
+        given.kind("axle", axle, Axle, Axle.NEEDED)
+    curves = {motion: axles.over(axle, motion) for motion in _DRAWN}
+    words = [f"Both wheels of the {axle.heading()}, on one rack."]
+    words.append(
+        "One side is the mirror image of the other." if axle.symmetric else "The sides differ."
+    )
+    if axle.bar is not None:
+        rate = np.deg2rad(axle.bar.rate())
+        part = axle.bar.link_on.replace("_", " ")
+        words.append(f"Anti-roll bar: {rate:.4g} N m/deg, drop links on the {part}.")
+    # what a wheel has by itself, the page has already, if the sides are alike
+    whole = curves["bump"]
+    if axle.symmetric:
+        own = {f"{q.name}_{side}" for q in KNOWN["travel"].values() for side in axle.sides}
+        whole = whole.drop_vars([n for n in own if n in whole and not n.startswith("anti_")])
+    return Chapter(
+        title="The axle",
+        words=(" ".join(words),),
+        tables=tuple(at_design(whole, "Over parallel travel: ")),
+        pictures=tuple(_pictures(curves)),
+    )
+
+
+def _pictures(curves: dict[str, xr.Dataset]) -> list[Picture]:
+    pictures = []
+    for motion, dataset in curves.items():
+        drawn = axles.by_side(dataset)
+        names = [n for n in _DRAWN[motion] if n in drawn and bool(np.isfinite(drawn[n]).any())]
+        words = axles.MOTIONS[motion]
+        with rc_context(STYLE):
+            page = figure(drawn, names, title=words[:1].upper() + words[1:], alone=False)
+            pictures.append(Picture.of(page, f"Curves: {words}"))
+    return pictures

@@ -1,0 +1,80 @@
+"""Loads and compliance as tables that a person reads."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+
+from ...core.quantities import display_of, displayed, long_name
+from ...core.tabulated import Tabulated, significant, whole
+
+ACTING = ("spring", "damper", "road", "drive")
+"""What acts by itself, not between parts at a joint."""
+
+
+def overview(found: xr.Dataset, title: str, parts: Sequence[str] = ()) -> Tabulated:
+    """Return the size of every force in every case.
+
+    Parameters
+    ----------
+    found : xarray.Dataset
+        From `static`.
+    title : str
+    parts : sequence of str, optional
+        Loads on these parts, with all that act on them; by default each joint once.
+    """
+    travels = (f"{1e3 * travel:.1f}".replace("-0.0", "0.0") for travel in found["travel"].values)
+    rows = [
+        ("wheel load", *(whole(float(load)) for load in found["wheel_load"].values)),
+        ("wheel travel [mm]", *(text.replace("nan", "-") for text in travels)),
+    ]
+    sizes = np.linalg.norm(found["force"].values, axis=-1)
+    for i in shown_rows(found, parts):
+        point, by = str(found["point"].values[i]), str(found["by"].values[i])
+        name = by if by in ACTING else point
+        rows.append((name, *(whole(float(size)) for size in sizes[:, i])))
+    return Tabulated(title, ("at", *map(str, found["case"].values)), tuple(rows))
+
+
+def shown_rows(found: xr.Dataset, parts: Sequence[str] = ()) -> list[int]:
+    """Return the loads that are shown: of what two parts exert on each other one, if not asked."""
+    given = [*found["part"].values]
+    sizes = np.abs(found["force"].values) + np.abs(found["moment"].values)
+    strong = np.nan_to_num(sizes).max(axis=(0, 2)) > 0.0
+    if parts:
+        return [i for i, name in enumerate(given) if name in parts and strong[i]]
+    seen: set[frozenset[str]] = set()
+    rows = []
+    for i, (name, point, by) in enumerate(
+        zip(given, found["point"].values, found["by"].values, strict=True)
+    ):
+        pair = frozenset((by,) if by in ACTING else (f"{name} {point}", f"{by} {point}"))
+        if strong[i] and pair not in seen and by != "gravity":
+            rows.append(i)
+            seen.add(pair)
+    return rows
+
+
+def compliances(found: xr.Dataset, title: str, at: float = 0.0) -> Tabulated:
+    """Return the sheet of a compliance: a row for each load, as a rig's summary has it.
+
+    Parameters
+    ----------
+    found : xarray.Dataset
+        From `compliance`.
+    title : str
+    at : float, optional
+        Wheel travel [m].
+    """
+    here = found.sel(wheel_travel=at, method="nearest")
+    rows = []
+    for name in (str(name) for name in here if str(name).startswith("toe_by_")):
+        load = name.removeprefix("toe_by_")
+        cells = [
+            significant(float(displayed(here[key]))) if key in here else "-"
+            for key in (name, f"camber_by_{load}", f"displacement_by_{load}")
+        ]
+        per = display_of(here[name].attrs).units.partition("/")[2]
+        rows.append((long_name(here[name]).partition(" by a ")[2], per, *cells))
+    columns = ("by", "per", "toe-in [deg]", "camber [deg]", "along the force [mm]")
+    return Tabulated(title, columns, tuple(rows), frozenset({0, 1}))
