@@ -425,6 +425,7 @@ START = {
 AFLOAT = {
     "double_wishbone": {"tyre_rate": 0.0, "spring_free_length": 0.44},
     "double_wishbone_general": {"tyre_rate": 0.0, "spring_free_length": 0.44},
+    "push_rod": {"tyre_rate": 0.0, "spring_free_length": 0.291},
     "front_axle": {"tyre_rate": 0.0, "spring_free_slide": 0.18},
 }
 """Suspensions without a road, on springs that carry the arms only."""

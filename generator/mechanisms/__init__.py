@@ -1,10 +1,20 @@
 """The mechanisms that come with the project, each declared on a page of its own."""
 
-from . import andrews, double_wishbone, excavator, four_bar, front_axle, macpherson, slider_crank
+from . import (
+    andrews,
+    double_wishbone,
+    excavator,
+    four_bar,
+    front_axle,
+    macpherson,
+    push_rod,
+    slider_crank,
+)
 
 MODELS = (
     *macpherson.MODELS,
     *double_wishbone.MODELS,
+    *push_rod.MODELS,
     *front_axle.MODELS,
     *four_bar.MODELS,
     *slider_crank.MODELS,

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 Place = str | tuple[str, str, str]
-Role = Literal["arm", "upper arm", "strut", "rod"]
+Role = Literal["arm", "upper arm", "rocker", "strut", "rod", "push rod"]
 
 
 class Axis(NamedTuple):

@@ -310,6 +310,8 @@ def _centroid(points: Hardpoints, names: tuple[str, ...]) -> Vector:
 class DoubleWishboneBodies(Bodies):
     """All bodies. Tie rod and rack have no mass in the equations of this suspension."""
 
+    MASSLESS: ClassVar[tuple[str, ...]] = _MASSLESS
+
     lower_arm: LowerArm = Field(description="the lower arm")
     upper_arm: UpperArm = Field(description="the upper arm")
     knuckle: Upright = Field(description="the knuckle")
@@ -318,7 +320,7 @@ class DoubleWishboneBodies(Bodies):
 
     def problems(self) -> list[str]:
         """Refuse mass that the equations would leave out."""
-        heavy = {name: getattr(self, name).mass_kg for name in _MASSLESS}
+        heavy = {name: getattr(self, name).mass_kg for name in self.MASSLESS}
         return [
             f"{name}.mass_kg = {mass} kg: the equations of a double wishbone leave this body "
             "without mass; allowed is 0 kg. Set it to 0, and add what moves with the knuckle there."

@@ -1,0 +1,223 @@
+"""The double wishbone suspension with push rod and rocker: spring and damper lie on the chassis.
+
+What it has besides the double wishbone: its hardpoints, bodies and checks, its equations, its
+structure and how it is drawn.
+"""
+
+from collections.abc import Mapping
+from types import ModuleType
+from typing import ClassVar, Literal
+
+import numpy as np
+from pydantic import Field
+
+from ...core.errors import InputError
+from ...generated import push_rod
+from ..drawing import Axis, Drawing
+from ..input.bodies import Rack, RigidBody, TieRod
+from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints
+from ..input.section import Triple
+from ..input.vectors import Vector, distance_from_line, unit_vector
+from ..structure import FORCES_OF_A_DAMPER, Ball, Cross, Hinge, Line, Structure
+from .double_wishbone import (
+    CoilDamper,
+    DoubleWishbone,
+    DoubleWishboneBodies,
+    DoubleWishboneHardpoints,
+    Spring,
+)
+
+_ROCKER = ("rocker_front", "rocker_rear")
+_PUSH_ROD = ("push_rod_outer", "push_rod_inner")
+
+# Bodies that the equations leave without mass.
+_MASSLESS = ("tie_rod", "rack", "push_rod")
+
+
+class PushRodHardpoints(DoubleWishboneHardpoints):
+    """The points that define a double wishbone suspension with push rod, at the design position.
+
+    All are in chassis axes (ISO 8855: x forward, y left, z up), in the unit that `unit` names.
+    """
+
+    CARRIERS: ClassVar[Mapping[str, str]] = {
+        **DoubleWishboneHardpoints.CARRIERS,
+        "spring_seat": "rocker",
+        "push_rod_outer": "lower_arm",
+        "push_rod_inner": "rocker",
+    }
+    JOINTS: ClassVar[tuple[str, ...]] = (
+        *DoubleWishboneHardpoints.JOINTS,
+        *_PUSH_ROD,
+        "spring_seat",
+    )
+
+    push_rod_outer: Triple = Field(description="ball joint of push rod and lower arm")
+    push_rod_inner: Triple = Field(description="joint of push rod and rocker")
+    rocker_front: Triple = Field(description="one bearing of the rocker on the chassis")
+    rocker_rear: Triple = Field(description="the other bearing of the rocker on the chassis")
+    spring_top: Triple = Field(description="end of spring and damper on the chassis")
+    spring_seat: Triple = Field(description="end of spring and damper on the rocker")
+
+    def geometry_problems(self) -> list[str]:
+        """Say why the mechanism cannot move, or cannot be told from its mirror image.
+
+        Returns
+        -------
+        list of str
+            One text for each problem.
+        """
+        coinciding = self.coinciding({"rocker": _ROCKER, "push rod": _PUSH_ROD})
+        problems = super().geometry_problems() + self.coincidence_problems(coinciding)
+        return problems if coinciding else problems + self._problems_of_rocker()
+
+    def _problems_of_rocker(self) -> list[str]:
+        """Check that push rod and spring have a lever about the rocker's axis."""
+        found = []
+        for words, (place, end) in (
+            ("push rod", ("push_rod_inner", "push_rod_outer")),
+            ("spring", ("spring_seat", "spring_top")),
+        ):
+            lever = self._lever(place, end)
+            if lever < SMALLEST_DISTANCE:
+                found.append(
+                    f"{self.text(place, end)}: the {words} acts with a lever of "
+                    f"{1000 * lever:.3f} mm about the rocker's axis; at least "
+                    f"{1000 * SMALLEST_DISTANCE:g} mm are needed, or the rocker is at its dead "
+                    f"centre. Move {place}, or the bearings of the rocker."
+                )
+        return found
+
+    def _lever(self, place: str, end: str) -> float:
+        """Return the lever of a force along a line about the rocker's axis [m]."""
+        axis = unit_vector(self.metres("rocker_front") - self.metres("rocker_rear"))
+        at, to = self.metres(place), self.metres(end)
+        if self.distance(place, end) < SMALLEST_DISTANCE:
+            return 0.0
+        arm = at - self.metres("rocker_rear")
+        return abs(float(np.cross(arm, unit_vector(to - at)) @ axis))
+
+
+class Rocker(RigidBody):
+    """The rocker."""
+
+    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
+        """Return the midpoint of its bearings, in m."""
+        middle: Vector = 0.5 * (points.metres("rocker_front") + points.metres("rocker_rear"))
+        return middle
+
+
+class PushRodBody(RigidBody):
+    """The push rod."""
+
+    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
+        """Return its midpoint, in m."""
+        middle: Vector = 0.5 * (points.metres("push_rod_outer") + points.metres("push_rod_inner"))
+        return middle
+
+
+class PushRodBodies(DoubleWishboneBodies):
+    """All bodies. Tie rod, rack and push rod have no mass in the equations of this suspension."""
+
+    MASSLESS: ClassVar[tuple[str, ...]] = _MASSLESS
+
+    rocker: Rocker = Field(default=Rocker(mass_kg=0.0), description="the rocker")
+    push_rod: PushRodBody = Field(
+        default=PushRodBody(mass_kg=0.0), description="the push rod, without mass"
+    )
+    tie_rod: TieRod = Field(default=TieRod(mass_kg=0.0), description="the tie rod, without mass")
+    rack: Rack = Field(default=Rack(mass_kg=0.0), description="the rack, without mass")
+
+
+class PushRod(DoubleWishbone):
+    """A double wishbone suspension with push rod and rocker at its design position.
+
+    The push rod leads from the lower arm to the rocker; spring and damper act between the rocker
+    and the chassis. See `Suspension`.
+    """
+
+    TITLE: ClassVar[str] = "push-rod suspension"
+    STARTER: ClassVar[str] = "push_rod_car"
+    PAGE: ClassVar[str] = """: a double wishbone whose spring lies on the chassis.
+
+The push rod leads from the lower arm to the rocker, which turns about the line through its two
+bearings and presses spring and damper. Where the spring is free of force is said by the distance of
+its ends (`free_length_mm`) or by its force at the design position (`force_at_design_N`). The damper
+has a rate or a curve; the stops are touched by its length."""
+
+    # another kind than that which it has nearly everything of
+    suspension: Literal["push_rod"] = Field(  # type: ignore[assignment]
+        description="the kind of suspension"
+    )
+    hardpoints: PushRodHardpoints = Field(description="the points that define the geometry")
+    spring: Spring = Field(description="the spring, between chassis and rocker")
+    damper: CoilDamper = Field(description="the damper, on the spring's axis")
+    bodies: PushRodBodies = Field(description="masses and inertia")
+
+    def equations(self, *, free_rack: bool) -> ModuleType:
+        """Return the equations, in which the rack is prescribed: they have everything."""
+        if free_rack:
+            problem = f"free_rack=True: the rack of a {self.TITLE} is prescribed. Leave that out."
+            raise InputError([problem], "Model")
+        return push_rod
+
+    def beyond_the_plain(self) -> list[str]:
+        """Return what these equations have beyond plain ones: they have everything."""
+        return ["push rod", *super().beyond_the_plain()]
+
+    def lengths(self) -> dict[str, float]:
+        """Return the lengths of arms, spring and push rod, and the rocker's lever [m]."""
+        points = self.hardpoints
+        axis = [points.metres(name) for name in _ROCKER]
+        return super().lengths() | {
+            "push_rod_length": points.distance(*_PUSH_ROD),
+            "rocker_length": distance_from_line(points.metres("push_rod_inner"), *axis),
+        }
+
+    def drawing(self) -> Drawing:
+        """Return how arms, push rod, rocker, spring and tie rod are drawn."""
+        rocker = {
+            "rocker_front_rod": ("rocker_front", "push_rod_inner"),
+            "rocker_rear_rod": ("rocker_rear", "push_rod_inner"),
+            "rocker_front_spring": ("rocker_front", "spring_seat"),
+            "rocker_rear_spring": ("rocker_rear", "spring_seat"),
+            "rocker_across": ("push_rod_inner", "spring_seat"),
+        }
+        foot = ("push_rod_outer", "lower_ball_joint", "lower_arm_front")
+        plain = super().drawing()
+        return Drawing(
+            links={
+                **plain.links,
+                "push rod": ("push_rod_outer", "push_rod_inner", "push rod"),
+                "rocker": ("rocker_front", "push_rod_inner", "rocker"),
+                "rocker at the spring": ("rocker_front", "spring_seat", "rocker"),
+            },
+            knuckle=plain.knuckle,
+            legend={**plain.legend, "arm": "control arms, push rod and rocker"},
+            damper=Axis("spring_seat", "spring_top", 0.5),
+            spring=Axis("spring_seat", "spring_top", 0.32),
+            upright=plain.upright,
+            brackets={
+                "push_rod_bracket": (foot, "push_rod_outer"),
+                "push_rod": ("push_rod_outer", "push_rod_inner"),
+                **rocker,
+            },
+        )
+
+    def structure(self) -> Structure:
+        """Return the joints; spring, damper and stops act between chassis and rocker."""
+        axis = unit_vector(
+            self.hardpoints.metres("rocker_front") - self.hardpoints.metres("rocker_rear")
+        )
+        # the axis of a hinge on the chassis does not turn, as that of a cross has to be
+        first_axis = (float(axis[0]), float(axis[1]), float(axis[2]))
+        ends = ("chassis", "rocker", ("spring_top", "spring_seat"))
+        damper = (*FORCES_OF_A_DAMPER, self.NAMES.actuator)
+        joints = (
+            *super().structure().joints,
+            Hinge("chassis", "rocker", _ROCKER),
+            Ball("lower_arm", "push_rod", ("push_rod_outer",), "push_rod_inner"),
+            Cross("rocker", "push_rod", ("push_rod_inner",), "push_rod_outer", first_axis),
+        )
+        lines = (Line("spring", ("spring_force",), *ends), Line("damper", damper, *ends))
+        return Structure(joints, lines)

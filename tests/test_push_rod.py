@@ -1,0 +1,163 @@
+"""The push-rod suspension: the wheel of a double wishbone, and a spring that a rocker moves.
+
+`test_mechanisms` compares its equations with maximal coordinates, like those of every model.
+"""
+
+import numpy as np
+import pytest
+from kintrafo import (
+    Axle,
+    InputError,
+    Model,
+    Suspension,
+    axles,
+    characteristics,
+    equilibrium,
+    loads,
+    simulate,
+    state_at_height,
+)
+from kintrafo.suspension.points import hardpoints
+from kintrafo.suspension.positions import arm_angles, design_height
+from kintrafo.suspension.reach import at_rest
+from scipy.optimize import brentq
+
+CAR = Suspension.load("push_rod_car")
+WISHBONES = Suspension.load("double_wishbone_car")
+MODEL = Model(CAR)
+TRAVELS = np.linspace(-0.07, 0.07, 15)
+
+
+def points_at(travels: np.ndarray) -> dict[str, np.ndarray]:
+    """Return the hardpoints at wheel travels."""
+    angles = arm_angles(MODEL, design_height(MODEL) + travels)
+    return hardpoints(MODEL, *at_rest(MODEL, angles))
+
+
+def turned(place: np.ndarray, turn: float) -> np.ndarray:
+    """Return where a point of the rocker goes, by Rodrigues' formula."""
+    design = CAR.hardpoints.at_design()
+    axis = design["rocker_front"] - design["rocker_rear"]
+    axis /= np.linalg.norm(axis)
+    arm = place - design["rocker_rear"]
+    across = np.cross(axis, arm)
+    along = axis * (axis @ arm)
+    arm = along + (arm - along) * np.cos(turn) + across * np.sin(turn)
+    return design["rocker_rear"] + arm
+
+
+def test_the_rocker_is_where_the_rod_holds_it() -> None:
+    """Against a search for the angle at which the rod has its length."""
+    design, found = CAR.hardpoints.at_design(), points_at(TRAVELS)
+    length = CAR.hardpoints.distance("push_rod_outer", "push_rod_inner")
+    for i in range(TRAVELS.size):
+        foot = found["push_rod_outer"][i]
+
+        def misfit(turn: float, foot: np.ndarray = foot) -> float:
+            return float(np.linalg.norm(turned(design["push_rod_inner"], turn) - foot) - length)
+
+        turn = brentq(misfit, -0.9, 0.9, xtol=1e-14)
+        for name in ("push_rod_inner", "spring_seat"):
+            # an angle to 1e-14, and the rounding of a solution with a condition of ten
+            np.testing.assert_allclose(found[name][i], turned(design[name], turn), atol=1e-12)
+
+
+def test_the_wheel_is_guided_as_by_the_double_wishbone() -> None:
+    one = characteristics.travel(MODEL, TRAVELS)
+    two = characteristics.travel(Model(WISHBONES), TRAVELS)
+    for name in ("camber", "toe", "caster", "roll_center_height_kinematic", "anti_dive", "trail"):
+        np.testing.assert_allclose(one[name], two[name], rtol=1e-9, atol=1e-12)
+    assert float(abs(one["motion_ratio"] - two["motion_ratio"]).max()) > 0.05
+
+
+def test_motion_ratio_and_wheel_rate_are_derivatives() -> None:
+    fine = np.linspace(-0.07, 0.07, 1401)  # differences of second order over 0.2 mm
+    curves = characteristics.travel(MODEL, fine)
+    found = points_at(fine)
+    length = np.linalg.norm(found["spring_top"] - found["spring_seat"], axis=1)
+    np.testing.assert_allclose(curves["spring_length"], length, rtol=1e-12)
+    ratio = -np.gradient(length, fine)
+    inner = slice(1, -1)
+    np.testing.assert_allclose(curves["motion_ratio"][inner], ratio[inner], atol=1e-6)
+    free = CAR.spring.free_length(CAR.hardpoints.distance("spring_seat", "spring_top"))
+    force = CAR.spring.rate_N_per_m * (free - length)
+    rate = np.gradient(force * curves["motion_ratio"].values, fine)
+    np.testing.assert_allclose(curves["wheel_rate"][inner], rate[inner], rtol=1e-4)
+
+
+def test_the_rocker_is_balanced_by_hand() -> None:
+    """Moments about the rocker's axis: the rod's force against the spring's, and the weight."""
+    found = loads.static(MODEL, {"still": {"contact_g": [0.0, 0.0, 1.0]}}).isel(case=0)
+    on = found["part"].values == "rocker"
+
+    def pull(by: str) -> tuple[np.ndarray, np.ndarray]:
+        chosen = found.isel(load=on & (found["by"].values == by))
+        return chosen["force"].values[0], chosen["at"].values[0]
+
+    rear, front = (CAR.hardpoints.metres(f"rocker_{end}") for end in ("rear", "front"))
+    axis = (front - rear) / np.linalg.norm(front - rear)
+    moments = {by: axis @ np.cross(at - rear, f) for by in ("push_rod", "spring", "gravity")
+               for f, at in [pull(by)]}  # fmt: skip
+    assert abs(moments["push_rod"]) > 300.0
+    assert sum(moments.values()) == pytest.approx(0.0, abs=1e-9 * abs(moments["spring"]))
+    force, at = pull("push_rod")
+    foot = points_at(np.array([float(found["travel"])]))["push_rod_outer"][0]
+    np.testing.assert_allclose(np.cross(force, at - foot), 0.0, atol=1e-6)  # along the rod
+
+
+def test_it_rests_and_moves() -> None:
+    rest = equilibrium(MODEL)
+    assert float(MODEL.signal("wheel_center_z", rest)) == pytest.approx(0.3, abs=1e-6)
+    result = simulate(MODEL, (0.0, 2.0), state_at_height(MODEL, 0.33))
+    assert float(result.signals["wheel_center_z"][-1]) == pytest.approx(0.3, abs=1e-5)
+    image = Model(CAR.mirrored())
+    mirrored = simulate(image, (0.0, 2.0), state_at_height(image, 0.33))
+    np.testing.assert_allclose(mirrored.y[0, -1], result.y[0, -1], atol=1e-9)
+
+
+def test_what_the_equations_have_is_read_from_the_file() -> None:
+    """Stops, curve, friction and lift-off come without other equations."""
+    stopped = CAR.with_changes(
+        {
+            "bump_stop": {"clearance_mm": 10.0, "rate_N_per_m": 1e5},
+            "damper.friction_N": 40.0,
+            "tyre.lifts_off": True,
+        }
+    )
+    model = Model(stopped)
+    assert model.equations is MODEL.equations
+    rates = [characteristics.travel(m, [0.05])["wheel_rate"].item() for m in (MODEL, model)]
+    assert rates[1] > rates[0] + 2e4
+    assert set(CAR.parameters()) == set(MODEL.equations.PARAMETERS)
+
+
+@pytest.mark.parametrize(
+    ("place", "value", "message"),
+    [
+        ("hardpoints.rocker_rear", [30.0, -310.0, 470.0], "two points of the rocker"),
+        ("hardpoints.push_rod_inner", [0.0, -650.0, 210.0], "two points of the push rod"),
+        ("hardpoints.push_rod_inner", [-10.0, -310.0, 470.0], "push rod acts with a lever"),
+        ("hardpoints.spring_seat", [-10.0, -310.0, 470.0], "spring acts with a lever"),
+        ("bodies.push_rod.mass_kg", 1.0, "without mass"),
+    ],
+)
+def test_what_cannot_be_is_refused(place: str, value: object, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        CAR.with_changes({place: value})
+    with pytest.raises(InputError, match="rack of a push-rod suspension is prescribed"):
+        Model(CAR, free_rack=True)
+
+
+def test_an_axle_of_push_rods() -> None:
+    bar = {
+        "unit": "mm",
+        "bush": [-250.0, -380.0, 260.0],
+        "link_top": [-60.0, -400.0, 300.0],
+        "link_foot": [-20.0, -345.0, 520.0],
+        "link_on": "rocker",
+        "rate_Nm_per_deg": 10.0,
+    }
+    axle = Axle.from_dict({"axle": "rear", "side": CAR, "anti_roll_bar": bar})
+    found = axles.roll(axle, np.deg2rad([-1.0, 0.0, 1.0]))
+    assert float(found["bar_share"][1]) > 0.0
+    np.testing.assert_allclose(found["roll_moment"][0], -found["roll_moment"][2], rtol=1e-9)
