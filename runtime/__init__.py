@@ -125,6 +125,7 @@ _INTERFACES = {
     "loads": ".study.loads",
     "measurement": ".study.measurement",
     "plots": ".plots",
+    "point_table": ".suspension.point_table",
     "report": ".report",
     "rig": ".study.rig",
     "roads": ".simulation.roads",

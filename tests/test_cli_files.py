@@ -27,11 +27,17 @@ def cache(tmp_path_factory, monkeypatch):
 WRITING = {
     "new": (["new", "a.toml"], "a.toml"),
     "import-chrono": (["import-chrono", str(CHRONO), "a.toml"], "a.toml"),
+    "import-points": (["import-points", str(STUDIES / "points.csv"), CAR, "a.toml"], "a.toml"),
+    "export-points": (["export-points", CAR, "a.csv"], "a.csv"),
     "schema": (["schema", "a.json"], "a.json"),
     "kinematics": (["kinematics", CAR, "--step", 40, "-o", "a.csv"], "a.csv"),
     "kinematics --plot": (["kinematics", CAR, "--plot", "a.svg"], "a.svg"),
     "kinematics --figures": (["kinematics", CAR, "--step", 40, "--figures", "."], "camber.png"),
     "characteristics": (["characteristics", CAR, "-o", "a.nc"], "a_rack.nc"),
+    "characteristics of an axle": (
+        ["characteristics", "reference_axle", "--motion", "roll", "--plot", "a.svg"],
+        "a_roll.svg",
+    ),
     "simulate": (["simulate", CAR, "-o", "a.parquet"], "a.parquet"),
     "simulate --loads": (["simulate", CAR, "--loads", "a.csv"], "a.csv"),
     "loads": (["loads", CAR, "-o", "a.nc"], "a.nc"),
@@ -52,6 +58,7 @@ WRITING = {
         "a.png",
     ),
     "report": (["report", CAR], f"{CAR}.html"),
+    "report of an axle": (["report", "reference_axle"], "reference_axle.html"),
     "paper": (["paper", "."], "figure_6_wheel_motion.svg"),
 }
 

@@ -10,8 +10,10 @@ from . import (
     check,
     compare,
     compliance,
+    export_points,
     generate,
     import_chrono,
+    import_points,
     kinematics,
     loads,
     new,
@@ -53,7 +55,7 @@ def _flowing(docstring: str) -> str:
 
 # In the order in which an engineer needs them.
 _PANELS = {
-    "Begin": (new, import_chrono, schema, check, topology),
+    "Begin": (new, import_points, export_points, import_chrono, schema, check, topology),
     "Compute": (kinematics, characteristics, simulate, loads, compliance, compare),
     "Design": (sensitivity, tolerance, optimise, sweep),
     "Hand over": (report, paper, generate),

@@ -1,8 +1,6 @@
 """Numbers by columns from CSV files, as spreadsheets and loggers write them."""
 
-import csv
 import math
-import re
 from collections.abc import Container
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,12 +8,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.csv_lines import cells_of, delimiter_of, lines_of
 from ..core.errors import InputError
-from ..core.files import reason
 
 Array = NDArray[np.float64]
 
-_DELIMITERS = ("\t", ";", ",")
 # Problems with single rows are listed up to this number.
 _MOST_LISTED = 5
 
@@ -46,13 +43,12 @@ class Sheet:
         InputError
             If there is nothing to be read.
         """
-        lines = _lines_of(path)
+        lines = lines_of(path)
         if not lines:
             problem = "the file is empty. The first line names the columns."
             raise InputError([problem], str(path))
-        outside_quotes = re.sub(r'"[^"]*"', "", lines[0][1])
-        delimiter = next((d for d in _DELIMITERS if d in outside_quotes), ",")
-        return cls(str(path), _cells(lines[0][1], delimiter), lines[1:], delimiter)
+        delimiter = delimiter_of(lines[0][1])
+        return cls(str(path), cells_of(lines[0][1], delimiter), lines[1:], delimiter)
 
     @property
     def line_numbers(self) -> list[int]:
@@ -79,7 +75,7 @@ class Sheet:
             problems.append(f"rows of numbers: {len(self._lines)}; at least two are needed.")
         rows = []
         for number, line in self._lines:
-            problem, values = self._row(_cells(line, self._delimiter), known, may_be_empty)
+            problem, values = self._row(cells_of(line, self._delimiter), known, may_be_empty)
             rows.append(values)
             if problem:
                 problems.append(f"line {number} {problem}")
@@ -96,7 +92,7 @@ class Sheet:
         if self._delimiter == ",":
             return []
         columns = [i for i, name in enumerate(self.names) if name in known]
-        cells = [_cells(line, self._delimiter) for _, line in self._lines]
+        cells = [cells_of(line, self._delimiter) for _, line in self._lines]
         text = "".join(row[i] for row in cells for i in columns if i < len(row))
         if not ("," in text and "." in text):
             return []
@@ -129,25 +125,3 @@ class Sheet:
             return float(cell if self._delimiter == "," else cell.replace(",", "."))
         except ValueError:
             return math.nan
-
-
-def _lines_of(path: Path) -> list[tuple[int, str]]:
-    """Return the lines that hold something, with their numbers."""
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        problem = f"the file cannot be read: {reason(error)}"
-        raise InputError([problem], str(path)) from None
-    except UnicodeDecodeError:
-        problem = "the file is not text in UTF-8. Save it as CSV with UTF-8 encoding."
-        raise InputError([problem], str(path)) from None
-    numbered = enumerate(text.splitlines(), start=1)
-    return [(number, line) for number, line in numbered if line.strip() and line[0] != "#"]
-
-
-def _cells(line: str, delimiter: str) -> list[str]:
-    try:
-        (cells,) = csv.reader([line], delimiter=delimiter, skipinitialspace=True)
-    except (csv.Error, ValueError):  # a cell without end
-        cells = line.split(delimiter)
-    return [cell.strip() for cell in cells]

@@ -69,6 +69,8 @@ VALUES = (
 OPTIONS = {
     "new": ("--suspension", "--template", "--axle"),
     "import-chrono": ("--tire", "--side"),
+    "import-points": ("--mirror",),
+    "export-points": (),
     "schema": (),
     "check": ("--json",),
     "topology": ("--free-rack", "--json"),
@@ -236,7 +238,7 @@ _WEIGHTS = [
 
 
 def _value(random: Generator, option: str, names: list[str]) -> list[str]:
-    if option in ("--json", "--free-rack", "--numpy", "--axle"):
+    if option in ("--json", "--free-rack", "--numpy", "--axle", "--mirror"):
         return []
     if option in WORDS:
         return [str(random.choice(WORDS[option]))]
