@@ -349,6 +349,14 @@ WRONG = {
         {"right": CAR, "left": CAR.mirrored().with_changes({"rack.axis": [0.0, 1.0, 0.1]})},
         "they have one rack",
     ),
+    "vehicles": (
+        {"right": CAR, "left": CAR.mirrored().with_changes({"vehicle.wheelbase_mm": 2700.0})},
+        "[vehicle] wheelbase_mm is 2600 in the file of the right side and 2700",
+    ),
+    "gravity": (
+        {"right": CAR, "left": CAR.mirrored().with_changes({"rack.travel_per_turn_mm": None})},
+        "travel_per_turn_mm is 50 in the file of the right side and not given",
+    ),
     "part": ({"side": CAR, "anti_roll_bar": BAR | {"link_on": "knukle"}}, "Did you mean knuckle"),
     "rod": ({"side": CAR, "anti_roll_bar": BAR | {"link_on": "tie_rod"}}, "no part"),
     "bar's side": (

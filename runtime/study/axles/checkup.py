@@ -105,7 +105,8 @@ def _at_design(axle: Axle) -> tuple[dict[str, float], dict[str, str]]:
         if name in dataset:
             shown = display_of(dataset[name].attrs)
             values[name] = float(dataset[name][0])
-            rows[words] = f"{values[name] * shown.factor:.4g} {shown.units}"
+            told = f"{words}, left" if name.endswith("_left") and not axle.symmetric else words
+            rows[told] = f"{values[name] * shown.factor:.4g} {shown.units}"
     return values, rows
 
 

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core.arguments import Arguments
-from ...core.errors import InputError
 from ...suspension.axle import Axle
 from ...suspension.axle.axle import LEFT, RIGHT
 from ...suspension.corner import Array
@@ -114,22 +113,9 @@ def steering_angles(axle: Axle, extent: Extent) -> Array | None:
 
 
 def travel_per_turn(axle: Axle) -> float | None:
-    """Return the rack travel for one turn of the steering wheel that the files give [m].
-
-    Raises
-    ------
-    InputError
-        If the two sides give two.
-    """
-    given = {side: suspension.rack.travel_per_turn_mm for side, suspension in axle.sides.items()}
-    if given[LEFT] != given[RIGHT]:
-        problem = (
-            f"[rack] travel_per_turn_mm is {given[LEFT]} mm of the left side and {given[RIGHT]} mm "
-            "of the right: they have one rack. Make them equal, or give [steering]."
-        )
-        raise InputError([problem], "axle")
-    value = given[LEFT]
-    return None if value is None else value / 1e3
+    """Return the rack travel for one turn of the steering wheel that the files give [m]."""
+    given = axle.right.rack.travel_per_turn_mm
+    return None if given is None else given / 1e3
 
 
 def opposite(axle: Axle, angles: Array) -> tuple[Array, Array]:

@@ -30,6 +30,14 @@ RIGHT, LEFT = "right", "left"
 _NEVER_PULLED = ("tie_rod", "rack")
 # The racks of two sides are one, if their axes agree to that.
 _SAME_AXIS = 1e-9
+# What belongs to the whole vehicle, in the files of both sides.
+_OF_THE_VEHICLE = (
+    ("vehicle", "wheelbase_mm"),
+    ("vehicle", "center_of_gravity_height_mm"),
+    ("vehicle", "front_brake_share"),
+    ("rack", "travel_per_turn_mm"),
+    ("gravity", "acceleration_m_per_s2"),
+)
 
 
 @dataclass(frozen=True)
@@ -258,7 +266,18 @@ def _problems_of_sides(axle: Axle) -> list[str]:
             f"[rack] axis is {list(axle.right.rack.axis)} of the right side and "
             f"{list(axle.left.rack.axis)} of the left: they have one rack. Make them equal."
         )
+    for section, key in _OF_THE_VEHICLE:
+        right, left = (getattr(getattr(s, section), key) for s in (axle.right, axle.left))
+        if right != left:
+            problems.append(
+                f"[{section}] {key} is {_told(right)} in the file of the right side and "
+                f"{_told(left)} in that of the left: they have one of it. Make them equal."
+            )
     return problems
+
+
+def _told(value: float | None) -> str:
+    return "not given" if value is None else f"{value:g}"
 
 
 def _problems_of_bar(axle: Axle) -> list[str]:

@@ -45,7 +45,7 @@ class AxleModel(System):
         parts = (name, axle.end, "axle", pulls, "" if axle.symmetric else "two_sides")
         declared = page.mechanism(
             "_".join(part for part in parts if part),
-            axle.heading().capitalize(),
+            axle.heading()[:1].upper() + axle.heading()[1:],
             corner,
             pulls=pulls,
             own=not axle.symmetric,
