@@ -175,6 +175,7 @@ def test_a_road_under_one_wheel_moves_both(compiled: AxleModel) -> None:
     centre = motion[f"left_{compiled.axle.end}_wheel_center_z"]
     assert float(centre[-1] - centre[0]) > 1e-4
     assert centre.attrs["long_name"].endswith(", left")
+    assert [len(times) for times in result.t_events] == [0, 0, 0, 0]
     drawn = ride.by_side(motion)
     assert drawn["road_height"].dims == ("data_set", "time")
 

@@ -165,12 +165,15 @@ class Ride(NamedTuple):
         What stands in the table and on the page, in this order.
     drawn : callable
         Takes the motion, and returns it as it is drawn.
+    wheels : sequence of str
+        What begins the names of their events, in the order of the result.
     """
 
     model: Any
     run: Callable[..., tuple["Simulation", "Dataset"]]
     curves: Sequence[str]
     drawn: Callable[["Dataset"], "Dataset"] = lambda motion: motion
+    wheels: Sequence[str] = ("",)
 
 
 def ride(file: str, wheels: str) -> Ride:
@@ -185,4 +188,5 @@ def ride(file: str, wheels: str) -> Ride:
     stems = ("road_height", *(f"{axle.end}_{part}" for part in _DRAWN))
     of_wheels = [f"{side}_{stem}" for stem in stems for side in ("left", "right")]
     curves = ("rack_position", *of_wheels, "bar_angle", "bar_spring_moment")
-    return Ride(model, partial(study.run, wheels=wheels), curves, study.by_side)
+    played = partial(study.run, wheels=wheels)
+    return Ride(model, played, curves, study.by_side, ("left_", "right_"))

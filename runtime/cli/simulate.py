@@ -152,10 +152,10 @@ def command(
         written += on_parts.write_data(found, rows=study.table(found))
     left = result.validity
     if json:
-        print_json(_summary(result, motion))
+        print_json(_summary(result, motion, ride.wheels))
     else:
         console.print(_table(motion, file, ride.curves))
-        for line in _told(result):
+        for line in _told(result, ride.wheels):
             say(line)
         name_files(written)
     for excursion in left:
@@ -221,10 +221,12 @@ def _written(ride: axles.Ride, motion: "Dataset", outputs: Outputs, title: str) 
     return outputs.write(motion, title=title, names=varying, drawn=drawn)
 
 
-def _crossings(result: "Simulation") -> tuple[list[float], list[float]]:
-    """Return the times at which the wheel left the ground, and at which it came back."""
-    left, back = result.t_events or ([], [])
-    return [float(t) for t in left], [float(t) for t in back]
+def _crossings(result: "Simulation", wheels: Sequence[str]) -> dict[str, list[float]]:
+    """Return the times at which each wheel left the ground, and at which it came back."""
+    names = [f"{w}wheel_{what}_ground" for w in wheels for what in ("leaves", "touches")]
+    if not result.t_events:
+        return {name: [] for name in names}
+    return {n: [float(t) for t in at] for n, at in zip(names, result.t_events, strict=True)}
 
 
 def _counts(result: "Simulation") -> dict[str, int]:
@@ -232,16 +234,14 @@ def _counts(result: "Simulation") -> dict[str, int]:
     return {name: int(result[name]) for name in names if name in result}
 
 
-def _summary(result: "Simulation", motion: "Dataset") -> dict[str, Any]:
+def _summary(result: "Simulation", motion: "Dataset", wheels: Sequence[str]) -> dict[str, Any]:
     from ..study.recording import statistics
 
-    left, back = _crossings(result)
     return {
         "duration": float(result.t[-1]),
         "message": result.message,
         "solver": {"name": result.solver, **_counts(result)},
-        "wheel_leaves_ground": left,
-        "wheel_touches_ground": back,
+        **_crossings(result, wheels),
         "validity": [
             vars(found) | {"bound": vars(found.bound), "text": str(found)}
             for found in result.validity
@@ -271,16 +271,19 @@ def _table(motion: "Dataset", file: str, curves: Sequence[str]) -> Table:
     return table
 
 
-def _told(result: "Simulation") -> list[str]:
+def _told(result: "Simulation", wheels: Sequence[str]) -> list[str]:
     """Return what happened, and what it took."""
-    left, _ = _crossings(result)
-    counts = _counts(result)
+    crossings, counts = _crossings(result, wheels), _counts(result)
     lines = [f"{result.solver}: " + ", ".join(f"{v} {_WORDS[n]}" for n, v in counts.items())]
-    if len(left):
+    for wheel in wheels:
+        left = crossings[f"{wheel}wheel_leaves_ground"]
+        if not left:
+            continue
         times = ", ".join(f"{time:.4g} s" for time in left[:5])
         more = ", ..." if len(left) > 5 else ""
         often = "once" if len(left) == 1 else f"{len(left)} times"
-        lines.append(f"The wheel leaves the ground {often}: {times}{more}")
+        which = f"The {wheel.replace('_', ' ')}wheel"
+        lines.append(f"{which} leaves the ground {often}: {times}{more}")
     return lines
 
 

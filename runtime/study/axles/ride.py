@@ -137,6 +137,8 @@ def run(
     Returns
     -------
     Simulation
+        With the times at which the left wheel left the ground in ``t_events[0]`` and came back in
+        ``t_events[1]``; those of the right one behind them.
     xarray.Dataset
         Signals, states and inputs over time, see `kintrafo.study.recording.dataset_of`.
 
@@ -165,7 +167,12 @@ def run(
         road_height={side: float(first[f"{side}_road_height"]) for side in (LEFT, RIGHT)},
         spin_rate=scenario.spin_rate,
     )
-    result = simulate(model, span, start, inputs=inputs, t_eval=times, **options)
+    events = [
+        f"{side}_{model.axle.end}_wheel_{what}_ground"
+        for side in (LEFT, RIGHT)
+        for what in ("leaves", "touches")
+    ]
+    result = simulate(model, span, start, inputs=inputs, t_eval=times, events=events, **options)
     return result, _told(dataset_of(model, result))
 
 
