@@ -8,16 +8,15 @@ import typer
 from rich.markup import escape
 from rich.table import Table
 
-from .console import console, curve_table, print_json, print_table, problems, say
-from .exits import Exit
+from .console import console, curve_table, print_json, print_table, problems
 from .outputs import Outputs, name_files, named
 
 if TYPE_CHECKING:
     from xarray import Dataset
 
     from ..simulation.result import Simulation
+    from ..study.axles.checkup import AxleCheckup
     from ..study.axles.motions import Extent
-    from ..study.checkup import Checkup
 
 # Beside the tables at design: what changes over roll, over steering, and over one wheel's travel.
 _TOLD = {
@@ -120,37 +119,20 @@ def compared(files: list[str], over: str | None) -> "Dataset":
     return axles.compare(found, over=motion)
 
 
-def check(file: str, *, json: bool, print_side: Callable[["Checkup", str], None]) -> None:
-    """Say what is wrong with an axle and its sides, or sum it up."""
-    from ..core.errors import InputError
-    from ..study.axles import checkup
+def looked_at(file: str) -> "AxleCheckup":
+    """Return a first look at an axle."""
+    from ..study.axles.checkup import checkup
     from ..suspension.axle import Axle
 
-    try:
-        axle = Axle.load(file)
-        found = checkup.checkup(axle)
-    except InputError as error:
-        if json:
-            print_json({"problems": list(error.problems)})
-        else:
-            say(str(error))
-        raise typer.Exit(Exit.REFUSED) from None
-    if json:
-        print_json(checkup.as_dict(found))
-    else:
-        for one in found.sides.values():
-            print_side(one, file)
-        table = Table(title=f"{escape(file)}: {escape(axle.heading())}", show_header=False)
-        for name, text in found.rows.items():
-            table.add_row(name, escape(text))
-        console.print(table)
-        for kind, texts in (("problem", found.problems), ("note", found.notes)):
-            for text in texts:
-                say(f"{kind}: {text}")
-        if not found.problems:
-            say("No problems found.")
-    if found.problems:
-        raise typer.Exit(Exit.REFUSED)
+    return checkup(Axle.load(file))
+
+
+def print_look(found: "AxleCheckup", file: str) -> None:
+    """Print what an axle has besides its sides."""
+    table = Table(title=f"{escape(file)}: {escape(found.heading)}", show_header=False)
+    for name, text in found.rows.items():
+        table.add_row(name, escape(text))
+    console.print(table)
 
 
 class Ride(NamedTuple):

@@ -28,14 +28,15 @@ def command(file: File, *, json: Json = False) -> None:
     The exit code is 1 if there is a problem.
     """
     from ..core.errors import InputError
+    from ..study.axles.checkup import AxleCheckup
+    from ..study.axles.checkup import as_dict as axle_as_dict
     from ..study.checkup import as_dict, checkup, readable
 
-    if axles.is_axle(file):
-        axles.check(file, json=json, print_side=lambda one, name: console.print(_table(one, name)))
-        return
-    readable(file)
+    of_axle = axles.is_axle(file)
+    if not of_axle:
+        readable(file)
     try:
-        found = checkup(load(file))
+        found = axles.looked_at(file) if of_axle else checkup(load(file))
     except InputError as error:
         if json:
             print_json({"problems": list(error.problems)})
@@ -43,9 +44,12 @@ def command(file: File, *, json: Json = False) -> None:
             say(str(error))
         raise typer.Exit(Exit.REFUSED) from None
     if json:
-        print_json(as_dict(found))
+        print_json(axle_as_dict(found) if isinstance(found, AxleCheckup) else as_dict(found))
     else:
-        console.print(_table(found, file))
+        for side in found.sides.values() if isinstance(found, AxleCheckup) else (found,):
+            console.print(_table(side, file))
+        if isinstance(found, AxleCheckup):
+            axles.print_look(found, file)
         for kind, texts in (("problem", found.problems), ("note", found.notes)):
             for text in texts:
                 say(f"{kind}: {text}")

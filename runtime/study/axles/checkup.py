@@ -37,6 +37,8 @@ class AxleCheckup:
 
     Attributes
     ----------
+    heading : str
+        What the axle is called.
     sides : dict of str to Checkup
         One where the other is its mirror image.
     values : dict of str to float
@@ -46,6 +48,7 @@ class AxleCheckup:
     problems, notes : tuple of str
     """
 
+    heading: str
     sides: dict[str, Checkup]
     values: dict[str, float]
     rows: dict[str, str]
@@ -83,7 +86,7 @@ def checkup(axle: Axle) -> AxleCheckup:
         rows |= _in_roll(axle) | _in_steering(axle)
     except (InputError, PositionError) as error:
         problems += getattr(error, "problems", (str(error),))
-    return AxleCheckup(sides, values, rows, tuple(problems), tuple(notes))
+    return AxleCheckup(axle.heading(), sides, values, rows, tuple(problems), tuple(notes))
 
 
 def as_dict(found: AxleCheckup) -> dict[str, Any]:
