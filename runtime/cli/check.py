@@ -12,6 +12,7 @@ from .exits import Exit
 from .options import File, Json, load
 
 if TYPE_CHECKING:
+    from ..study.axles.checkup import AxleCheckup
     from ..study.checkup import Checkup
 
 EXAMPLES = (
@@ -46,17 +47,23 @@ def command(file: File, *, json: Json = False) -> None:
     if json:
         print_json(axle_as_dict(found) if isinstance(found, AxleCheckup) else as_dict(found))
     else:
-        for side in found.sides.values() if isinstance(found, AxleCheckup) else (found,):
-            console.print(_table(side, file))
-        if isinstance(found, AxleCheckup):
-            axles.print_look(found, file)
-        for kind, texts in (("problem", found.problems), ("note", found.notes)):
-            for text in texts:
-                say(f"{kind}: {text}")
-        if not found.problems:
-            say("No problems found.")
+        _print(found, file)
     if found.problems:
         raise typer.Exit(Exit.REFUSED)
+
+
+def _print(found: "Checkup | AxleCheckup", file: str) -> None:
+    from ..study.axles.checkup import AxleCheckup
+
+    for side in found.sides.values() if isinstance(found, AxleCheckup) else (found,):
+        console.print(_table(side, file))
+    if isinstance(found, AxleCheckup):
+        axles.print_look(found, file)
+    for kind, texts in (("problem", found.problems), ("note", found.notes)):
+        for text in texts:
+            say(f"{kind}: {text}")
+    if not found.problems:
+        say("No problems found.")
 
 
 def _table(found: "Checkup", file: str) -> Table:
