@@ -275,7 +275,10 @@ def test_anti_features_are_the_slopes_of_paths(end: str, torque_on: str) -> None
     slope = (path[2, 0] - path[0, 0]) / (path[2, 2] - path[0, 2])
     part = slope * 2.6 / 0.55
     sense = {"front": 1.0, "rear": -1.0}[end]
-    names = {"front": ("anti_dive", "anti_lift"), "rear": ("anti_lift", "anti_squat")}[end]
+    names = {
+        "front": ("anti_dive", "anti_lift_driven"),
+        "rear": ("anti_lift_braked", "anti_squat"),
+    }[end]
     shares = {"front": (0.7, 0.4), "rear": (0.3, 0.4)}[end]
     for name, share in zip(names, shares, strict=True):
         assert float(found[f"{name}_right"][1]) == pytest.approx(sense * share * part, rel=1e-5)
@@ -300,9 +303,9 @@ def test_the_mirror_image_exchanges_the_sides() -> None:
     for name in first:
         np.testing.assert_allclose(first[name], second[name], rtol=1e-9, atol=1e-9, err_msg=name)
     back = axles.roll(one, -angles)
-    for name in ("camber", "wheel_force", "inclination", "jacking"):
-        if name != "wheel_force":  # the bar is bent at design
-            np.testing.assert_allclose(back[f"{name}_left"], first[f"{name}_right"], atol=1e-9)
+    for name in ("camber", "inclination", "jacking", "track_change"):
+        both = (f"{name}_left", f"{name}_right") if f"{name}_left" in back else (name, name)
+        np.testing.assert_allclose(back[both[0]], first[both[1]], atol=1e-9)
 
 
 # -- steering -----------------------------------------------------------------------------------
@@ -341,9 +344,9 @@ def test_without_a_ratio_the_rack_moves() -> None:
 
 WRONG = {
     "two ways": ({"side": "reference_car", "left": "reference_car"}, "side and left given"),
-    "no side": ({}, "neither given"),
+    "no side": ({}, "no side is given"),
     "not there": ({"side": "nowhere.toml"}, "There is no such file"),
-    "an axle": ({"side": 3.0}, "name of a hardpoint file is needed"),
+    "a number": ({"side": 3.0}, "name of a hardpoint file is needed"),
     "exchanged": ({"right": CAR.mirrored(), "left": CAR}, "Exchange the two"),
     "kinds": ({"right": CAR, "left": WISHBONES.mirrored()}, "of one kind"),
     "racks": (
@@ -354,7 +357,7 @@ WRONG = {
         {"right": CAR, "left": CAR.mirrored().with_changes({"vehicle.wheelbase_mm": 2700.0})},
         "[vehicle] wheelbase_mm is 2600 in the file of the right side and 2700",
     ),
-    "gravity": (
+    "rack": (
         {"right": CAR, "left": CAR.mirrored().with_changes({"rack.travel_per_turn_mm": None})},
         "travel_per_turn_mm is 50 in the file of the right side and not given",
     ),
@@ -398,6 +401,20 @@ WRONG = {
     "along x": (
         {"side": CAR, "anti_roll_bar": BAR | {"link_foot": [130.0, -580.0, 330.0]}},
         "from the x axis",
+    ),
+    "skewed rack": (
+        {"side": CAR.with_changes({"rack.axis": [0.1, 1.0, 0.05]})},
+        "they have one rack",
+    ),
+    "mass of a rod": (
+        {"side": CAR.with_changes({"bodies.tie_rod.mass_kg": 1.0})},
+        "right: [bodies.tie_rod] mass_kg = 1 kg: the rack of an axle is prescribed",
+    ),
+    "bar's unit": ({"side": CAR, "anti_roll_bar": BAR | {"unit": "m"}}, "-20 m to 20 m"),
+    "twist": ({"side": CAR, "anti_roll_bar": BAR | {"free_twist_deg": 90.0}}, "-60 deg to 60"),
+    "tube by rate": (
+        {"side": CAR, "anti_roll_bar": BAR | {"inner_diameter_mm": 5.0}},
+        "inner_diameter_mm both give",
     ),
     "curve": (
         {"side": CAR, "steering": {"angle_deg": [0.0, 10.0], "rack_mm": [1.0]}},
@@ -453,6 +470,18 @@ def test_what_is_out_of_reach_is_refused() -> None:
     with pytest.raises(InputError, match=r"does not reach its lever at .* mm of wheel travel"):
         axles.bump(axle)
     assert any("does not reach" in text for text in checkup.checkup(axle).problems)
+    with pytest.raises(InputError, match=r"less than 45 deg is needed; Python's unit is rad"):
+        axles.roll(AXLE, [3.0])
+    for racks, words in (
+        ([-10.0, 10.0], "rises with the angle, and that steers to the right"),
+        ([200.0, 100.0], "nothing within the 60 mm"),
+        ([100.0, 40.0], "must have 0 deg within"),
+    ):
+        wrong = {"angle_deg": [-90.0, 90.0], "rack_mm": racks}
+        axle = Axle.from_dict({"axle": "front", "side": CAR, "steering": wrong})
+        with pytest.raises(InputError, match=words):
+            axles.steer(axle)
+        assert any(words in text for text in checkup.checkup(axle).problems)
     curve = {"angle_deg": [-90.0, 90.0], "rack_mm": [10.0, -10.0]}
     axle = Axle.from_dict({"axle": "front", "side": CAR, "steering": curve})
     with pytest.raises(InputError, match="beyond the curve"):
@@ -479,6 +508,10 @@ def test_axles_are_compared() -> None:
     rates = axles.bump(AXLE, [0.0])
     assert found["roll_stiffness"].at_design == pytest.approx(float(rates["roll_stiffness_bar"][0]))
     assert found["camber_left"].largest == 0.0
+    rear = Axle.from_dict({"axle": "rear", "side": CAR, "drive": {"share": 1.0}})
+    both = axles.compare({"a": AXLE, "b": rear})
+    assert not [name for name in both if str(name).startswith("anti_")]  # not of one thing
+    assert "turning_circle" not in axles.steer(rear)
     assert "bar_torque" not in axles.compare({"a": AXLE, "b": bare}, over="left")
     assert set(axles.compare({"a": AXLE, "b": bare}, over="steer").dims) == {
         "data_set",
@@ -503,7 +536,7 @@ def test_usual_positions_are_within_reach() -> None:
 
 def test_an_axle_has_a_chapter_in_the_report() -> None:
     chapter = axle_chapter(BENT)
-    wheels, whole = chapter.tables
+    wheels, whole, _ = chapter.tables
     assert len(chapter.pictures) == 4
     assert all(picture.source.startswith("data:image/svg") for picture in chapter.pictures)
     rows = {row[0]: row for row in whole.rows}
@@ -513,6 +546,21 @@ def test_an_axle_has_a_chapter_in_the_report() -> None:
     alike = {row[0] for row in axle_chapter(AXLE).tables[0].rows}
     assert "camber" not in alike
     assert {"roll steer", "anti-dive", "force of the drop link"} <= alike
+    data = dict(axle_chapter(AXLE).tables[2].rows)
+    assert data["[anti_roll_bar] rate_Nm_per_deg"] == "17.5"
+
+
+@pytest.mark.usefixtures("coarse_report")
+def test_the_page_of_a_rear_axle_has_nothing_of_a_front_one(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+    text = 'axle = "rear"\nside = "reference_car"\n'
+    (tmp_path / "rear.toml").write_text(text, encoding="utf-8")
+    assert kintrafo("report", "rear.toml", "--loads")[0] == 0
+    page = (tmp_path / "rear.html").read_text(encoding="utf-8")
+    assert "Rear axle, MacPherson suspension, right side</title>" in page
+    assert "Of the right side by itself." in page
+    assert "nti-lift under braking" in page
+    for words in ("nti-dive", "Ackermann", "urning circle"):
+        assert words not in page.partition('id="payload"')[0], words
 
 
 @needs_compiler
@@ -539,7 +587,9 @@ def test_commands_refuse_what_only_the_other_sort_has(kintrafo: Any) -> None:  #
         ("compare reference_car reference_car --over roll", "only for the files of axles"),
         ("compare reference_axle reference_axle --over rack", "of axles it is bump"),
         ("loads reference_axle", "file of an axle"),
-        ("new x.toml --axle --template reference_car", "both given"),
+        ("new x.toml --axle --template reference_car", "--template are both given"),
+        ("new x.toml --axle --suspension push_rod", "--suspension are both given"),
+        ("compare reference_axle nowhere.toml", "There is no such file"),
     ):
         code, _, err = kintrafo(*line.split())
         text = " ".join(err.replace("│", " ").split())

@@ -50,9 +50,12 @@ def is_axle(file: str) -> bool:
 
 def all_axles(files: list[str]) -> bool:
     """Tell whether files are those of axles; refuse axles beside suspensions."""
+    from ..suspension.kinds import Suspension
+
     axles = [file for file in files if is_axle(file)]
     if axles and len(axles) < len(files):
         other = next(file for file in files if file not in axles)
+        Suspension.load(other)  # says what is wrong with one that is neither
         message = f"{axles[0]} is an axle and {other} is not: compare files of one sort"
         raise typer.BadParameter(message)
     return bool(axles)
@@ -83,6 +86,8 @@ def characteristics(
     axle = Axle.load(file)
     curves = {motion: axles.over(axle, motion, extent, **held) for motion in motions}
     drawn = {motion: axles.by_side(dataset) for motion, dataset in curves.items()}
+    # both wheels of a curve are drawn together
+    of = [name.removesuffix("_left").removesuffix("_right") for name in of or ()]
     names = named(of, drawn)
     written = []
     for motion, dataset in curves.items():

@@ -65,6 +65,10 @@ def command(
         with progress_bar("characteristics") as progress:
             along: Any = over or "travel"
             dataset = compare.compare(models, over=along, progress=progress)
+    both = [f"{name}_{side}" for name in of or () for side in ("left", "right")]
+    of = [n for n in of or () if n in dataset or f"{n}_left" not in dataset] + [
+        name for name in both if name in dataset
+    ]
     shown = among(of, map(str, dataset.data_vars)) if of else [str(n) for n in dataset.data_vars]
     found = [difference for difference in compare.differences(dataset) if difference.name in shown]
     first, *others = (str(name) for name in dataset["data_set"].values)

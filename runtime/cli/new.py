@@ -41,8 +41,9 @@ def command(
     from ..suspension.kinds import KINDS
     from ..suspension.starter import write_starter
 
-    if axle and template is not None:
-        raise typer.BadParameter("--axle and --template are both given")
+    if axle and (template is not None or suspension != DEFAULT):
+        other = "--suspension" if template is None else "--template"
+        raise typer.BadParameter(f"--axle and {other} are both given: an axle names its sides")
     usual = "reference_axle" if axle else KINDS[suspension].STARTER
     copied = usual if template is None else template
     say(f"  {write_starter(path, template=copied, force=force)}")

@@ -54,16 +54,18 @@ def command(
     inputs: list[str | Path] = [file, *(read for read in (cases, bushes) if read is not None)]
     refuse([target], force=force, inputs=inputs, endings=ENDINGS)
     model, title, axle = _subject(file, title)
+    note, without = _of_one_side(axle)
     with problems.status("report") as status:
         from ..report import write
 
-        chapters = [*_of_axle(axle), *_of_loads(model, cases, wanted=loads)]
-        chapters += _of_bushes(model, bushes)
+        chapters = [*_of_axle(axle), *_of_loads(model, cases, note, wanted=loads)]
+        chapters += _of_bushes(model, bushes, note)
         written = write(
             model,
             target,
             title=title,
             chapters=chapters,
+            without=without,
             progress=status.update,
             force=force,
             inputs=inputs,
@@ -79,7 +81,21 @@ def _subject(file: str, title: str | None) -> "tuple[Model, str | None, Axle | N
 
     axle = Axle.load(file)
     heading = axle.heading()
-    return axle.models[axle.bar_side], title or heading[:1].upper() + heading[1:], axle
+    heading = f"{heading[:1].upper()}{heading[1:]}, {axle.bar_side} side"
+    return axle.models[axle.bar_side], title or heading, axle
+
+
+def _of_one_side(axle: "Axle | None") -> tuple[str, frozenset[str]]:
+    """Return what chapters say of the side that they are about, and what its page leaves out."""
+    if axle is None:
+        return "", frozenset()
+    from ..study.characteristics.catalogue import AXLE
+
+    note = f"Of the {axle.bar_side} side by itself"
+    note += ", without the anti-roll bar." if axle.bar is not None else "."
+    # what both wheels decide: the page knows but one side, and takes the other for its image
+    without = frozenset() if axle.symmetric else frozenset(AXLE)
+    return note, without if axle.end == "front" else frozenset(AXLE) | {"anti_dive"}
 
 
 def _of_axle(axle: "Axle | None") -> "list[Chapter]":
@@ -88,7 +104,7 @@ def _of_axle(axle: "Axle | None") -> "list[Chapter]":
     return [] if axle is None else [axle_chapter(axle)]
 
 
-def _of_loads(model: "Model", cases: Path | None, *, wanted: bool) -> "list[Chapter]":
+def _of_loads(model: "Model", cases: Path | None, note: str, *, wanted: bool) -> "list[Chapter]":
     from ..report import loads_chapter
     from ..study import loads as study
 
@@ -97,13 +113,14 @@ def _of_loads(model: "Model", cases: Path | None, *, wanted: bool) -> "list[Chap
     described = {} if cases is None else study.read(cases)
     named = described.get("cases", study.standard_cases(model.suspension.vehicle.sign))
     load_at_rest = described.get("static_load_N")
-    return [loads_chapter(study.static(model, named, static_load=load_at_rest))]
+    return [loads_chapter(study.static(model, named, static_load=load_at_rest), note=note)]
 
 
-def _of_bushes(model: "Model", bushes: Path | None) -> "list[Chapter]":
+def _of_bushes(model: "Model", bushes: Path | None, note: str) -> "list[Chapter]":
     from ..report import compliance_chapter
     from ..study import loads as study
 
     if bushes is None:
         return []
-    return [compliance_chapter(study.compliance(model, study.read_bushes(bushes)))]
+    found = study.compliance(model, study.read_bushes(bushes))
+    return [compliance_chapter(found, note=note)]

@@ -1,6 +1,6 @@
 """The HTML report: one file that opens anywhere, without a network."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Container, Sequence
 from dataclasses import dataclass
 from importlib import resources
 from importlib.metadata import version
@@ -53,6 +53,7 @@ def write(
     *,
     title: str | None = None,
     chapters: Sequence[Chapter] = (),
+    without: Container[str] = (),
     progress: Callable[[str], None] | None = None,
     force: bool = False,
     inputs: Paths = (),
@@ -73,6 +74,8 @@ def write(
     chapters : sequence of Chapter, optional
         What stands there besides: see `kintrafo.report.axle_chapter`, `loads_chapter` and
         `compliance_chapter`.
+    without : container of str, optional
+        Characteristics that are left out: of a rear axle those that only a front axle has.
     progress : callable, optional
         Called with a few words on what is being done.
     force : bool, optional
@@ -94,7 +97,7 @@ def write(
     """
     tell = progress or (lambda _: None)
     refuse([path], force=force, inputs=inputs, endings=ENDINGS)
-    text = render(model, title=title, chapters=chapters, tell=tell)
+    text = render(model, title=title, chapters=chapters, without=without, tell=tell)
     tell("writing the page")
     with replacing(path, force=force, inputs=inputs) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")
@@ -106,10 +109,11 @@ def render(
     *,
     title: str | None = None,
     chapters: Sequence[Chapter] = (),
+    without: Container[str] = (),
     tell: Callable[[str], None] = lambda _: None,
 ) -> str:
     """Return the report as text; see `write`."""
-    samples = _sample(model, tell)
+    samples = _sample(model, tell, without)
     side = model.suspension.vehicle.side
     template = _environment().get_template("page.html.jinja")
     return template.render(
@@ -131,13 +135,13 @@ def render(
     )
 
 
-def _sample(model: Model, tell: Callable[[str], None]) -> _Samples:
+def _sample(model: Model, tell: Callable[[str], None], without: Container[str] = ()) -> _Samples:
     tell("reach of the mechanism")
     grid = reachable_grid(model)
     travel, rack = grid.travel.values, grid.rack.values
     tell("positions over wheel travel and rack displacement")
     sampled = poses(model, travel, rack)
-    drawn = curves(model, travel, rack, tell=tell)
+    drawn = [c for c in curves(model, travel, rack, tell=tell) if c.name not in without]
     gaps = gaps_on(model, grid)
     ranges = {curve.key: shown_range(curve.values) for curve in drawn}
     accuracy = measure(model, grid, sampled, drawn, gaps, ranges, tell=tell)

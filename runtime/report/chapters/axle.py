@@ -5,6 +5,7 @@ import xarray as xr
 from matplotlib import rc_context
 
 from ...core.arguments import Arguments
+from ...core.tabulated import Tabulated
 from ...plots.curves import figure
 from ...plots.figures import STYLE
 from ...study import axles
@@ -31,7 +32,8 @@ _DRAWN = {
         "track_change",
         "roll_stiffness",
         "anti_dive",
-        "anti_lift",
+        "anti_lift_driven",
+        "anti_lift_braked",
         "anti_squat",
     ),
     "left": ("wheel_force", "bar_torque", "roll_center_height"),
@@ -69,9 +71,27 @@ def axle_chapter(axle: Axle) -> Chapter:
     return Chapter(
         title="The axle",
         words=(" ".join(words),),
-        tables=tuple(at_design(whole, "Over parallel travel: ")),
+        tables=(*at_design(whole, "Over parallel travel: "), _data_of(axle)),
         pictures=tuple(_pictures(curves)),
     )
+
+
+def _data_of(axle: Axle) -> Tabulated:
+    """Return what the axle's own file says."""
+    sections = {
+        "anti_roll_bar": axle.bar,
+        "drive": axle.drive,
+        "brakes": axle.brakes,
+        "steering": axle.steering,
+    }
+    rows = [
+        (f"[{name}] {key}", str(value))
+        for name, section in sections.items()
+        if section is not None
+        for key, value in section.model_dump(exclude_none=True).items()
+    ]
+    title = "Input data of the axle"
+    return Tabulated(title, ("key", "value"), tuple(rows), frozenset({0, 1}))
 
 
 def _pictures(curves: dict[str, xr.Dataset]) -> list[Picture]:

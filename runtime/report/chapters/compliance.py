@@ -10,13 +10,15 @@ from ...study.loads.sheets import compliances
 from .chapter import Chapter, Picture
 
 
-def compliance_chapter(found: xr.Dataset) -> Chapter:
+def compliance_chapter(found: xr.Dataset, *, note: str = "") -> Chapter:
     """Return how the wheel gives way on its bushes.
 
     Parameters
     ----------
     found : xarray.Dataset
         From `kintrafo.loads.compliance`.
+    note : str, optional
+        The first paragraph: of which side of an axle it is.
 
     Returns
     -------
@@ -31,4 +33,5 @@ def compliance_chapter(found: xr.Dataset) -> Chapter:
         picture = Picture.of(drawn, "Compliances over wheel travel")
     words = f"By the unit-load theorem, linear, bushes relaxed: {found.attrs['held']}."
     sheet = compliances(found, "At design")
-    return Chapter("Compliance", (words,), (sheet,), (picture,))
+    paragraphs = (note, words) if note else (words,)
+    return Chapter("Compliance", paragraphs, (sheet,), (picture,))

@@ -342,7 +342,7 @@ PITCH = (
     ),
     *_both(
         Quantity(
-            "anti_lift",
+            "anti_lift_driven",
             "1",
             "anti-lift under drive",
             "d (L / h) v_x / v_z under drive: drive share d; wheel centre with the final drive on "
@@ -356,7 +356,7 @@ PITCH = (
     ),
     *_both(
         Quantity(
-            "anti_lift",
+            "anti_lift_braked",
             "1",
             "anti-lift under braking",
             "-(1 - b) (L / h) v_x / v_z under braking: front brake share b; contact with brakes on "

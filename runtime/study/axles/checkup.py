@@ -26,7 +26,8 @@ _AT_DESIGN = {
     "bar_share": "share of the anti-roll bar",
     "roll_stiffness_with_tyres": "roll stiffness with tyres",
     "anti_dive_left": "anti-dive",
-    "anti_lift_left": "anti-lift",
+    "anti_lift_driven_left": "anti-lift under drive",
+    "anti_lift_braked_left": "anti-lift under braking",
     "anti_squat_left": "anti-squat",
 }
 
@@ -79,6 +80,8 @@ def checkup(axle: Axle) -> AxleCheckup:
     sides = {side: of_side(axle.models[side]) for side in chosen}
     problems = [f"{side} side: {text}" for side, one in sides.items() for text in one.problems]
     notes = [f"{side} side: {text}" for side, one in sides.items() for text in one.notes]
+    if axle.bar is not None and axle.bar.free_twist_deg:
+        notes.append("the anti-roll bar is bent at design: the sides' equilibrium is without it")
     values: dict[str, float] = {}
     rows: dict[str, str] = {}
     try:
@@ -126,6 +129,8 @@ def _in_roll(axle: Axle) -> dict[str, str]:
 
 def _in_steering(axle: Axle) -> dict[str, str]:
     dataset = steer(axle)
+    if axle.end == "rear":
+        return {}
     (along,) = dataset.sizes
     ends = np.degrees([dataset["steer_left"].values.min(), dataset["steer_left"].values.max()])
     rows = {"left wheel steers": f"{ends[0]:.1f} deg to {ends[1]:.1f} deg"}

@@ -7,6 +7,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from ...core.arguments import Arguments
+from ...core.errors import InputError
 from ...suspension.axle import Axle
 from ...suspension.axle.axle import LEFT, RIGHT
 from ...suspension.corner import Array
@@ -281,6 +282,14 @@ def _refuse_angles(given: Arguments, axle: Axle, angles: Array) -> None:
 def _rack_of(axle: Axle, angles: Array) -> tuple[Array, Array]:
     """Return rack displacements at angles, and the travel for a turn there, with its sign [m]."""
     if axle.steering is not None:
+        rises = axle.steering.rack_mm[-1] > axle.steering.rack_mm[0]
+        if (1.0 if rises else -1.0) * _sense_of_rack(axle) < 0.0:
+            problem = (
+                f"[steering] rack_mm {'rises' if rises else 'falls'} with the angle, and that "
+                "steers to the right: angles of the steering wheel are positive to the left. "
+                "Change the sign of angle_deg or of rack_mm."
+            )
+            raise InputError([problem], "axle")
         return axle.steering.rack(angles), axle.steering.travel_per_turn(angles)
     amount = motions.travel_per_turn(axle)
     assert amount is not None
@@ -300,7 +309,7 @@ def _of_both(pair: Pair, per_turn: Array | None) -> dict[Quantity, Array]:
     left, right = pair.corners[LEFT], pair.corners[RIGHT]
     angles = steer_angle(left), steer_angle(right)
     values = {}
-    if left.vehicle.wheelbase is not None:
+    if left.vehicle.wheelbase is not None and pair.axle.end == "front":
         track = motions.track(pair.axle)
         values["ackermann_error"] = of_both.ackermann_error(*angles, left.vehicle.wheelbase, track)
         values["ackermann"] = of_both.ackermann(*angles, left.vehicle.wheelbase, track)

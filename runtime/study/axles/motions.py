@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...core.arguments import Arguments
+from ...core.errors import InputError
 from ...suspension.axle import Axle
 from ...suspension.axle.axle import LEFT, RIGHT
 from ...suspension.corner import Array
@@ -23,6 +24,8 @@ MOTIONS = {
 USUAL_ROLL = np.deg2rad(4.0)
 USUAL_ROLL_STEP = np.deg2rad(0.25)
 USUAL_ANGLE_STEP = np.deg2rad(10.0)  # of the steering wheel
+_MOST_TURNS = 40.0 * np.pi  # twenty turns of it
+_MOST_ROLL = np.pi / 4.0
 # A sweep that is not told otherwise keeps clear of the ends of the motion by this part of them.
 _CLEARANCE = 0.02
 
@@ -77,7 +80,7 @@ def rolls(axle: Axle, extent: Extent) -> Array:
         )
         most = min(USUAL_ROLL, float(np.arctan2(2.0 * reach, track(axle))))
     with Arguments("roll") as given:
-        most = given.number("roll", most, "rad", least=0.0, below=np.pi / 4.0)
+        most = given.number("roll", most, "rad", least=0.0, below=_MOST_ROLL)
     return grid(-most, most, USUAL_ROLL_STEP)
 
 
@@ -103,12 +106,23 @@ def steering_angles(axle: Axle, extent: Extent) -> Array | None:
         low, high = axle.steering.limits()
         dense = np.linspace(low, high, 2001)
         inside = dense[np.abs(axle.steering.rack(dense)) <= most * (1.0 + 1e-9)]
-        ends = float(inside[0]), float(inside[-1])
+        ends = (float(inside[0]), float(inside[-1])) if inside.size else (1.0, 1.0)
     else:
         per_turn = travel_per_turn(axle)
         if per_turn is None:
             return None
         ends = -2.0 * np.pi * most / per_turn, 2.0 * np.pi * most / per_turn
+    if not -_MOST_TURNS < ends[0] <= 0.0 <= ends[1] < _MOST_TURNS:
+        problem = (
+            f"the steering wheel turns from {np.degrees(ends[0]):.4g} deg to "
+            f"{np.degrees(ends[1]):.4g} deg for the {1e3 * most:.4g} mm to either side that the "
+            "rack goes; that must have 0 deg within, and 20 turns at most. Correct [steering] "
+            "angle_deg and rack_mm (0 mm in the middle), or [rack] travel_per_turn_mm."
+            if axle.steering is None or inside.size
+            else f"[steering] rack_mm has nothing within the {1e3 * most:.4g} mm to either side "
+            "that the rack goes. Count it from the middle position."
+        )
+        raise InputError([problem], "axle")
     return grid(*ends, USUAL_ANGLE_STEP)
 
 
@@ -128,6 +142,10 @@ def opposite(axle: Axle, angles: Array) -> tuple[Array, Array]:
     PositionError
         If a wheel does not get there.
     """
+    if np.abs(angles).max(initial=0.0) >= _MOST_ROLL:
+        worst = np.degrees(np.abs(angles).max())
+        problem = f"roll of {worst:.4g} deg: less than 45 deg is needed; Python's unit is rad."
+        raise InputError([problem], "axle")
     half = 0.5 * track(axle) * np.tan(angles)
     for side, model in axle.models.items():
         low, high = (end - design_height(model) for end in travel_range(model).height)

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import root
 
 from ...core.arguments import Arguments
+from ...core.errors import InputError
 from ...simulation.result import Simulation
 from ...simulation.signals import time_inputs
 from ...simulation.simulate import simulate
@@ -155,6 +156,10 @@ def run(
             given.refuse("height: an axle starts from rest. Leave it out.")
     inputs = dict(scenario.inputs)
     road = inputs.pop("road_height", None)
+    named = [f"{side}_road_height" for side in WHEELS[wheels]]
+    if road is not None and any(name in inputs for name in named):
+        problem = f"road_height and {', '.join(named)} are given. Give one of them for a wheel."
+        raise InputError([problem], "simulation")
     if road is not None:
         inputs |= {f"{side}_road_height": road for side in WHEELS[wheels]}
     times = scenario.times()

@@ -261,11 +261,17 @@ def _problems_of_sides(axle: Axle) -> list[str]:
         np.array(side.rack.axis) / np.linalg.norm(side.rack.axis)
         for side in (axle.right, axle.left)
     ]
-    if not axle.symmetric and np.abs(axes[0] - axes[1]).max() > _SAME_AXIS:
+    if np.abs(axes[0] - axes[1]).max() > _SAME_AXIS:
         problems.append(
             f"[rack] axis is {list(axle.right.rack.axis)} of the right side and "
             f"{list(axle.left.rack.axis)} of the left: they have one rack. Make them equal."
         )
+    problems += [
+        f"{side}: [bodies.{body}] mass_kg = {mass:g} kg: the rack of an axle is prescribed, and "
+        "tie rod, rack and upper strut have no mass in its equations. Set it to zero."
+        for side, suspension in axle.sides.items()
+        for body, mass in suspension.neglected_masses().items()
+    ]
     for section, key in _OF_THE_VEHICLE:
         right, left = (getattr(getattr(s, section), key) for s in (axle.right, axle.left))
         if right != left:

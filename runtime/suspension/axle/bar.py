@@ -30,6 +30,8 @@ _SMALLEST_CROSS_ANGLE = 1.0
 # Of steel: shear modulus [GPa], and Young's modulus over it, 2 (1 + nu) with nu = 0.3.
 _STEEL, _YOUNG = 79.3, 2.6
 _RADIANS = pi / 180.0
+# No point of a bar is farther from the origin than this, if the unit is right [m].
+_LARGEST_COORDINATE = 20.0
 
 
 _REMEDY = "Check the unit of the value."
@@ -52,6 +54,11 @@ _Modulus = Annotated[
     Number,
     Field(gt=0.0, le=1e3),
     Range("more than 0 {unit}, at most 1,000 {unit}", _REMEDY),
+]
+
+
+_Twist = Annotated[
+    Number, Field(ge=-60.0, le=60.0), Range("-60 {unit} to 60 {unit}", "Check its sign and unit.")
 ]
 
 
@@ -85,7 +92,7 @@ class AntiRollBar(Section):
     shear_modulus_GPa: _Modulus = Field(  # noqa: N815 (Pa is the pascal)
         default=_STEEL, description="shear modulus; Young's modulus is taken to be 2.6 times that"
     )
-    free_twist_deg: Number = Field(
+    free_twist_deg: _Twist = Field(
         default=0.0, description="twist at which the bar is free, left half less right half"
     )
 
@@ -107,6 +114,14 @@ class AntiRollBar(Section):
             )
             return [*problems, problem]
         bush, top, foot = (self.metres(name) for name in ("bush", "link_top", "link_foot"))
+        if max(np.abs([bush, top, foot]).max(), 0.0) > _LARGEST_COORDINATE:
+            problem = (
+                f"bush = {list(self.bush)}, link_top = {list(self.link_top)} and link_foot = "
+                f"{list(self.link_foot)} {self.unit}: out of range, allowed is "
+                f"-{_LARGEST_COORDINATE:g} m to {_LARGEST_COORDINATE:g} m. Correct the points or "
+                f'`unit = "{self.unit}"`.'
+            )
+            return [*problems, problem]
         lever = distance_from_line(top, bush, bush + unit_vector(self.axis))
         short = (
             (lever, f"link_top = {list(self.link_top)} {self.unit} is", "from the bar's axis"),
@@ -124,6 +139,8 @@ class AntiRollBar(Section):
         sizes = {"diameter_mm": self.diameter_mm, "length_mm": self.length_mm}
         given = [key for key, value in sizes.items() if value is not None]
         if self.rate_Nm_per_deg is not None:
+            usual = {"inner_diameter_mm": 0.0, "shear_modulus_GPa": _STEEL}
+            given += [key for key, value in usual.items() if getattr(self, key) != value]
             both = f"rate_Nm_per_deg = {self.rate_Nm_per_deg} N m/deg and"
             return [f"{both} {given[0]} both give its rate. Remove one of them."] if given else []
         missing = [key for key in sizes if key not in given]

@@ -69,7 +69,7 @@ class AxleFile(Section):
         if given in (["side"], ["right", "left"]):
             return []
         problem = (
-            f"{' and '.join(given) or 'neither'} given: an axle needs `side`, a hardpoint file of "
-            "one side whose mirror image is the other, or both `right` and `left`."
+            f"{' and '.join(given) or 'no side is'} given: an axle needs `side`, a hardpoint file "
+            "of one side whose mirror image is the other, or both `right` and `left`."
         )
         return [problem]
