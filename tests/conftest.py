@@ -33,23 +33,31 @@ os.environ.setdefault("SYMPY_CACHE_SIZE", "20000")
 settings.register_profile("calm", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("calm")
 
+# What tests compile as a user does, they compile once for all processes and later runs, and not
+# into the cache of whoever runs them. Without optimisation it takes a tenth of the time, and
+# without contraction the bits are the same.
+os.environ["KINTRAFO_CACHE"] = str(kept.KEPT / "cache")
+os.environ.setdefault("CFLAGS", "-O0")
+
 # Each of them takes more than a fiftieth of the whole time.
 _LONGEST = (
     "test_iteration_loops.py",
-    "test_mechanisms.py",
-    "test_report_browser.py",
     "test_iteration.py",
+    "test_report_browser.py",
     "test_fuzz.py",
+    "test_mechanisms.py",
+    "test_axles.py",
     "test_sanitizers.py",
-    "test_own_mechanism.py",
     "test_stages.py",
-    "test_copies.py",
-    "test_emitted_c.py",
-    "test_assumptions.py",
     "test_cli_commands.py",
+    "test_variation.py",
+    "test_emitted_c.py",
+    "test_own_mechanism.py",
+    "test_benchmarks.py",
+    "test_copies.py",
+    "test_assumptions.py",
+    "test_double_wishbone_cli.py",
     "test_conditioning.py",
-    "test_dead_points.py",
-    "test_general_free_rack.py",
 )
 
 

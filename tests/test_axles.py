@@ -5,7 +5,6 @@ import shlex
 from pathlib import Path
 from typing import Any
 
-import kept
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -111,10 +110,7 @@ def test_a_bar_by_its_dimensions() -> None:
 def compiled(request: pytest.FixtureRequest) -> AxleModel:
     if find_compiler() is None:
         pytest.skip("no C compiler")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("KINTRAFO_CACHE", str(kept.KEPT / "axles"))
-        patch.setenv("CFLAGS", "-O0")
-        return AxleModel({"reference": AXLE, "bent": BENT}[request.param])
+    return AxleModel({"reference": AXLE, "bent": BENT}[request.param])
 
 
 def placed(model: AxleModel, travels: dict[str, np.ndarray], racks: np.ndarray) -> Any:
@@ -565,9 +561,7 @@ def test_the_page_of_a_rear_axle_has_nothing_of_a_front_one(kintrafo: Any, tmp_p
 
 @needs_compiler
 @pytest.mark.usefixtures("coarse_report", "first_page_of_curves")
-def test_the_commands_of_the_page_run(kintrafo: Any, tmp_path: Path, monkeypatch: Any) -> None:  # noqa: F811
-    monkeypatch.setenv("KINTRAFO_CACHE", str(kept.KEPT / "axles"))
-    monkeypatch.setenv("CFLAGS", "-O0")
+def test_the_commands_of_the_page_run(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
     page = (ROOT / "docs/axles.md").read_text(encoding="utf-8")
     for line in commands_of(page):
         program, *arguments = shlex.split(line)

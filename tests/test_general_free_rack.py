@@ -33,9 +33,8 @@ def test_missing_packages_are_named(monkeypatch):
 
 @pytest.mark.slow
 @pytest.mark.skipif(find_compiler() is None, reason="no C compiler")
-def test_all_that_it_is(tmp_path_factory, monkeypatch):
+def test_all_that_it_is(tmp_path_factory):
     """One test, because the equations take half a minute to derive."""
-    monkeypatch.setenv("KINTRAFO_CACHE", str(tmp_path_factory.mktemp("cache")))
     accelerations_are_those_of_the_maximal_coordinates()
     without_anything_more_it_is_the_free_rack_of_the_paper()
     a_file_with_heavy_rack_simulates(tmp_path_factory.mktemp("cars"))
