@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from kintrafo import Model, characteristics, simulate, state_at_height
 from kintrafo.generator.equations.outputs import generate
-from kintrafo.generator.mechanisms import MODELS, chains, multi_link
+from kintrafo.generator.mechanisms import MODELS, chains, held_by_rods
 from kintrafo.study.paper import DURATION, SPIN_RATE, START_HEIGHT
 
 NAMES = [model.name for model in MODELS]
@@ -52,7 +52,7 @@ def test_right_hand_side_with_the_rack_held(benchmark, name):
 
 
 @pytest.mark.parametrize(
-    "model", [*multi_link.MODELS, *chains.MODELS], ids=lambda model: model.name
+    "model", [*held_by_rods.MODELS, *chains.MODELS], ids=lambda model: model.name
 )
 def test_right_hand_side_with_an_iteration(benchmark, model):
     module = kintrafo.compile(model)

@@ -18,6 +18,12 @@ EMITTED = {
     for path in sorted(FOLDER.glob("*.h"))
 }
 """All generated modules by name."""
+STRAIGHT = {
+    name: module
+    for name, module in EMITTED.items()
+    if not any("iterates" in told for told in module.equations.manifest["functions"].values())
+}
+"""Those whose loops are all closed in closed form: straight lines, that lanes can follow, too."""
 
 _LAYOUT = re.compile(r"/\*.*?\*/|^\s*#[^\n]*$", re.DOTALL | re.MULTILINE)
 _TOKEN = re.compile(

@@ -14,7 +14,7 @@ import numpy as np
 import own_loops
 from kintrafo.generator import Prismatic, Revolute, Universal
 from kintrafo.generator.mechanisms.chains import AXES, PLACES, SEVEN_HINGES
-from kintrafo.generator.mechanisms.multi_link import MODELS
+from kintrafo.generator.mechanisms.held_by_rods import MODELS
 from oracle.constraints import perpendiculars
 from oracle.maximal import Motion, Oracle
 from own_mechanisms import askew

@@ -20,6 +20,10 @@ STRUT = Suspension.load("offset_strut_car").with_changes(
 WISHBONES = Suspension.load("double_wishbone_car").with_changes(
     FREE | {"spring.free_length_mm": None, "spring.force_at_design_N": 0.0}
 )
+LINKED = Suspension.load("multi_link_car").with_changes(
+    FREE | {"spring.free_length_mm": None, "spring.force_at_design_N": 0.0}
+)
+LINKS = ("front_upper_link", "rear_upper_link", "front_lower_link", "rear_lower_link")
 BUSHES: dict[str, dict[str, Any]] = {
     "arm_front": {"axial_N_per_mm": 1500.0, "radial_N_per_mm": [8000.0, 5000.0]},
     "arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": [1200.0, 2500.0],
@@ -38,6 +42,14 @@ BUSHES_OF = {
         for arm in ("lower", "upper")
         for name, bush in BUSHES.items()
     },
+    LINKED: {
+        "front_upper_link_inner": BUSHES["arm_front"],
+        "rear_upper_link_outer": BUSHES["arm_rear"],
+        "rear_lower_link_inner": {"axial_N_per_mm": 700.0, "radial_N_per_mm": 5000.0},
+        "front_lower_link_inner": {"axial_N_per_mm": 1500.0, "radial_N_per_mm": 900.0},
+        "tie_rod_inner": BUSHES["tie_rod_inner"],
+        "wheel_center": BUSHES["wheel_center"],
+    },
 }
 # Joints by hand, the arms' hinges as two points: what touches, the parts, and where.
 POINTS = {
@@ -47,6 +59,8 @@ POINTS = {
                 for end, first, second in (("arm_front", 0, f"{arm}_arm"),
                                            ("arm_rear", 0, f"{arm}_arm"),
                                            ("ball_joint", f"{arm}_arm", "knuckle"))],
+    LINKED: [place for link in LINKS for place in ((f"{link}_outer", "knuckle", link),
+                                                   (f"{link}_inner", 0, link))],
 }  # fmt: skip
 X, Z = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
 
@@ -74,6 +88,7 @@ class Stiffness:
             for body in self.bodies[1:]
         ]
         self.centres = np.array([np.zeros(3), *centers])
+        self.size = 6 * len(self.bodies[1:])
 
     def index(self, body: str | int) -> int:
         return body if isinstance(body, int) else self.bodies.index(body)
@@ -86,7 +101,7 @@ class Stiffness:
         return rows
 
     def point(self, name: str, first: str | int, second: str) -> np.ndarray:
-        """Return the displacement of a joint's second part against the first, (3, 36)."""
+        """Return the displacement of a joint's second part against the first, (3, size)."""
         bodies = self.index(first), self.index(second)
         return -self.rows(lambda a: a.spherical(*bodies, self.at[name]))
 
@@ -98,10 +113,10 @@ class Stiffness:
         return center + turned @ (self.at[name] - self.centres[which])
 
     def along(self, first: str | int, start: str, second: str, end: str) -> np.ndarray:
-        """Return how a distance grows, (36,)."""
+        """Return how a distance grows, (size,)."""
         away = self.placed(end, second) - self.placed(start, first)
         away /= np.linalg.norm(away)
-        row = np.zeros((7, 6))
+        row = np.zeros((len(self.bodies), 6))
         for body, name, sign in ((first, start, -1.0), (second, end, 1.0)):
             which = self.index(body)
             center = self.pose.position[which - 1] if which else np.zeros(3)
@@ -112,9 +127,9 @@ class Stiffness:
 
     def flexibility(self, bushes: dict[str, Any], held: str) -> np.ndarray:
         """Return displacement and rotation of the contact by force and moment there."""
-        stiff, rigid = np.zeros((36, 36)), [np.eye(36)[6 * self.index("rack") - 6 :][:6]]
-        knuckle, wheel, rod = map(self.index, ("knuckle", "wheel", "tie_rod"))
-        shaft = self.at["tie_rod_outer"] - self.at["tie_rod_inner"]
+        stiff = np.zeros((self.size, self.size))
+        rigid = [np.eye(self.size)[6 * self.index("rack") - 6 :][:6]]
+        knuckle, wheel = map(self.index, ("knuckle", "wheel"))
         spin = self.car.wheel.spin_axis(-1.0)
         across, other = np.linalg.svd(spin[None])[2][1:]
         # all of these are at points: some hold, some give way
@@ -124,9 +139,7 @@ class Stiffness:
             ("tie_rod_inner", "rack", "tie_rod"),
             ("wheel_center", "knuckle", "wheel"),
         ]
-        rigid.append(
-            self.rows(lambda a: a.perpendicular(self.index("rack"), rod, Z, np.cross(Z, shaft)))
-        )
+        rigid.append(self.cross("rack", "tie_rod"))
         if self.car is STRUT:
             strut = self.index("upper_strut")
             axis = self.at["strut_top"] - self.at["strut_lower"]
@@ -137,6 +150,11 @@ class Stiffness:
             spring = self.along(0, "spring_top", "knuckle", "spring_seat")
             stop = self.along("upper_strut", "strut_top", "knuckle", "strut_lower")
             rate = self.car.strut.spring_rate_N_per_m
+        elif self.car is LINKED:
+            rigid += [self.cross(0, link) for link in LINKS]
+            spring = self.along(0, "spring_top", "rear_lower_link", "spring_seat")
+            stop = self.along(0, "damper_top", "knuckle", "damper_seat")
+            rate = self.car.spring.rate_N_per_m
         else:
             spring = stop = self.along(0, "spring_top", "lower_arm", "spring_seat")
             rate = self.car.spring.rate_N_per_m
@@ -167,13 +185,19 @@ class Stiffness:
             rigid.append(moved[2][None])
         return moved @ minimum(stiff, np.vstack(rigid), moved.T)
 
+    def cross(self, first: str | int, rod: str) -> np.ndarray:
+        """Return how a rod turns about itself in the cross at its inner end, (1, size)."""
+        shaft = self.at[f"{rod}_outer"] - self.at[f"{rod}_inner"]
+        bodies = self.index(first), self.index(rod)
+        return self.rows(lambda a: a.perpendicular(*bodies, Z, np.cross(Z, shaft)))
+
     def moved(self) -> np.ndarray:
-        """Return displacement and rotation of the contact by those of the bodies, (6, 36)."""
-        assert self.bodies[-1] == "wheel"
-        rows = np.zeros((6, 36))
-        rows[:, -6:] = np.eye(6)
-        x, y, z = self.contact() - self.pose.position[-1]
-        rows[:3, -3:] = np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
+        """Return displacement and rotation of the contact by those of the bodies, (6, size)."""
+        wheel = 6 * self.index("wheel") - 6
+        rows = np.zeros((6, self.size))
+        rows[:, wheel : wheel + 6] = np.eye(6)
+        x, y, z = self.contact() - self.placed("wheel_center", "wheel")
+        rows[:3, wheel + 3 : wheel + 6] = np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
         return rows
 
     def matrix(self, name: str, bush: dict[str, Any]) -> np.ndarray:
@@ -185,8 +209,12 @@ class Stiffness:
         elif name == "wheel_center":
             axis = self.car.wheel.spin_axis(-1.0)
         else:
+            rod = name.rpartition("_")[0]
             arm = name.replace("front", "").replace("rear", "")
-            start, end = ends.get(name, (f"{arm}front", f"{arm}rear"))
+            usual = (
+                (f"{rod}_inner", f"{rod}_outer") if "link" in rod else (f"{arm}front", f"{arm}rear")
+            )
+            start, end = ends.get(name, usual)
             axis = self.at[end] - self.at[start]
         axis = axis / np.linalg.norm(axis)
         first = np.array(bush.get("radial_axis", [0.0, 0.0, 1.0]))
@@ -198,11 +226,11 @@ class Stiffness:
         return rows.T @ np.diag(rates) @ rows
 
     def contact(self) -> np.ndarray:
-        axis = self.pose.rotation[-1] @ self.car.wheel.spin_axis(-1.0)
+        axis = self.pose.rotation[self.index("wheel") - 1] @ self.car.wheel.spin_axis(-1.0)
         upward = Z - axis[2] * axis
         radius = self.car.tyre_radius()
         assert radius is not None
-        return self.pose.position[-1] - radius * upward / np.linalg.norm(upward)
+        return self.placed("wheel_center", "wheel") - radius * upward / np.linalg.norm(upward)
 
 
 def minimum(stiff: np.ndarray, held: np.ndarray, loads: np.ndarray) -> np.ndarray:
@@ -225,7 +253,7 @@ def minimum(stiff: np.ndarray, held: np.ndarray, loads: np.ndarray) -> np.ndarra
     ],
 )
 @pytest.mark.parametrize("some", [False, True])
-@pytest.mark.parametrize("car", [STRUT, WISHBONES], ids=lambda car: car.TITLE)
+@pytest.mark.parametrize("car", [STRUT, WISHBONES, LINKED], ids=lambda car: car.TITLE)
 def test_the_wheel_gives_way_as_springs_do(
     car: Suspension, some: bool, held: Any, travel: float, rack: float
 ) -> None:
@@ -237,7 +265,9 @@ def test_the_wheel_gives_way_as_springs_do(
     ours = found["flexibility"].values[0]
     springs = Stiffness(car, travel, rack)
     theirs = springs.flexibility(bushes, held)
-    forward = np.cross(springs.pose.rotation[-1] @ car.wheel.spin_axis(-1.0), Z)
+    forward = np.cross(
+        springs.pose.rotation[springs.index("wheel") - 1] @ car.wheel.spin_axis(-1.0), Z
+    )
     forward /= np.linalg.norm(forward)
     axes = np.stack([forward, np.cross(Z, forward), Z])
     both = np.kron(np.eye(2), axes)

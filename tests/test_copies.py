@@ -35,7 +35,7 @@ from kintrafo.generator.closed_forms.passive_turn import PlacePassive
 from kintrafo.generator.equations.design import _angle, design_coordinates
 from kintrafo.generator.equations.dynamics import Dynamics
 from kintrafo.generator.equations.in_motion import InMotion
-from kintrafo.generator.mechanisms import MODELS, chains, multi_link
+from kintrafo.generator.mechanisms import MODELS, chains, held_by_rods
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.generator.planning.plan import Plan
 from kintrafo.generator.program import ConstantStage, Function, Program, Step, ancestors
@@ -52,7 +52,7 @@ EVERY = {
     model.name: model
     for model in (
         *MODELS,
-        *multi_link.MODELS,
+        *held_by_rods.MODELS,
         *chains.MODELS,
         n_four_bar(2),
         *own_mechanisms.MODELS,

@@ -29,7 +29,7 @@ from kintrafo.generator import (
 )
 from kintrafo.generator.declare.default_values import value_problems
 from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
-from kintrafo.generator.mechanisms.multi_link import MODELS as MULTI_LINKS
+from kintrafo.generator.mechanisms.held_by_rods import MODELS as MULTI_LINKS
 from typer.testing import CliRunner
 
 CRANK_PIN = Point("crank_pin", (0.0, 0.0, 0.0))

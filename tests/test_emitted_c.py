@@ -14,7 +14,17 @@ from pathlib import Path
 import mpmath
 import numpy as np
 import pytest
-from c_text import EMITTED, FOLDER, count, definitions, functions, header, sources, whole_of
+from c_text import (
+    EMITTED,
+    FOLDER,
+    STRAIGHT,
+    count,
+    definitions,
+    functions,
+    header,
+    sources,
+    whole_of,
+)
 from cases import MODELS, car_parameters, random_instants
 from kintrafo.generator.equations.outputs import Derivation
 from oracle.newton import Mechanism
@@ -25,6 +35,7 @@ SEEDS = range(3)  # 0 is the reference car
 POINTS = 2  # for each car
 
 each_model = pytest.mark.parametrize("name", EMITTED)
+each_straight_model = pytest.mark.parametrize("name", STRAIGHT)
 each_suspension = pytest.mark.parametrize("name", MODELS)
 
 
@@ -155,7 +166,7 @@ def test_straight_line(name: str) -> None:
         assert not BRANCHES & set(body), function
 
 
-@each_model
+@each_straight_model
 def test_calls_only_cheap_functions(name: str) -> None:
     """Of the C library only these: no pow above all, and nothing that keeps a state."""
     for function, body in functions(name).items():
@@ -247,7 +258,7 @@ def counted(name: str, function: str) -> dict[str, int]:
     return dict(counts) | {"total": counts.total()}
 
 
-@each_model
+@each_straight_model
 def test_counts_in_the_header(name: str) -> None:
     for function in functions(name).keys() - {"prepare"}:
         comment = rf"/\*((?:(?!\*/).)*)\*/\s*int {name}_{function}\("
@@ -256,14 +267,14 @@ def test_counts_in_the_header(name: str) -> None:
         assert described_counts(match[1]) == counted(name, function), function
 
 
-@each_model
+@each_straight_model
 def test_count_at_the_head_of_the_files(name: str) -> None:
     for text in (header(name), *(p.read_text(encoding="utf-8") for p in sources(name))):
         head = text[: text.index("*/")]
         assert described_counts(head.split("rhs:")[1]) == counted(name, "rhs")
 
 
-@each_model
+@each_straight_model
 def test_counts_in_python(name: str) -> None:
     """Those of the compiled function that computes it, beside what else that returns."""
     for result in EMITTED[name].equations.functions:
@@ -272,7 +283,7 @@ def test_counts_in_python(name: str) -> None:
         assert found == counted(name, call.stage), result
 
 
-@each_model
+@each_straight_model
 def test_counts_in_the_report(name: str) -> None:
     report = (FOLDER.parent / f"{name}.md").read_text(encoding="utf-8")
     table = report.split("## Functions")[1]

@@ -28,8 +28,8 @@ from kintrafo.generator import Line, Revolute
 from kintrafo.generator.backends.report.markdown import markdown
 from kintrafo.generator.equations.outputs import Derivation, generate
 from kintrafo.generator.loops.errors import NoClosedFormError
-from kintrafo.generator.mechanisms import multi_link
-from kintrafo.generator.mechanisms.multi_link import CONTROL_ARM, FIVE_LINK, MODELS
+from kintrafo.generator.mechanisms import held_by_rods
+from kintrafo.generator.mechanisms.held_by_rods import CONTROL_ARM, FIVE_LINK, MODELS
 from kintrafo.generator.planning.plan import Plan
 from kintrafo.generator.program import ConstantStage, Program
 from kintrafo.generator.program.newton import adjugate
@@ -515,8 +515,8 @@ def test_without_permission_the_loop_is_refused(model: Any) -> None:
 
 def test_a_hinge_in_place_of_a_ball_joint_has_no_block() -> None:
     """What is neither a body on rods nor in the catalogue is refused, permission or not."""
-    ball, line = multi_link.LOWER_BALL, Line(multi_link.ARM_BALL, multi_link.SPIN_AXIS)
-    hinge = Revolute("lower_ball", multi_link.LOWER_ARM, multi_link.CARRIER, axis=line)
+    ball, line = held_by_rods.LOWER_BALL, Line(held_by_rods.ARM_BALL, held_by_rods.SPIN_AXIS)
+    hinge = Revolute("lower_ball", held_by_rods.LOWER_ARM, held_by_rods.CARRIER, axis=line)
     model = changed(ARM, (ball, hinge))
     with pytest.raises(NoClosedFormError, match="no closed") as told:
         Plan.of(model)
@@ -526,6 +526,6 @@ def test_a_hinge_in_place_of_a_ball_joint_has_no_block() -> None:
 def test_rods_on_the_ground_only_cannot_move() -> None:
     """The body they hold is a part of the ground, and its inertia is none of the equations'."""
     crosses = [FIVE_LINK.joint(f"{rod}_cross") for rod in ("toe_link", "push_rod")]
-    model = changed(FIVE, *((c, replace(c, first=multi_link.CHASSIS)) for c in crosses))
+    model = changed(FIVE, *((c, replace(c, first=held_by_rods.CHASSIS)) for c in crosses))
     with pytest.raises(NoClosedFormError, match=r"carrier, held by upper_link, .* cannot move"):
         generate(model)

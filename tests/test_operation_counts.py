@@ -11,13 +11,13 @@ from pathlib import Path
 
 import pytest
 from c_text import EMITTED, count, functions, functions_of
-from kintrafo.generator.mechanisms import multi_link
+from kintrafo.generator.mechanisms import held_by_rods
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from own_models import own
 
 BASELINE = Path(__file__).with_name("operation_counts.json")
 KINDS = ("add", "multiply", "divide", "root", "trigonometric")
-DERIVED_HERE = (multi_link.MODELS[0], n_four_bar(3))
+DERIVED_HERE = (held_by_rods.MODELS[0], n_four_bar(3))
 Counts = dict[str, dict[str, dict[str, int]]]
 
 

@@ -7,6 +7,7 @@ from . import (
     four_bar,
     front_axle,
     macpherson,
+    multi_link,
     push_rod,
     slider_crank,
 )
@@ -15,6 +16,7 @@ MODELS = (
     *macpherson.MODELS,
     *double_wishbone.MODELS,
     *push_rod.MODELS,
+    *multi_link.MODELS,
     *front_axle.MODELS,
     *four_bar.MODELS,
     *slider_crank.MODELS,

@@ -1,93 +1,120 @@
-"""Multi-link suspensions: a wheel carrier on links, for which there is no closed form.
+"""A wheel carrier on five links, for which there is no closed form: Newton's method closes it.
 
-Three of them, all rear right, ISO 8855 axes, ground at z = 0; the numbers are this project's own.
-In `CONTROL_ARM` the carrier hangs at the ball joint of a lower control arm, and an upper link, a
-camber link and a toe link hold it: three equations. In `FIVE_LINK` five links hold it and a push
-rod that leads to a rocker, in `STRUT` five links and a strut, whose slide is the coordinate: six
-equations. A rack steers the rear wheel at the inner end of the toe link.
-
-Their models are declared with ``allow_iteration=True``. They are not among those that come with the
-project, whose code is all free of iteration.
+Two upper and two lower links and a toe link hold the carrier; where two of them meet in a ball
+joint, they are an arm. The spring stands on the rear lower link, the damper on the carrier. The
+coordinate is that of a height sensor: the angle of a lever high above the wheel, from whose tip a
+rod hangs down to the wheel centre, both without mass. So no link and no spring has to be well
+placed for it. The default values are this project's own: a rear right corner, ISO 8855 axes, ground
+at z = 0.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from .. import declare as d
-from .suspension import RACK_FORCE, RACK_MOTION, ROAD_HEIGHT
+from .suspension import RACK_FORCE, RACK_MOTION, ROAD_HEIGHT, further_laws, of_rubber
 
 Place = tuple[float, float, float]
 
-
-@dataclass(frozen=True)
-class Rod:
-    """A rod with its ends: a cross inside, a ball joint at the carrier."""
-
-    body: d.Body
-    inner: d.Point
-    outer: d.Point
-
-    def joints(self, base: d.Body) -> tuple[d.Joint, d.Joint]:
-        """Return its joints, the inner one at some body."""
-        name, line = self.body.name, d.Line(self.inner, self.outer)
-        return (
-            d.Universal(
-                f"{name}_cross", base, self.body, at=self.inner, shaft=line, first_axis=d.UP
-            ),
-            d.Spherical(f"{name}_ball", CARRIER, self.body, at=self.outer),
-        )
-
-
-def _rod(name: str, inner: Place, outer: Place) -> Rod:
-    x, y, z = ((a + b) / 2 for a, b in zip(inner, outer, strict=True))
-    return Rod(
-        d.Body(name, 1.2, (x, y, z), (0.008, 0.003, 0.007)),
-        d.Point(f"{name}_inner", inner, f"inner end of the {name}"),
-        d.Point(f"{name}_outer", outer, f"end of the {name} at the carrier"),
-    )
-
-
 WHEEL_CENTER = d.Point("wheel_center", (0.0, -0.76, 0.31), "wheel centre")
+SENSOR_FRONT = d.Point("sensor_front", (0.1, -0.26, 1.31), "front bearing of the height sensor")
+SENSOR_REAR = d.Point("sensor_rear", (-0.1, -0.26, 1.31), "rear bearing of the height sensor")
+SENSOR_TIP = d.Point("sensor_tip", (0.0, -0.76, 1.31), "tip of the height sensor's lever")
 RACK_AXIS = d.Direction("rack_axis", (0.0, 1.0, 0.0), "direction of the rack")
-SPIN_AXIS = d.Direction("spin_axis", (0.0, 1.0, -0.02), "spin axis of the wheel, pointing left")
+SPIN_AXIS = d.Direction("spin_axis", (0.0, 1.0, 0.0), "spin axis of the wheel, pointing left")
+SPRING_TOP = d.Point("spring_top", (-0.12, -0.50, 0.48), "upper seat of the spring, on the chassis")
+SPRING_SEAT = d.Point(
+    "spring_seat", (-0.085, -0.505, 0.2), "lower seat of the spring, on the rear lower link"
+)
+DAMPER_TOP = d.Point("damper_top", (-0.095, -0.58, 0.72), "upper end of the damper, on the chassis")
+DAMPER_SEAT = d.Point(
+    "damper_seat", (-0.08, -0.64, 0.225), "lower end of the damper, on the knuckle"
+)
 
 CHASSIS = d.Ground("chassis", 1)
-LOWER_ARM = d.Body("lower_arm", 5.0, (-0.01, -0.50, 0.18), (0.06, 0.04, 0.09))
-ROCKER = d.Body("rocker", 1.5, (-0.04, -0.38, 0.56), (0.006, 0.004, 0.005))
-STRUT_TUBE = d.Body("strut_tube", 2.0, (-0.04, -0.52, 0.60), (0.010, 0.010, 0.003))
-STRUT_ROD = d.Body("strut_rod", 1.5, (-0.03, -0.62, 0.33), (0.008, 0.008, 0.002))
-CARRIER = d.Body("carrier", 11.0, (-0.01, -0.69, 0.31), (0.14, 0.12, 0.06))
-UPPER_LINK = _rod("upper_link", (0.03, -0.38, 0.47), (0.05, -0.66, 0.49))
-CAMBER_LINK = _rod("camber_link", (-0.16, -0.38, 0.45), (-0.07, -0.67, 0.47))
-TOE_LINK = _rod("toe_link", (-0.17, -0.36, 0.27), (-0.15, -0.69, 0.26))
-FRONT_LINK = _rod("front_link", (0.21, -0.41, 0.20), (0.02, -0.71, 0.17))
-LOWER_LINK = _rod("lower_link", (-0.12, -0.30, 0.18), (-0.04, -0.70, 0.16))
-PUSH_ROD = _rod("push_rod", (-0.04, -0.44, 0.56), (-0.03, -0.65, 0.22))
-RACK = d.Body("rack", 0.0, (-0.17, -0.36, 0.27))
+KNUCKLE = d.Body("knuckle", 15.0, (-0.01, -0.71, 0.31), (0.17, 0.15, 0.08))
+RACK = d.Body("rack", 0.0, (-0.17, -0.345, 0.261))
+SENSOR_LEVER = d.Body("sensor_lever", 0.0, (0.0, -0.51, 1.31))
+SENSOR_ROD = d.Body("sensor_rod", 0.0, (0.0, -0.76, 0.81))
 WHEEL = d.Rotor("wheel", 21.0, WHEEL_CENTER, axis=SPIN_AXIS, spin=1.0, diametral=0.55)
 
-RACK_GUIDE = d.Prismatic("rack_guide", CHASSIS, RACK, direction=RACK_AXIS)
-BEARING = d.Revolute("bearing", CARRIER, WHEEL, axis=d.Line(WHEEL_CENTER, SPIN_AXIS))
-_STEERED_LINKS = (
-    *UPPER_LINK.joints(CHASSIS),
-    *CAMBER_LINK.joints(CHASSIS),
-    *TOE_LINK.joints(RACK),
-)
-_FIVE_LINKS = (*_STEERED_LINKS, *FRONT_LINK.joints(CHASSIS), *LOWER_LINK.joints(CHASSIS))
-_REPORTED = (
-    BEARING.angle("spin_angle", "wheel spin angle relative to the carrier"),
-    RACK_GUIDE.slide("rack_displacement", "rack displacement along its axis"),
-)
 
-_SPRING_RATE = d.SpringRate("spring_rate", 55000.0, "rate of the spring")
-_DAMPER = d.LinearDamper(
-    rate=d.DamperRate("damper_rate", 3500.0, "rate of the damper along the spring")
+def _link(
+    name: str, words: str, inner: Place, outer: Place, mass: float, base: d.Body
+) -> tuple[d.Body, tuple[d.Joint, d.Joint]]:
+    """Return a link with a cross at its inner end and a ball joint at the carrier."""
+    x, y, z = ((a + b) / 2.0 for a, b in zip(inner, outer, strict=True))
+    inner_end = d.Point(f"{name}_inner", inner, f"inner end of the {words}")
+    outer_end = d.Point(f"{name}_outer", outer, f"{words} at the knuckle")
+    body = d.Body(name, mass, (x, y, z), (0.01 * mass, 0.001 * mass, 0.01 * mass))
+    line = d.Line(inner_end, outer_end)
+    cross = d.Universal(f"{name}_cross", base, body, at=inner_end, shaft=line, first_axis=d.UP)
+    return body, (cross, d.Spherical(f"{name}_ball", KNUCKLE, body, at=outer_end))
+
+
+FRONT_UPPER, _front_upper = _link(
+    "front_upper_link",
+    "front upper link",
+    (0.1, -0.43, 0.455),
+    (0.015, -0.675, 0.475),
+    0.0,
+    CHASSIS,
 )
-_WEIGHT = d.Weight()
-_TYRE = d.LinearTyre(
+REAR_UPPER, _rear_upper = _link(
+    "rear_upper_link", "rear upper link", (-0.14, -0.41, 0.44), (-0.05, -0.68, 0.47), 0.0, CHASSIS
+)
+FRONT_LOWER, _front_lower = _link(
+    "front_lower_link", "front lower link", (0.23, -0.44, 0.225), (0.03, -0.705, 0.19), 0.0, CHASSIS
+)
+REAR_LOWER, _rear_lower = _link(
+    "rear_lower_link", "rear lower link", (-0.11, -0.3, 0.2), (-0.055, -0.705, 0.175), 4.0, CHASSIS
+)
+TIE_ROD, _tie_rod = _link(
+    "tie_rod", "toe link", (-0.17, -0.345, 0.261), (-0.155, -0.695, 0.25), 0.0, RACK
+)
+RACK_GUIDE = d.Prismatic("rack_guide", CHASSIS, RACK, direction=RACK_AXIS)
+BEARING = d.Revolute("bearing", KNUCKLE, WHEEL, axis=d.Line(WHEEL_CENTER, SPIN_AXIS))
+SENSOR_HINGE = d.Revolute(
+    "sensor_hinge",
+    CHASSIS,
+    SENSOR_LEVER,
+    axis=d.Line(SENSOR_REAR, SENSOR_FRONT),
+    angle_to=SENSOR_TIP,
+)
+SENSOR_CROSS = d.Universal(
+    "sensor_cross",
+    SENSOR_LEVER,
+    SENSOR_ROD,
+    at=SENSOR_TIP,
+    shaft=d.Line(SENSOR_TIP, WHEEL_CENTER),
+    first_axis=d.Direction("sensor_axis", between=(SENSOR_REAR, SENSOR_FRONT)),
+)
+SENSOR_BALL = d.Spherical("sensor_ball", KNUCKLE, SENSOR_ROD, at=WHEEL_CENTER)
+
+SPRING = d.LinearSpring(
+    rate=d.SpringRate("spring_rate", 90000.0, "rate of the spring"),
+    free_length=d.Length(
+        "spring_free_length", 0.359, "distance of the seats with the spring force-free"
+    ),
+)
+DAMPER = d.LinearDamper(
+    rate=d.DamperRate("damper_rate", 2500.0, "rate of the damper along its axis")
+)
+ACTUATOR = d.Actuator(
+    input=d.Input(
+        "spring_actuator", "N", "actuator force, positive when it pushes the spring's seats apart"
+    )
+)
+COIL = d.ForceElement(
+    "spring", d.AlongLine((CHASSIS, SPRING_TOP), (REAR_LOWER, SPRING_SEAT)), (SPRING, ACTUATOR)
+)
+SHOCK = d.ForceElement(
+    "damper",
+    d.AlongLine((CHASSIS, DAMPER_TOP), (KNUCKLE, DAMPER_SEAT)),
+    (DAMPER, *further_laws("damper", 1.0)),
+)
+TYRE = d.LinearTyre(
     name="rear",
-    wheel=d.Wheel(CARRIER, WHEEL_CENTER, SPIN_AXIS),
+    wheel=d.Wheel(KNUCKLE, WHEEL_CENTER, SPIN_AXIS),
     rate=d.SpringRate("tyre_rate", 200000.0, "radial rate of the tyre"),
     free_height=d.Displacement(
         "tyre_free_height", 0.329, "height of the wheel centre at which the tyre is free of force"
@@ -95,125 +122,44 @@ _TYRE = d.LinearTyre(
     road=ROAD_HEIGHT,
 )
 
-
-def _suspension(
-    name: str,
-    title: str,
-    joints: tuple[d.Joint, ...],
-    driving: d.RelativeCoordinate,
-    spring: tuple[d.Point, d.Point],
-    seat_body: d.Body,
-    free_length: float,
-) -> d.Mechanism:
-    """Return a suspension with a spring from a point of the chassis to one of another body."""
-    top, seat = spring
-    length = d.Length("spring_free_length", free_length, "length of the spring without force")
-    coil = d.LinearSpring(rate=_SPRING_RATE, free_length=length)
-    return d.Mechanism(
-        name=name,
-        title=title,
-        joints=(*joints, RACK_GUIDE, BEARING),
-        forces=(
-            _WEIGHT,
-            d.ForceElement(
-                "spring", d.AlongLine((CHASSIS, top), (seat_body, seat)), (coil, _DAMPER)
-            ),
-            _TYRE,
-            d.JointForce(RACK_GUIDE, RACK_FORCE),
+MULTI_LINK = d.Mechanism(
+    name="multi_link",
+    title="Multi-link suspension with five links",
+    joints=(
+        SENSOR_HINGE,
+        SENSOR_CROSS,
+        SENSOR_BALL,
+        *_front_upper,
+        *_rear_upper,
+        *_front_lower,
+        *_rear_lower,
+        *_tie_rod,
+        RACK_GUIDE,
+        BEARING,
+    ),
+    forces=(d.Weight(), COIL, SHOCK, of_rubber(TYRE), d.JointForce(RACK_GUIDE, RACK_FORCE)),
+    coordinates=(
+        SENSOR_HINGE.angle(
+            "sensor_angle",
+            "angle of the height sensor's lever from the chassis vertical; falls as the wheel "
+            "rises",
         ),
-        coordinates=(driving, *_REPORTED),
-    )
-
-
-def _seats(top: Place, seat: Place) -> tuple[d.Point, d.Point]:
-    return (
-        d.Point("spring_top", top, "seat of the spring on the chassis"),
-        d.Point("spring_seat", seat, "seat of the spring on what moves it"),
-    )
-
-
-# -- a control arm and three links ----------------------------------------------------------------
-
-ARM_FRONT = d.Point("lower_arm_front", (0.15, -0.34, 0.20), "front bush of the lower arm")
-ARM_REAR = d.Point("lower_arm_rear", (-0.19, -0.36, 0.18), "rear bush of the lower arm")
-ARM_BALL = d.Point("lower_ball_joint", (0.0, -0.70, 0.17), "ball joint of the lower arm")
-LOWER_HINGE = d.Revolute(
-    "lower_hinge", CHASSIS, LOWER_ARM, axis=d.Line(ARM_REAR, ARM_FRONT), angle_to=ARM_BALL
-)
-LOWER_BALL = d.Spherical("lower_ball", LOWER_ARM, CARRIER, at=ARM_BALL)
-
-CONTROL_ARM = _suspension(
-    "control_arm_multi_link",
-    "Multi-link suspension with a lower control arm and three links",
-    (LOWER_HINGE, LOWER_BALL, *_STEERED_LINKS),
-    LOWER_HINGE.angle(
-        "arm_angle", "angle of the lower arm from the chassis vertical; falls as the wheel rises"
+        BEARING.angle(
+            "spin_angle", "wheel spin angle relative to the knuckle, positive rolling forward"
+        ),
+        RACK_GUIDE.slide("rack_displacement", "rack displacement along its axis"),
     ),
-    _seats((-0.03, -0.50, 0.60), (-0.01, -0.60, 0.19)),
-    LOWER_ARM,
-    0.52,
 )
-
-# -- five links, and a push rod to a rocker -------------------------------------------------------
-
-ROCKER_PIVOT = d.Point("rocker_pivot", (-0.04, -0.35, 0.52), "bearing of the rocker")
-ROCKER_AXIS = d.Direction("rocker_axis", (1.0, 0.1, 0.0), "axis of the rocker")
-ROCKER_HINGE = d.Revolute("rocker_hinge", CHASSIS, ROCKER, axis=d.Line(ROCKER_PIVOT, ROCKER_AXIS))
-
-FIVE_LINK = _suspension(
-    "five_link",
-    "Five-link suspension with a push rod and a rocker",
-    (ROCKER_HINGE, *_FIVE_LINKS, *PUSH_ROD.joints(ROCKER)),
-    ROCKER_HINGE.angle(
-        "rocker_angle", "angle of the rocker from design, right-handed about its axis to the front"
-    ),
-    _seats((-0.04, -0.12, 0.62), (-0.04, -0.34, 0.62)),
-    ROCKER,
-    0.27,
-)
-
-# -- five links and a strut -----------------------------------------------------------------------
-
-STRUT_SEATS = STRUT_TOP, STRUT_SEAT = _seats((-0.04, -0.50, 0.72), (-0.03, -0.66, 0.20))
-STRUT_LINE = d.Direction("strut_line", between=(STRUT_SEAT, STRUT_TOP))
-STRUT_CROSS = d.Universal(
-    "strut_cross",
-    CHASSIS,
-    STRUT_TUBE,
-    at=STRUT_TOP,
-    shaft=d.Line(STRUT_TOP, STRUT_SEAT),
-    first_axis=RACK_AXIS,
-)
-STRUT_GUIDE = d.Prismatic("strut_guide", STRUT_TUBE, STRUT_ROD, direction=STRUT_LINE)
-STRUT_BALL = d.Spherical("strut_ball", STRUT_ROD, CARRIER, at=STRUT_SEAT)
-
-STRUT = _suspension(
-    "five_link_strut",
-    "Five-link suspension with a strut",
-    (STRUT_CROSS, STRUT_GUIDE, STRUT_BALL, *_FIVE_LINKS),
-    STRUT_GUIDE.slide("compression", "by how much the strut is compressed"),
-    STRUT_SEATS,
-    CARRIER,
-    0.60,
-)
-
-
-def _model(mechanism: d.Mechanism, driving: d.Joint) -> d.Formulation:
-    """Return the model with a prescribed rack; everything but the rack has mass."""
-    return d.Formulation(
-        name=mechanism.name,
-        title=f"{mechanism.title}, rack prescribed",
-        mechanism=mechanism,
-        independent=(driving, BEARING),
-        prescribed={RACK_GUIDE: RACK_MOTION},
-        massive=tuple(body for body in mechanism.bodies[1:] if body != RACK),
-        held={"rack_held": (RACK_GUIDE,)},
-        allow_iteration=True,
-    )
-
 
 MODELS = (
-    _model(CONTROL_ARM, LOWER_HINGE),
-    _model(FIVE_LINK, ROCKER_HINGE),
-    _model(STRUT, STRUT_GUIDE),
+    d.Formulation(
+        name="multi_link",
+        title="Multi-link suspension with five links, rack prescribed",
+        mechanism=MULTI_LINK,
+        independent=(SENSOR_HINGE, BEARING),
+        prescribed={RACK_GUIDE: RACK_MOTION},
+        massive=(REAR_LOWER, KNUCKLE, WHEEL),
+        held={"rack_held": (RACK_GUIDE,)},
+        allow_iteration=True,
+    ),
 )

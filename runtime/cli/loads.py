@@ -106,7 +106,7 @@ def _tell(found: "Dataset") -> None:
     for name, reason in zip(found["case"].values, found["reason"].values, strict=True):
         if reason:
             say(f"{name}: {reason}")
-    say(f"{found.attrs['message']}; {found.attrs['rules']}.")
+    say("; ".join(filter(None, (found.attrs["message"], found.attrs["rules"]))) + ".")
 
 
 def _components(found: "Dataset", case: str, parts: list[str] | None, file: str) -> Table:

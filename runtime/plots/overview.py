@@ -53,8 +53,7 @@ def write_overview(model: Model, path: Path, travel: float = 0.08, *, force: boo
         figure.legend(loc="outside lower left", ncols=4, frameon=False, fontsize=9)
         _draw_angles(camber, toe, model, design, travel)
         figure.suptitle(
-            f"{model.suspension.heading()}, front {model.suspension.vehicle.side}: closed-form "
-            "kinematics"
+            f"{model.suspension.heading()}, {model.suspension.vehicle.side} side: kinematics"
         )
         save(figure, path, force=force)
 

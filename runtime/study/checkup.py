@@ -206,15 +206,15 @@ def _ride_frequency(model: Model, state: Array) -> float | None:
 
 def _geometry(model: Model) -> dict[str, float]:
     points = model.suspension.hardpoints
-    low, high = (points.metres(end) for end in points.STEERING_AXIS)
     at_design = corner(model, model.design_state[0])
+    axis = at_design.lower, at_design.upper
     center = points.metres("wheel_center")
     return {
         "half_track": abs(float(center[1])),
         "wheel_center_height": float(center[2]),
         **model.suspension.lengths(),
         "tie_rod_length": points.distance("tie_rod_outer", "tie_rod_inner"),
-        "steering_arm_length": distance_from_line(points.metres("tie_rod_outer"), low, high),
+        "steering_arm_length": distance_from_line(points.metres("tie_rod_outer"), *axis),
         "caster_angle": float(wheel.caster(at_design)),
         "kingpin_inclination_angle": float(wheel.kingpin_inclination(at_design)),
     }

@@ -20,7 +20,7 @@ from pydantic import Field, ValidationError
 from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..core.suggestions import suggestion
-from .corner import Array, Plane, Spring, Stroke
+from .corner import Array, Motion, Plane, Spring, Stroke
 from .data import find
 from .drawing import Drawing
 from .facts import Allowed, Extended, Names
@@ -316,13 +316,15 @@ class Suspension(Section):
         """Return the joints and the lines of force, for the loads on its parts."""
 
     @abstractmethod
-    def links_at(self, points: Mapping[str, Array]) -> tuple[Plane, Plane]:
+    def links_at(self, points: Mapping[str, Array], travel: Motion) -> tuple[Plane, Plane]:
         """Return the planes of the links that hold the wheel carrier; see `Corner`.
 
         Parameters
         ----------
         points : mapping
             The hardpoints by name, each of shape (..., 3) [m].
+        travel : Motion
+            How the wheel carrier moves first, per unit of wheel travel.
         """
 
     @abstractmethod

@@ -25,14 +25,10 @@ class Motion:
         Of the wheel centre [m per unit].
     turning : ndarray, shape (..., 3)
         Angular velocity [rad per unit].
-    lower, upper : ndarray, shape (..., 3)
-        Velocities of the two points on the steering axis [m per unit].
     """
 
     velocity: Array
     turning: Array
-    lower: Array
-    upper: Array
 
     def minus(self, other: "Motion", times: Array) -> "Motion":
         """Return this motion less a multiple of another."""
@@ -46,6 +42,24 @@ class Motion:
     def per(self, unit: Array) -> "Motion":
         """Return the motion for one of another unit, given how many of them one of these makes."""
         return Motion(**{name: part / unit[..., None] for name, part in vars(self).items()})
+
+    def axis_nearest(self, center: Array) -> Array:
+        """Return the point on the axis of this motion, that of a screw, nearest to the wheel's.
+
+        Parameters
+        ----------
+        center : ndarray, shape (..., 3)
+            The wheel centre [m].
+
+        Returns
+        -------
+        ndarray, shape (..., 3)
+            [m]; infinitely far, or no number, where nothing turns.
+        """
+        square = np.einsum("...i,...i->...", self.turning, self.turning)[..., None]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            nearest: Array = center + np.cross(self.turning, self.velocity) / square
+        return nearest
 
 
 @dataclass(frozen=True)
@@ -144,6 +158,8 @@ class Corner:
         The same at design.
     lower, upper : ndarray, shape (..., 3)
         Two points on the steering axis, the upper one above the lower [m].
+    axis_rate : ndarray, shape (..., 3)
+        Derivative of the vector from the lower to the upper one by wheel travel [1].
     travel : Motion
         Per unit of wheel travel (height of the wheel centre) with the steering held [per m].
     steering : Motion
@@ -151,7 +167,8 @@ class Corner:
     links : tuple of Plane
         The two planes whose common line is the axis about which the carrier turns first when it
         is held by the links in them: for a wishbone the plane of its three joints, for a strut the
-        plane across it through its upper mount.
+        plane across it through its upper mount; for links in no plane any two planes through the
+        axis about which it turns.
     spring : Spring
     stops : tuple of Spring
         What else pushes by its position.
@@ -167,6 +184,7 @@ class Corner:
     design_axis: Array
     lower: Array
     upper: Array
+    axis_rate: Array
     travel: Motion
     steering: Motion
     links: tuple[Plane, Plane]

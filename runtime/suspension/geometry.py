@@ -99,6 +99,6 @@ def _spin_axis_along_steering_axis(
         f"[wheel] camber_deg = {wheel.camber_deg} deg and toe_deg = {wheel.toe_deg} deg put the "
         f"spin axis within {angle:.3f} deg of the {hardpoints.AXIS_NAME}; at least "
         f"{_SMALLEST_SPIN_AXIS_ANGLE:g} deg are needed to steer the wheel. Correct the angles, or "
-        f"{hardpoints.text(*hardpoints.STEERING_AXIS)}."
+        f"{hardpoints.text(*(hardpoints.STEERING_AXIS or ()))}."
     )
     return [problem]

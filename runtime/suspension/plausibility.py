@@ -112,12 +112,16 @@ def _other_side(suspension: Suspension) -> Iterator[str]:
 
 def _swapped(suspension: Suspension) -> Iterator[str]:
     points = suspension.hardpoints
-    outer, inner = (_outboard(suspension, f"tie_rod_{end}") for end in ("outer", "inner"))
-    if outer < inner:
-        yield (
-            f"{points.text('tie_rod_outer', 'tie_rod_inner')}: the tie rod's end at the knuckle is "
-            f"{1e3 * (inner - outer):.0f} mm inboard of that at the rack. Are the two swapped?"
-        )
+    at_knuckle = [name for name, part in points.CARRIERS.items() if part == "knuckle"]
+    for rod in (name.removesuffix("_outer") for name in at_knuckle if name.endswith("_outer")):
+        outer, inner = (_outboard(suspension, f"{rod}_{end}") for end in ("outer", "inner"))
+        if outer < inner:
+            words, base = rod.replace("_", " "), "rack" if rod == "tie_rod" else "chassis"
+            yield (
+                f"{points.text(f'{rod}_outer', f'{rod}_inner')}: the {words}'s end at the knuckle "
+                f"is {1e3 * (inner - outer):.0f} mm inboard of that at the {base}. Are the two "
+                "swapped?"
+            )
     for ball, bearings in points.ARMS.items():
         hinge = min(_outboard(suspension, name) for name in bearings)
         inboard = hinge - _outboard(suspension, ball)
@@ -126,6 +130,8 @@ def _swapped(suspension: Suspension) -> Iterator[str]:
                 f"{points.text(ball, *bearings)}: {ball} is {1e3 * inboard:.0f} mm inboard of the "
                 "arm's bearings on the chassis. Are they swapped?"
             )
+    if points.STEERING_AXIS is None:
+        return
     low, high = points.STEERING_AXIS
     drop = float(points.metres(low)[2] - points.metres(high)[2])
     if drop > 0.0:
@@ -227,7 +233,7 @@ def _wheel_place(suspension: Suspension) -> Iterator[str]:
             )
         hinge = 0.5 * sum(float(points.metres(name)[2]) for name in bearings)
         below = hinge - float(points.metres("wheel_center")[2])
-        if below > _BELOW and ball == points.STEERING_AXIS[0]:
+        if below > _BELOW and ball == (points.STEERING_AXIS or ("",))[0]:
             yield (
                 f"{points.text('wheel_center')} is {1e3 * below:.0f} mm below the bearings of its "
                 "arm. z points up: is its sign right?"
@@ -236,6 +242,8 @@ def _wheel_place(suspension: Suspension) -> Iterator[str]:
 
 def _steering_axis(suspension: Suspension) -> Iterator[str]:
     points = suspension.hardpoints
+    if points.STEERING_AXIS is None:
+        return
     low, high = points.STEERING_AXIS
     x, y, z = points.metres(high) - points.metres(low)
     if z <= 0.0:

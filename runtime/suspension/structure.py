@@ -148,7 +148,7 @@ class Hinge(Joint):
     def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
         """Return two forces across the axis at each bearing, and one along it at both."""
         del turned, design
-        along, across, other = _frame(points[self.at[1]] - points[self.at[0]])
+        along, across, other = frame(points[self.at[1]] - points[self.at[0]])
         loads = np.zeros((*along.shape[:-1], 2, 6, 5))
         for bearing in (0, 1):
             loads[..., bearing, :3, 2 * bearing] = across
@@ -158,7 +158,7 @@ class Hinge(Joint):
 
     def tensions(self, points: Points) -> Array:
         """Return a force along the axis at one bearing, and its opposite at the other."""
-        along, _, _ = _frame(points[self.at[1]] - points[self.at[0]])
+        along, _, _ = frame(points[self.at[1]] - points[self.at[0]])
         loads = np.zeros((*along.shape[:-1], 2, 6, 1))
         loads[..., 0, :3, 0], loads[..., 1, :3, 0] = along, -along
         return loads
@@ -186,7 +186,7 @@ class Telescope(Joint):
         """Return two forces and two moments."""
         del turned, design
         (center,) = self.at
-        _, across, other = _frame(points[self.end] - points[center])
+        _, across, other = frame(points[self.end] - points[center])
         loads = np.zeros((*across.shape[:-1], 1, 6, 4))
         for rows in (slice(0, 3), slice(3, 6)):
             column = 0 if rows.start == 0 else 2
@@ -269,8 +269,8 @@ def _unit(vectors: Array) -> Array:
     return vectors / lengths
 
 
-def _frame(axis: Array) -> tuple[Array, Array, Array]:
-    """Return a unit vector along an axis and two across it."""
+def frame(axis: Array) -> tuple[Array, Array, Array]:
+    """Return a unit vector along an axis, (..., 3), and two across it."""
     along = _unit(axis)
     # the chassis axis that is most nearly across
     aside = np.eye(3)[np.abs(along).argmin(axis=-1)]

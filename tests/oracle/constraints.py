@@ -90,13 +90,13 @@ class Equations:
         -------
         residual : ndarray, shape (n,)
             In m for points and planes, dimensionless for angles.
-        jacobian : ndarray, shape (n, 36)
+        jacobian : ndarray, shape (n, 6 bodies)
             With respect to the world components of (displacement of the centre of mass,
             infinitesimal rotation) of each body in turn; times the twists it gives the rates of
             the residual.
         """
         position, rotation = with_chassis(pose)
-        jacobian = np.zeros((self.size, 7, 6))
+        jacobian = np.zeros((self.size, len(position), 6))
         p, a = 3 * len(self.point_bodies), len(self.angle_bodies)
 
         arms = _turn(rotation[self.point_bodies], self.point_arms)
@@ -135,7 +135,7 @@ class Equations:
                 np.einsum("ij,ij->i", normals, span) - self.plane_offsets,
             )
         )
-        return residual, jacobian[:, 1:].reshape(self.size, 36)
+        return residual, jacobian[:, 1:].reshape(self.size, -1)
 
     def convective(self, pose: Pose, twist: Array) -> Array:
         """Return the second time derivative of the residual at zero accelerations.
@@ -203,12 +203,12 @@ class Assembler:
 
     Parameters
     ----------
-    centres : ndarray, shape (7, 3)
+    centres : ndarray, shape (1 + bodies, 3)
         Centres of mass at design, the chassis's origin first, m.
     """
 
     def __init__(self, centres: Array) -> None:
-        self._centres = centres  # (7, 3), the chassis's is the origin
+        self._centres = centres  # (1 + bodies, 3), the chassis's is the origin
         self._points: list[tuple[tuple[int, int], tuple[Array, Array]]] = []
         self._angles: list[tuple[tuple[int, int], tuple[Array, Array]]] = []
         self._planes: list[tuple[tuple[int, int], tuple[Array, Array], Array, float]] = []
@@ -274,7 +274,7 @@ class Assembler:
 
 
 def with_chassis(pose: Pose) -> tuple[Array, Array]:
-    """Return positions (7, 3) and rotations (7, 3, 3) with the chassis's first."""
+    """Return positions (1 + bodies, 3) and rotations with the chassis's first."""
     return (
         np.concatenate((np.zeros((1, 3)), pose.position)),
         np.concatenate((np.eye(3)[None], pose.rotation)),

@@ -30,7 +30,7 @@ def loads_chapter(found: xr.Dataset, *, note: str = "") -> Chapter:
         str(case): str(reason)
         for case, reason in zip(found["case"].values, found["reason"].values, strict=True)
     }
-    words = [f"{found.attrs['message']}; {found.attrs['rules']}."]
+    words = ["; ".join(filter(None, (found.attrs["message"], found.attrs["rules"]))) + "."]
     words = [note, *words] if note else words
     words += [f"{case}: {reason}" for case, reason in reasons.items() if reason]
     pictures = []

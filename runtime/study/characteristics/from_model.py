@@ -1,4 +1,7 @@
-"""The corner of a suspension, from its compiled model: exact, nothing is differenced."""
+"""The corner of a suspension, from its compiled model.
+
+It is exact: nothing is differenced but, where a steering axis is that of the motion, its rate.
+"""
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,6 +14,7 @@ from ...suspension.points import hardpoints
 from ...suspension.reach import at_rest
 from ...suspension.strokes import Strokes
 from ...systems.inputs import rates_of
+from .steering_axis import SteeringAxis, differenced, of_the_screw
 
 
 def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -> Corner:
@@ -29,25 +33,24 @@ def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -
     """
     kind = model.suspension
     states, inputs = at_rest(model, arm_angle, rack_position)
-    points = hardpoints(model, states, inputs)
-    turned = model.evaluate("orientations", states, inputs)[..., _knuckle(model), :, :]
+    pose = _Pose(model, states, inputs)
+    points, travel = pose.points, pose.travel
+    turned = model.evaluate("orientations", states, inputs)[..., pose.knuckle, :, :]
     at_design = design_axis(model.suspension)
-    by_arm = _motion(model, points, states, inputs, "arm")
-    by_rack = _motion(model, points, states, inputs, "rack")
-    travel = by_arm.per(by_arm.velocity[..., 2])
     strokes = _strokes(model, states, inputs)
-    low, high = model.suspension.hardpoints.STEERING_AXIS
+    axis = _steering_axis(pose)
     return Corner(
         vehicle=vehicle(model.suspension),
         center=points["wheel_center"],
         design_center=model.suspension.hardpoints.metres("wheel_center"),
         axis=turned @ at_design,
         design_axis=at_design,
-        lower=points[low],
-        upper=points[high],
+        lower=axis.lower,
+        upper=axis.upper,
+        axis_rate=axis.rate / pose.by_arm.velocity[..., 2:],
         travel=travel,
-        steering=by_rack.minus(travel, by_rack.velocity[..., 2]),
-        links=kind.links_at(points),
+        steering=pose.steering,
+        links=kind.links_at(points, travel),
         spring=kind.spring_at(strokes),
         stops=kind.stops_at(strokes),
         damper=kind.damper_at(strokes),
@@ -111,37 +114,76 @@ def design_axis(suspension: Suspension) -> Array:
     return side * suspension.wheel.spin_axis(side)
 
 
-def _knuckle(model: Model) -> int:
-    index: int = model.equations.BODIES.index("knuckle")
-    return index
+class _Pose:
+    """A model at many positions at rest, and the first motions of its wheel carrier there."""
+
+    def __init__(self, model: Model, states: Array, inputs: Array) -> None:
+        self.model, self.states, self.inputs = model, states, inputs
+        self.points = hardpoints(model, states, inputs)
+        self.knuckle: int = model.equations.BODIES.index("knuckle")
+        self.by_arm = self._motion("arm")
+        self.travel = self.by_arm.per(self.by_arm.velocity[..., 2])
+        self.by_rack = self._motion("rack")
+        self.steering = self.by_rack.minus(self.travel, self.by_rack.velocity[..., 2])
+
+    def steering_with_spring_locked(self) -> Motion:
+        """Return the motion per unit of rack travel with the spring's length held."""
+        by_arm, by_rack = (
+            self.model.signal("spring_velocity", *self._at_unit_rate(what))
+            for what in ("arm", "rack")
+        )
+        return self.by_rack.minus(self.by_arm, by_rack / by_arm)
+
+    def _motion(self, what: str) -> Motion:
+        """Return the motion for a unit rate of the arm angle, or of the rack, the other held."""
+        model = self.model
+        states, inputs = self._at_unit_rate(what)
+        twist = model.evaluate("velocities", states, inputs)[..., self.knuckle, :]
+        turning, velocity = twist[..., :3], twist[..., 3:]
+        origin = model.evaluate("positions", states, inputs)[..., self.knuckle, :]
+        arm = self.points["wheel_center"] - origin
+        return Motion(velocity + np.cross(turning, arm), turning)
+
+    def _at_unit_rate(self, what: str) -> tuple[Array, Array]:
+        """Return states and inputs with a unit rate of the arm angle, or of the rack.
+
+        Velocities are linear in the rates, so that those at unit rate are the derivatives.
+        """
+        model, states, inputs = self.model, self.states.copy(), self.inputs.copy()
+        if what == "arm":
+            states[..., model.state_names.index(f"{model.names.arm}_rate")] = 1.0
+        elif model.free_rack:
+            states[..., model.state_names.index(f"{model.names.rack}_rate")] = 1.0
+        else:
+            velocity_input, *_ = rates_of("rack_position", model.equations.INPUTS)
+            inputs[..., model.input_names.index(velocity_input)] = 1.0
+        return states, inputs
 
 
-def _motion(
-    model: Model, points: dict[str, Array], states: Array, inputs: Array, what: str
-) -> Motion:
-    """Return the motion for a unit rate of the arm angle, or of the rack, the other held.
+def _steering_axis(pose: _Pose) -> SteeringAxis:
+    """Return the axis about which the wheel is steered; see `SteeringAxis`."""
+    given, points, by_arm = pose.model.suspension.hardpoints, pose.points, pose.by_arm
+    if given.STEERING_AXIS is None:
+        return _axis_of_the_motion(pose)
 
-    Velocities are linear in the rates, so that those at unit rate are the derivatives.
-    """
-    states, inputs = states.copy(), inputs.copy()
-    if what == "arm":
-        states[..., model.state_names.index(f"{model.names.arm}_rate")] = 1.0
-    elif model.free_rack:
-        states[..., model.state_names.index(f"{model.names.rack}_rate")] = 1.0
-    else:
-        velocity_input, *_ = rates_of("rack_position", model.equations.INPUTS)
-        inputs[..., model.input_names.index(velocity_input)] = 1.0
-    twist = model.evaluate("velocities", states, inputs)[..., _knuckle(model), :]
-    turning, velocity = twist[..., :3], twist[..., 3:]
-    origin = model.evaluate("positions", states, inputs)[..., _knuckle(model), :]
+    def rate(point: str) -> Array:
+        # a strut turns about its mount on the chassis
+        if point not in given.CARRIERS:
+            return np.zeros_like(by_arm.velocity)
+        return by_arm.velocity + np.cross(by_arm.turning, points[point] - points["wheel_center"])
 
-    def at(point: str) -> Array:
-        return velocity + np.cross(turning, points[point] - origin)
+    low, high = given.STEERING_AXIS
+    return SteeringAxis(points[low], points[high], rate(high) - rate(low))
 
-    given = model.suspension.hardpoints
-    # a strut turns about its mount on the chassis
-    lower, upper = (
-        at(point) if point in given.CARRIERS else np.zeros_like(velocity)
-        for point in given.STEERING_AXIS
-    )
-    return Motion(at("wheel_center"), turning, lower, upper)
+
+def _axis_of_the_motion(pose: _Pose) -> SteeringAxis:
+    """Return the axis of the carrier's first motion when it is steered."""
+    place = pose.model.state_names.index(pose.model.names.arm)
+
+    def ends(turn: float) -> tuple[Array, Array]:
+        states = pose.states.copy()
+        states[..., place] += turn
+        moved = _Pose(pose.model, states, pose.inputs)
+        return of_the_screw(moved.points["wheel_center"], moved.steering_with_spring_locked())
+
+    return differenced(ends)

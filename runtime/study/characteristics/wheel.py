@@ -56,8 +56,8 @@ def caster(corner: Corner) -> Array:
 
 def caster_gradient(corner: Corner) -> Array:
     """Return the derivative of caster by wheel travel [rad/m]."""
-    turned = corner.travel.upper - corner.travel.lower
-    return _angle_rate(_caster_sides(corner.upper - corner.lower), _caster_sides(turned))
+    axis = corner.upper - corner.lower
+    return _angle_rate(_caster_sides(axis), _caster_sides(corner.axis_rate))
 
 
 def kingpin_inclination(corner: Corner) -> Array:

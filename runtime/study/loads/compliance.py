@@ -295,7 +295,7 @@ def _told(
     moved = np.einsum("nab,nb->na", flexibility, load)
     turn = moved[:, 3:]
     shift = moved[:, :3] + np.cross(turn, arm)
-    as_motion = replace(there, travel=Motion(shift, turn, shift, shift))
+    as_motion = replace(there, travel=Motion(shift, turn))
     told = [
         ("toe", "rad", "toe angle", "positive toe-in", wheel.bump_steer(as_motion)),
         ("camber", "rad", "camber", "positive with the top outboard",

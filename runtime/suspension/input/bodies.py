@@ -1,6 +1,7 @@
 """The bodies of a suspension: masses, centres of mass and inertia tensors."""
 
 from abc import abstractmethod
+from typing import ClassVar
 
 import numpy as np
 from pydantic import Field
@@ -117,9 +118,27 @@ class WheelBody(Section):
 
 
 class Bodies(Section):
-    """All bodies that may carry mass: those of a suspension are its `RigidBody` attributes."""
+    """All bodies that may carry mass: those of a suspension are its `RigidBody` attributes.
+
+    Attributes
+    ----------
+    MASSLESS : tuple of str
+        Bodies that the equations of the suspension leave without mass.
+    """
+
+    MASSLESS: ClassVar[tuple[str, ...]] = ()
 
     wheel: WheelBody = Field(description="the wheel")
+
+    def problems(self) -> list[str]:
+        """Refuse mass that the equations would leave out."""
+        heavy = {name: getattr(self, name).mass_kg for name in self.MASSLESS}
+        return [
+            f"{name}.mass_kg = {mass} kg: the equations of this suspension leave this body without "
+            "mass; allowed is 0 kg. Set it to 0, and add what moves with the knuckle there."
+            for name, mass in heavy.items()
+            if mass > 0.0
+        ]
 
     def rigid(self) -> dict[str, RigidBody]:
         """Return all bodies but the wheel, by their names."""

@@ -41,8 +41,9 @@ class Hardpoints(Section):
         The bearings of each arm on the chassis, by the ball joint that it carries.
     JOINTS : tuple of str
         Moving points that belong into a table of positions, besides the wheel centre.
-    STEERING_AXIS : tuple of str
-        The lower and the upper point on the axis about which the wheel is steered.
+    STEERING_AXIS : tuple of str or None
+        The lower and the upper point on the axis about which the wheel is steered; None where no
+        two points are on it, and the motion tells it.
     AXIS_NAME : str
         What this axis is called in messages.
     """
@@ -51,7 +52,7 @@ class Hardpoints(Section):
     CARRIERS: ClassVar[Mapping[str, str]]
     ARMS: ClassVar[Mapping[str, Pair]]
     JOINTS: ClassVar[tuple[str, ...]]
-    STEERING_AXIS: ClassVar[Pair]
+    STEERING_AXIS: ClassVar[Pair | None]
     AXIS_NAME: ClassVar[str] = "steering axis"
 
     unit: LengthUnit = Field(description='the unit of the hardpoints, "mm" or "m"')
@@ -116,9 +117,12 @@ class Hardpoints(Section):
         points = [f"{name} = {list(getattr(self, name))} {self.unit}" for name in names]
         return f"[hardpoints] {' and '.join(points)}"
 
-    @abstractmethod
     def steering_axis(self) -> Vector | None:
-        """Return the unit vector upward along the axis of steering; None if it is not defined."""
+        """Return the unit vector upward along the axis of steering; None if no points tell it."""
+        if self.STEERING_AXIS is None or self.distance(*self.STEERING_AXIS) < SMALLEST_DISTANCE:
+            return None
+        low, high = map(self.metres, self.STEERING_AXIS)
+        return unit_vector(high - low)
 
     # -- what they must fulfil ------------------------------------------------------------------
 
@@ -223,9 +227,8 @@ class Hardpoints(Section):
         )
         return [problem]
 
-    def steering_problems(self) -> list[str]:
+    def steering_problems(self, low: str, high: str) -> list[str]:
         """Check that the tie rod can turn the knuckle about the line of two points of it."""
-        low, high = self.STEERING_AXIS
         direction = unit_vector(self.metres(high) - self.metres(low))
         outer, foot = self.metres("tie_rod_outer"), self.metres(low)
         arm = distance_from_line(outer, foot, self.metres(high))

@@ -16,7 +16,7 @@ from pydantic import Field
 from ...generated import macpherson, macpherson_free_rack, macpherson_general
 from ...systems.compile.build import compile_mechanism, require_generator
 from ..base import Suspension
-from ..corner import Array, Plane, Spring, Stroke
+from ..corner import Array, Motion, Plane, Spring, Stroke
 from ..drawing import Axis, Drawing
 from ..facts import Allowed, Extended, Names
 from ..input.bodies import Bodies, Rack, RigidBody, TieRod
@@ -143,7 +143,7 @@ class MacPhersonHardpoints(Hardpoints):
         if "control arm" not in coinciding.values():
             problems += self.hinge_problems("arm_front", "arm_rear", "ball_joint")
         if not coinciding.keys() & _DIRECTIONS_OF_STEERING:
-            problems += self.steering_problems()
+            problems += self.steering_problems(*self.STEERING_AXIS)
             strut, rod = ("strut_top", "strut_lower"), ("tie_rod_inner", "tie_rod_outer")
             problems += self.cross_problems(strut, "strut", _FORWARD, "the x axis")
             problems += self.cross_problems(rod, "tie rod", _UP, "the vertical")
@@ -356,8 +356,9 @@ the strut extended (`spring_preload_N`), or by its force at the design position
 
     # -- what its characteristics are computed from ---------------------------------------------
 
-    def links_at(self, points: Mapping[str, Array]) -> tuple[Plane, Plane]:
+    def links_at(self, points: Mapping[str, Array], travel: Motion) -> tuple[Plane, Plane]:
         """Return the plane of the control arm and that across the strut through its mount."""
+        del travel
         ball, front, rear = points["ball_joint"], points["arm_front"], points["arm_rear"]
         top, bottom = points["strut_top"], points["strut_lower"]
         return Plane(ball, np.cross(front - rear, ball - rear)), Plane(top, top - bottom)

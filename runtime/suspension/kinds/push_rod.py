@@ -13,25 +13,17 @@ from pydantic import Field
 
 from ...core.errors import InputError
 from ...generated import push_rod
+from ..coil_sprung import CoilDamper, Spring
 from ..drawing import Axis, Drawing
 from ..input.bodies import Rack, RigidBody, TieRod
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints
 from ..input.section import Triple
 from ..input.vectors import Vector, distance_from_line, unit_vector
 from ..structure import FORCES_OF_A_DAMPER, Ball, Cross, Hinge, Line, Structure
-from .double_wishbone import (
-    CoilDamper,
-    DoubleWishbone,
-    DoubleWishboneBodies,
-    DoubleWishboneHardpoints,
-    Spring,
-)
+from .double_wishbone import DoubleWishbone, DoubleWishboneBodies, DoubleWishboneHardpoints
 
 _ROCKER = ("rocker_front", "rocker_rear")
 _PUSH_ROD = ("push_rod_outer", "push_rod_inner")
-
-# Bodies that the equations leave without mass.
-_MASSLESS = ("tie_rod", "rack", "push_rod")
 
 
 class PushRodHardpoints(DoubleWishboneHardpoints):
@@ -119,7 +111,7 @@ class PushRodBody(RigidBody):
 class PushRodBodies(DoubleWishboneBodies):
     """All bodies. Tie rod, rack and push rod have no mass in the equations of this suspension."""
 
-    MASSLESS: ClassVar[tuple[str, ...]] = _MASSLESS
+    MASSLESS: ClassVar[tuple[str, ...]] = ("tie_rod", "rack", "push_rod")
 
     rocker: Rocker = Field(default=Rocker(mass_kg=0.0), description="the rocker")
     push_rod: PushRodBody = Field(

@@ -40,8 +40,9 @@ export class Linkage {
     return this.#data.upright.map((place) => at(place, points));
   }
 
+  /** Two points on the axis about which the wheel is steered; null where none are on it. */
   steeringAxis(points) {
-    return this.#data.steering_axis.map((name) => points[name]);
+    return this.#data.steering_axis?.map((name) => points[name]) ?? null;
   }
 }
 

@@ -282,7 +282,10 @@ export class Mechanism extends Group {
     this.wheel.quaternion.copy(aligned).multiply(spun);
   }
 
-  #poseSteeringAxis([foot, top], roadHeight) {
+  #poseSteeringAxis(line, roadHeight) {
+    this.axis.visible = line !== null;
+    if (!this.axis.visible) return;
+    const [foot, top] = line;
     const along = top.clone().sub(foot);
     const ground = foot.clone().addScaledVector(along, (roadHeight - foot.z) / along.z);
     const above = top.clone().addScaledVector(along.normalize(), 0.08);

@@ -1,0 +1,237 @@
+"""The multi-link suspension: five links that hold a knuckle, whose loops are closed by iteration.
+
+`test_mechanisms` compares its equations with maximal coordinates, like those of every model.
+"""
+
+import shlex
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from kintrafo import (
+    Axle,
+    InputError,
+    Model,
+    Suspension,
+    axles,
+    characteristics,
+    equilibrium,
+    simulate,
+    state_at_height,
+)
+from kintrafo.suspension.points import hardpoints
+from kintrafo.suspension.positions import arm_angles, design_height
+from kintrafo.suspension.reach import at_rest
+from scipy.optimize import brentq, fsolve
+from scipy.spatial.transform import Rotation
+from test_cli_commands import commands_of, kintrafo  # noqa: F401 (a fixture)
+
+CAR = Suspension.load("multi_link_car")
+MODEL = Model(CAR)
+LINKS = ("front_upper_link", "rear_upper_link", "front_lower_link", "rear_lower_link", "tie_rod")
+TRAVELS = np.linspace(-0.08, 0.08, 9)
+TIMES = np.linspace(0.0, 0.4, 9)
+
+
+def points_at(model: Model, travels: np.ndarray, rack: float = 0.0) -> dict[str, np.ndarray]:
+    """Return the hardpoints at wheel travels."""
+    angles = arm_angles(model, design_height(model) + travels, rack)
+    return hardpoints(model, *at_rest(model, angles, rack))
+
+
+# -- against a root finder ----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("rack", [0.0, 0.015])
+def test_the_knuckle_is_where_a_root_finder_puts_it(rack: float) -> None:
+    """Lengths of five links and a height, in the shift and the turn of the knuckle."""
+    design, found = CAR.hardpoints.at_design(), points_at(MODEL, TRAVELS, rack)
+    center, ends = design["wheel_center"], np.array([design[f"{name}_outer"] for name in LINKS])
+    inner = np.array([design[f"{name}_inner"] for name in LINKS])
+    lengths = np.linalg.norm(ends - inner, axis=1)
+    inner[-1, 1] += rack
+    for i, travel in enumerate(TRAVELS):
+
+        def moved(pose: np.ndarray, places: np.ndarray) -> np.ndarray:
+            turned = Rotation.from_rotvec(pose[3:]).apply(places - center)
+            return center + pose[:3] + turned
+
+        def misfit(pose: np.ndarray, travel: float = travel) -> np.ndarray:
+            off = np.linalg.norm(moved(pose, ends) - inner, axis=1) - lengths
+            return np.append(off, pose[2] - travel)
+
+        pose, _, ended, words = fsolve(misfit, np.zeros(6), xtol=1e-14, full_output=True)
+        assert np.abs(misfit(pose)).max() < 1e-13, (ended, words)
+        for name, place in zip(LINKS, moved(pose, ends), strict=True):
+            # roundings of lengths below 1 m, over a condition of some ten
+            np.testing.assert_allclose(found[f"{name}_outer"][i], place, rtol=0.0, atol=1e-13)
+
+
+# -- arms of two links each are a double wishbone -----------------------------------------------
+
+WISHBONES = Suspension.load("double_wishbone_car").with_changes(
+    # on the line of the rear lower link, where link and arm carry it alike
+    {"hardpoints.spring_seat": [-36.0, -648.0, 187.0]}
+)
+
+
+def as_links() -> Suspension:
+    """Return the double wishbone as five links, of which two and two meet in a ball joint."""
+    wishbones, data = WISHBONES.to_dict(), CAR.to_dict()
+    points = wishbones["hardpoints"]
+    data["hardpoints"] = {"unit": "mm"} | {
+        name: points[name] for name in ("tie_rod_outer", "tie_rod_inner", "wheel_center")
+    }
+    for level in ("upper", "lower"):
+        for end in ("front", "rear"):
+            data["hardpoints"][f"{end}_{level}_link_inner"] = points[f"{level}_arm_{end}"]
+            data["hardpoints"][f"{end}_{level}_link_outer"] = points[f"{level}_ball_joint"]
+    for end in ("seat", "top"):
+        data["hardpoints"][f"spring_{end}"] = points[f"spring_{end}"]
+    data["hardpoints"]["damper_top"] = points["spring_top"]
+    data["hardpoints"]["damper_seat"] = points["lower_ball_joint"]
+    for section in ("vehicle", "wheel", "spring", "tyre", "rack", "gravity"):
+        data[section] = wishbones[section]
+    data["bodies"] = {
+        "knuckle": wishbones["bodies"]["knuckle"],
+        "wheel": wishbones["bodies"]["wheel"],
+        "rear_lower_link": {"mass_kg": 0.0},
+    }
+    return Suspension.from_dict(data)
+
+
+def test_the_seat_is_on_the_line_of_the_link() -> None:
+    seat, rear, ball = (
+        WISHBONES.hardpoints.metres(name)
+        for name in ("spring_seat", "lower_arm_rear", "lower_ball_joint")
+    )
+    assert np.linalg.norm(np.cross(seat - rear, ball - rear)) < 1e-12
+
+
+def test_arms_of_two_links_are_wishbones() -> None:
+    """All characteristics, the axis of steering among them, which only one of the two knows."""
+    ours, theirs = (characteristics.travel(Model(car), TRAVELS) for car in (as_links(), WISHBONES))
+    others = {"arm_rotation", "damper_length", "damper_motion_ratio"}
+    # of the planes of arms there, which know no toe link, and of the motion here
+    others |= {"roll_center_height_geometric", "swing_arm_length_geometric"}
+    assert len(set(ours.data_vars) - others) == 24
+    for name in set(ours.data_vars) - others:
+        # what the positions are rounded to, in curves with slopes of some tens; differences of
+        # fourth order leave 1e-10 of the caster's gradient
+        least = 1e-8 if name == "caster_gradient" else 1e-10
+        np.testing.assert_allclose(ours[name], theirs[name], rtol=least, atol=least, err_msg=name)
+
+
+def test_it_rests_and_swings_as_the_wishbones() -> None:
+    light = {f"bodies.{arm}": {"mass_kg": 1e-9} for arm in ("lower_arm", "upper_arm")}
+    cars = (
+        as_links().with_changes({"damper.rate_N_s_per_m": 0.0}),
+        WISHBONES.with_changes(light | {"damper.rate_N_s_per_m": 0.0}),
+    )
+    heights = []
+    for car in cars:
+        model = Model(car)
+        start = state_at_height(model, design_height(model) + 0.03)
+        result = simulate(model, (0.0, 0.4), start, t_eval=TIMES, rtol=1e-10, atol=1e-12)
+        rest = float(model.signal("wheel_center_z", equilibrium(model)))
+        heights.append([*model.signal("wheel_center_z", result.y.T), rest])
+    # the accuracy of both solutions, over some periods
+    np.testing.assert_allclose(heights[0], heights[1], rtol=0.0, atol=1e-8)
+
+
+# -- what it is as a suspension -----------------------------------------------------------------
+
+
+def test_the_left_one_is_its_image() -> None:
+    right = characteristics.travel(MODEL, TRAVELS)
+    left = characteristics.travel(Model(CAR.mirrored()), TRAVELS)
+    for name in right.data_vars:
+        sign = -1.0 if name == "steer" else 1.0
+        np.testing.assert_allclose(left[name], sign * right[name], rtol=1e-9, atol=1e-12)
+
+
+def test_the_knuckle_turns_about_the_axis_that_is_told() -> None:
+    """When the rack moves and the spring keeps its length, no point moves along the axis alone."""
+    travel, by = 0.04, 1e-4
+    here = characteristics.travel(MODEL, [travel])
+    caster, kpi = float(here["caster"][0]), float(here["kingpin_inclination"][0])
+    axis = np.array([-np.tan(caster), np.tan(kpi), 1.0])  # a right wheel's top leans to the left
+    state = state_at_height(MODEL, design_height(MODEL) + travel)
+    length = MODEL.signal("spring_length", state)
+
+    def locked(rack: float) -> dict[str, np.ndarray]:
+        def stretched(angle: float) -> float:
+            return float(MODEL.signal("spring_length", *at_rest(MODEL, angle, rack)) - length)
+
+        angle = brentq(stretched, state[0] - 0.1, state[0] + 0.1, xtol=1e-15)
+        return hardpoints(MODEL, *at_rest(MODEL, angle, rack))
+
+    ahead, behind = locked(by), locked(-by)
+    moved = {name: (ahead[name] - behind[name]) / (2.0 * by) for name in ahead}
+    turned = 0.0
+    for name in (f"{link}_outer" for link in LINKS):
+        relative = moved[name] - moved["wheel_center"]
+        # by^2 of the difference
+        assert abs(relative @ axis) < 1e-6
+        turned = max(turned, float(np.abs(relative).max()))
+    assert turned > 0.5
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        # the toe link in the line of the front lower one
+        (
+            {
+                "hardpoints.tie_rod_inner": [230.0, -440.0, 225.0],
+                "hardpoints.tie_rod_outer": [30.0, -705.0, 190.0],
+            },
+            "hardly hold the knuckle",
+        ),
+        (
+            {"hardpoints.rear_upper_link_inner": [-50.0, -680.0, 470.0]},
+            "0.000 mm apart; two points of the rear upper link",
+        ),
+        (
+            {"hardpoints.rear_upper_link_inner": [-50.0, -680.0, 300.0]},
+            "the rear upper link is 0.000 deg from the vertical",
+        ),
+        ({"bodies.front_upper_link": {"mass_kg": 1.0}}, "leave this body without mass"),
+        ({"damper.length_min_mm": 600.0}, "the distance of damper_seat and damper_top"),
+    ],
+)
+def test_what_cannot_be_is_refused(changes: dict[str, Any], words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        CAR.with_changes(changes)
+
+
+def test_stops_act_along_the_damper() -> None:
+    car = CAR.with_changes({"bump_stop": {"clearance_mm": 20.0, "rate_N_per_m": 1e5}})
+    model = Model(car)
+    state = state_at_height(model, design_height(model) + 0.05)
+    signals = model.signals(state)
+    length = car.hardpoints.distance("damper_seat", "damper_top")
+    pressed = length - 0.02 - float(signals["damper_length"])
+    assert float(signals["bump_stop_force"]) == pytest.approx(1e5 * pressed, rel=1e-9)
+
+
+def test_an_axle_of_it_rolls() -> None:
+    axle = Axle.from_dict({"axle": "rear", "side": CAR})
+    found = axles.roll(axle, [-0.03, 0.0, 0.03])
+    rate = characteristics.travel(MODEL, [0.0])["wheel_rate"].values[0]
+    half = found["track"].values[1] / 2.0
+    assert float(found["roll_stiffness"][1]) == pytest.approx(2.0 * rate * half**2, rel=1e-9)
+    np.testing.assert_allclose(found["toe_left"], found["toe_right"][::-1], rtol=0.0, atol=1e-12)
+
+
+@pytest.mark.usefixtures("coarse_report", "first_page_of_curves")
+def test_the_commands_of_the_page_run(kintrafo: Any) -> None:  # noqa: F811
+    page = Path(__file__).parent.parent / "docs/multi-link.md"
+    commands = commands_of(page.read_text(encoding="utf-8"))
+    assert len(commands) == 9
+    for line in commands:
+        program, *arguments = shlex.split(line)
+        assert program == "kintrafo"
+        code, out, err = kintrafo(*arguments)
+        assert (code, bool(out)) == (0, True), (line, err)
