@@ -9,16 +9,28 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kintrafo import Axle, AxleModel, InputError, Model, PositionError, Suspension, axles, roads
+from kintrafo import (
+    Axle,
+    AxleModel,
+    InputError,
+    Model,
+    PositionError,
+    Suspension,
+    axles,
+    loads,
+    roads,
+)
 from kintrafo.report import axle_chapter
 from kintrafo.study.axles import checkup, motions, ride
 from kintrafo.study.axles import rolling as formulas
 from kintrafo.study.axles.pair import Pair
 from kintrafo.study.characteristics import wheel
+from kintrafo.study.characteristics.from_model import corner as corner_of
 from kintrafo.study.compare import differences
 from kintrafo.study.scenario import Scenario
 from kintrafo.suspension.axle.bar import AntiRollBar
 from kintrafo.suspension.positions import arm_angles, design_height
+from kintrafo.suspension.reach import at_rest
 from kintrafo.systems.compile.compiler import find_compiler
 from scipy.optimize import brentq
 from test_cli_commands import commands_of, kintrafo  # noqa: F401 (a fixture)
@@ -563,6 +575,8 @@ def test_the_page_of_a_rear_axle_has_nothing_of_a_front_one(kintrafo: Any, tmp_p
 @pytest.mark.usefixtures("coarse_report", "first_page_of_curves")
 def test_the_commands_of_the_page_run(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
     page = (ROOT / "docs/axles.md").read_text(encoding="utf-8")
+    (bushes,) = re.findall(r"```toml\n(# bushes.toml.*?)```", page, flags=re.DOTALL)
+    (tmp_path / "bushes.toml").write_text(bushes, encoding="utf-8")
     for line in commands_of(page):
         program, *arguments = shlex.split(line)
         assert program == "kintrafo"
@@ -589,3 +603,111 @@ def test_commands_refuse_what_only_the_other_sort_has(kintrafo: Any) -> None:  #
         text = " ".join(err.replace("│", " ").split())
         assert code == 2, line
         assert word in text, (line, text)
+
+
+# -- compliance of both wheels ------------------------------------------------------------------
+
+SOFT: dict[str, Any] = {
+    "arm_front": {"axial_N_per_mm": 1500.0, "radial_N_per_mm": [8000.0, 5000.0]},
+    "arm_rear": {
+        "axial_N_per_mm": 400.0,
+        "radial_N_per_mm": 1200.0,
+        "axis": [0.2, 0.1, 1.0],
+    },
+}
+RACK = {"rack": {"axial_N_per_mm": 2500.0}}
+PLAIN = Axle.from_dict({"axle": "front", "side": CAR})
+
+
+@pytest.mark.parametrize("held", ["height", "spring", "locked"])
+def test_wheels_that_share_nothing_give_way_by_themselves(held: Any) -> None:
+    """Both blocks are those of one wheel, mirrored bushes on a mirrored car among them."""
+    found = axles.compliance(PLAIN, SOFT, [0.03], held=held)["flexibility"].values[0]
+    right = loads.compliance(Model(CAR), SOFT, [0.03], held=held)["flexibility"].values[0]
+    image = np.array([1.0, -1.0, 1.0, -1.0, 1.0, -1.0])
+    np.testing.assert_allclose(found[6:, 6:], right, rtol=1e-9, atol=1e-15)
+    np.testing.assert_allclose(
+        found[:6, :6], image[:, None] * right * image, rtol=1e-9, atol=1e-9 * abs(right).max()
+    )
+    assert not found[:6, 6:].any()
+
+
+def test_a_soft_rack_steers_as_the_kinematics_say() -> None:
+    """With locked springs, by virtual work: the rack gives way to what the contacts do on it.
+
+    The spring of a double wishbone is locked where its arm is.
+    """
+    travel, step, force, softness = 0.03, 1e-5, 1000.0, 1.0 / 2.5e6
+    axle = Axle.from_dict({"axle": "front", "side": WISHBONES})
+    found = axles.compliance(axle, RACK, [travel], held="locked").isel(wheel_travel=0)
+    model = axle.models["right"]
+    angle = arm_angles(model, design_height(model) + travel)
+    knuckle = model.equations.BODIES.index("knuckle")
+
+    def pose(rack: float) -> tuple[np.ndarray, np.ndarray]:
+        state = at_rest(model, angle, rack)
+        center, turned = (model.evaluate(f, *state) for f in ("positions", "orientations"))
+        return center[knuckle], turned[knuckle]
+
+    center, turned = pose(0.0)
+    contact = turned.T @ (wheel.contact(corner_of(model, angle)) - center)
+
+    def contact_and_toe(rack: float) -> np.ndarray:
+        center, turned = pose(rack)
+        return np.append(center + turned @ contact, wheel.toe(corner_of(model, angle, rack)))
+
+    slope = (contact_and_toe(step) - contact_and_toe(-step)) / (2.0 * step)
+    ahead, left = np.array([slope[0], slope[1]])
+    heading = float(wheel.steer(corner_of(model, angle)))  # in the axes of the tyre
+    along = ahead * np.cos(heading) + left * np.sin(heading)
+    across = left * np.cos(heading) - ahead * np.sin(heading)
+    for name, turns, other in (
+        ("lateral_parallel", force * across, "lateral_opposed"),  # to the left, both
+        ("braking_opposed", force * along, "braking_parallel"),  # forward on the right
+    ):
+        toe = softness * 2.0 * turns * slope[3]
+        sides = [force * float(found[f"toe_by_{name}_{s}"]) for s in ("right", "left")]
+        assert sides == pytest.approx([toe, -toe], rel=1e-6)  # step^2 of the difference
+        assert abs(float(found[f"toe_by_{other}_right"]) * force) < 1e-9 * abs(toe)
+
+
+@pytest.mark.parametrize("axle", [AXLE, BENT], ids=["reference", "bent"])
+def test_the_bar_couples_the_wheels_as_the_rig_says(axle: Axle) -> None:
+    """Nothing else is soft: the heights of both contacts against rates of springs and bar."""
+    travel = 0.02
+    found = axles.compliance(axle, {"rack": {"axial_N_per_mm": 1e11}}, [travel], held="spring")
+    pair = Pair.at(axle, [travel], [travel], 0.0)
+    slopes = [pair.halves["left"].slope[0], -pair.halves["right"].slope[0]]
+    stiffness = axle.bar.rate() * np.outer(slopes, slopes)
+    rise = []
+    for i, side in enumerate(("left", "right")):
+        at = pair.corners[side]
+        stiffness[i, i] += wheel.wheel_rate(at)[0]
+        rise.append(wheel.contact_velocity(at)[0, 2])
+    expected = np.outer(rise, rise) * np.linalg.inv(stiffness)
+    heights = found["flexibility"].values[0][np.ix_([2, 8], [2, 8])]
+    np.testing.assert_allclose(heights, expected, rtol=1e-6, atol=1e-6 * expected.max())
+
+
+def test_the_matrix_of_an_axle_is_symmetric() -> None:
+    soft = {name.replace("arm", "lower_arm"): table for name, table in SOFT.items()} | RACK
+    for held in ("height", "spring", "locked"):
+        matrix = axles.compliance(BENT, soft, [-0.02, 0.03], held=held)["flexibility"].values
+        np.testing.assert_allclose(matrix, matrix.mT, rtol=0.0, atol=1e-12 * abs(matrix).max())
+        assert (np.linalg.eigvalsh(matrix) > -1e-12 * abs(matrix).max()).all()
+
+
+@pytest.mark.parametrize(
+    ("bushes", "words"),
+    [
+        ({}, "one or more are needed"),
+        ({"rack": {"radial_N_per_mm": 1.0}}, "axial_N_per_mm, and nothing else"),
+        ({"rack": {"axial_N_per_mm": 0.0}}, r"\[bushings.rack\] axial_N_per_mm"),
+        ({"lower_ball": {"axial_N_per_mm": 10.0}}, "lower_ball"),
+        ({"arm_rear": 3.0}, "must be a section"),
+        ({"arm_rear": {"axial_N_per_mm": 1.0, "axis": "up"}}, "axis"),
+    ],
+)
+def test_bushes_that_are_none_are_refused(bushes: Any, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        axles.compliance(PLAIN, bushes, [0.0])

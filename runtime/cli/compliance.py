@@ -1,19 +1,37 @@
-"""``kintrafo compliance``: how the wheel gives way on its bushes."""
+"""``kintrafo compliance``: how the wheels give way on their bushes."""
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
 import typer
 
+from .axles import is_axle
 from .console import print_json, print_table, say
 from .options import Bump, File, Force, Json, Rebound, load, metres
 from .outputs import Out, Outputs, Plot, name_files
 from .variation_options import At, with_position
 
+if TYPE_CHECKING:
+    from xarray import Dataset
+
 EXAMPLES = (
     "kintrafo compliance my_car.toml bushes.toml",
     "kintrafo compliance my_car.toml bushes.toml --held spring --plot curves.png -o curves.csv",
+    "kintrafo compliance reference_axle bushes.toml",
 )
+
+Held = Literal["height", "spring", "locked"]
+
+
+class _Where(NamedTuple):
+    """At which positions, and what holds the wheels: lengths in m, but for `at` in mm."""
+
+    at: float
+    rack: float
+    rebound: float | None
+    bump: float | None
+    held: Held
 
 
 def command(
@@ -24,7 +42,7 @@ def command(
     ],
     *,
     held: Annotated[
-        Literal["height", "spring", "locked"],
+        Held,
         typer.Option(help="What holds the wheel: see docs/loads.md."),
     ] = "height",
     at: At = 0.0,
@@ -38,26 +56,26 @@ def command(
 ) -> None:
     """Tell toe, camber and displacement of the wheel per kN and per 100 N m, on its bushes.
 
-    The table is about one position; data files and curves go over wheel travel.
+    The table is about one position; data files and curves go over wheel travel. Of an axle both
+    wheels are loaded, in one direction and oppositely.
     """
-    from ..study import export, sweep
-    from ..study import loads as study
+    from ..study import export
+    from ..study.axles import by_side
+    from ..study.loads import read_bushes
     from ..study.loads.sheets import compliances
 
     outputs = Outputs.of(out, plot, force=force, inputs=[file, bushes])
-    model = load(file)
-    described = study.read_bushes(bushes)
-    usual = sweep.usual_travel(model, rebound=metres(rebound), bump=metres(bump), rack=rack / 1e3)
-    travels = with_position(usual, at)
-    found = study.compliance(model, described, travels, rack_position=rack / 1e3, held=held)
+    where = _Where(at, rack / 1e3, metres(rebound), metres(bump), held)
+    found = (_of_axle if is_axle(file) else _of_wheel)(file, read_bushes(bushes), where)
     curves = found.drop_dims(["moved", "by"])
     written = outputs.write_data(found, rows=curves)
     if outputs.pages:
         from ..plots import curves as plots
 
         title = f"{file}: compliance, {found.attrs['held']}"
+        drawn = by_side(curves) if is_axle(file) else curves
         written += [
-            plots.write_overview(curves, path, (), title, force=force, inputs=[file, bushes])
+            plots.write_overview(drawn, path, (), title, force=force, inputs=[file, bushes])
             for path in outputs.pages
         ]
     if json:
@@ -67,3 +85,23 @@ def command(
     print_table(compliances(curves, title, at / 1e3))
     say(f"{found.attrs['held']}; relaxed bushes, linear.")
     name_files(written)
+
+
+def _of_wheel(file: str, bushes: Mapping[str, Any], where: _Where) -> "Dataset":
+    from ..study import sweep
+    from ..study.loads import compliance
+
+    model = load(file)
+    usual = sweep.usual_travel(model, rebound=where.rebound, bump=where.bump, rack=where.rack)
+    travels = with_position(usual, where.at)
+    return compliance(model, bushes, travels, rack_position=where.rack, held=where.held)
+
+
+def _of_axle(file: str, bushes: Mapping[str, Any], where: _Where) -> "Dataset":
+    from ..study.axles import Extent, compliance, motions
+    from ..suspension.axle import Axle
+
+    axle = Axle.load(file)
+    extent = Extent(rebound=where.rebound, bump=where.bump)
+    travels = with_position(motions.travels(axle, extent), where.at)
+    return compliance(axle, bushes, travels, rack_position=where.rack, held=where.held)

@@ -59,7 +59,7 @@ def command(
         from ..report import write
 
         chapters = [*_of_axle(axle), *_of_loads(model, cases, note, wanted=loads)]
-        chapters += _of_bushes(model, bushes, note)
+        chapters += _of_bushes(model, bushes, axle)
         written = write(
             model,
             target,
@@ -116,11 +116,14 @@ def _of_loads(model: "Model", cases: Path | None, note: str, *, wanted: bool) ->
     return [loads_chapter(study.static(model, named, static_load=load_at_rest), note=note)]
 
 
-def _of_bushes(model: "Model", bushes: Path | None, note: str) -> "list[Chapter]":
+def _of_bushes(model: "Model", bushes: Path | None, axle: "Axle | None") -> "list[Chapter]":
     from ..report import compliance_chapter
+    from ..study import axles
     from ..study import loads as study
 
     if bushes is None:
         return []
-    found = study.compliance(model, study.read_bushes(bushes))
-    return [compliance_chapter(found, note=note)]
+    described = study.read_bushes(bushes)
+    if axle is not None:
+        return [compliance_chapter(axles.compliance(axle, described))]
+    return [compliance_chapter(study.compliance(model, described))]

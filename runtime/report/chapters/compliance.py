@@ -6,19 +6,18 @@ from matplotlib import rc_context
 from ...core.arguments import Arguments
 from ...plots.curves import figure, grouped
 from ...plots.figures import STYLE
+from ...study.axles import by_side
 from ...study.loads.sheets import compliances
 from .chapter import Chapter, Picture
 
 
-def compliance_chapter(found: xr.Dataset, *, note: str = "") -> Chapter:
-    """Return how the wheel gives way on its bushes.
+def compliance_chapter(found: xr.Dataset) -> Chapter:
+    """Return how the wheel gives way on its bushes, or both wheels of an axle.
 
     Parameters
     ----------
     found : xarray.Dataset
-        From `kintrafo.loads.compliance`.
-    note : str, optional
-        The first paragraph: of which side of an axle it is.
+        From `kintrafo.loads.compliance`, or `kintrafo.axles.compliance`.
 
     Returns
     -------
@@ -26,12 +25,11 @@ def compliance_chapter(found: xr.Dataset, *, note: str = "") -> Chapter:
     """
     with Arguments("compliance_chapter") as given:
         given.dataset(found, over="wheel_travel")
-    curves = found.drop_dims([name for name in ("moved", "by") if name in found.dims])
+    curves = by_side(found.drop_dims([name for name in ("moved", "by") if name in found.dims]))
     names = [name for group in grouped(curves).values() for name in group]
     with rc_context(STYLE):
         drawn = figure(curves, names, title="Compliance over wheel travel", alone=False)
         picture = Picture.of(drawn, "Compliances over wheel travel")
     words = f"By the unit-load theorem, linear, bushes relaxed: {found.attrs['held']}."
     sheet = compliances(found, "At design")
-    paragraphs = (note, words) if note else (words,)
-    return Chapter("Compliance", paragraphs, (sheet,), (picture,))
+    return Chapter("Compliance", (words,), (sheet,), (picture,))

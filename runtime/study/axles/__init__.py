@@ -7,6 +7,7 @@
     `catalogue`  name, unit, definition and sign of each
     `datasets`   the labelled arrays
     `compare`    several axles over one motion
+    `compliance` how both wheels give way together
     `checkup`    a first look
     `ride`       at rest and over a road, by the equations of the whole axle
 
@@ -14,7 +15,19 @@ What a single wheel does is in `kintrafo.characteristics`. Definitions and signs
 """
 
 from .compare import compare, over
+from .compliance import compliance
 from .datasets import bump, by_side, roll, single, steer
 from .motions import MOTIONS, Extent
 
-__all__ = ["MOTIONS", "Extent", "bump", "by_side", "compare", "over", "roll", "single", "steer"]
+__all__ = [
+    "MOTIONS",
+    "Extent",
+    "bump",
+    "by_side",
+    "compare",
+    "compliance",
+    "over",
+    "roll",
+    "single",
+    "steer",
+]

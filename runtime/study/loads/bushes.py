@@ -21,6 +21,8 @@ Array = NDArray[np.float64]
 
 _STIFFNESSES = ("axial_N_per_mm", "radial_N_per_mm", "tilt_Nm_per_deg")
 _KEYS = (*_STIFFNESSES, "axis", "radial_axis")
+RACK = "rack"
+"""In the place of a hardpoint: how stiff the steering holds the rack along its axis."""
 _PER_MM, _PER_DEG = 1e3, 180.0 / np.pi
 # No bush is softer or stiffer than this, in its units for people.
 _SOFTEST, _STIFFEST = 1e-3, 1e12
@@ -73,7 +75,9 @@ def bushes_of(given: Arguments, model: Model, described: Mapping[str, Any]) -> l
     found = []
     for point, table in described.items():
         title = f"[bushings.{point}]"
-        if given.among("bushings at", point, joints) != point:
+        if point == RACK:
+            continue
+        if given.among("bushings at", point, [*joints, RACK]) != point:
             continue
         if not isinstance(table, Mapping):
             given.refuse(f"{title} must be a section, with {', '.join(_KEYS)}.")
@@ -93,6 +97,17 @@ def bushes_of(given: Arguments, model: Model, described: Mapping[str, Any]) -> l
                 given.refuse(f"{title} tilt_Nm_per_deg: only a wheel bearing carries a moment.")
         found.append(Bush(str(point), compliance))
     return found
+
+
+def softness_of_rack(given: Arguments, described: Mapping[str, Any]) -> float:
+    """Return how far the rack gives way along its axis [m/N]; zero where nothing is said."""
+    if RACK not in described:
+        return 0.0
+    table, title = described[RACK], f"[bushings.{RACK}]"
+    if not isinstance(table, Mapping) or set(table) != {"axial_N_per_mm"}:
+        given.refuse(f"{title} must be a section with axial_N_per_mm, and nothing else.")
+        return 0.0
+    return 1.0 / (_stiffness(given, title, table, "axial_N_per_mm") * _PER_MM)
 
 
 def _translations(given: Arguments, title: str, table: Mapping[str, Any]) -> list[float]:

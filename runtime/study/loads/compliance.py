@@ -2,14 +2,13 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from ...core.arguments import Arguments
-from ...core.errors import InputError
 from ...core.quantities import Display, display_of, variable
 from ...suspension.corner import Corner, Motion
 from ...suspension.model import Model
@@ -20,24 +19,16 @@ from ..characteristics.catalogue import Quantity
 from ..characteristics.datasets import TRAVEL
 from ..characteristics.from_model import corner
 from ..sweep import usual_travel
-from .bushes import Bush, bushes_of, world_compliance
+from .bushes import bushes_of, softness_of_rack
+from .flexibility import HELD, Held, Wheel, flexibility
 from .poses import CENTER, CONTACT, Poses, rotated
-from .reactions import Equations, Load
 
 Array = NDArray[np.float64]
 Vector = tuple[float, float, float]
-Held = Literal["height", "spring", "locked"]
-
-HELD = {
-    "height": "the contact stays at its height",
-    "spring": "spring and stops carry the wheel",
-    "locked": "the spring is locked",
-}
-"""What holds the wheel under the loads."""
 
 
 @dataclass(frozen=True)
-class _Test:
+class RigLoad:
     """A load on the wheel, as a rig applies it.
 
     Attributes
@@ -70,16 +61,21 @@ class _Test:
 
 _KILONEWTON = Display("kN", 1e3)
 _INWARD, _REARWARD, _NOTHING = (0.0, -1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 0.0, 0.0)
-_TESTS = (
-    _Test("lateral", "a lateral force inward at the contact", CONTACT, _INWARD, _NOTHING, "N",
+RIG_LOADS = (
+    RigLoad("lateral", "a lateral force inward at the contact", CONTACT, _INWARD, _NOTHING, "N",
           _KILONEWTON, _INWARD, "inward"),
-    _Test("braking", "a braking force at the contact", CONTACT, _REARWARD, _NOTHING, "N",
+    RigLoad("braking", "a braking force at the contact", CONTACT, _REARWARD, _NOTHING, "N",
           _KILONEWTON, _REARWARD, "rearward"),
-    _Test("recession", "a rearward force at the wheel centre", CENTER, _REARWARD, _NOTHING, "N",
+    RigLoad("recession", "a rearward force at the wheel centre", CENTER, _REARWARD, _NOTHING, "N",
           _KILONEWTON, _REARWARD, "rearward"),
-    _Test("aligning", "a torque about the vertical towards toe-out", CONTACT, _NOTHING,
+    RigLoad("aligning", "a torque about the vertical towards toe-out", CONTACT, _NOTHING,
           (0.0, 0.0, 1.0), "N m", Display("100 N m", 1e2), _NOTHING, ""),
 )  # fmt: skip
+
+
+MOVED = ("x", "y", "z", "rx", "ry", "rz")
+LOADED = ("fx", "fy", "fz", "mx", "my", "mz")
+"""Components of what moves at a contact, and of what is exerted there."""
 
 
 def compliance(
@@ -101,7 +97,8 @@ def compliance(
         of the strut, the tie rod or the wheel; at other ball joints it must be given.
         ``radial_axis``, the direction of the first of two radial numbers. Both in chassis axes at
         design; they turn with the part that is nearer to the chassis. At ``wheel_center``, the
-        bearing, ``tilt_Nm_per_deg`` about all axes across the spin axis.
+        bearing, ``tilt_Nm_per_deg`` about all axes across the spin axis. ``rack``: its
+        ``axial_N_per_mm``, how stiff the steering holds the rack.
     travel : array_like, shape (n,), optional
         Heights of the wheel centre above its design height [m]; by default the usual range.
     rack_position : float, optional
@@ -149,7 +146,8 @@ def compliance(
         described = given.mapping("bushings", bushings, "hardpoints and stiffnesses")
         if not given.refused:
             bushes = bushes_of(given, model, described)
-            if not bushes and not given.refused:
+            rack = softness_of_rack(given, described)
+            if not bushes and not rack and not given.refused:
                 given.refuse("bushings: one or more are needed.")
             if model.suspension.tyre_radius() is None:
                 given.refuse("[tyre] radius_mm is needed: where the road touches the wheel.")
@@ -157,164 +155,90 @@ def compliance(
     angles = arm_angles(model, design_height(model) + travels, rack_position)
     poses = Poses.of(model, *at_rest(model, angles, rack_position))
     there = corner(model, angles, rack_position)
-    flexibility = _flexibility(poses, there, bushes, held)
-    return _dataset(poses, there, flexibility, np.asarray(travels), held)
-
-
-def _flexibility(poses: Poses, there: Corner, bushes: list[Bush], held: Held) -> Array:
-    """Return displacement and rotation of the contact by loads on it, chassis axes, (n, 6, 6)."""
-    forces = _Forces(poses, stopped=bool(there.stops) and held != "locked")
-    structure = poses.model.suspension.structure()
-    by_point = {bush.point: bush for bush in bushes}
-    energy = np.zeros((len(poses.states), *2 * forces.spring.shape[-1:]))
-    if held != "locked":
-        spring, stops = _compliance_of_lines(there)
-        energy += _energy(forces.spring, spring[:, None, None])
-    for joint, carried in zip(structure.joints, forces.carried, strict=True):
-        for i, point in enumerate(joint.at):
-            if point in by_point:
-                soft = world_compliance(by_point[point], joint, poses.turned)
-                energy += _energy(carried[:, i], soft)
-    if forces.stopped:
-        acting = np.isfinite(stops)
-        energy[acting, -1, -1] += stops[acting]
-        energy[~acting, -1, :] = energy[~acting, :, -1] = 0.0
-    total = _released(energy, slice(6, None))
-    return _released(total, slice(2, 3)) if held == "height" else total
-
-
-class _Forces:
-    """What everything carries of unit loads at the contact, and of what is tense by itself.
-
-    Parameters
-    ----------
-    poses : Poses
-    stopped : bool
-        Whether stops carry besides the spring.
-
-    Attributes
-    ----------
-    carried : list of ndarray, each of shape (n, touching points, 6, 6 + tensions)
-        Of each joint: under unit forces and moments in chassis axes, the suspension held by its
-        spring; then in each state of tension, that between spring and stops the last.
-    spring : ndarray, shape (n, 1, 6 + tensions)
-        The force of the spring.
-    """
-
-    def __init__(self, poses: Poses, *, stopped: bool) -> None:
-        self.stopped = stopped
-        equations = Equations(poses, "spring")
-        equations.check()
-        still, at = np.zeros(3), poses.points[CONTACT]
-        loads = [Load("wheel", CONTACT, "road", axis, still, at) for axis in np.eye(3)]
-        loads += [Load("wheel", CONTACT, "road", still, axis, at) for axis in np.eye(3)]
-        applied = [equations.applied([load]) for load in loads]
-        if stopped:
-            applied.append(equations.applied(equations.pushed("damper")))
-        unknowns = equations.solve(np.stack(applied, axis=-1))
-        tensions = [joint.tensions(poses.points) for joint in equations.joints]
-        count, size = sum(t.shape[-1] for t in tensions), unknowns.shape[-1]
-        self.spring = np.insert(unknowns[:, -1:], 6, np.zeros((count, 1, 1)), axis=-1)
-        self.carried, begin = [], 6
-        for at_joint, own in zip(equations.at_joints(unknowns), tensions, strict=True):
-            every = np.zeros((*at_joint.shape[:-1], size + count))
-            every[..., :6], every[..., 6 + count :] = at_joint[..., :6], at_joint[..., 6:]
-            every[..., begin : begin + own.shape[-1]] = own
-            begin += own.shape[-1]
-            self.carried.append(every)
-
-
-def _energy(forces: Array, soft: Array) -> Array:
-    """Return what forces do on the displacements by other ones, (n, forces, forces)."""
-    result: Array = forces.mT @ soft @ forces
-    return result
-
-
-def _released(flexibility: Array, held: slice) -> Array:
-    """Return a flexibility where some displacements are zero, by the forces that this takes."""
-    inner = flexibility[:, held, held]
-    # what is rigid on all sides carries nothing by itself
-    forces = np.linalg.pinv(inner, hermitian=True) @ flexibility[:, held]
-    result = flexibility - flexibility[:, :, held] @ forces
-    return result[:, :6, :6]
-
-
-def _compliance_of_lines(there: Corner) -> tuple[Array, Array]:
-    """Return how far spring and stops give way for a unit force along each, (n,) [m/N].
-
-    With what their own force does as their direction changes.
-    """
-    rates = wheel.wheel_rate(replace(there, stops=()))
-    if not (rates > 0.0).all():
-        at = 1e3 * (there.center - there.design_center)[rates.argmin(), 2]
-        problem = (
-            f"at a wheel travel of {at:.1f} mm the spring has a rate of {rates.min():.4g} N/m at "
-            "the wheel: nothing holds it. Enter a rate, or another travel."
-        )
-        raise InputError([problem], "compliance")
-    stops = wheel.wheel_rate(there) - rates
-    with np.errstate(divide="ignore"):
-        return there.spring.stroke.slope**2 / rates, there.damper.slope**2 / stops
+    flexible = flexibility([Wheel(poses, there, bushes)], held, rack=rack)
+    return _dataset(poses, there, flexible, np.asarray(travels), held)
 
 
 # -- results --------------------------------------------------------------------------------------
 
 
 def _dataset(
-    poses: Poses, there: Corner, flexibility: Array, travels: Array, held: Held
+    poses: Poses, there: Corner, flexible: Array, travels: Array, held: Held
 ) -> xr.Dataset:
     axes = poses.wheel_axes()
     found: dict[Any, Any] = {}
-    for test in _TESTS:
-        for quantity, values in _told(test, poses, there, flexibility):
+    for test in RIG_LOADS:
+        moved = np.einsum("nab,nb->na", flexible, load_at_contact(test, poses, there))
+        for quantity, values in told(test, poses, there, moved):
             found[quantity.name] = xr.Variable(TRAVEL.name, values, quantity.attributes())
     words = "displacement and rotation of the contact by force and moment there, tyre axes"
     found["flexibility"] = variable(
-        (TRAVEL.name, "moved", "by"), rotated(flexibility, axes), words, "SI"
+        (TRAVEL.name, "moved", "by"), rotated(flexible, axes), words, "SI"
     )
     coordinates = {
         TRAVEL.name: xr.Variable(TRAVEL.name, travels, TRAVEL.attributes()),
-        "moved": ["x", "y", "z", "rx", "ry", "rz"],
-        "by": ["fx", "fy", "fz", "mx", "my", "mz"],
+        "moved": list(MOVED),
+        "by": list(LOADED),
     }
     return xr.Dataset(found, coordinates, {"title": "compliance", "held": HELD[held]})
 
 
-def _told(
-    test: _Test, poses: Poses, there: Corner, flexibility: Array
-) -> Iterator[tuple[Quantity, Array]]:
-    """Yield what the wheel does under a load, by the formulas of the characteristics."""
+def load_at_contact(test: RigLoad, poses: Poses, there: Corner) -> Array:
+    """Return the load of a rig on a wheel, as force and moment at its contact, (n, 6).
+
+    On a right wheel it is the mirror image of that on a left one. Chassis axes [N], [N m].
+    """
     axes, side = poses.wheel_axes(), there.vehicle.side
-    mirror = np.array([1.0, side, 1.0])
     force, moment = (
         np.einsum("nij,i->nj", axes, vector)
-        for vector in (mirror * test.force, side * mirror * test.moment)
+        for vector in (_mirror(side) * test.force, side * _mirror(side) * test.moment)
     )
     arm = poses.points[test.at] - poses.points[CONTACT]
-    load = np.concatenate([force, moment + np.cross(arm, force)], axis=-1)
-    moved = np.einsum("nab,nb->na", flexibility, load)
+    return np.concatenate([force, moment + np.cross(arm, force)], axis=-1)
+
+
+def told(
+    test: RigLoad, poses: Poses, there: Corner, moved: Array, *, how: str = ""
+) -> Iterator[tuple[Quantity, Array]]:
+    """Yield what the wheel does under a load, by the formulas of the characteristics.
+
+    Parameters
+    ----------
+    test : RigLoad
+    poses : Poses
+    there : Corner
+    moved : ndarray, shape (n, 6)
+        Displacement and rotation of the contact, chassis axes [m], [rad].
+    how : str, optional
+        How both wheels of an axle are loaded.
+    """
+    axes, side = poses.wheel_axes(), there.vehicle.side
     turn = moved[:, 3:]
-    shift = moved[:, :3] + np.cross(turn, arm)
+    shift = moved[:, :3] + np.cross(turn, poses.points[test.at] - poses.points[CONTACT])
     as_motion = replace(there, travel=Motion(shift, turn))
-    told = [
+    values: list[tuple[str, str, str, str, Array]] = [
         ("toe", "rad", "toe angle", "positive toe-in", wheel.bump_steer(as_motion)),
         ("camber", "rad", "camber", "positive with the top outboard",
          wheel.camber_gradient(as_motion)),
     ]  # fmt: skip
     if test.where:
-        along = np.einsum("nij,i->nj", axes, mirror * test.sense)
+        along = np.einsum("nij,i->nj", axes, _mirror(side) * test.sense)
         words = f"displacement {test.where}"
-        told.append(("displacement", "m", words, "", (along * shift).sum(axis=-1)))
-    for name, unit, words, sign, values in told:
+        values.append(("displacement", "m", words, "", (along * shift).sum(axis=-1)))
+    for name, unit, words, sign, numbers in values:
         shown = display_of({"units": unit})
         display = Display(f"{shown.units}/{test.shown.units}", shown.factor * test.shown.factor)
         where = f"of the {test.at.replace('_', ' ').replace('center', 'centre')}"
         quantity = Quantity(
             f"{name}_by_{test.name}",
             f"{unit}/({test.unit})" if " " in test.unit else f"{unit}/{test.unit}",
-            f"{words} by {test.words}",
+            f"{words} by {test.words}{how and f', {how}'}",
             f"{words} {where}" if name == "displacement" else f"change of {words}",
             sign or f"positive {test.where}",
             display=display,
         )
-        yield quantity, values
+        yield quantity, numbers
+
+
+def _mirror(side: float) -> Array:
+    return np.array([1.0, side, 1.0])

@@ -61,20 +61,22 @@ def compliances(found: xr.Dataset, title: str, at: float = 0.0) -> Tabulated:
     Parameters
     ----------
     found : xarray.Dataset
-        From `compliance`.
+        From `compliance`, of a wheel or of both of an axle.
     title : str
     at : float, optional
         Wheel travel [m].
     """
     here = found.sel(wheel_travel=at, method="nearest")
+    on_axle = "toe_by_lateral" not in here
     rows = []
-    for name in (str(name) for name in here if str(name).startswith("toe_by_")):
+    for name in (n for n in map(str, here) if n.startswith("toe_by_")):
         load = name.removeprefix("toe_by_")
-        cells = [
-            significant(float(displayed(here[key]))) if key in here else "-"
-            for key in (name, f"camber_by_{load}", f"displacement_by_{load}")
-        ]
+        keys = [f"{kind}_by_{load}" for kind in ("toe", "camber", "displacement")]
+        cells = [significant(float(displayed(here[k]))) if k in here else "-" for k in keys]
         per = display_of(here[name].attrs).units.partition("/")[2]
-        rows.append((long_name(here[name]).partition(" by a ")[2], per, *cells))
-    columns = ("by", "per", "toe-in [deg]", "camber [deg]", "along the force [mm]")
-    return Tabulated(title, columns, tuple(rows), frozenset({0, 1}))
+        words = long_name(here[name]).partition(" by ")[2].removeprefix("a ")
+        by, wheel = words.rsplit(", ", 1) if on_axle else (words, "")
+        rows.append((by, *[wheel][: int(on_axle)], per, *cells))
+    first = ("by", "wheel", "per") if on_axle else ("by", "per")
+    columns = (*first, "toe-in [deg]", "camber [deg]", "inward, rearward [mm]")
+    return Tabulated(title, columns, tuple(rows), frozenset(range(len(first))))

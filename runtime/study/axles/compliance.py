@@ -1,0 +1,227 @@
+"""How both wheels of an axle give way together: on their bushes, a soft rack, the anti-roll bar."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike
+
+from ...core.arguments import Arguments
+from ...core.quantities import variable
+from ...suspension.axle import Axle
+from ...suspension.axle.axle import LEFT, RIGHT
+from ...suspension.corner import Array
+from ...suspension.points import carried
+from ...suspension.positions import arm_angles, design_height
+from ...suspension.reach import at_rest
+from ..characteristics.datasets import TRAVEL
+from ..characteristics.from_model import corner
+from ..loads.bushes import RACK, Bush, bushes_of, softness_of_rack
+from ..loads.compliance import LOADED, MOVED, RIG_LOADS, RigLoad, load_at_contact, told
+from ..loads.flexibility import HELD, Held, Wheel, flexibility
+from ..loads.poses import Poses
+from ..loads.reactions import Load
+from . import motions
+from .motions import Extent
+
+SIDES = (LEFT, RIGHT)
+
+
+@dataclass(frozen=True)
+class Together:
+    """How both wheels are loaded.
+
+    Attributes
+    ----------
+    name : str
+        "parallel", in one direction, or "opposed".
+    parts : tuple of float
+        Of the load of `RIG_LOADS`, whose images those of both wheels are: left, right.
+    words : str
+    """
+
+    name: str
+    parts: tuple[float, float]
+    words: str
+
+
+_IMAGES = (1.0, 1.0)
+_FORE_AND_AFT = (
+    Together("parallel", _IMAGES, "both rearward"),
+    Together("opposed", (1.0, -1.0), "left rearward and right forward"),
+)
+_LOADINGS = {
+    "lateral": (
+        Together("parallel", (-1.0, 1.0), "both to the left"),
+        Together("opposed", _IMAGES, "both inward"),
+    ),
+    "braking": _FORE_AND_AFT,
+    "recession": _FORE_AND_AFT,
+    "aligning": (
+        Together("parallel", (1.0, -1.0), "both to the left"),
+        Together("opposed", _IMAGES, "both towards toe-out"),
+    ),
+}
+_WORDS = {
+    "lateral": "lateral forces",
+    "braking": "longitudinal forces",
+    "recession": "forces at the wheel centres",
+    "aligning": "torques about the vertical",
+}
+
+
+def compliance(
+    axle: Axle,
+    bushings: Mapping[str, Any],
+    travel: ArrayLike | None = None,
+    *,
+    rack_position: float = 0.0,
+    held: Held = "height",
+) -> xr.Dataset:
+    """Return how both wheels give way under loads, over parallel wheel travel, to first order.
+
+    Parameters
+    ----------
+    axle : Axle
+    bushings : mapping
+        As of `kintrafo.loads.compliance`, for the side whose points the anti-roll bar has: that
+        which the file names with ``side``, or the right one. The other side has the image.
+        ``rack`` with its ``axial_N_per_mm`` says how stiff the steering holds the rack.
+    travel : array_like, shape (n,), optional
+        Heights of both wheel centres above design [m]; by default the usual range.
+    rack_position : float, optional
+        Displacement of the rack [m].
+    held : {'height', 'spring', 'locked'}, optional
+        What holds each wheel; the anti-roll bar acts besides.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``wheel_travel``: toe, camber and displacement of each wheel, with ``_left`` and
+        ``_right`` at the end, by loads of the same size on both wheels, ``_parallel`` and
+        ``_opposed``; and ``flexibility``, displacement and rotation of both contacts by force and
+        moment there, tyre axes of each, of shape (n, 12, 12).
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used.
+    PositionError
+        If a travel is out of reach.
+
+    Notes
+    -----
+    As of `kintrafo.loads.compliance`; the rack and the bar are soft things that both sides load.
+    What the bar carries where it is bent at rest does not stiffen anything here.
+
+    Examples
+    --------
+    >>> from kintrafo import Axle
+    >>> bushes = {"rack": {"axial_N_per_mm": 5000.0}}
+    >>> found = compliance(Axle.load("reference_axle"), bushes, [0.0])
+    >>> for how in ("parallel", "opposed"):  # opposed forces do not move the rack
+    ...     toe = found[f"toe_by_lateral_{how}_right"][0]
+    ...     print(round(abs(float(np.rad2deg(toe))) * 1e3, 4))  # deg/kN
+    0.0189
+    0.0
+    """
+    with Arguments("compliance") as given:
+        given.kind("axle", axle, Axle, Axle.NEEDED)
+        rack_position = given.number("rack_position", rack_position, "m")
+        given.among("held", held, HELD)
+        if travel is not None:
+            travel = given.array("travel", travel, "m", dimensions=[1])
+        described = given.mapping("bushings", bushings, "hardpoints and stiffnesses")
+        if not given.refused:
+            bushes = _bushes(given, axle, described)
+            rack = softness_of_rack(given, described)
+            if not bushes[RIGHT] and not rack and not given.refused:
+                given.refuse("bushings: one or more are needed.")
+            if any(side.tyre_radius() is None for side in axle.sides.values()):
+                given.refuse("[tyre] radius_mm is needed: where the road touches the wheel.")
+    travels = motions.travels(axle, Extent()) if travel is None else np.asarray(travel)
+    wheels = [_wheel(axle, side, travels, rack_position, bushes[side]) for side in SIDES]
+    bar = 1.0 / axle.bar.rate() if axle.bar else 0.0
+    return _dataset(wheels, flexibility(wheels, held, rack=rack, bar=bar), travels, held)
+
+
+def _bushes(given: Arguments, axle: Axle, described: Mapping[str, Any]) -> dict[str, list[Bush]]:
+    """Return the bushes of both sides: those that are given, and their images."""
+    one = axle.bar_side
+    other = LEFT if one == RIGHT else RIGHT
+    bushes = {one: bushes_of(given, axle.models[one], described), other: list[Bush]()}
+    if not given.refused:  # all is said of those that are wrong
+        image = {
+            point: {key: _image(key, value) for key, value in table.items()}
+            for point, table in described.items()
+            if point != RACK
+        }
+        bushes[other] = bushes_of(given, axle.models[other], image)
+    return bushes
+
+
+def _image(key: str, value: Any) -> Any:
+    """Return the image of a value in the plane y = 0."""
+    return np.array([1.0, -1.0, 1.0]) * value if key in ("axis", "radial_axis") else value
+
+
+def _wheel(axle: Axle, side: str, travels: Array, rack: float, bushes: list[Bush]) -> Wheel:
+    model = axle.models[side]
+    angles = arm_angles(model, design_height(model) + travels, rack)
+    poses = Poses.of(model, *at_rest(model, angles, rack))
+    return Wheel(poses, corner(model, angles, rack), bushes, _unit_of_bar(axle, side, poses))
+
+
+def _unit_of_bar(axle: Axle, side: str, poses: Poses) -> Load | None:
+    """Return what a unit torque of the bar does on a side: against more twist of it."""
+    if side not in axle.halves:
+        return None
+    half = axle.halves[side]
+    places = {"foot": (half.body, half.foot)}
+    foot = carried(poses.model, places, poses.states, poses.inputs)["foot"]
+    direction, lever = half.lever(foot, half.turn(foot))
+    sense = {LEFT: -1.0, RIGHT: 1.0}[side]
+    force = sense * direction / lever[:, None]
+    return Load(half.body, "link_foot", "bar", force, np.zeros(3), foot)
+
+
+def _dataset(wheels: list[Wheel], flexible: Array, travels: Array, held: Held) -> xr.Dataset:
+    found: dict[Any, Any] = {}
+    loads = {
+        test.name: [load_at_contact(test, w.poses, w.there) for w in wheels] for test in RIG_LOADS
+    }
+    for test in RIG_LOADS:
+        for how in _LOADINGS[test.name]:
+            parts = zip(how.parts, loads[test.name], strict=True)
+            load = np.concatenate([part * one for part, one in parts], axis=-1)
+            moved = np.split(np.einsum("nab,nb->na", flexible, load), 2, axis=-1)
+            for side, one, its in zip(SIDES, wheels, moved, strict=True):
+                found |= _variables(test, how, side, one, its)
+    axes = np.zeros((len(travels), 12, 12))
+    for i, one in enumerate(wheels):
+        for begin in (6 * i, 6 * i + 3):
+            axes[:, begin : begin + 3, begin : begin + 3] = one.poses.wheel_axes()
+    words = "displacement and rotation of the contacts by forces and moments there, tyre axes"
+    found["flexibility"] = variable(
+        (TRAVEL.name, "moved", "by"), axes @ flexible @ axes.mT, words, "SI"
+    )
+    coordinates = {
+        TRAVEL.name: xr.Variable(TRAVEL.name, travels, TRAVEL.attributes()),
+        "moved": [f"{name}_{side}" for side in SIDES for name in MOVED],
+        "by": [f"{name}_{side}" for side in SIDES for name in LOADED],
+    }
+    return xr.Dataset(found, coordinates, {"title": "compliance", "held": HELD[held]})
+
+
+def _variables(
+    test: RigLoad, how: Together, side: str, one: Wheel, moved: Array
+) -> dict[str, xr.Variable]:
+    """Return what a wheel does under loads on both."""
+    named = replace(test, name=f"{test.name}_{how.name}", words=_WORDS[test.name])
+    words = f"{how.words}, {side}"
+    return {
+        f"{quantity.name}_{side}": xr.Variable(TRAVEL.name, values, quantity.attributes())
+        for quantity, values in told(named, one.poses, one.there, moved, how=words)
+    }
