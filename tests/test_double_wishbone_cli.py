@@ -193,7 +193,7 @@ PAGE = (Path(__file__).parent.parent / "docs/double-wishbone.md").read_text(enco
 def test_the_documented_commands_run(run):
     blocks = re.findall(r"```sh\n(.*?)```", PAGE, flags=re.DOTALL)
     commands = [line for block in blocks for line in block.splitlines()]
-    assert len(commands) == 9
+    assert len(commands) == 10
     for command in commands:
         code, _, error = run(*shlex.split(command)[1:])
         assert code == 0, error

@@ -55,7 +55,7 @@ def test_unknown_kinds_are_refused_with_the_known_ones(kind):
     (problem,) = problems_of(CAR.to_dict() | {"suspension": kind})
     assert problem.startswith(f"suspension = {kind!r} is not a known kind of suspension.")
     known = ", ".join(KINDS)
-    assert problem.endswith(("double_wishbone?", "macpherson?", "multi_link?", f"{known}."))
+    assert problem.endswith(("double_wishbone?", "macpherson?", "multi_link?", "pull_rod?", f"{known}."))
 
 
 def test_a_kind_loads_only_its_own_files():

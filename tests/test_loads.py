@@ -24,6 +24,7 @@ WISHBONES = Suspension.load("double_wishbone_car")
 OFFSET = Suspension.load("offset_strut_car")
 PUSHED = Suspension.load("push_rod_car")
 LINKED = Suspension.load("multi_link_car")
+PULLED = Suspension.load("pull_rod_car")
 STOPPED = CAR.with_changes(
     {
         "bump_stop": {"clearance_mm": 40.0, "rate_N_per_m": 2e5},
@@ -93,7 +94,9 @@ def test_joints_carry_what_multipliers_say(seed: int, free: bool) -> None:
         np.testing.assert_allclose(ours, wrench, rtol=0.0, atol=1e-9 * largest)
 
 
-@pytest.mark.parametrize("car", [CAR, WISHBONES, OFFSET, PUSHED, LINKED], ids=lambda car: car.TITLE)
+@pytest.mark.parametrize(
+    "car", [CAR, WISHBONES, OFFSET, PUSHED, PULLED, LINKED], ids=lambda car: car.TITLE
+)
 def test_joints_do_no_work(car: Suspension) -> None:
     """Whatever moves, what a joint exerts on its two parts has no power together."""
     model = Model(car)
@@ -149,7 +152,9 @@ def test_motions_need_no_other_force(car: Suspension, free: bool) -> None:
 # -- load cases ---------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("car", [CAR, WISHBONES, OFFSET, PUSHED, LINKED], ids=lambda car: car.TITLE)
+@pytest.mark.parametrize(
+    "car", [CAR, WISHBONES, OFFSET, PUSHED, PULLED, LINKED], ids=lambda car: car.TITLE
+)
 def test_at_rest_it_stands_as_the_equations_say(car: Suspension) -> None:
     model = Model(car)
     rest = equilibrium(model)
@@ -164,7 +169,7 @@ def test_at_rest_it_stands_as_the_equations_say(car: Suspension) -> None:
 
 
 @pytest.mark.parametrize(
-    "car", [STOPPED, WISHBONES, OFFSET, PUSHED, LINKED], ids=lambda car: car.TITLE
+    "car", [STOPPED, WISHBONES, OFFSET, PUSHED, PULLED, LINKED], ids=lambda car: car.TITLE
 )
 def test_work_of_the_loads_is_taken_up_by_spring_and_stops(car: Suspension) -> None:
     """Virtual work, with derivatives of where things are: no joint appears in it."""

@@ -426,6 +426,7 @@ AFLOAT = {
     "double_wishbone": {"tyre_rate": 0.0, "spring_free_length": 0.44},
     "double_wishbone_general": {"tyre_rate": 0.0, "spring_free_length": 0.44},
     "push_rod": {"tyre_rate": 0.0, "spring_free_length": 0.291},
+    "pull_rod": {"tyre_rate": 0.0, "spring_free_length": 0.318},
     "multi_link": {"tyre_rate": 0.0, "spring_free_length": 0.291},
     "front_axle": {"tyre_rate": 0.0, "spring_free_slide": 0.18},
 }

@@ -23,20 +23,25 @@ from kintrafo.suspension.reach import at_rest
 from scipy.optimize import brentq
 
 CAR = Suspension.load("push_rod_car")
+PULL = Suspension.load("pull_rod_car")
 WISHBONES = Suspension.load("double_wishbone_car")
 MODEL = Model(CAR)
 TRAVELS = np.linspace(-0.07, 0.07, 15)
 
 
-def points_at(travels: np.ndarray) -> dict[str, np.ndarray]:
+ROCKERS = pytest.mark.parametrize("car", [CAR, PULL], ids=["push", "pull"])
+
+
+def points_at(travels: np.ndarray, car: Suspension = CAR) -> dict[str, np.ndarray]:
     """Return the hardpoints at wheel travels."""
-    angles = arm_angles(MODEL, design_height(MODEL) + travels)
-    return hardpoints(MODEL, *at_rest(MODEL, angles))
+    model = Model(car)
+    angles = arm_angles(model, design_height(model) + travels)
+    return hardpoints(model, *at_rest(model, angles))
 
 
-def turned(place: np.ndarray, turn: float) -> np.ndarray:
+def turned(place: np.ndarray, turn: float, car: Suspension = CAR) -> np.ndarray:
     """Return where a point of the rocker goes, by Rodrigues' formula."""
-    design = CAR.hardpoints.at_design()
+    design = car.hardpoints.at_design()
     axis = design["rocker_front"] - design["rocker_rear"]
     axis /= np.linalg.norm(axis)
     arm = place - design["rocker_rear"]
@@ -46,41 +51,46 @@ def turned(place: np.ndarray, turn: float) -> np.ndarray:
     return design["rocker_rear"] + arm
 
 
-def test_the_rocker_is_where_the_rod_holds_it() -> None:
+@ROCKERS
+def test_the_rocker_is_where_the_rod_holds_it(car: Suspension) -> None:
     """Against a search for the angle at which the rod has its length."""
-    design, found = CAR.hardpoints.at_design(), points_at(TRAVELS)
-    length = CAR.hardpoints.distance("push_rod_outer", "push_rod_inner")
+    design, found = car.hardpoints.at_design(), points_at(TRAVELS, car)
+    outer, inner = car.hardpoints.ROD
+    length = car.hardpoints.distance(outer, inner)
     for i in range(TRAVELS.size):
-        foot = found["push_rod_outer"][i]
+        foot = found[outer][i]
 
         def misfit(turn: float, foot: np.ndarray = foot) -> float:
-            return float(np.linalg.norm(turned(design["push_rod_inner"], turn) - foot) - length)
+            return float(np.linalg.norm(turned(design[inner], turn, car) - foot) - length)
 
         turn = brentq(misfit, -0.9, 0.9, xtol=1e-14)
-        for name in ("push_rod_inner", "spring_seat"):
+        for name in (inner, "spring_seat"):
             # an angle to 1e-14, and the rounding of a solution with a condition of ten
-            np.testing.assert_allclose(found[name][i], turned(design[name], turn), atol=1e-12)
+            expected = turned(design[name], turn, car)
+            np.testing.assert_allclose(found[name][i], expected, atol=1e-12)
 
 
-def test_the_wheel_is_guided_as_by_the_double_wishbone() -> None:
-    one = characteristics.travel(MODEL, TRAVELS)
+@ROCKERS
+def test_the_wheel_is_guided_as_by_the_double_wishbone(car: Suspension) -> None:
+    one = characteristics.travel(Model(car), TRAVELS)
     two = characteristics.travel(Model(WISHBONES), TRAVELS)
     for name in ("camber", "toe", "caster", "roll_center_height_kinematic", "anti_dive", "trail"):
         np.testing.assert_allclose(one[name], two[name], rtol=1e-9, atol=1e-12)
     assert float(abs(one["motion_ratio"] - two["motion_ratio"]).max()) > 0.05
 
 
-def test_motion_ratio_and_wheel_rate_are_derivatives() -> None:
+@ROCKERS
+def test_motion_ratio_and_wheel_rate_are_derivatives(car: Suspension) -> None:
     fine = np.linspace(-0.07, 0.07, 1401)  # differences of second order over 0.2 mm
-    curves = characteristics.travel(MODEL, fine)
-    found = points_at(fine)
+    curves = characteristics.travel(Model(car), fine)
+    found = points_at(fine, car)
     length = np.linalg.norm(found["spring_top"] - found["spring_seat"], axis=1)
     np.testing.assert_allclose(curves["spring_length"], length, rtol=1e-12)
     ratio = -np.gradient(length, fine)
     inner = slice(1, -1)
     np.testing.assert_allclose(curves["motion_ratio"][inner], ratio[inner], atol=1e-6)
-    free = CAR.spring.free_length(CAR.hardpoints.distance("spring_seat", "spring_top"))
-    force = CAR.spring.rate_N_per_m * (free - length)
+    free = car.spring.free_length(car.hardpoints.distance("spring_seat", "spring_top"))
+    force = car.spring.rate_N_per_m * (free - length)
     rate = np.gradient(force * curves["motion_ratio"].values, fine)
     np.testing.assert_allclose(curves["wheel_rate"][inner], rate[inner], rtol=1e-4)
 
@@ -105,12 +115,13 @@ def test_the_rocker_is_balanced_by_hand() -> None:
     np.testing.assert_allclose(np.cross(force, at - foot), 0.0, atol=1e-6)  # along the rod
 
 
-def test_it_rests_and_moves() -> None:
-    rest = equilibrium(MODEL)
-    assert float(MODEL.signal("wheel_center_z", rest)) == pytest.approx(0.3, abs=1e-6)
-    result = simulate(MODEL, (0.0, 2.0), state_at_height(MODEL, 0.33))
+@ROCKERS
+def test_it_rests_and_moves(car: Suspension) -> None:
+    model, image = Model(car), Model(car.mirrored())
+    rest = equilibrium(model)
+    assert float(model.signal("wheel_center_z", rest)) == pytest.approx(0.3, abs=1e-6)
+    result = simulate(model, (0.0, 2.0), state_at_height(model, 0.33))
     assert float(result.signals["wheel_center_z"][-1]) == pytest.approx(0.3, abs=1e-5)
-    image = Model(CAR.mirrored())
     mirrored = simulate(image, (0.0, 2.0), state_at_height(image, 0.33))
     np.testing.assert_allclose(mirrored.y[0, -1], result.y[0, -1], atol=1e-9)
 
@@ -144,6 +155,16 @@ def test_what_the_equations_have_is_read_from_the_file() -> None:
 def test_what_cannot_be_is_refused(place: str, value: object, message: str) -> None:
     with pytest.raises(InputError, match=message):
         CAR.with_changes({place: value})
+    if "rocker_rear" not in place:  # the other one has its bearings elsewhere
+        same = {"push_rod_inner": "pull_rod_inner", "push_rod.": "pull_rod."}
+        other = next((place.replace(a, b) for a, b in same.items() if a in place), place)
+        at = PULL.hardpoints
+        value = {
+            "hardpoints.push_rod_inner": at.pull_rod_outer if "two" in message else at.rocker_front,
+            "hardpoints.spring_seat": at.rocker_front,
+        }.get(place, value)
+        with pytest.raises(InputError, match=message.replace("push", "pull")):
+            PULL.with_changes({other: value})
     with pytest.raises(InputError, match="rack of a push-rod suspension is prescribed"):
         Model(CAR, free_rack=True)
 

@@ -8,6 +8,7 @@ from . import (
     front_axle,
     macpherson,
     multi_link,
+    pull_rod,
     push_rod,
     slider_crank,
 )
@@ -16,6 +17,7 @@ MODELS = (
     *macpherson.MODELS,
     *double_wishbone.MODELS,
     *push_rod.MODELS,
+    *pull_rod.MODELS,
     *multi_link.MODELS,
     *front_axle.MODELS,
     *four_bar.MODELS,

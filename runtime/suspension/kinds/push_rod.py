@@ -1,7 +1,7 @@
 """The double wishbone suspension with push rod and rocker: spring and damper lie on the chassis.
 
 What it has besides the double wishbone: its hardpoints, bodies and checks, its equations, its
-structure and how it is drawn.
+structure and how it is drawn. What moves the rocker is told by its name alone.
 """
 
 from collections.abc import Mapping
@@ -16,7 +16,7 @@ from ...generated import push_rod
 from ..coil_sprung import CoilDamper, Spring
 from ..drawing import Axis, Drawing
 from ..input.bodies import Rack, RigidBody, TieRod
-from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints
+from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
 from ..input.section import Triple
 from ..input.vectors import Vector, distance_from_line, unit_vector
 from ..structure import FORCES_OF_A_DAMPER, Ball, Cross, Hinge, Line, Structure
@@ -26,26 +26,20 @@ _ROCKER = ("rocker_front", "rocker_rear")
 _PUSH_ROD = ("push_rod_outer", "push_rod_inner")
 
 
-class PushRodHardpoints(DoubleWishboneHardpoints):
-    """The points that define a double wishbone suspension with push rod, at the design position.
+class RockerHardpoints(DoubleWishboneHardpoints):
+    """The points of a double wishbone suspension whose spring a rocker moves.
 
-    All are in chassis axes (ISO 8855: x forward, y left, z up), in the unit that `unit` names.
+    Attributes
+    ----------
+    ROD : tuple of str
+        The ends of the rod that moves the rocker, the outer one first.
+    ROD_WORDS : str
+        What it is called.
     """
 
-    CARRIERS: ClassVar[Mapping[str, str]] = {
-        **DoubleWishboneHardpoints.CARRIERS,
-        "spring_seat": "rocker",
-        "push_rod_outer": "lower_arm",
-        "push_rod_inner": "rocker",
-    }
-    JOINTS: ClassVar[tuple[str, ...]] = (
-        *DoubleWishboneHardpoints.JOINTS,
-        *_PUSH_ROD,
-        "spring_seat",
-    )
+    ROD: ClassVar[Pair]
+    ROD_WORDS: ClassVar[str]
 
-    push_rod_outer: Triple = Field(description="ball joint of push rod and lower arm")
-    push_rod_inner: Triple = Field(description="joint of push rod and rocker")
     rocker_front: Triple = Field(description="one bearing of the rocker on the chassis")
     rocker_rear: Triple = Field(description="the other bearing of the rocker on the chassis")
     spring_top: Triple = Field(description="end of spring and damper on the chassis")
@@ -59,15 +53,15 @@ class PushRodHardpoints(DoubleWishboneHardpoints):
         list of str
             One text for each problem.
         """
-        coinciding = self.coinciding({"rocker": _ROCKER, "push rod": _PUSH_ROD})
+        coinciding = self.coinciding({"rocker": _ROCKER, self.ROD_WORDS: self.ROD})
         problems = super().geometry_problems() + self.coincidence_problems(coinciding)
         return problems if coinciding else problems + self._problems_of_rocker()
 
     def _problems_of_rocker(self) -> list[str]:
-        """Check that push rod and spring have a lever about the rocker's axis."""
+        """Check that rod and spring have a lever about the rocker's axis."""
         found = []
         for words, (place, end) in (
-            ("push rod", ("push_rod_inner", "push_rod_outer")),
+            (self.ROD_WORDS, self.ROD[::-1]),
             ("spring", ("spring_seat", "spring_top")),
         ):
             lever = self._lever(place, end)
@@ -90,6 +84,30 @@ class PushRodHardpoints(DoubleWishboneHardpoints):
         return abs(float(np.cross(arm, unit_vector(to - at)) @ axis))
 
 
+class PushRodHardpoints(RockerHardpoints):
+    """The points that define a double wishbone suspension with push rod, at the design position.
+
+    All are in chassis axes (ISO 8855: x forward, y left, z up), in the unit that `unit` names.
+    """
+
+    ROD: ClassVar[Pair] = _PUSH_ROD
+    ROD_WORDS: ClassVar[str] = "push rod"
+    CARRIERS: ClassVar[Mapping[str, str]] = {
+        **DoubleWishboneHardpoints.CARRIERS,
+        "spring_seat": "rocker",
+        "push_rod_outer": "lower_arm",
+        "push_rod_inner": "rocker",
+    }
+    JOINTS: ClassVar[tuple[str, ...]] = (
+        *DoubleWishboneHardpoints.JOINTS,
+        *_PUSH_ROD,
+        "spring_seat",
+    )
+
+    push_rod_outer: Triple = Field(description="ball joint of push rod and lower arm")
+    push_rod_inner: Triple = Field(description="joint of push rod and rocker")
+
+
 class Rocker(RigidBody):
     """The rocker."""
 
@@ -108,12 +126,17 @@ class PushRodBody(RigidBody):
         return middle
 
 
-class PushRodBodies(DoubleWishboneBodies):
+class RockerBodies(DoubleWishboneBodies):
+    """The bodies of a double wishbone suspension with a rocker, without the rod that moves it."""
+
+    rocker: Rocker = Field(default=Rocker(mass_kg=0.0), description="the rocker")
+
+
+class PushRodBodies(RockerBodies):
     """All bodies. Tie rod, rack and push rod have no mass in the equations of this suspension."""
 
     MASSLESS: ClassVar[tuple[str, ...]] = ("tie_rod", "rack", "push_rod")
 
-    rocker: Rocker = Field(default=Rocker(mass_kg=0.0), description="the rocker")
     push_rod: PushRodBody = Field(
         default=PushRodBody(mass_kg=0.0), description="the push rod, without mass"
     )
@@ -128,6 +151,7 @@ class PushRod(DoubleWishbone):
     and the chassis. See `Suspension`.
     """
 
+    EQUATIONS: ClassVar[ModuleType] = push_rod
     TITLE: ClassVar[str] = "push-rod suspension"
     STARTER: ClassVar[str] = "push_rod_car"
     PAGE: ClassVar[str] = """: a double wishbone whose spring lies on the chassis.
@@ -151,47 +175,54 @@ has a rate or a curve; the stops are touched by its length."""
         if free_rack:
             problem = f"free_rack=True: the rack of a {self.TITLE} is prescribed. Leave that out."
             raise InputError([problem], "Model")
-        return push_rod
+        return self.EQUATIONS
+
+    @property
+    def _rod(self) -> tuple[str, str, str, str]:
+        """What the rod is called and joined to: itself, its ends, and the arm."""
+        outer, inner = self.hardpoints.ROD
+        return outer.removesuffix("_outer"), outer, inner, self.hardpoints.CARRIERS[outer]
 
     def beyond_the_plain(self) -> list[str]:
         """Return what these equations have beyond plain ones: they have everything."""
-        return ["push rod", *super().beyond_the_plain()]
+        return [self.hardpoints.ROD_WORDS, *super().beyond_the_plain()]
 
     def lengths(self) -> dict[str, float]:
-        """Return the lengths of arms, spring and push rod, and the rocker's lever [m]."""
-        points = self.hardpoints
+        """Return the lengths of arms, spring and rod, and the rocker's lever [m]."""
+        points, (rod, outer, inner, _) = self.hardpoints, self._rod
         axis = [points.metres(name) for name in _ROCKER]
         return super().lengths() | {
-            "push_rod_length": points.distance(*_PUSH_ROD),
-            "rocker_length": distance_from_line(points.metres("push_rod_inner"), *axis),
+            f"{rod}_length": points.distance(outer, inner),
+            "rocker_length": distance_from_line(points.metres(inner), *axis),
         }
 
     def drawing(self) -> Drawing:
-        """Return how arms, push rod, rocker, spring and tie rod are drawn."""
+        """Return how arms, rod, rocker, spring and tie rod are drawn."""
+        (rod, outer, inner, arm), words = self._rod, self.hardpoints.ROD_WORDS
         rocker = {
-            "rocker_front_rod": ("rocker_front", "push_rod_inner"),
-            "rocker_rear_rod": ("rocker_rear", "push_rod_inner"),
+            "rocker_front_rod": ("rocker_front", inner),
+            "rocker_rear_rod": ("rocker_rear", inner),
             "rocker_front_spring": ("rocker_front", "spring_seat"),
             "rocker_rear_spring": ("rocker_rear", "spring_seat"),
-            "rocker_across": ("push_rod_inner", "spring_seat"),
+            "rocker_across": (inner, "spring_seat"),
         }
-        foot = ("push_rod_outer", "lower_ball_joint", "lower_arm_front")
+        foot = (outer, arm.replace("arm", "ball_joint"), f"{arm}_front")
         plain = super().drawing()
         return Drawing(
             links={
                 **plain.links,
-                "push rod": ("push_rod_outer", "push_rod_inner", "push rod"),
-                "rocker": ("rocker_front", "push_rod_inner", "rocker"),
+                words: (outer, inner, "push rod"),
+                "rocker": ("rocker_front", inner, "rocker"),
                 "rocker at the spring": ("rocker_front", "spring_seat", "rocker"),
             },
             knuckle=plain.knuckle,
-            legend={**plain.legend, "arm": "control arms, push rod and rocker"},
+            legend={**plain.legend, "arm": f"control arms, {words} and rocker"},
             damper=Axis("spring_seat", "spring_top", 0.5),
             spring=Axis("spring_seat", "spring_top", 0.32),
             upright=plain.upright,
             brackets={
-                "push_rod_bracket": (foot, "push_rod_outer"),
-                "push_rod": ("push_rod_outer", "push_rod_inner"),
+                f"{rod}_bracket": (foot, outer),
+                rod: (outer, inner),
                 **rocker,
             },
         )
@@ -203,13 +234,14 @@ has a rate or a curve; the stops are touched by its length."""
         )
         # the axis of a hinge on the chassis does not turn, as that of a cross has to be
         first_axis = (float(axis[0]), float(axis[1]), float(axis[2]))
+        rod, outer, inner, arm = self._rod
         ends = ("chassis", "rocker", ("spring_top", "spring_seat"))
         damper = (*FORCES_OF_A_DAMPER, self.NAMES.actuator)
         joints = (
             *super().structure().joints,
             Hinge("chassis", "rocker", _ROCKER),
-            Ball("lower_arm", "push_rod", ("push_rod_outer",), "push_rod_inner"),
-            Cross("rocker", "push_rod", ("push_rod_inner",), "push_rod_outer", first_axis),
+            Ball(arm, rod, (outer,), inner),
+            Cross("rocker", rod, (inner,), outer, first_axis),
         )
         lines = (Line("spring", ("spring_force",), *ends), Line("damper", damper, *ends))
         return Structure(joints, lines)

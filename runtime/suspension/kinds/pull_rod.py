@@ -1,0 +1,92 @@
+"""The double wishbone suspension with pull rod and rocker: the rod hangs on the upper arm.
+
+It is the push-rod suspension, but for the arm that the rod is joined to.
+"""
+
+from collections.abc import Mapping
+from types import ModuleType
+from typing import ClassVar, Literal
+
+from pydantic import Field
+
+from ...generated import pull_rod
+from ..input.bodies import RigidBody
+from ..input.hardpoints import Hardpoints, Pair
+from ..input.section import Triple
+from ..input.vectors import Vector
+from .double_wishbone import DoubleWishboneHardpoints
+from .push_rod import PushRod, RockerBodies, RockerHardpoints
+
+_PULL_ROD = ("pull_rod_outer", "pull_rod_inner")
+
+
+class PullRodHardpoints(RockerHardpoints):
+    """The points that define a double wishbone suspension with pull rod, at the design position.
+
+    All are in chassis axes (ISO 8855: x forward, y left, z up), in the unit that `unit` names.
+    """
+
+    ROD: ClassVar[Pair] = _PULL_ROD
+    ROD_WORDS: ClassVar[str] = "pull rod"
+    CARRIERS: ClassVar[Mapping[str, str]] = {
+        **DoubleWishboneHardpoints.CARRIERS,
+        "spring_seat": "rocker",
+        "pull_rod_outer": "upper_arm",
+        "pull_rod_inner": "rocker",
+    }
+    JOINTS: ClassVar[tuple[str, ...]] = (
+        *DoubleWishboneHardpoints.JOINTS,
+        *_PULL_ROD,
+        "spring_seat",
+    )
+
+    pull_rod_outer: Triple = Field(description="ball joint of pull rod and upper arm")
+    pull_rod_inner: Triple = Field(description="joint of pull rod and rocker")
+
+
+class PullRodBody(RigidBody):
+    """The pull rod."""
+
+    def default_centre_of_mass(self, points: Hardpoints) -> Vector:
+        """Return its midpoint, in m."""
+        middle: Vector = 0.5 * (points.metres("pull_rod_outer") + points.metres("pull_rod_inner"))
+        return middle
+
+
+class PullRodBodies(RockerBodies):
+    """All bodies. Tie rod, rack and pull rod have no mass in the equations of this suspension."""
+
+    MASSLESS: ClassVar[tuple[str, ...]] = ("tie_rod", "rack", "pull_rod")
+
+    pull_rod: PullRodBody = Field(
+        default=PullRodBody(mass_kg=0.0), description="the pull rod, without mass"
+    )
+
+
+class PullRod(PushRod):
+    """A double wishbone suspension with pull rod and rocker at its design position.
+
+    The pull rod leads from the upper arm to the rocker; spring and damper act between the rocker
+    and the chassis. See `Suspension`.
+    """
+
+    EQUATIONS: ClassVar[ModuleType] = pull_rod
+    TITLE: ClassVar[str] = "pull-rod suspension"
+    STARTER: ClassVar[str] = "pull_rod_car"
+    PAGE: ClassVar[str] = """: a double wishbone whose spring lies on the chassis.
+
+The pull rod leads from the upper arm down to the rocker, which turns about the line through its two
+bearings and presses spring and damper. Where the spring is free of force is said by the distance of
+its ends (`free_length_mm`) or by its force at the design position (`force_at_design_N`). The damper
+has a rate or a curve; the stops are touched by its length."""
+
+    # another kind than that which it has nearly everything of
+    suspension: Literal["pull_rod"] = Field(  # type: ignore[assignment]
+        description="the kind of suspension"
+    )
+    hardpoints: PullRodHardpoints = Field(  # type: ignore[assignment]
+        description="the points that define the geometry"
+    )
+    bodies: PullRodBodies = Field(  # type: ignore[assignment]
+        description="masses and inertia"
+    )
