@@ -92,6 +92,12 @@ def travel_range(model: Model, rack_position: float = 0.0) -> Range:
     with Arguments("travel_range") as given:
         given.kind("model", model, Model, Model.NEEDED)
         rack_position = given.number("rack_position", rack_position, "m")
+    return _range(model, float(rack_position))
+
+
+@lru_cache(maxsize=_KEPT)
+def _range(model: Model, rack_position: float) -> Range:
+    """Look for the ends once: whoever asks for one position at rest asks for the next."""
     racks = np.array([rack_position], dtype=np.float64)
     low, low_limits = _ends(model, racks, +1.0)
     high, high_limits = _ends(model, racks, -1.0)

@@ -13,7 +13,7 @@ from ..characteristics.wheel import upward_across
 from ..recording import TIME
 from .dataset import dataset_of
 from .poses import CENTER, Poses
-from .reactions import Equations, Load
+from .reactions import Equations, Load, known
 
 Array = NDArray[np.float64]
 
@@ -93,8 +93,7 @@ def in_motion(model: Model, states: Array, inputs: Array) -> xr.Dataset:
     """Return the loads in some states, of shape (n, states), as over time."""
     poses = Poses.of(model, states, inputs)
     equations = Equations(poses)
-    equations.check()
-    acting = [*equations.known(), _road(poses), *_inertia(poses, equations.parts)]
+    acting = [*known(poses), _road(poses), *_inertia(poses, equations.parts)]
     unknowns = equations.solve(equations.applied(acting))
     found = dataset_of(poses, TIME, equations.carried(unknowns) + acting)
     meaning = "vertical force at the wheel that the motion would need besides"

@@ -55,6 +55,11 @@ class Case:
     rack: float = 0.0
     travel: float | None = None
 
+    @property
+    def vector(self) -> Array:
+        """Forces and moments at the contact, and those at the wheel centre, (12,)."""
+        return np.concatenate([self.contact, self.contact_moment, self.center, self.center_moment])
+
 
 def read(path: str | Path) -> dict[str, Any]:
     """Read a TOML file of load cases.

@@ -166,7 +166,6 @@ class _Forces:
     def __init__(self, wheel: Wheel, *, stopped: bool) -> None:
         poses, self.stopped = wheel.poses, stopped
         equations = Equations(poses, "spring")
-        equations.check()
         still, at = np.zeros(3), poses.points[CONTACT]
         loads = [Load("wheel", CONTACT, "road", axis, still, at) for axis in np.eye(3)]
         loads += [Load("wheel", CONTACT, "road", still, axis, at) for axis in np.eye(3)]

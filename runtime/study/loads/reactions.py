@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from typing import Literal
 
 import numpy as np
@@ -17,6 +18,8 @@ Array = NDArray[np.float64]
 # Rounding of loads, 1e-16, that equations so near to singular enlarge to 1e-6 of them; of cars
 # within their travel it is some hundreds.
 _WORST_CONDITION = 1e10
+# Vectors that show how much equations enlarge what is random: of a condition nearly all of it.
+_PROBES = 2
 
 DEAD_POINT = (
     "the linkage is at a dead point, or what holds it has no leverage: the joints carry anything."
@@ -47,7 +50,7 @@ class Load:
 
 
 class Equations:
-    """Equilibrium of all parts in many positions, factored for any loads.
+    """Equilibrium of all parts in many positions, for any loads.
 
     Parameters
     ----------
@@ -55,11 +58,6 @@ class Equations:
     holding : {'road', 'spring'}, optional
         What holds the suspension where it is: a vertical force on the wheel at its contact, or a
         force along its spring.
-
-    Attributes
-    ----------
-    sound : ndarray of bool, shape (n,)
-        False at a dead point, where what is carried has no bound.
 
     Notes
     -----
@@ -75,10 +73,9 @@ class Equations:
         self._units = [
             joint.unit_loads(poses.points, poses.turned, poses.design) for joint in self.joints
         ]
-        matrix = self._matrix()
+        self._matrix = self._of_joints()
         held = self._upward() if holding == "road" else self.pushed("spring")
-        matrix[..., -1] = self.applied(held)
-        self._inverse, self.sound = _inverted(matrix)
+        self._matrix[..., -1] = self.applied(held)
 
     def _upward(self) -> list[Load]:
         """Return a vertical force of 1 N on the wheel at its contact, or else at its centre."""
@@ -86,7 +83,7 @@ class Equations:
         at = points.get(CONTACT, points[CENTER])
         return [Load("wheel", CONTACT, "road", UP, np.zeros(3), at)]
 
-    def _matrix(self) -> Array:
+    def _of_joints(self) -> Array:
         """Return what the joints carry as columns, and room for one more."""
         size = 6 * len(self.parts)
         matrix = np.zeros((*self.poses.states.shape[:-1], size, size))
@@ -101,12 +98,6 @@ class Equations:
             column = columns.stop
         return matrix
 
-    def check(self) -> None:
-        """Refuse dead points."""
-        if not self.sound.all():
-            height = 1e3 * float(self.poses.points[CENTER][~self.sound][0, 2])
-            raise InputError([f"at a wheel height of {height:.6g} mm: {DEAD_POINT}"], "loads")
-
     def solve(self, applied: Array) -> Array:
         """Return the unknowns under loads on the parts.
 
@@ -114,10 +105,33 @@ class Equations:
         ----------
         applied : ndarray, shape (n, 6 parts) or (n, 6 parts, cases)
             Force and moment about the centre of mass of each part.
+
+        Raises
+        ------
+        InputError
+            At a dead point, where what is carried has no bound.
         """
-        vectors = applied if applied.ndim == self._inverse.ndim else applied[..., None]
-        found: Array = -self._inverse @ vectors
-        return found if applied.ndim == self._inverse.ndim else found[..., 0]
+        found, sound = self.solved(applied)
+        if not sound.all():
+            height = 1e3 * float(self.poses.points[CENTER][~sound][0, 2])
+            raise InputError([f"at a wheel height of {height:.6g} mm: {DEAD_POINT}"], "loads")
+        return found
+
+    def solved(self, applied: Array) -> tuple[Array, NDArray[np.bool_]]:
+        """Return the unknowns under loads on the parts, and where they mean something.
+
+        Where they do not is a dead point: there they are no numbers.
+        """
+        several = applied.ndim == self._matrix.ndim
+        vectors = -applied if several else -applied[..., None]
+        # what enlarges any of these enlarges rounding, too
+        probes = np.broadcast_to(_probes(vectors.shape[-2]), (*vectors.shape[:-1], _PROBES))
+        found = _solution(self._matrix, np.concatenate([vectors, probes], axis=-1))
+        size = np.abs(self._matrix).sum(-2).max(-1)
+        enlarged = size * np.abs(found[..., -_PROBES:]).max((-2, -1))
+        sound: NDArray[np.bool_] = enlarged < _WORST_CONDITION
+        found[~sound] = np.nan
+        return found[..., :-_PROBES] if several else found[..., 0], sound
 
     def applied(self, loads: list[Load]) -> Array:
         """Return loads as a vector, (n, 6 parts)."""
@@ -129,32 +143,10 @@ class Equations:
                 total[..., self._rows[load.part]] += wrench
         return total
 
-    def known(self) -> list[Load]:
-        """Return what acts without anybody's doing: weights, spring, damper and stops."""
-        poses, still = self.poses, np.zeros(3)
-        weights, forces = poses.weights(), poses.forces_along_lines()
-        loads = [
-            Load(part, "mass", "gravity", weights[part], still, poses.centers[part])
-            for part in self.parts
-            if weights[part].any()
-        ]
-        for line in self.lines:
-            loads += self._along(line, forces[line.name])
-        return loads
-
     def pushed(self, line: str) -> list[Load]:
         """Return a unit force along a line, on both of its parts."""
         (found,) = (known for known in self.lines if known.name == line)
-        return self._along(found, np.ones(self.poses.states.shape[:-1]))
-
-    def _along(self, line: Line, force: Array) -> list[Load]:
-        points = self.poses.points
-        push = force[..., None] * line.direction(points)
-        ends = ((line.first, line.at[0], -push), (line.second, line.at[1], push))
-        return [
-            Load(part, point, line.name, end, np.zeros(3), points[point])
-            for part, point, end in ends
-        ]
+        return _along(self.poses, found, np.ones(self.poses.states.shape[:-1]))
 
     def carried(self, unknowns: Array) -> list[Load]:
         """Return what the joints carry, on both of the parts of each."""
@@ -183,16 +175,43 @@ class Equations:
             yield np.einsum("npru,nuc->nprc", units, carried)
 
 
-def _inverted(matrix: Array) -> tuple[Array, NDArray[np.bool_]]:
-    """Return inverse matrices, and which of them are no nonsense."""
+def known(poses: Poses) -> list[Load]:
+    """Return what acts without anybody's doing: weights, spring, damper and stops."""
+    structure, still = poses.model.suspension.structure(), np.zeros(3)
+    weights, forces = poses.weights(), poses.forces_along_lines()
+    loads = [
+        Load(part, "mass", "gravity", weights[part], still, poses.centers[part])
+        for part in structure.parts
+        if weights[part].any()
+    ]
+    for line in structure.lines:
+        loads += _along(poses, line, forces[line.name])
+    return loads
+
+
+def _along(poses: Poses, line: Line, force: Array) -> list[Load]:
+    points = poses.points
+    push = force[..., None] * line.direction(points)
+    ends = ((line.first, line.at[0], -push), (line.second, line.at[1], push))
+    return [
+        Load(part, point, line.name, end, np.zeros(3), points[point]) for part, point, end in ends
+    ]
+
+
+@cache
+def _probes(size: int) -> Array:
+    """Return vectors of signs, the same in every run."""
+    return np.random.default_rng(0).choice([-1.0, 1.0], (size, _PROBES))
+
+
+def _solution(matrix: Array, right: Array) -> Array:
+    """Return solutions; of matrices that are singular to the last bit huge numbers."""
     try:
-        inverse: Array = np.linalg.inv(matrix).astype(float)
-    except np.linalg.LinAlgError:
-        # one that is singular to the last bit spoils all
-        sound = np.linalg.cond(matrix) < _WORST_CONDITION
-        return np.linalg.pinv(matrix).astype(float), sound
-    condition = np.abs(matrix).sum(-2).max(-1) * np.abs(inverse).sum(-2).max(-1)
-    return inverse, condition < _WORST_CONDITION
+        found: Array = np.linalg.solve(matrix, right)
+    except np.linalg.LinAlgError:  # one spoils all
+        found = np.linalg.pinv(matrix, rcond=1e-15) @ right
+        found[np.linalg.cond(matrix) >= _WORST_CONDITION] = np.inf
+    return found
 
 
 def _on_both(joint: Joint, point: str, wrench: Array, at: Array) -> list[Load]:

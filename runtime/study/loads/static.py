@@ -19,12 +19,16 @@ from ..characteristics.wheel import upward_across
 from .cases import GREATEST, Case, cases_of, standard_cases
 from .dataset import CASE, dataset_of
 from .poses import CENTER, CONTACT, Poses
-from .reactions import DEAD_POINT, Equations, Load
+from .reactions import DEAD_POINT, Equations, Load, known
+from .swing import Swing
 
 Array = NDArray[np.float64]
 
 # Positions over the travel between which an equilibrium is looked for: every 2 mm or so.
 _GRID = 101
+# At which missing force [N], or within which arm angles [rad], a position is found. A rounding of
+# the angle is 2e-16 rad, and by that some 1e7 N/rad change.
+_FOUND = {"fatol": 4e-9, "xatol": 1e-15, "xrtol": 0.0}
 
 
 def static(
@@ -139,10 +143,11 @@ def _held(model: Model, case: Case) -> tuple[float, str]:
         angle = float(arm_angles(model, height, case.rack))
     except PositionError as error:
         return np.nan, str(error)
-    equations = Equations(Poses.of(model, *at_rest(model, [angle], case.rack)))
-    (vertical,) = _holding(equations, [case])
-    if not np.isfinite(vertical):
+    poses = Poses.of(model, *at_rest(model, [angle], case.rack))
+    unknowns, sound = Equations(poses).solved(_applied(poses, [case]))
+    if not sound.all():
         return np.nan, DEAD_POINT
+    vertical = float(unknowns[0, -1])
     if vertical < 0.0:
         return np.nan, f"the road would have to pull the wheel there with {-vertical:.4g} N."
     return angle, ""
@@ -156,8 +161,9 @@ def _equilibria(model: Model, rack: float, cases: Sequence[Case]) -> list[tuple[
         return [(np.nan, str(error))] * len(cases)
     # a linkage that locks at the end of its reach carries anything, with forces that break it
     grid = np.linspace(*reach.arm_angle, _GRID)[1:-1]
-    everywhere = Equations(Poses.of(model, *at_rest(model, grid, rack)))
-    holding = np.stack([_holding(everywhere, [case] * grid.size) for case in cases])
+    everywhere = Swing.of(Poses.of(model, *at_rest(model, grid, rack)))
+    outside = np.array([case.vector for case in cases])
+    holding = _holding(everywhere, outside[:, None])
     # from low to high the wheel needs more and more of a load to stay, where it is stable
     stable: NDArray[np.bool_] = (holding[:, :-1] <= 0.0) & (holding[:, 1:] > 0.0)
     distance = np.where(stable, np.abs(grid[:-1] - model.design_state[0]), np.inf)
@@ -167,16 +173,31 @@ def _equilibria(model: Model, rack: float, cases: Sequence[Case]) -> list[tuple[
     if there.size:
 
         def left(angle: Array, row: Array) -> Array:
-            poses = Poses.of(model, *at_rest(model, angle, rack))
-            return _holding(Equations(poses), [cases[int(i)] for i in row])
+            swing = Swing.of(Poses.of(model, *at_rest(model, angle, rack)))
+            return _holding(swing, outside[row.astype(int)])
 
         elementwise: Any = find_root  # its stubs know no arguments beside the first
         bracket = grid[at], grid[at + 1]
-        angles[there] = elementwise(left, bracket, args=(there.astype(float),)).x
-    return [
+        args = (there.astype(float),)
+        angles[there] = elementwise(left, bracket, args=args, tolerances=_FOUND).x
+    found = [
         (float(angle), "" if np.isfinite(angle) else _not_carried(model, reach.height, held))
         for angle, held in zip(angles, holding, strict=True)
     ]
+    return _without_dead_points(model, rack, cases, found)
+
+
+def _without_dead_points(
+    model: Model, rack: float, cases: Sequence[Case], found: list[tuple[float, str]]
+) -> list[tuple[float, str]]:
+    """Return where cases are carried, but where the joints would carry anything."""
+    carried = [i for i, (angle, _) in enumerate(found) if np.isfinite(angle)]
+    if not carried:
+        return found
+    poses = Poses.of(model, *at_rest(model, [found[i][0] for i in carried], rack))
+    _, sound = Equations(poses).solved(_applied(poses, [cases[i] for i in carried]))
+    lost = [i for i, fine in zip(carried, sound, strict=True) if not fine]
+    return [(np.nan, DEAD_POINT) if i in lost else one for i, one in enumerate(found)]
 
 
 def _not_carried(model: Model, height: tuple[float, float], held: Array) -> str:
@@ -197,12 +218,31 @@ def _not_carried(model: Model, height: tuple[float, float], held: Array) -> str:
     return f"it is not carried {ends}: {problem}. {advice}"
 
 
-def _holding(equations: Equations, cases: Sequence[Case]) -> Array:
-    """Return the vertical force of the road that each position needs besides [N]."""
-    outside = _outside(equations.poses, cases)
-    unknowns = equations.solve(equations.applied(equations.known() + outside))
-    holding: Array = np.where(equations.sound, unknowns[..., -1], np.nan)
-    return holding
+def _holding(swing: Swing, outside: Array) -> Array:
+    """Return the vertical force of the road that each position needs besides [N].
+
+    Parameters
+    ----------
+    swing : Swing
+        Of n positions.
+    outside : ndarray, shape (..., n or 1, 12)
+        What acts on the wheel, as `Case.vector`.
+    """
+    poses = swing.poses
+    axes, turning = poses.wheel_axes(), swing.turning("wheel")
+    contact, center = (swing.velocity("wheel", poses.points[at]) for at in (CONTACT, CENTER))
+    units = np.concatenate(
+        [np.einsum("nij,nj->ni", axes, v) for v in (contact, turning, center, turning)], axis=-1
+    )
+    power = swing.power(known(poses)) + (outside * units).sum(-1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        holding: Array = -power / contact[:, 2]
+    return np.where(np.isfinite(holding), holding, np.nan)
+
+
+def _applied(poses: Poses, cases: Sequence[Case]) -> Array:
+    """Return what acts on the parts as a vector, see `Equations.applied`."""
+    return Equations(poses).applied([*known(poses), *_outside(poses, cases)])
 
 
 def _outside(poses: Poses, cases: Sequence[Case]) -> list[Load]:
@@ -248,23 +288,25 @@ def _dataset(
     poses = Poses.of(model, *at_rest(model, angles[carried], racks))
     equations = Equations(poses)
     outside = _outside(poses, possible)
-    applied = equations.applied(equations.known() + outside)
     road, _ = outside
+    applied = equations.applied([*known(poses), *outside])
     unknowns = equations.solve(applied)
     # the road has what holds a suspension that is held, and nothing has what is left of others
     held = np.array([case.travel is not None for case in possible])
     vertical = np.where(held, unknowns[:, -1], 0.0)
     pushed = road.force + vertical[:, None] * UP
     outside[0] = Load("wheel", CONTACT, "road", pushed, road.moment, road.at)
-    found = dataset_of(poses, CASE, equations.carried(unknowns) + equations.known() + outside)
-    found = found.assign_coords({CASE: [case.name for case in possible]})
+    found = dataset_of(poses, CASE, equations.carried(unknowns) + known(poses) + outside)
     travel = poses.points[CENTER][:, 2] - design_height(model)
-    found["travel"] = variable(CASE, travel, "wheel travel, positive in bump", "m")
-    found["rack"] = variable(CASE, racks, "displacement of the rack", "m")
-    found["wheel_load"] = variable(CASE, pushed[:, 2], "vertical force of the road", "N")
-    found["holding_force"] = variable(
-        CASE, unknowns[:, -1] - vertical, "vertical force at the contact that is missing", "N"
-    )
+    missing = unknowns[:, -1] - vertical
+    described = {
+        "travel": (travel, "wheel travel, positive in bump", "m"),
+        "rack": (racks, "displacement of the rack", "m"),
+        "wheel_load": (pushed[:, 2], "vertical force of the road", "N"),
+        "holding_force": (missing, "vertical force at the contact that is missing", "N"),
+    }
+    found = found.assign({name: variable(CASE, *told) for name, told in described.items()})
+    found = found.assign_coords({CASE: [case.name for case in possible]})
     found = found.reindex({CASE: [case.name for case in cases]})
     found["reason"] = variable(CASE, np.array(reasons), "why the case cannot be carried", "1")
     found.attrs |= {
