@@ -207,7 +207,7 @@ def _probes(size: int) -> Array:
 def _solution(matrix: Array, right: Array) -> Array:
     """Return solutions; of matrices that are singular to the last bit huge numbers."""
     try:
-        found: Array = np.linalg.solve(matrix, right)
+        found: Array = np.linalg.solve(matrix, right).astype(float)
     except np.linalg.LinAlgError:  # one spoils all
         found = np.linalg.pinv(matrix, rcond=1e-15) @ right
         found[np.linalg.cond(matrix) >= _WORST_CONDITION] = np.inf
