@@ -7,10 +7,11 @@ from pathlib import Path
 
 import jsonschema
 import pytest
-from kintrafo import Suspension
+from kintrafo import Axle, Suspension
 from kintrafo.cli import app
 from kintrafo.core.errors import InputError
 from kintrafo.suspension import data, schema
+from kintrafo.suspension.axle import data as axle_data
 from typer.testing import CliRunner
 
 ROOT = Path(__file__).parents[1]
@@ -113,6 +114,28 @@ def test_what_the_program_refuses_the_schema_refuses_too(
     assert complaint in error.message
     with pytest.raises(InputError):
         Suspension.from_dict(car)
+
+
+@pytest.mark.parametrize(
+    ("changes", "complaint"),
+    [
+        ({}, ""),
+        ({"sides": "reference_car"}, "'sides' was unexpected"),
+        ({"axle": "middle"}, "'middle' is not one of"),
+        ({"side": 3}, "3 is not of type 'string'"),
+        ({"drive": {"share": 2.0}}, "is not valid under any of the given schemas"),
+        ({"suspension": "macpherson"}, "'suspension' was unexpected"),
+    ],
+)
+def test_files_of_axles_are_in_it(validator, changes, complaint):
+    folder = resources.files(axle_data)
+    text = folder.joinpath("reference_axle.toml").read_text(encoding="utf-8")
+    axle = tomllib.loads(text)
+    found = [error.message for error in validator.iter_errors(axle | changes)]
+    assert [complaint in message for message in found] == [True] * bool(changes)
+    if changes:
+        with pytest.raises(InputError):
+            Axle.from_dict(axle | changes)
 
 
 def test_a_kind_that_there_is_not(validator):

@@ -19,7 +19,7 @@ def command(
     *,
     force: Force = False,
 ) -> None:
-    """Print or write the JSON Schema of hardpoint files: every key, its meaning, unit and range.
+    """Print or write the JSON Schema of the files of suspensions and axles: keys, units, ranges.
 
     Editors complete and check hardpoint files with it. Write it beside them, and let their first
     line be [bold]#:schema ./kintrafo.schema.json[/bold], which TOML language servers understand.

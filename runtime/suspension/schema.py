@@ -39,7 +39,8 @@ first section names the kind; what only one kind has is in its own part below.
 
 Editors that know JSON Schema complete keys, show their meaning and underline what is not allowed.
 `kintrafo schema kintrafo.schema.json` writes
-[the schema](../runtime/suspension/data/suspension.schema.json) beside your files; a first line
+[the schema](../runtime/suspension/data/suspension.schema.json) of suspensions and axles beside your
+files; a first line
 
 ```toml
 #:schema ./kintrafo.schema.json
@@ -64,27 +65,34 @@ A file of its own, which names the hardpoint files of its sides; `kintrafo new F
 one. See [Axles](axles.md).
 """
 
+_AXLE = "axle"  # the key of a file of an axle, and of no other
+
 _TABLE_HEAD = "| key | unit | allowed | left out | meaning |\n|---|---|---|---|---|"
 
 
 def schema() -> dict[str, Any]:
-    """Return the JSON Schema of the input file.
+    """Return the JSON Schema of input files: of a suspension, and of an axle.
 
     Returns
     -------
     dict
-        Every key with its description, its unit as ``x-unit`` and its range. The kind that the
-        file names decides which sections there are.
+        Every key with its description, its unit as ``x-unit`` and its range. A file with ``axle``
+        is that of an axle; of others the kind that they name decides which sections there are.
     """
-    _, made = models_json_schema([(kind, "validation") for kind in KINDS.values()])
+    models = (*KINDS.values(), AxleFile)
+    _, made = models_json_schema([(model, "validation") for model in models])
     sections = {name: _with_units(section) for name, section in made["$defs"].items()}
     kinds = {"description": "the kind of suspension", "enum": list(KINDS), "default": DEFAULT}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
-        "title": "suspension",
+        "title": "suspension or axle",
         "type": "object",
-        "properties": {KIND: kinds},
-        "allOf": [{"if": _names(name), "then": _reference(name)} for name in KINDS],
+        "if": {"required": [_AXLE]},
+        "then": _reference(AxleFile),
+        "else": {
+            "properties": {KIND: kinds},
+            "allOf": [{"if": _names(name), "then": _reference(KINDS[name])} for name in KINDS],
+        },
         "$defs": sections,
     }
 
@@ -95,8 +103,8 @@ def _names(kind: str) -> dict[str, Any]:
     return {"properties": {KIND: {"const": kind}}, "required": required}
 
 
-def _reference(kind: str) -> dict[str, str]:
-    return {"$ref": f"#/$defs/{KINDS[kind].__name__}"}
+def _reference(model: type[Section]) -> dict[str, str]:
+    return {"$ref": f"#/$defs/{model.__name__}"}
 
 
 def _with_units(made: dict[str, Any]) -> dict[str, Any]:
@@ -134,17 +142,9 @@ def page_text() -> str:
         own = [section for section in kind.model_fields if section not in shared]
         parts.append(f'## {_capital(kind.TITLE)}\n\n`{KIND} = "{name}"`{kind.PAGE}\n')
         parts += _described(sections, kind, own)
-    parts += _axle()
+    parts += [_AN_AXLE, *_table(sections[AxleFile.__name__])]
+    parts += _described(sections, AxleFile, AxleFile.model_fields)
     return "\n".join(parts).rstrip() + "\n"
-
-
-def _axle() -> Iterator[str]:
-    """Describe the file of an axle."""
-    _, made = models_json_schema([(AxleFile, "validation")])
-    sections = {name: _with_units(section) for name, section in made["$defs"].items()}
-    yield _AN_AXLE
-    yield from _table(sections[AxleFile.__name__])
-    yield from _described(sections, AxleFile, AxleFile.model_fields)
 
 
 def _shared() -> set[str]:

@@ -2,7 +2,7 @@
 
 from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import Field, WithJsonSchema
 
 from ..input.section import Section
 from ..input.vehicle import Share
@@ -14,6 +14,8 @@ Held = Literal["body", "carrier"]
 
 SIDES = ("side", "right", "left")
 
+# What a file can say; from Python a side may also be a suspension, or what is in its file.
+_BY_NAME = WithJsonSchema({"type": "string"})
 _SIDE = "hardpoint file beside this one, or the name of a packaged data set: "
 
 
@@ -50,11 +52,13 @@ class AxleFile(Section):
     """An axle as its file says it; `Axle` has the suspensions that are named here."""
 
     axle: End = Field(description='where the axle is: "front" or "rear"')
-    side: Annotated[Any, Field(description=_SIDE + "one side; the other is its mirror image")] = (
-        None
-    )
-    right: Annotated[Any, Field(description=_SIDE + "the right side")] = None
-    left: Annotated[Any, Field(description=_SIDE + "the left side")] = None
+    side: Annotated[
+        Any,
+        Field(description=_SIDE + "one side; the other is its mirror image"),
+        _BY_NAME,
+    ] = None
+    right: Annotated[Any, Field(description=_SIDE + "the right side"), _BY_NAME] = None
+    left: Annotated[Any, Field(description=_SIDE + "the left side"), _BY_NAME] = None
     anti_roll_bar: AntiRollBar | None = Field(default=None, description="the anti-roll bar")
     steering: SteeringCurve | None = Field(
         default=None,
