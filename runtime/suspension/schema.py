@@ -79,7 +79,7 @@ def schema() -> dict[str, Any]:
         Every key with its description, its unit as ``x-unit`` and its range. A file with ``axle``
         is that of an axle; of others the kind that they name decides which sections there are.
     """
-    models = (*KINDS.values(), AxleFile)
+    models: list[type[Section]] = [*KINDS.values(), AxleFile]
     _, made = models_json_schema([(model, "validation") for model in models])
     sections = {name: _with_units(section) for name, section in made["$defs"].items()}
     kinds = {"description": "the kind of suspension", "enum": list(KINDS), "default": DEFAULT}
