@@ -207,7 +207,7 @@ def _ride_frequency(model: Model, state: Array) -> float | None:
 def _geometry(model: Model) -> dict[str, float]:
     points = model.suspension.hardpoints
     at_design = corner(model, model.design_state[0])
-    axis = at_design.lower, at_design.upper
+    axis = at_design.steering_axis.lower, at_design.steering_axis.upper
     center = points.metres("wheel_center")
     return {
         "half_track": abs(float(center[1])),

@@ -6,6 +6,7 @@ one element for each position; vectors have three components behind them, in cha
 """
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,6 +61,22 @@ class Motion:
         with np.errstate(divide="ignore", invalid="ignore"):
             nearest: Array = center + np.cross(self.turning, self.velocity) / square
         return nearest
+
+
+class SteeringAxis(Protocol):
+    """The axis about which a wheel is steered, by two points on it."""
+
+    @property
+    def lower(self) -> Array:
+        """The lower point, (..., 3) [m]."""
+
+    @property
+    def upper(self) -> Array:
+        """The upper point, (..., 3) [m]."""
+
+    @property
+    def rate(self) -> Array:
+        """Derivative of the vector from the lower to the upper one by wheel travel, (..., 3)."""
 
 
 @dataclass(frozen=True)
@@ -156,10 +173,8 @@ class Corner:
         Unit vector along the spin axis, pointing outboard.
     design_axis : ndarray, shape (3,)
         The same at design.
-    lower, upper : ndarray, shape (..., 3)
-        Two points on the steering axis, the upper one above the lower [m].
-    axis_rate : ndarray, shape (..., 3)
-        Derivative of the vector from the lower to the upper one by wheel travel [1].
+    steering_axis : SteeringAxis
+        About which it is steered.
     travel : Motion
         Per unit of wheel travel (height of the wheel centre) with the steering held [per m].
     steering : Motion
@@ -182,9 +197,7 @@ class Corner:
     design_center: Array
     axis: Array
     design_axis: Array
-    lower: Array
-    upper: Array
-    axis_rate: Array
+    steering_axis: SteeringAxis
     travel: Motion
     steering: Motion
     links: tuple[Plane, Plane]

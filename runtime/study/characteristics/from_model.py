@@ -6,7 +6,7 @@ It is exact: nothing is differenced but, where a steering axis is that of the mo
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...suspension.corner import Array, Corner, Motion, Vehicle
+from ...suspension.corner import Array, Corner, Motion, SteeringAxis, Vehicle
 from ...suspension.input.units import in_metres
 from ...suspension.kinds import Suspension
 from ...suspension.model import Model
@@ -14,7 +14,7 @@ from ...suspension.points import hardpoints
 from ...suspension.reach import at_rest
 from ...suspension.strokes import Strokes
 from ...systems.inputs import rates_of
-from .steering_axis import SteeringAxis, differenced, of_the_screw
+from .steering_axis import AxisOfPoints, AxisOfTheScrew, of_the_screw
 
 
 def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -> Corner:
@@ -38,16 +38,13 @@ def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -
     turned = model.evaluate("orientations", states, inputs)[..., pose.knuckle, :, :]
     at_design = design_axis(model.suspension)
     strokes = _strokes(model, states, inputs)
-    axis = _steering_axis(pose)
     return Corner(
         vehicle=vehicle(model.suspension),
         center=points["wheel_center"],
         design_center=model.suspension.hardpoints.metres("wheel_center"),
         axis=turned @ at_design,
         design_axis=at_design,
-        lower=axis.lower,
-        upper=axis.upper,
-        axis_rate=axis.rate / pose.by_arm.velocity[..., 2:],
+        steering_axis=_steering_axis(pose),
         travel=travel,
         steering=pose.steering,
         links=kind.links_at(points, travel),
@@ -162,21 +159,21 @@ class _Pose:
 
 def _steering_axis(pose: _Pose) -> SteeringAxis:
     """Return the axis about which the wheel is steered; see `SteeringAxis`."""
-    given, points, by_arm = pose.model.suspension.hardpoints, pose.points, pose.by_arm
+    given, points, travel = pose.model.suspension.hardpoints, pose.points, pose.travel
     if given.STEERING_AXIS is None:
         return _axis_of_the_motion(pose)
 
     def rate(point: str) -> Array:
         # a strut turns about its mount on the chassis
         if point not in given.CARRIERS:
-            return np.zeros_like(by_arm.velocity)
-        return by_arm.velocity + np.cross(by_arm.turning, points[point] - points["wheel_center"])
+            return np.zeros_like(travel.velocity)
+        return travel.velocity + np.cross(travel.turning, points[point] - points["wheel_center"])
 
     low, high = given.STEERING_AXIS
-    return SteeringAxis(points[low], points[high], rate(high) - rate(low))
+    return AxisOfPoints(points[low], points[high], rate(high) - rate(low))
 
 
-def _axis_of_the_motion(pose: _Pose) -> SteeringAxis:
+def _axis_of_the_motion(pose: _Pose) -> AxisOfTheScrew:
     """Return the axis of the carrier's first motion when it is steered."""
     place = pose.model.state_names.index(pose.model.names.arm)
 
@@ -186,4 +183,4 @@ def _axis_of_the_motion(pose: _Pose) -> SteeringAxis:
         moved = _Pose(pose.model, states, pose.inputs)
         return of_the_screw(moved.points["wheel_center"], moved.steering_with_spring_locked())
 
-    return differenced(ends)
+    return AxisOfTheScrew(ends, pose.by_arm.velocity[..., 2])

@@ -9,6 +9,7 @@ of the links.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -23,20 +24,58 @@ _WEIGHTS = {-2: 1.0 / 12.0, -1: -8.0 / 12.0, 1: 8.0 / 12.0, 2: -1.0 / 12.0}
 
 
 @dataclass(frozen=True)
-class SteeringAxis:
-    """A line, and how it turns.
+class AxisOfPoints:
+    """A line through two points.
 
     Attributes
     ----------
     lower, upper : ndarray, shape (..., 3)
-        Two points on it, the upper one above the lower [m].
+        The points, the upper one above the lower [m].
     rate : ndarray, shape (..., 3)
-        Derivative of the vector from the lower to the upper one by the arm's angle [m/rad].
+        Derivative of the vector from the lower to the upper one by wheel travel [1].
     """
 
     lower: Array
     upper: Array
     rate: Array
+
+
+class AxisOfTheScrew:
+    """The axis of a motion; what nobody asks for is not computed.
+
+    Parameters
+    ----------
+    ends : callable
+        Takes by how much the arm is turned further [rad], returns the lower and the upper point.
+    rise : ndarray
+        Derivative of wheel travel by the arm's angle [m/rad].
+    """
+
+    def __init__(self, ends: Callable[[float], tuple[Array, Array]], rise: Array) -> None:
+        self._ends, self._rise = ends, rise
+
+    @cached_property
+    def _both(self) -> tuple[Array, Array]:
+        return self._ends(0.0)
+
+    @property
+    def lower(self) -> Array:
+        """The lower point, (..., 3) [m]."""
+        return self._both[0]
+
+    @property
+    def upper(self) -> Array:
+        """The upper point, (..., 3) [m]."""
+        return self._both[1]
+
+    @cached_property
+    def rate(self) -> Array:
+        """Derivative of the vector from the lower to the upper one by wheel travel, (..., 3)."""
+        rate = np.zeros_like(self.lower)
+        for by, weight in _WEIGHTS.items():
+            low, high = self._ends(by * _STEP)
+            rate += weight / _STEP * (high - low)
+        return rate / self._rise[..., None]
 
 
 def of_the_screw(center: Array, steering: Motion) -> tuple[Array, Array]:
@@ -58,19 +97,3 @@ def of_the_screw(center: Array, steering: Motion) -> tuple[Array, Array]:
     along = steering.turning / np.linalg.norm(steering.turning, axis=-1, keepdims=True)
     upward = np.where(along[..., 2:] < 0.0, -along, along)
     return nearest - _HALF * upward, nearest + _HALF * upward
-
-
-def differenced(ends: Callable[[float], tuple[Array, Array]]) -> SteeringAxis:
-    """Return an axis whose ends are known at any angle of the arm, and so its rate.
-
-    Parameters
-    ----------
-    ends : callable
-        Takes by how much the arm is turned further [rad], returns the lower and the upper point.
-    """
-    lower, upper = ends(0.0)
-    rate = np.zeros_like(lower)
-    for by, weight in _WEIGHTS.items():
-        low, high = ends(by * _STEP)
-        rate += weight / _STEP * (high - low)
-    return SteeringAxis(lower, upper, rate)

@@ -51,18 +51,18 @@ def steer_gradient(corner: Corner) -> Array:
 
 def caster(corner: Corner) -> Array:
     """Return the caster angle [rad], positive with the top rearward."""
-    return np.arctan2(*_caster_sides(corner.upper - corner.lower))
+    return np.arctan2(*_caster_sides(_steering_axis(corner)))
 
 
 def caster_gradient(corner: Corner) -> Array:
     """Return the derivative of caster by wheel travel [rad/m]."""
-    axis = corner.upper - corner.lower
-    return _angle_rate(_caster_sides(axis), _caster_sides(corner.axis_rate))
+    axis, rate = _steering_axis(corner), corner.steering_axis.rate
+    return _angle_rate(_caster_sides(axis), _caster_sides(rate))
 
 
 def kingpin_inclination(corner: Corner) -> Array:
     """Return the kingpin inclination [rad], positive with the top inboard."""
-    axis = corner.upper - corner.lower
+    axis = _steering_axis(corner)
     return np.arctan2(-corner.vehicle.side * axis[..., 1], axis[..., 2])
 
 
@@ -256,11 +256,15 @@ def contact_velocity(corner: Corner) -> Array:
     return motion.velocity + np.cross(motion.turning, contact(corner) - corner.center)
 
 
+def _steering_axis(corner: Corner) -> Array:
+    return corner.steering_axis.upper - corner.steering_axis.lower
+
+
 def _offsets(corner: Corner, point: Array) -> tuple[Array, Array]:
     """Return where the steering axis passes a point at its height: ahead and inboard."""
-    axis = corner.upper - corner.lower
-    rise = (point - corner.lower)[..., 2:] / axis[..., 2:]
-    away = corner.lower + rise * axis - point
+    axis, lower = _steering_axis(corner), corner.steering_axis.lower
+    rise = (point - lower)[..., 2:] / axis[..., 2:]
+    away = lower + rise * axis - point
     heading = _heading(corner)
     left = np.cross(UP, heading)
     ahead = np.einsum("...i,...i->...", away, heading)
