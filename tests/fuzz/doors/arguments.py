@@ -320,6 +320,24 @@ CALLS = {
         ),
         _BAR | {"free_twist_deg": 1.0},
     ),
+    "axles.compliance": (
+        axles.compliance,
+        {
+            "axle": _AXLE, "bushings": {"arm_rear": {"radial_N_per_mm": 1e3}}, "travel": [0.0],
+            "rack_position": 0.0, "held": "height",
+        },
+    ),
+    "bush of an axle": (
+        lambda **given: axles.compliance(_AXLE, {"arm_rear": given}, [0.0]),
+        {
+            "axial_N_per_mm": 1e3, "radial_N_per_mm": [1e3, 2e3], "axis": [1.0, 0.1, 0.0],
+            "radial_axis": [0.0, 0.0, 1.0],
+        },
+    ),
+    "rack": (
+        lambda **given: axles.compliance(_AXLE, {"rack": given}, [0.0]),
+        {"axial_N_per_mm": 1e3},
+    ),
     "axles.bump": (axles.bump, {"axle": _AXLE, "travel": [0.0, 0.01], "rack_position": 0.0}),
     "axles.roll": (axles.roll, {"axle": _AXLE, "angle": [0.0, 0.01], "rack_position": 0.0}),
     "axles.single": (

@@ -1,4 +1,4 @@
-"""Hardpoints of both kinds: near singular sets, signs, units, swapped; positions are asked for.
+"""Hardpoints of all kinds: near singular sets, signs, units, swapped; positions are asked for.
 
 Every position that comes back is measured: the distances of hardpoints that belong to one body,
 axes that are orthonormal, the height that was asked for, and lengths that the file allows.
@@ -21,7 +21,15 @@ SHORT = 15
 PROMISED = 1e-9
 CARS = {
     name: Suspension.load(name)
-    for name in ("reference_car", "offset_strut_car", "double_wishbone_car", "chrono_generic")
+    for name in (
+        "reference_car",
+        "offset_strut_car",
+        "double_wishbone_car",
+        "chrono_generic",
+        "push_rod_car",
+        "pull_rod_car",
+        "multi_link_car",
+    )
 }
 # Hardpoints whose distances no motion changes; the bearings stay where they are.
 BODIES = {
@@ -37,6 +45,22 @@ BODIES = {
         ("tie_rod_outer", "tie_rod_inner"),
     ),
 }
+for _rod, _arm in (("push_rod", "lower"), ("pull_rod", "upper")):
+    _lower, _upper, _knuckle, _tie_rod = BODIES["double_wishbone"]
+    BODIES[_rod] = (
+        _lower[:3] + (f"{_rod}_outer",) * (_arm == "lower"),
+        _upper + (f"{_rod}_outer",) * (_arm == "upper"),
+        _knuckle,
+        _tie_rod,
+        (f"{_rod}_outer", f"{_rod}_inner"),
+        ("rocker_front", "rocker_rear", f"{_rod}_inner", "spring_seat"),
+    )
+_LINKS = ("front_upper_link", "rear_upper_link", "front_lower_link", "rear_lower_link", "tie_rod")
+BODIES["multi_link"] = (
+    (*(f"{link}_outer" for link in _LINKS), "wheel_center", "damper_seat"),
+    *((f"{link}_outer", f"{link}_inner") for link in _LINKS),
+    ("rear_lower_link_outer", "rear_lower_link_inner", "spring_seat"),
+)
 
 
 def attempt(random):
