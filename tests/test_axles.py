@@ -571,6 +571,13 @@ def test_the_page_of_a_rear_axle_has_nothing_of_a_front_one(kintrafo: Any, tmp_p
         assert words not in page.partition('id="payload"')[0], words
 
 
+def test_a_chapter_needs_no_steering_ratio() -> None:
+    """Without one the rig goes over the rack, which then is no curve of its own."""
+    car = CAR.with_changes({"rack.travel_per_turn_mm": None})
+    page = axle_chapter(Axle.from_dict({"axle": "rear", "side": car}))
+    assert len(page.pictures) == 4
+
+
 @needs_compiler
 @pytest.mark.usefixtures("coarse_report", "first_page_of_curves")
 def test_the_commands_of_the_page_run(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811

@@ -350,6 +350,16 @@ def test_height_and_spring() -> None:
     assert float(free.sel(moved="z", by="fz")) == pytest.approx(1.0 / rate, rel=0.02)
 
 
+def test_a_bearing_tilts_across_the_spin_axis_whatever_its_axis_is() -> None:
+    model = Model(WISHBONES)
+    plain, turned = (
+        loads.compliance(model, {"wheel_center": {"tilt_Nm_per_deg": 3000.0} | axis}, [0.0])
+        for axis in ({}, {"axis": [1.0, 0.0, 0.0]})
+    )
+    np.testing.assert_array_equal(plain["flexibility"], turned["flexibility"])
+    assert abs(float(plain["camber_by_lateral"][0])) > 1e-7
+
+
 WRONG: list[tuple[Any, dict[str, Any], str]] = [
     ({}, {}, "bushings: one or more"),
     ({"arm": {}}, {}, "Did you mean arm_"),

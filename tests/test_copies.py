@@ -39,6 +39,7 @@ from kintrafo.generator.mechanisms import MODELS, chains, held_by_rods
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.generator.planning.plan import Plan
 from kintrafo.generator.program import ConstantStage, Function, Program, Step, ancestors
+from own_models import Built, needs_gcc, own
 from symbolic import python
 
 if TYPE_CHECKING:
@@ -234,3 +235,20 @@ def test_a_copy_and_its_mirror_image_tell_themselves_apart_where_their_defaults_
     flat = Mechanism("flat", "Flat", (hinge,), coordinates=(hinge.angle("turn", "angle"),))
     same, image = (Copy(flat, "one_", mirrored=mirrored).mechanism for mirrored in (False, True))
     assert repr(same) != repr(image)  # what is compiled is kept under it
+
+
+@needs_gcc
+def test_names_that_are_longer_than_a_line_stay_whole() -> None:
+    """Lines of C end between words, also where a signature leaves no room beside it."""
+    one = Copy(chains.BRICARD.mechanism, "of_a_copy_whose_name_alone_takes_nearly_the_whole_line_")
+    model = Formulation(
+        name="long_names",
+        title="Bricard's chain with long names",
+        mechanism=combined("long_names", "Long names", (one,)),
+        independent=one.of(chains.BRICARD.independent),
+        massive=one.of(chains.BRICARD.massive),
+        allow_iteration=True,
+    )
+    built = Built.of(model, own(model, derivatives=False))
+    rates = built("rhs", np.append(built.design, 1.0))
+    assert np.isfinite(rates).all()

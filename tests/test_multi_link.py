@@ -13,6 +13,7 @@ from kintrafo import (
     Axle,
     InputError,
     Model,
+    PositionError,
     Suspension,
     axles,
     characteristics,
@@ -20,6 +21,7 @@ from kintrafo import (
     simulate,
     state_at_height,
 )
+from kintrafo.study.sweep import positions
 from kintrafo.suspension.points import hardpoints
 from kintrafo.suspension.positions import arm_angles, design_height
 from kintrafo.suspension.reach import at_rest
@@ -204,6 +206,22 @@ def test_the_knuckle_turns_about_the_axis_that_is_told() -> None:
 def test_what_cannot_be_is_refused(changes: dict[str, Any], words: str) -> None:
     with pytest.raises(InputError, match=words):
         CAR.with_changes(changes)
+
+
+def test_words_are_those_of_the_kind() -> None:
+    found = positions(MODEL, [0.0], [0.0])
+    assert "height sensor" in found["arm_angle"].attrs["long_name"]
+    with pytest.raises(PositionError, match="with the suspension in its design position"):
+        arm_angles(MODEL, design_height(MODEL), 0.15)
+
+
+def test_a_spring_that_does_not_move_locks_nothing() -> None:
+    """Then the motion of steering is not defined, and neither is its axis."""
+    flat = CAR.with_changes({"hardpoints.spring_top": [-85.0, -800.0, 200.0]})
+    found = characteristics.travel(Model(flat), [0.0, 0.06])
+    assert np.isnan(found["caster"][0])
+    assert np.isfinite(found["toe"]).all()
+    assert np.isfinite(found["caster"][1])
 
 
 def test_stops_act_along_the_damper() -> None:

@@ -410,6 +410,12 @@ TOE = {"toe": {"value": 0.0, "within": 0.1}}
 
 WRONG = [
     (lambda: variation.sweep(CAR, {"hardpoints.ball_joint": [1.0]}, BUMP), "stands for 3 numbers"),
+    (
+        lambda: variation.sweep(
+            Suspension.load("multi_link_car"), {"damper.rate_N_s_per_m": [1e3, 2e3]}, BUMP
+        ),
+        "closed by iteration",
+    ),
     (lambda: variation.sweep(CAR, {ROD: [280.0, 280.0]}, BUMP), "each is needed once"),
     (lambda: variation.sweep(CAR, {}, BUMP), "one place or more"),
     (

@@ -79,6 +79,7 @@ def model(
         prescribed=corner.prescribed,
         massive=tuple(declared.body(f"{s}{name}") for s in SIDES for name in heavy),
         held=corner.held,
+        allow_iteration=corner.allow_iteration,
     )
 
 

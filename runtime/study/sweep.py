@@ -251,6 +251,6 @@ def _described(name: str, model: Model) -> tuple[str, str]:
         signal = model.equations.SIGNALS[name]
         return signal["meaning"], signal["unit"]
     if name == "arm_angle":
-        return "angle of the lower arm from the chassis vertical", "rad"
+        return str(model.equations.STATE[model.names.arm]["meaning"]), "rad"
     point, _, axis = name.rpartition("_")
     return f"{point.replace('_', ' ')}, {axis} in chassis axes", "m"

@@ -351,7 +351,7 @@ def _refuse_racks(model: Model, racks: Array, seen: Seen, column: int) -> None:
     if first < 0:
         return
     message = (
-        f"the rack cannot be at {racks[first] * 1e3:g} mm with the control arm in its design "
+        f"the rack cannot be at {racks[first] * 1e3:g} mm with the suspension in its design "
         f"position: {_in_words(model, limit)}. Choose a smaller displacement."
     )
     raise PositionError(message)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from typing import TYPE_CHECKING
 
 from ..words import GENERATOR_VERSION, count_line, mechanism_hash, reads_given
@@ -12,6 +13,20 @@ if TYPE_CHECKING:
 
 WIDTH = 100
 ARGUMENTS = "const double *restrict constants, const double *restrict state,"
+
+
+def unbroken(
+    text: str, *, width: int = WIDTH, initial_indent: str = "", subsequent_indent: str = ""
+) -> list[str]:
+    """Break code into lines: between words only, however long they are."""
+    return textwrap.wrap(
+        text,
+        width,
+        initial_indent=initial_indent,
+        subsequent_indent=subsequent_indent,
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
 
 
 class CText:

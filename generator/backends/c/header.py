@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ....equations.status import NOT_FINITE_BIT, bit_of
 from ..words import count_line, iteration_note
-from .common import WIDTH, CText
+from .common import WIDTH, CText, unbroken
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -88,12 +88,8 @@ class Header(CText):
         return "\n".join(lines)
 
     def _constants(self) -> str:
-        names = textwrap.fill(
-            ", ".join(self.derivation.prepare.labels),
-            WIDTH,
-            initial_indent=" " * 8,
-            subsequent_indent=" " * 8,
-        )
+        labels, indent = ", ".join(self.derivation.prepare.labels), " " * 8
+        names = "\n".join(unbroken(labels, initial_indent=indent, subsequent_indent=indent))
         count = len(self.derivation.prepare.labels)
         return (
             "/* Constants of one parameter set, computed by prepare: an array of that many. */"

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from ..sharing import scheduled
 from ..text import written
 from ..words import FORMULA
-from .common import WIDTH
+from .common import WIDTH, unbroken
 from .statements import printed
 
 if TYPE_CHECKING:
@@ -31,11 +31,11 @@ def once(block: Block) -> str:
         "held": [s for line in block.estimate.held for s in line],
     }
     start = f"static void {block.name}_once("
-    arguments = textwrap.wrap(
+    arguments = unbroken(
         ", ".join(
             [*(f"const{_KEPT}double{_KEPT}*{name}" for name in arrays), f"double{_KEPT}*out)"]
         ),
-        WIDTH - len(start),
+        width=WIDTH - len(start),
     )
     lines = [(start + f"\n{' ' * len(start)}".join(arguments)).replace(_KEPT, " "), "{"]
     for array, symbols in arrays.items():
@@ -57,11 +57,11 @@ def call_of(block: Block) -> str:
     names = [*map(str, block.constants), *(name for values in along for name in values)]
     start = f"NO_EFFECT static struct {block.name} {block.name}("
     arguments = ", ".join(f"double{_KEPT}{name}" for name in names) + ")"
-    signature = textwrap.wrap(start + arguments, WIDTH, subsequent_indent=" " * len(start))
+    signature = unbroken(start + arguments, subsequent_indent=" " * len(start))
 
     def array(kind: str, name: str, values: Sequence[str]) -> list[str]:
         text = f"{kind} {name}[] = {{{', '.join(values) or '0'}}};"
-        return textwrap.wrap(text, WIDTH, initial_indent="    ", subsequent_indent="        ")
+        return unbroken(text, initial_indent="    ", subsequent_indent="        ")
 
     count = f"{len(block.unknowns)}, {len(block.elements)}, {len(block.driven)}"
     starts, ends, units = ([values[k] for values in along] for k in range(3))

@@ -15,7 +15,7 @@ from ..sharing import scheduled, together
 from ..templates import template
 from ..text import text_of, written, written_values
 from ..words import FORMULA, blocks_of, reads_given
-from .common import ARGUMENTS, WIDTH, CText
+from .common import ARGUMENTS, WIDTH, CText, unbroken
 from .iteration import call_of, once
 from .statements import declared, in_all_lanes, printed, wrapped
 
@@ -270,9 +270,8 @@ class Source(CText):
             lines += wrapped(text, 4)
             last = row
         if zeros:
-            lines += textwrap.wrap(
+            lines += unbroken(
                 f"{' = '.join(zeros)} = {in_all_lanes('0.0')};",
-                WIDTH,
                 initial_indent="    ",
                 subsequent_indent="        ",
             )

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import string
-import textwrap
 from itertools import groupby
 from typing import TYPE_CHECKING
 
 from ..text import Written, written_steps
 from ..words import FORMULA
-from .common import WIDTH
+from .common import unbroken
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -52,14 +51,7 @@ def _each(kind: str, assignments: Sequence[str]) -> list[str]:
 
 def wrapped(text: str, indent: int) -> list[str]:
     """Break a statement into lines."""
-    return textwrap.wrap(
-        text,
-        WIDTH,
-        initial_indent=" " * indent,
-        subsequent_indent=" " * (indent + 4),
-        break_long_words=False,
-        break_on_hyphens=False,
-    )
+    return unbroken(text, initial_indent=" " * indent, subsequent_indent=" " * (indent + 4))
 
 
 def _kind(step: Written) -> str:

@@ -98,7 +98,9 @@ def _pictures(curves: dict[str, xr.Dataset]) -> list[Picture]:
     pictures = []
     for motion, dataset in curves.items():
         drawn = axles.by_side(dataset)
-        names = [n for n in _DRAWN[motion] if n in drawn and bool(np.isfinite(drawn[n]).any())]
+        # what the motion goes over, as the rack where no ratio is known, is no curve of it
+        there = [n for n in _DRAWN[motion] if n in drawn.data_vars]
+        names = [n for n in there if bool(np.isfinite(drawn[n]).any())]
         words = axles.MOTIONS[motion]
         with rc_context(STYLE):
             page = figure(drawn, names, title=words[:1].upper() + words[1:], alone=False)

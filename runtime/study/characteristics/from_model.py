@@ -16,6 +16,9 @@ from ...suspension.strokes import Strokes
 from ...systems.inputs import rates_of
 from .steering_axis import AxisOfPoints, AxisOfTheScrew, of_the_screw
 
+# Of a spring that can be said to hold the wheel when it is locked.
+_LEAST_RATIO = 0.05
+
 
 def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -> Corner:
     """Return the corner at arm angles and rack positions.
@@ -124,11 +127,16 @@ class _Pose:
         self.steering = self.by_rack.minus(self.travel, self.by_rack.velocity[..., 2])
 
     def steering_with_spring_locked(self) -> Motion:
-        """Return the motion per unit of rack travel with the spring's length held."""
+        """Return the motion per unit of rack travel with the spring's length held.
+
+        No numbers where the spring hardly moves with the wheel: it would lock nothing.
+        """
         by_arm, by_rack = (
             self.model.signal("spring_velocity", *self._at_unit_rate(what))
             for what in ("arm", "rack")
         )
+        locks = np.abs(by_arm) >= _LEAST_RATIO * np.abs(self.by_arm.velocity[..., 2])
+        by_arm = np.where(locks, by_arm, np.nan)
         return self.by_rack.minus(self.by_arm, by_rack / by_arm)
 
     def _motion(self, what: str) -> Motion:

@@ -92,7 +92,8 @@ def bushes_of(given: Arguments, model: Model, described: Mapping[str, Any]) -> l
         if "tilt_Nm_per_deg" in table:
             if point == CENTER:
                 tilt = _stiffness(given, title, table, "tilt_Nm_per_deg") * _PER_DEG
-                compliance[3:, 3:] = (np.eye(3) - np.outer(axes[0], axes[0])) / tilt
+                spin = design_axis(model.suspension)
+                compliance[3:, 3:] = (np.eye(3) - np.outer(spin, spin)) / tilt
             else:
                 given.refuse(f"{title} tilt_Nm_per_deg: only a wheel bearing carries a moment.")
         found.append(Bush(str(point), compliance))

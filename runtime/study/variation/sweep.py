@@ -83,6 +83,7 @@ def sweep(
         grid = given.mapping("values", values, "places and numbers")
         if not given.refused:
             axes = _axes(given, suspension, grid)
+    _refuse_iteration(suspension)
     cars = _Cars(suspension, axes, scenario)
     for car in range(cars.count):
         cars.prepare(car)
@@ -125,6 +126,18 @@ def _axes(given: Arguments, suspension: Suspension, grid: Mapping[Any, Any]) -> 
     if count > _MOST_CARS:
         given.refuse(f"values: they make {count:g} combinations, at most {_MOST_CARS:g} are taken.")
     return axes
+
+
+def _refuse_iteration(suspension: Suspension) -> None:
+    """Say before anything is simulated that cars whose loops are iterated do not go together."""
+    functions = Model(suspension).equations.equations.manifest["functions"]
+    if any("iterates" in told for told in functions.values()):
+        problem = (
+            f"the loops of a {suspension.TITLE} are closed by iteration, which many cars at once "
+            "in lanes cannot do. Simulate one after another: "
+            "kintrafo.simulate(kintrafo.Model(car.with_changes({...})), ...)."
+        )
+        raise InputError([problem], "sweep")
 
 
 class _Cars:

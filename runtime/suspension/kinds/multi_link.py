@@ -129,8 +129,8 @@ class MultiLinkHardpoints(Hardpoints):
             f"{self.text(*(f'{link}_outer' for link in _WORDS))}: the five links hardly hold the "
             f"knuckle, which {words} (shift and turn {found}): if a link is a little longer, it "
             f"moves {times} with the wheel at its height; at most {_LOOSEST:g} times are allowed. "
-            "Let no two links lie on one line, no three meet in a point, and let the toe link "
-            "stand across the steering axis."
+            "Let no two links lie on one line, no three in a plane meet in a point, no four meet "
+            "in one at all, and let the toe link stand across the steering axis."
         )
         return [problem]
 
