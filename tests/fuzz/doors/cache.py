@@ -26,7 +26,7 @@ from ..attempts import WrongError
 if TYPE_CHECKING:
     from numpy.random import Generator
 
-SHORT = 12
+SHORT = 6
 STATES = np.random.default_rng(8).normal(size=(6, 2)) * [0.3, 2.0]
 
 
