@@ -5,6 +5,7 @@ import shutil
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from kintrafo import Model, equilibrium, loads, roads, simulate
@@ -27,6 +28,7 @@ BUSHES = {
 }  # fmt: skip
 MODELS = {name: Model(name) for name in ("reference_car", "double_wishbone_car")}
 OUTPUTS = 10_000
+TRAVELS = np.linspace(-0.06, 0.06, 100)
 REPEATED = 5
 
 
@@ -41,6 +43,8 @@ def main() -> None:
     for words, work in (
         ("20 load cases, all parts", lambda model: lambda: loads.static(model, cases)),
         ("compliance at 100 positions, three bushes", _compliance),
+        ("on these bushes at 100 positions, by equilibrium", _elastokinematics),
+        ("under 20 lateral forces, by equilibrium", _deflection),
         (f"along a motion, {OUTPUTS} outputs, all parts", _along),
     ):
         times = [milliseconds(_quickest(work(model))) for model in MODELS.values()]
@@ -53,9 +57,20 @@ def main() -> None:
 
 
 def _compliance(model: Model) -> Callable[[], object]:
-    (bushes,) = (BUSHES[name] for name, known in MODELS.items() if known is model)
-    travels = np.linspace(-0.06, 0.06, 100)
-    return lambda: loads.compliance(model, bushes, travels)
+    return lambda: loads.compliance(model, _bushes(model), TRAVELS)
+
+
+def _elastokinematics(model: Model) -> Callable[[], object]:
+    return lambda: loads.elastokinematics(model, _bushes(model), TRAVELS)
+
+
+def _deflection(model: Model) -> Callable[[], object]:
+    return lambda: loads.deflection(model, _bushes(model), "lateral", np.linspace(-5e3, 5e3, 20))
+
+
+def _bushes(model: Model) -> dict[str, Any]:
+    (found,) = (BUSHES[name] for name, known in MODELS.items() if known is model)
+    return found
 
 
 def _quickest(call: Callable[[], object]) -> float:
@@ -87,6 +102,9 @@ def _draw() -> None:
             sheet.drop_dims(["moved", "by"]), path, title=f"reference car, {sheet.attrs['held']}"
         )
         shutil.copyfile(path, IMAGES / "compliance.png")
+        elastic = loads.elastokinematics(car, BUSHES["reference_car"])
+        curves.write_overview(elastic, path, title="reference car", force=True)
+        shutil.copyfile(path, IMAGES / "elastokinematic.png")
 
 
 if __name__ == "__main__":

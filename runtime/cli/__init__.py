@@ -10,6 +10,7 @@ from . import (
     check,
     compare,
     compliance,
+    deflection,
     export_points,
     generate,
     import_chrono,
@@ -56,7 +57,7 @@ def _flowing(docstring: str) -> str:
 # In the order in which an engineer needs them.
 _PANELS = {
     "Begin": (new, import_points, export_points, import_chrono, schema, check, topology),
-    "Compute": (kinematics, characteristics, simulate, loads, compliance, compare),
+    "Compute": (kinematics, characteristics, simulate, loads, compliance, deflection, compare),
     "Design": (sensitivity, tolerance, optimise, sweep),
     "Hand over": (report, paper, generate),
 }

@@ -22,6 +22,9 @@ EXAMPLES = (
 )
 
 Held = Literal["height", "spring", "locked"]
+Bushes = Annotated[
+    Path, typer.Argument(metavar="BUSHES", help="TOML: [bushings.POINT] with stiffnesses.")
+]
 
 
 class _Where(NamedTuple):
@@ -36,10 +39,7 @@ class _Where(NamedTuple):
 
 def command(
     file: File,
-    bushes: Annotated[
-        Path,
-        typer.Argument(metavar="BUSHES", help="TOML: [bushings.POINT] with stiffnesses."),
-    ],
+    bushes: Bushes,
     *,
     held: Annotated[
         Held,

@@ -74,6 +74,29 @@ class Joint(ABC):
         """
         return np.zeros((*points[self.at[0]].shape[:-1], len(self.at), 6, 0))
 
+    def directions(self, points: Points) -> Array:
+        """Return the directions, (..., k, 3), along which it keeps its points together."""
+        return np.broadcast_to(np.eye(3), (*points[self.at[0]].shape[:-1], 3, 3))
+
+    def right_angles(
+        self, points: Points, turned: Mapping[str, Array], design: Points, spin: Array
+    ) -> list[tuple[Array, Array]]:
+        """Return directions of the first and of the second part that it keeps at right angles.
+
+        Parameters
+        ----------
+        points, turned, design
+            As of `unit_loads`.
+        spin : ndarray, shape (..., 3)
+            The spin axis of the wheel.
+
+        Returns
+        -------
+        list of tuple of ndarray, each of shape (..., 3)
+        """
+        del points, turned, design, spin
+        return []
+
 
 @dataclass(frozen=True)
 class Ball(Joint):
@@ -105,6 +128,14 @@ class Fixed(Joint):
         del turned, design
         return _spread(np.eye(6), points[self.at[0]])
 
+    def right_angles(
+        self, points: Points, turned: Mapping[str, Array], design: Points, spin: Array
+    ) -> list[tuple[Array, Array]]:
+        """Return the spin axis and both directions across it, then these two."""
+        del points, turned, design
+        along, across, other = frame(spin)
+        return [(along, across), (along, other), (across, other)]
+
 
 @dataclass(frozen=True)
 class Cross(Joint):
@@ -128,12 +159,22 @@ class Cross(Joint):
     def unit_loads(self, points: Points, turned: Mapping[str, Array], design: Points) -> Array:
         """Return three forces and a moment."""
         (center,) = self.at
-        first = np.array(self.first_axis)
-        second = turned[self.second] @ np.cross(design[self.shaft] - design[center], first)
         loads = np.zeros((*points[center].shape[:-1], 1, 6, 4))
         loads[..., 0, :3, :3] = np.eye(3)
-        loads[..., 0, 3:, 3] = _unit(np.cross(first, second))
+        loads[..., 0, 3:, 3] = _unit(np.cross(*self._axes(turned, design)))
         return loads
+
+    def right_angles(
+        self, points: Points, turned: Mapping[str, Array], design: Points, spin: Array
+    ) -> list[tuple[Array, Array]]:
+        """Return its axes."""
+        del points, spin
+        first, second = self._axes(turned, design)
+        return [(np.broadcast_to(_unit(first), second.shape), _unit(second))]
+
+    def _axes(self, turned: Mapping[str, Array], design: Points) -> tuple[Array, Array]:
+        first, (center,) = np.array(self.first_axis), self.at
+        return first, turned[self.second] @ np.cross(design[self.shaft] - design[center], first)
 
 
 class Hinge(Joint):
@@ -193,6 +234,18 @@ class Telescope(Joint):
             loads[..., 0, rows, column] = across
             loads[..., 0, rows, column + 1] = other
         return loads
+
+    def directions(self, points: Points) -> Array:
+        """Return two directions across its axis."""
+        return np.stack(frame(points[self.end] - points[self.at[0]])[1:], axis=-2)
+
+    def right_angles(
+        self, points: Points, turned: Mapping[str, Array], design: Points, spin: Array
+    ) -> list[tuple[Array, Array]]:
+        """Return both directions across its axis with the axis."""
+        del turned, design, spin
+        along, across, other = frame(points[self.end] - points[self.at[0]])
+        return [(across, along), (other, along)]
 
 
 @dataclass(frozen=True)

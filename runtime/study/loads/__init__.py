@@ -4,7 +4,8 @@
 `along`     along a simulation
 `envelope`  the extremes of load cases
 `table`     a column for each component
-`compliance`  how the wheel gives way on its bushes
+`compliance`  how the wheel gives way on its bushes, to first order
+`elastokinematics`, `deflection`  what bushes do over travel, and under loads of any size
 `read`, `read_bushes`  a file of load cases, of bushes
 """
 
@@ -13,11 +14,15 @@ from .bushes import read_bushes
 from .cases import read, standard_cases
 from .compliance import compliance
 from .dataset import envelope, table
+from .elastic.deflection import deflection
+from .elastic.elastokinematics import elastokinematics
 from .static import static
 
 __all__ = [
     "along",
     "compliance",
+    "deflection",
+    "elastokinematics",
     "envelope",
     "read",
     "read_bushes",

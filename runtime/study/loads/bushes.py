@@ -15,11 +15,14 @@ from ...suspension.input.vectors import unit_vector
 from ...suspension.model import Model
 from ...suspension.structure import GROUND, Joint, Telescope
 from ..characteristics.from_model import design_axis
+from .bush_curve import Curve, curve_of
 from .poses import CENTER, rotated
 
 Array = NDArray[np.float64]
 
-_STIFFNESSES = ("axial_N_per_mm", "radial_N_per_mm", "tilt_Nm_per_deg")
+_STIFFNESSES = (
+    "axial_N_per_mm", "radial_N_per_mm", "tilt_Nm_per_deg", "axial_curve", "radial_curve"
+)  # fmt: skip
 _KEYS = (*_STIFFNESSES, "axis", "radial_axis")
 RACK = "rack"
 """In the place of a hardpoint: how stiff the steering holds the rack along its axis."""
@@ -37,13 +40,34 @@ class Bush:
     Attributes
     ----------
     point : str
-    compliance : ndarray, shape (6, 6)
-        Displacement and rotation of the joint's second part by unit force and moment on it, in
-        the chassis axes at design [m/N], [rad/(N m)].
+    axes : ndarray, shape (3, 3)
+        Its own axis and two across it, as rows in the chassis axes at design.
+    soft : ndarray, shape (3,)
+        Displacement of the joint's second part along each by a unit force on it [m/N].
+    tilt : float
+        Of a bearing, its rotation about any axis across that of the wheel by a unit moment
+        [rad/(N m)].
+    spin : ndarray, shape (3,)
+        The axis of the wheel at design.
+    curves : tuple of Curve or None
+        Along each axis the force over the displacement, where that is no straight line; its slope
+        at zero is then what is soft there.
     """
 
     point: str
-    compliance: Array
+    axes: Array
+    soft: Array
+    tilt: float
+    spin: Array
+    curves: tuple[Curve | None, Curve | None, Curve | None]
+
+    @property
+    def compliance(self) -> Array:
+        """Displacement and rotation by force and moment, (6, 6), chassis axes at design."""
+        whole = np.zeros((6, 6))
+        whole[:3, :3] = self.axes.T @ np.diag(self.soft) @ self.axes
+        whole[3:, 3:] = self.tilt * (np.eye(3) - np.outer(self.spin, self.spin))
+        return whole
 
 
 def read_bushes(path: str | Path) -> dict[str, Any]:
@@ -86,18 +110,36 @@ def bushes_of(given: Arguments, model: Model, described: Mapping[str, Any]) -> l
             given.refuse(f"{title} {key} is not known. {suggestion(str(key), _KEYS)}")
         if not any(key in table for key in _STIFFNESSES):
             given.refuse(f"{title}: one of {', '.join(_STIFFNESSES)} is needed, or it is rigid.")
-        axes = _axes(given, title, table, model, joints[point])
-        compliance = np.zeros((6, 6))
-        compliance[:3, :3] = axes.T @ np.diag(_translations(given, title, table)) @ axes
-        if "tilt_Nm_per_deg" in table:
-            if point == CENTER:
-                tilt = _stiffness(given, title, table, "tilt_Nm_per_deg") * _PER_DEG
-                spin = design_axis(model.suspension)
-                compliance[3:, 3:] = (np.eye(3) - np.outer(spin, spin)) / tilt
-            else:
-                given.refuse(f"{title} tilt_Nm_per_deg: only a wheel bearing carries a moment.")
-        found.append(Bush(str(point), compliance))
+        if "tilt_Nm_per_deg" in table and point != CENTER:
+            given.refuse(f"{title} tilt_Nm_per_deg: only a wheel bearing carries a moment.")
+        soft = _translations(given, title, table)
+        axial, radial = (_curve(given, title, table, which) for which in ("axial", "radial"))
+        curves = (axial, radial, radial)
+        bush = Bush(
+            point=str(point),
+            axes=_axes(given, title, table, model, joints[point]),
+            soft=np.array([_at_rest(c) if c else s for s, c in zip(soft, curves, strict=True)]),
+            tilt=1.0 / (_stiffness(given, title, table, "tilt_Nm_per_deg") * _PER_DEG),
+            spin=design_axis(model.suspension),
+            curves=curves,
+        )
+        found.append(bush)
     return found
+
+
+def _curve(given: Arguments, title: str, table: Mapping[str, Any], which: str) -> Curve | None:
+    """Return a curve where there is one."""
+    key, rate = f"{which}_curve", f"{which}_N_per_mm"
+    if key not in table:
+        return None
+    if rate in table:
+        given.refuse(f"{title}: {key} and {rate} both say how stiff it is. Keep one.")
+    return curve_of(given, f"{title} {key}", table[key])
+
+
+def _at_rest(curve: Curve) -> float:
+    """Return how soft a bush is that is relaxed [m/N]."""
+    return 1.0 / float(curve.rate(np.zeros(1))[0])
 
 
 def softness_of_rack(given: Arguments, described: Mapping[str, Any]) -> float:
@@ -143,8 +185,11 @@ def _axes(
         given.refuse(f"{title} axis is needed: no direction there is that of a bush by itself.")
         return np.eye(3)
     along = _direction(given, title, table, "axis", usual_axis)
-    if isinstance(joint, Telescope) and "axial_N_per_mm" in table:
-        given.refuse(f"{title} axial_N_per_mm: a telescope carries nothing along its axis.")
+    if isinstance(joint, Telescope):
+        for key in (key for key in ("axial_N_per_mm", "axial_curve") if key in table):
+            given.refuse(f"{title} {key}: a telescope carries nothing along its axis.")
+        if "axis" in table:
+            given.refuse(f"{title} axis: that of a telescope is its own. Leave it out.")
     # the first of the radial directions, for two stiffnesses: as upright as it can be
     usual = np.eye(3)[0 if abs(along[2]) > np.cos(_LEAST_ANGLE) else 2]
     aside = _direction(given, title, table, "radial_axis", usual)

@@ -197,6 +197,13 @@ def load_at_contact(test: RigLoad, poses: Poses, there: Corner) -> Array:
     return np.concatenate([force, moment + np.cross(arm, force)], axis=-1)
 
 
+def sense_of(test: RigLoad, poses: Poses, there: Corner) -> Array:
+    """Return the direction in which displacements under a load are told, (n, 3)."""
+    sense = _mirror(there.vehicle.side) * test.sense
+    along: Array = np.einsum("nij,i->nj", poses.wheel_axes(), sense)
+    return along
+
+
 def told(
     test: RigLoad, poses: Poses, there: Corner, moved: Array, *, how: str = ""
 ) -> Iterator[tuple[Quantity, Array]]:
@@ -212,7 +219,6 @@ def told(
     how : str, optional
         How both wheels of an axle are loaded.
     """
-    axes, side = poses.wheel_axes(), there.vehicle.side
     turn = moved[:, 3:]
     shift = moved[:, :3] + np.cross(turn, poses.points[test.at] - poses.points[CONTACT])
     as_motion = replace(there, travel=Motion(shift, turn))
@@ -222,7 +228,7 @@ def told(
          wheel.camber_gradient(as_motion)),
     ]  # fmt: skip
     if test.where:
-        along = np.einsum("nij,i->nj", axes, _mirror(side) * test.sense)
+        along = sense_of(test, poses, there)
         words = f"displacement {test.where}"
         values.append(("displacement", "m", words, "", (along * shift).sum(axis=-1)))
     for name, unit, words, sign, numbers in values:

@@ -5,8 +5,14 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
-from ...core.quantities import display_of, displayed, long_name
+from ...core.quantities import bracketed, display_of, displayed, long_name
 from ...core.tabulated import Tabulated, significant, whole
+
+# What stands in tables of deflections, and what the other curve is called there.
+_IN_TABLES = (
+    "toe", "toe_change", "camber", "camber_change", "half_track_change", "displacement"
+)  # fmt: skip
+_BESIDE = {"elastokinematic": "on bushes", "linear": "linear"}
 
 ACTING = ("spring", "damper", "road", "drive")
 """What acts by itself, not between parts at a joint."""
@@ -80,3 +86,38 @@ def compliances(found: xr.Dataset, title: str, at: float = 0.0) -> Tabulated:
     first = ("by", "wheel", "per") if on_axle else ("by", "per")
     columns = (*first, "toe-in [deg]", "camber [deg]", "inward, rearward [mm]")
     return Tabulated(title, columns, tuple(rows), frozenset(range(len(first))))
+
+
+def deflections(found: xr.Dataset, title: str, most: int = 11) -> Tabulated:
+    """Return curves of bushes beside those that leave them out, or leave out how far they give way.
+
+    Parameters
+    ----------
+    found : xarray.Dataset
+        From `elastokinematics` or `deflection`.
+    title : str
+    most : int, optional
+        How many positions are told.
+    """
+    over = next(str(name) for name in found.sizes if name != "data_set")
+    count = found.sizes[over]
+    which = sorted({round(i) for i in np.linspace(0, count - 1, min(count, most))})
+    here = found.isel({over: which})
+    _, other = map(str, here["data_set"].values)
+    columns = [_heading(over.replace("_", " "), here[over])]
+    cells = [[f"{value:g}" for value in displayed(here[over])]]
+    for name in (name for name in _IN_TABLES if name in here):
+        word = name.removesuffix("_change").replace("_", " ")
+        columns += [_heading(word, here[name]), _BESIDE[other]]
+        cells += [[_number(value) for value in row] for row in displayed(here[name])]
+    return Tabulated(title, tuple(columns), tuple(zip(*cells, strict=True)), frozenset())
+
+
+def _heading(words: str, data: xr.DataArray) -> str:
+    return bracketed(words, data.attrs)
+
+
+def _number(value: float) -> str:
+    """Return a number of a table with as many decimals as all others, without a sign of zero."""
+    text = f"{value:.4f}"
+    return text.removeprefix("-") if float(text) == 0.0 else text

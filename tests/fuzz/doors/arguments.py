@@ -143,6 +143,25 @@ CALLS = {
             "radial_axis": [0.0, 0.0, 1.0],
         },
     ),
+    "loads.elastokinematics": (
+        loads.elastokinematics,
+        {
+            "model": _CAR, "bushings": {"arm_rear": {"radial_N_per_mm": 1e3}}, "travel": [0.0],
+            "rack_position": 0.0, "hardpoints": "loaded",
+        },
+    ),
+    "loads.deflection": (
+        loads.deflection,
+        {
+            "model": _CAR, "bushings": {"arm_rear": {"radial_N_per_mm": 1e3}}, "under": "lateral",
+            "amounts": [100.0], "travel": 0.0, "rack_position": 0.0, "held": "height",
+            "hardpoints": "loaded",
+        },
+    ),
+    "curve of a bush": (
+        lambda **given: loads.elastokinematics(_CAR, {"arm_rear": {"axial_curve": given}}, [0.0]),
+        {"mm": [-1.0, 0.0, 1.0], "N": [-100.0, 0.0, 300.0]},
+    ),
     "rig.measured_curves": (rig.measured_curves, {"path": "no.csv"}),
     "rig.beside": (
         rig.beside, {"measured": None, "models": {"a": _CAR}, "name": "measured"},

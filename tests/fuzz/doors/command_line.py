@@ -82,6 +82,7 @@ OPTIONS = {
                  "--rtol", "--atol", "--road-step-at", "--wheels"),
     "loads": ("-o", "--plot", "--cases", "--case", "--part"),
     "compliance": ("-o", "--plot", "--held", "--at", "--rack", "--bump"),
+    "deflection": ("-o", "--plot", "--under", "--most", "--held", "--at", "--rack", "--bump"),
     "compare": ("-o", "--over", "--of"),
     "sensitivity": ("-o", "--plot", "--place", "--of", "--over", "--at"),
     "tolerance": ("-o", "--plot", "--of", "--over", "--at", "--seed"),
@@ -104,6 +105,7 @@ WORDS = {
     "--case": ("static", "brake", "x", ""),
     "--part": ("knuckle", "chassis", "x", ""),
     "--held": ("height", "spring", "x"),
+    "--under": ("lateral", "aligning", "x"),
     "--method": ("BDF", "Adams", "Verner", "Radau", "RK45", "x", ""),
     "--model": ("four_bar", "x"),
 }

@@ -1,0 +1,76 @@
+"""The force of a bush over its displacement, where that is no straight line."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
+
+from ...core.arguments import Arguments
+
+Array = NDArray[np.float64]
+
+_KEYS = ("mm", "N")
+# No bush moves or carries more.
+_MOST_MM, _MOST_N = 1e3, 1e9
+
+
+class Curve:
+    """A force that rises with the displacement.
+
+    Between its points it is a monotone cubic (Fritsch and Carlson), outside them it goes on
+    straight.
+
+    Parameters
+    ----------
+    displacement, force : ndarray, shape (n,)
+        Both rising, zero at the same point [m], [N].
+    """
+
+    def __init__(self, displacement: Array, force: Array) -> None:
+        self._ends = displacement[[0, -1]]
+        self._force = PchipInterpolator(displacement, force)
+        self._slope = self._force.derivative()
+
+    def force(self, displacement: Array) -> Array:
+        """Return the force [N]."""
+        inside = np.clip(displacement, *self._ends)
+        found: Array = self._force(inside) + self._slope(inside) * (displacement - inside)
+        return found
+
+    def rate(self, displacement: Array) -> Array:
+        """Return its derivative [N/m]."""
+        found: Array = self._slope(np.clip(displacement, *self._ends))
+        return found
+
+
+def curve_of(given: Arguments, title: str, described: Any) -> Curve | None:
+    """Read a curve, ``{mm = [...], N = [...]}``; None where it cannot be one."""
+    if not isinstance(described, Mapping) or set(described) != set(_KEYS):
+        given.refuse(f"{title} must be a table of two lists, {{mm = [...], N = [...]}}.")
+        return None
+    places, forces = (
+        given.array(f"{title} {key}", described[key], key, dimensions=[1]) for key in _KEYS
+    )
+    problem = _problem(places, forces)
+    if problem:
+        given.refuse(f"{title}: {problem}")
+        return None
+    return Curve(1e-3 * places, forces)
+
+
+def _problem(places: Array, forces: Array) -> str:
+    """Say why some points are no curve of a bush."""
+    if places.size != forces.size or places.size < 2:
+        return f"mm has {places.size} values and N {forces.size}; as many are needed, two or more."
+    if not (np.abs(places) <= _MOST_MM).all() or not (np.abs(forces) <= _MOST_N).all():
+        return f"values up to {_MOST_MM:g} mm and {_MOST_N:g} N are needed."
+    for key, values in (("mm", places), ("N", forces)):
+        fall = np.flatnonzero(np.diff(values) <= 0.0)
+        if fall.size:
+            first, second = values[fall[0] : fall[0] + 2]
+            return f"{key}: {second:g} follows {first:g}; both lists must rise."
+    if not ((places == 0.0) & (forces == 0.0)).any():
+        return "a point 0 mm, 0 N is needed: a bush is relaxed there."
+    return ""

@@ -1,0 +1,118 @@
+"""How a wheel moves over its travel on its bushes, beside how it does with rigid joints."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+from ....core.arguments import Arguments
+from ....core.quantities import variable
+from ....suspension.corner import Corner
+from ....suspension.model import Model
+from ...characteristics import wheel
+from ...characteristics.datasets import KNOWN, TRAVEL
+from ...compare import DATA_SET
+from ...sweep import usual_travel
+from ..static import road_force
+from .equilibrium import Equilibrium, State
+from .held import HARDPOINTS, Hardpoints, at_height, soft_of, suspension_on
+
+Array = NDArray[np.float64]
+
+_CURVES = {
+    "toe": wheel.toe,
+    "camber": wheel.camber,
+    "half_track_change": wheel.half_track_change,
+    "wheelbase_change": wheel.wheelbase_change,
+}
+
+
+def elastokinematics(
+    model: Model,
+    bushings: Mapping[str, Any],
+    travel: ArrayLike | None = None,
+    *,
+    rack_position: float = 0.0,
+    hardpoints: Hardpoints = "loaded",
+) -> xr.Dataset:
+    """Return how the wheel moves over its travel with rigid joints, and on its bushes.
+
+    Parameters
+    ----------
+    model : Model
+    bushings : mapping
+        As `compliance` takes them; besides, ``axial_curve`` and ``radial_curve`` in the place of
+        stiffnesses, ``{"mm": [...], "N": [...]}``.
+    travel : array_like, shape (n,), optional
+        Heights of the wheel centre with rigid joints above its design height [m]: the road holds
+        the contact where it then is. By default the usual range.
+    rack_position : float, optional
+        [m].
+    hardpoints : {'loaded', 'relaxed'}, optional
+        Whether the hardpoints are where the joints are at design with bushes that carry what the
+        suspension has to carry there, or with bushes that carry nothing.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``data_set`` ('kinematic', 'elastokinematic') and ``wheel_travel``: toe and camber
+        [rad], half-track and wheelbase change [m], and ``wheel_load``, the vertical force of the
+        road [N].
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used, or there is no equilibrium.
+    PositionError
+        If a travel is out of reach.
+
+    Notes
+    -----
+    Equilibrium of all parts at rest by Newton's method in six coordinates a part; displacements
+    may be of any size. Bushes turn with the joint's first part; their torsion is left out.
+
+    Examples
+    --------
+    >>> bushes = {"arm_rear": {"axial_N_per_mm": 500.0, "radial_N_per_mm": 2000.0}}
+    >>> found = elastokinematics(Model("reference_car"), bushes, [-0.04, 0.0, 0.04])
+    >>> toe = np.rad2deg(found["toe"].sel(data_set="elastokinematic") - found["toe"][0])
+    >>> (toe.values.round(3) + 0.0).tolist()
+    [0.023, 0.0, -0.023]
+    """
+    with Arguments("elastokinematics") as given:
+        given.kind("model", model, Model, Model.NEEDED)
+        rack_position = given.number("rack_position", rack_position, "m")
+        given.among("hardpoints", hardpoints, HARDPOINTS)
+        if travel is not None:
+            travel = given.array("travel", travel, "m", dimensions=[1])
+        soft = soft_of(given, model, bushings, hardpoints)
+    travels = usual_travel(model, rack=rack_position) if travel is None else np.asarray(travel)
+    suspension, there = suspension_on(model, travels, rack_position, soft)
+    base = at_height(suspension, travels)
+    return _over_travel(suspension, there, base, travels, hardpoints)
+
+
+def _over_travel(
+    suspension: Equilibrium, there: Corner, base: State, travels: Array, hardpoints: Hardpoints
+) -> xr.Dataset:
+    moved = replace(there, center=suspension.center(base.places), axis=suspension.axis(base.places))
+    dims = (DATA_SET, TRAVEL.name)
+    data = {
+        name: xr.Variable(
+            dims,
+            np.stack([formula(there), formula(moved)]),
+            KNOWN["travel"][name].attributes(),
+        )
+        for name, formula in _CURVES.items()
+    }
+    loads = np.stack([road_force(suspension.poses), base.road])
+    data["wheel_load"] = variable(dims, loads, "vertical force of the road", "N")
+    coordinates = {
+        DATA_SET: ["kinematic", "elastokinematic"],
+        TRAVEL.name: xr.Variable(TRAVEL.name, travels, TRAVEL.attributes()),
+    }
+    words = {"title": "elastokinematics", "hardpoints": HARDPOINTS[hardpoints]}
+    return xr.Dataset(data, coordinates, words)

@@ -1,0 +1,234 @@
+"""Where bodies are that move freely, and how far points and directions of them are apart.
+
+A body moves by a displacement of its centre and a rotation about it, six numbers. What is measured
+between two bodies has its first and second derivatives by the twelve of both, in the order
+displacement and rotation of the first body, then of the second one; second ones are those along
+screw motions, ``exp(rotation)``. Body 0 is the ground, which stays. Arrays have a leading dimension
+for the positions of a suspension.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+_DISPLACED, _ROTATED = (slice(0, 3), slice(6, 9)), (slice(3, 6), slice(9, 12))
+
+
+@dataclass(frozen=True)
+class Places:
+    """Where bodies are.
+
+    Attributes
+    ----------
+    centers : ndarray, shape (n, bodies, 3)
+        [m].
+    turned : ndarray, shape (n, bodies, 3, 3)
+        Rotations from where the bodies were when points and directions of them were noted.
+    """
+
+    centers: Array
+    turned: Array
+
+    @classmethod
+    def at(cls, centers: Array) -> "Places":
+        """Return bodies that have not turned, their centres at some places."""
+        return cls(centers, np.broadcast_to(np.eye(3), (*centers.shape, 3)))
+
+    def moved(self, by: Array) -> "Places":
+        """Return where bodies are after displacements and rotations, (n, bodies, 6)."""
+        turns: Array = Rotation.from_rotvec(by[..., 3:].reshape(-1, 3)).as_matrix()
+        return Places(self.centers + by[..., :3], turns.reshape(self.turned.shape) @ self.turned)
+
+    def of(self, bodies: Indices, vectors: Array) -> Array:
+        """Return vectors that are fixed to bodies, (n, measures, 3)."""
+        rotated: Array = np.einsum("nfij,nfj->nfi", self.turned[:, bodies], vectors)
+        return rotated
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Numbers that two bodies each decide, and their derivatives.
+
+    Attributes
+    ----------
+    bodies : ndarray, shape (measures, 2)
+    value : ndarray, shape (n, measures)
+    slope : ndarray, shape (n, measures, 12)
+    bend : ndarray, shape (n, measures, 12, 12)
+    """
+
+    bodies: Indices
+    value: Array
+    slope: Array
+    bend: Array
+
+    @classmethod
+    def together(cls, parts: Sequence["Measured"]) -> "Measured":
+        """Return several one after the other."""
+        return cls(
+            np.concatenate([part.bodies for part in parts]),
+            *(
+                np.concatenate([getattr(part, name) for part in parts], axis=1)
+                for name in ("value", "slope", "bend")
+            ),
+        )
+
+    def slopes(self, count: int) -> Array:
+        """Return the first derivatives by all of some bodies, (n, measures, bodies, 6)."""
+        found = np.zeros((*self.value.shape, count, 6))
+        each = np.arange(len(self.bodies))
+        for end, part in enumerate((slice(0, 6), slice(6, 12))):
+            found[:, each, self.bodies[:, end]] += self.slope[..., part]
+        return found
+
+    def bent(self, weights: Array, count: int) -> Array:
+        """Return the sum of the second derivatives times weights, (n, bodies, 6, bodies, 6)."""
+        found = np.zeros((len(weights), count, 6, count, 6))
+        weighted = weights[..., None, None] * self.bend
+        halves = slice(0, 6), slice(6, 12)
+        for which, pair in enumerate(self.bodies):
+            for row, i in zip(halves, pair, strict=True):
+                for column, j in zip(halves, pair, strict=True):
+                    found[:, i, :, j, :] += weighted[:, which, row, column]
+        return found
+
+
+@dataclass(frozen=True)
+class Distances:
+    """How far a point of one body is from a point of another, along a direction of the first.
+
+    Attributes
+    ----------
+    bodies : ndarray, shape (measures, 2)
+    along, start, end : ndarray, shape (n, measures, 3)
+        The direction, and the points from the centres of their bodies [m].
+    """
+
+    bodies: Indices
+    along: Array
+    start: Array
+    end: Array
+
+    def at(self, places: Places) -> Measured:
+        """Return them somewhere, [m]."""
+        first, second = self.bodies.T
+        along, start = places.of(first, self.along), places.of(first, self.start)
+        end = places.of(second, self.end)
+        apart = places.centers[:, second] + end - places.centers[:, first] - start
+        turning, parting = _turning(along, 0), _parting(start, end)
+        bend = turning.mT @ parting
+        bend += bend.mT
+        bend[..., _ROTATED[0], _ROTATED[0]] += _second(apart - start, along)
+        bend[..., _ROTATED[1], _ROTATED[1]] += _second(end, along)
+        return Measured(
+            self.bodies,
+            np.einsum("nfi,nfi->nf", along, apart),
+            _times(turning, apart) + _times(parting, along),
+            bend,
+        )
+
+
+@dataclass(frozen=True)
+class Angles:
+    """The cosine of the angle between directions of two bodies.
+
+    Attributes
+    ----------
+    bodies : ndarray, shape (measures, 2)
+    first, second : ndarray, shape (n, measures, 3)
+        Unit vectors.
+    """
+
+    bodies: Indices
+    first: Array
+    second: Array
+
+    def at(self, places: Places) -> Measured:
+        """Return them somewhere."""
+        one, other = (
+            places.of(bodies, vectors)
+            for bodies, vectors in zip(self.bodies.T, (self.first, self.second), strict=True)
+        )
+        by_first, by_second = _turning(one, 0), _turning(other, 1)
+        bend = by_first.mT @ by_second
+        bend += bend.mT
+        for part in _ROTATED:
+            bend[..., part, part] += _second(one, other)
+        return Measured(
+            self.bodies,
+            np.einsum("nfi,nfi->nf", one, other),
+            _times(by_first, other) + _times(by_second, one),
+            bend,
+        )
+
+
+@dataclass(frozen=True)
+class Lengths:
+    """The distance of two points.
+
+    Attributes
+    ----------
+    bodies : ndarray, shape (measures, 2)
+    start, end : ndarray, shape (n, measures, 3)
+        From the centres of their bodies [m].
+    """
+
+    bodies: Indices
+    start: Array
+    end: Array
+
+    def at(self, places: Places) -> Measured:
+        """Return them somewhere [m]."""
+        first, second = self.bodies.T
+        start, end = places.of(first, self.start), places.of(second, self.end)
+        apart = places.centers[:, second] + end - places.centers[:, first] - start
+        length = np.linalg.norm(apart, axis=-1)
+        along = apart / length[..., None]
+        parting = _parting(start, end)
+        slope = _times(parting, along)
+        across = parting.mT @ parting - slope[..., None] * slope[..., None, :]
+        bend = across / length[..., None, None]
+        bend[..., _ROTATED[0], _ROTATED[0]] -= _second(start, along)
+        bend[..., _ROTATED[1], _ROTATED[1]] += _second(end, along)
+        return Measured(self.bodies, length, slope, bend)
+
+
+def cross_matrix(vectors: Array) -> Array:
+    """Return the matrices that multiply with vectors as the cross product does."""
+    x, y, z = np.moveaxis(vectors, -1, 0)
+    nothing = np.zeros_like(x)
+    rows = [[nothing, -z, y], [z, nothing, -x], [-y, x, nothing]]
+    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+
+
+def _turning(direction: Array, end: int) -> Array:
+    """Return the derivative of a direction of the first body, or the second, (..., 3, 12)."""
+    found = np.zeros((*direction.shape, 12))
+    found[..., _ROTATED[end]] = -cross_matrix(direction)
+    return found
+
+
+def _parting(start: Array, end: Array) -> Array:
+    """Return the derivative of the vector from a point of the first body to one of the second."""
+    found = _turning(end, 1) - _turning(start, 0)
+    found[..., _DISPLACED[0]], found[..., _DISPLACED[1]] = -np.eye(3), np.eye(3)
+    return found
+
+
+def _second(turning: Array, other: Array) -> Array:
+    """Return the second derivative, by its rotation, of a turning vector times another one."""
+    outer = turning[..., :, None] * other[..., None, :]
+    product = np.einsum("...i,...i->...", turning, other)[..., None, None]
+    result: Array = 0.5 * (outer + outer.mT) - product * np.eye(3)
+    return result
+
+
+def _times(derivative: Array, vector: Array) -> Array:
+    result: Array = np.einsum("...ij,...i->...j", derivative, vector)
+    return result

@@ -1,0 +1,258 @@
+"""Suspensions on bushes as bodies in maximal coordinates: what their joints hold, and how stiffly.
+
+An oracle for compliance: it shares no code with what it is held against.
+"""
+
+from typing import Any
+
+import numpy as np
+from kintrafo import Model, Suspension, arm_angles
+from kintrafo.suspension.positions import design_height
+from kintrafo.suspension.reach import at_rest
+from oracle.constraints import Assembler, Pose
+
+# Without preload, as the linear theory has it, and with a stop that just touches.
+FREE = {"bump_stop": {"clearance_mm": 0.0, "rate_N_per_m": 5e4}, "wheel.camber_deg": -1.0,
+        "wheel.toe_deg": 0.3, "gravity.acceleration_m_per_s2": 0.0}  # fmt: skip
+STRUT = Suspension.load("offset_strut_car").with_changes(
+    FREE
+    | dict.fromkeys(("strut.spring_preload_N", "strut.spring_free_length_mm", "rebound_stop"))
+    | {"strut.spring_force_at_design_N": 0.0}
+)
+WISHBONES = Suspension.load("double_wishbone_car").with_changes(
+    FREE | {"spring.free_length_mm": None, "spring.force_at_design_N": 0.0}
+)
+LINKED = Suspension.load("multi_link_car").with_changes(
+    FREE | {"spring.free_length_mm": None, "spring.force_at_design_N": 0.0}
+)
+LINKS = ("front_upper_link", "rear_upper_link", "front_lower_link", "rear_lower_link")
+BUSHES: dict[str, dict[str, Any]] = {
+    "arm_front": {"axial_N_per_mm": 1500.0, "radial_N_per_mm": [8000.0, 5000.0]},
+    "arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": [1200.0, 2500.0],
+                 "axis": [1.0, 0.2, 0.1], "radial_axis": [0.0, 1.0, 1.0]},
+    "tie_rod_inner": {"axial_N_per_mm": 9000.0, "radial_N_per_mm": 4000.0},
+    "wheel_center": {"axial_N_per_mm": 50e3, "radial_N_per_mm": 80e3, "tilt_Nm_per_deg": 4000.0},
+}  # fmt: skip
+BUSHES_OF = {
+    STRUT: BUSHES
+    | {
+        "strut_top": {"axial_N_per_mm": 1500.0, "radial_N_per_mm": 700.0},
+        "ball_joint": {"radial_N_per_mm": 30e3, "axial_N_per_mm": 20e3, "axis": [0.0, 0.1, 1.0]},
+    },
+    WISHBONES: {
+        f"{arm}_{name}" if name.startswith("arm") else name: bush
+        for arm in ("lower", "upper")
+        for name, bush in BUSHES.items()
+    },
+    LINKED: {
+        "front_upper_link_inner": BUSHES["arm_front"],
+        "rear_upper_link_outer": BUSHES["arm_rear"],
+        "rear_lower_link_inner": {"axial_N_per_mm": 700.0, "radial_N_per_mm": 5000.0},
+        "front_lower_link_inner": {"axial_N_per_mm": 1500.0, "radial_N_per_mm": 900.0},
+        "tie_rod_inner": BUSHES["tie_rod_inner"],
+        "wheel_center": BUSHES["wheel_center"],
+    },
+}
+# Joints by hand, the arms' hinges as two points: what touches, the parts, and where.
+POINTS = {
+    STRUT: [("arm_front", 0, "control_arm"), ("arm_rear", 0, "control_arm"),
+            ("ball_joint", "control_arm", "knuckle")],
+    WISHBONES: [(f"{arm}_{end}", first, second) for arm in ("lower", "upper")
+                for end, first, second in (("arm_front", 0, f"{arm}_arm"),
+                                           ("arm_rear", 0, f"{arm}_arm"),
+                                           ("ball_joint", f"{arm}_arm", "knuckle"))],
+    LINKED: [place for link in LINKS for place in ((f"{link}_outer", "knuckle", link),
+                                                   (f"{link}_inner", 0, link))],
+}  # fmt: skip
+X, Z = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
+
+
+class Stiffness:
+    """A suspension as bodies on springs, held where its joints do not give way."""
+
+    def __init__(self, car: Suspension, travel: float, rack: float) -> None:
+        self.car, self.model = car, Model(car)
+        state = at_rest(
+            self.model, arm_angles(self.model, design_height(self.model) + travel, rack), rack
+        )
+        self.bodies = ("chassis", *self.model.equations.BODIES)
+        self.pose = Pose(
+            self.model.evaluate("positions", *state), self.model.evaluate("orientations", *state)
+        )
+        self.rack = rack
+        points = car.hardpoints
+        self.at = {name: points.metres(name) for name in (*points.names(), *points.STAND_INS)}
+        parameters = self.model.parameters
+        centers = [
+            self.at["wheel_center"]
+            if body == "wheel"
+            else [parameters[f"{body}_com_{axis}"] for axis in "xyz"]
+            for body in self.bodies[1:]
+        ]
+        self.centres = np.array([np.zeros(3), *centers])
+        self.size = 6 * len(self.bodies[1:])
+
+    def index(self, body: str | int) -> int:
+        return body if isinstance(body, int) else self.bodies.index(body)
+
+    def rows(self, build: Any) -> np.ndarray:
+        """Return the rows of equations that are written down by some code."""
+        assembler = Assembler(self.centres)
+        build(assembler)
+        _, rows = assembler.equations().evaluate(self.pose)
+        return rows
+
+    def point(self, name: str, first: str | int, second: str) -> np.ndarray:
+        """Return the displacement of a joint's second part against the first, (3, size)."""
+        bodies = self.index(first), self.index(second)
+        return -self.rows(lambda a: a.spherical(*bodies, self.at[name]))
+
+    def placed(self, name: str, body: str | int) -> np.ndarray:
+        which = self.index(body)
+        if which == 0:
+            return self.at[name]
+        center, turned = self.pose.position[which - 1], self.pose.rotation[which - 1]
+        return center + turned @ (self.at[name] - self.centres[which])
+
+    def along(self, first: str | int, start: str, second: str, end: str) -> np.ndarray:
+        """Return how a distance grows, (size,)."""
+        away = self.placed(end, second) - self.placed(start, first)
+        away /= np.linalg.norm(away)
+        row = np.zeros((len(self.bodies), 6))
+        for body, name, sign in ((first, start, -1.0), (second, end, 1.0)):
+            which = self.index(body)
+            center = self.pose.position[which - 1] if which else np.zeros(3)
+            row[which] += sign * np.concatenate(
+                [away, np.cross(self.placed(name, body) - center, away)]
+            )
+        return row[1:].ravel()
+
+    def flexibility(self, bushes: dict[str, Any], held: str) -> np.ndarray:
+        """Return displacement and rotation of the contact by force and moment there."""
+        stiff = np.zeros((self.size, self.size))
+        joints, rigid, spring, stop = self.parts(bushes)
+        if "wheel_center" in bushes:
+            turning = self.tilting()
+            stiff += turning.T @ turning * bushes["wheel_center"]["tilt_Nm_per_deg"] * 180.0 / np.pi
+        for name, first, second in joints:
+            rows = self.point(name, first, second)
+            if name not in bushes:
+                rigid.append(rows)
+                continue
+            matrix = self.matrix(name, bushes[name])
+            fixed_in = self.turned(first)
+            stiff += rows.T @ fixed_in @ matrix @ fixed_in.T @ rows
+        moved = self.moved()
+        if held == "locked":
+            rigid.append(self.along(*spring)[None])
+        else:
+            rate = getattr(self.car, "strut" if self.car is STRUT else "spring")
+            rate = getattr(rate, "spring_rate_N_per_m" if self.car is STRUT else "rate_N_per_m")
+            stiff += rate * np.outer(self.along(*spring), self.along(*spring))
+            stiff += 5e4 * np.outer(self.along(*stop), self.along(*stop))
+        if held == "height":
+            rigid.append(moved[2][None])
+        return moved @ minimum(stiff, np.vstack(rigid), moved.T)
+
+    def turned(self, body: str | int) -> np.ndarray:
+        rotation: np.ndarray = self.pose.rotation[self.index(body) - 1]
+        return np.eye(3) if body in (0, "rack") else rotation
+
+    def tilting(self) -> np.ndarray:
+        """Return how the wheel tilts against the knuckle, (2, size)."""
+        knuckle, wheel, spin, across, other = self.bearing()
+        return self.rows(
+            lambda a: [a.perpendicular(knuckle, wheel, spin, v) for v in (across, other)]
+        )
+
+    def bearing(self) -> tuple[int, int, np.ndarray, np.ndarray, np.ndarray]:
+        spin = self.car.wheel.spin_axis(-1.0)
+        across, other = np.linalg.svd(spin[None])[2][1:]
+        return self.index("knuckle"), self.index("wheel"), spin, across, other
+
+    def parts(self, bushes: dict[str, Any]) -> tuple[list[Any], list[np.ndarray], Any, Any]:
+        """Return the points that hold or give way, what else holds, and the ends of the lines."""
+        rigid = [np.eye(self.size)[6 * self.index("rack") - 6 :][:6]]
+        knuckle, wheel, _, across, other = self.bearing()
+        joints = [
+            *POINTS[self.car],
+            ("tie_rod_outer", "knuckle", "tie_rod"),
+            ("tie_rod_inner", "rack", "tie_rod"),
+            ("wheel_center", "knuckle", "wheel"),
+        ]
+        rigid.append(self.cross("rack", "tie_rod"))
+        if self.car is STRUT:
+            strut = self.index("upper_strut")
+            axis = self.at["strut_top"] - self.at["strut_lower"]
+            joints.append(("strut_top", 0, "upper_strut"))
+            ends = (self.at["strut_lower"], self.at["strut_top"])
+            rigid.append(self.rows(lambda a: a.cylindrical(knuckle, strut, axis, ends)))
+            rigid.append(self.rows(lambda a: a.perpendicular(0, strut, X, np.cross(X, axis))))
+            spring = (0, "spring_top", "knuckle", "spring_seat")
+            stop = ("upper_strut", "strut_top", "knuckle", "strut_lower")
+        elif self.car is LINKED:
+            rigid += [self.cross(0, link) for link in LINKS]
+            spring = (0, "spring_top", "rear_lower_link", "spring_seat")
+            stop = (0, "damper_top", "knuckle", "damper_seat")
+        else:
+            spring = stop = (0, "spring_top", "lower_arm", "spring_seat")
+        rigid.append(self.rows(lambda a: a.perpendicular(knuckle, wheel, across, other)))
+        if "wheel_center" not in bushes:
+            rigid.append(self.tilting())
+        return joints, rigid, spring, stop
+
+    def cross(self, first: str | int, rod: str) -> np.ndarray:
+        """Return how a rod turns about itself in the cross at its inner end, (1, size)."""
+        shaft = self.at[f"{rod}_outer"] - self.at[f"{rod}_inner"]
+        bodies = self.index(first), self.index(rod)
+        return self.rows(lambda a: a.perpendicular(*bodies, Z, np.cross(Z, shaft)))
+
+    def moved(self) -> np.ndarray:
+        """Return displacement and rotation of the contact by those of the bodies, (6, size)."""
+        wheel = 6 * self.index("wheel") - 6
+        rows = np.zeros((6, self.size))
+        rows[:, wheel : wheel + 6] = np.eye(6)
+        x, y, z = self.contact() - self.placed("wheel_center", "wheel")
+        rows[:3, wheel + 3 : wheel + 6] = np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])
+        return rows
+
+    def matrix(self, name: str, bush: dict[str, Any]) -> np.ndarray:
+        """Return a bush's stiffness in chassis axes at design, (3, 3) [N/m]."""
+        ends = {"strut_top": ("strut_lower", "strut_top"),
+                "tie_rod_inner": ("tie_rod_inner", "tie_rod_outer")}  # fmt: skip
+        if "axis" in bush:
+            axis = np.array(bush["axis"])
+        elif name == "wheel_center":
+            axis = self.car.wheel.spin_axis(-1.0)
+        else:
+            rod = name.rpartition("_")[0]
+            arm = name.replace("front", "").replace("rear", "")
+            usual = (
+                (f"{rod}_inner", f"{rod}_outer") if "link" in rod else (f"{arm}front", f"{arm}rear")
+            )
+            start, end = ends.get(name, usual)
+            axis = self.at[end] - self.at[start]
+        axis = axis / np.linalg.norm(axis)
+        first = np.array(bush.get("radial_axis", [0.0, 0.0, 1.0]))
+        first = first - (first @ axis) * axis
+        first /= np.linalg.norm(first)
+        radial = np.broadcast_to(bush["radial_N_per_mm"], 2)
+        rates = 1e3 * np.array([bush["axial_N_per_mm"], *radial])
+        rows = np.stack([axis, first, np.cross(axis, first)])
+        return rows.T @ np.diag(rates) @ rows
+
+    def contact(self) -> np.ndarray:
+        axis = self.pose.rotation[self.index("wheel") - 1] @ self.car.wheel.spin_axis(-1.0)
+        upward = Z - axis[2] * axis
+        radius = self.car.tyre_radius()
+        assert radius is not None
+        return self.placed("wheel_center", "wheel") - radius * upward / np.linalg.norm(upward)
+
+
+def minimum(stiff: np.ndarray, held: np.ndarray, loads: np.ndarray) -> np.ndarray:
+    """Return the displacements of least energy under loads, some of them zero."""
+    # so that stiffnesses of 1e6 N/m and constraints of 1 are of a size
+    held = 1e5 * held
+    matrix = np.block([[stiff, held.T], [held, np.zeros((len(held), len(held)))]])
+    right = np.vstack([loads, np.zeros((len(held), loads.shape[1]))])
+    return np.linalg.lstsq(matrix, right, rcond=1e-15)[0][: len(stiff)]

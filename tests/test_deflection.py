@@ -1,0 +1,297 @@
+"""Bushes that give way by any amount: equilibrium in maximal coordinates, limits, refusals."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from kintrafo import InputError, Model, Suspension, arm_angles, loads
+from kintrafo.core.arguments import Arguments
+from kintrafo.study.loads.bushes import bushes_of
+from kintrafo.study.loads.elastic.connections import Soft
+from kintrafo.study.loads.elastic.equilibrium import Equilibrium, State
+from kintrafo.study.loads.elastic.places import Angles, Distances, Lengths, Places
+from kintrafo.study.loads.poses import Poses
+from kintrafo.suspension.positions import design_height
+from kintrafo.suspension.reach import at_rest
+from oracle.constraints import Pose
+from scipy.spatial.transform import Rotation
+from soft_suspensions import BUSHES, BUSHES_OF, LINKED, STRUT, WISHBONES, Stiffness
+
+CARS = [STRUT, WISHBONES, LINKED]
+UNDER = ["lateral", "braking", "recession", "aligning"]
+# A tenth as stiff, so that parts are displaced by some 10 mm; the bearing, which tilts, is rigid.
+SOFTER = {
+    car: {
+        point: {k: 0.1 * np.array(v) if k.endswith("mm") else v for k, v in bush.items()}
+        for point, bush in bushes.items()
+        if point != "wheel_center"
+    }
+    for car, bushes in BUSHES_OF.items()
+}
+
+
+def without_stops(car: Suspension) -> Suspension:
+    return car.with_changes({"bump_stop": None})
+
+
+# -- derivatives ----------------------------------------------------------------------------------
+
+
+def random_measures(rng: np.random.Generator) -> list[Any]:
+    bodies = np.array([[0, 1], [1, 2], [2, 1], [2, 0]])
+    vectors = rng.normal(size=(3, 1, 4, 3))
+    return [
+        Distances(bodies, *vectors),
+        Angles(bodies, *vectors[:2]),
+        Lengths(bodies, *vectors[:2]),
+    ]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_derivatives_are_those_along_screws(seed: int) -> None:
+    """Slopes against differences, and the whole second-order polynomial against values."""
+    rng = np.random.default_rng(seed)
+    turned = Rotation.random(3, rng=rng).as_matrix()[None]
+    places = Places(rng.normal(size=(1, 3, 3)), turned)
+    by = rng.normal(size=(1, 3, 6))
+    by[:, 0] = 0.0
+    for measure in random_measures(rng):
+        here = measure.at(places)
+        flat = by[:, here.bodies].reshape(1, len(here.bodies), 12)
+        first = (here.slope * flat).sum(-1)
+        second = np.einsum("nfi,nfij,nfj->nf", flat, here.bend, flat)
+        # differences over a step of 1e-4 are off by 1e-8 of the third and fourth derivatives, and
+        # by 1e-16 / 1e-8 of the values in second ones
+        h = 1e-4
+        ahead, behind = (measure.at(places.moved(s * h * by)).value for s in (1.0, -1.0))
+        np.testing.assert_allclose((ahead - behind) / (2 * h), first, rtol=0.0, atol=2e-6)
+        bent = (ahead - 2.0 * here.value + behind) / h**2
+        np.testing.assert_allclose(bent, second, rtol=0.0, atol=2e-5)
+
+
+# -- equilibrium ----------------------------------------------------------------------------------
+
+
+def pushed(car: Suspension, bushes: Any, travel: float, force: list[float]) -> tuple[Any, State]:
+    """Return the equilibrium under a force at the wheel centre, the wheel held at its height."""
+    model = Model(car)
+    with Arguments("test") as given:
+        read = bushes_of(given, model, bushes)
+    angles = arm_angles(model, [design_height(model) + travel])
+    poses = Poses.of(model, *at_rest(model, angles))
+    suspension = Equilibrium(poses, Soft({bush.point: bush for bush in read}, 0.0, {}))
+    load = np.array([[0.0] * 6 + force])
+    base = suspension.under(0.0 * load, "height", suspension.start)
+    return suspension, suspension.under(load, "height", base)
+
+
+class Energy(Stiffness):
+    """The potential of a suspension whose parts are anywhere."""
+
+    def __init__(self, car: Suspension, bushes: Any) -> None:
+        super().__init__(car, 0.0, 0.0)
+        self.bushes = bushes
+        self.soft, _, *self.lines = self.parts(bushes)
+        self.free = [self.length(line) for line in self.lines]
+
+    def length(self, line: Any) -> float:
+        first, start, second, end = line
+        return float(np.linalg.norm(self.placed(end, second) - self.placed(start, first)))
+
+    def stored(self) -> float:
+        total = 0.0
+        for name, first, second in self.soft:
+            if name in self.bushes:
+                gap = self.placed(name, second) - self.placed(name, first)
+                gap = self.turned(first).T @ gap
+                total += 0.5 * gap @ self.matrix(name, self.bushes[name]) @ gap
+        spring, stop = (
+            self.length(line) - free for line, free in zip(self.lines, self.free, strict=True)
+        )
+        car = self.car
+        rate = car.strut.spring_rate_N_per_m if car is STRUT else car.spring.rate_N_per_m
+        return float(total + 0.5 * rate * spring**2 + 0.5 * 5e4 * min(stop, 0.0) ** 2)
+
+    def slopes(self, force: np.ndarray, road: float) -> np.ndarray:
+        """Return the derivatives of the potential by all displacements and rotations."""
+        at, found = self.pose, np.zeros(self.size)
+        for which in range(self.size):
+            values = []
+            for sense in (1e-6, -1e-6):
+                position, rotation = at.position.copy(), at.rotation.copy()
+                body, component = divmod(which, 6)
+                if component < 3:
+                    position[body, component] += sense
+                else:
+                    axis = np.eye(3)[component - 3]
+                    rotation[body] = Rotation.from_rotvec(sense * axis).as_matrix() @ rotation[body]
+                self.pose = Pose(position, rotation)
+                work = force @ self.placed("wheel_center", "wheel") + road * self.contact()[2]
+                values.append(self.stored() - work)
+            found[which] = (values[0] - values[1]) / 2e-6
+        self.pose = at
+        return found
+
+
+@pytest.mark.parametrize("car", CARS, ids=lambda car: car.suspension)
+@pytest.mark.parametrize(
+    ("travel", "force"), [(0.03, [-4000.0, 0.0, 0.0]), (-0.03, [1000.0, -5000.0, 300.0])]
+)
+def test_nothing_is_left_of_the_potential(
+    car: Suspension, travel: float, force: list[float]
+) -> None:
+    """Joints hold, and what is left of the potential's slopes is what they can carry.
+
+    Differences over 1e-6 are off by 1e-16 of 100 J by that, 1e-8 N, and by 1e-12 of third ones;
+    positions are found to 1e-10 of a metre at 1e7 N/m, 1e-3 N; loads are some thousand newtons.
+    """
+    suspension, state = pushed(car, SOFTER[car], travel, force)
+    assert state.found.all()
+    energy = Energy(car, SOFTER[car])
+    bodies = energy.bodies[1:]
+    order = [suspension._connections.index(body) for body in bodies]
+    position, rotation = energy.pose.position.copy(), energy.pose.rotation.copy()
+    for which, (body, place) in enumerate(zip(bodies, order, strict=True)):
+        if place:  # the rack stays
+            position[which] = state.places.centers[0, place]
+            rotation[which] = state.places.turned[0, place] @ suspension.poses.turned[body][0]
+    energy.pose = Pose(position, rotation)
+    left = energy.slopes(np.array(force), float(state.road[0]))
+    _, held, *_ = energy.parts(energy.bushes)
+    for name, first, second in energy.soft:
+        gap = energy.placed(name, second) - energy.placed(name, first)
+        if name not in energy.bushes:
+            assert np.abs(gap).max() < 1e-10, name
+            held.append(energy.point(name, first, second))
+    assert np.abs(state.places.centers - suspension.start.places.centers).max() > 0.008
+    rows = np.vstack(held)
+    carried = np.linalg.lstsq(rows.T, left, rcond=1e-12)[0]
+    rest = left - rows.T @ carried
+    assert np.abs(rest).max() < 1e-2
+    assert np.abs(left).max() > 1e3
+
+
+# -- limits ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("held", ["height", "spring", "locked"])
+@pytest.mark.parametrize("car", CARS, ids=lambda car: car.suspension)
+def test_small_loads_are_those_of_the_unit_load_theorem(car: Suspension, held: Any) -> None:
+    """Without a static load both differ by a part in proportion to the load."""
+    model = Model(without_stops(car))
+    off = []
+    for size in (20.0, 2.0):
+        for under in UNDER:
+            amounts = np.array([size if under != "aligning" else 0.3 * size])
+            found = loads.deflection(
+                model, BUSHES_OF[car], under, amounts, held=held, hardpoints="relaxed"
+            )
+            largest = max(abs(float(found["toe_change"][1, 0])), 1e-8 * size)
+            off.append(abs(float(np.diff(found["toe_change"], axis=0)[0, 0])) / largest)
+    first, second = np.reshape(off, (2, len(UNDER)))
+    assert (first < 0.02).all()
+    # a tenth of it, but for rounding: 1e-10 rad of 1e-6 rad
+    assert (second < 0.13 * first + 1e-4).all()
+
+
+@pytest.mark.parametrize("car", CARS, ids=lambda car: car.suspension)
+def test_loaded_bushes_leave_the_design_as_it_is(car: Suspension) -> None:
+    heavy = car.with_changes(
+        {"strut.spring_force_at_design_N" if car is STRUT else "spring.force_at_design_N": 4000.0,
+         "gravity.acceleration_m_per_s2": 9.81}
+    )  # fmt: skip
+    bushes = {**BUSHES_OF[car], "rack": {"axial_N_per_mm": 3000.0}}
+    found = loads.elastokinematics(Model(heavy), bushes, [0.0, 0.03])
+    at_design = found.sel(wheel_travel=0.0)
+    for name in ("toe", "camber", "half_track_change", "wheelbase_change"):
+        kinematic, elastic = at_design[name].values
+        assert elastic == pytest.approx(kinematic, abs=1e-10), name
+    rigid, soft = at_design["wheel_load"].values
+    assert rigid > 2000.0
+    assert soft == pytest.approx(rigid, rel=1e-9)
+    relaxed = loads.elastokinematics(Model(heavy), bushes, [0.0], hardpoints="relaxed")
+    assert abs(np.diff(relaxed["toe"], axis=0)[0, 0]) > 1e-5
+
+
+def test_stiff_bushes_are_rigid_joints() -> None:
+    """A thousand times as stiff, a thousandth of it is left."""
+    model = Model("reference_car")
+    off = []
+    for factor in (1.0, 1e3):
+        bushes = {
+            point: {k: factor * np.array(v) if k.endswith("N_per_mm") else v for k, v in b.items()}
+            for point, b in BUSHES.items()
+            if point != "wheel_center"
+        }
+        found = loads.elastokinematics(model, bushes, [-0.05, 0.05], hardpoints="relaxed")
+        off.append(np.abs(np.diff(found["toe"], axis=0)).max())
+    assert off[1] == pytest.approx(1e-3 * off[0], rel=0.05)
+
+
+def test_a_curve_is_a_stiffness_where_it_is_straight() -> None:
+    model = Model("reference_car")
+    straight = {"arm_rear": {"axial_N_per_mm": 500.0, "radial_N_per_mm": 2000.0}}
+    curve = {"mm": [-5.0, 0.0, 5.0], "N": [-10e3, 0.0, 10e3]}
+    bent = {"arm_rear": {"axial_N_per_mm": 500.0, "radial_curve": curve}}
+    stiff = {"mm": [-5.0, -1.0, 0.0, 1.0, 5.0], "N": [-50e3, -2e3, 0.0, 2e3, 50e3]}
+    stiffer = {"arm_rear": {"axial_N_per_mm": 500.0, "radial_curve": stiff}}
+    amounts = [-6000.0, 100.0, 6000.0]
+    first, second, third = (
+        loads.deflection(model, bushes, "lateral", amounts)["toe_change"].values
+        for bushes in (straight, bent, stiffer)
+    )
+    np.testing.assert_allclose(first, second, rtol=1e-9)
+    assert (np.abs(third[0, [0, 2]]) < 0.95 * np.abs(first[0, [0, 2]])).all()
+    relaxed = [
+        loads.elastokinematics(model, bushes, [0.02], hardpoints="relaxed")["toe"].values
+        for bushes in (straight, bent)
+    ]
+    np.testing.assert_allclose(*relaxed, rtol=1e-9)
+
+
+def test_a_left_car_is_the_mirror_image() -> None:
+    car = Suspension.load("double_wishbone_car")
+    bushes = {"lower_arm_rear": {"axial_N_per_mm": 300.0, "radial_N_per_mm": 1500.0},
+              "rack": {"axial_N_per_mm": 2000.0}}  # fmt: skip
+    for under in UNDER:
+        one, other = (
+            loads.deflection(Model(side), bushes, under, [500.0]) for side in (car, car.mirrored())
+        )
+        for name in one:
+            np.testing.assert_allclose(one[name], other[name], rtol=1e-7, atol=1e-12)
+
+
+@pytest.mark.parametrize("name", ["push_rod_car", "pull_rod_car", "offset_strut_car"])
+def test_every_kind_is_told(name: str) -> None:
+    model = Model(name)
+    point = "arm_rear" if name == "offset_strut_car" else "lower_arm_rear"
+    bushes = {point: {"axial_N_per_mm": 400.0, "radial_N_per_mm": 3000.0}}
+    found = loads.deflection(model, bushes, "lateral", [10.0])
+    # what the static load does in turned bushes is some per cent
+    np.testing.assert_allclose(*found["toe_change"].values, rtol=0.05)
+
+
+# -- refusals -------------------------------------------------------------------------------------
+
+
+def test_what_cannot_be_is_refused() -> None:
+    model = Model("reference_car")
+    bushes: dict[str, Any] = {"arm_rear": {"axial_N_per_mm": 500.0}}
+    with pytest.raises(InputError, match="under"):
+        loads.deflection(model, bushes, "sideways", [1.0])
+    with pytest.raises(InputError, match="1e\\+06 N"):
+        loads.deflection(model, bushes, "lateral", [1e9])
+    with pytest.raises(InputError, match="no equilibrium that lasts"):
+        loads.deflection(model, {"arm_rear": {"axial_N_per_mm": 1.0, "radial_N_per_mm": 1.0}},
+                         "braking", [9e5])  # fmt: skip
+    for curve, words in (
+        ({"mm": [0.0, 1.0]}, "two lists"),
+        ({"mm": [0.0, 1.0], "N": [0.0]}, "as many are needed"),
+        ({"mm": [0.0, 1.0], "N": [0.0, -5.0]}, "-5 follows 0"),
+        ({"mm": [1.0, 2.0], "N": [1.0, 2.0]}, "0 mm, 0 N"),
+    ):
+        with pytest.raises(InputError, match=words):
+            loads.elastokinematics(model, {"arm_rear": {"axial_curve": curve}}, [0.0])
+    both = {"arm_rear": {"axial_N_per_mm": 1.0, "axial_curve": {"mm": [0, 1], "N": [0, 1]}}}
+    with pytest.raises(InputError, match="Keep one"):
+        loads.compliance(model, both)
