@@ -12,8 +12,12 @@ from kintrafo.suspension.reach import at_rest
 from oracle.constraints import Assembler, Pose
 
 # Without preload, as the linear theory has it, and with a stop that just touches.
-FREE = {"bump_stop": {"clearance_mm": 0.0, "rate_N_per_m": 5e4}, "wheel.camber_deg": -1.0,
-        "wheel.toe_deg": 0.3, "gravity.acceleration_m_per_s2": 0.0}  # fmt: skip
+FREE = {
+    "bump_stop": {"clearance_mm": 0.0, "rate_N_per_m": 5e4, "progression_N_per_mm3": 0.05},
+    "wheel.camber_deg": -1.0,
+    "wheel.toe_deg": 0.3,
+    "gravity.acceleration_m_per_s2": 0.0,
+}
 STRUT = Suspension.load("offset_strut_car").with_changes(
     FREE
     | dict.fromkeys(("strut.spring_preload_N", "strut.spring_free_length_mm", "rebound_stop"))

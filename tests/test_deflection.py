@@ -110,7 +110,9 @@ class Energy(Stiffness):
         )
         car = self.car
         rate = car.strut.spring_rate_N_per_m if car is STRUT else car.spring.rate_N_per_m
-        return float(total + 0.5 * rate * spring**2 + 0.5 * 5e4 * min(stop, 0.0) ** 2)
+        pressed = max(-stop, 0.0)
+        total += 0.5 * 5e4 * pressed**2 + 0.25 * 0.05e9 * pressed**4
+        return float(total + 0.5 * rate * spring**2)
 
     def slopes(self, force: np.ndarray, road: float) -> np.ndarray:
         """Return the derivatives of the potential by all displacements and rotations."""
