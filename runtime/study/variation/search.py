@@ -1,0 +1,225 @@
+"""Characteristics as functions of values of the input file, for solvers."""
+
+from collections.abc import Callable, Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+
+from ...core.errors import KintrafoError
+from ...suspension.kinds import Suspension
+from .curves import Together, changed, model_of
+from .goals import Limit, Target
+from .places import Place
+from .sensitivity import step_of
+
+Array = NDArray[np.float64]
+
+MOST_STEPS, NOTHING_TO_GAIN = 100, 1e-8
+"""Steps of the solvers, and the part of the cost below which there is nothing to gain."""
+
+TOO_MANY_STEPS = f"no end within {MOST_STEPS} steps"
+
+# What a suspension that cannot be is worth, in deviations that matter.
+_IMPOSSIBLE = 1e6
+# Part of a limit by which it is kept for sure, whatever rounding does.
+_MARGIN = 1e-7
+# A value that changes targets by less than this part of what matters, over its range, is idle.
+_IDLE = 1e-6
+# Nearer to the end of its range than this part of it, a value is at the end.
+_AT_THE_END = 1e-6
+
+
+class Search:
+    """Targets and limits as functions of the free values, each from -1 to 1 over its range.
+
+    Parameters
+    ----------
+    suspension : Suspension
+    reach : mapping of Place to float
+        How far values may move to either side [SI].
+    targets : sequence of Target
+    limits : sequence of Limit
+    progress : callable or None
+        Called after every step of a solver with the cost that is left, as a part of that at the
+        start.
+    reluctance : float
+        What it costs to move a value over its range to one side, in deviations that matter.
+    """
+
+    def __init__(
+        self,
+        suspension: Suspension,
+        reach: Mapping[Place, float],
+        targets: Sequence[Target],
+        limits: Sequence[Limit],
+        progress: Callable[[float], None] | None,
+        reluctance: float,
+    ) -> None:
+        self.suspension = suspension
+        self.places, self.reach = tuple(reach), np.array([*reach.values()])
+        self.targets, self.limits = tuple(targets), tuple(limits)
+        self.goals: tuple[Target | Limit, ...] = (*self.targets, *self.limits)
+        self._look = Together([goal.curves for goal in self.goals])
+        self._values: dict[bytes, list[Array] | None] = {}
+        self._progress, self._reluctance = progress, reluctance
+        self._begin = self.cost(np.zeros(len(reach))) or 1.0
+
+    def at(self, x: Array) -> Suspension:
+        """Return the suspension with some values."""
+        changes: dict[str, float] = {}
+        for place, by in zip(self.places, x * self.reach, strict=True):
+            changes |= place.moved(float(by))
+        return changed(self.suspension, changes)
+
+    def values(self, x: Array) -> list[Array] | None:
+        """Return the values of each target and each limit; None where there are none."""
+        key = x.tobytes()
+        if key not in self._values:
+            try:
+                found = [values[0] for values in self._look.of(model_of(self.at(x)))]
+            except KintrafoError:
+                found = [np.array(np.nan)]
+            finite = all(np.isfinite(values).all() for values in found)
+            self._values[key] = found if finite else None
+        return self._values[key]
+
+    def derivatives(self, x: Array) -> list[Array]:
+        """Return the derivatives of what `values` returns; (values, free) for each."""
+        columns = [self._difference(x, which) for which in range(x.size)]
+        return [np.stack(parts, axis=1) for parts in zip(*columns, strict=True)]
+
+    def _difference(self, x: Array, which: int) -> list[Array]:
+        """Return the derivatives by one value, one-sided beside what cannot be."""
+        by = np.zeros(x.size)
+        by[which] = step_of(self.places[which]) / self.reach[which]
+        beside = [(at[which], self.values(at)) for at in (x - by, x, x + by)]
+        possible = [(at, values) for at, values in beside if values is not None]
+        if len(possible) < 2:
+            return [np.zeros(goal.at.size) for goal in self.goals]
+        (first, low), (last, high) = possible[0], possible[-1]
+        return [(b - a) / (last - first) for a, b in zip(low, high, strict=True)]
+
+    def idle(self, x: Array) -> list[str]:
+        """Name the values that move no target, neither here nor from one end to the other."""
+        return [
+            place.name
+            for which, place in enumerate(self.places)
+            if not (self._matter(self._difference(x, which)) or self._matter(self._range(x, which)))
+        ]
+
+    def _range(self, x: Array, which: int) -> list[Array]:
+        """Return by how much everything differs between the ends of the range of a value."""
+        ends = np.array([x, x])
+        ends[:, which] = -1.0, 1.0
+        low, high = (self.values(end) for end in ends)
+        if low is None or high is None:
+            return [np.zeros(goal.at.size) for goal in self.goals]
+        return [b - a for a, b in zip(low, high, strict=True)]
+
+    def _matter(self, changes: Sequence[Array]) -> bool:
+        """Tell whether changes of the targets are more than rounding."""
+        pairs = zip(self.targets, changes, strict=False)
+        return any((np.abs(change) > _IDLE * target.within).any() for target, change in pairs)
+
+    @property
+    def evaluations(self) -> int:
+        """How many suspensions were looked at."""
+        return len(self._values)
+
+    # -- targets ----------------------------------------------------------------------------------
+
+    def deviations(self, x: Array) -> Array:
+        """Return the deviations from the targets, in parts of what matters, and what moves cost."""
+        values = self.values(x)
+        if values is None:
+            return np.full(sum(t.at.size for t in self.targets) + x.size, _IMPOSSIBLE)
+        pairs = zip(self.targets, values, strict=False)
+        missed = [(value - target.value) / target.within for target, value in pairs]
+        return np.concatenate([*missed, self._reluctance * x])
+
+    def slopes(self, x: Array) -> Array:
+        """Return the derivatives of the deviations; every step of a solver asks for them once."""
+        if self._progress is not None:
+            self._progress(self.cost(x) / self._begin)
+        pairs = zip(self.targets, self.derivatives(x), strict=False)
+        slopes = [slope / target.within for target, slope in pairs]
+        return np.concatenate([*slopes, self._reluctance * np.eye(x.size)])
+
+    def cost(self, x: Array) -> float:
+        """Return half of the sum of the squares."""
+        missed = self.deviations(x)
+        return 0.5 * float(missed @ missed)
+
+    def gradient(self, x: Array) -> Array:
+        """Return the derivative of the cost."""
+        return self.deviations(x) @ self.slopes(x)
+
+    # -- limits -----------------------------------------------------------------------------------
+
+    def room(self, x: Array) -> Array:
+        """Return how much room the limits leave, in parts of their size; negative beyond one."""
+        values = self.values(x)
+        if values is None:
+            sides = (limit.at.size * len(_sides(limit)) for limit in self.limits)
+            return np.full(sum(sides), -_IMPOSSIBLE)
+        found = values[len(self.targets) :]
+        rooms = [
+            sign * (value - bound) / _size(limit)
+            for limit, value in zip(self.limits, found, strict=True)
+            for sign, bound in _sides(limit)
+        ]
+        return np.concatenate(rooms) - _MARGIN
+
+    def room_slopes(self, x: Array) -> Array:
+        """Return the derivatives of the room."""
+        found = self.derivatives(x)[len(self.targets) :]
+        slopes = [
+            sign * slope / _size(limit)
+            for limit, slope in zip(self.limits, found, strict=True)
+            for sign, _ in _sides(limit)
+        ]
+        return np.concatenate(slopes)
+
+    # -- words ------------------------------------------------------------------------------------
+
+    def at_the_end(self, x: Array) -> list[str]:
+        """Name the values that are at an end of their range."""
+        pairs = zip(self.places, x, strict=True)
+        return [place.name for place, part in pairs if abs(part) > 1.0 - _AT_THE_END]
+
+    def moved(self, x: Array) -> dict[str, float]:
+        """Return by how much values have moved, in the units for people, by name."""
+        pairs = zip(self.places, x * self.reach, strict=True)
+        return {place.name: float(by / place.to_si) for place, by in pairs}
+
+
+def _sides(limit: Limit) -> list[tuple[float, float]]:
+    """Return the bounds that a limit has, with the sign of the room beside them."""
+    return [(s, b) for s, b in ((1.0, limit.least), (-1.0, limit.most)) if np.isfinite(b)]
+
+
+def _size(limit: Limit) -> float:
+    """Return what a limit is measured by."""
+    return max(abs(bound) for _, bound in _sides(limit)) or 1.0
+
+
+def least(search: Search) -> tuple[Array, str]:
+    """Return the values of the least deviations, limits aside, and why the solver gave up if so."""
+    found = least_squares(
+        search.deviations,
+        np.zeros(len(search.places)),
+        search.slopes,
+        bounds=(-1.0, 1.0),
+        xtol=NOTHING_TO_GAIN,
+        ftol=NOTHING_TO_GAIN,
+        gtol=NOTHING_TO_GAIN,
+        max_nfev=MOST_STEPS,
+    )
+    return found.x, "" if found.success else TOO_MANY_STEPS
+
+
+def in_words(facts: Mapping[str, Sequence[str]]) -> str:
+    """Return facts with the names that they are about, of those that are about any."""
+    told = [f"{fact}: {', '.join(dict.fromkeys(names))}" for fact, names in facts.items() if names]
+    return "; ".join(told)
