@@ -8,7 +8,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from kintrafo import Suspension, variation
+import xarray as xr
+from kintrafo import Model, Suspension, characteristics, rig, variation
+from kintrafo.plots import curves
 from kintrafo.plots import variation as pictures
 
 from .report import fill_page
@@ -95,8 +97,23 @@ def draw() -> None:
         )
         found = variation.optimise(CAR, FREE, TOE, HEIGHT)
         pictures.write_optimum(found, folder / "optimise.png", title="reference car")
+        curves.write_overview(_fitted(), folder / "fit.png", title="reference car as built")
         for picture in folder.iterdir():
             shutil.copyfile(picture, IMAGES / picture.name)
+
+
+def _fitted() -> xr.Dataset:
+    """Return curves of a car that is off by known errors and noise, and those of its fit."""
+    built = CAR.with_changes({"hardpoints.tie_rod_inner": [-140.0, -310.5, 281.5]})
+    built = built.with_changes({"hardpoints.arm_rear": [-150.0, -351.0, 206.5]})
+    measured = characteristics.travel(Model(built), TRAVEL)[["toe", "camber"]]
+    noise = np.random.default_rng(1).normal(scale=np.deg2rad(0.005), size=(2, TRAVEL.size))
+    for name, errors in zip(measured, noise, strict=True):
+        measured[name] += errors
+    accuracy = {"toe": 0.005, "camber": 0.005}
+    found = variation.fit(CAR, measured, {"hardpoints": 3.0}, accuracy=accuracy)
+    models = {"file": Model(found.start), "fitted": Model(found.suspension)}
+    return rig.beside(measured, models)
 
 
 if __name__ == "__main__":

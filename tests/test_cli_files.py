@@ -43,6 +43,7 @@ WRITING = {
     "loads": (["loads", CAR, "-o", "a.nc"], "a.nc"),
     "loads --plot": (["loads", CAR, "--case", "brake", "--plot", "a.png"], "a_brake.png"),
     "compliance": (["compliance", CAR, str(STUDIES / "bushes.toml"), "--plot", "a.svg"], "a.svg"),
+    "deflection": (["deflection", CAR, str(STUDIES / "bushes.toml"), "--plot", "a.svg"], "a.svg"),
     "compare": (["compare", CAR, CAR, "--plot", "a.pdf"], "a.pdf"),
     "sensitivity": (
         ["sensitivity", CAR, "--place", "hardpoints.ball_joint.z", "-o", "a.nc"],
@@ -53,6 +54,10 @@ WRITING = {
         "a.svg",
     ),
     "optimise": (["optimise", CAR, str(STUDIES / "goals.toml"), "-o", "a.toml"], "a.toml"),
+    "fit": (
+        ["fit", CAR, str(STUDIES / "rig.csv"), str(STUDIES / "tolerances.toml"), "-o", "a.toml"],
+        "a.toml",
+    ),
     "sweep": (
         ["sweep", CAR, "wheel.toe_deg=0,1", "--duration", 0.01, "--plot", "a.png"],
         "a.png",

@@ -9,7 +9,17 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import InputError, Model, Suspension, arm_angles, roads, scenario, variation
+from kintrafo import (
+    InputError,
+    Model,
+    Suspension,
+    arm_angles,
+    characteristics,
+    export,
+    roads,
+    scenario,
+    variation,
+)
 from kintrafo.core.quantities import display_of
 from kintrafo.study.characteristics.from_model import gaps
 from kintrafo.study.variation.curves import Curves, changed, model_of
@@ -520,6 +530,9 @@ def test_the_page_runs(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
     page = (ROOT / "docs/studies.md").read_text(encoding="utf-8")
     for name, text in re.findall(r"```toml\n# (\S+)\n(.*?)```", page, flags=re.DOTALL):
         (tmp_path / name).write_text(text, encoding="utf-8")
+    built = CAR.with_changes({"hardpoints.tie_rod_inner": [-140.0, -310.0, 280.3]})
+    measured = characteristics.travel(Model(built))
+    export.write(measured[["toe", "camber"]], tmp_path / "rig.csv")
     (block,) = re.findall(r"```python\n(.*?)```", page, flags=re.DOTALL)
     found: dict[str, Any] = {}
     exec(block, found)
@@ -529,7 +542,7 @@ def test_the_page_runs(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
         assert (code, bool(out)) == (0, True), (line, err)
     assert {path.name for path in tmp_path.iterdir()} >= {
         "bump_steer.png", "heights.nc", "bands.png", "better_car.toml", "before_and_after.png",
-        "damping.png", "damping.csv",
+        "damping.png", "damping.csv", "as_built.toml", "fitted.png",
     }  # fmt: skip
     better = Suspension.load(tmp_path / "better_car.toml")
     assert abs(curve(better, "toe", [-0.06, 0.06])).max() < abs(curve(CAR, "toe", 0.06)).max() / 5

@@ -12,6 +12,7 @@ from . import (
     compliance,
     deflection,
     export_points,
+    fit,
     generate,
     import_chrono,
     import_points,
@@ -58,7 +59,7 @@ def _flowing(docstring: str) -> str:
 _PANELS = {
     "Begin": (new, import_points, export_points, import_chrono, schema, check, topology),
     "Compute": (kinematics, characteristics, simulate, loads, compliance, deflection, compare),
-    "Design": (sensitivity, tolerance, optimise, sweep),
+    "Design": (sensitivity, tolerance, optimise, fit, sweep),
     "Hand over": (report, paper, generate),
 }
 for panel, modules in _PANELS.items():

@@ -3,10 +3,12 @@
 `sensitivity`    by how much each value moves each characteristic
 `tolerance`      bands and yield of many cars that differ as drawings allow
 `optimise`       values that bring characteristics to targets, within limits
+`fit`            errors of the file that explain curves which were measured
 `sweep`          the motion over a grid of values
 `read`, `limits` a file of tolerances or of targets, and its limits
 """
 
+from .fit import Fit, Fitted, fit
 from .goals import limits, read
 from .optimise import Optimum, optimise
 from .sensitivity import Effect, effects, sensitivity
@@ -15,8 +17,11 @@ from .tolerance import tolerance
 
 __all__ = [
     "Effect",
+    "Fit",
+    "Fitted",
     "Optimum",
     "effects",
+    "fit",
     "limits",
     "optimise",
     "read",

@@ -17,7 +17,7 @@ from .curves import Curves, Over, model_of, there
 
 Array = NDArray[np.float64]
 
-_SECTIONS = ("distribution", "tolerances", "free", "targets", "limits")
+_SECTIONS = ("distribution", "tolerances", "free", "targets", "limits", "accuracy")
 # No characteristic is as great as this in any unit, and no deviation as small matters.
 _GREATEST, _LEAST = 1e9, 1e-9
 

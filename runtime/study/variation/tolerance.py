@@ -23,10 +23,11 @@ Distribution = Literal["normal", "uniform"]
 QUANTILE, CAR = "quantile", "car"
 """Dimensions of the bands, and of the cars."""
 
+SIGMAS = 3.0
+"""Of a normal distribution, a tolerance is so many standard deviations: 99.7 % lie within."""
+
 QUANTILES = (0.0, 0.05, 0.5, 0.95, 1.0)
 
-# Of a normal distribution, its tolerance is so many standard deviations: 99.7 % lie within.
-_SIGMAS = 3.0
 _MOST_CARS = 1_000_000
 # So many numbers take 0.8 GB until their quantiles are found.
 _MOST_NUMBERS = 100_000_000
@@ -165,7 +166,7 @@ def _drawn(distribution: str, root: Array, count: int, seed: int) -> Array:
     random = np.random.default_rng(seed)
     if distribution == "uniform":
         return random.uniform(-1.0, 1.0, (count, len(root)))
-    drawn: Array = random.standard_normal((count, len(root))) @ root.T / _SIGMAS
+    drawn: Array = random.standard_normal((count, len(root))) @ root.T / SIGMAS
     return drawn
 
 
@@ -227,7 +228,7 @@ def _parts(
 
     Of correlated values it is that of their sum in which they have a part: it may be negative.
     """
-    sigma = np.array([*spread.values()]) / (np.sqrt(3.0) if distribution == "uniform" else _SIGMAS)
+    sigma = np.array([*spread.values()]) / (np.sqrt(3.0) if distribution == "uniform" else SIGMAS)
     moved = sigma[:, None, None] * np.array([_slope(suspension, p, curves) for p in spread])
     parts: Array = moved * np.einsum("ij,jnp->inp", root @ root.T, moved)
     return parts

@@ -52,6 +52,7 @@ _BAR = {
 }  # fmt: skip
 _EXTENT = axles.Extent(rebound=0.01, bump=0.01, roll=0.01, rack=0.01, step=0.01)
 _ONE_CURVE = _DATASET[["camber"]]
+_MEASURED = characteristics.travel(_CAR, [-0.02, 0.0, 0.02])[["toe", "camber"]]
 
 NASTY = [
     None, True, False, "", "reference_car", "nan", b"x", 0, -1, 1, 10**400, 0.0, -0.3, 1e-320,
@@ -190,6 +191,13 @@ CALLS = {
             "suspension": _CAR.suspension, "free": {_ROD: 1.0},
             "targets": {"bump_steer": {"value": 0.0, "within": 1.0}},
             "limits": {"toe": {"least": -1.0}},
+        },
+    ),
+    "fit": (
+        variation.fit,
+        {
+            "suspension": _CAR.suspension, "measured": _MEASURED, "tolerances": {_ROD: 1.0},
+            "accuracy": {"toe": 0.1}, "names": ["toe"],
         },
     ),
     "variation.sweep": (

@@ -87,6 +87,7 @@ OPTIONS = {
     "sensitivity": ("-o", "--plot", "--place", "--of", "--over", "--at"),
     "tolerance": ("-o", "--plot", "--of", "--over", "--at", "--seed"),
     "optimise": ("-o", "--plot"),
+    "fit": ("-o", "--plot", "--of"),
     "sweep": ("-o", "--plot", "--keep", "--height", "--road-step", "--measured"),
     "report": ("--title",),
     "paper": ("--data",),

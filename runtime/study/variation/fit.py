@@ -1,0 +1,276 @@
+"""Errors of the input file that explain curves which were measured on a rig."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, cast
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError
+from ...core.quantities import display_of
+from ...suspension.kinds import Suspension
+from ..characteristics.datasets import ALONG, KNOWN
+from .curves import Over
+from .goals import Target, check_data
+from .places import Place, amounts
+from .search import Search, in_words, least
+from .tolerance import SIGMAS
+
+Array = NDArray[np.float64]
+
+# A curve is measured to this part of what it varies by, where nothing is said.
+_USUAL_ACCURACY = 0.02
+# Points of a curve that count as if their errors were independent: neighbours on a rig err alike.
+_INDEPENDENT = 10
+# Of what a value may be off by, a measurement that tells less than this part tells nothing.
+_LEAST_TOLD = 0.1
+# What is held is held so well [m].
+_HELD = 1e-4
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A characteristic before and after.
+
+    Attributes
+    ----------
+    name : str
+    within : float
+        How well it is taken to be measured [SI].
+    before, after : float
+        Root of the mean squared deviation [SI].
+    """
+
+    name: str
+    within: float
+    before: float
+    after: float
+
+
+@dataclass(frozen=True)
+class Fit:
+    """What explains a measurement.
+
+    Attributes
+    ----------
+    suspension : Suspension
+        With the values that explain it best.
+    start : Suspension
+        The one that was given.
+    places : tuple of Place
+        The values that may be off, as they were.
+    moved : dict of str to float
+        By how much each is off, in the unit for people.
+    uncertainty : dict of str to float
+        Its standard deviation with the measurement known, in the same unit.
+    told : dict of str to float
+        From 0 to 1, which part of the variance that its tolerance leaves the measurement takes
+        away: of what is near 0 it tells nothing, and the value stays where it was.
+    curves : tuple of Fitted
+    success : bool
+        Whether the solver has come to its end and every curve is explained, to what it is measured
+        by.
+    message : str
+        What there is to say about it.
+    evaluations : int
+        How many suspensions were looked at.
+    """
+
+    suspension: Suspension
+    start: Suspension
+    places: tuple[Place, ...]
+    moved: dict[str, float]
+    uncertainty: dict[str, float]
+    told: dict[str, float]
+    curves: tuple[Fitted, ...]
+    success: bool
+    message: str
+    evaluations: int
+
+
+def fit(
+    suspension: Suspension,
+    measured: xr.Dataset,
+    tolerances: Mapping[str, float],
+    *,
+    accuracy: Mapping[str, float] | None = None,
+    names: Sequence[str] | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> Fit:
+    """Find which errors of the input file explain curves that were measured.
+
+    Parameters
+    ----------
+    suspension : Suspension
+    measured : xarray.Dataset
+        From `kintrafo.rig.measured_curves`; the steering straight ahead, or the wheel at design.
+    tolerances : mapping of str to float
+        How far values may be off to either side, as of `tolerance`: normally distributed with a
+        third of it as standard deviation. None is moved farther.
+    accuracy : mapping of str to float, optional
+        Standard deviation with which characteristics are measured, in the unit for people. By
+        default 2 % of what the curve varies by.
+    names : sequence of str, optional
+        Which of the curves are to be explained; by default all.
+    progress : callable, optional
+        Called after every step of the solver with the cost that is left, as a part of that at the
+        start.
+
+    Returns
+    -------
+    Fit
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used, or nothing that may be off moves a curve.
+    PositionError
+        If the suspension does not reach a position as it is.
+
+    Notes
+    -----
+    The most probable values, by SciPy's ``least_squares``: the sum of the squared deviations of the
+    curves, each in parts of its accuracy, and of the values, each in parts of its standard
+    deviation. Uncertainties are those of first order there. A curve of more than 10 points counts
+    as 10, since neighbours on a rig err alike.
+
+    Examples
+    --------
+    >>> from kintrafo import Model, characteristics
+    >>> car = Suspension.load("reference_car")
+    >>> built = car.with_changes({"hardpoints.tie_rod_inner": [-140.0, -310.0, 282.0]})
+    >>> rig = characteristics.travel(Model(built), np.linspace(-0.06, 0.06, 7))[["toe"]]
+    >>> found = fit(car, rig, {"hardpoints.tie_rod_inner.z": 5.0, "hardpoints.ball_joint.x": 5.0})
+    >>> [round(by, 2) for by in found.moved.values()]
+    [-0.1, 1.98]
+    """
+    with Arguments("fit") as given:
+        given.kind("suspension", suspension, Suspension, "a kintrafo.Suspension is needed")
+        given.function("progress", progress)
+        given.dataset(measured)
+        accuracies = given.mapping(
+            "accuracy", {} if accuracy is None else accuracy, "names and numbers"
+        )
+        if not given.refused:
+            targets = _targets(given, measured, names, accuracies)
+        if not given.refused:
+            check_data(given, suspension, targets)
+            by_pattern = given.mapping("tolerances", tolerances, "places and numbers")
+            reach = amounts(given, suspension, by_pattern, "tolerance")
+            if not reach:
+                given.refuse("tolerances: one or more are needed.")
+    search = Search(suspension, reach, targets, (), progress, SIGMAS)
+    idle = search.idle(np.zeros(len(reach)))
+    if len(idle) == len(reach):
+        raise InputError([f"tolerances: nothing of {', '.join(idle)} moves a curve."], "fit")
+    return _fit(search, *least(search))
+
+
+def _targets(
+    given: Arguments, measured: xr.Dataset, names: Any, accuracies: Mapping[str, Any]
+) -> list[Target]:
+    """Return the measured curves as targets, without the cells that are empty."""
+    over = [way for way, along in ALONG.items() if along.name in measured.dims]
+    if len(over) != 1:
+        given.refuse("measured: what kintrafo.rig.measured_curves returns is needed.")
+        return []
+    (way,) = (cast("Over", each) for each in over)
+    along = ALONG[way].name
+    for name in (a.name for a in ALONG.values() if a.name != along and a.name in measured.coords):
+        if abs(float(measured[name])) > _HELD:
+            given.refuse(
+                f"measured: {name} is held at {1e3 * float(measured[name]):g} mm; curves with it "
+                "at zero are needed."
+            )
+    there = [name for name in map(str, measured) if measured[name].dims == (along,)]
+    known = [name for name in there if name in KNOWN[way]]
+    chosen = known if names is None else given.names("names", names, known)
+    if not chosen and not given.refused:
+        given.refuse("measured: one curve or more is needed.")
+    for name in accuracies:
+        given.among("accuracy of", name, known)
+    return [
+        target
+        for name in chosen
+        if (target := _target(given, measured[name], way, accuracies.get(name))) is not None
+    ]
+
+
+def _target(given: Arguments, curve: xr.DataArray, way: Over, accuracy: Any) -> Target | None:
+    name = str(curve.name)
+    fine = np.isfinite(curve.values)
+    values, at = curve.values[fine], curve[ALONG[way].name].values[fine]
+    if not values.size:
+        given.refuse(f"measured: {name} has no value.")
+        return None
+    shown = display_of(KNOWN[way][name].attributes())
+    if accuracy is not None:
+        number = given.number(f"accuracy of {name}", accuracy, shown.units, above=0.0)
+        within = number / shown.factor
+    else:
+        within = _USUAL_ACCURACY * float(np.ptp(values))
+        if within == 0.0:
+            given.refuse(
+                f"measured: {name} does not vary, so that nothing says how well it is measured. "
+                f"Give its accuracy, in {shown.units or 'its unit'}."
+            )
+            return None
+    return Target(name, way, at, values, within * _repeated(values.size))
+
+
+def _repeated(points: int) -> float:
+    """Return what deviations are divided by, so that many count as independent ones do."""
+    return float(np.sqrt(max(1.0, points / _INDEPENDENT)))
+
+
+def _fit(search: Search, x: Array, gave_up: str) -> Fit:
+    """Return what was found in words and numbers."""
+    slopes = search.slopes(x)
+    variances = np.diag(np.linalg.inv(slopes.T @ slopes))
+    # before, each value has a third of its range as standard deviation
+    told = 1.0 - variances * SIGMAS**2
+    curves = _curves(search, x)
+    names = [place.name for place in search.places]
+    facts = {
+        "the solver gave up": [gave_up] if gave_up else [],
+        "not explained": [curve.name for curve in curves if curve.after > curve.within],
+        "at the end of its tolerance": search.at_the_end(x),
+        "the curves tell nothing of": [
+            name for name, part in zip(names, told, strict=True) if part < _LEAST_TOLD
+        ],
+    }
+    deviations = search.moved(np.sqrt(variances))
+    return Fit(
+        suspension=search.at(x),
+        start=search.suspension,
+        places=search.places,
+        moved=search.moved(x),
+        uncertainty=deviations,
+        told=dict(zip(names, np.clip(told, 0.0, 1.0).tolist(), strict=True)),
+        curves=curves,
+        success=not (gave_up or facts["not explained"]),
+        message=in_words(facts) or "explained",
+        evaluations=search.evaluations,
+    )
+
+
+def _curves(search: Search, x: Array) -> tuple[Fitted, ...]:
+    return tuple(
+        Fitted(target.name, target.within / _repeated(target.at.size), *deviations)
+        for target, *deviations in zip(
+            search.targets, _deviations(search, np.zeros_like(x)), _deviations(search, x),
+            strict=True,
+        )
+    )  # fmt: skip
+
+
+def _deviations(search: Search, x: Array) -> Iterable[float]:
+    """Return the root of the mean squared deviation of each curve."""
+    found = search.values(x) or [np.full(t.at.size, np.nan) for t in search.targets]
+    return [
+        float(np.sqrt(np.mean((values - target.value) ** 2)))
+        for target, values in zip(search.targets, found, strict=True)
+    ]

@@ -1,0 +1,158 @@
+"""Errors of the file that explain measured curves: known errors, linear regression, noise."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from kintrafo import InputError, Model, Suspension, characteristics, variation
+from kintrafo.study.variation.places import places_of
+from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
+
+CAR = Suspension.load("reference_car")
+ROD = "hardpoints.tie_rod_inner.z"
+BALL = "hardpoints.ball_joint.y"
+TRAVEL = np.linspace(-0.06, 0.06, 7)
+CURVES = ["toe", "camber", "caster"]
+ACCURACY = {"toe": 0.01, "camber": 0.01, "caster": 0.01}
+
+
+def built(rod: float, ball: float) -> Suspension:
+    """Return the car with the tie rod too high and the ball joint too far to the left [mm]."""
+    places, changes = places_of(CAR), {}
+    for name, by in ((ROD, rod), (BALL, ball)):
+        changes |= places[name].moved(1e-3 * by)
+    return CAR.with_changes(changes)
+
+
+def rig(car: Suspension, at: Any = TRAVEL, names: list[str] = CURVES) -> xr.Dataset:
+    return characteristics.travel(Model(car), at)[names]
+
+
+AS_BUILT = built(1.5, -1.0)
+
+
+def test_known_errors_are_found() -> None:
+    """Accurate to a thousandth of a degree, curves outweigh tolerances by 1e5 to 1."""
+    fine = dict.fromkeys(CURVES, 1e-4)
+    found = variation.fit(CAR, rig(AS_BUILT), {ROD: 3.0, BALL: 3.0}, accuracy=fine)
+    assert found.success
+    assert found.moved[ROD] == pytest.approx(1.5, abs=0.01)
+    assert found.moved[BALL] == pytest.approx(-1.0, abs=0.01)
+    assert all(part > 0.99 for part in found.told.values())
+    assert all(curve.after < 0.02 * curve.before for curve in found.curves)
+
+
+def test_small_errors_are_those_of_linear_regression() -> None:
+    """Mean and covariance of a normal prior and normal errors, from derivatives by themselves."""
+    tolerances = {ROD: 0.3, BALL: 0.6, "hardpoints.arm_rear.z": 0.9}
+    measured = rig(built(0.1, 0.05))
+    found = variation.fit(CAR, measured, tolerances, accuracy=ACCURACY)
+    slopes = variation.sensitivity(CAR, [*tolerances], positions=TRAVEL, names=CURVES)
+    here = rig(CAR)
+    order = [str(place) for place in slopes["place"].values]
+    rows = np.vstack([slopes[name].sel(place=order).values.T for name in CURVES])
+    gaps = np.concatenate([(measured[name] - here[name]).values for name in CURVES])
+    weight = 1.0 / np.deg2rad(0.01) ** 2
+    prior = np.diag([(3.0 / (1e-3 * tolerances[place])) ** 2 for place in order])
+    precision = weight * rows.T @ rows + prior
+    mean = 1e3 * np.linalg.solve(precision, weight * rows.T @ gaps)
+    deviations = 1e3 * np.sqrt(np.diag(np.linalg.inv(precision)))
+    # second derivatives are some 10 per metre of first ones, over 0.1 mm: parts of a thousand
+    ours = [found.moved[place] for place in order]
+    np.testing.assert_allclose(ours, mean, rtol=5e-3, atol=5e-4)
+    np.testing.assert_allclose([found.uncertainty[p] for p in order], deviations, rtol=5e-3)
+    told = [1.0 - (3.0 * d / tolerances[p]) ** 2 for p, d in zip(order, deviations, strict=True)]
+    np.testing.assert_allclose([found.told[p] for p in order], told, atol=5e-3)
+
+
+def test_noise_leaves_what_is_told() -> None:
+    """Errors, in parts of the deviation that is told, are normal: the mean of 16 squares near 1."""
+    random, squares = np.random.default_rng(3), []
+    for _ in range(8):
+        off = random.normal(size=2)
+        measured = rig(built(*off))
+        for name in CURVES:
+            measured[name] += random.normal(scale=np.deg2rad(0.01), size=TRAVEL.size)
+        found = variation.fit(CAR, measured, {ROD: 3.0, BALL: 3.0}, accuracy=ACCURACY)
+        for place, true in ((ROD, off[0]), (BALL, off[1])):
+            squares.append(((found.moved[place] - true) / found.uncertainty[place]) ** 2)
+    # chi-squared with 16 degrees of freedom: 3.9 and 39 are passed once in a thousand
+    assert 3.9 < sum(squares) < 39.0
+
+
+def test_what_curves_do_not_tell_stays() -> None:
+    mass = "bodies.wheel.mass_kg"
+    found = variation.fit(CAR, rig(AS_BUILT), {ROD: 3.0, BALL: 3.0, mass: 1.0}, accuracy=ACCURACY)
+    assert found.moved[mass] == 0.0
+    assert found.told[mass] == pytest.approx(0.0, abs=1e-12)
+    assert found.uncertainty[mass] == pytest.approx(1.0 / 3.0)
+    assert found.message == f"the curves tell nothing of: {mass}"
+
+
+def test_what_is_beyond_tolerances_is_not_explained() -> None:
+    found = variation.fit(CAR, rig(AS_BUILT), {ROD: 0.2, BALL: 0.2}, accuracy=ACCURACY)
+    assert not found.success
+    assert "not explained: toe" in found.message
+    assert "at the end of its tolerance" in found.message
+
+
+def test_many_points_count_as_ten() -> None:
+    """The same points again and again, as a loop of a rig has them, tell nothing more."""
+    often = np.tile(np.linspace(-0.05, 0.05, 10), 4)
+    few, many = (
+        variation.fit(CAR, rig(AS_BUILT, at), {ROD: 3.0, BALL: 3.0}, accuracy=ACCURACY)
+        for at in (often[:10], often)
+    )
+    assert many.uncertainty[ROD] == pytest.approx(few.uncertainty[ROD], rel=1e-6)
+    assert many.moved[ROD] == pytest.approx(few.moved[ROD], abs=1e-6)
+    assert {curve.name: curve.within for curve in many.curves} == pytest.approx(
+        {name: np.deg2rad(0.01) for name in CURVES}
+    )
+
+
+def test_empty_cells_count_nothing() -> None:
+    measured = rig(AS_BUILT)
+    measured["caster"][:] = np.nan
+    measured["toe"][3] = np.nan
+    with pytest.raises(InputError, match="caster has no value"):
+        variation.fit(CAR, measured, {ROD: 3.0})
+    found = variation.fit(CAR, measured, {ROD: 3.0, BALL: 3.0}, names=["toe", "camber"])
+    assert [curve.name for curve in found.curves] == ["toe", "camber"]
+    assert found.moved[ROD] == pytest.approx(1.5, abs=0.1)
+
+
+def test_what_cannot_be_is_refused() -> None:
+    measured = rig(AS_BUILT)
+    for arguments, words in (
+        ({"tolerances": {}}, "one or more are needed"),
+        ({"tolerances": {"bodies.wheel.mass_kg": 1.0}}, "moves a curve"),
+        ({"tolerances": {ROD: 1.0}, "accuracy": {"toes": 1.0}}, "toe"),
+        ({"tolerances": {ROD: 1.0}, "accuracy": {"toe": 0.0}}, "deg"),
+        ({"tolerances": {ROD: 1.0}, "names": ["x"]}, "x"),
+        ({"tolerances": {ROD: 1.0}, "measured": measured.rename(wheel_travel="t")}, "rig"),
+        ({"tolerances": {ROD: 1.0}, "measured": measured.assign_coords(rack_position=0.01)},
+         "held at 10 mm"),
+        ({"tolerances": {ROD: 1.0}, "measured": 0.0 * measured}, "does not vary"),
+    ):  # fmt: skip
+        with pytest.raises(InputError, match=words):
+            variation.fit(**{"suspension": CAR, "measured": measured, **arguments})  # type: ignore[arg-type]
+
+
+def test_the_command_tells_it(kintrafo: Any, tmp_path: Any) -> None:  # noqa: F811
+    from kintrafo import export
+
+    export.write(rig(AS_BUILT, names=["toe", "camber"]), tmp_path / "rig.csv")
+    text = f'[tolerances]\n"{ROD}" = 3.0\n"{BALL}" = 3.0\n[accuracy]\ntoe = 0.01\n'
+    (tmp_path / "t.toml").write_text(text, encoding="utf-8")
+    files = ("reference_car", "rig.csv", "t.toml")
+    code, out, _ = kintrafo("fit", *files, "-o", "as_built.toml", "--plot", "a.svg")
+    assert (code, "explained" in out) == (0, True)
+    found = Suspension.load(tmp_path / "as_built.toml")
+    assert found.hardpoints.tie_rod_inner[2] == pytest.approx(281.5, abs=0.2)
+    assert (tmp_path / "a.svg").stat().st_size > 1000
+    code, out, _ = kintrafo("fit", *files, "--json")
+    assert (code, '"told"' in out) == (0, True)
+    (tmp_path / "t.toml").write_text(text.replace("3.0", "0.1"), encoding="utf-8")
+    code, out, _ = kintrafo("fit", *files)
+    assert (code, "not explained" in out) == (1, True)
