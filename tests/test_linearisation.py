@@ -1,5 +1,8 @@
 """Linearisation: against the oracle, simulated perturbations, a quarter car and SciPy."""
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 import scipy.signal
@@ -293,6 +296,23 @@ def test_eigenvalues_of_the_model_are_those_of_the_linearisation():
         state = equilibrium(model)
         assert np.array_equal(model.eigenvalues(state), linearise(model, state).eigenvalues)
     assert eigenvalues_of(np.diag([-1.0, -3.0])).tolist() == [-3.0, -1.0]
+
+
+def test_an_eigenvalue_that_is_zero_has_words():
+    """The turn of the wheel about its axis: nothing holds it, and it has no time constant."""
+    hop, *spin = linearise(HELD, equilibrium(HELD)).modes
+    assert hop.text == "12.35 Hz, damping ratio 0.233"
+    assert {mode.text for mode in spin} == {"neither swings nor returns: an eigenvalue is zero"}
+
+
+def test_examples_of_the_page_run(capsys):
+    page = (Path(__file__).parents[1] / "docs/modes.md").read_text(encoding="utf-8")
+    exec("\n".join(re.findall(r"```python\n(.*?)```", page, re.DOTALL)), {})
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == "12.35 Hz, damping ratio 0.233"
+    assert float(lines[3].split()[0]) == pytest.approx(12.35, abs=0.01)
+    assert lines[5].startswith("(4, 4)")
+    assert [line.split()[-1] for line in lines[6:]] == ["0.155", "0.233", "0.311"]
 
 
 def test_inputs_change_the_point():

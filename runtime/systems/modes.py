@@ -61,6 +61,8 @@ class Mode:
     @property
     def text(self) -> str:
         """Frequency and damping for a person to read."""
+        if 0.0 in self.eigenvalues:
+            return "neither swings nor returns: an eigenvalue is zero"
         text = f"{self.natural_frequency:.2f} Hz, damping ratio {self.damping_ratio:.3f}"
         if self.oscillates:
             return text
