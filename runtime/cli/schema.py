@@ -22,7 +22,7 @@ def command(
     """Print or write the JSON Schema of the files of suspensions and axles: keys, units, ranges.
 
     Editors complete and check hardpoint files with it. Write it beside them, and let their first
-    line be [bold]#:schema ./kintrafo.schema.json[/bold], which TOML language servers understand.
+    line be `#:schema ./kintrafo.schema.json`, which TOML language servers understand.
     """
     from ..core.files import refuse, replacing
     from ..suspension.schema import schema_text
