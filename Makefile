@@ -1,6 +1,6 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
-.PHONY: drawings help setup sundials generate build run test test-elsewhere fuzz package wheel lint tree types format baseline clean \
+.PHONY: docs drawings help setup sundials generate build run test test-elsewhere fuzz package wheel lint tree types format baseline clean \
 	benchmark benchmark-andrews benchmark-axles benchmark-bits benchmark-ensemble benchmark-growth benchmark-loads benchmark-loops benchmark-page benchmark-peers benchmark-speed benchmark-studies format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
@@ -86,6 +86,15 @@ benchmark-growth: build ## A chain of 1 to 40 loops: derivation, code and run ti
 
 benchmark-ensemble: build ## Many cars at once, in lanes and on all cores, and its page in docs/
 	@PYTHONPATH=tests $(PYTHON) -m benchmarks.ensemble --out out/benchmark --page docs/ensembles.md
+
+docs: build .venv/.docs ## The documentation as a site: build/docs/index.html
+	@rm -rf build/docs
+	@$(PYTHON) -m sphinx -q -E -W --keep-going -b html -d build/docs-pages docs build/docs
+	@echo "build/docs/index.html"
+
+.venv/.docs: pyproject.toml | .venv/.ready
+	@.venv/bin/pip install -q -e ".[docs]" --no-build-isolation
+	@touch $@
 
 drawings: build ## The drawings of docs/ that are computed
 	@for script in docs/images/*.py; do $(PYTHON) $$script || exit; done
