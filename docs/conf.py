@@ -31,6 +31,7 @@ myst_enable_extensions = ["colon_fence"]
 # Types stand in the sections of the docstrings, in words; signatures stay short without them.
 autodoc_typehints = "none"
 autodoc_member_order = "bysource"
+toc_object_entries_show_parents = "hide"
 numpydoc_show_class_members = False
 # Single backquotes name functions and arguments alike: the first become links, the others code.
 default_role = "py:obj"
@@ -50,7 +51,8 @@ html_static_path = ["site/site.css"]
 html_css_files = ["site.css"]
 html_copy_source = False
 html_show_sourcelink = False
-html_sidebars = {"index": []}
+# Pages without others below them.
+html_sidebars = {page: [] for page in ("index", "tutorial", "gallery", "contributing", "changelog")}
 html_theme_options = {
     "header_links_before_dropdown": 7,
     "navbar_align": "left",
