@@ -4,7 +4,6 @@ On a code host such links work by themselves. The site has none of these files b
 gets a page for each that is linked.
 """
 
-import posixpath
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -16,17 +15,12 @@ from sphinx import addnodes
 from sphinx.application import Sphinx
 from sphinx.transforms import SphinxTransform
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).resolve().parents[2]
+DOCS = ROOT / "docs"
 FOLDER = "sources"
 
 # All that are linked: every build reads all pages anew.
 _linked: set[str] = set()
-
-
-def _target(node: nodes.Element) -> str:
-    target = str(node.get("reftarget", ""))
-    # a page of Markdown beside the documentation is taken for one of its pages
-    return target + ".md" if node.get("refdomain") == "doc" else target
 
 
 class Sources(SphinxTransform):
@@ -37,20 +31,29 @@ class Sources(SphinxTransform):
 
     def apply(self, **_: Any) -> None:
         """Look at the links of one page."""
-        here = posixpath.join("docs", posixpath.dirname(self.env.docname))
-        depth = self.env.docname.count("/")
+        top = "../" * self.env.docname.count("/")
         for link in list(self.document.findall(_may_be_a_file)):
-            # documents are named from the folder of the pages, files from the page that links
-            start = "docs" if link.get("refdomain") == "doc" else here
-            path = posixpath.normpath(posixpath.join(start, _target(link)))
-            if path.startswith("..") or not (ROOT / path).is_file():
-                continue
-            if link.get("refdomain") == "doc" and path.startswith("docs/"):
+            path = self._file_of(link)
+            if path is None:
                 continue
             _linked.add(path)
-            page = nodes.reference(refuri="../" * depth + f"{FOLDER}/{path}.html", internal=True)
+            page = nodes.reference(refuri=f"{top}{FOLDER}/{path}.html", internal=True)
             page += link.children
             link.replace_self(page)
+
+    def _file_of(self, link: nodes.Element) -> str | None:
+        """Return which file of the repository is meant, or nothing if it is a page of the site."""
+        target = str(link["reftarget"])
+        if link["refdomain"] == "doc":
+            # Markdown is taken for a page of the site, wherever it lies
+            file = (DOCS / f"{target}.md").resolve()
+            if file.is_relative_to(DOCS):
+                return None
+        else:
+            file = ((DOCS / self.env.docname).parent / target).resolve()
+        if not file.is_relative_to(ROOT) or not file.is_file():
+            return None
+        return file.relative_to(ROOT).as_posix()
 
 
 def _may_be_a_file(node: nodes.Node) -> bool:
