@@ -93,7 +93,8 @@ docs: build .venv/.docs ## The documentation as a site: build/docs/index.html
 	@echo "build/docs/index.html"
 
 .venv/.docs: pyproject.toml | .venv/.ready
-	@.venv/bin/pip install -q -e ".[docs]" --no-build-isolation
+	@.venv/bin/pip install -q $$($(PYTHON) -c "import tomllib; \
+		print(*tomllib.load(open('pyproject.toml', 'rb'))['project']['optional-dependencies']['docs'])")
 	@touch $@
 
 drawings: build ## The drawings of docs/ that are computed
