@@ -83,7 +83,8 @@ def command(
         return
     title = f"{file}: compliance, at {at:g} mm of wheel travel"
     print_table(compliances(curves, title, at / 1e3))
-    say(f"{found.attrs['held']}; relaxed bushes, linear.")
+    without = found.attrs["left_out"]
+    say(f"{found.attrs['held']}; relaxed bushes, linear{without and f'; without {without}'}.")
     name_files(written)
 
 

@@ -18,7 +18,7 @@ from ...suspension.positions import arm_angles, design_height
 from ...suspension.reach import at_rest
 from ..characteristics.datasets import TRAVEL
 from ..characteristics.from_model import corner
-from ..loads.bushes import RACK, Bush, bushes_of, softness_of_rack
+from ..loads.bushes import RACK, Bush, bushes_of, left_out, refuse_rigid, softness_of_rack
 from ..loads.compliance import LOADED, MOVED, RIG_LOADS, RigLoad, load_at_contact, told
 from ..loads.flexibility import HELD, Held, Wheel, flexibility
 from ..loads.poses import Poses
@@ -137,14 +137,14 @@ def compliance(
         if not given.refused:
             bushes = _bushes(given, axle, described)
             rack = softness_of_rack(given, described)
-            if not bushes[RIGHT] and not rack and not given.refused:
-                given.refuse("bushings: one or more are needed.")
+            refuse_rigid(given, bushes[RIGHT], rack)
             if any(side.tyre_radius() is None for side in axle.sides.values()):
                 given.refuse("[tyre] radius_mm is needed: where the road touches the wheel.")
     travels = motions.travels(axle, Extent()) if travel is None else np.asarray(travel)
     wheels = [_wheel(axle, side, travels, rack_position, bushes[side]) for side in SIDES]
     bar = 1.0 / axle.bar.rate() if axle.bar else 0.0
-    return _dataset(wheels, flexibility(wheels, held, rack=rack, bar=bar), travels, held)
+    found = _dataset(wheels, flexibility(wheels, held, rack=rack, bar=bar), travels, held)
+    return found.assign_attrs(left_out=left_out(bushes[RIGHT]))
 
 
 def _bushes(given: Arguments, axle: Axle, described: Mapping[str, Any]) -> dict[str, list[Bush]]:

@@ -45,22 +45,34 @@ class Curve:
         return found
 
 
-def curve_of(given: Arguments, title: str, described: Any) -> Curve | None:
-    """Read a curve, ``{mm = [...], N = [...]}``; None where it cannot be one."""
+def curve_of(given: Arguments, title: str, described: Any, *, odd: bool) -> Curve | None:
+    """Read a curve, ``{mm = [...], N = [...]}``; None where it cannot be one.
+
+    Parameters
+    ----------
+    given : Arguments
+        Gets what is wrong.
+    title : str
+    described : mapping
+    odd : bool
+        Whether it begins at zero and is the same to both sides: across an axis, none is told apart.
+    """
     if not isinstance(described, Mapping) or set(described) != set(_KEYS):
         given.refuse(f"{title} must be a table of two lists, {{mm = [...], N = [...]}}.")
         return None
     places, forces = (
         given.array(f"{title} {key}", described[key], key, dimensions=[1]) for key in _KEYS
     )
-    problem = _problem(places, forces)
+    problem = _problem(places, forces, odd=odd)
     if problem:
         given.refuse(f"{title}: {problem}")
         return None
+    if odd:
+        places, forces = (np.concatenate([-v[:0:-1], v]) for v in (places, forces))
     return Curve(1e-3 * places, forces)
 
 
-def _problem(places: Array, forces: Array) -> str:
+def _problem(places: Array, forces: Array, *, odd: bool) -> str:
     """Say why some points are no curve of a bush."""
     if places.size != forces.size or places.size < 2:
         return f"mm has {places.size} values and N {forces.size}; as many are needed, two or more."
@@ -73,4 +85,9 @@ def _problem(places: Array, forces: Array) -> str:
             return f"{key}: {second:g} follows {first:g}; both lists must rise."
     if not ((places == 0.0) & (forces == 0.0)).any():
         return "a point 0 mm, 0 N is needed: a bush is relaxed there."
+    if odd and places[0] < 0.0:
+        return (
+            f"mm begins with {places[0]:g}; a bush is the same to all sides of its axis: "
+            "begin with 0 mm, 0 N."
+        )
     return ""

@@ -1,6 +1,6 @@
 """Bushes: how far joints give way, as a file or a caller describes them."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -21,7 +21,8 @@ from .poses import CENTER, rotated
 Array = NDArray[np.float64]
 
 _STIFFNESSES = (
-    "axial_N_per_mm", "radial_N_per_mm", "tilt_Nm_per_deg", "axial_curve", "radial_curve"
+    "axial_N_per_mm", "radial_N_per_mm", "tilt_Nm_per_deg", "torsion_Nm_per_deg", "axial_curve",
+    "radial_curve",
 )  # fmt: skip
 _KEYS = (*_STIFFNESSES, "axis", "radial_axis")
 RACK = "rack"
@@ -47,6 +48,9 @@ class Bush:
     tilt : float
         Of a bearing, its rotation about any axis across that of the wheel by a unit moment
         [rad/(N m)].
+    turning : tuple of float
+        Of what turns freely without a bush: the moment by which it resists a unit of torsion about
+        its axis, and of tilting about others [N m/rad].
     spin : ndarray, shape (3,)
         The axis of the wheel at design.
     curves : tuple of Curve or None
@@ -58,8 +62,14 @@ class Bush:
     axes: Array
     soft: Array
     tilt: float
+    turning: tuple[float, float]
     spin: Array
     curves: tuple[Curve | None, Curve | None, Curve | None]
+
+    @property
+    def gives_way(self) -> bool:
+        """Whether anything moves in it that a rigid joint holds."""
+        return bool(self.soft.any() or self.tilt)
 
     @property
     def compliance(self) -> Array:
@@ -110,8 +120,10 @@ def bushes_of(given: Arguments, model: Model, described: Mapping[str, Any]) -> l
             given.refuse(f"{title} {key} is not known. {suggestion(str(key), _KEYS)}")
         if not any(key in table for key in _STIFFNESSES):
             given.refuse(f"{title}: one of {', '.join(_STIFFNESSES)} is needed, or it is rigid.")
-        if "tilt_Nm_per_deg" in table and point != CENTER:
-            given.refuse(f"{title} tilt_Nm_per_deg: only a wheel bearing carries a moment.")
+        if "torsion_Nm_per_deg" in table and point == CENTER:
+            given.refuse(f"{title} torsion_Nm_per_deg: the brake holds the wheel about its axis.")
+        torsion, tilt = (_turning(given, title, table, which) for which in ("torsion", "tilt"))
+        is_bearing = point == CENTER
         soft = _translations(given, title, table)
         axial, radial = (_curve(given, title, table, which) for which in ("axial", "radial"))
         curves = (axial, radial, radial)
@@ -119,12 +131,19 @@ def bushes_of(given: Arguments, model: Model, described: Mapping[str, Any]) -> l
             point=str(point),
             axes=_axes(given, title, table, model, joints[point]),
             soft=np.array([_at_rest(c) if c else s for s, c in zip(soft, curves, strict=True)]),
-            tilt=1.0 / (_stiffness(given, title, table, "tilt_Nm_per_deg") * _PER_DEG),
+            tilt=1.0 / tilt if is_bearing and tilt else 0.0,
+            turning=(0.0, 0.0) if is_bearing else (torsion, tilt),
             spin=design_axis(model.suspension),
             curves=curves,
         )
         found.append(bush)
     return found
+
+
+def _turning(given: Arguments, title: str, table: Mapping[str, Any], which: str) -> float:
+    """Return a stiffness against rotation [N m/rad]; zero where there is none."""
+    key = f"{which}_Nm_per_deg"
+    return _stiffness(given, title, table, key) * _PER_DEG if key in table else 0.0
 
 
 def _curve(given: Arguments, title: str, table: Mapping[str, Any], which: str) -> Curve | None:
@@ -134,12 +153,26 @@ def _curve(given: Arguments, title: str, table: Mapping[str, Any], which: str) -
         return None
     if rate in table:
         given.refuse(f"{title}: {key} and {rate} both say how stiff it is. Keep one.")
-    return curve_of(given, f"{title} {key}", table[key])
+    return curve_of(given, f"{title} {key}", table[key], odd=which == "radial")
 
 
 def _at_rest(curve: Curve) -> float:
     """Return how soft a bush is that is relaxed [m/N]."""
     return 1.0 / float(curve.rate(np.zeros(1))[0])
+
+
+def refuse_rigid(given: Arguments, bushes: Sequence[Bush], rack: float) -> None:
+    """Refuse bushes of which none gives way."""
+    if not (rack or given.refused or any(bush.gives_way for bush in bushes)):
+        given.refuse(
+            "bushings: one or more are needed that give way, by axial_N_per_mm, radial_N_per_mm, a "
+            "curve, or the tilt of the wheel bearing."
+        )
+
+
+def left_out(bushes: Sequence[Bush]) -> str:
+    """Return what first order leaves out of some bushes, in words; empty where that is nothing."""
+    return "what resists torsion and tilting" if any(any(b.turning) for b in bushes) else ""
 
 
 def softness_of_rack(given: Arguments, described: Mapping[str, Any]) -> float:
@@ -171,7 +204,7 @@ def _stiffness(given: Arguments, title: str, table: Mapping[str, Any], key: str)
     """Return a stiffness in its unit for people; infinite where there is none."""
     if key not in table:
         return np.inf
-    unit = {"tilt_Nm_per_deg": "N m/deg"}.get(key, "N/mm")
+    unit = "N m/deg" if key.endswith("Nm_per_deg") else "N/mm"
     number = given.number(f"{title} {key}", table[key], unit, least=_SOFTEST, below=_STIFFEST)
     return float(number)
 

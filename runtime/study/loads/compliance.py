@@ -19,7 +19,7 @@ from ..characteristics.catalogue import Quantity
 from ..characteristics.datasets import TRAVEL
 from ..characteristics.from_model import corner
 from ..sweep import usual_travel
-from .bushes import bushes_of, softness_of_rack
+from .bushes import bushes_of, left_out, refuse_rigid, softness_of_rack
 from .flexibility import HELD, Held, Wheel, flexibility
 from .poses import CENTER, CONTACT, Poses, rotated
 
@@ -96,9 +96,10 @@ def compliance(
         number or two; what is left out is rigid. ``axis``, by default that of the arm's bearings,
         of the strut, the tie rod or the wheel; at other ball joints it must be given.
         ``radial_axis``, the direction of the first of two radial numbers. Both in chassis axes at
-        design; they turn with the part that is nearer to the chassis. At ``wheel_center``, the
-        bearing, ``tilt_Nm_per_deg`` about all axes across the spin axis. ``rack``: its
-        ``axial_N_per_mm``, how stiff the steering holds the rack.
+        design; they turn with the part that is nearer to the chassis. In the place of stiffnesses
+        ``axial_curve`` and ``radial_curve``, of which the slope at zero counts. At
+        ``wheel_center``, the bearing, ``tilt_Nm_per_deg`` about all axes across the spin axis.
+        ``rack``: its ``axial_N_per_mm``, how stiff the steering holds the rack.
     travel : array_like, shape (n,), optional
         Heights of the wheel centre above its design height [m]; by default the usual range.
     rack_position : float, optional
@@ -127,7 +128,7 @@ def compliance(
     By the unit-load theorem: each bush gives way to what it carries of a unit load, and moves the
     wheel by that times what it carries of another one. What statics does not decide, such as the
     force along the axis of an arm, is shared as the least energy asks. Linear about bushes that
-    are at their hardpoints; their torsion about an arm's axis, and what the static load does in
+    are at their hardpoints; what resists their torsion or tilting, and what the static load does in
     turned bushes, are left out. The force at the contact stays where the wheel's lowest point was.
 
     Examples
@@ -147,8 +148,7 @@ def compliance(
         if not given.refused:
             bushes = bushes_of(given, model, described)
             rack = softness_of_rack(given, described)
-            if not bushes and not rack and not given.refused:
-                given.refuse("bushings: one or more are needed.")
+            refuse_rigid(given, bushes, rack)
             if model.suspension.tyre_radius() is None:
                 given.refuse("[tyre] radius_mm is needed: where the road touches the wheel.")
     travels = usual_travel(model, rack=rack_position) if travel is None else travel
@@ -156,7 +156,8 @@ def compliance(
     poses = Poses.of(model, *at_rest(model, angles, rack_position))
     there = corner(model, angles, rack_position)
     flexible = flexibility([Wheel(poses, there, bushes)], held, rack=rack)
-    return _dataset(poses, there, flexible, np.asarray(travels), held)
+    found = _dataset(poses, there, flexible, np.asarray(travels), held)
+    return found.assign_attrs(left_out=left_out(bushes))
 
 
 # -- results --------------------------------------------------------------------------------------

@@ -240,11 +240,6 @@ def _holding(swing: Swing, outside: Array) -> Array:
     return np.where(np.isfinite(holding), holding, np.nan)
 
 
-def road_force(poses: Poses) -> Array:
-    """Return the vertical force of the road that holds a suspension at rest, (n,) [N]."""
-    return _holding(Swing.of(poses), np.zeros((1, 12)))
-
-
 def _applied(poses: Poses, cases: Sequence[Case]) -> Array:
     """Return what acts on the parts as a vector, see `Equations.applied`."""
     return Equations(poses).applied([*known(poses), *_outside(poses, cases)])

@@ -5,6 +5,7 @@ What a joint keeps is a condition; what a bush gives way to has a force over the
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +15,7 @@ from ....suspension.structure import Fixed, Joint, Line, frame
 from ..bushes import RACK, Bush
 from ..poses import Poses
 from .laws import Bent, Coil, Law, Stops, Straight
-from .places import Angles, Distances, Lengths, Measured, Places
+from .places import Angles, Distances, Lengths, Measured, Places, Twists
 
 Array = NDArray[np.float64]
 Pair = tuple[int, int]
@@ -78,14 +79,21 @@ class Connections:
         self.start = Places.at(np.stack([self._center(body) for body in self.bodies], axis=1))
         distances = [found for joint in joints for found in self._distances(joint)]
         angles = [found for joint in joints for found in self._angles(joint)]
+        angles += [found for joint in joints for found in self._tilts(joint)]
+        twists = [found for joint in joints for found in self._twists(joint)]
         lengths = [self._length(line) for line in structure.lines]
-        self._groups: list[Distances | Angles | Lengths] = []
-        for kind, found in ((Distances, distances), (Angles, angles), (Lengths, lengths)):
+        groups: tuple[tuple[Any, list[Any]], ...] = (
+            (Distances, distances), (Angles, angles), (Twists, twists), (Lengths, lengths)
+        )  # fmt: skip
+        self._groups: list[Distances | Angles | Twists | Lengths] = []
+        for kind, found in groups:
+            if not found:
+                continue
             bodies, vectors, _ = zip(*found, strict=True)
             of_each = (np.stack(same, axis=1) for same in zip(*vectors, strict=True))
             self._groups.append(kind(np.array(bodies), *of_each))
-        self.laws = [law for _, _, law in (*distances, *angles, *lengths)]
-        self.spring = len(distances) + len(angles)
+        self.laws: list[Law | None] = [law for _, found in groups for _, _, law in found]
+        self.spring = len(self.laws) - len(lengths)
 
     def at(self, places: Places) -> Measured:
         """Return all that is measured somewhere."""
@@ -107,7 +115,7 @@ class Connections:
             laws: list[Law | None] = [None] * kept.shape[-2]
             if bush is not None:
                 # along what a joint does not keep, the axis of a telescope, a bush does nothing
-                rows = self._axes(bush, joint)[:, -len(laws) :]
+                rows = self._axes(bush, joint.first)[:, -len(laws) :]
                 laws = self._laws(bush, joint)[-len(laws) :]
             start, end = (self._arm(body, point) for body in parts)
             for which, law in enumerate(laws):
@@ -124,6 +132,29 @@ class Connections:
                 moment = carried[3:] @ np.cross(second[0], first[0])
                 law = Straight(1.0 / bush.tilt, -float(moment))
             yield self._indices(joint.first, joint.second), (first, second), law
+
+    def _tilts(self, joint: Joint) -> Iterator[tuple[Pair, tuple[Array, Array], Law | None]]:
+        """Yield what of its axis leaves that of a bush which resists tilting."""
+        for bush in self._bushes(joint):
+            if stiffness := bush.turning[1]:
+                rows, axis = self._axes(bush, joint.first), self._axes(bush, joint.second)[:, 0]
+                for across in (1, 2):
+                    yield (
+                        self._indices(joint.first, joint.second),
+                        (rows[:, across], axis),
+                        Straight(stiffness),
+                    )
+
+    def _twists(self, joint: Joint) -> Iterator[tuple[Pair, tuple[Array, ...], Law | None]]:
+        """Yield the torsion of bushes that resist it."""
+        for bush in self._bushes(joint):
+            if stiffness := bush.turning[0]:
+                first, second = self._axes(bush, joint.first), self._axes(bush, joint.second)
+                yield (
+                    self._indices(joint.first, joint.second),
+                    (first[:, 1], first[:, 2], second[:, 1], second[:, 2]),
+                    Straight(stiffness),
+                )
 
     def _length(self, line: Line) -> tuple[Pair, tuple[Array, Array], Law]:
         poses, model = self._poses, self._poses.model
@@ -146,11 +177,15 @@ class Connections:
             return self._soft.bushes.get(point)
         axis = unit_vector(self._poses.model.suspension.rack.axis)
         soft = np.array([self._soft.rack, 0.0, 0.0])
-        return Bush(point, np.stack(frame(axis)), soft, 0.0, axis, (None, None, None))
+        return Bush(point, np.stack(frame(axis)), soft, 0.0, (0.0, 0.0), axis, (None, None, None))
 
-    def _axes(self, bush: Bush, joint: Joint) -> Array:
-        """Return the axes of a bush as rows, which turn with the first part, (n, 3, 3)."""
-        turned = self._poses.turned.get(joint.first, np.eye(3))
+    def _bushes(self, joint: Joint) -> list[Bush]:
+        found = (self._bush(joint, point) for point in joint.at)
+        return [bush for bush in found if bush is not None]
+
+    def _axes(self, bush: Bush, part: str) -> Array:
+        """Return the axes of a bush as rows, which turn with a part, (n, 3, 3)."""
+        turned = self._poses.turned.get(part, np.eye(3))
         rows = bush.axes @ np.swapaxes(turned, -1, -2)
         return np.broadcast_to(rows, (len(self._poses.axis), 3, 3))
 

@@ -16,8 +16,8 @@ from ...characteristics import wheel
 from ...characteristics.datasets import KNOWN, TRAVEL
 from ...compare import DATA_SET
 from ...sweep import usual_travel
-from ..static import road_force
-from .equilibrium import Equilibrium, State
+from .connections import Soft
+from .equilibrium import LOADS, Equilibrium, State
 from .held import HARDPOINTS, Hardpoints, at_height, soft_of, suspension_on
 
 Array = NDArray[np.float64]
@@ -59,8 +59,8 @@ def elastokinematics(
     -------
     xarray.Dataset
         Over ``data_set`` ('kinematic', 'elastokinematic') and ``wheel_travel``: toe and camber
-        [rad], half-track and wheelbase change [m], and ``wheel_load``, the vertical force of the
-        road [N].
+        [rad], half-track and wheelbase change [m], ``wheel_load``, the vertical force of the road
+        [N], and ``wheel_rate``, its derivative by the height of the contact [N/m].
 
     Raises
     ------
@@ -72,7 +72,8 @@ def elastokinematics(
     Notes
     -----
     Equilibrium of all parts at rest by Newton's method in six coordinates a part; displacements
-    may be of any size. Bushes turn with the joint's first part; their torsion is left out.
+    may be of any size. Bushes turn with the joint's first part; what resists their torsion or
+    tilting is relaxed at design.
 
     Examples
     --------
@@ -108,8 +109,16 @@ def _over_travel(
         )
         for name, formula in _CURVES.items()
     }
-    loads = np.stack([road_force(suspension.poses), base.road])
+    # the same parts with nothing soft
+    suspensions = Equilibrium(suspension.poses, Soft({}, 0.0, {})), suspension
+    both = at_height(suspensions[0], travels), base
+    nothing = np.zeros((len(travels), LOADS))
+    loads = np.stack([state.road for state in both])
+    rates = np.stack(
+        [one.rate(state, nothing) for one, state in zip(suspensions, both, strict=True)]
+    )
     data["wheel_load"] = variable(dims, loads, "vertical force of the road", "N")
+    data["wheel_rate"] = variable(dims, rates, "rate of the wheel at its contact", "N/m")
     coordinates = {
         DATA_SET: ["kinematic", "elastokinematic"],
         TRAVEL.name: xr.Variable(TRAVEL.name, travels, TRAVEL.attributes()),

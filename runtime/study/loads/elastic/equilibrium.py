@@ -29,6 +29,9 @@ _LONGEST = 0.02
 _REPEATED = 1e-9
 # Unknown forces are counted in this many newtons, so that they are of the size of displacements.
 _FORCE = 1e5
+LOADS = 9
+"""Numbers of a load, see `Equilibrium.under`."""
+
 # A unit of what the road does to hold a wheel up, as a load.
 _UPWARD = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
 
@@ -160,6 +163,20 @@ class Equilibrium:
                 break
         matrix, _ = self._linear(state, load, held, length)
         return replace(state, found=found & self._lasts(matrix))
+
+    def rate(self, state: State, load: Array) -> Array:
+        """Return how the force of the road rises with its height, (n,) [N/m].
+
+        Parameters
+        ----------
+        state : State
+            An equilibrium under a load, the wheel held by the road.
+        load : ndarray, shape (n, 9)
+        """
+        matrix, left = self._linear(state, load, "height", np.zeros(len(load)))
+        higher = np.zeros_like(left)
+        higher[:, -1] = -1.0
+        return _solution(matrix, higher)[:, -1] * _FORCE
 
     def _moved(self, state: State, step: Array, held: Held) -> tuple[State, Array]:
         """Return the state after a step, and how far that went."""

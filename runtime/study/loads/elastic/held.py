@@ -16,7 +16,7 @@ from ..bushes import RACK, bushes_of, softness_of_rack
 from ..poses import Poses
 from ..reactions import Equations, known
 from .connections import GROUND, Soft
-from .equilibrium import Equilibrium, State
+from .equilibrium import LOADS, Equilibrium, State
 
 Array = NDArray[np.float64]
 Hardpoints = Literal["loaded", "relaxed"]
@@ -72,7 +72,7 @@ def suspension_on(
 
 def at_height(suspension: Equilibrium, travels: Array) -> State:
     """Return the equilibria on the road without another load."""
-    base = suspension.under(np.zeros((travels.size, 9)), "height", suspension.start)
+    base = suspension.under(np.zeros((travels.size, LOADS)), "height", suspension.start)
     if not base.found.all():
         at = ", ".join(f"{1e3 * t:.4g} mm" for t in travels[~base.found][:3])
         problem = (

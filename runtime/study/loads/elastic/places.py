@@ -169,6 +169,54 @@ class Angles:
 
 
 @dataclass(frozen=True)
+class Twists:
+    """The angle by which a body is turned against another about an axis of both.
+
+    Where they are tilted besides, it is that of the rotation before the shortest tilt.
+
+    Attributes
+    ----------
+    bodies : ndarray, shape (measures, 2)
+    first, first_other, second, second_other : ndarray, shape (n, measures, 3)
+        Two unit vectors across the axis in each body, the axis being the first times the other one;
+        without a twist those of both bodies are parallel.
+    """
+
+    bodies: Indices
+    first: Array
+    first_other: Array
+    second: Array
+    second_other: Array
+
+    def at(self, places: Places) -> Measured:
+        """Return them somewhere [rad]."""
+
+        def both(a: Array, b: Array, c: Array, d: Array, sign: float) -> Measured:
+            one, other = Angles(self.bodies, a, b).at(places), Angles(self.bodies, c, d).at(places)
+            sums = (
+                getattr(one, name) + sign * getattr(other, name)
+                for name in ("value", "slope", "bend")
+            )
+            return Measured(self.bodies, *sums)
+
+        sine = both(self.first_other, self.second, self.first, self.second_other, -1.0)
+        cosine = both(self.first, self.second, self.first_other, self.second_other, 1.0)
+        s, c = sine.value[..., None], cosine.value[..., None]
+        square = s**2 + c**2
+        slope = (c * sine.slope - s * cosine.slope) / square
+        # by the chain rule, with the derivatives of atan2
+        outer = [
+            a.slope[..., :, None] * b.slope[..., None, :]
+            for a, b in ((sine, sine), (cosine, cosine), (sine, cosine))
+        ]
+        s, c, square = s[..., None], c[..., None], square[..., None]
+        bend = (c * sine.bend - s * cosine.bend) / square
+        bend += 2.0 * s * c / square**2 * (outer[1] - outer[0])
+        bend += (s**2 - c**2) / square**2 * (outer[2] + outer[2].mT)
+        return Measured(self.bodies, np.arctan2(sine.value, cosine.value), slope, bend)
+
+
+@dataclass(frozen=True)
 class Lengths:
     """The distance of two points.
 
