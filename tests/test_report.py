@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from kintrafo import InputError, Model, loads, state_at_height
-from kintrafo.report import compliance_chapter, loads_chapter
+from kintrafo.report import compliance_chapter, elastokinematics_chapter, loads_chapter
 from kintrafo.report.curves import curves
 from kintrafo.report.encode import packed, rounded
 from kintrafo.report.grid import Axis, Grid
@@ -410,11 +410,12 @@ def test_chapters_stand_in_the_page():
     assert len(base64.b64decode(coded)) > 5000
     bushes = {"arm_rear": {"radial_N_per_mm": 1200.0}}
     soft = compliance_chapter(loads.compliance(model, bushes, [-0.01, 0.0, 0.01]))
-    text = render(model, chapters=[loaded, soft])
+    bent = elastokinematics_chapter(loads.elastokinematics(model, bushes, [-0.01, 0.0, 0.01]))
+    text = render(model, chapters=[loaded, soft, bent])
     assert "<h2>Load cases</h2>" in text
     assert text.index("<h2>Load cases</h2>") < text.index("<h2>Compliance</h2>")
-    assert text.count('<figure class="picture">') == 2
-    for chapter in (loaded, soft):
+    assert text.count('<figure class="picture">') == 3
+    for chapter in (loaded, soft, bent):
         for row in chapter.tables[0].rows:
             assert len(row) == len(chapter.tables[0].columns)
             assert f'<th scope="row">{row[0]}</th>' in text

@@ -117,7 +117,7 @@ def _of_loads(model: "Model", cases: Path | None, note: str, *, wanted: bool) ->
 
 
 def _of_bushes(model: "Model", bushes: Path | None, axle: "Axle | None") -> "list[Chapter]":
-    from ..report import compliance_chapter
+    from ..report import compliance_chapter, elastokinematics_chapter
     from ..study import axles
     from ..study import loads as study
 
@@ -126,4 +126,7 @@ def _of_bushes(model: "Model", bushes: Path | None, axle: "Axle | None") -> "lis
     described = study.read_bushes(bushes)
     if axle is not None:
         return [compliance_chapter(axles.compliance(axle, described))]
-    return [compliance_chapter(study.compliance(model, described))]
+    return [
+        compliance_chapter(study.compliance(model, described)),
+        elastokinematics_chapter(study.elastokinematics(model, described)),
+    ]

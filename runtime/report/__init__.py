@@ -1,6 +1,12 @@
 """The HTML report: `write` makes one file to send to a colleague."""
 
-from .chapters import Chapter, axle_chapter, compliance_chapter, loads_chapter
+from .chapters import (
+    Chapter,
+    axle_chapter,
+    compliance_chapter,
+    elastokinematics_chapter,
+    loads_chapter,
+)
 from .page import ENDINGS, write
 
 __all__ = [
@@ -8,6 +14,7 @@ __all__ = [
     "Chapter",
     "axle_chapter",
     "compliance_chapter",
+    "elastokinematics_chapter",
     "loads_chapter",
     "write",
 ]

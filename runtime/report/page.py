@@ -72,8 +72,8 @@ def write(
     title : str, optional
         Heading of the page; by default it says what the suspension is.
     chapters : sequence of Chapter, optional
-        What stands there besides: see `kintrafo.report.axle_chapter`, `loads_chapter` and
-        `compliance_chapter`.
+        What stands there besides: see `kintrafo.report.axle_chapter`, `loads_chapter`,
+        `compliance_chapter` and `elastokinematics_chapter`.
     without : container of str, optional
         Characteristics that are left out: of a rear axle those that only a front axle has.
     progress : callable, optional

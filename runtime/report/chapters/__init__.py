@@ -4,11 +4,19 @@
 `axle`        both wheels and the anti-roll bar over the motions of a rig
 `loads`       load cases, with the free bodies
 `compliance`  how the wheel gives way on its bushes
+`elastokinematics`  what bushes do to the curves over wheel travel
 """
 
 from .axle import axle_chapter
 from .chapter import Chapter
 from .compliance import compliance_chapter
+from .elastokinematics import elastokinematics_chapter
 from .loads import loads_chapter
 
-__all__ = ["Chapter", "axle_chapter", "compliance_chapter", "loads_chapter"]
+__all__ = [
+    "Chapter",
+    "axle_chapter",
+    "compliance_chapter",
+    "elastokinematics_chapter",
+    "loads_chapter",
+]
