@@ -3,6 +3,7 @@
 import math
 import re
 import shlex
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -292,6 +293,23 @@ def test_a_wheel_is_not_pulled_down() -> None:
     found = loads.static(Model(WISHBONES), STILL | {"droop": {"travel_mm": -190.0}})
     assert "would have to pull" in str(found["reason"].values[1])
     assert np.isnan(found["wheel_load"].values[1])
+
+
+def test_what_is_carried_without_bound_is_not_carried(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Cases whose equations are worse than others, as if they were at a dead point."""
+    cases = {"brake": {"contact_g": [-1.0, 0.0, 1.0]}, "bump": {"contact_g": [0.0, 0.0, 3.0]}}
+    model = Model(CAR)
+    whole, told = loads.static(model, cases), []
+    for worst in np.geomspace(1e1, 1e6, 60):
+        monkeypatch.setattr("kintrafo.study.loads.reactions._WORST_CONDITION", worst)
+        with suppress(InputError):  # none is carried
+            found = loads.static(model, cases)
+            carried = np.isfinite(found["force"]).all(dim=("load", "axis")).values
+            told.append(int(carried.sum()))
+            assert ["dead point" in str(text) for text in found["reason"].values] == [*~carried]
+            both = (found["force"].values[carried], whole["force"].values[carried])
+            np.testing.assert_array_equal(*both)
+    assert sorted(set(told)) == [1, 2]
 
 
 def test_a_spring_without_leverage_is_no_dead_point() -> None:

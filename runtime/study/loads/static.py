@@ -180,24 +180,10 @@ def _equilibria(model: Model, rack: float, cases: Sequence[Case]) -> list[tuple[
         bracket = grid[at], grid[at + 1]
         args = (there.astype(float),)
         angles[there] = elementwise(left, bracket, args=args, tolerances=_FOUND).x
-    found = [
+    return [
         (float(angle), "" if np.isfinite(angle) else _not_carried(model, reach.height, held))
         for angle, held in zip(angles, holding, strict=True)
     ]
-    return _without_dead_points(model, rack, cases, found)
-
-
-def _without_dead_points(
-    model: Model, rack: float, cases: Sequence[Case], found: list[tuple[float, str]]
-) -> list[tuple[float, str]]:
-    """Return where cases are carried, but where the joints would carry anything."""
-    carried = [i for i, (angle, _) in enumerate(found) if np.isfinite(angle)]
-    if not carried:
-        return found
-    poses = Poses.of(model, *at_rest(model, [found[i][0] for i in carried], rack))
-    _, sound = Equations(poses).solved(_applied(poses, [cases[i] for i in carried]))
-    lost = [i for i, fine in zip(carried, sound, strict=True) if not fine]
-    return [(np.nan, DEAD_POINT) if i in lost else one for i, one in enumerate(found)]
 
 
 def _not_carried(model: Model, height: tuple[float, float], held: Array) -> str:
@@ -279,6 +265,7 @@ def _outside(poses: Poses, cases: Sequence[Case]) -> list[Load]:
 def _dataset(
     model: Model, cases: Sequence[Case], angles: Array, reasons: Sequence[str]
 ) -> xr.Dataset:
+    every = np.arange(len(cases))
     carried = np.flatnonzero(np.isfinite(angles))
     if not carried.size:
         names = [f"{c.name}: {reason}" for c, reason in zip(cases, reasons, strict=True)]
@@ -289,14 +276,18 @@ def _dataset(
     equations = Equations(poses)
     outside = _outside(poses, possible)
     road, _ = outside
-    applied = equations.applied([*known(poses), *outside])
-    unknowns = equations.solve(applied)
+    acting = known(poses)
+    unknowns, sound = equations.solved(equations.applied([*acting, *outside]))
+    if not sound.all():  # these are not carried either
+        lost = carried[~sound]
+        reasons = [DEAD_POINT if i in lost else text for i, text in enumerate(reasons)]
+        return _dataset(model, cases, np.where(np.isin(every, lost), np.nan, angles), reasons)
     # the road has what holds a suspension that is held, and nothing has what is left of others
     held = np.array([case.travel is not None for case in possible])
     vertical = np.where(held, unknowns[:, -1], 0.0)
     pushed = road.force + vertical[:, None] * UP
     outside[0] = Load("wheel", CONTACT, "road", pushed, road.moment, road.at)
-    found = dataset_of(poses, CASE, equations.carried(unknowns) + known(poses) + outside)
+    found = dataset_of(poses, CASE, equations.carried(unknowns) + acting + outside)
     travel = poses.points[CENTER][:, 2] - design_height(model)
     missing = unknowns[:, -1] - vertical
     described = {
