@@ -89,7 +89,7 @@ def simulate(
         default 1e-8 and 1e-10 for 'BDF', which damps what swings by a part of its error, and 1e-6
         and 1e-9 for the other methods.
     max_step, first_step : float, optional
-        [s]
+        The longest step, and the one to begin with [s]; by default the method chooses.
     max_steps : int, optional
         More end with an error; ``numpy.inf`` for any number.
     dense_output : bool, optional
