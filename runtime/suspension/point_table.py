@@ -161,11 +161,14 @@ def merged(table: PointTable, file: str | Path, *, mirrored: bool = False) -> Me
         )
         raise InputError([problem], table.source)
     document = tomlkit.parse(find(file).read_text(encoding="utf-8-sig"))
-    section: Any = document["hardpoints"]
-    scale = _scale(table.unit, old.hardpoints.unit)
-    for key, name in read.items():
-        x, y, z = (scale * value for value in table.points[name])
-        section[key] = [x + 0.0, (-y if mirrored else y) + 0.0, z + 0.0]
+    put_points(
+        document,
+        {
+            key: (x, -y if mirrored else y, z)
+            for key, (x, y, z) in ((key, table.points[name]) for key, name in read.items())
+        },
+        table.unit,
+    )
     if not mirrored:
         _refuse_other_side(old, document["hardpoints"], read, table.source)
     text = tomlkit.dumps(document)
@@ -173,6 +176,25 @@ def merged(table: PointTable, file: str | Path, *, mirrored: bool = False) -> Me
     Suspension.from_dict(tomlkit.parse(text).unwrap(), source=source)
     kept = tuple(name for name in old.hardpoints.given() if name not in read)
     return Merged(text, read, kept, tuple(left_out))
+
+
+def put_points(document: Any, points: Mapping[str, Iterable[float]], unit: LengthUnit) -> None:
+    """Put hardpoints into the text of an input file, in the unit that it has.
+
+    Parameters
+    ----------
+    document : tomlkit.TOMLDocument
+        Is changed; its comments stay.
+    points : mapping
+        By name three coordinates.
+    unit : {'mm', 'm'}
+        Of these.
+    """
+    section = document["hardpoints"]
+    scale = _scale(unit, section["unit"])
+    for name, point in points.items():
+        # the sum makes no zero negative
+        section[name] = [scale * value + 0.0 for value in point]
 
 
 def _refuse_other_side(old: Suspension, section: Any, read: Iterable[str], source: str) -> None:
