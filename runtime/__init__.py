@@ -115,6 +115,7 @@ _OTHER_NAMES = {"compile": "compile_mechanism"}
 
 # Modules that are themselves part of the interface, and where they are.
 _INTERFACES = {
+    "adams_car": ".suspension.adams_car",
     "axles": ".study.axles",
     "characteristics": ".study.characteristics",
     "checkup": ".study.checkup",

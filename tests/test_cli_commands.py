@@ -77,6 +77,7 @@ def test_the_documented_commands_run(kintrafo, tmp_path):
         (tmp_path / name).write_text(text, encoding="utf-8")
     for name in ("MacPhersonStrut.json", "RigidTire.json"):
         shutil.copy(ROOT / "tests/data/chrono" / name, tmp_path)
+    shutil.copy(ROOT / "tests/data/adams/front_suspension.sub", tmp_path)
     assert len(LINES) > 15
     for line in LINES:
         program, *arguments = shlex.split(line)

@@ -14,6 +14,7 @@ ROOT = Path(__file__).parent.parent
 CAR = "reference_car"
 TEXT = (ROOT / "runtime/suspension/data/reference_car.toml").read_text(encoding="utf-8")
 CHRONO = ROOT / "tests/data/chrono/MacPhersonStrut.json"
+ADAMS = ROOT / "tests/data/adams/front_suspension.sub"
 STUDIES = ROOT / "tests/data/studies"
 FULL = Path("/dev/full")
 
@@ -27,6 +28,7 @@ def cache(tmp_path_factory, monkeypatch):
 WRITING = {
     "new": (["new", "a.toml"], "a.toml"),
     "import-chrono": (["import-chrono", str(CHRONO), "a.toml"], "a.toml"),
+    "import-adams": (["import-adams", str(ADAMS), "a.toml"], "a.toml"),
     "import-points": (["import-points", str(STUDIES / "points.csv"), CAR, "a.toml"], "a.toml"),
     "export-points": (["export-points", CAR, "a.csv"], "a.csv"),
     "schema": (["schema", "a.json"], "a.json"),
@@ -92,7 +94,9 @@ def test_no_file_is_written_twice(kintrafo, tmp_path):  # noqa: F811
     assert not [*tmp_path.iterdir()]
 
 
-@pytest.mark.parametrize("command", ["new", "schema", "kinematics", "import-chrono"])
+@pytest.mark.parametrize(
+    "command", ["new", "schema", "kinematics", "import-chrono", "import-adams"]
+)
 def test_force_and_again(kintrafo, tmp_path, command):  # noqa: F811
     arguments, name = WRITING[command]
     (tmp_path / name).write_text("a year of work")
@@ -109,6 +113,8 @@ def test_force_and_again(kintrafo, tmp_path, command):  # noqa: F811
         ["report", "car.toml", "other.toml"],
         ["schema", "other.toml"],
         ["import-chrono", "chrono.toml", "chrono.toml"],
+        ["import-adams", "adams.toml", "adams.toml"],
+        ["import-adams", "adams.toml", "car.toml", "--from", "car.toml"],
         ["simulate", CAR, "--measured", "road.csv", "-o", "road.csv"],
         ["kinematics", "car.csv", "-o", "car.csv"],
         ["compare", CAR, "car.csv", "-o", "./car.csv"],
@@ -120,6 +126,7 @@ def test_what_is_read_is_not_written_even_by_force(kintrafo, tmp_path, arguments
         "other.toml": TEXT,
         "car.csv": TEXT,
         "chrono.toml": CHRONO.read_text(encoding="utf-8"),
+        "adams.toml": ADAMS.read_text(encoding="utf-8"),
         "road.csv": "time_s,road_height_mm\n0,0\n1,2\n",
     }
     for name, text in texts.items():

@@ -14,6 +14,7 @@ from . import (
     export_points,
     fit,
     generate,
+    import_adams,
     import_chrono,
     import_points,
     kinematics,
@@ -57,7 +58,16 @@ def _flowing(docstring: str) -> str:
 
 # In the order in which an engineer needs them.
 _PANELS = {
-    "Begin": (new, import_points, export_points, import_chrono, schema, check, topology),
+    "Begin": (
+        new,
+        import_points,
+        export_points,
+        import_chrono,
+        import_adams,
+        schema,
+        check,
+        topology,
+    ),
     "Compute": (kinematics, characteristics, simulate, loads, compliance, deflection, compare),
     "Design": (sensitivity, tolerance, optimise, fit, sweep),
     "Hand over": (report, paper, generate),

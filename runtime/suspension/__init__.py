@@ -4,7 +4,7 @@
 `base`, `kinds`  what every suspension has, and a file for each kind
 `schema`        the input file's JSON Schema and its reference page
 `starter`       the file that a new project begins with; `data` has what is packaged
-`chrono`        suspensions of Project Chrono
+`chrono`, `adams_car`    suspensions of Project Chrono and of Adams/Car
 `facts`, `drawing`    what a kind says of its equations, and how it is drawn
 `geometry`      what the geometry of any suspension must fulfil
 `typical`       where cars usually lie

@@ -1,0 +1,228 @@
+"""A subsystem of Adams/Car as an input file: its hardpoints and angles, the rest of another one."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import tomlkit
+
+from ...core.errors import InputError
+from ...core.legible import legible
+from ...core.suggestions import suggestion
+from ..data import find
+from ..kinds import KINDS, Suspension
+from ..point_table import Merged, put_points
+from .fitting import move_along, put, to_side
+from .names import kind_of, known, listed, matched, points_of
+from .subsystem import ANGLES, Point, Side, Subsystem, shown
+
+_SCHEMA = "#:schema"  # editors look for it in the first line
+
+
+@dataclass(frozen=True)
+class Imported(Merged):
+    """An input file made from a subsystem; see `kintrafo.point_table.write_merged`.
+
+    Attributes
+    ----------
+    kind : str
+        The kind of suspension.
+    side : {'left', 'right'}
+    angles : dict of str to float
+        Camber and toe that come from the subsystem [deg], by the keys of ``[wheel]``.
+    assumed : tuple of str
+        What the subsystem leaves open, one sentence each.
+    """
+
+    kind: str
+    side: Side
+    angles: dict[str, float]
+    assumed: tuple[str, ...]
+
+    def words(self) -> list[tuple[str, str]]:
+        """Return what was read, assumed and left out, in words."""
+        pairs = (
+            ours if ours == theirs else f"{ours} ({theirs})" for ours, theirs in self.read.items()
+        )
+        return [
+            ("read", f"{KINDS[self.kind].TITLE}, {self.side} side"),
+            ("read", ", ".join(pairs)),
+            *(("read", f"{key.removesuffix('_deg')} {v:g} deg") for key, v in self.angles.items()),
+            *(("assumed", text) for text in self.assumed),
+            *(("left out", text) for text in self.left_out),
+        ]
+
+
+def imported(
+    subsystem: Subsystem,
+    *,
+    side: Side | None = None,
+    kind: str | None = None,
+    base: str | Path | None = None,
+    names: Mapping[str, str] | None = None,
+) -> Imported:
+    """Make an input file from a subsystem.
+
+    Parameters
+    ----------
+    subsystem : Subsystem
+    side : {'left', 'right'}, optional
+        That of `base` by default, left without it.
+    kind : str, optional
+        What guides the wheel, such as ``"double_wishbone"``; by default that of `base`, without it
+        the one whose hardpoints there are.
+    base : str or pathlib.Path, optional
+        A file that everything else is taken from; hardpoints, too, that the subsystem does not
+        have. By default the packaged file of the kind, brought to where the wheel is.
+    names : mapping of str to str, optional
+        What the subsystem calls a hardpoint, where the template is not a usual one.
+
+    Returns
+    -------
+    Imported
+
+    Raises
+    ------
+    InputError
+        If a hardpoint is missing, or no suspension can be like this; with all problems.
+    """
+    given = names or {}
+    rest = _rest(subsystem, kind, base, given)
+    wanted: Side = side or ("left" if rest.packaged else rest.suspension.vehicle.side)
+    read = matched(subsystem.points, rest.kind, given, subsystem.source)
+    points = _points(subsystem, read, wanted, rest.kind, whole=rest.packaged)
+    of_side = ((key, subsystem.angle(name, wanted)) for name, key in ANGLES.items())
+    angles = {key: angle for key, angle in of_side if angle is not None}
+    document: Any = tomlkit.parse(rest.text)
+    old = to_side(document, rest.suspension, wanted)
+    moved = move_along(document, old, points) if rest.packaged else []
+    put_points(document, points, "mm")
+    for key, angle in angles.items():
+        put(document, ("wheel", key), angle)
+    new = Suspension.from_dict(document.unwrap(), source=subsystem.source)
+    kept = tuple(name for name in new.hardpoints.given() if name not in read)
+    assumed = (*_assumed(new, kept, angles, rest.title), *moved)
+    return Imported(
+        text=_with_head(tomlkit.dumps(document), _head(subsystem, rest.title, assumed)),
+        read=read,
+        kept=kept,
+        left_out=(*_left_out(subsystem, read), *subsystem.others),
+        kind=rest.kind,
+        side=wanted,
+        angles=angles,
+        assumed=assumed,
+    )
+
+
+class _Rest(NamedTuple):
+    """The file that everything but the hardpoints is from."""
+
+    kind: str
+    title: str
+    text: str
+    suspension: Suspension
+    packaged: bool
+
+
+def _rest(
+    subsystem: Subsystem, kind: str | None, base: str | Path | None, given: Mapping[str, str]
+) -> _Rest:
+    """Return the file that the rest is from: what the user names, or the packaged one of a kind."""
+    if kind is not None and kind not in KINDS:
+        problem = f"{kind!r} is no kind of suspension. {suggestion(kind, KINDS)}"
+        raise InputError([problem], "kind")
+    if base is None:
+        found = kind or kind_of(subsystem.points, given, subsystem.source)
+        file: str | Path = KINDS[found].STARTER
+        title = f"packaged {file}"
+        suspension = Suspension.load(file)
+    else:
+        file, title = base, f"file {Path(base).name}"
+        suspension = Suspension.load(file)
+        found = next(name for name, known in KINDS.items() if type(suspension) is known)
+    if kind not in (None, found):
+        problem = f"{kind} is asked for, and the {title} is of a {found}. Leave one of them out."
+        raise InputError([problem], "kind")
+    text = find(file).read_text(encoding="utf-8-sig")
+    return _Rest(found, legible(title), text, suspension, base is None)
+
+
+def _points(
+    subsystem: Subsystem, read: Mapping[str, str], side: Side, kind: str, *, whole: bool
+) -> dict[str, Point]:
+    """Return the hardpoints of a side [mm]; refuse what is missing or on the other side."""
+    found = {ours: subsystem.side(theirs, side) for ours, theirs in read.items()}
+    problems = [
+        f"{read[ours]} is there as {' and '.join(subsystem.points[read[ours]])}; a row for the "
+        f"{side} side is needed, or one for left/right."
+        for ours, point in found.items()
+        if point is None
+    ]
+    missing = [name for name in points_of(kind).names() if name not in found]
+    if missing and whole:
+        problems.append(
+            f"hardpoints of a {KINDS[kind].TITLE} are missing: {', '.join(missing)}. Say what they "
+            f"are called (--name {missing[0]}=NAME), or which file has them (--from FILE). "
+            f"The subsystem has: {listed(subsystem.points)}."
+        )
+    if not found:
+        problems.append(f"no hardpoint of it is one of {', '.join(known(kind))}.")
+    points = {ours: point for ours, point in found.items() if point is not None}
+    center = points.get("wheel_center")
+    if center is not None and center[1] * (1.0 if side == "left" else -1.0) <= 0.0:
+        problems.append(
+            f"wheel_center of the {side} side is {abs(center[1]):g} mm on the other side of the "
+            "car. In Adams/Car y points to the right, and rows for left/right are of the left "
+            "side, with negative y. Correct the signs of the file."
+        )
+    if problems:
+        raise InputError(problems, subsystem.source)
+    return points
+
+
+def _assumed(
+    new: Suspension, kept: Iterable[str], angles: Mapping[str, float], rest: str
+) -> list[str]:
+    """Return what the subsystem leaves open."""
+    told = [
+        "axes: x rearward, y to the right, z up, as is usual in Adams/Car",
+        f"spring, damper, masses, tyre, rack and vehicle: as in the {rest}",
+        *(f"{name}: as in the {rest}" for name in kept),
+    ]
+    told += [
+        f"{key.removesuffix('_deg')}: {getattr(new.wheel, key):g} deg, as in the {rest}"
+        for key in ANGLES.values()
+        if key not in angles
+    ]
+    if new.tyre.radius_mm is None:
+        radius = new.tyre_radius()
+        height = 1000.0 * float(new.hardpoints.metres("wheel_center")[2])
+        told.append(
+            f"wheel: {1000.0 * radius:g} mm of radius, as the ground is taken to be at z = 0"
+            if radius
+            else f"ground: not known, as the wheel centre is at z = {height:g} mm; tell the "
+            "wheel's radius with radius_mm in [tyre]"
+        )
+    return told
+
+
+def _left_out(subsystem: Subsystem, read: Mapping[str, str]) -> list[str]:
+    return [f"hardpoint {shown(name)}" for name in subsystem.points if name not in read.values()]
+
+
+def _head(subsystem: Subsystem, rest: str, assumed: Iterable[str]) -> list[str]:
+    """Return the comment that the new file begins with."""
+    template = f" (template {subsystem.template})" if subsystem.template else ""
+    return [
+        f"Hardpoints from {Path(subsystem.source).name}, a subsystem of Adams/Car{template}.",
+        f"What follows is the {rest} with these hardpoints. Assumed:",
+        *(f"  {text}" for text in assumed),
+    ]
+
+
+def _with_head(text: str, head: list[str]) -> str:
+    """Return a file with a comment above it, but below a line that is for editors."""
+    first, end, rest = text.partition("\n")
+    comment = "".join(f"# {legible(line)}\n" for line in head) + "#\n"
+    return f"{first}{end}{comment}{rest}" if first.startswith(_SCHEMA) else comment + text

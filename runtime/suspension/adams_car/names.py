@@ -1,0 +1,213 @@
+"""What Adams/Car's templates call the hardpoints of each kind of suspension."""
+
+from collections.abc import Collection, Iterable, Mapping
+
+from ...core.errors import InputError
+from ...core.legible import legible, short
+from ...core.suggestions import nearest, suggestion
+from ..input.hardpoints import Hardpoints
+from ..kinds import KINDS
+
+# By our names, those of the templates; where there are two, templates differ.
+_EVERY = {
+    "wheel_center": ("wheel_center",),
+    "tie_rod_outer": ("tierod_outer",),
+    "tie_rod_inner": ("tierod_inner",),
+}
+_STRUT: Mapping[str, tuple[str, ...]] = {
+    "arm_front": ("lca_front",),
+    "arm_rear": ("lca_rear",),
+    "ball_joint": ("lca_outer",),
+    "strut_top": ("top_mount",),
+    "strut_lower": ("strut_lwr_mount",),
+    "spring_seat": ("spring_lwr_seat",),
+}
+_ARMS = {
+    "lower_arm_front": ("lca_front",),
+    "lower_arm_rear": ("lca_rear",),
+    "lower_ball_joint": ("lca_outer",),
+    "upper_arm_front": ("uca_front",),
+    "upper_arm_rear": ("uca_rear",),
+    "upper_ball_joint": ("uca_outer",),
+}
+_COIL = {"spring_top": ("top_mount",), "spring_seat": ("lwr_strut_mount",)}
+# The second point of the bellcrank is one on its axis, which is all that a bearing says, too.
+_ROCKER = {
+    "rocker_front": ("bellcrank_pivot_orient",),
+    "rocker_rear": ("bellcrank_pivot",),
+    "spring_top": ("shock_to_chassis",),
+    "spring_seat": ("shock_to_bellcrank",),
+}
+_ROD_OUTER, _ROD_INNER = ("prod_outboard", "prod_outer"), ("prod_to_bellcrank", "prod_inboard")
+
+NAMES: Mapping[str, Mapping[str, tuple[str, ...]]] = {
+    "macpherson": _STRUT,
+    "double_wishbone": {**_ARMS, **_COIL},
+    "push_rod": {
+        **_ARMS,
+        **_ROCKER,
+        "push_rod_outer": _ROD_OUTER,
+        "push_rod_inner": _ROD_INNER,
+    },
+    "pull_rod": {
+        **_ARMS,
+        **_ROCKER,
+        "pull_rod_outer": _ROD_OUTER,
+        "pull_rod_inner": _ROD_INNER,
+    },
+}
+"""By kind and hardpoint. Templates of multi-link suspensions have no names in common."""
+
+
+def points_of(kind: str) -> type[Hardpoints]:
+    """Return the class of the hardpoints of a kind of suspension."""
+    found = KINDS[kind].model_fields["hardpoints"].annotation
+    if not (isinstance(found, type) and issubclass(found, Hardpoints)):
+        raise TypeError(kind)
+    return found
+
+
+def known(kind: str) -> list[str]:
+    """Return the names of all hardpoints that a kind may have."""
+    points = points_of(kind)
+    return [*points.names(), *points.STAND_INS]
+
+
+def read_names(texts: Iterable[str]) -> dict[str, str]:
+    """Return what names of hardpoints mean that a user gives: ``ours=theirs``, each.
+
+    Parameters
+    ----------
+    texts : iterable of str
+        Such as ``lower_ball_joint=my_lca_outer``.
+
+    Returns
+    -------
+    dict
+        The names in the subsystem by those of this project.
+
+    Raises
+    ------
+    InputError
+        If a text has another form, or a hardpoint is named twice.
+    """
+    found: dict[str, str] = {}
+    problems = []
+    for text in texts:
+        ours, equals, theirs = (part.strip() for part in text.partition("="))
+        if not (ours and equals and theirs):
+            problems.append(f"{text!r} has no two names. Write lower_ball_joint=my_lca_outer.")
+        elif ours in found:
+            problems.append(f"{ours} is named twice: {found[ours]} and {theirs}. Keep one.")
+        else:
+            found[ours] = theirs.lower()
+    if problems:
+        raise InputError(problems, "names of hardpoints")
+    return found
+
+
+def matched(
+    there: Collection[str], kind: str, given: Mapping[str, str], source: str
+) -> dict[str, str]:
+    """Return which hardpoints of a kind a subsystem has, and what they are called there.
+
+    Parameters
+    ----------
+    there : collection of str
+        The names in the subsystem, in lower case.
+    kind : str
+    given : mapping of str to str
+        What the user says, see `read_names`; it goes before what templates call them.
+    source : str
+        Where the names come from, for messages.
+
+    Returns
+    -------
+    dict
+        Names in the subsystem by our names; those that it does not have are not there.
+
+    Raises
+    ------
+    InputError
+        If the user names what there is not, or the subsystem has two names for one hardpoint.
+    """
+    problems = [
+        f"{ours} is no hardpoint of a {KINDS[kind].TITLE}. {suggestion(ours, known(kind))}"
+        for ours in given
+        if ours not in known(kind)
+    ]
+    problems += [
+        f"{ours}={theirs}: the subsystem has no hardpoint {theirs}. {_hint(theirs, there)}"
+        for ours, theirs in given.items()
+        if theirs not in there
+    ]
+    found: dict[str, str] = {}
+    for ours in known(kind):
+        usual = [given[ours]] if ours in given else [n for n in _usual(ours, kind) if n in there]
+        if len(usual) > 1:
+            problems.append(
+                f"{' and '.join(usual)} may both be {ours}. Say which: --name {ours}={usual[0]}."
+            )
+        if usual:
+            found[ours] = usual[0]
+    if problems:
+        raise InputError(problems, source)
+    return found
+
+
+def kind_of(there: Collection[str], given: Mapping[str, str], source: str) -> str:
+    """Return the kind of suspension of which a subsystem has the most hardpoints.
+
+    A kind that needs less of them is not taken instead: a double wishbone of which one point has
+    another name is no strut.
+
+    Raises
+    ------
+    InputError
+        If some of its hardpoints are missing, or two kinds are as good.
+    """
+    counts = {kind: len(_present(there, kind, given, known(kind))) for kind in KINDS}
+    needed = {kind: points_of(kind).names() for kind in KINDS}
+    missing = {
+        kind: [n for n in names if n not in _present(there, kind, given, names)]
+        for kind, names in needed.items()
+    }
+    most = max(counts.values())
+    near = [kind for kind in KINDS if counts[kind] == most]
+    whole = [kind for kind in near if not missing[kind]]
+    if len(whole) == 1:
+        return whole[0]
+    if whole:
+        problem = f"it may be {' or '.join(whole)}. Say which: --kind {whole[0]}."
+    else:
+        kind = min(near, key=lambda kind: len(missing[kind]))
+        problem = (
+            f"its hardpoints are those of no kind of suspension. Nearest is {kind}, of which "
+            f"{', '.join(missing[kind])} are missing. Say the kind, and what the points are "
+            f"called: --kind {kind} --name {missing[kind][0]}=NAME. It has: {listed(there)}."
+        )
+    raise InputError([problem], source)
+
+
+def listed(there: Iterable[str]) -> str:
+    """Return the names of a subsystem as they can be printed."""
+    return short(legible(", ".join(there)), most=1000)
+
+
+def _hint(word: str, there: Collection[str]) -> str:
+    """Return which name of a subsystem may be meant, or all of them."""
+    near = nearest(word, there)
+    return f"Did you mean {listed([near])}?" if near else f"It has: {listed(there)}."
+
+
+def _present(
+    there: Collection[str], kind: str, given: Mapping[str, str], names: Iterable[str]
+) -> list[str]:
+    """Return those of our names that the subsystem has."""
+    return [n for n in names if given.get(n) in there or any(u in there for u in _usual(n, kind))]
+
+
+def _usual(ours: str, kind: str) -> tuple[str, ...]:
+    """Return what templates call a hardpoint; its own name is good in each of them."""
+    theirs = {**_EVERY, **NAMES.get(kind, {})}.get(ours, ())
+    return theirs if ours in theirs else (*theirs, ours)

@@ -1,0 +1,334 @@
+"""Subsystems of Adams/Car: the same car comes back that was written, or words of what is wrong."""
+
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from adams_files import kind_of, rows_of, subsystem
+from kintrafo import InputError, Model, Suspension, characteristics
+from kintrafo.suspension.adams_car import Imported, imported, read, read_names
+from kintrafo.suspension.kinds import KINDS
+from kintrafo.suspension.point_table import write_merged
+from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
+
+CARS = {kind: Suspension.load(KINDS[kind].STARTER) for kind in KINDS}
+OFFSET = Suspension.load("offset_strut_car")
+WISHBONES = CARS["double_wishbone"].with_changes({"wheel.camber_deg": -1.2, "wheel.toe_deg": 0.15})
+MORE = """\
+[BUSHING_ASSEMBLY]
+ USAGE  =  'lca_front'
+ SYMMETRY  =  'left/right'
+[BUSHING_ASSEMBLY]
+ USAGE  =  'lca_rear'
+[NSPRING_ASSEMBLY]
+ USAGE  =  'ride_spring'
+ PROPERTY_FILE  =  '<own>/springs.tbl/own.spr'
+"""
+
+
+def written(folder: Path, text: str, encoding: str = "utf-8") -> Path:
+    path = folder / "front.sub"
+    path.write_bytes(text.encode(encoding))
+    return path
+
+
+def taken(folder: Path, text: str, **how: Any) -> Imported:
+    return imported(read(written(folder, text)), **how)
+
+
+def loaded(found: Imported, folder: Path) -> Suspension:
+    return Suspension.load(write_merged(found, folder / "imported.toml", force=True))
+
+
+@pytest.mark.parametrize("unit", ["mm", "meter", "inch", "cm"])
+@pytest.mark.parametrize("side", ["left", "right"])
+@pytest.mark.parametrize("name", [*KINDS, "offset strut", "with angles"])
+def test_hardpoints_come_back(name: str, side: str, unit: str, tmp_path: Path) -> None:
+    car = {**CARS, "offset strut": OFFSET, "with angles": WISHBONES}[name]
+    kind = kind_of(car)
+    text = subsystem(car, unit=unit)
+    asked = kind if kind in ("push_rod", "pull_rod") else None
+    found = taken(tmp_path, text, side=side, kind=asked)
+    new = loaded(found, tmp_path)
+    expected = car if car.vehicle.side == side else car.mirrored()
+    assert (found.kind, new.vehicle.side) == (kind, side)
+    assert sorted(found.read) == sorted(car.hardpoints.given())
+    for point in car.hardpoints.given():
+        here = new.hardpoints.metres(point)
+        assert 1000.0 * here == pytest.approx(1000.0 * expected.hardpoints.metres(point), abs=1e-9)
+    assert (new.wheel.camber_deg, new.wheel.toe_deg) == (car.wheel.camber_deg, car.wheel.toe_deg)
+    assert found.left_out == ("parameters kinematic_flag",)
+
+
+@pytest.mark.parametrize("name", ["double_wishbone", "with angles", "push_rod", "macpherson"])
+def test_it_moves_as_the_car_that_was_written(name: str, tmp_path: Path) -> None:
+    car = WISHBONES if name == "with angles" else CARS[name]
+    found = taken(tmp_path, subsystem(car), side="right", kind=kind_of(car))
+    new = loaded(found, tmp_path)
+    assert new.to_dict().keys() == car.to_dict().keys()
+    path = np.linspace(-0.06, 0.06, 5)
+    curves = [characteristics.travel(Model(each), path) for each in (car, new)]
+    for key in ("camber", "toe", "caster", "track_change", "wheel_rate"):
+        if key in curves[0]:
+            np.testing.assert_allclose(curves[1][key], curves[0][key], rtol=1e-9, atol=1e-12)
+
+
+def test_what_lies_elsewhere_is_brought_along(tmp_path: Path) -> None:
+    """A packaged file is of another car: bodies, tyre and strut follow to where the wheel is."""
+    for car in (CARS["double_wishbone"], CARS["macpherson"], OFFSET):
+        raised = [(n, s, x + 2500.0, y - 40.0, z + 25.0) for n, s, x, y, z in rows_of(car)]
+        found = taken(tmp_path, subsystem(car, rows=raised), side="right")
+        new, old = loaded(found, tmp_path), Suspension.load(KINDS[found.kind].STARTER)
+        shift = new.hardpoints.metres("wheel_center") - old.hardpoints.metres("wheel_center")
+        of_car = new.hardpoints.metres("wheel_center") - car.hardpoints.metres("wheel_center")
+        assert of_car == pytest.approx([-2.5, -0.04, 0.025], abs=1e-12)
+        height = old.tyre.free_height_mm + 1000.0 * shift[2]
+        assert new.tyre.free_height_mm == pytest.approx(height, abs=1e-6)
+        for name, body in old.bodies.rigid().items():
+            if body.com_mm is not None:
+                moved = getattr(new.bodies, name).com_mm
+                assert moved == pytest.approx(np.array(body.com_mm) + 1000.0 * shift)
+        if found.kind == "macpherson":
+            assert force_at_design(new) == pytest.approx(force_at_design(old), abs=1e-5)
+
+
+def force_at_design(car: Any) -> float:
+    """Return the force of a strut's spring at design [N]."""
+    seats = car.hardpoints.distance("spring_seat", "spring_top")
+    return float(car.strut.spring_rate_N_per_m * (car.strut.free_length(seats) - seats))
+
+
+def test_a_file_of_the_user_gives_the_rest(tmp_path: Path) -> None:
+    mine = tmp_path / "mine.toml"
+    text = (
+        Path(__file__).parents[1] / "runtime/suspension/data/double_wishbone_car.toml"
+    ).read_text(encoding="utf-8")
+    mine.write_text(
+        "#:schema ./s.json\n" + text.replace("mass_kg = 12.0", "mass_kg = 14.5  # weighed"),
+        encoding="utf-8",
+    )
+    rows = [row for row in rows_of(WISHBONES) if row[0] != "top_mount"]
+    found = taken(tmp_path, subsystem(WISHBONES, rows=rows), base=mine)
+    assert (found.side, found.kept) == ("right", ("spring_top",))
+    assert any(told == "spring_top: as in the file mine.toml" for told in found.assumed)
+    lines = found.text.splitlines()
+    assert lines[0] == "#:schema ./s.json"
+    assert lines[1].startswith("# Hardpoints from front.sub, a subsystem of Adams/Car")
+    assert "mass_kg = 14.5  # weighed" in lines
+    assert any("# upper arm to knuckle; the wheel steers" in line for line in lines)
+    new = loaded(found, tmp_path)
+    assert new.with_changes({"bodies.knuckle.mass_kg": 12.0}) == WISHBONES
+    other = taken(tmp_path, subsystem(WISHBONES, rows=rows), base=mine, side="left")
+    assert loaded(other, tmp_path) == new.mirrored()
+    with pytest.raises(InputError, match=r"push_rod is asked for, and the file mine\.toml is of a"):
+        taken(tmp_path, subsystem(WISHBONES), base=mine, kind="push_rod")
+
+
+def test_names_of_the_companys_own(tmp_path: Path) -> None:
+    text = subsystem(WISHBONES).replace("lca_outer ", "Kugel_1   ")
+    with pytest.raises(InputError, match=r"--kind double_wishbone --name lower_ball_joint=NAME"):
+        taken(tmp_path, text)
+    found = taken(tmp_path, text, names=read_names(["lower_ball_joint=kugel_1"]), side="right")
+    assert loaded(found, tmp_path).hardpoints == WISHBONES.hardpoints
+    assert found.read["lower_ball_joint"] == "kugel_1"
+
+
+def test_one_point_may_be_two_of_ours(tmp_path: Path) -> None:
+    """Two links that meet in one ball joint are an arm."""
+    car = CARS["multi_link"]
+    rows = [row for row in rows_of(car) if row[0] != "rear_upper_link_outer"]
+    found = taken(
+        tmp_path,
+        subsystem(car, rows=rows),
+        names={"rear_upper_link_outer": "front_upper_link_outer"},
+    )
+    points = loaded(found, tmp_path).hardpoints
+    assert points.rear_upper_link_outer == points.front_upper_link_outer
+
+
+def test_each_side_may_have_its_own_row(tmp_path: Path) -> None:
+    left = WISHBONES.mirrored().with_changes({"hardpoints.tie_rod_inner.z": 262.0})
+    sides = [*rows_of(left, symmetry=lambda _: "left"),
+             *rows_of(WISHBONES, symmetry=lambda _: "right")]  # fmt: skip
+    text = subsystem(WISHBONES, rows=sides)
+    for car in (left, WISHBONES):
+        found = taken(tmp_path, text, side=car.vehicle.side)
+        assert loaded(found, tmp_path).hardpoints == car.hardpoints
+
+
+TOLERATED = {
+    "windows": lambda text: text.replace("\n", "\r\n"),
+    "old mac": lambda text: text.replace("\n", "\r"),
+    "tabs": lambda text: re.sub(" {2,}", "\t", text),
+    "double quotes": lambda text: text.replace("'", '"'),
+    "no quotes": lambda text: text.replace("'", " "),
+    "capitals": lambda text: text.upper(),
+    "small letters": lambda text: text.lower(),
+    "columns without braces": lambda text: re.sub(r"\{(hard.*)\}", r"\1", text),
+    "no names of columns": lambda text: re.sub(r"\{hard.*\}\n", "", text),
+    "other order": lambda text: re.sub(
+        r"('left/right')(.*)", lambda found: found[2] + " " + found[1], text
+    ).replace("symmetry       x_value    y_value    z_value", "x_value y_value z_value symmetry")
+    .replace("symmetry       type       value", "type value symmetry")
+    .replace("'single    '  'integer'  0", "'integer' 0 'single'"),
+    "comments": lambda text: text.replace("\n '", "  $ it's a remark\n! it's one, too\n '"),
+    "no header": lambda text: text[text.index("[UNITS]") :],
+    "no parameters": lambda text: text[: text.index("[PARAMETER]")],
+    "fortran": lambda text: re.sub(r"(\d\.\d+)(?=\s)", r"\1D+00", text),
+    "utf-8 mark": lambda text: "\ufeff" + text,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", TOLERATED)
+def test_what_is_written_otherwise_is_the_same(name: str, tmp_path: Path) -> None:
+    car = CARS["double_wishbone"]
+    found = taken(tmp_path, TOLERATED[name](subsystem(car)), side="right")
+    assert loaded(found, tmp_path) == car
+
+
+def test_latin_1(tmp_path: Path) -> None:
+    text = subsystem(WISHBONES).replace("of nobody", "für Zürich, 20 µm")
+    path = written(tmp_path, text, "latin-1")
+    assert imported(read(path)).kind == "double_wishbone"
+
+
+def test_angles_in_radians(tmp_path: Path) -> None:
+    text = subsystem(WISHBONES).replace("'degrees'", "'radians'")
+    text = text.replace(" -1.2\n", f" {np.radians(-1.2)!r}\n").replace("np.float64", "")
+    text = text.replace("(-0.02", "-0.02").replace(")\n", "\n")
+    found = taken(tmp_path, text.replace(" 0.15\n", " 0.0026179938779914945\n"))
+    assert found.angles == {
+        "camber_deg": pytest.approx(-1.2, abs=1e-12),
+        "toe_deg": pytest.approx(0.15, abs=1e-12),
+    }
+
+
+def test_what_is_not_read_is_told(tmp_path: Path) -> None:
+    rows = [*rows_of(WISHBONES), ("drive_shaft_inr", "left/right", 0.0, -200.0, 225.0)]
+    found = taken(tmp_path, subsystem(WISHBONES, rows=rows, more=MORE))
+    assert found.left_out == (
+        "hardpoint drive_shaft_inr",
+        "parameters kinematic_flag",
+        "[BUSHING_ASSEMBLY] lca_front, lca_rear",
+        "[NSPRING_ASSEMBLY] ride_spring",
+    )
+    assert ("left out", "hardpoint drive_shaft_inr") in found.words()
+
+
+def test_a_ground_that_is_elsewhere_is_told(tmp_path: Path) -> None:
+    low = [(n, s, x, y, z - 300.0) for n, s, x, y, z in rows_of(WISHBONES)]
+    found = taken(tmp_path, subsystem(WISHBONES, rows=low))
+    assert any(told.startswith("ground: not known, as the wheel centre") for told in found.assumed)
+
+
+def changed(old: str, new: str, count: int = -1) -> str:
+    text = subsystem(WISHBONES)
+    assert old in text
+    return text.replace(old, new, count)
+
+
+ROW = " 'lca_front               '  'left/right'  -160.0  -360.0  195.0\n"
+REFUSED = {
+    "nothing": ("", r"there is no \[BLOCK\] in it"),
+    "xml": ("<?xml version='1.0'?>\n<Subsystem/>", r"as text \(TeimOrbit\), not as XML"),
+    "binary": ("[UNITS]\n\0", "is no text"),
+    "another file": (changed("'sub'", "'asy'"), "FILE_TYPE is 'asy'; only the file of a"),
+    "a steering": (changed("'suspension'", "'steering'"), "MAJOR_ROLE is 'steering'"),
+    "no units": (changed("[UNITS]", "[UNIT]"), r"LENGTH is missing. Write LENGTH = 'mm'"),
+    "furlongs": (changed("'mm'", "'furlong'"), "LENGTH is 'furlong', which is not known"),
+    "two units": (changed("[HARD", "[UNITS]\nLENGTH = 'm'\n[HARD"), "is 'mm' and 'm'. Keep one"),
+    "gon": (changed("'degrees'", "'gon'"), "ANGLE is 'gon', which is not known"),
+    "no points": (changed("[HARDPOINT]", "[POINTS]"), r"no rows in a block \[HARDPOINT\]"),
+    "columns": (changed("x_value ", "p_value "), "the columns of .HARDPOINT. are hardpoint_name"),
+    "twice": (changed(ROW, ROW + ROW), "lca_front is there twice, as left/right and left/right"),
+    "twice a side": (
+        changed(ROW, ROW + ROW.replace("left/right", "left")),
+        "lca_front is there twice, as left/right and left",
+    ),
+    "too few": (changed("-160.0  -360.0  195.0", "-160.0  -360.0"), "4 values instead of 5: 'lca"),
+    "too many": (changed("-160.0  -360.0", "-160,0  -360.0"), "6 values instead of 5"),
+    "no number": (changed("-160.0  -360", "-16o.0  -360"), "line 24: '-16o.0' is no number"),
+    "nan": (changed("-160.0  -360.0", "nan  -360.0"), "'nan' is no number"),
+    "infinite": (changed("-160.0  -360.0", "1e999  -360.0"), "'1e999' is no number"),
+    "no angle": (changed("  -1.2\n", "  steep\n"), "'steep' is no number"),
+    "open quote": (changed("'lca_front     ", "lca_front     "),
+                   "a quote is not closed"),
+    "symmetry": (changed("'left/right'  -160", "'both'  -160"), "symmetry is 'both'; it can be"),
+    "single": (
+        changed("'left/right'  -160", "'single'  -160"),
+        "lca_front is there as single; a row for the left side is needed",
+    ),
+    "the right one only": (
+        changed("'left/right'  -160", "'right'  -160"),
+        "lca_front is there as right; a row for the left side",
+    ),
+    "the other side": (
+        re.sub("  -(?=[367]..0  )", "  ", changed("-760.0", "760.0")),
+        "wheel_center of the left side is 760 mm on the other side",
+    ),
+    "missing": (changed(" 'uca_front", " 'uxa_front"), "Nearest is double_wishbone, of which "),
+    "metres for millimetres": (changed("'mm'", "'meter'"), "out of range"),
+    "too steep": (changed("  -1.2\n", "  -80.0\n"), "camber_deg = -80.0"),
+    "swapped": (
+        changed(ROW, ROW.replace("-160", "160")).replace("rear                '  'left/right'  200",
+                                                         "rear  '  'left/right'  -200"),
+        "lower_arm_front",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "message"), REFUSED.values(), ids=REFUSED)
+def test_what_would_make_a_wrong_car_is_refused(text: str, message: str, tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=message):
+        taken(tmp_path, text)
+
+
+def test_push_or_pull_is_asked(tmp_path: Path) -> None:
+    with pytest.raises(
+        InputError, match=r"may be push_rod or pull_rod. Say which: --kind push_rod"
+    ):
+        taken(tmp_path, subsystem(CARS["push_rod"]))
+
+
+SAID = {
+    "no pair": (["lca"], "has no two names"),
+    "twice": (["spring_top=a", "spring_top=b"], "spring_top is named twice: a and b"),
+    "not ours": (["spring_tip=top_mount"], "spring_tip is no hardpoint .* Did you mean spring_top"),
+    "not theirs": (["spring_top=top_mound"], "no hardpoint top_mound. Did you mean top_mount"),
+}
+
+
+@pytest.mark.parametrize(("said", "message"), SAID.values(), ids=SAID)
+def test_names_that_are_none(said: list[str], message: str, tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=message):
+        taken(tmp_path, subsystem(WISHBONES), names=read_names(said), kind="double_wishbone")
+
+
+def test_two_that_may_be_one(tmp_path: Path) -> None:
+    rows = [*rows_of(CARS["push_rod"]), ("prod_outer", "left/right", 0.0, -600.0, 200.0)]
+    text = subsystem(CARS["push_rod"], rows=rows)
+    with pytest.raises(InputError, match="prod_outboard and prod_outer may both be push_rod_outer"):
+        taken(tmp_path, text, kind="push_rod")
+    assert taken(tmp_path, text, kind="push_rod", names={"push_rod_outer": "prod_outboard"})
+
+
+def test_the_command(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+    written(tmp_path, subsystem(WISHBONES, more=MORE))
+    code, out, _ = kintrafo("import-adams", "front.sub", "car.toml", "--side", "right")
+    assert code == 0
+    assert "read      double wishbone suspension, right side" in out
+    assert "left out  [NSPRING_ASSEMBLY] ride_spring" in out
+    assert "assumed   axes: x rearward" in out
+    assert Suspension.load(tmp_path / "car.toml") == WISHBONES
+    (tmp_path / "mine.toml").write_text("mine", encoding="utf-8")
+    code, _, err = kintrafo("import-adams", "front.sub", "mine.toml")
+    assert (code, "mine.toml" in err) == (2, True)
+    code, _, _ = kintrafo("import-adams", "front.sub", "car.toml", "--from", "car.toml", "--force")
+    assert code == 2  # what is read is never replaced
+    named = ["--name", "spring_seat=lwr_strut_mount", "--kind", "double_wishbone"]
+    assert kintrafo("import-adams", "front.sub", "again.toml", *named)[0] == 0
+    written(tmp_path, subsystem(WISHBONES).replace("'mm'", "'furlong'"))
+    assert kintrafo("import-adams", "front.sub", "other.toml")[0] == 2
+    assert not (tmp_path / "other.toml").exists()
