@@ -36,8 +36,8 @@ STEMS = (
     "..", "\u202etxt", "'", '"', "~", "CON", " ",
 )  # fmt: skip
 ENDINGS = (
-    ".toml", ".toml", ".csv", ".nc", ".parquet", ".html", ".json", ".pdf", ".png", ".svg", ".py",
-    "", ".",
+    ".toml", ".toml", ".csv", ".sub", ".nc", ".parquet", ".html", ".json", ".pdf", ".png", ".svg",
+    ".py", "", ".",
 )  # fmt: skip
 PLACES = ("", "", "", "", "sub/", "missing/", "file/", "link/", "circle/", "/proc/", "../")
 NUMBERS = (
@@ -69,6 +69,7 @@ VALUES = (
 OPTIONS = {
     "new": ("--suspension", "--template", "--axle"),
     "import-chrono": ("--tire", "--side"),
+    "import-adams": ("--side", "--kind", "--from", "--name"),
     "import-points": ("--mirror",),
     "export-points": (),
     "schema": (),
@@ -96,6 +97,9 @@ OPTIONS = {
 WORDS = {
     "--suspension": ("macpherson", "double_wishbone", "x"),
     "--template": (*packaged(), "x"),
+    "--kind": ("macpherson", "double_wishbone", "x"),
+    "--from": (*packaged(), "x"),
+    "--name": ("spring_top=top_mount", "spring_top=x", "x", "="),
     "--side": ("left", "right", "x"),
     "--over": ("travel", "rack", "both", "roll", "x"),
     "--motion": ("bump", "roll", "left", "steer", "x", ""),
@@ -192,6 +196,8 @@ def _content(random: Generator, ending: str) -> bytes:
         return MECHANISM.encode()
     if ending == ".json":
         return (DATA / "MacPhersonStrut.json").read_bytes()
+    if ending == ".sub":
+        return (DATA.parent / "adams/front_suspension.sub").read_bytes()
     if ending == ".toml" and random.random() < 0.3:
         return STUDY
     if ending == ".csv" and random.random() < 0.5:

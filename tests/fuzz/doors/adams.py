@@ -1,0 +1,137 @@
+"""Subsystems of Adams/Car: slips of the hand in blocks and rows, broken bytes, other units."""
+
+from __future__ import annotations
+
+import re
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from adams_files import MILLIMETRES, rows_of, subsystem
+from kintrafo import Suspension
+from kintrafo.core.errors import InputError
+from kintrafo.suspension.adams_car import imported, read
+from kintrafo.suspension.kinds import KINDS
+from kintrafo.suspension.point_table import write_merged
+
+from .. import mutations
+from ..attempts import RawError, WrongError
+
+if TYPE_CHECKING:
+    from numpy.random import Generator
+
+SHORT = 100
+CARS = {kind: Suspension.load(KINDS[kind].STARTER) for kind in KINDS}
+CELLS = (
+    "", "x", "1", "-1e300", "nan", "inf", "1e999", "1,5", "1_0", "'", '"', "'left'", "'single'",
+    "$", "!", "[UNITS]", "(x)", "{x}", "LENGTH = 'm'", "9" * 5000, "é\x85\u2028", "0x1F", "1d3",
+)  # fmt: skip
+NAMES = (None, None, None, {"wheel_center": "lca_outer"}, {"x": "y"}, {"spring_top": "x"})
+
+
+def attempt(random: Generator) -> None:
+    """Import a subsystem that was changed, and look at what came of each of its hardpoints."""
+    kind = str(random.choice(list(CARS)))
+    car = CARS[kind] if random.random() < 0.5 else CARS[kind].mirrored()
+    unit = str(random.choice(list(MILLIMETRES)))
+    text = subsystem(car, unit=unit, rows=_moved(random, rows_of(car, unit)))
+    untouched = random.random() < 0.2
+    if not untouched:
+        text = _slipped(random, text)
+    content = text.encode("latin-1", "replace") if random.random() < 0.3 else text.encode()
+    if not untouched and random.random() < 0.3:
+        content = mutations.bytes_of(random, content)
+    how: dict[str, Any] = {
+        "side": (None, "left", "right")[random.integers(3)],
+        "kind": kind if random.random() < 0.7 else None,
+        "base": KINDS[kind].STARTER if random.random() < 0.3 else None,
+        "names": NAMES[random.integers(len(NAMES))],
+    }
+    with tempfile.TemporaryDirectory() as folder:
+        path, new = Path(folder, "front.sub"), Path(folder, "new.toml")
+        path.write_bytes(content)
+        try:
+            found = imported(read(path), **how)
+            write_merged(found, new)
+        except InputError as error:
+            _judge(error)
+            if new.exists():
+                raise WrongError(f"refused and written: {error}") from error
+            raise
+        _check(content.decode("latin-1"), found, Suspension.load(new), how)
+
+
+def _moved(random: Generator, rows: list[Any]) -> list[Any]:
+    """Move every hardpoint by a little."""
+    if random.random() < 0.3:
+        return rows
+    by = random.normal(0.0, 0.001, 3)
+    return [
+        (n, s, x * (1.0 + by[0]), y * (1.0 + by[1]), z * (1.0 + by[2])) for n, s, x, y, z in rows
+    ]
+
+
+def _slipped(random: Generator, text: str) -> str:
+    """Change one to three lines: a cell, the order, a line that is lost or there twice."""
+    lines = text.splitlines()
+    for _ in range(random.integers(1, 4)):
+        at = int(random.integers(len(lines)))
+        cells = re.split(r"(\s{2,})", lines[at])
+        one = int(random.integers(len(cells)))
+        how = random.random()
+        if how < 0.5:
+            cells[one] = CELLS[random.integers(len(CELLS))]
+            lines[at] = "".join(cells)
+        elif how < 0.7:
+            lines[at] = "  ".join(random.permutation(cells).tolist())
+        elif how < 0.85:
+            lines.insert(at, lines[random.integers(len(lines))])
+        elif len(lines) > 1:
+            del lines[at]
+    return ("\n", "\r\n", "\r")[random.integers(3)].join(lines)
+
+
+def _judge(error: InputError) -> None:
+    said = str(error)
+    if len(said) > 1500 * (len(error.problems) + 1):
+        raise RawError(f"{len(said)} characters: {said[:300]}") from error
+
+
+def _check(text: str, found: Any, car: Any, how: dict[str, Any]) -> None:
+    """Every hardpoint that was read stands in a row of the file, in its unit and its axes."""
+    text = re.sub(r"\r\n?", "\n", text)
+    units = re.findall(r"(?im)^\s*LENGTH\s*=\s*['\"]?\s*(\w+)", text)
+    scales = {MILLIMETRES.get(unit.lower(), {"m": 1000.0}.get(unit.lower())) for unit in units}
+    if how["side"] and car.vehicle.side != how["side"]:
+        raise WrongError(f"{car.vehicle.side} side, asked for was {how['side']}")
+    for ours, theirs in found.read.items():
+        here = 1000.0 * car.hardpoints.metres(ours)
+        expected = np.array([here[0], abs(here[1]), here[2]])
+        numbers = [_numbers(line) for line in text.split("\n") if _named(line, theirs)]
+        near = any(
+            len(row) == 3
+            and scale
+            and np.allclose([-row[0], abs(row[1]), row[2]], expected / scale, rtol=1e-9)
+            for row in numbers
+            for scale in scales
+        )
+        if not near:
+            raise WrongError(f"{ours} = {here} mm is no row of {theirs}: {numbers}, {units}")
+    outboard = car.hardpoints.metres("wheel_center")[1] * car.vehicle.sign
+    if not outboard > 0.0:
+        raise WrongError(f"the wheel is {outboard} m outboard")
+    if not all(np.isfinite(value) for value in car.parameters().values()):
+        raise WrongError("a parameter is not finite")
+
+
+def _named(line: str, name: str) -> bool:
+    return name in re.findall(r"[^\s'\",]+", line.lower())
+
+
+def _numbers(line: str) -> list[float]:
+    found = re.findall(r"(?:^|[\s,'\"])([-+]?[\d.]+(?:[edED][-+]?\d+)?)(?=$|[\s,'\"$!])", line)
+    try:
+        return [float(one.lower().replace("d", "e")) for one in found]
+    except ValueError:
+        return []
