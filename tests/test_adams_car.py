@@ -126,6 +126,24 @@ def test_a_file_of_the_user_gives_the_rest(tmp_path: Path) -> None:
         taken(tmp_path, subsystem(WISHBONES), base=mine, kind="push_rod")
 
 
+def test_a_file_of_another_kind_is_refused(tmp_path: Path) -> None:
+    """Half of one suspension and half of another would be a car that there is not."""
+    strut = subsystem(CARS["macpherson"])
+    with pytest.raises(InputError, match="those of a macpherson, and the file double_wishbone_car"):
+        taken(tmp_path, strut, base="double_wishbone_car")
+    found = taken(tmp_path, subsystem(CARS["pull_rod"]), base="push_rod_car")
+    assert found.kind == "push_rod"
+
+
+def test_comments_tell_of_the_new_strut(tmp_path: Path) -> None:
+    found = taken(tmp_path, subsystem(OFFSET))
+    assert "strut axis passes through it" not in found.text
+    assert "# strut_lower to strut_top, the strut fully extended" in found.text
+    assert "spring_free_slide_mm = " not in found.text
+    assert "300 mm\ndamper" not in found.text
+    assert "strut axis passes through it" in taken(tmp_path, subsystem(CARS["macpherson"])).text
+
+
 def test_names_of_the_companys_own(tmp_path: Path) -> None:
     text = subsystem(WISHBONES).replace("lca_outer ", "Kugel_1   ")
     with pytest.raises(InputError, match=r"--kind double_wishbone --name lower_ball_joint=NAME"):
@@ -253,6 +271,10 @@ REFUSED = {
     "nan": (changed("-160.0  -360.0", "nan  -360.0"), "'nan' is no number"),
     "infinite": (changed("-160.0  -360.0", "1e999  -360.0"), "'1e999' is no number"),
     "no angle": (changed("  -1.2\n", "  steep\n"), "'steep' is no number"),
+    "angle of no side": (
+        changed("'left/right'  'real'     -1.2", "'single'  'real'  -1.2"),
+        "camber_angle is there as single; a row for the left side is needed",
+    ),
     "open quote": (changed("'lca_front     ", "lca_front     "),
                    "a quote is not closed"),
     "symmetry": (changed("'left/right'  -160", "'both'  -160"), "symmetry is 'both'; it can be"),

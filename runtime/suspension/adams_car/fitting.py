@@ -1,14 +1,18 @@
 """A file that somebody else's hardpoints are put into: its side, and what goes along with them."""
 
+import math
+import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
 from ..kinds import Suspension
+from ..kinds.macpherson import MacPherson
 from .subsystem import Point, Side
 
 Place = tuple[str, ...]
 
-_FREE_SLIDE, _FORCE = "spring_free_slide_mm", "spring_force_at_design_N"
+# A key with its comment, which goes on in lines of its own.
+_FREE_SLIDE = re.compile(r"^spring_free_slide_mm = .*\n(?:[ \t]+#.*\n)*", re.MULTILINE)
 
 
 def put(document: Any, place: Place, value: Any) -> None:
@@ -47,11 +51,26 @@ def _differences(old: Any, new: Any, place: Place = ()) -> Iterator[tuple[Place,
         yield place, new
 
 
+def by_force(text: str, suspension: Suspension) -> str:
+    """Return the text of a packaged file that says by a force where its spring is free.
+
+    The slide of the strut says so, too, but only of a spring that is concentric with it, and in a
+    comment of the very car that the file is of.
+    """
+    if not isinstance(suspension, MacPherson):
+        return text
+    points, strut = suspension.hardpoints, suspension.strut
+    seats = points.distance("spring_seat", "spring_top")
+    force = _rounded(strut.spring_rate_N_per_m * (strut.free_length(seats) - seats))
+    line = f"spring_force_at_design_N = {force}  # of the spring, at the design position\n"
+    return _FREE_SLIDE.sub(line, text)
+
+
 def move_along(document: Any, old: Suspension, points: Mapping[str, Point]) -> list[str]:
     """Bring what lies at a place of its own to where the new hardpoints are.
 
     That is for a packaged file, whose places are those of another car: bodies and tyre keep their
-    distance from the wheel centre, the strut its stroke and its force at design.
+    distance from the wheel centre, the strut its stroke.
 
     Parameters
     ----------
@@ -76,28 +95,26 @@ def move_along(document: Any, old: Suspension, points: Mapping[str, Point]) -> l
         put(document, ("bodies", name, "com_mm"), moved)
     tyre = document["tyre"]
     tyre["free_height_mm"] = _rounded(tyre["free_height_mm"] + shift[2])
-    told = ["free height of the tyre: as far from the wheel centre as in the packaged file"]
+    told = ["tyre: touches the ground as far from the design position as in the packaged file"]
     if bodies:
-        told.append(f"centres of mass of {', '.join(bodies)}: moved along with the wheel centre")
+        told.append(f"centre of mass of {', '.join(bodies)}: moved along with the wheel centre")
     if "strut" in document:
-        told += _fit_strut(document["strut"], old, points)
+        told.append(_fit_strut(document, old, points))
     return told
 
 
-def _fit_strut(strut: Any, old: Suspension, points: Mapping[str, Point]) -> list[str]:
-    """Keep the stroke of a strut and the force of its spring at design."""
+def _fit_strut(document: Any, old: Suspension, points: Mapping[str, Point]) -> str:
+    """Keep the stroke of a strut; its comments say between which points it is."""
     lower = "strut_lower" if "strut_lower" in points else "ball_joint"
     was = 1000.0 * old.hardpoints.distance("strut_lower", "strut_top")
-    new = sum((a - b) ** 2 for a, b in zip(points[lower], points["strut_top"], strict=True)) ** 0.5
+    new = math.dist(points[lower], points["strut_top"])
+    strut = document["strut"]
     slide = strut["length_max_mm"] - was
     strut["length_max_mm"] = _rounded(new + slide)
-    told = [f"strut: {slide:.1f} mm longer when fully extended than at design"]
-    if "spring_seat" in points:
-        # the slide says where a spring is free only if it is concentric with the strut
-        force = strut["spring_rate_N_per_m"] * (slide - strut[_FREE_SLIDE]) / 1000.0
-        del strut[_FREE_SLIDE]
-        strut[_FORCE] = _rounded(force)
-    return told
+    if lower == "strut_lower":
+        strut["length_max_mm"].comment("strut_lower to strut_top, the strut fully extended")
+        document["hardpoints"]["ball_joint"].comment("control arm to knuckle")
+    return f"strut: {slide:.1f} mm longer when fully extended than at design"
 
 
 def _rounded(value: float) -> float:

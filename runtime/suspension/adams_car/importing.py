@@ -13,8 +13,8 @@ from ...core.suggestions import suggestion
 from ..data import find
 from ..kinds import KINDS, Suspension
 from ..point_table import Merged, put_points
-from .fitting import move_along, put, to_side
-from .names import kind_of, known, listed, matched, points_of
+from .fitting import by_force, move_along, put, to_side
+from .names import assumed_of, kind_of, known, listed, matched, nearest_kinds, points_of
 from .subsystem import ANGLES, Point, Side, Subsystem, shown
 
 _SCHEMA = "#:schema"  # editors look for it in the first line
@@ -92,8 +92,7 @@ def imported(
     wanted: Side = side or ("left" if rest.packaged else rest.suspension.vehicle.side)
     read = matched(subsystem.points, rest.kind, given, subsystem.source)
     points = _points(subsystem, read, wanted, rest.kind, whole=rest.packaged)
-    of_side = ((key, subsystem.angle(name, wanted)) for name, key in ANGLES.items())
-    angles = {key: angle for key, angle in of_side if angle is not None}
+    angles = _angles(subsystem, wanted)
     document: Any = tomlkit.parse(rest.text)
     old = to_side(document, rest.suspension, wanted)
     moved = move_along(document, old, points) if rest.packaged else []
@@ -102,7 +101,11 @@ def imported(
         put(document, ("wheel", key), angle)
     new = Suspension.from_dict(document.unwrap(), source=subsystem.source)
     kept = tuple(name for name in new.hardpoints.given() if name not in read)
-    assumed = (*_assumed(new, kept, angles, rest.title), *moved)
+    assumed = (
+        *_assumed(new, kept, angles, rest.title),
+        *assumed_of(rest.kind),
+        *moved,
+    )
     return Imported(
         text=_with_head(tomlkit.dumps(document), _head(subsystem, rest.title, assumed)),
         read=read,
@@ -132,20 +135,57 @@ def _rest(
     if kind is not None and kind not in KINDS:
         problem = f"{kind!r} is no kind of suspension. {suggestion(kind, KINDS)}"
         raise InputError([problem], "kind")
-    if base is None:
-        found = kind or kind_of(subsystem.points, given, subsystem.source)
-        file: str | Path = KINDS[found].STARTER
-        title = f"packaged {file}"
-        suspension = Suspension.load(file)
-    else:
-        file, title = base, f"file {Path(base).name}"
-        suspension = Suspension.load(file)
-        found = next(name for name, known in KINDS.items() if type(suspension) is known)
-    if kind not in (None, found):
-        problem = f"{kind} is asked for, and the {title} is of a {found}. Leave one of them out."
+    if base is not None:
+        return _users(subsystem, kind, base, given)
+    found = kind or kind_of(subsystem.points, given, subsystem.source)
+    starter = KINDS[found].STARTER
+    text = by_force(_text(starter), Suspension.load(starter))
+    suspension = Suspension.from_dict(tomlkit.parse(text).unwrap(), source=starter)
+    return _Rest(found, f"packaged {starter}", text, suspension, packaged=True)
+
+
+def _users(
+    subsystem: Subsystem, kind: str | None, base: str | Path, given: Mapping[str, str]
+) -> _Rest:
+    """Return the file of a user, if the subsystem is of its kind."""
+    suspension = Suspension.load(base)
+    title = legible(f"file {Path(base).name}")
+    own = next(name for name, known in KINDS.items() if type(suspension) is known)
+    near = nearest_kinds(subsystem.points, given)
+    if kind not in (None, own):
+        problem = f"{kind} is asked for, and the {title} is of a {own}. Leave one of them out."
         raise InputError([problem], "kind")
-    text = find(file).read_text(encoding="utf-8-sig")
-    return _Rest(found, legible(title), text, suspension, base is None)
+    if kind is None and own not in near:
+        problem = (
+            f"its hardpoints are those of a {' or '.join(near)}, and the {title} is of a {own}. "
+            f"Give another file, or say what it is: --kind {own}."
+        )
+        raise InputError([problem], subsystem.source)
+    return _Rest(own, title, _text(base), suspension, packaged=False)
+
+
+def _text(file: str | Path) -> str:
+    return find(file).read_text(encoding="utf-8-sig")
+
+
+def _angles(subsystem: Subsystem, side: Side) -> dict[str, float]:
+    """Return camber and toe of a side [deg]; refuse those that are of another one."""
+    found = {key: subsystem.angle(name, side) for name, key in ANGLES.items()}
+    problems = [
+        _other_side(name, subsystem.angles[name], side)
+        for name, key in ANGLES.items()
+        if found[key] is None and name in subsystem.angles
+    ]
+    if problems:
+        raise InputError(problems, subsystem.source)
+    return {key: angle for key, angle in found.items() if angle is not None}
+
+
+def _other_side(name: str, rows: Iterable[str], side: Side) -> str:
+    return (
+        f"{shown(name)} is there as {' and '.join(rows)}; a row for the {side} side is needed, or "
+        "one for left/right."
+    )
 
 
 def _points(
@@ -154,8 +194,7 @@ def _points(
     """Return the hardpoints of a side [mm]; refuse what is missing or on the other side."""
     found = {ours: subsystem.side(theirs, side) for ours, theirs in read.items()}
     problems = [
-        f"{read[ours]} is there as {' and '.join(subsystem.points[read[ours]])}; a row for the "
-        f"{side} side is needed, or one for left/right."
+        _other_side(read[ours], subsystem.points[read[ours]], side)
         for ours, point in found.items()
         if point is None
     ]

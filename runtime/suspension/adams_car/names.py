@@ -58,6 +58,19 @@ NAMES: Mapping[str, Mapping[str, tuple[str, ...]]] = {
 }
 """By kind and hardpoint. Templates of multi-link suspensions have no names in common."""
 
+_OF_ROCKERS = "rocker: its axis leads from bellcrank_pivot to bellcrank_pivot_orient"
+_AXES = {
+    "macpherson": ("strut: its axis leads from strut_lower, or else ball_joint, to strut_top",),
+    "double_wishbone": ("spring and damper: on one axis, between lower arm and chassis",),
+    "push_rod": ("push rod: held by the lower arm", _OF_ROCKERS),
+    "pull_rod": ("pull rod: held by the upper arm", _OF_ROCKERS),
+}
+
+
+def assumed_of(kind: str) -> tuple[str, ...]:
+    """Return what a kind takes for granted that a template may have otherwise."""
+    return _AXES.get(kind, ())
+
 
 def points_of(kind: str) -> type[Hardpoints]:
     """Return the class of the hardpoints of a kind of suspension."""
@@ -166,27 +179,38 @@ def kind_of(there: Collection[str], given: Mapping[str, str], source: str) -> st
     InputError
         If some of its hardpoints are missing, or two kinds are as good.
     """
-    counts = {kind: len(_present(there, kind, given, known(kind))) for kind in KINDS}
-    needed = {kind: points_of(kind).names() for kind in KINDS}
-    missing = {
-        kind: [n for n in names if n not in _present(there, kind, given, names)]
-        for kind, names in needed.items()
-    }
-    most = max(counts.values())
-    near = [kind for kind in KINDS if counts[kind] == most]
-    whole = [kind for kind in near if not missing[kind]]
-    if len(whole) == 1:
-        return whole[0]
-    if whole:
-        problem = f"it may be {' or '.join(whole)}. Say which: --kind {whole[0]}."
-    else:
-        kind = min(near, key=lambda kind: len(missing[kind]))
+    near = nearest_kinds(there, given)
+    missing = _missing(there, near[0], given)
+    if len(near) == 1 and not missing:
+        return near[0]
+    if missing:
         problem = (
-            f"its hardpoints are those of no kind of suspension. Nearest is {kind}, of which "
-            f"{', '.join(missing[kind])} are missing. Say the kind, and what the points are "
-            f"called: --kind {kind} --name {missing[kind][0]}=NAME. It has: {listed(there)}."
+            f"its hardpoints are those of no kind of suspension. Nearest is {near[0]}, of which "
+            f"{', '.join(missing)} are missing. Say the kind, and what the points are called: "
+            f"--kind {near[0]} --name {missing[0]}=NAME. It has: {listed(there)}."
         )
+    else:
+        problem = f"it may be {' or '.join(near)}. Say which: --kind {near[0]}."
     raise InputError([problem], source)
+
+
+def nearest_kinds(there: Collection[str], given: Mapping[str, str]) -> list[str]:
+    """Return the kinds of suspension of which a subsystem has the most hardpoints.
+
+    If it has all that some of them need, these; otherwise the one that lacks the fewest.
+    """
+    counts = {kind: len(_present(there, kind, given, known(kind))) for kind in KINDS}
+    near = [kind for kind in KINDS if counts[kind] == max(counts.values())]
+    lacks = {kind: len(_missing(there, kind, given)) for kind in near}
+    least = min(lacks.values())
+    return [kind for kind in near if lacks[kind] == least]
+
+
+def _missing(there: Collection[str], kind: str, given: Mapping[str, str]) -> list[str]:
+    """Return the hardpoints that a kind needs and the subsystem does not have."""
+    names = points_of(kind).names()
+    present = _present(there, kind, given, names)
+    return [name for name in names if name not in present]
 
 
 def listed(there: Iterable[str]) -> str:
