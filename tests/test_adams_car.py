@@ -228,9 +228,9 @@ def test_what_is_not_read_is_told(tmp_path: Path) -> None:
     found = taken(tmp_path, subsystem(WISHBONES, rows=rows, more=MORE))
     assert found.left_out == (
         "hardpoint drive_shaft_inr",
+        "spring ride_spring: its file 'own.spr' is not beside the subsystem",
         "parameters kinematic_flag",
         "[BUSHING_ASSEMBLY] lca_front, lca_rear",
-        "[NSPRING_ASSEMBLY] ride_spring",
     )
     assert ("left out", "hardpoint drive_shaft_inr") in found.words()
 
@@ -239,6 +239,78 @@ def test_a_ground_that_is_elsewhere_is_told(tmp_path: Path) -> None:
     low = [(n, s, x, y, z - 300.0) for n, s, x, y, z in rows_of(WISHBONES)]
     found = taken(tmp_path, subsystem(WISHBONES, rows=low))
     assert any(told.startswith("ground: not known, as the wheel centre") for told in found.assumed)
+
+
+SPRING = """\
+[UNITS]
+ LENGTH  =  'mm'
+ FORCE   =  'newton'
+[SPRING_DATA]
+ FREE_LENGTH  =  300.0
+[CURVE]
+{ disp   force }
+ -50.0  -2250.0
+ 0.0    0.0
+ 100.0  4500.0
+"""
+PRELOAD = " VALUE_TYPE  =  'preload'\n USER_VALUE  =  5100.0\n"
+
+
+@pytest.mark.parametrize("folder", [".", "springs.tbl", "../springs.tbl"])
+@pytest.mark.parametrize("kind", ["double_wishbone", "macpherson", "multi_link"])
+def test_a_straight_spring_is_read(kind: str, folder: str, tmp_path: Path) -> None:
+    (tmp_path / folder).mkdir(exist_ok=True)
+    (tmp_path / folder / "own.spr").write_text(SPRING, encoding="utf-8")
+    found = taken(tmp_path, subsystem(CARS[kind], more=MORE + PRELOAD))
+    assert ("read", "spring 45 N/mm, 5100 N at design (own.spr)") in found.words()
+    car: Any = loaded(found, tmp_path)
+    if kind == "macpherson":
+        assert car.strut.spring_rate_N_per_m == 45000.0
+        assert force_at_design(car) == pytest.approx(5100.0)
+    else:
+        assert (car.spring.rate_N_per_m, car.spring.force_at_design_N) == (45000.0, 5100.0)
+
+
+def test_units_of_a_spring(tmp_path: Path) -> None:
+    """100 lbf/in are 17.5 N/mm, by the definitions of inch, pound and standard gravity."""
+    text = SPRING.replace("'mm'", "'inch'").replace("'newton'", "'pound_force'")
+    text = text.replace("-50.0  -2250.0", "-1.0 -100.0").replace("100.0  4500.0", "2.0 200.0")
+    (tmp_path / "own.spr").write_text(text, encoding="utf-8")
+    spring = taken(tmp_path, subsystem(WISHBONES, more=MORE)).spring
+    assert spring is not None
+    assert spring.force is None
+    assert spring.rate == pytest.approx(100.0 * 0.45359237 * 9.80665 / 0.0254)
+
+
+LEFT_OUT = {
+    "none": (SPRING.replace("[CURVE]", "[CURVES]"), "no curve of deflection and force"),
+    "curved": (SPRING.replace("4500.0", "4700.0"), "no straight line that rises"),
+    "falling": (SPRING.replace("-2250.0", "9.0").replace("4500", "-9"), "no straight line"),
+    "words": (SPRING.replace("4500.0", "many"), "a row that is no two numbers"),
+    "xml": ("<?xml version='1.0'?>", "no file in the TeimOrbit format"),
+    "units": (SPRING.replace("'newton'", "'stone'"), "FORCE is 'stone', which is not known"),
+}
+
+
+@pytest.mark.parametrize(("text", "message"), LEFT_OUT.values(), ids=LEFT_OUT)
+def test_a_spring_that_is_left_out(text: str, message: str, tmp_path: Path) -> None:
+    (tmp_path / "own.spr").write_text(text, encoding="utf-8")
+    found = taken(tmp_path, subsystem(WISHBONES, more=MORE))
+    (told,) = (line for line in found.left_out if line.startswith("spring ride_spring: own.spr"))
+    assert message in told
+    assert found.spring is None
+
+
+def test_springs_that_are_not_taken(tmp_path: Path) -> None:
+    (tmp_path / "own.spr").write_text(SPRING, encoding="utf-8")
+    second = MORE + "[NSPRING_ASSEMBLY]\n USAGE = 'helper'\n"
+    more = taken(tmp_path, subsystem(WISHBONES, more=second))
+    assert "springs ride_spring, helper: there is more than one" in more.left_out
+    scaled = taken(tmp_path, subsystem(WISHBONES, more=MORE + " FORCE_SCALE = 1.1\n"))
+    assert "spring ride_spring: FORCE_SCALE is not 1" in scaled.left_out
+    based = taken(tmp_path, subsystem(WISHBONES, more=MORE), base="double_wishbone_car")
+    told = "spring 45 N/mm (own.spr): the file double_wishbone_car has its own"
+    assert told in based.left_out
 
 
 def changed(old: str, new: str, count: int = -1) -> str:
@@ -341,7 +413,7 @@ def test_the_command(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
     code, out, _ = kintrafo("import-adams", "front.sub", "car.toml", "--side", "right")
     assert code == 0
     assert "read      double wishbone suspension, right side" in out
-    assert "left out  [NSPRING_ASSEMBLY] ride_spring" in out
+    assert "left out  [BUSHING_ASSEMBLY] lca_front, lca_rear" in out
     assert "assumed   axes: x rearward" in out
     assert Suspension.load(tmp_path / "car.toml") == WISHBONES
     (tmp_path / "mine.toml").write_text("mine", encoding="utf-8")

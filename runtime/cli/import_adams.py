@@ -62,7 +62,8 @@ def command(
 ) -> None:
     """Write the hardpoint file of a suspension that a subsystem of Adams/Car describes.
 
-    Hardpoints, camber and toe are read. What was read, assumed and left out is printed.
+    Hardpoints, camber, toe and a linear spring are read. What was read, assumed and left out is
+    printed.
     """
     from ..core.files import refuse
     from ..suspension.adams_car import imported, read, read_names

@@ -1,8 +1,11 @@
-"""Suspensions of Adams/Car: their hardpoints, camber and toe, from the file of a subsystem.
+"""Suspensions of Adams/Car: hardpoints, camber, toe and spring, from the file of a subsystem.
 
 `subsystem`     what stands in the file
+`values`        its values: texts, numbers and units
+`springs`       the spring, from a file beside it
 `names`         what templates call the hardpoints of each kind
-`fitting`       the file that the rest comes from
+`rest`          the file that the rest comes from
+`fitting`       what in it goes along with the hardpoints
 `importing`     both of them as an input file
 """
 

@@ -3,19 +3,20 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import tomlkit
 
 from ...core.errors import InputError
 from ...core.legible import legible
-from ...core.suggestions import suggestion
-from ..data import find
 from ..kinds import KINDS, Suspension
 from ..point_table import Merged, put_points
-from .fitting import by_force, move_along, put, to_side
-from .names import assumed_of, kind_of, known, listed, matched, nearest_kinds, points_of
-from .subsystem import ANGLES, Point, Side, Subsystem, shown
+from .fitting import move_along, put, to_side
+from .names import assumed_of, known, listed, matched, points_of
+from .rest import Rest, rest_of
+from .springs import Spring, put_spring, spring_of
+from .subsystem import ANGLES, Point, Side, Subsystem
+from .values import shown
 
 _SCHEMA = "#:schema"  # editors look for it in the first line
 
@@ -31,6 +32,8 @@ class Imported(Merged):
     side : {'left', 'right'}
     angles : dict of str to float
         Camber and toe that come from the subsystem [deg], by the keys of ``[wheel]``.
+    spring : Spring or None
+        The spring that comes from it.
     assumed : tuple of str
         What the subsystem leaves open, one sentence each.
     """
@@ -38,6 +41,7 @@ class Imported(Merged):
     kind: str
     side: Side
     angles: dict[str, float]
+    spring: Spring | None
     assumed: tuple[str, ...]
 
     def words(self) -> list[tuple[str, str]]:
@@ -49,6 +53,7 @@ class Imported(Merged):
             ("read", f"{KINDS[self.kind].TITLE}, {self.side} side"),
             ("read", ", ".join(pairs)),
             *(("read", f"{key.removesuffix('_deg')} {v:g} deg") for key, v in self.angles.items()),
+            *([("read", self.spring.words())] if self.spring else []),
             *(("assumed", text) for text in self.assumed),
             *(("left out", text) for text in self.left_out),
         ]
@@ -88,21 +93,24 @@ def imported(
         If a hardpoint is missing, or no suspension can be like this; with all problems.
     """
     given = names or {}
-    rest = _rest(subsystem, kind, base, given)
+    rest = rest_of(subsystem, kind, base, given)
     wanted: Side = side or ("left" if rest.packaged else rest.suspension.vehicle.side)
     read = matched(subsystem.points, rest.kind, given, subsystem.source)
     points = _points(subsystem, read, wanted, rest.kind, whole=rest.packaged)
     angles = _angles(subsystem, wanted)
     document: Any = tomlkit.parse(rest.text)
     old = to_side(document, rest.suspension, wanted)
+    spring, reason = _spring(subsystem, rest)
     moved = move_along(document, old, points) if rest.packaged else []
     put_points(document, points, "mm")
     for key, angle in angles.items():
         put(document, ("wheel", key), angle)
+    if spring:
+        put_spring(document, spring)
     new = Suspension.from_dict(document.unwrap(), source=subsystem.source)
     kept = tuple(name for name in new.hardpoints.given() if name not in read)
     assumed = (
-        *_assumed(new, kept, angles, rest.title),
+        *_assumed(new, kept, angles, spring, rest.title),
         *assumed_of(rest.kind),
         *moved,
     )
@@ -110,62 +118,21 @@ def imported(
         text=_with_head(tomlkit.dumps(document), _head(subsystem, rest.title, assumed)),
         read=read,
         kept=kept,
-        left_out=(*_left_out(subsystem, read), *subsystem.others),
+        left_out=(*_left_out(subsystem, read), *([reason] if reason else []), *subsystem.others),
         kind=rest.kind,
         side=wanted,
         angles=angles,
+        spring=spring,
         assumed=assumed,
     )
 
 
-class _Rest(NamedTuple):
-    """The file that everything but the hardpoints is from."""
-
-    kind: str
-    title: str
-    text: str
-    suspension: Suspension
-    packaged: bool
-
-
-def _rest(
-    subsystem: Subsystem, kind: str | None, base: str | Path | None, given: Mapping[str, str]
-) -> _Rest:
-    """Return the file that the rest is from: what the user names, or the packaged one of a kind."""
-    if kind is not None and kind not in KINDS:
-        problem = f"{kind!r} is no kind of suspension. {suggestion(kind, KINDS)}"
-        raise InputError([problem], "kind")
-    if base is not None:
-        return _users(subsystem, kind, base, given)
-    found = kind or kind_of(subsystem.points, given, subsystem.source)
-    starter = KINDS[found].STARTER
-    text = by_force(_text(starter), Suspension.load(starter))
-    suspension = Suspension.from_dict(tomlkit.parse(text).unwrap(), source=starter)
-    return _Rest(found, f"packaged {starter}", text, suspension, packaged=True)
-
-
-def _users(
-    subsystem: Subsystem, kind: str | None, base: str | Path, given: Mapping[str, str]
-) -> _Rest:
-    """Return the file of a user, if the subsystem is of its kind."""
-    suspension = Suspension.load(base)
-    title = legible(f"file {Path(base).name}")
-    own = next(name for name, known in KINDS.items() if type(suspension) is known)
-    near = nearest_kinds(subsystem.points, given)
-    if kind not in (None, own):
-        problem = f"{kind} is asked for, and the {title} is of a {own}. Leave one of them out."
-        raise InputError([problem], "kind")
-    if kind is None and own not in near:
-        problem = (
-            f"its hardpoints are those of a {' or '.join(near)}, and the {title} is of a {own}. "
-            f"Give another file, or say what it is: --kind {own}."
-        )
-        raise InputError([problem], subsystem.source)
-    return _Rest(own, title, _text(base), suspension, packaged=False)
-
-
-def _text(file: str | Path) -> str:
-    return find(file).read_text(encoding="utf-8-sig")
+def _spring(subsystem: Subsystem, rest: Rest) -> tuple[Spring | None, str]:
+    """Return the spring, or why it is left out: a file of the user has its own."""
+    found, reason = spring_of(subsystem)
+    if found is None or rest.packaged:
+        return found, reason
+    return None, f"{found.words()}: the {rest.title} has its own"
 
 
 def _angles(subsystem: Subsystem, side: Side) -> dict[str, float]:
@@ -221,12 +188,17 @@ def _points(
 
 
 def _assumed(
-    new: Suspension, kept: Iterable[str], angles: Mapping[str, float], rest: str
+    new: Suspension,
+    kept: Iterable[str],
+    angles: Mapping[str, float],
+    spring: Spring | None,
+    rest: str,
 ) -> list[str]:
     """Return what the subsystem leaves open."""
     told = [
         "axes: x rearward, y to the right, z up, as is usual in Adams/Car",
-        f"spring, damper, masses, tyre, rack and vehicle: as in the {rest}",
+        f"{'' if spring else 'spring, '}damper, masses, tyre, rack and vehicle: as in the {rest}",
+        *([f"force of the spring: as in the {rest}"] if spring and spring.force is None else []),
         *(f"{name}: as in the {rest}" for name in kept),
     ]
     told += [

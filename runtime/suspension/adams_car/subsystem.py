@@ -5,15 +5,14 @@ the left one.
 """
 
 import math
-import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, NamedTuple, TypeVar
 
 from ...core.errors import InputError
-from ...core.legible import legible, short
 from ...core.teim_orbit import Block, read_blocks
+from .values import DEGREES, MILLIMETRES, Values, number, shown, unit_of
 
 Point = tuple[float, float, float]
 Side = Literal["left", "right"]
@@ -22,23 +21,12 @@ _Value = TypeVar("_Value", float, Point)
 ANGLES = {"camber_angle": "camber_deg", "toe_angle": "toe_deg"}
 """What is read of the parameters, with the keys of ``[wheel]``: the signs are the same."""
 
-_MILLIMETRES = {
-    **dict.fromkeys(("mm", "millimeter", "millimetre"), 1.0),
-    **dict.fromkeys(("cm", "centimeter", "centimetre"), 10.0),
-    **dict.fromkeys(("m", "meter", "metre"), 1000.0),
-    **dict.fromkeys(("in", "inch"), 25.4),
-    **dict.fromkeys(("ft", "foot"), 304.8),
-}
-_DEGREES = {
-    **dict.fromkeys(("deg", "degree", "degrees"), 1.0),
-    **dict.fromkeys(("rad", "radian", "radians"), math.degrees(1.0)),
-}
 _SYMMETRIES = ("left/right", "left", "right", "single")
 _POINT_COLUMNS = ["hardpoint_name", "symmetry", "x_value", "y_value", "z_value"]
 _ANGLE_COLUMNS = ["parameter_name", "symmetry", "type", "value"]
+_SPRINGS = ("nspring_assembly", "spring_assembly")
 # What says nothing of the car.
 _FORMAL = ("mdi_header", "subsystem_header", "units", "plugins", "solver_settings", "hardpoint")
-_NUMBER = re.compile(r"[-+]?(\d++\.?\d*+|\.\d++)([eEdD][-+]?\d++)?")
 
 
 @dataclass(frozen=True)
@@ -56,6 +44,9 @@ class Subsystem:
         coordinates, in mm and in the axes of Adams/Car.
     angles : dict
         By name and side camber_angle and toe_angle, in degrees; those that the file has.
+    springs : tuple of dict
+        The keys and values of its springs, in lower case and as they stand there.
+    force_unit : str
     others : tuple of str
         What else there is, and is not read.
     """
@@ -64,6 +55,8 @@ class Subsystem:
     template: str
     points: dict[str, dict[str, Point]]
     angles: dict[str, dict[str, float]]
+    springs: tuple[dict[str, str], ...]
+    force_unit: str
     others: tuple[str, ...]
 
     def side(self, name: str, side: Side) -> Point | None:
@@ -109,20 +102,20 @@ def read(path: str | Path) -> Subsystem:
     """
     source = str(path)
     blocks = read_blocks(path)
-    values = _Values(blocks, source)
+    values = Values(blocks, source)
     _refuse_others(values)
-    scale = _unit(values, "length", "mm", _MILLIMETRES)
+    scale = unit_of(values, "length", "mm", MILLIMETRES)
     problems: list[str] = []
     points: dict[str, dict[str, Point]] = {}
     for row in _rows(blocks, "hardpoint", _POINT_COLUMNS, problems):
-        x, y, z = (scale * _number(cell) for cell in row.others)
+        x, y, z = (scale * number(cell) for cell in row.others)
         _put(points, row, (x, y, z), problems)
     parameters = list(_rows(blocks, "parameter", _ANGLE_COLUMNS, problems))
     of_angles = [row for row in parameters if row.name in ANGLES]
-    turn = _unit(values, "angle", "degrees", _DEGREES) if of_angles else 1.0
+    turn = unit_of(values, "angle", "degrees", DEGREES) if of_angles else 1.0
     angles: dict[str, dict[str, float]] = {}
     for row in of_angles:
-        _put(angles, row, turn * _number(row.others[-1]), problems)
+        _put(angles, row, turn * number(row.others[-1]), problems)
     if not points and not problems:
         problems.append("there are no rows in a block [HARDPOINT].")
     if problems:
@@ -130,35 +123,13 @@ def read(path: str | Path) -> Subsystem:
     template = shown(values.one("subsystem_header", "template_name"))
     left_out = dict.fromkeys(row.name for row in parameters if row.name not in ANGLES)
     others = [f"parameters {', '.join(map(shown, left_out))}"] if left_out else []
-    return Subsystem(source, template, points, angles, (*others, *_others(blocks)))
+    springs = tuple(dict(block.values()) for block in blocks if block.name in _SPRINGS)
+    force_unit = values.one("units", "force")
+    others += _others(blocks)
+    return Subsystem(source, template, points, angles, springs, force_unit, tuple(others))
 
 
-def shown(text: str) -> str:
-    """Return a text of a file as it can be printed, and not more of it than one reads."""
-    return short(legible(text))
-
-
-class _Values:
-    """The values of keys, each of which may be said once."""
-
-    def __init__(self, blocks: Iterable[Block], source: str) -> None:
-        self.source = source
-        self._found: dict[tuple[str, str], list[str]] = {}
-        for block in blocks:
-            for key, value in block.values():
-                self._found.setdefault((block.name, key), []).append(value)
-
-    def one(self, block: str, key: str) -> str:
-        """Return a value; empty if there is none. Refuse it if there are two."""
-        found = list(dict.fromkeys(self._found.get((block, key), ())))
-        if len(found) > 1:
-            told = " and ".join(repr(shown(value)) for value in found)
-            problem = f"[{block.upper()}] {key.upper()} is {told}. Keep one of them."
-            raise InputError([problem], self.source)
-        return found[0] if found else ""
-
-
-def _refuse_others(values: _Values) -> None:
+def _refuse_others(values: Values) -> None:
     """Refuse what is no subsystem of a suspension."""
     for block, key, wanted in (
         ("mdi_header", "file_type", "sub"),
@@ -173,25 +144,13 @@ def _refuse_others(values: _Values) -> None:
             raise InputError([problem], values.source)
 
 
-def _unit(values: _Values, key: str, usual: str, known: Mapping[str, float]) -> float:
-    """Return how many of our units one of the file's is."""
-    given = values.one("units", key)
-    if given.lower() in known:
-        return known[given.lower()]
-    told = f"is {shown(given)!r}, which is not known" if given else "is missing"
-    problem = f"[UNITS] {key.upper()} {told}. Write {key.upper()} = '{usual}', or: " + ", ".join(
-        name for name in known if name != usual
-    )
-    raise InputError([f"{problem}."], values.source)
-
-
 class _Row(NamedTuple):
     """A row of a table: what it names, for which side, the other cells, and the line."""
 
     name: str
     symmetry: str
     others: list[str]
-    number: int
+    line: int
 
 
 def _rows(
@@ -209,15 +168,15 @@ def _rows(
             )
             continue
         order = [columns.index(column) for column in usual]
-        for number, text, cells in block.rows():
+        for line, text, cells in block.rows():
             if [cell.lower() for cell in cells or ()] == columns:
                 continue  # the names of the columns, without their braces
             wrong = _problem_of(cells, order, name)
             if cells is None or wrong:
-                problems.append(f"line {number}: {wrong}: {shown(text)}")
+                problems.append(f"line {line}: {wrong}: {shown(text)}")
                 continue
             first, symmetry, *others = (cells[i] for i in order)
-            yield _Row(first.lower(), symmetry.lower(), others, number)
+            yield _Row(first.lower(), symmetry.lower(), others, line)
 
 
 def _problem_of(cells: list[str] | None, order: list[int], name: str) -> str:
@@ -231,7 +190,7 @@ def _problem_of(cells: list[str] | None, order: list[int], name: str) -> str:
     of_numbers = order[2:] if name == "hardpoint" else order[-1:]
     if name == "parameter" and cells[order[0]].lower() not in ANGLES:
         return ""
-    wrong = [cells[i] for i in of_numbers if not math.isfinite(_number(cells[i]))]
+    wrong = [cells[i] for i in of_numbers if not math.isfinite(number(cells[i]))]
     return f"{shown(wrong[0])!r} is no number" if wrong else ""
 
 
@@ -242,24 +201,17 @@ def _put(rows: dict[str, dict[str, _Value]], row: _Row, value: _Value, problems:
     if row.symmetry in there or (there and both):
         sides = " and ".join((*there, row.symmetry))
         problems.append(
-            f"line {row.number}: {shown(row.name)} is there twice, as {sides}. Keep one of them."
+            f"line {row.line}: {shown(row.name)} is there twice, as {sides}. Keep one of them."
         )
     else:
         there[row.symmetry] = value
-
-
-def _number(cell: str) -> float:
-    """Return the number in a cell; NaN where there is none."""
-    if not _NUMBER.fullmatch(cell):
-        return math.nan
-    return float(re.sub("[dD]", "e", cell))
 
 
 def _others(blocks: Iterable[Block]) -> list[str]:
     """Return what blocks there are that are not read, with what they are of."""
     found: dict[str, list[str]] = {}
     for block in blocks:
-        if block.name not in (*_FORMAL, "parameter"):
+        if block.name not in (*_FORMAL, *_SPRINGS, "parameter"):
             names = [value for key, value in block.values() if key == "usage"]
             found.setdefault(block.name, []).extend(names)
     return [

@@ -27,6 +27,22 @@ CELLS = (
     "", "x", "1", "-1e300", "nan", "inf", "1e999", "1,5", "1_0", "'", '"', "'left'", "'single'",
     "$", "!", "[UNITS]", "(x)", "{x}", "LENGTH = 'm'", "9" * 5000, "é\x85\u2028", "0x1F", "1d3",
 )  # fmt: skip
+MORE = """
+[NSPRING_ASSEMBLY]
+ USAGE  =  'ride_spring'
+ PROPERTY_FILE  =  'own.spr'
+ VALUE_TYPE  =  'preload'
+ USER_VALUE  =  5000.0
+"""
+SPRING = """
+[UNITS]
+ LENGTH  =  'mm'
+ FORCE  =  'newton'
+[CURVE]
+{disp  force}
+-50.0  -2250.0
+100.0  4500.0
+"""
 NAMES = (None, None, None, {"wheel_center": "lca_outer"}, {"x": "y"}, {"spring_top": "x"})
 
 
@@ -35,7 +51,7 @@ def attempt(random: Generator) -> None:
     kind = str(random.choice(list(CARS)))
     car = CARS[kind] if random.random() < 0.5 else CARS[kind].mirrored()
     unit = str(random.choice(list(MILLIMETRES)))
-    text = subsystem(car, unit=unit, rows=_moved(random, rows_of(car, unit)))
+    text = subsystem(car, unit=unit, rows=_moved(random, rows_of(car, unit)), more=MORE)
     untouched = random.random() < 0.2
     if not untouched:
         text = _slipped(random, text)
@@ -51,6 +67,7 @@ def attempt(random: Generator) -> None:
     with tempfile.TemporaryDirectory() as folder:
         path, new = Path(folder, "front.sub"), Path(folder, "new.toml")
         path.write_bytes(content)
+        _spring(random, Path(folder, "own.spr"))
         try:
             found = imported(read(path), **how)
             write_merged(found, new)
@@ -60,6 +77,13 @@ def attempt(random: Generator) -> None:
                 raise WrongError(f"refused and written: {error}") from error
             raise
         _check(content.decode("latin-1"), found, Suspension.load(new), how)
+
+
+def _spring(random: Generator, path: Path) -> None:
+    """Write the file of a spring, with slips of the hand or broken; or none."""
+    if random.random() < 0.7:
+        content = _slipped(random, SPRING).encode()
+        path.write_bytes(mutations.bytes_of(random, content) if random.random() < 0.3 else content)
 
 
 def _moved(random: Generator, rows: list[Any]) -> list[Any]:
@@ -121,6 +145,8 @@ def _check(text: str, found: Any, car: Any, how: dict[str, Any]) -> None:
     outboard = car.hardpoints.metres("wheel_center")[1] * car.vehicle.sign
     if not outboard > 0.0:
         raise WrongError(f"the wheel is {outboard} m outboard")
+    if found.spring is not None and not 0.0 < found.spring.rate < np.inf:
+        raise WrongError(f"{found.spring}")
     if not all(np.isfinite(value) for value in car.parameters().values()):
         raise WrongError("a parameter is not finite")
 

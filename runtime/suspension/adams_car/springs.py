@@ -1,0 +1,128 @@
+"""The spring of a subsystem of Adams/Car: its rate, and its force at the design position.
+
+It is read where its property file is beside the subsystem and its curve is straight. There the
+deflection is positive in compression, and so is the force.
+"""
+
+import math
+import os
+import re
+from collections.abc import Mapping
+from itertools import pairwise
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from ...core.errors import InputError
+from ...core.teim_orbit import Block, read_blocks
+from .subsystem import Subsystem
+from .values import MILLIMETRES, NEWTONS, Values, number, shown, unit_of
+
+_STRAIGHT = 1e-3  # of the greatest force: so far a curve may be from a line
+_FOLDER = "springs.tbl"
+
+
+class Spring(NamedTuple):
+    """A linear spring.
+
+    Attributes
+    ----------
+    rate : float
+        In N/m.
+    force : float or None
+        At the design position [N]; None if the subsystem does not say.
+    file : str
+        The name of the property file.
+    """
+
+    rate: float
+    force: float | None
+    file: str
+
+    def words(self) -> str:
+        """Return it in words."""
+        force = "" if self.force is None else f", {self.force:g} N at design"
+        return f"spring {self.rate / 1000.0:g} N/mm{force} ({self.file})"
+
+
+def spring_of(subsystem: Subsystem) -> tuple[Spring | None, str]:
+    """Return the spring of a subsystem; if it cannot be read, why.
+
+    Parameters
+    ----------
+    subsystem : Subsystem
+
+    Returns
+    -------
+    spring : Spring or None
+    reason : str
+        Empty if there is a spring, or if the subsystem names none.
+    """
+    if not subsystem.springs:
+        return None, ""
+    names = ", ".join(shown(values.get("usage", "")) for values in subsystem.springs)
+    if len(subsystem.springs) > 1:
+        return None, f"springs {names}: there is more than one"
+    (values,) = subsystem.springs
+    name = re.split(r"[\\/:>]", values.get("property_file", ""))[-1]
+    file = _beside(Path(subsystem.source).parent, name)
+    if file is None:
+        return None, f"spring {names}: its file {shown(name)!r} is not beside the subsystem"
+    scaled = [key for key, text in values.items() if "scal" in key and number(text) != 1.0]
+    if scaled:
+        return None, f"spring {names}: {shown(scaled[0].upper())} is not 1"
+    try:
+        return Spring(_rate(file), _force(values, subsystem), shown(name)), ""
+    except InputError as error:
+        return None, f"spring {names}: {shown(name)}: {error.problems[0]}"
+
+
+def put_spring(document: Any, spring: Spring) -> None:
+    """Put a spring into the text of an input file that gives a force at design."""
+    section = document["strut" if "strut" in document else "spring"]
+    prefix = "spring_" if "strut" in document else ""
+    section[f"{prefix}rate_N_per_m"] = spring.rate
+    if spring.force is not None:
+        section[f"{prefix}force_at_design_N"] = spring.force
+
+
+def _beside(folder: Path, name: str) -> Path | None:
+    """Return the property file: beside the subsystem, or in the folder of a database."""
+    places = (folder, folder / _FOLDER, folder.parent / _FOLDER)
+    # os.path tells of names that no file can have that there is none
+    return next((p / name for p in places if name and os.path.isfile(p / name)), None)  # noqa: PTH113
+
+
+def _rate(file: Path) -> float:
+    """Return the rate of a spring whose curve is straight [N/m]."""
+    blocks = read_blocks(file)
+    values = Values(blocks, str(file))
+    length = unit_of(values, "length", "mm", MILLIMETRES) / 1000.0
+    force = unit_of(values, "force", "newton", NEWTONS)
+    points = sorted(_points(blocks))
+    if len(points) < 2 or any(a[0] == b[0] for a, b in pairwise(points)):
+        raise InputError(["it has no curve of deflection and force."])
+    (x0, f0), (x1, f1) = points[0], points[-1]
+    slope = (f1 - f0) / (x1 - x0)
+    off = max(abs(f - f0 - slope * (x - x0)) for x, f in points)
+    if not (slope > 0.0 and off <= _STRAIGHT * max(abs(f) for _, f in points)):
+        raise InputError(["its curve is no straight line that rises."])
+    # so many digits as anybody measures; the unit has brought the others
+    return float(f"{slope * force / length:.12g}")
+
+
+def _points(blocks: list[Block]) -> list[tuple[float, float]]:
+    """Return deflections and forces of the curve."""
+    rows = [cells for b in blocks if b.name == "curve" for _, _, cells in b.rows()]
+    points = [tuple(map(number, cells or ())) for cells in rows]
+    if any(len(point) != 2 or not all(map(math.isfinite, point)) for point in points):
+        raise InputError(["its curve has a row that is no two numbers."])
+    return [(point[0], point[1]) for point in points]
+
+
+def _force(values: Mapping[str, str], subsystem: Subsystem) -> float | None:
+    """Return the force at design [N], if the subsystem gives a preload."""
+    given = number(values.get("user_value", ""))
+    scale = NEWTONS.get(subsystem.force_unit.lower())
+    if values.get("value_type", "").lower() != "preload" or scale is None or not given > 0.0:
+        return None
+    return scale * given if math.isfinite(given) else None
