@@ -191,6 +191,10 @@ TOLERATED = {
     ).replace("symmetry       x_value    y_value    z_value", "x_value y_value z_value symmetry")
     .replace("symmetry       type       value", "type value symmetry")
     .replace("'single    '  'integer'  0", "'integer' 0 'single'"),
+    "more columns": lambda text: re.sub(
+        r"(z_value)(?=\})|('left/right'(?:  \S+){3})$", r"\1\2  more", text, flags=re.MULTILINE
+    ),
+    "parameters of any form": lambda text: text + " 'a_list'  'single'  'list'  1  2  'open\n",
     "comments": lambda text: text.replace("\n '", "  $ it's a remark\n! it's one, too\n '"),
     "no header": lambda text: text[text.index("[UNITS]") :],
     "no parameters": lambda text: text[: text.index("[PARAMETER]")],

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from kintrafo import InputError, Model, Suspension, arm_angles, loads
 from kintrafo.core.arguments import Arguments
+from kintrafo.study.loads.bush_curve import Curve
 from kintrafo.study.loads.bushes import bushes_of
 from kintrafo.study.loads.elastic.connections import Soft
 from kintrafo.study.loads.elastic.equilibrium import Equilibrium, State
-from kintrafo.study.loads.elastic.places import Angles, Distances, Lengths, Places, Twists
+from kintrafo.study.loads.elastic.places import Angles, Distances, Lengths, Places, Radii, Twists
 from kintrafo.study.loads.poses import Poses
 from kintrafo.suspension.positions import design_height
 from kintrafo.suspension.reach import at_rest
@@ -45,6 +46,7 @@ def random_measures(rng: np.random.Generator) -> list[Any]:
         Angles(bodies, *vectors[:2]),
         Lengths(bodies, *vectors[:2]),
         Twists(bodies, *vectors[:2], *vectors[::2]),
+        Radii(bodies, *vectors, vectors[1], rng.normal(size=(1, 4, 2))),
     ]
 
 
@@ -255,6 +257,79 @@ def test_what_resists_tilting_stiffens() -> None:
     assert moved[0] > 1.02 * moved[1] > 1.02 * moved[2] > 0.0
 
 
+@pytest.mark.parametrize("camber", [-2.0, 1.5])
+@pytest.mark.parametrize("hardpoints", ["loaded", "relaxed"])
+@pytest.mark.parametrize("car", CARS, ids=lambda car: car.suspension)
+def test_other_travels_change_nothing(car: Suspension, hardpoints: Any, camber: float) -> None:
+    """Axes across the spin axis are chosen anew where toe and camber change their sizes."""
+    heavy = car.with_changes(
+        {"strut.spring_force_at_design_N" if car is STRUT else "spring.force_at_design_N": 4000.0,
+         "gravity.acceleration_m_per_s2": 9.81, "wheel.camber_deg": camber}
+    )  # fmt: skip
+    model, travels = Model(heavy), np.array([-0.04, -0.02, 0.0, 0.02])
+    bushes = BUSHES_OF[car] | {"rack": {"axial_N_per_mm": 3000.0}}
+    whole = loads.elastokinematics(model, bushes, travels, hardpoints=hardpoints)
+    for order in ([3, 2, 1, 0], [2, 0, 3], [1]):
+        found = loads.elastokinematics(model, bushes, travels[order], hardpoints=hardpoints)
+        for name in whole:
+            # forces of 1e4 N in the last step of Newton's method, 1e-9 m or rad
+            atol = 1e-2 if name in ("wheel_load", "wheel_rate") else 1e-9
+            np.testing.assert_allclose(found[name], whole[name][:, order], rtol=0.0, atol=atol)
+
+
+def test_many_travels_are_looked_at_in_parts(monkeypatch: pytest.MonkeyPatch) -> None:
+    model, travels = Model("reference_car"), np.linspace(-0.05, 0.05, 7)
+    bushes = {"arm_rear": {"radial_N_per_mm": 1e3}}
+    whole = loads.elastokinematics(model, bushes, travels)
+    monkeypatch.setattr("kintrafo.study.loads.elastic.elastokinematics._TOGETHER", 3)
+    parts = loads.elastokinematics(model, bushes, travels)
+    # which of two bearings holds the arm along its axis does not depend on the positions either
+    assert parts.sizes == whole.sizes
+    np.testing.assert_allclose(parts["toe"], whole["toe"], rtol=0.0, atol=1e-12)
+    assert parts.attrs == whole.attrs
+
+
+@pytest.mark.parametrize("hardpoints", ["loaded", "relaxed"])
+def test_a_radial_curve_is_the_same_to_all_sides(hardpoints: Any) -> None:
+    model = Model("reference_car")
+    curve = {"mm": [0.0, 1.0, 3.0], "N": [0.0, 1200.0, 9000.0]}
+    found = [
+        loads.deflection(
+            model,
+            {"arm_rear": {"axial_N_per_mm": 500.0, "radial_curve": curve, "radial_axis": axis}},
+            "braking",
+            [-3000.0, 6000.0],
+            hardpoints=hardpoints,
+        )
+        for axis in ([0.0, 0.0, 1.0], [0.0, 1.0, 1.0], [0.0, -1.0, 0.3])
+    ]
+    for other in found[1:]:
+        np.testing.assert_allclose(
+            other["toe_change"][0], found[0]["toe_change"][0], rtol=1e-7, atol=1e-12
+        )
+
+
+def test_a_curve_goes_on_as_its_last_points_rise() -> None:
+    """Where a monotone cubic would end flat, which would carry nothing more."""
+    curve = Curve(1e-3 * np.array([-2.0, -1.0, 0.0, 1.0, 2.0]), np.array([-9, -8, 0.0, 8, 9.0]))
+    outside = np.array([-5e-3, 3e-3])
+    np.testing.assert_allclose(curve.force(outside), [-12.0, 10.0], rtol=1e-12)
+    np.testing.assert_allclose(curve.rate(outside), 1e3, rtol=1e-12)
+    inside = np.linspace(-2e-3, 2e-3, 401)
+    assert (np.diff(curve.force(inside)) > 0.0).all()
+    assert curve.force(np.array([curve.displacement(500.0)]))[0] == pytest.approx(500.0)
+    flat = {"arm_rear": {"radial_curve": {"mm": [0.0, 1.0, 2.0], "N": [0.0, 9.0, 10.0]}}}
+    found = loads.elastokinematics(Model("reference_car"), flat, [0.0])
+    np.testing.assert_allclose(*found["toe"].values, rtol=0.0, atol=1e-9)
+
+
+def test_torsion_alone_has_no_linear_deflection() -> None:
+    bushes = {"arm_rear": {"torsion_Nm_per_deg": 2.0}}
+    found = loads.deflection(Model("reference_car"), bushes, "braking", [1000.0], held="spring")
+    assert found["displacement"][1, 0] == 0.0
+    assert abs(found["displacement"][0, 0]) > 1e-6
+
+
 def test_stiff_bushes_are_rigid_joints() -> None:
     """A thousand times as stiff, a thousandth of it is left."""
     model = Model("reference_car")
@@ -337,6 +412,9 @@ def test_what_cannot_be_is_refused() -> None:
     for point, key in (("wheel_center", "torsion_Nm_per_deg"), ("arm_rear", "tilt_Nm_per_mm")):
         with pytest.raises(InputError, match=key):
             loads.elastokinematics(model, {point: {key: 5.0}}, [0.0])
+    one_sided = {"mm": [0.0, 1.0, 2.0], "N": [0.0, 1.0, 1000.0]}
+    with pytest.raises(InputError, match="both sides of 0 mm"):
+        loads.compliance(model, {"arm_rear": {"axial_curve": one_sided}})
     for key in ("axial_curve", "radial_curve"):
         curve = {"mm": [-1.0, 0.0, 1.0], "N": [-5.0, 0.0, 9.0]}
         if key == "axial_curve":

@@ -75,6 +75,7 @@ def test_noise_leaves_what_is_told() -> None:
         for name in CURVES:
             measured[name] += random.normal(scale=np.deg2rad(0.01), size=TRAVEL.size)
         found = variation.fit(CAR, measured, {ROD: 3.0, BALL: 3.0}, accuracy=ACCURACY)
+        assert found.success  # less sure than 0.99 ** 24, but for two values that are fitted
         for place, true in ((ROD, off[0]), (BALL, off[1])):
             squares.append(((found.moved[place] - true) / found.uncertainty[place]) ** 2)
     # chi-squared with 16 degrees of freedom: 3.9 and 39 are passed once in a thousand
@@ -133,6 +134,13 @@ def test_what_cannot_be_is_refused() -> None:
         ({"tolerances": {ROD: 1.0}, "measured": measured.rename(wheel_travel="t")}, "rig"),
         ({"tolerances": {ROD: 1.0}, "measured": measured.assign_coords(rack_position=0.01)},
          "held at 10 mm"),
+        ({"tolerances": {ROD: 1.0},
+          "measured": measured.assign_coords(rack_position=("wheel_travel", TRAVEL))}, "not held"),
+        ({"tolerances": {ROD: 1.0}, "measured": measured.assign_coords(rack_position=np.nan)},
+         "held at nan"),
+        ({"tolerances": {ROD: 1.0},
+          "measured": measured.assign_coords(wheel_travel=TRAVEL * np.nan)}, "no number"),
+        ({"tolerances": {ROD: 1.0}, "measured": measured[["toe"]].astype(str)}, "one curve"),
         ({"tolerances": {ROD: 1.0}, "measured": 0.0 * measured}, "does not vary"),
     ):  # fmt: skip
         with pytest.raises(InputError, match=words):

@@ -23,7 +23,7 @@ EXAMPLES = (
 
 # Loads that a suspension meets, N and N m.
 _USUAL, _USUAL_TORQUE = 5000.0, 250.0
-_STEPS = 21
+_STEPS = 41
 
 
 def command(

@@ -120,7 +120,7 @@ def _print(found: "Fit", file: str) -> None:
 
     values = Table(title=escape(f"{file}: what may be off"))
     values.add_column("value")
-    for column in ("file", "fitted", "off by", "+/-", "unit", "told by the curves"):
+    for column in ("file", "fitted", "off by", "+/-", "unit", "determined by the curves"):
         values.add_column(column, justify="left" if column == "unit" else "right")
     for place in found.places:
         by, deviation = found.moved[place.name], found.uncertainty[place.name]

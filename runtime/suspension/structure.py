@@ -87,8 +87,8 @@ class Joint(ABC):
         ----------
         points, turned, design
             As of `unit_loads`.
-        spin : ndarray, shape (..., 3)
-            The spin axis of the wheel.
+        spin : ndarray, shape (3,)
+            The spin axis of the wheel at design.
 
         Returns
         -------
@@ -132,8 +132,12 @@ class Fixed(Joint):
         self, points: Points, turned: Mapping[str, Array], design: Points, spin: Array
     ) -> list[tuple[Array, Array]]:
         """Return the spin axis and both directions across it, then these two."""
-        del points, turned, design
-        along, across, other = frame(spin)
+        del design
+        shape = points[self.at[0]].shape
+        along, across, other = (
+            np.broadcast_to(turned.get(self.first, np.eye(3)) @ direction, shape)
+            for direction in frame(spin)
+        )
         return [(along, across), (along, other), (across, other)]
 
 

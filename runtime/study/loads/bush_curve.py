@@ -5,7 +5,8 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator
+from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
+from scipy.optimize import brentq
 
 from ...core.arguments import Arguments
 
@@ -19,8 +20,8 @@ _MOST_MM, _MOST_N = 1e3, 1e9
 class Curve:
     """A force that rises with the displacement.
 
-    Between its points it is a monotone cubic (Fritsch and Carlson), outside them it goes on
-    straight.
+    Between its points it is a monotone cubic (Fritsch and Carlson), outside them it goes on as the
+    last two points rise.
 
     Parameters
     ----------
@@ -30,7 +31,11 @@ class Curve:
 
     def __init__(self, displacement: Array, force: Array) -> None:
         self._ends = displacement[[0, -1]]
-        self._force = PchipInterpolator(displacement, force)
+        slopes = PchipInterpolator(displacement, force).derivative()(displacement)
+        secants = np.diff(force) / np.diff(displacement)
+        # as the last points rise it goes on, so that it carries any force
+        slopes[[0, -1]] = secants[[0, -1]]
+        self._force = CubicHermiteSpline(displacement, force, slopes)
         self._slope = self._force.derivative()
 
     def force(self, displacement: Array) -> Array:
@@ -38,6 +43,17 @@ class Curve:
         inside = np.clip(displacement, *self._ends)
         found: Array = self._force(inside) + self._slope(inside) * (displacement - inside)
         return found
+
+    def displacement(self, force: float) -> float:
+        """Return the displacement at which a force is carried [m]."""
+
+        def left(far: float) -> float:
+            return float(self.force(np.array([far]))[0]) - force
+
+        far = float(np.abs(self._ends).max())
+        while not left(-far) <= 0.0 <= left(far):
+            far *= 2.0
+        return float(brentq(left, -far, far, xtol=1e-15))
 
     def rate(self, displacement: Array) -> Array:
         """Return its derivative [N/m]."""
@@ -85,9 +101,19 @@ def _problem(places: Array, forces: Array, *, odd: bool) -> str:
             return f"{key}: {second:g} follows {first:g}; both lists must rise."
     if not ((places == 0.0) & (forces == 0.0)).any():
         return "a point 0 mm, 0 N is needed: a bush is relaxed there."
+    return _problem_of_sides(places, odd=odd)
+
+
+def _problem_of_sides(places: Array, *, odd: bool) -> str:
+    """Say why a curve does not tell both sides."""
     if odd and places[0] < 0.0:
         return (
             f"mm begins with {places[0]:g}; a bush is the same to all sides of its axis: "
             "begin with 0 mm, 0 N."
+        )
+    if not odd and not places[0] < 0.0 < places[-1]:
+        return (
+            f"mm goes from {places[0]:g} to {places[-1]:g}; points on both sides of 0 mm are "
+            "needed, as a bush is pushed either way along its axis."
         )
     return ""

@@ -9,9 +9,7 @@ from ...core.quantities import bracketed, display_of, displayed, long_name
 from ...core.tabulated import Tabulated, significant, whole
 
 # What stands in tables of deflections, and what the other curve is called there.
-_IN_TABLES = (
-    "toe", "toe_change", "camber", "camber_change", "half_track_change", "displacement"
-)  # fmt: skip
+_IN_TABLES = ("toe", "toe_change", "camber", "camber_change", "displacement", "wheel_rate")
 _BESIDE = {"elastokinematic": "on bushes", "linear": "linear"}
 
 ACTING = ("spring", "damper", "road", "drive")

@@ -7,6 +7,7 @@ from typing import Any, cast
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
+from scipy.stats import chi2
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError
@@ -27,6 +28,8 @@ _USUAL_ACCURACY = 0.02
 _INDEPENDENT = 10
 # Of what a value may be off by, a measurement that tells less than this part tells nothing.
 _LEAST_TOLD = 0.1
+# A curve of a car whose errors are found is farther off than this once in a hundred times.
+_CHANCE = 0.01
 # What is held is held so well [m].
 _HELD = 1e-4
 
@@ -38,6 +41,8 @@ class Fitted:
     Attributes
     ----------
     name : str
+    points : int
+        How many there are.
     within : float
         How well it is taken to be measured [SI].
     before, after : float
@@ -45,9 +50,20 @@ class Fitted:
     """
 
     name: str
+    points: int
     within: float
     before: float
     after: float
+
+    @property
+    def is_explained(self) -> bool:
+        """Whether what is left may be errors of measurement: 99 of 100 times it is no more.
+
+        The sum of squares of as many independent errors as count is that of chi-squared.
+        """
+        count = min(self.points, _INDEPENDENT)
+        most = self.within * np.sqrt(chi2.ppf(1.0 - _CHANCE, count) / count)
+        return bool(self.after <= most)
 
 
 @dataclass(frozen=True)
@@ -71,8 +87,8 @@ class Fit:
         away: of what is near 0 it tells nothing, and the value stays where it was.
     curves : tuple of Fitted
     success : bool
-        Whether the solver has come to its end and every curve is explained, to what it is measured
-        by.
+        Whether the solver has come to its end and every curve is explained: what is left of it is
+        no more than errors of its accuracy make it 99 times of 100.
     message : str
         What there is to say about it.
     evaluations : int
@@ -180,12 +196,17 @@ def _targets(
     (way,) = (cast("Over", each) for each in over)
     along = ALONG[way].name
     for name in (a.name for a in ALONG.values() if a.name != along and a.name in measured.coords):
-        if abs(float(measured[name])) > _HELD:
-            given.refuse(
-                f"measured: {name} is held at {1e3 * float(measured[name]):g} mm; curves with it "
-                "at zero are needed."
-            )
-    there = [name for name in map(str, measured) if measured[name].dims == (along,)]
+        held = measured[name].values
+        if not (held.size == 1 and abs(float(held.item())) <= _HELD):
+            where = f"held at {1e3 * held.item():g} mm" if held.size == 1 else "not held"
+            given.refuse(f"measured: {name} is {where}; curves with it at zero are needed.")
+    if not np.isfinite(measured[along].values.astype(float)).all():
+        given.refuse(f"measured: {along} has no number at some points.")
+    there = [
+        name
+        for name in map(str, measured)
+        if measured[name].dims == (along,) and np.issubdtype(measured[name].dtype, np.floating)
+    ]
     known = [name for name in there if name in KNOWN[way]]
     chosen = known if names is None else given.names("names", names, known)
     if not chosen and not given.refused:
@@ -236,7 +257,7 @@ def _fit(search: Search, x: Array, gave_up: str) -> Fit:
     names = [place.name for place in search.places]
     facts = {
         "the solver gave up": [gave_up] if gave_up else [],
-        "not explained": [curve.name for curve in curves if curve.after > curve.within],
+        "not explained": [curve.name for curve in curves if not curve.is_explained],
         "at the end of its tolerance": search.at_the_end(x),
         "the curves tell nothing of": [
             name for name, part in zip(names, told, strict=True) if part < _LEAST_TOLD
@@ -259,7 +280,7 @@ def _fit(search: Search, x: Array, gave_up: str) -> Fit:
 
 def _curves(search: Search, x: Array) -> tuple[Fitted, ...]:
     return tuple(
-        Fitted(target.name, target.within / _repeated(target.at.size), *deviations)
+        Fitted(target.name, target.at.size, target.within / _repeated(target.at.size), *deviations)
         for target, *deviations in zip(
             search.targets, _deviations(search, np.zeros_like(x)), _deviations(search, x),
             strict=True,
@@ -269,7 +290,9 @@ def _curves(search: Search, x: Array) -> tuple[Fitted, ...]:
 
 def _deviations(search: Search, x: Array) -> Iterable[float]:
     """Return the root of the mean squared deviation of each curve."""
-    found = search.values(x) or [np.full(t.at.size, np.nan) for t in search.targets]
+    found = search.values(x)
+    if found is None:
+        found = [np.full(target.at.size, np.nan) for target in search.targets]
     return [
         float(np.sqrt(np.mean((values - target.value) ** 2)))
         for target, values in zip(search.targets, found, strict=True)

@@ -176,7 +176,9 @@ def _within_limits(search: Search, start: Array) -> tuple[Array, str]:
 
 def _optimum(search: Search, x: Array, gave_up: str) -> Optimum:
     """Return what was found in words and numbers."""
-    values = search.values(x) or [np.full(g.at.size, np.nan) for g in search.goals]
+    values = search.values(x)
+    if values is None:
+        values = [np.full(goal.at.size, np.nan) for goal in search.goals]
     missed = [
         target.name
         for target, value in zip(search.targets, values, strict=False)

@@ -22,8 +22,6 @@ ANGLES = {"camber_angle": "camber_deg", "toe_angle": "toe_deg"}
 """What is read of the parameters, with the keys of ``[wheel]``: the signs are the same."""
 
 _SYMMETRIES = ("left/right", "left", "right", "single")
-_POINT_COLUMNS = ["hardpoint_name", "symmetry", "x_value", "y_value", "z_value"]
-_ANGLE_COLUMNS = ["parameter_name", "symmetry", "type", "value"]
 _SPRINGS = ("nspring_assembly", "spring_assembly")
 # What says nothing of the car.
 _FORMAL = ("mdi_header", "subsystem_header", "units", "plugins", "solver_settings", "hardpoint")
@@ -107,11 +105,10 @@ def read(path: str | Path) -> Subsystem:
     scale = unit_of(values, "length", "mm", MILLIMETRES)
     problems: list[str] = []
     points: dict[str, dict[str, Point]] = {}
-    for row in _rows(blocks, "hardpoint", _POINT_COLUMNS, problems):
+    for row in _rows(blocks, _POINTS, problems):
         x, y, z = (scale * number(cell) for cell in row.others)
         _put(points, row, (x, y, z), problems)
-    parameters = list(_rows(blocks, "parameter", _ANGLE_COLUMNS, problems))
-    of_angles = [row for row in parameters if row.name in ANGLES]
+    of_angles = [r for r in _rows(blocks, _PARAMETERS, problems) if r.name in ANGLES]
     turn = unit_of(values, "angle", "degrees", DEGREES) if of_angles else 1.0
     angles: dict[str, dict[str, float]] = {}
     for row in of_angles:
@@ -121,12 +118,10 @@ def read(path: str | Path) -> Subsystem:
     if problems:
         raise InputError(problems, source)
     template = shown(values.one("subsystem_header", "template_name"))
-    left_out = dict.fromkeys(row.name for row in parameters if row.name not in ANGLES)
-    others = [f"parameters {', '.join(map(shown, left_out))}"] if left_out else []
     springs = tuple(dict(block.values()) for block in blocks if block.name in _SPRINGS)
     force_unit = values.one("units", "force")
-    others += _others(blocks)
-    return Subsystem(source, template, points, angles, springs, force_unit, tuple(others))
+    others = (*_other_parameters(blocks), *_others(blocks))
+    return Subsystem(source, template, points, angles, springs, force_unit, others)
 
 
 def _refuse_others(values: Values) -> None:
@@ -153,25 +148,41 @@ class _Row(NamedTuple):
     line: int
 
 
-def _rows(
-    blocks: Iterable[Block], name: str, usual: list[str], problems: list[str]
-) -> Iterator[_Row]:
-    """Yield the rows of the blocks of a name that are right, and say what is wrong with others."""
+class _Table(NamedTuple):
+    """A table of a kind of block: its columns, and the last ones of them that are numbers.
+
+    Rows in which none of the words stands are not looked at, if there are words.
+    """
+
+    block: str
+    columns: tuple[str, ...]
+    numbers: int
+    words: tuple[str, ...] = ()
+
+
+_POINTS = _Table("hardpoint", ("hardpoint_name", "symmetry", "x_value", "y_value", "z_value"), 3)
+_PARAMETERS = _Table("parameter", ("parameter_name", "symmetry", "type", "value"), 1, (*ANGLES,))
+
+
+def _rows(blocks: Iterable[Block], table: _Table, problems: list[str]) -> Iterator[_Row]:
+    """Yield the rows of a table that are right, and say what is wrong with others."""
     for block in blocks:
-        if block.name != name:
+        if block.name != table.block:
             continue
-        columns = block.columns() or usual
-        if sorted(columns) != sorted(usual):
+        columns = block.columns() or [*table.columns]
+        if any(columns.count(column) != 1 for column in table.columns):
             problems.append(
-                f"line {block.number}: the columns of [{name.upper()}] are "
-                f"{shown(', '.join(columns))}; they must be {', '.join(usual)}."
+                f"line {block.number}: the columns of [{block.name.upper()}] are "
+                f"{shown(', '.join(columns))}; they must be {', '.join(table.columns)}."
             )
             continue
-        order = [columns.index(column) for column in usual]
+        order = [columns.index(column) for column in table.columns]
         for line, text, cells in block.rows():
             if [cell.lower() for cell in cells or ()] == columns:
                 continue  # the names of the columns, without their braces
-            wrong = _problem_of(cells, order, name)
+            if table.words and not any(word in text.lower() for word in table.words):
+                continue
+            wrong = _problem_of(cells, len(columns), order, table.numbers)
             if cells is None or wrong:
                 problems.append(f"line {line}: {wrong}: {shown(text)}")
                 continue
@@ -179,19 +190,24 @@ def _rows(
             yield _Row(first.lower(), symmetry.lower(), others, line)
 
 
-def _problem_of(cells: list[str] | None, order: list[int], name: str) -> str:
+def _problem_of(cells: list[str] | None, count: int, order: list[int], numbers: int) -> str:
     """Say what is wrong with a row; nothing if it is right."""
     if cells is None:
         return "a quote is not closed"
-    if len(cells) != len(order):
-        return f"{len(cells)} values instead of {len(order)}"
+    if len(cells) != count:
+        return f"{len(cells)} values instead of {count}"
     if cells[order[1]].lower() not in _SYMMETRIES:
         return f"symmetry is {shown(cells[order[1]])!r}; it can be {', '.join(_SYMMETRIES)}"
-    of_numbers = order[2:] if name == "hardpoint" else order[-1:]
-    if name == "parameter" and cells[order[0]].lower() not in ANGLES:
-        return ""
-    wrong = [cells[i] for i in of_numbers if not math.isfinite(number(cells[i]))]
+    wrong = [cells[i] for i in order[-numbers:] if not math.isfinite(number(cells[i]))]
     return f"{shown(wrong[0])!r} is no number" if wrong else ""
+
+
+def _other_parameters(blocks: Iterable[Block]) -> list[str]:
+    """Return the names of the parameters that are not read, as one text; none if there are none."""
+    rows = (row for block in blocks if block.name == _PARAMETERS.block for row in block.rows())
+    names = dict.fromkeys(cells[0] for _, _, cells in rows if cells)
+    left_out = [n for n in names if n.lower() not in (*ANGLES, _PARAMETERS.columns[0])]
+    return [f"parameters {', '.join(map(shown, left_out))}"] if left_out else []
 
 
 def _put(rows: dict[str, dict[str, _Value]], row: _Row, value: _Value, problems: list[str]) -> None:

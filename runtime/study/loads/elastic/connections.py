@@ -12,10 +12,11 @@ from numpy.typing import NDArray
 
 from ....suspension.input.vectors import unit_vector
 from ....suspension.structure import Fixed, Joint, Line, frame
+from ...characteristics.from_model import design_axis
 from ..bushes import RACK, Bush
 from ..poses import Poses
 from .laws import Bent, Coil, Law, Stops, Straight
-from .places import Angles, Distances, Lengths, Measured, Places, Twists
+from .places import Angles, Distances, Lengths, Measured, Places, Radii, Twists
 
 Array = NDArray[np.float64]
 Pair = tuple[int, int]
@@ -26,6 +27,8 @@ GROUND = "chassis"
 
 # The pairs of directions of a wheel bearing that have its axis: what tilts.
 _TILTING = 2
+# The last directions of a bush are those across its axis.
+_ACROSS = 2
 
 
 @dataclass(frozen=True)
@@ -81,11 +84,13 @@ class Connections:
         angles = [found for joint in joints for found in self._angles(joint)]
         angles += [found for joint in joints for found in self._tilts(joint)]
         twists = [found for joint in joints for found in self._twists(joint)]
+        radii = [found for joint in joints for found in self._radii(joint)]
         lengths = [self._length(line) for line in structure.lines]
         groups: tuple[tuple[Any, list[Any]], ...] = (
-            (Distances, distances), (Angles, angles), (Twists, twists), (Lengths, lengths)
+            (Distances, distances), (Angles, angles), (Twists, twists), (Radii, radii),
+            (Lengths, lengths),
         )  # fmt: skip
-        self._groups: list[Distances | Angles | Twists | Lengths] = []
+        self._groups: list[Distances | Angles | Twists | Radii | Lengths] = []
         for kind, found in groups:
             if not found:
                 continue
@@ -119,17 +124,37 @@ class Connections:
                 laws = self._laws(bush, joint)[-len(laws) :]
             start, end = (self._arm(body, point) for body in parts)
             for which, law in enumerate(laws):
-                yield self._indices(*parts), (rows[:, which], start, end), law
+                if not isinstance(law, Bent) or which < len(laws) - _ACROSS:
+                    yield self._indices(*parts), (rows[:, which], start, end), law
+
+    def _radii(self, joint: Joint) -> Iterator[tuple[Pair, tuple[Array, ...], Law | None]]:
+        """Yield what bushes measure across their axes that are curved there."""
+        for bush in self._bushes(joint):
+            curve = bush.curves[-1]
+            if curve is None:
+                continue
+            rows = self._axes(bush, joint.first)
+            key = joint.first, joint.second, bush.point
+            carried = -bush.axes[1:] @ self._soft.carried.get(key, np.zeros(6))[:3]
+            size = float(np.linalg.norm(carried))
+            far = curve.displacement(size) / size if size else 0.0
+            before = np.broadcast_to(far * carried, (len(rows), _ACROSS))
+            arms = (self._arm(part, bush.point) for part in (joint.first, joint.second))
+            parts = self._indices(joint.first, joint.second)
+            yield parts, (rows[:, 1], rows[:, 2], *arms, before), Bent(curve)
 
     def _angles(self, joint: Joint) -> Iterator[tuple[Pair, tuple[Array, Array], Law | None]]:
         poses = self._poses
-        pairs = joint.right_angles(poses.points, poses.turned, poses.design, poses.axis)
+        spin = design_axis(poses.model.suspension)
+        pairs = joint.right_angles(poses.points, poses.turned, poses.design, spin)
         bush = self._bush(joint, joint.at[0])
         carried = self._soft.carried.get((joint.first, joint.second, joint.at[0]), np.zeros(6))
         for which, (first, second) in enumerate(pairs):
             law = None
             if bush is not None and bush.tilt and which < _TILTING:
-                moment = carried[3:] @ np.cross(second[0], first[0])
+                # in axes that turn with the bush, where it stands; they are those of design
+                back = poses.turned[joint.first][0].T
+                moment = carried[3:] @ np.cross(back @ second[0], back @ first[0])
                 law = Straight(1.0 / bush.tilt, -float(moment))
             yield self._indices(joint.first, joint.second), (first, second), law
 
@@ -196,7 +221,7 @@ class Connections:
         found: list[Law | None] = []
         for soft, curve, force in zip(bush.soft, bush.curves, carried.tolist(), strict=True):
             if curve is not None:
-                found.append(Bent.carrying(curve, force))
+                found.append(Bent(curve, curve.displacement(force)))
             else:
                 found.append(Straight(1.0 / soft, force) if soft else None)
         return found

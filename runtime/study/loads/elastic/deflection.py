@@ -19,7 +19,7 @@ from ..compliance import RIG_LOADS, RigLoad, compliance, load_at_contact, sense_
 from ..flexibility import HELD, Held
 from ..poses import CENTER, CONTACT, Poses
 from .equilibrium import Equilibrium, State
-from .held import HARDPOINTS, Hardpoints, at_height, soft_of, suspension_on
+from .held import HARDPOINTS, Hardpoints, at_height, gives_way, soft_of, suspension_on
 
 Array = NDArray[np.float64]
 
@@ -85,9 +85,12 @@ def deflection(
     Notes
     -----
     As of `elastokinematics`; forces act at the lowest point of the wheel, wherever it goes, in
-    directions that stay. `compliance` leaves out that bushes carry the static load in turned
-    directions; with relaxed bushes and no static load, both agree as the load goes to zero, and
-    differ by a part in proportion to it.
+    directions that stay: those of the tyre where the wheel is before. The displacement is that of
+    the point of the wheel that was lowest there, or of its centre.
+
+    `compliance` leaves out that bushes carry the static load in turned directions; with relaxed
+    bushes and no static load, both agree as the load goes to zero, and differ by a part in
+    proportion to it.
 
     Examples
     --------
@@ -111,7 +114,9 @@ def deflection(
     suspension, there = suspension_on(model, np.array([travel]), rack_position, soft)
     base = at_height(suspension, np.array([travel]))
     states = _under(suspension, base, _unit(load, suspension.poses, there), held, load, wanted)
-    linear = compliance(model, bushings, [travel], rack_position=rack_position, held=held)
+    linear = None
+    if gives_way(soft):
+        linear = compliance(model, bushings, [travel], rack_position=rack_position, held=held)
     found = _over_load(suspension, there, base, states, (load, wanted, linear))
     return found.assign_attrs(
         title=f"deflection under {load.words}", held=HELD[held], hardpoints=HARDPOINTS[hardpoints]
@@ -174,7 +179,7 @@ def _over_load(
     there: Corner,
     base: State,
     states: list[State],
-    beside: tuple[RigLoad, Array, xr.Dataset],
+    beside: tuple[RigLoad, Array, xr.Dataset | None],
 ) -> xr.Dataset:
     load, amounts, linear = beside
     before = replace(
@@ -192,13 +197,13 @@ def _over_load(
     data = {}
     for name, values in found.items():
         by_one = f"{name}_by_{load.name}"
-        if by_one in linear:
-            straight = float(linear[by_one][0]) * amounts
+        if name != "displacement" or load.where:
+            straight = (0.0 if linear is None else float(linear[by_one][0])) * amounts
             both = np.stack([np.concatenate(values), straight])
             key = name if name == "displacement" else f"{name}_change"
             data[key] = variable((DATA_SET, LOAD), both, *_MEANINGS[name])
     road = np.concatenate([state.road for state in states])
-    data["wheel_load"] = variable(LOAD, road, "vertical force of the road", "N")
+    data["wheel_load"] = variable(LOAD, road, "wheel load", "N")
     words = load.words.partition(" ")[2]
     shown = {"display_units": "kN", "display_factor": 1e-3} if load.unit == "N" else {}
     coordinates = {

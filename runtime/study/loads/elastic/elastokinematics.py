@@ -22,6 +22,8 @@ from .held import HARDPOINTS, Hardpoints, at_height, soft_of, suspension_on
 
 Array = NDArray[np.float64]
 
+# So many positions at a time: their matrices take 50 MB.
+_TOGETHER = 200
 _CURVES = {
     "toe": wheel.toe,
     "camber": wheel.camber,
@@ -91,14 +93,16 @@ def elastokinematics(
             travel = given.array("travel", travel, "m", dimensions=[1])
         soft = soft_of(given, model, bushings, hardpoints)
     travels = usual_travel(model, rack=rack_position) if travel is None else np.asarray(travel)
-    suspension, there = suspension_on(model, travels, rack_position, soft)
-    base = at_height(suspension, travels)
-    return _over_travel(suspension, there, base, travels, hardpoints)
+    parts = [travels[begin : begin + _TOGETHER] for begin in range(0, travels.size, _TOGETHER)]
+    found = []
+    for some in parts:
+        suspension, there = suspension_on(model, some, rack_position, soft)
+        found.append(_over_travel(suspension, there, at_height(suspension, some), some))
+    whole = xr.concat(found, TRAVEL.name, join="override", combine_attrs="override")
+    return whole.assign_attrs(title="elastokinematics", hardpoints=HARDPOINTS[hardpoints])
 
 
-def _over_travel(
-    suspension: Equilibrium, there: Corner, base: State, travels: Array, hardpoints: Hardpoints
-) -> xr.Dataset:
+def _over_travel(suspension: Equilibrium, there: Corner, base: State, travels: Array) -> xr.Dataset:
     moved = replace(there, center=suspension.center(base.places), axis=suspension.axis(base.places))
     dims = (DATA_SET, TRAVEL.name)
     data = {
@@ -117,11 +121,10 @@ def _over_travel(
     rates = np.stack(
         [one.rate(state, nothing) for one, state in zip(suspensions, both, strict=True)]
     )
-    data["wheel_load"] = variable(dims, loads, "vertical force of the road", "N")
-    data["wheel_rate"] = variable(dims, rates, "rate of the wheel at its contact", "N/m")
+    data["wheel_load"] = variable(dims, loads, "wheel load", "N")
+    data["wheel_rate"] = variable(dims, rates, "wheel rate at the contact", "N/m")
     coordinates = {
         DATA_SET: ["kinematic", "elastokinematic"],
         TRAVEL.name: xr.Variable(TRAVEL.name, travels, TRAVEL.attributes()),
     }
-    words = {"title": "elastokinematics", "hardpoints": HARDPOINTS[hardpoints]}
-    return xr.Dataset(data, coordinates, words)
+    return xr.Dataset(data, coordinates)

@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import qr
 
 from ....suspension.corner import UP
 from ...characteristics.wheel import lowest_point
@@ -285,7 +284,9 @@ class Equilibrium:
 
 
 def _independent(slopes: Array, wanted: Sequence[int]) -> list[int]:
-    """Return those of some conditions that do not follow from the others.
+    """Return those of some conditions that do not follow from those before them.
+
+    Which these are is the same in every position, as their order is.
 
     Parameters
     ----------
@@ -293,10 +294,17 @@ def _independent(slopes: Array, wanted: Sequence[int]) -> list[int]:
     wanted : sequence of int
         Which measures are conditions.
     """
-    _, upper, order = qr(slopes[list(wanted)].T, mode="economic", pivoting=True)
-    sizes = np.abs(np.diag(upper))
-    kept = order[: np.count_nonzero(sizes > _REPEATED * sizes[0])]
-    return sorted(wanted[i] for i in kept)
+    kept: list[int] = []
+    basis = np.zeros((0, slopes.shape[1]))
+    for which in wanted:
+        row = slopes[which]
+        for _ in range(2):  # once more takes the rounding errors of the first time away
+            row = row - (basis @ row) @ basis
+        size = np.linalg.norm(row)
+        if size > _REPEATED * np.linalg.norm(slopes[which]):
+            kept.append(which)
+            basis = np.vstack([basis, row / size])
+    return kept
 
 
 def _solution(matrix: Array, left: Array) -> Array:

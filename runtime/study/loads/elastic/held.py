@@ -43,6 +43,11 @@ def soft_of(given: Arguments, model: Model, bushings: Any, hardpoints: Hardpoint
     return Soft({bush.point: bush for bush in bushes}, rack, carried)
 
 
+def gives_way(soft: Soft) -> bool:
+    """Tell whether anything moves that rigid joints hold."""
+    return bool(soft.rack or any(bush.gives_way for bush in soft.bushes.values()))
+
+
 def _carried_at_design(model: Model) -> dict[tuple[str, str, str], Array]:
     """Return what the joints carry at design with the wheel held by the road."""
     angles = arm_angles(model, [design_height(model)])

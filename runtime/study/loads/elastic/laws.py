@@ -6,7 +6,6 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from ..bush_curve import Curve
 
@@ -54,15 +53,6 @@ class Bent:
 
     curve: Curve
     before: float = 0.0
-
-    @classmethod
-    def carrying(cls, curve: Curve, force: float) -> "Bent":
-        """Return the law of a bush that carries a force where the displacement is zero."""
-        far = 1e-3
-        while not curve.force(np.array([-far]))[0] <= force <= curve.force(np.array([far]))[0]:
-            far *= 2.0
-        before = brentq(lambda x: float(curve.force(np.array([x]))[0]) - force, -far, far)
-        return cls(curve, float(before))
 
     def __call__(self, displacement: Array) -> tuple[Array, Array]:
         """Return force and rate."""

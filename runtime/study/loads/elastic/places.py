@@ -17,6 +17,9 @@ from scipy.spatial.transform import Rotation
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
+_TIP = 1e-9
+"""No radius is smaller than this [m]."""
+
 _DISPLACED, _ROTATED = (slice(0, 3), slice(6, 9)), (slice(3, 6), slice(9, 12))
 
 
@@ -132,6 +135,50 @@ class Distances:
             _times(turning, apart) + _times(parting, along),
             bend,
         )
+
+
+@dataclass(frozen=True)
+class Radii:
+    """How far a point of one body is from a line that is fixed to another.
+
+    Attributes
+    ----------
+    bodies : ndarray, shape (measures, 2)
+    across, other : ndarray, shape (n, measures, 3)
+        Two directions of the first body across the line.
+    start, end : ndarray, shape (n, measures, 3)
+        A point of the line, and the other point, from the centres of their bodies [m].
+    before : ndarray, shape (n, measures, 2)
+        How far it is along both directions where these points coincide [m].
+    """
+
+    bodies: Indices
+    across: Array
+    other: Array
+    start: Array
+    end: Array
+    before: Array
+
+    def at(self, places: Places) -> Measured:
+        """Return them somewhere [m]."""
+        both = [
+            Distances(self.bodies, along, self.start, self.end).at(places)
+            for along in (self.across, self.other)
+        ]
+        offs = [one.value + self.before[..., i] for i, one in enumerate(both)]
+        # a cone has no derivative at its tip; its tip is rounded where nothing is carried
+        radius = np.sqrt(offs[0] ** 2 + offs[1] ** 2 + _TIP**2)
+        weights = [off / radius for off in offs]
+        one, other = both
+        slope = weights[0][..., None] * one.slope + weights[1][..., None] * other.slope
+        bend = (
+            _squared(one.slope)
+            + _squared(other.slope)
+            - _squared(slope)
+            + offs[0][..., None, None] * one.bend
+            + offs[1][..., None, None] * other.bend
+        )
+        return Measured(self.bodies, radius, slope, bend / radius[..., None, None])
 
 
 @dataclass(frozen=True)
@@ -274,6 +321,11 @@ def _second(turning: Array, other: Array) -> Array:
     outer = turning[..., :, None] * other[..., None, :]
     product = np.einsum("...i,...i->...", turning, other)[..., None, None]
     result: Array = 0.5 * (outer + outer.mT) - product * np.eye(3)
+    return result
+
+
+def _squared(slope: Array) -> Array:
+    result: Array = slope[..., :, None] * slope[..., None, :]
     return result
 
 
