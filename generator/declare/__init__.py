@@ -10,6 +10,7 @@ from .forces.force_element import ForceElement
 from .forces.joint_force import JointForce
 from .forces.linear_tyre import LinearTyre
 from .forces.weight import Weight
+from .forces.wheel_loads import WheelLoads
 from .formulation import Formulation
 from .geometry import FORWARD, UP, Direction, Line, Point
 from .inputs import Input, Motion
@@ -127,5 +128,6 @@ __all__ = [
     "VelocityOf",
     "Weight",
     "Wheel",
+    "WheelLoads",
     "combined",
 ]

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import sympy as sp
 
+from ..program.floors import DIRECTION
 from ..program.functions import SignOf
 from .bodies import Body
 from .declared import declared
@@ -18,6 +19,27 @@ if TYPE_CHECKING:
 
     from ..program.vectors import Vector
     from .surroundings import Surroundings
+
+
+@dataclass(frozen=True)
+class Upright:
+    """How a wheel stands on the ground, in the axes of its carrier.
+
+    Attributes
+    ----------
+    up, axis
+        Unit vectors up and along the spin axis.
+    pull
+        What of the upward direction is in the plane of the wheel; its length is the cosine of the
+        camber.
+    squared
+        The square of that, guarded.
+    """
+
+    up: Vector
+    axis: Vector
+    pull: Vector
+    squared: sp.Expr
 
 
 @declared
@@ -53,6 +75,22 @@ class Wheel:
             twist.linear + twist.angular.cross(center),
             "123",
         )
+
+    def upright(self, at: Surroundings, prefix: str) -> Upright:
+        """Append how the wheel stands; names of steps begin with the prefix."""
+        program, up = at.program, at.up(self._body)
+        axis = at.direction(self._body, self.spin)
+        lean = program.define(f"{prefix}wheel_axis_up", axis.dot(up))
+        pull = program.vector(f"{prefix}tyre_pull", up - axis * lean, "123")
+        # not 1 - lean^2: of a wheel that lies flat, rounding would leave something positive
+        squared = program.guarded(
+            f"{prefix}cos_camber_squared",
+            pull.dot(pull),
+            "the wheel lies flat on the road",
+            "1",
+            DIRECTION,
+        )
+        return Upright(up, axis, pull, squared)
 
     def signals(self, at: Surroundings, prefix: str) -> Iterator[Shown]:
         """Yield how the wheel stands and moves, its names with something in front."""

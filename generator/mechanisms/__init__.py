@@ -1,5 +1,6 @@
 """The mechanisms that come with the project, each declared on a page of its own."""
 
+from ..declare import Formulation
 from . import (
     andrews,
     double_wishbone,
@@ -25,3 +26,11 @@ MODELS = (
     *andrews.MODELS,
     *excavator.MODELS,
 )
+"""Those that are emitted with the project."""
+
+_SELDOM = (macpherson.GENERAL_FREE_RACK,)
+
+
+def model_named(name: str) -> Formulation:
+    """Return the equations of a name, of those that are emitted or derived when they are needed."""
+    return next(model for model in (*MODELS, *_SELDOM) if model.name == name)

@@ -69,3 +69,46 @@ def of_rubber(tyre: d.LinearTyre) -> d.LinearTyre:
             "tyre_lifts_off", 0.0, "1: the tyre can leave the road; 0: it holds on to it"
         ),
     )
+
+
+def with_wheel_loads(corner: d.Formulation) -> d.Formulation:
+    """Return the equations of a suspension with what acts on its wheel as inputs.
+
+    Parameters
+    ----------
+    corner
+        Those of one side, whose wheel turns on its carrier by a driven hinge.
+    """
+    (tyre,) = (force for force in corner.mechanism.forces if isinstance(force, d.LinearTyre))
+    (bearing,) = (joint for joint in corner.driven if isinstance(joint.second, d.Rotor))
+    assert isinstance(bearing, d.Revolute)
+    loads = d.WheelLoads(
+        wheel=tyre.wheel,
+        bearing=bearing,
+        radius=d.Length("tyre_radius", 0.3, "radius of the wheel, at whose lowest point it loads"),
+        contact=_components("contact_force", "N", "force of the road on the wheel"),
+        moment=_components("wheel_moment", "N m", "moment on the wheel"),
+        center=_components("center_force", "N", "force on the wheel at its centre"),
+        shaft=_torque("shaft_torque", "from the chassis, by a drive shaft or an inboard brake"),
+        hub=_torque("hub_torque", "from its carrier, by a brake or a motor there"),
+    )
+    mechanism = replace(corner.mechanism, forces=(*corner.mechanism.forces, loads))
+    return replace(
+        corner,
+        name=f"{corner.name}_wheel_loads",
+        title=f"{corner.title}; loads on the wheel as inputs",
+        mechanism=mechanism,
+        cites={},
+    )
+
+
+def _components(name: str, unit: str, words: str) -> tuple[d.Input, d.Input, d.Input]:
+    x, y, z = (
+        d.Input(f"{name}_{axis}", unit, f"{words}, {sense} in the axes of the tyre")
+        for axis, sense in (("x", "forward"), ("y", "to the left"), ("z", "up"))
+    )
+    return x, y, z
+
+
+def _torque(name: str, words: str) -> d.Input:
+    return d.Input(name, "N m", f"torque on the wheel {words}; positive as it rolls forward")

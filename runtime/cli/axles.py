@@ -163,7 +163,7 @@ class Ride(NamedTuple):
     wheels: Sequence[str] = ("",)
 
 
-def ride(file: str, wheels: str) -> Ride:
+def ride(file: str, wheels: str, *, wheel_loads: bool) -> Ride:
     """Return an axle to be simulated over a road under one wheel or both."""
     from ..study.axles import ride as study
     from ..suspension.axle import Axle
@@ -171,7 +171,11 @@ def ride(file: str, wheels: str) -> Ride:
 
     axle = Axle.load(file)
     with problems.status("preparing the equations of the axle") as status:
-        model = AxleModel(axle, progress=lambda text: status.update(f"the axle: {text}"))
+        model = AxleModel(
+            axle,
+            progress=lambda text: status.update(f"the axle: {text}"),
+            wheel_loads=wheel_loads,
+        )
     stems = ("road_height", *(f"{axle.end}_{part}" for part in _DRAWN))
     of_wheels = [f"{side}_{stem}" for stem in stems for side in ("left", "right")]
     curves = ("rack_position", *of_wheels, "bar_angle", "bar_spring_moment")

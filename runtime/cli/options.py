@@ -77,13 +77,15 @@ Of = Annotated[
 Step = Annotated[float, typer.Option(metavar="MM", help="Distance of the positions.")]
 
 
-def load(file: str) -> "Model":
+def load(file: str, *, wheel_loads: bool = False) -> "Model":
     """Return the model of a file: the one in which every body that has mass counts.
 
     Parameters
     ----------
     file : str
         Path of a TOML file, or name of a packaged data set.
+    wheel_loads
+        Whether what acts on the wheel are inputs.
 
     Returns
     -------
@@ -93,11 +95,12 @@ def load(file: str) -> "Model":
     from ..suspension.model import Model
 
     suspension = Suspension.load(file)
-    if not suspension.neglected_masses():
+    free_rack = bool(suspension.neglected_masses())
+    if not free_rack and not wheel_loads:
         return Model(suspension)
     # these equations may have to be derived first
-    with problems.status("preparing the equations with a free rack"):
-        return Model(suspension, free_rack=True)
+    with problems.status("preparing the equations"):
+        return Model(suspension, free_rack=free_rack, wheel_loads=wheel_loads)
 
 
 def among(wanted: list[str], known: Iterable[str], option: str = "--of") -> list[str]:

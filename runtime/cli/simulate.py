@@ -113,12 +113,12 @@ def command(
     """
     from ..core.files import refuse
     from ..suspension.model import Model
+    from ..suspension.wheel_loads import UNITS
 
     read_here = [Path(file), *([] if measured is None else [measured])]
     outputs = Outputs.of(out, plot, figures, formats, force=force, inputs=read_here)
     on_parts = Outputs.of(loads, None, force=force, inputs=read_here)
     refuse([*outputs.data, *outputs.pages, *on_parts.data], force=force, inputs=read_here)
-    ride = _ride(file, wheels, {"--height": height, "--loads": loads})
     scenario = scenario_of(
         height=height,
         spin=spin,
@@ -134,6 +134,9 @@ def command(
         duration=duration,
         output_step=output_step,
     )
+    on_wheels = not UNITS.keys().isdisjoint(scenario.inputs)
+    of_one = {"--height": height, "--loads": loads}
+    ride = _ride(file, wheels, of_one, wheel_loads=on_wheels)
     if isinstance(ride.model, Model) and ride.model.free_rack:
         _tell_of_the_free_rack(file, scenario.inputs)
     options = {
@@ -165,15 +168,17 @@ def command(
         raise typer.Exit(Exit.REFUSED)
 
 
-def _ride(file: str, wheels: str | None, of_one: dict[str, Any]) -> axles.Ride:
+def _ride(
+    file: str, wheels: str | None, of_one: dict[str, Any], *, wheel_loads: bool
+) -> axles.Ride:
     """Return what is simulated, and how: a suspension, or an axle."""
     if axles.is_axle(file):
         axles.refuse_options("the file of one suspension", of_one)
-        return axles.ride(file, wheels or "both")
+        return axles.ride(file, wheels or "both", wheel_loads=wheel_loads)
     from ..study.scenario import run
 
     axles.refuse_options("the file of an axle", {"--wheels": wheels})
-    return axles.Ride(load(file), run, _DRAWN)
+    return axles.Ride(load(file, wheel_loads=wheel_loads), run, _DRAWN)
 
 
 def _tell_of_the_free_rack(file: str, inputs: dict[str, Any]) -> None:

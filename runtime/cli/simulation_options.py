@@ -37,7 +37,8 @@ Measured = Annotated[
     Path | None,
     typer.Option(
         metavar="CSV",
-        help="Measured road or rack: time_s or distance_m, road_height_mm, rack_position_mm.",
+        help="Measured road, rack, loads on the wheel: time_s or distance_m, road_height_mm, "
+        "rack_position_mm, contact_force_x_N, ...",
         rich_help_panel="Road",
     ),
 ]

@@ -189,7 +189,7 @@ def without_friction(model: Model) -> Model:
     Model
     """
     smooth = model.suspension.without_friction()
-    return model if smooth is model.suspension else Model(smooth)
+    return model if smooth is model.suspension else model.of_another(smooth)
 
 
 def _ride_frequency(model: Model, state: Array) -> float | None:

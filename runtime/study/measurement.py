@@ -1,4 +1,4 @@
-"""Roads, rack motions and actuator forces that were measured: reading them from CSV files."""
+"""Roads, rack motions and forces that were measured: reading them from CSV files."""
 
 import math
 from collections.abc import Sequence
@@ -14,6 +14,7 @@ from ..core.errors import InputError
 from ..core.suggestions import nearest, suggestion
 from ..simulation.interpolation import Between, Samples
 from ..suspension.kinds import KINDS
+from ..suspension.wheel_loads import UNITS
 from .csv_columns import Sheet
 
 Array = NDArray[np.float64]
@@ -35,6 +36,7 @@ _COLUMNS = {
     "rack_position_mm": _Column("rack_position", 1e-3),
     "rack_position_m": _Column("rack_position", 1.0),
     **{f"{kind.NAMES.actuator}_N": _Column(kind.NAMES.actuator, 1.0) for kind in KINDS.values()},
+    **{f"{name}_{unit.replace(' ', '')}": _Column(name, 1.0) for name, unit in UNITS.items()},
 }
 _ABSCISSAE = ("time", "distance")
 
@@ -71,9 +73,11 @@ def measured(path: str | Path, *, speed: float | None = None) -> Measurement:
     The first line names the columns: ``time_s`` or ``time_ms``, or ``distance_m`` along the road;
     and at least one of ``road_height_mm``, ``rack_position_mm`` (also in ``_m``), and the force of
     the actuator by the name that the kind of suspension has for it: ``strut_force_N``,
-    ``spring_actuator_N``. Columns are separated by commas, semicolons or tabs; with the latter two,
-    decimals may have a comma. Times increase and are shifted to begin with zero; a time that is
-    given twice is a jump. `kintrafo.Samples` says what is in between.
+    ``spring_actuator_N``; and what acts on the wheel of a model with ``wheel_loads``:
+    ``contact_force_x_N`` and so on, ``center_force_x_N``, ``wheel_moment_x_Nm``,
+    ``shaft_torque_Nm``, ``hub_torque_Nm``. Columns are separated by commas, semicolons or tabs;
+    with the latter two, decimals may have a comma. Times increase and are shifted to begin with
+    zero; a time that is given twice is a jump. `kintrafo.Samples` says what is in between.
 
     Parameters
     ----------

@@ -14,6 +14,7 @@ from ..simulation.signals import time_inputs
 from ..simulation.simulate import simulate
 from ..suspension.model import Model
 from ..suspension.positions import equilibrium, state_at_height
+from ..suspension.wheel_loads import UNITS
 from .recording import dataset_of
 
 Array = NDArray[np.float64]
@@ -78,6 +79,7 @@ class Scenario:
             road_height=known["road_height"],
             strut_force=known[model.names.actuator],
             spin_rate=self.spin_rate,
+            inputs={name: known[name] for name in UNITS if name in known},
         )
 
 

@@ -252,6 +252,23 @@ class Suspension(Section):
         height = float(self.hardpoints.metres("wheel_center")[2])
         return height if height >= _SMALLEST_WHEEL_RADIUS else None
 
+    def wheel_load_parameters(self) -> dict[str, float]:
+        """Return what equations need besides that have the loads on the wheel as inputs [m].
+
+        Raises
+        ------
+        InputError
+            If the radius of the wheel is not known.
+        """
+        radius = self.tyre_radius()
+        if radius is None:
+            problem = (
+                "[tyre] radius_mm is missing, and the height of the wheel centre does not say it: "
+                "loads at the lowest point of the wheel need it. Enter it."
+            )
+            raise InputError([problem], "wheel_loads")
+        return {"tyre_radius": radius}
+
     def mirrored(self) -> Self:
         """Return the same suspension on the other side of the vehicle.
 

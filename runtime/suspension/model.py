@@ -8,6 +8,7 @@ from ..core.arguments import Arguments, shown
 from ..core.errors import InputError
 from ..systems.system import System
 from .kinds import Suspension
+from .wheel_loads import with_wheel_loads
 
 
 class Model(System):
@@ -22,6 +23,13 @@ class Model(System):
         paper. True: the rack is a third degree of freedom driven by a force, and every moving body
         carries mass. For a suspension that has more than the paper's, these equations are derived
         and compiled when they are first needed, as by `kintrafo.compile`.
+    wheel_loads : bool, optional
+        True: what a road, a drive shaft and a brake do to the wheel are further inputs, which add
+        to the load of the tyre; axes are those of the tyre (ISO 8855: forward, left, up).
+        ``contact_force_x``, ``_y``, ``_z`` at the lowest point of the wheel and ``center_force_*``
+        at its centre [N], ``wheel_moment_*``, and about the spin axis ``shaft_torque`` from the
+        chassis and ``hub_torque`` from the carrier [N m], positive as the wheel rolls forward.
+        These equations are derived and compiled when they are first needed.
 
     Attributes
     ----------
@@ -45,24 +53,41 @@ class Model(System):
 
     NEEDED = 'a kintrafo.Model of a suspension, such as Model("reference_car"), is needed'
 
-    def __init__(self, suspension: Suspension | str | Path, *, free_rack: bool = False) -> None:
+    def __init__(
+        self,
+        suspension: Suspension | str | Path,
+        *,
+        free_rack: bool = False,
+        wheel_loads: bool = False,
+    ) -> None:
         with Arguments("Model") as given:
             free_rack = given.flag("free_rack", free_rack)
+            wheel_loads = given.flag("wheel_loads", wheel_loads)
         suspension = _suspension_of(suspension)
         if not free_rack:
             _refuse_neglected_mass(suspension)
-        super().__init__(suspension.equations(free_rack=free_rack), suspension.parameters())
+        equations, parameters = suspension.equations(free_rack=free_rack), suspension.parameters()
+        if wheel_loads:
+            parameters |= suspension.wheel_load_parameters()
+            equations = with_wheel_loads(equations)
+        super().__init__(equations, parameters)
         self.suspension = suspension
         self.free_rack = free_rack
+        self.wheel_loads = wheel_loads
         self.names = suspension.NAMES
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return partial(Model, free_rack=self.free_rack), (self.suspension,)
+        made = partial(Model, free_rack=self.free_rack, wheel_loads=self.wheel_loads)
+        return made, (self.suspension,)
+
+    def of_another(self, suspension: Suspension) -> "Model":
+        """Return the model of another suspension, with the same choices as this."""
+        return Model(suspension, free_rack=self.free_rack, wheel_loads=self.wheel_loads)
 
     @cached_property
     def mirror_image(self) -> "Model":
         """The model of the same suspension on the other side of the vehicle."""
-        return Model(self.suspension.mirrored(), free_rack=self.free_rack)
+        return self.of_another(self.suspension.mirrored())
 
     def __repr__(self) -> str:
         side = self.suspension.vehicle.side

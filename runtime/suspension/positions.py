@@ -1,7 +1,7 @@
 """Positions of a suspension: at a given wheel height, and at rest under its forces."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,6 +20,7 @@ from .reach import (
     height_and_slope,
     travel_range,
 )
+from .wheel_loads import UNITS
 
 __all__ = [
     "PositionError",
@@ -157,6 +158,7 @@ def equilibrium(
     wheel_load: float | None = None,
     strut_force: float = 0.0,
     spin_rate: float = 0.0,
+    inputs: Mapping[str, float] | None = None,
 ) -> State:
     """Return the stable state of rest under spring, tyre and weight.
 
@@ -176,6 +178,9 @@ def equilibrium(
         pushes chassis and wheel apart [N].
     spin_rate : float, optional
         Rate of the wheel relative to the knuckle [rad/s].
+    inputs : mapping of str to float, optional
+        Further inputs by name, in SI units: forces on the wheel of a model with ``wheel_loads``.
+        The wheel is taken as braked by its carrier, whatever the torques on it.
 
     Returns
     -------
@@ -203,6 +208,7 @@ def equilibrium(
         road_height = given.number("road_height", road_height, "m")
         strut_force = given.number("strut_force", strut_force, "N")
         spin_rate = given.number("spin_rate", spin_rate, "rad/s")
+        further = _further(given, model, inputs)
         if wheel_load is not None:
             wheel_load = _load(given, wheel_load)
             if road_height != 0.0:
@@ -211,14 +217,16 @@ def equilibrium(
                 )
 
     def at(arm_angle: ArrayLike) -> tuple[Array, Array]:
-        states, inputs = at_rest(model, arm_angle, rack_position)
-        road = inputs[..., model.input_names.index("road_height")]
+        states, held = at_rest(model, arm_angle, rack_position)
+        road = held[..., model.input_names.index("road_height")]
         if wheel_load is None:
             road[...] = road_height
         else:
-            road[...] = road_under_load(model, wheel_load, states, inputs)
-        inputs[..., model.input_names.index(model.names.actuator)] = strut_force
-        return states, inputs
+            road[...] = road_under_load(model, wheel_load, states, held)
+        held[..., model.input_names.index(model.names.actuator)] = strut_force
+        for name, value in further.items():
+            held[..., model.input_names.index(name)] = value
+        return states, held
 
     def moment(arm_angle: ArrayLike) -> Array:
         return model.evaluate("forces", *at(arm_angle))[..., 0]
@@ -262,6 +270,19 @@ def road_under_load(
     deflection = wheel_load / tyre["tyre_rate"]
     height: Array = model.signal("wheel_center_z", state, inputs)
     return height + deflection - tyre["tyre_free_height"]
+
+
+def _further(
+    given: Arguments, model: Model, inputs: Mapping[str, float] | None
+) -> dict[str, float]:
+    """Return the inputs that have no argument of their own."""
+    values = given.mapping("inputs", inputs or {}, "input names and values")
+    if values and isinstance(model, Model) and not model.wheel_loads:
+        given.refuse("inputs: this model has none of them. Make it with wheel_loads=True.")
+    return {
+        given.among("input", name, UNITS): given.number(str(name), value, UNITS.get(name, ""))
+        for name, value in values.items()
+    }
 
 
 def _load(given: Arguments, wheel_load: float) -> float:

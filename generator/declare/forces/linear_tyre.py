@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from ...program.floors import DIRECTION
 from ...program.functions import IsPositive, Positive
 from ..declared import DeclarationError, Name, declared
 from ..inputs import Input
@@ -90,25 +89,16 @@ class LinearTyre(Force):
     def act(self, at: Surroundings) -> Action:
         """Append the force at the centre of the wheel."""
         program, prefix, body = at.program, self.prefix(at.mechanism), self.wheel.carrier.name
-        center, up = at.local(body, self.wheel.center), at.up(body)
-        axis = at.direction(body, self.wheel.spin)
-        lean = program.define(f"{prefix}wheel_axis_up", axis.dot(up))
-        height = program.define(f"{prefix}wheel_height", at.height(body, center))
-        pull = program.vector(f"{prefix}tyre_pull", up - axis * lean, "123")
-        # not 1 - lean^2: of a wheel that lies flat, rounding would leave something positive
-        squared = program.guarded(
-            f"{prefix}cos_camber_squared",
-            pull.dot(pull),
-            "the wheel lies flat on the road",
-            "1",
-            DIRECTION,
+        upright = self.wheel.upright(at, prefix)
+        height = program.define(
+            f"{prefix}wheel_height", at.height(body, at.local(body, self.wheel.center))
         )
         deflection = self.free_height.symbol + sp.Symbol(self.road.name) - height
         load = self._contact(at, prefix, deflection, self._bonded(at, deflection))
-        load = program.define(f"{prefix}tyre_load", load / squared)
+        load = program.define(f"{prefix}tyre_load", load / upright.squared)
         moving = [k for k in at.independent if k in at.twists(body)]
-        forces = {k: load * pull.dot(self.wheel.velocity(at, k)) for k in moving}
-        shown = program.define(f"{prefix}tyre_force", load * sp.sqrt(squared))
+        forces = {k: load * upright.pull.dot(self.wheel.velocity(at, k)) for k in moving}
+        shown = program.define(f"{prefix}tyre_force", load * sp.sqrt(upright.squared))
         return Action(forces, {f"{prefix}tyre_force": shown})
 
     def _bonded(self, at: Surroundings, deflection: sp.Expr) -> sp.Expr:

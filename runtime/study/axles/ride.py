@@ -10,6 +10,7 @@ from scipy.optimize import root
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError
+from ...simulation.courses import Signal
 from ...simulation.result import Simulation
 from ...simulation.signals import time_inputs
 from ...simulation.simulate import simulate
@@ -17,6 +18,7 @@ from ...suspension.axle.axle import LEFT, RIGHT
 from ...suspension.axle.equations import AxleModel
 from ...suspension.positions import PositionError
 from ...suspension.positions import equilibrium as of_one_side
+from ...suspension.wheel_loads import UNITS
 from ...systems.state import State
 from ..recording import dataset_of
 from ..scenario import Scenario
@@ -38,6 +40,7 @@ def equilibrium(
     rack_position: float = 0.0,
     road_height: Mapping[str, float] | None = None,
     spin_rate: float = 0.0,
+    inputs: Mapping[str, float] | None = None,
 ) -> State:
     """Return the state of an axle at rest, the body held.
 
@@ -50,6 +53,8 @@ def equilibrium(
         Height of the road under the wheels 'left' and 'right' [m], zero where it is not given.
     spin_rate : float, optional
         Rate of both wheels relative to their carriers, positive rolling forward [rad/s].
+    inputs : mapping of str to float, optional
+        Further inputs of the model by name, in SI units, such as ``left_contact_force_x``.
 
     Returns
     -------
@@ -77,14 +82,14 @@ def equilibrium(
         for side, height in roads.items():
             given.among("side", side, (LEFT, RIGHT))
             roads[side] = given.number(f"road_height of the {side} wheel", height, "m")
+        further = given.mapping("inputs", inputs or {}, "input names and values")
     corners = model.axle.models
     rest = {
         side: of_one_side(corner, rack_position=rack, road_height=roads.get(side, 0.0))
         for side, corner in corners.items()
     }
-    inputs = model.inputs(
-        {"rack_position": rack} | {f"{side}_road_height": h for side, h in roads.items()}
-    )
+    road_heights = {f"{side}_road_height": height for side, height in roads.items()}
+    held = model.inputs({**further, "rack_position": rack, **road_heights})
     arm = corners[RIGHT].names.arm
     arms = [model.state_names.index(f"{side}_{arm}") for side in corners]
 
@@ -94,7 +99,7 @@ def equilibrium(
         return state
 
     def moments(angles: ArrayLike) -> Array:
-        return np.asarray(model.evaluate("forces", at(angles), inputs)[arms])
+        return np.asarray(model.evaluate("forces", at(angles), held)[arms])
 
     start = np.array([float(rest[s][corners[s].state_names.index(arm)]) for s in corners])
     found = root(moments, start, options={"xtol": 1e-14})
@@ -111,7 +116,7 @@ def equilibrium(
     state = at(found.x)
     for side, corner in corners.items():
         state[model.state_names.index(f"{side}_{corner.names.spin}_rate")] = spin
-    return State.of(state, inputs, model.names_of_states)
+    return State.of(state, held, model.names_of_states)
 
 
 def _slopes(moments: Any, at: Array, step: float = 1e-6) -> Array:
@@ -129,8 +134,8 @@ def run(
     ----------
     model : AxleModel
     scenario : Scenario
-        Its ``road_height`` is the road under the wheels that are named; the others have a level
-        one. Inputs of the axle may be given by their own names as well.
+        Its ``road_height``, and loads on a wheel, are those of the wheels that are named; the
+        others have a level road. Inputs of the axle may be given by their own names as well.
     wheels : {'both', 'left', 'right'}, optional
     **options : Any
         Of `kintrafo.simulate`: ``method``, ``rtol``, ``atol``, ...
@@ -154,14 +159,7 @@ def run(
         given.among("wheels", wheels, WHEELS)
         if not given.refused and scenario.height is not None:
             given.refuse("height: an axle starts from rest. Leave it out.")
-    inputs = dict(scenario.inputs)
-    road = inputs.pop("road_height", None)
-    named = [f"{side}_road_height" for side in WHEELS[wheels]]
-    if road is not None and any(name in inputs for name in named):
-        problem = f"road_height and {', '.join(named)} are given. Give one of them for a wheel."
-        raise InputError([problem], "simulation")
-    if road is not None:
-        inputs |= {f"{side}_road_height": road for side in WHEELS[wheels]}
+    inputs = _of_the_axle(scenario.inputs, WHEELS[wheels])
     times = scenario.times()
     span = (0.0, scenario.duration)
     courses = time_inputs(model, inputs, span)
@@ -171,6 +169,7 @@ def run(
         rack_position=float(first["rack_position"]),
         road_height={side: float(first[f"{side}_road_height"]) for side in (LEFT, RIGHT)},
         spin_rate=scenario.spin_rate,
+        inputs={name: float(first[name]) for name in first if name.endswith(tuple(UNITS))},
     )
     events = [
         f"{side}_{model.axle.end}_wheel_{what}_ground"
@@ -179,6 +178,21 @@ def run(
     ]
     result = simulate(model, span, start, inputs=inputs, t_eval=times, events=events, **options)
     return result, _told(dataset_of(model, result))
+
+
+def _of_the_axle(given: Mapping[str, Signal], sides: tuple[str, ...]) -> dict[str, Signal]:
+    """Return inputs by the names of the axle: what is given for one wheel, for each of these."""
+    inputs = dict(given)
+    for name in ("road_height", *UNITS):
+        if name not in inputs:
+            continue
+        named = [f"{side}_{name}" for side in sides]
+        twice = [other for other in named if other in inputs]
+        if twice:
+            problem = f"{name} and {', '.join(twice)} are given. Give one of them for a wheel."
+            raise InputError([problem], "simulation")
+        inputs |= dict.fromkeys(named, inputs.pop(name))
+    return inputs
 
 
 def by_side(motion: xr.Dataset) -> xr.Dataset:

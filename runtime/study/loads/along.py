@@ -12,7 +12,7 @@ from ...systems.inputs import rates_of
 from ..characteristics.wheel import upward_across
 from ..recording import TIME
 from .dataset import dataset_of
-from .poses import CENTER, Poses
+from .poses import CENTER, CONTACT, Poses
 from .reactions import Equations, Load, known
 
 Array = NDArray[np.float64]
@@ -44,8 +44,11 @@ def along(model: Model, result: Simulation) -> xr.Dataset:
         minus mass times acceleration and minus the rate of the moment of momentum, so that the sum
         over each part is zero. ``holding_force`` [N] is a vertical force on the wheel that the
         motion would need besides: none where the equations of motion and the balance of the parts
-        agree. How exact the motion is, the tolerances of the simulation decide. The road pushes at
-        the wheel centre, in the plane of the wheel, as in the equations.
+        agree. How exact the motion is, the tolerances of the simulation decide. The tyre pushes
+        at the wheel centre, in the plane of the wheel, as in the equations. With ``wheel_loads``
+        the road does at the contact as well; ``by`` input are the forces at the centre and the
+        moment on the wheel, ``by`` shaft is its torque. That of the hub is a part of what the
+        bearing carries.
 
     Raises
     ------
@@ -93,7 +96,7 @@ def in_motion(model: Model, states: Array, inputs: Array) -> xr.Dataset:
     """Return the loads in some states, of shape (n, states), as over time."""
     poses = Poses.of(model, states, inputs)
     equations = Equations(poses)
-    acting = [*known(poses), _road(poses), *_inertia(poses, equations.parts)]
+    acting = [*known(poses), _road(poses), *_on_the_wheel(poses), *_inertia(poses, equations.parts)]
     unknowns = equations.solve(equations.applied(acting))
     found = dataset_of(poses, TIME, equations.carried(unknowns) + acting)
     meaning = "vertical force at the wheel that the motion would need besides"
@@ -107,6 +110,26 @@ def _road(poses: Poses) -> Load:
     force = model.signal("tyre_force", poses.states, poses.inputs)
     push = force[:, None] * upward_across(poses.axis)
     return Load("wheel", CENTER, "road", push, np.zeros(3), poses.points[CENTER])
+
+
+def _on_the_wheel(poses: Poses) -> list[Load]:
+    """Return what the inputs of a model with loads on its wheel say."""
+    model = poses.model
+    if not model.wheel_loads:
+        return []
+    given = dict(zip(model.input_names, poses.inputs.T, strict=True))
+    axes, nothing = poses.wheel_axes(), np.zeros(3)
+    contact, center, moment = (
+        np.einsum("an,nai->ni", [given[f"{name}_{axis}"] for axis in "xyz"], axes)
+        for name in ("contact_force", "center_force", "wheel_moment")
+    )
+    left = model.suspension.vehicle.sign * poses.axis
+    shaft = given["shaft_torque"][:, None] * left
+    return [
+        Load("wheel", CONTACT, "road", contact, nothing, poses.points[CONTACT]),
+        Load("wheel", CENTER, "input", center, moment, poses.points[CENTER]),
+        Load("wheel", CENTER, "shaft", nothing, shaft, poses.points[CENTER]),
+    ]
 
 
 def _inertia(poses: Poses, parts: tuple[str, ...]) -> list[Load]:

@@ -12,6 +12,7 @@ from ...core.errors import InputError, KintrafoError
 from ...core.quantities import Display, attributes
 from ...suspension.kinds import Suspension
 from ...suspension.model import Model
+from ...suspension.wheel_loads import UNITS
 from ..ensembles import ensemble
 from ..ensembles.variants import without_mass
 from ..scenario import Scenario
@@ -84,6 +85,7 @@ def sweep(
         if not given.refused:
             axes = _axes(given, suspension, grid)
     _refuse_iteration(suspension)
+    _refuse_wheel_loads(scenario)
     cars = _Cars(suspension, axes, scenario)
     for car in range(cars.count):
         cars.prepare(car)
@@ -136,6 +138,17 @@ def _refuse_iteration(suspension: Suspension) -> None:
             f"the loops of a {suspension.TITLE} are closed by iteration, which many cars at once "
             "in lanes cannot do. Simulate one after another: "
             "kintrafo.simulate(kintrafo.Model(car.with_changes({...})), ...)."
+        )
+        raise InputError([problem], "sweep")
+
+
+def _refuse_wheel_loads(scenario: Scenario) -> None:
+    given = [name for name in scenario.inputs if name in UNITS]
+    if given:
+        problem = (
+            f"{given[0]}: equations with loads on the wheel are not compiled in lanes. Simulate "
+            "one after another: kintrafo.simulate(kintrafo.Model(car.with_changes({...}), "
+            "wheel_loads=True), ...)."
         )
         raise InputError([problem], "sweep")
 

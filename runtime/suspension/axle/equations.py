@@ -22,6 +22,8 @@ class AxleModel(System):
     axle : Axle
     progress : callable, optional
         Called with what is being done, in a few words.
+    wheel_loads : bool, optional
+        Whether what acts on the wheels are inputs, as in `Model`, after ``right_`` and ``left_``.
 
     Attributes
     ----------
@@ -31,18 +33,27 @@ class AxleModel(System):
         ``right_`` and ``left_``; the bar has ``bar_angle`` and ``bar_spring_moment``.
     """
 
-    def __init__(self, axle: Axle, *, progress: Callable[[str], None] | None = None) -> None:
+    def __init__(
+        self,
+        axle: Axle,
+        *,
+        progress: Callable[[str], None] | None = None,
+        wheel_loads: bool = False,
+    ) -> None:
         with Arguments("AxleModel") as given:
             given.kind("axle", axle, Axle, Axle.NEEDED)
             given.function("progress", progress)
+            wheel_loads = given.flag("wheel_loads", wheel_loads)
         require_generator()
-        from ...generator.mechanisms import MODELS  # noqa: PLC0415 (an extra)
-        from ...generator.mechanisms import axle as page  # noqa: PLC0415
+        from ...generator.mechanisms import axle as page  # noqa: PLC0415 (an extra)
+        from ...generator.mechanisms import model_named  # noqa: PLC0415
+        from ...generator.mechanisms.suspension import with_wheel_loads  # noqa: PLC0415
 
-        name = _corner_of(axle)
-        corner = next(model for model in MODELS if model.name == name)
+        corner = model_named(_corner_of(axle))
+        if wheel_loads:
+            corner = with_wheel_loads(corner)
         pulls = axle.bar.link_on if axle.bar else ""
-        parts = (name, axle.end, "axle", pulls, "" if axle.symmetric else "two_sides")
+        parts = (corner.name, axle.end, "axle", pulls, "" if axle.symmetric else "two_sides")
         declared = page.mechanism(
             "_".join(part for part in parts if part),
             axle.heading()[:1].upper() + axle.heading()[1:],
@@ -52,11 +63,13 @@ class AxleModel(System):
             end=axle.end,
         )
         equations = compile_mechanism(page.model(corner, declared), progress=progress)
-        super().__init__(equations, _parameters(axle, set(equations.PARAMETERS)))
-        self.axle = axle
+        values = _parameters(axle, wheel_loads=wheel_loads)
+        known = {name: values[name] for name in values if name in equations.PARAMETERS}
+        super().__init__(equations, known)
+        self.axle, self.wheel_loads = axle, wheel_loads
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return partial(AxleModel), (self.axle,)
+        return partial(AxleModel, wheel_loads=self.wheel_loads), (self.axle,)
 
     def __repr__(self) -> str:
         return f"<AxleModel {self.equations.NAME}>"
@@ -74,10 +87,14 @@ def _corner_of(axle: Axle) -> str:
     return next(iter(names))
 
 
-def _parameters(axle: Axle, known: set[str]) -> dict[str, float]:
-    values = dict(axle.models[RIGHT].parameters)
+def _parameters(axle: Axle, *, wheel_loads: bool) -> dict[str, float]:
+    of_sides = {
+        side: model.parameters | (model.suspension.wheel_load_parameters() if wheel_loads else {})
+        for side, model in axle.models.items()
+    }
+    values = dict(of_sides[RIGHT])
     if not axle.symmetric:
-        values |= {f"{LEFT}_{name}": v for name, v in axle.models[LEFT].parameters.items()}
+        values |= {f"{LEFT}_{name}": value for name, value in of_sides[LEFT].items()}
     if axle.bar is not None:
         values |= {"bar_rate": axle.bar.rate(), "bar_free_angle": axle.bar.free_twist()}
         for side, prefix in ((RIGHT, ""), (LEFT, f"{LEFT}_")):
@@ -89,4 +106,4 @@ def _parameters(axle: Axle, known: set[str]) -> dict[str, float]:
                 ("link_foot", half.foot),
             ):
                 values |= components(f"{prefix}{name}", vector)
-    return {name: value for name, value in values.items() if name in known}
+    return values

@@ -1,0 +1,126 @@
+"""What a road and a drive shaft do to a wheel, given from outside."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ..declared import DeclarationError, declared
+from ..inputs import Input
+from ..joints import Revolute
+from ..parameters import Length
+from ..wheel import Wheel
+from .force import Action, Force
+
+if TYPE_CHECKING:
+    from ...program.vectors import Vector
+    from ..surroundings import Surroundings
+
+Components = tuple[Input, Input, Input]
+"""Along the axes of the tyre: forward, to the left, up."""
+
+
+@declared
+@dataclass(frozen=True, kw_only=True)
+class WheelLoads(Force):
+    """Forces and moments on a wheel that may spin, in the axes of the tyre (ISO 8855).
+
+    With ``a`` the spin axis, which points to the left, and ``e_z`` up, forward is along
+    ``a x e_z``, which is horizontal and in the plane of the wheel; left is horizontal as well. The
+    lowest point of the wheel, a thin disc, is from its centre ``-radius (e_z - a a_z) / sqrt(1 -
+    a_z^2)``.
+
+    Parameters
+    ----------
+    wheel
+        Where it is; what does not turn the wheel about its axis is carried by its carrier.
+    bearing
+        The driven hinge about which it turns on its carrier, along its spin axis.
+    radius
+        Of the disc [m].
+    contact
+        Force on the wheel at its lowest point [N].
+    moment
+        On the wheel [N m].
+    center
+        Force on the wheel at its centre [N].
+    shaft
+        Torque on the wheel about its spin axis from a part that does not move with it [N m].
+    hub
+        The same from its carrier [N m].
+    """
+
+    wheel: Wheel
+    bearing: Revolute
+    radius: Length
+    contact: Components
+    moment: Components
+    center: Components
+    shaft: Input
+    hub: Input
+
+    def __post_init__(self) -> None:
+        problems = [
+            f"input {given.name!r} is in {given.unit}; {unit} is needed"
+            for unit, inputs in (
+                ("N", (*self.contact, *self.center)),
+                ("N m", (*self.moment, self.shaft, self.hub)),
+            )
+            for given in inputs
+            if given.unit != unit
+        ]
+        name, first = self.bearing.name, self.bearing.first.name
+        carrier, spin = self.wheel.carrier.name, self.wheel.spin.name
+        if first != carrier:
+            problems.append(
+                f"hinge {name!r} leads from {first!r}, and the wheel is carried by {carrier!r}; "
+                "give the wheel's bearing"
+            )
+        if self.bearing.axis.towards != self.wheel.spin or self.bearing.angle_to is not None:
+            problems.append(
+                f"hinge {name!r} does not turn about the wheel's spin axis {spin!r}; give its "
+                "bearing the same Direction, and no angle_to"
+            )
+        if problems:
+            raise DeclarationError(f"WheelLoads by {name!r}", problems)
+
+    @property
+    def identity(self) -> tuple[str, str]:
+        """The bearing of the wheel."""
+        return "WheelLoads by", self.bearing.name
+
+    @property
+    def along(self) -> Revolute:
+        """The bearing: its coordinate is turned."""
+        return self.bearing
+
+    def act(self, at: Surroundings) -> Action:
+        """Append the power of all of it on the motion of the carrier, and on the spin."""
+        carrier, name = self.wheel.carrier.name, self.bearing.name
+        upright = self.wheel.upright(at, f"{name}_")
+        cosine, axis = sp.sqrt(upright.squared), upright.axis
+        forward = at.program.vector(f"{name}_forward", axis.cross(upright.up) * (1 / cosine), "123")
+        axes = forward, upright.up.cross(forward), upright.up
+        contact, moment, center = (
+            _along(axes, given) for given in (self.contact, self.moment, self.center)
+        )
+        arm = upright.pull * (-self.radius.symbol / cosine)
+        moment += arm.cross(contact) + axis * sp.Symbol(self.shaft.name)
+        force = at.program.vector(f"{name}_force", contact + center, "123")
+        moment = at.program.vector(f"{name}_moment", moment, "123")
+        forces = {
+            k: force.dot(self.wheel.velocity(at, k)) + moment.dot(twist.angular)
+            for k, twist in at.twists(carrier).items()
+            if k in at.independent
+        }
+        forces[at.coordinate(name)] = moment.dot(axis) + sp.Symbol(self.hub.name)
+        return Action(forces)
+
+
+def _along(axes: tuple[Vector, Vector, Vector], given: Components) -> Vector:
+    """Return the vector with these components."""
+    x, y, z = (axis * sp.Symbol(part.name) for axis, part in zip(axes, given, strict=True))
+    total: Vector = x + y + z
+    return total

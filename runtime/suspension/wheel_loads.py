@@ -1,0 +1,23 @@
+"""What a road, a drive shaft and a brake do to a wheel, as inputs of the equations in time."""
+
+from types import ModuleType
+
+from ..systems.compile.build import compile_mechanism, require_generator
+
+_VECTORS = {"contact_force": "N", "center_force": "N", "wheel_moment": "N m"}
+
+UNITS = {
+    **{f"{name}_{axis}": unit for name, unit in _VECTORS.items() for axis in "xyz"},
+    "shaft_torque": "N m",
+    "hub_torque": "N m",
+}
+"""The unit of each of these inputs, by name."""
+
+
+def with_wheel_loads(equations: ModuleType) -> ModuleType:
+    """Return the same equations with these inputs, derived and compiled if that was not done."""
+    require_generator()
+    from ..generator.mechanisms import model_named  # noqa: PLC0415 (an extra)
+    from ..generator.mechanisms.suspension import with_wheel_loads as loaded  # noqa: PLC0415
+
+    return compile_mechanism(loaded(model_named(equations.NAME)))

@@ -1,0 +1,155 @@
+"""Loads on a wheel as inputs in time: against load cases, and Newton and Euler part by part."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from kintrafo import (
+    Axle,
+    AxleModel,
+    InputError,
+    Model,
+    Suspension,
+    equilibrium,
+    loads,
+    simulate,
+    variation,
+)
+from kintrafo.generator import DeclarationError, Direction, Input
+from kintrafo.generator.mechanisms import MODELS
+from kintrafo.generator.mechanisms.suspension import with_wheel_loads
+from kintrafo.study.axles import ride
+from kintrafo.study.checkup import checkup
+from kintrafo.study.loads.along import in_motion
+from kintrafo.study.measurement import measured
+from kintrafo.study.scenario import Scenario
+from kintrafo.suspension.positions import design_height
+from kintrafo.suspension.wheel_loads import UNITS
+from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
+
+CARS = [Suspension.load("reference_car"), Suspension.load("double_wishbone_car").mirrored()]
+LIMITS = {"N": 4000.0, "N m": 400.0}
+BRAKED = "time_s,contact_force_x_N,hub_torque_Nm\n0,0,0\n0.1,0,0\n0.2,-2000,-600\n0.4,-2000,-600\n"
+
+
+@pytest.mark.parametrize("car", CARS, ids=lambda car: car.TITLE)
+def test_rest_is_that_of_a_load_case(car: Suspension) -> None:
+    """A wheel without a tyre, braked and in a corner: equations of motion against statics."""
+    contact = np.array([-1900.0, 1100.0, 3900.0])
+    case = {"contact_N": contact.tolist(), "contact_Nm": [0.0, 0.0, 60.0]}
+    wanted = float(loads.static(Model(car), {"case": case})["travel"][0])
+    model = Model(car.with_changes({"tyre.rate_N_per_m": 0.0}), wheel_loads=True)
+    given = dict(zip((f"contact_force_{axis}" for axis in "xyz"), contact, strict=True))
+    rest = equilibrium(model, inputs={**given, "wheel_moment_z": 60.0})
+    travel = float(model.signal("wheel_center_z", rest)) - design_height(model)
+    # roundings of moments of 1e3 N m over a stiffness of some 1e4 N m
+    assert travel == pytest.approx(wanted, abs=1e-12)
+    held = {"hub_torque": -1900.0 * model.parameters["tyre_radius"]}
+    still = simulate(model, (0.0, 0.2), rest, inputs={**given, **held, "wheel_moment_z": 60.0})
+    assert abs(still.y[:2] - rest[:2, None]).max() < 1e-2  # it turns by its camber, and stays
+
+
+@pytest.mark.parametrize("car", CARS, ids=lambda car: car.TITLE)
+def test_every_part_is_in_balance(car: Suspension) -> None:
+    """What Newton and Euler leave over, for any loads in any motion; what the bearing carries."""
+    model = Model(car, wheel_loads=True)
+    random = np.random.default_rng(1)
+    size = len(model.state_names) // 2
+    away = np.repeat([0.1, 10.0], size) * random.uniform(-1.0, 1.0, (8, 2 * size))
+    inputs = np.zeros((8, len(model.input_names)))
+    for name, unit in UNITS.items():
+        column = model.input_names.index(name)
+        inputs[:, column] = LIMITS[unit] * random.uniform(-1.0, 1.0, 8)
+    found = in_motion(model, model.design_state + away, inputs)
+    assert abs(found["holding_force"]).max() < 1e-9 * abs(found["force"]).max()
+    bearing = found.isel(load=((found["part"] == "wheel") & (found["by"] == "knuckle")).values)
+    shaft = found.isel(load=((found["part"] == "wheel") & (found["by"] == "shaft")).values)
+    torque, hub = (inputs[:, model.input_names.index(f"{n}_torque")] for n in ("shaft", "hub"))
+    axis = shaft["moment"].values[:, 0] / torque[:, None]  # points to the left
+    np.testing.assert_allclose(np.linalg.norm(axis, axis=1), 1.0, rtol=1e-12)
+    assert (axis[:, 1] > 0.9).all()
+    carried = (bearing["moment"].values.sum(1) * axis).sum(1)
+    np.testing.assert_allclose(carried, hub, rtol=0.0, atol=1e-9 * abs(found["moment"]).max())
+
+
+def test_both_sides_of_an_axle_do_what_one_does() -> None:
+    """Loads alike on both sides, as if one stood alone; on one side, the bar takes a part of it."""
+    axle = Axle.load("reference_axle")
+    model = AxleModel(axle, wheel_loads=True)
+    corner = Model(axle.right, wheel_loads=True)
+    braked = {"contact_force_x": -2000.0, "hub_torque": -600.0}
+    alone = equilibrium(corner, inputs=braked)
+    both = {f"{side}_{name}": value for side in ("left", "right") for name, value in braked.items()}
+    rest = ride.equilibrium(model, inputs=both)
+    height = float(corner.signal("wheel_center_z", alone))
+    for side in ("left", "right"):
+        found = float(model.signal(f"{side}_front_wheel_center_z", rest))
+        assert found == pytest.approx(height, abs=1e-9)
+    scenario = Scenario(duration=0.1, inputs=braked)
+    _, motion = ride.run(model, scenario, wheels="left")
+    twist = motion["bar_spring_moment"].values
+    # at rest from the beginning; the brake holds the wheel, but for its camber
+    assert np.ptp(twist) < 0.01 * abs(twist[0]) > 0.0
+    with pytest.raises(InputError, match="contact_force_x and left_contact_force_x are given"):
+        ride.run(model, replace(scenario, inputs={**braked, "left_contact_force_x": 0.0}))
+
+
+def test_measured_loads_are_driven(kintrafo, tmp_path: Path) -> None:  # noqa: F811
+    file = tmp_path / "braked.csv"
+    file.write_text(BRAKED)
+    assert set(measured(file).values) == {"contact_force_x", "hub_torque"}
+    out = tmp_path / "loads.nc"
+    command = f"simulate reference_car --measured {file} --loads {out} --json"
+    code, told, _ = kintrafo(*command.split())
+    assert code == 0, told
+    found = xr.load_dataset(out)
+    by_road = found.isel(load=((found["point"] == "contact") & (found["part"] == "wheel")).values)
+    np.testing.assert_allclose(by_road["force"].values[-1, 0, 0], -2000.0, rtol=1e-3)
+
+
+@pytest.mark.parametrize("formulation", MODELS[:8], ids=lambda model: model.name)
+def test_every_kind_can_have_them(formulation) -> None:
+    loaded = with_wheel_loads(formulation)
+    assert set(loaded.inputs) - set(formulation.inputs) == set(UNITS)
+    assert {name: loaded.inputs[name].unit for name in UNITS} == UNITS
+
+
+def test_what_cannot_be_is_refused() -> None:
+    car = CARS[0]
+    points = car.hardpoints.given()
+    lower = {f"hardpoints.{name}.z": getattr(car.hardpoints, name)[2] - 300.0 for name in points}
+    with pytest.raises(InputError, match="radius_mm is missing"):
+        Model(car.with_changes({**lower, "tyre.radius_mm": None}), wheel_loads=True)
+    with pytest.raises(InputError, match="wheel_loads=True"):
+        equilibrium(Model(car), inputs={"contact_force_x": 1.0})
+    with pytest.raises(InputError, match=r"contact_force_w.*contact_force_"):
+        equilibrium(Model(car, wheel_loads=True), inputs={"contact_force_w": 1.0})
+    with pytest.raises(InputError, match="not compiled in lanes"):
+        variation.sweep(
+            car,
+            {"strut.damper_rate_N_s_per_m": [1000.0]},
+            Scenario(inputs={"hub_torque": 1.0}),
+        )
+
+
+def test_a_bearing_that_is_not_the_wheels_is_refused() -> None:
+    loaded = with_wheel_loads(MODELS[0])
+    force = loaded.mechanism.forces[-1]
+    with pytest.raises(DeclarationError, match="N m is needed"):
+        replace(force, hub=Input("hub", "N", "torque"))
+    other = Direction("other", (0.0, 1.0, 0.0), "another direction")
+    with pytest.raises(DeclarationError, match="does not turn about the wheel's spin axis"):
+        replace(force, wheel=replace(force.wheel, spin=other))
+    arm = loaded.mechanism.body("control_arm")
+    with pytest.raises(DeclarationError, match="carried by 'control_arm'"):
+        replace(force, wheel=replace(force.wheel, carrier=arm))
+
+
+def test_a_car_with_friction_and_a_free_rack_is_looked_at() -> None:
+    """Its equations without friction are those with a free rack, too."""
+    car = Suspension.load("offset_strut_car").with_changes(
+        {"bodies.tie_rod.mass_kg": 1.0, "strut.friction_N": 50.0}
+    )
+    assert checkup(Model(car, free_rack=True)).equilibrium is not None
