@@ -5,8 +5,8 @@ Everything else is in pyproject.toml.
 
 import json
 import os
-import platform
 import re
+import runpy
 import shlex
 import shutil
 import subprocess
@@ -27,16 +27,9 @@ NATIVE = Path("runtime/simulation/native")
 # into fused operations is left off, so that every machine computes the same bits.
 FLAGS = [] if sys.platform == "win32" else ["-O2", "-fno-math-errno", "-ffp-contract=off"]
 
-# How many lanes vectors have, and what tells the compiler that the processor has them: one object
-# each, chosen when a program runs. Two are in every processor of 64 bits. Other compilers than GCC
-# and Clang have no vectors.
 LANES = Path("runtime/simulation/lanes")
-X86_64 = {2: [], 4: ["-mavx2"], 8: ["-mavx512f", "-mavx512vl", "-mavx512dq"]}
-WIDTHS = X86_64 if platform.machine().lower() in ("x86_64", "amd64") else {2: []}
-WIDTHS = {} if sys.platform == "win32" else WIDTHS
-# Of GCC: put instructions in order before registers are given to values. The long chains of the
-# equations are a sixth faster for it in four lanes.
-SCHEDULED = ["-fschedule-insns", "-fsched-pressure"]
+OPTIONS = runpy.run_path(str(LANES / "options.py"))
+WIDTHS, SCHEDULED = OPTIONS["OF_WIDTH"], OPTIONS["SCHEDULED"]
 
 # Where SUNDIALS may be: in the place that the user names, or built here by `.ci/sundials`, or in
 # the active environment, or of the system. `.ci/setup` looks in the same places, and builds it

@@ -14,7 +14,17 @@ import numpy as np
 import pytest
 import xarray as xr
 from c_text import EMITTED, STRAIGHT
-from kintrafo import InputError, Model, Samples, System, ensemble, simulate, state_at_height
+from kintrafo import (
+    Axle,
+    AxleModel,
+    InputError,
+    Model,
+    Samples,
+    System,
+    ensemble,
+    simulate,
+    state_at_height,
+)
 from kintrafo.core.physical import impossible, inertia_of_no_body, out_of_range
 from kintrafo.simulation.lanes import library, run
 from kintrafo.study.recording import statistics
@@ -500,11 +510,45 @@ def test_what_cannot_be_used(car: Model, wrong: dict[str, Any], words: str) -> N
         ensemble(**given)
 
 
-def test_own_mechanisms_are_refused_so_far() -> None:
+def test_own_mechanisms_are_compiled_in_lanes() -> None:
+    """The four-bar of the project, compiled here: the same bits in every width."""
     from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 
-    with pytest.raises(InputError, match="not compiled in lanes"):
-        ensemble(System(kintrafo.compile(FOUR_BAR)), None, (0.0, 1.0))
+    here, there = System(kintrafo.compile(FOUR_BAR)), System(kintrafo.generated.four_bar)
+    cranks = {"crank_angle_rate": np.linspace(1.0, 9.0, 7)}
+    expected = ensemble(there, cranks, SPAN, signals=there.signal_names, t_eval=TIMES)
+    for width in WIDTHS:
+        found = ensemble(here, cranks, SPAN, signals=there.signal_names, t_eval=TIMES, lanes=width)
+        same(found, expected)
+
+
+def test_axles_in_lanes_do_what_they_do_alone() -> None:
+    model = AxleModel(Axle.load("reference_axle"))
+    road = {"left_road_height": STEP}
+    rates = np.linspace(500.0, 2000.0, 5)
+    found = ensemble(model, {"bar_rate": rates}, SPAN, inputs=road, t_eval=TIMES, rtol=1e-8,
+                     signals=["bar_spring_moment"])  # fmt: skip
+    for place in (0, 4):
+        one = System(model.equations, model.parameters | {"bar_rate": rates[place]})
+        alone = simulate(one, SPAN, model.design_state, inputs=road, t_eval=TIMES, rtol=1e-10)
+        moment = alone.signals["bar_spring_moment"]
+        scale = abs(moment).max()
+        # the tolerance of either, over the oscillations of half a second
+        np.testing.assert_allclose(found["bar_spring_moment"][place], moment, atol=1e-5 * scale)
+
+
+def test_what_iterates_is_refused() -> None:
+    with pytest.raises(InputError, match="closed by iteration"):
+        ensemble(Model("multi_link_car"), None, (0.0, 1.0))
+
+
+def test_without_a_compiler_own_mechanisms_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    from kintrafo.generator.mechanisms.slider_crank import SLIDER_CRANK
+
+    compiled = kintrafo.compile(SLIDER_CRANK)
+    monkeypatch.setattr("kintrafo.simulation.lanes.own.find_compiler", lambda: None)
+    with pytest.raises(InputError, match="there is no C compiler to do that"):
+        ensemble(System(compiled), None, (0.0, 1.0))
 
 
 def test_impossible_sets_are_those_that_are_refused_one_by_one(car: Model) -> None:

@@ -7,6 +7,7 @@ from importlib import import_module
 from types import ModuleType
 
 from ...core.errors import InputError
+from .own import is_own, library_of
 
 WIDTHS = (2, 4, 8)
 _SOLVER = f"{__package__}._integrate"
@@ -41,28 +42,36 @@ def functions(equations: ModuleType, width: int, variant: str) -> Mapping[str, i
     Raises
     ------
     InputError
-        If the equations are not compiled for lanes.
+        If the equations cannot be had in lanes.
     """
     name: str = equations.NAME
-    package = equations.__name__.rpartition(".")[0]
-    library = _library(f"{package}._{name}_lanes")
-    if library is None or not widths():
-        raise InputError([_missing(name)], "ensemble")
-    names = {key: key for key in ("prepare", "design_state", "signals", "margins")}
-    names["rhs"] = f"rhs{variant}"
-    return {key: _address(library, f"{name}_{end}_{width}") for key, end in names.items()}
-
-
-def _missing(name: str) -> str:
-    if _library(_SOLVER) is None:
-        return (
+    if not widths():
+        problem = (
             "kintrafo was built without lanes, for which it needs GCC or Clang. Build it again "
             "with one of them, or call simulate for each."
         )
-    return (
-        f"the equations of {name} are not compiled in lanes: those that come with the project are, "
-        "but for ones that iterate. Call simulate for each."
-    )
+        raise InputError([problem], "ensemble")
+    if any("iterates" in told for told in equations.equations.manifest["functions"].values()):
+        problem = (
+            f"the equations of {name} are closed by iteration, which many systems at once in lanes "
+            "cannot do. Call simulate for each."
+        )
+        raise InputError([problem], "ensemble")
+    library, end = _of(equations, width)
+    names = {key: key for key in ("prepare", "design_state", "signals", "margins")}
+    names["rhs"] = f"rhs{variant}"
+    return {key: _address(library, f"{name}_{what}{end}") for key, what in names.items()}
+
+
+@cache
+def _of(equations: ModuleType, width: int) -> tuple[ctypes.CDLL, str]:
+    """Return the library of equations, and how the names of its functions end."""
+    if is_own(equations):
+        return _loaded(str(library_of(equations, width))), ""
+    package = equations.__name__.rpartition(".")[0]
+    library = _library(f"{package}._{equations.NAME}_lanes")
+    assert library is not None  # built with the solver, as those that do not iterate
+    return library, f"_{width}"
 
 
 def _address(library: ctypes.CDLL, name: str) -> int:
@@ -77,4 +86,9 @@ def _library(name: str) -> ctypes.CDLL | None:
         module = import_module(name)
     except ModuleNotFoundError:
         return None
-    return ctypes.CDLL(module.__file__)
+    return _loaded(str(module.__file__))
+
+
+@cache
+def _loaded(path: str) -> ctypes.CDLL:
+    return ctypes.CDLL(path)

@@ -84,9 +84,10 @@ def there(model: Model, over: Over) -> tuple[str, ...]:
     return tuple(values_of(model, over, np.zeros(1)))
 
 
-def model_of(suspension: Suspension) -> Model:
+def model_of(suspension: Suspension, *, wheel_loads: bool = False) -> Model:
     """Return the model in which every body that has mass counts."""
-    return Model(suspension, free_rack=bool(suspension.neglected_masses()))
+    free_rack = bool(suspension.neglected_masses())
+    return Model(suspension, free_rack=free_rack, wheel_loads=wheel_loads)
 
 
 def changed(suspension: Suspension, changes: Mapping[str, float]) -> Suspension:

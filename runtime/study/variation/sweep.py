@@ -84,9 +84,8 @@ def sweep(
         grid = given.mapping("values", values, "places and numbers")
         if not given.refused:
             axes = _axes(given, suspension, grid)
-    _refuse_iteration(suspension)
-    _refuse_wheel_loads(scenario)
     cars = _Cars(suspension, axes, scenario)
+    _refuse_iteration(cars.model)
     for car in range(cars.count):
         cars.prepare(car)
         if progress is not None:
@@ -130,25 +129,14 @@ def _axes(given: Arguments, suspension: Suspension, grid: Mapping[Any, Any]) -> 
     return axes
 
 
-def _refuse_iteration(suspension: Suspension) -> None:
+def _refuse_iteration(model: Model) -> None:
     """Say before anything is simulated that cars whose loops are iterated do not go together."""
-    functions = Model(suspension).equations.equations.manifest["functions"]
+    functions = model.equations.equations.manifest["functions"]
     if any("iterates" in told for told in functions.values()):
         problem = (
-            f"the loops of a {suspension.TITLE} are closed by iteration, which many cars at once "
-            "in lanes cannot do. Simulate one after another: "
+            f"the loops of a {model.suspension.TITLE} are closed by iteration, which many cars at "
+            "once in lanes cannot do. Simulate one after another: "
             "kintrafo.simulate(kintrafo.Model(car.with_changes({...})), ...)."
-        )
-        raise InputError([problem], "sweep")
-
-
-def _refuse_wheel_loads(scenario: Scenario) -> None:
-    given = [name for name in scenario.inputs if name in UNITS]
-    if given:
-        problem = (
-            f"{given[0]}: equations with loads on the wheel are not compiled in lanes. Simulate "
-            "one after another: kintrafo.simulate(kintrafo.Model(car.with_changes({...}), "
-            "wheel_loads=True), ...)."
         )
         raise InputError([problem], "sweep")
 
@@ -160,7 +148,8 @@ class _Cars:
         self, suspension: Suspension, axes: Mapping[Place, Array], scenario: Scenario
     ) -> None:
         self._suspension, self._scenario, self._axes = suspension, scenario, dict(axes)
-        self.model = model_of(suspension)
+        on_wheel = not UNITS.keys().isdisjoint(scenario.inputs)
+        self.model = model_of(suspension, wheel_loads=on_wheel)
         self._shape = tuple(along.size for along in axes.values())
         self.count = int(np.prod(self._shape))
         self._parameters: dict[int, dict[str, float]] = {}
@@ -174,7 +163,8 @@ class _Cars:
         for (place, along), at in zip(self._axes.items(), places, strict=True):
             changes |= place.moved(float(along[at]) - place.value * place.to_si)
         try:
-            model = model_of(changed(self._suspension, changes))
+            suspension = changed(self._suspension, changes)
+            model = model_of(suspension, wheel_loads=self.model.wheel_loads)
             self._check_equations(model)
             self._starts[car] = np.array(self._scenario.start(model))
             self._parameters[car] = dict(model.parameters)

@@ -1,0 +1,79 @@
+"""Equations that were compiled on this machine, compiled in lanes when they are first asked for."""
+
+import hashlib
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from types import ModuleType
+
+from ...core.errors import InputError
+from ...systems.compile.cache import appearing, damage, fingerprint, seal
+from ...systems.compile.compiler import Compiler, find_compiler
+from .options import OF_WIDTH, SCHEDULED
+
+_HERE = Path(__file__).parent
+# how emitted equations are read as ones about vectors
+_READ = ("model.c", "elementary.h", "vectors.h")
+
+
+def is_own(equations: ModuleType) -> bool:
+    """Tell whether equations were compiled on this machine, and not with the project."""
+    return not equations.__name__.startswith("kintrafo.")
+
+
+def library_of(equations: ModuleType, width: int) -> Path:
+    """Return the library of equations in so many lanes, compiled if that was not done before.
+
+    Parameters
+    ----------
+    equations : module
+        As `kintrafo.compile` returns it.
+    width : int
+        How many lanes, of those that this processor has.
+
+    Raises
+    ------
+    InputError
+        If there is no compiler, or what was compiled cannot be kept.
+    CompilerError
+        If it fails.
+    """
+    compiler = _with_vectors(find_compiler(), str(equations.NAME), width)
+    folder = Path(str(equations.__file__)).parent
+    name = f"{equations.NAME}_lanes_{width}"
+    key = fingerprint(f"{folder.name} {_digest()}", built_by=" ".join(compiler.command))
+    target = folder.parent / f"{name}-{key}"
+    library = f"lib{name}.so"
+    if damage(target):
+        with appearing(target) as temporary:
+            for text in (*_included(folder), *map(_HERE.joinpath, _READ)):
+                (temporary / text.name).write_bytes(text.read_bytes())
+            compiler.build([temporary / "model.c"], temporary / library)
+            seal(temporary, target.name)
+    return target / library
+
+
+def _with_vectors(compiler: Compiler | None, name: str, width: int) -> Compiler:
+    """Return a compiler with its options for so many lanes."""
+    if compiler is None:
+        problem = (
+            f"the equations of {name} are not compiled in lanes, and there is no C compiler to do "
+            "that. Install one (on Debian: apt-get install gcc libc6-dev), or call simulate for "
+            "each."
+        )
+        raise InputError([problem], "ensemble")
+    scheduled = [] if "clang" in compiler.version else SCHEDULED
+    macros = [f'-DMODEL="{name}.c"', f"-DWIDTH={width}"]
+    options = (*compiler.command, *OF_WIDTH[width], *scheduled, *macros)
+    return replace(compiler, command=options)
+
+
+def _included(folder: Path) -> Iterator[Path]:
+    yield from folder.glob("*.c")
+    yield from folder.glob("*.h")
+
+
+def _digest() -> str:
+    """Return a hash of what reads equations as ones about vectors."""
+    texts = b"\0".join((_HERE / name).read_bytes() for name in _READ)
+    return hashlib.sha256(texts).hexdigest()
