@@ -3,6 +3,7 @@
 import re
 import subprocess
 import sys
+import typing
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
@@ -127,6 +128,9 @@ def test_help_says_all_that_the_function_does(name, monkeypatch):
     (command,) = (c for c in cli.app.registered_commands if c.name == name)
     for paragraph in command.callback.__doc__.split("\n\n"):
         assert " ".join(paragraph.split()) in " ".join(shown.split())
+    for hint in typing.get_type_hints(command.callback, include_extras=True).values():
+        for info in getattr(hint, "__metadata__", ()):
+            assert " ".join((info.help or "").split()) in " ".join(shown.split())
 
 
 def test_what_documents_name_is_there_after_one_import():

@@ -1,9 +1,10 @@
 """The command line: ``kintrafo``. One file a command; each is a thin door to a Python function."""
 
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 from rich.markup import escape
+from typer.core import TyperCommand
 
 from . import (
     characteristics,
@@ -56,6 +57,17 @@ def _flowing(docstring: str) -> str:
     return escape("\n\n".join(paragraphs))
 
 
+class _Command(TyperCommand):
+    """A command in whose arguments and options, too, what is in brackets is no markup."""
+
+    def __init__(self, *args: Any, **options: Any) -> None:
+        super().__init__(*args, **options)
+        for parameter in self.params:
+            told = getattr(parameter, "help", None)
+            if told:
+                parameter.help = escape(told)  # type: ignore[attr-defined]
+
+
 # In the order in which an engineer needs them.
 _PANELS = {
     "Begin": (
@@ -77,7 +89,10 @@ for panel, modules in _PANELS.items():
         name = module.__name__.rpartition(".")[2].replace("_", "-")
         examples = "\n\n".join(("Examples:", *module.EXAMPLES))
         words = _flowing(module.command.__doc__ or "")
-        app.command(name, help=words, epilog=examples, rich_help_panel=panel)(module.command)
+        made = app.command(
+            name, cls=_Command, help=words, epilog=escape(examples), rich_help_panel=panel
+        )
+        made(module.command)
 
 
 def _show_version(*, wanted: bool) -> None:
