@@ -1,7 +1,7 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
 .PHONY: docs drawings help setup sundials generate build run test test-elsewhere fuzz package wheel lint tree types format baseline clean \
-	benchmark benchmark-andrews benchmark-axles benchmark-bits benchmark-ensemble benchmark-growth benchmark-loads benchmark-loops benchmark-page benchmark-peers benchmark-speed benchmark-studies format-page front-axle-page report-assets
+	benchmark benchmark-andrews benchmark-axles benchmark-bits benchmark-bushes benchmark-ensemble benchmark-growth benchmark-loads benchmark-loops benchmark-page benchmark-peers benchmark-speed benchmark-studies format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
 EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/equations/*.pyx runtime/simulation/native/*.pyx runtime/simulation/*/*.[ch])
@@ -117,6 +117,10 @@ benchmark-axles: build ## How long the motions of an axle take; the picture of d
 
 benchmark-loads: build ## How long the loads on all parts take; the picture of docs/loads.md
 	@$(PYTHON) -m benchmarks.loads
+
+benchmark-bushes: build ## Suspensions on bushes beside Exudyn, an independent program
+	@.venv/bin/pip install -q -e ".[peers]" --no-build-isolation
+	@$(PYTHON) -m benchmarks.bushes
 
 benchmark-studies: build ## How long sensitivity, tolerance and optimise take; the pictures of docs/studies.md
 	@$(PYTHON) -m benchmarks.studies

@@ -85,8 +85,8 @@ def deflection(
     Notes
     -----
     As of `elastokinematics`; forces act at the lowest point of the wheel, wherever it goes, in
-    directions that stay: those of the tyre where the wheel is before. The displacement is that of
-    the point of the wheel that was lowest there, or of its centre.
+    directions that stay: those of the tyre with rigid joints, without the load. The displacement is
+    that of the point of the wheel that was lowest there, or of its centre.
 
     `compliance` leaves out that bushes carry the static load in turned directions; with relaxed
     bushes and no static load, both agree as the load goes to zero, and differ by a part in
