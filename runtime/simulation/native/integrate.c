@@ -408,7 +408,7 @@ static void add_statistics(worker *w)
     }
     if (w->runge_kutta) {
         ARKodeGetNumSteps(w->solver, &steps);
-        ERKStepGetNumRhsEvals(w->solver, &evaluations);
+        ARKodeGetNumRhsEvals(w->solver, 0, &evaluations);
         ARKodeGetNumErrTestFails(w->solver, &failures);
     } else {
         CVodeGetNumSteps(w->solver, &steps);

@@ -35,6 +35,11 @@
 #define ARKodeSVtolerances ERKStepSVtolerances
 #endif
 
+/* Evaluations are counted for each part of the right-hand side since 7.2. */
+#if SUNDIALS_VERSION_MAJOR < 7 || (SUNDIALS_VERSION_MAJOR == 7 && SUNDIALS_VERSION_MINOR < 2)
+#define ARKodeGetNumRhsEvals(solver, part, count) ERKStepGetNumRhsEvals(solver, count)
+#endif
+
 /* Errors are told by return codes alone: each solver was silenced before 7.0, and the context since. */
 #if SUNDIALS_VERSION_MAJOR < 7
 
