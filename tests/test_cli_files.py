@@ -43,6 +43,7 @@ WRITING = {
     "simulate": (["simulate", CAR, "-o", "a.parquet"], "a.parquet"),
     "simulate --loads": (["simulate", CAR, "--loads", "a.csv"], "a.csv"),
     "loads": (["loads", CAR, "-o", "a.nc"], "a.nc"),
+    "loads of an axle": (["loads", "reference_axle", "-o", "a.csv"], "a.csv"),
     "loads --plot": (["loads", CAR, "--case", "brake", "--plot", "a.png"], "a_brake.png"),
     "compliance": (["compliance", CAR, str(STUDIES / "bushes.toml"), "--plot", "a.svg"], "a.svg"),
     "deflection": (["deflection", CAR, str(STUDIES / "bushes.toml"), "--plot", "a.svg"], "a.svg"),

@@ -150,6 +150,8 @@ class Ride(NamedTuple):
         Takes the model, a scenario and options of `kintrafo.simulate`.
     curves : sequence of str
         What stands in the table and on the page, in this order.
+    loads : callable
+        Takes the model and the result, and returns the loads on every part.
     drawn : callable
         Takes the motion, and returns it as it is drawn.
     wheels : sequence of str
@@ -159,12 +161,14 @@ class Ride(NamedTuple):
     model: Any
     run: Callable[..., tuple["Simulation", "Dataset"]]
     curves: Sequence[str]
+    loads: Callable[[Any, "Simulation"], "Dataset"]
     drawn: Callable[["Dataset"], "Dataset"] = lambda motion: motion
     wheels: Sequence[str] = ("",)
 
 
 def ride(file: str, wheels: str, *, wheel_loads: bool) -> Ride:
     """Return an axle to be simulated over a road under one wheel or both."""
+    from ..study import axles
     from ..study.axles import ride as study
     from ..suspension.axle import Axle
     from ..suspension.axle.equations import AxleModel
@@ -180,4 +184,4 @@ def ride(file: str, wheels: str, *, wheel_loads: bool) -> Ride:
     of_wheels = [f"{side}_{stem}" for stem in stems for side in ("left", "right")]
     curves = ("rack_position", *of_wheels, "bar_angle", "bar_spring_moment")
     played = partial(study.run, wheels=wheels)
-    return Ride(model, played, curves, study.by_side, ("left_", "right_"))
+    return Ride(model, played, curves, axles.loads_along, study.by_side, wheels=("left_", "right_"))

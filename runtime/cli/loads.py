@@ -1,25 +1,30 @@
 """``kintrafo loads``: the forces on every part in load cases."""
 
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.markup import escape
 from rich.table import Table
 
 from ..core.tabulated import whole
+from .axles import is_axle
 from .console import console, print_json, print_table, say
 from .exits import Exit
 from .options import File, Force, Json, among, load
 from .outputs import Out, Outputs, name_files
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
     from xarray import Dataset
 
 EXAMPLES = (
     "kintrafo loads reference_car",
     "kintrafo loads my_car.toml --cases cases.toml -o loads.csv",
     "kintrafo loads my_car.toml --case brake --part knuckle --plot knuckle.pdf",
+    "kintrafo loads reference_axle --case corner",
 )
 
 
@@ -37,7 +42,9 @@ def command(
     part: Annotated[
         list[str] | None,
         typer.Option(
-            metavar="NAME", help="Show loads on these parts: knuckle, chassis. May be repeated."
+            metavar="NAME",
+            help="Show loads on these parts: knuckle, chassis, knuckle_left of an axle. "
+            "May be repeated.",
         ),
     ] = None,
     envelope: Annotated[
@@ -60,6 +67,7 @@ def command(
 ) -> None:
     """Tell forces and moments on every part at its hardpoints, in load cases at rest.
 
+    Of an axle both sides are told, with the anti-roll bar and the rack between them.
     The table has the size of each force; --case shows components. Data files have everything. The
     exit code is 1 where a case cannot be carried.
     """
@@ -68,14 +76,14 @@ def command(
     from ..study.loads.sheets import overview
 
     inputs: list[str | Path] = [file, *([] if cases is None else [cases])]
-    model = load(file)
+    carried, usual = subject(file)
     described = {} if cases is None else study.read(cases)
-    named = described.get("cases", study.standard_cases(model.suspension.vehicle.sign))
+    named = described.get("cases", usual)
     shown = among(case, [*named], "--case") if case else None
     suffixes = [f"_{name}" for name in shown or named]
     outputs = Outputs.of(out, None, force=force, inputs=inputs)
     pages = Outputs.of(None, plot, force=force, inputs=inputs, suffixes=suffixes)
-    found = study.static(model, named, static_load=described.get("static_load_N"))
+    found = carried(named, static_load=described.get("static_load_N"))
     parts = among(part, [*dict.fromkeys(found["part"].values)], "--part") if part else None
     written = outputs.write_data(found, rows=study.table(found))
     if pages.pages:
@@ -99,6 +107,18 @@ def command(
         name_files(written)
     if found["reason"].values.any():
         raise typer.Exit(Exit.REFUSED)
+
+
+def subject(file: str) -> "tuple[Callable[..., Dataset], Mapping[str, Any]]":
+    """Return what finds the loads of a suspension or an axle, and its usual cases."""
+    from ..study import axles, loads
+    from ..suspension.axle import Axle
+
+    if is_axle(file):
+        return partial(axles.static_loads, Axle.load(file)), axles.standard_cases()
+    model = load(file)
+    usual = loads.standard_cases(model.suspension.vehicle.sign)
+    return partial(loads.static, model), usual
 
 
 def _tell(found: "Dataset") -> None:

@@ -7,6 +7,7 @@ import typer
 
 from . import axles
 from .console import problems, say
+from .loads import subject
 from .options import File, Force, load
 
 if TYPE_CHECKING:
@@ -54,11 +55,11 @@ def command(
     inputs: list[str | Path] = [file, *(read for read in (cases, bushes) if read is not None)]
     refuse([target], force=force, inputs=inputs, endings=ENDINGS)
     model, title, axle = _subject(file, title)
-    note, without = _of_one_side(axle)
+    without = _of_one_side(axle)
     with problems.status("report") as status:
         from ..report import write
 
-        chapters = [*_of_axle(axle), *_of_loads(model, cases, note, wanted=loads)]
+        chapters = [*_of_axle(axle), *_of_loads(file, cases, wanted=loads)]
         chapters += _of_bushes(model, bushes, axle)
         written = write(
             model,
@@ -85,17 +86,15 @@ def _subject(file: str, title: str | None) -> "tuple[Model, str | None, Axle | N
     return axle.models[axle.bar_side], title or heading, axle
 
 
-def _of_one_side(axle: "Axle | None") -> tuple[str, frozenset[str]]:
-    """Return what chapters say of the side that they are about, and what its page leaves out."""
+def _of_one_side(axle: "Axle | None") -> frozenset[str]:
+    """Return what the page of one side of an axle leaves out."""
     if axle is None:
-        return "", frozenset()
+        return frozenset()
     from ..study.characteristics.catalogue import AXLE
 
-    note = f"Of the {axle.bar_side} side by itself"
-    note += ", without the anti-roll bar." if axle.bar is not None else "."
     # what both wheels decide: the page knows but one side, and takes the other for its image
     without = frozenset() if axle.symmetric else frozenset(AXLE)
-    return note, without if axle.end == "front" else frozenset(AXLE) | {"anti_dive"}
+    return without if axle.end == "front" else frozenset(AXLE) | {"anti_dive"}
 
 
 def _of_axle(axle: "Axle | None") -> "list[Chapter]":
@@ -104,16 +103,16 @@ def _of_axle(axle: "Axle | None") -> "list[Chapter]":
     return [] if axle is None else [axle_chapter(axle)]
 
 
-def _of_loads(model: "Model", cases: Path | None, note: str, *, wanted: bool) -> "list[Chapter]":
+def _of_loads(file: str, cases: Path | None, *, wanted: bool) -> "list[Chapter]":
     from ..report import loads_chapter
     from ..study import loads as study
 
     if cases is None and not wanted:
         return []
     described = {} if cases is None else study.read(cases)
-    named = described.get("cases", study.standard_cases(model.suspension.vehicle.sign))
+    carried, usual = subject(file)
     load_at_rest = described.get("static_load_N")
-    return [loads_chapter(study.static(model, named, static_load=load_at_rest), note=note)]
+    return [loads_chapter(carried(described.get("cases", usual), static_load=load_at_rest))]
 
 
 def _of_bushes(model: "Model", bushes: Path | None, axle: "Axle | None") -> "list[Chapter]":

@@ -135,7 +135,7 @@ def command(
         output_step=output_step,
     )
     on_wheels = not UNITS.keys().isdisjoint(scenario.inputs)
-    of_one = {"--height": height, "--loads": loads}
+    of_one = {"--height": height}
     ride = _ride(file, wheels, of_one, wheel_loads=on_wheels)
     if isinstance(ride.model, Model) and ride.model.free_rack:
         _tell_of_the_free_rack(file, scenario.inputs)
@@ -151,7 +151,7 @@ def command(
     if loads:
         from ..study import loads as study
 
-        found = study.along(ride.model, result)
+        found = ride.loads(ride.model, result)
         written += on_parts.write_data(found, rows=study.table(found))
     left = result.validity
     if json:
@@ -175,10 +175,11 @@ def _ride(
     if axles.is_axle(file):
         axles.refuse_options("the file of one suspension", of_one)
         return axles.ride(file, wheels or "both", wheel_loads=wheel_loads)
+    from ..study.loads import along
     from ..study.scenario import run
 
     axles.refuse_options("the file of an axle", {"--wheels": wheels})
-    return axles.Ride(load(file, wheel_loads=wheel_loads), run, _DRAWN)
+    return axles.Ride(load(file, wheel_loads=wheel_loads), run, _DRAWN, along)
 
 
 def _tell_of_the_free_rack(file: str, inputs: dict[str, Any]) -> None:

@@ -1,6 +1,7 @@
 """Free bodies: every part of a suspension with the forces on it."""
 
 from collections.abc import Sequence
+from itertools import chain, product
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
 from ..core.files import Paths
-from ..suspension.structure import GROUND
+from ..study.loads.sheets import without_side
 from .curves import check_formats
 from .figures import BLUE, ORANGE, STYLE, save, written_plainly
 
@@ -74,17 +75,28 @@ def free_bodies(
 ) -> Figure:
     """Draw the moving parts of a suspension with the forces on them; see `write_free_bodies`."""
     here = dataset.sel(case=case)
-    known = dict.fromkeys(str(part) for part in here["part"].values)
-    shown = parts or [part for part in known if part not in GROUND]
-    figure = Figure(figsize=(7.4, 0.6 + 2.5 * len(shown)), layout="constrained")
-    grid = figure.subplots(len(shown), len(_VIEWS), squeeze=False)
-    for row, part in zip(grid, shown, strict=True):
-        chosen = here.isel(load=(here["part"] == part).values)
-        for axes, view in zip(row, _VIEWS, strict=True):
-            _draw(axes, chosen, view)
-            axes.set_title(f"{part.replace('_', ' ')}, {view}", fontsize=9.5)
+    shown = parts or [str(part) for part in here["moving_part"].values]
+    # both sides of an axle stand beside each other, so that its page is not twice as long
+    beside = 1 if len({without_side(part) for part in shown}) == len(shown) else 2
+    rows = _rows(shown, beside)
+    figure = Figure(figsize=(7.4 * beside, 0.6 + 2.5 * len(rows)), layout="constrained")
+    grid = figure.subplots(len(rows), len(_VIEWS) * beside, squeeze=False)
+    for axes, (part, view) in zip(grid.flat, product(chain(*rows), _VIEWS), strict=True):
+        if not part:
+            axes.set_axis_off()
+            continue
+        _draw(axes, here.isel(load=(here["part"] == part).values), view)
+        axes.set_title(f"{part.replace('_', ' ')}, {view}", fontsize=9.5)
     figure.suptitle(title, fontsize=11)
     return written_plainly(figure)
+
+
+def _rows(parts: Sequence[str], beside: int) -> list[list[str]]:
+    """Return which parts stand in each row: of an axle both of a name, then nothing."""
+    rows: dict[str, list[str]] = {}
+    for part in parts:
+        rows.setdefault(without_side(part), []).append(part)
+    return [row + [""] * (beside - len(row)) for row in rows.values()]
 
 
 def _draw(axes: Axes, loads: xr.Dataset, view: str) -> None:
@@ -103,7 +115,7 @@ def _draw(axes: Axes, loads: xr.Dataset, view: str) -> None:
     strong = sizes > _SMALL * sizes.max()
     for i in np.flatnonzero(strong | (couples > _SMALL_MOMENT)):
         place, push, by = places[i], forces[i], loads["by"].values[i]
-        colour = ORANGE if by in ("road", "drive", "gravity") else BLUE
+        colour = ORANGE if without_side(by) in ("road", "drive", "gravity") else BLUE
         tail = place - scale * push
         style: dict[str, Any] = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.4}
         axes.annotate("", xy=(place[0], place[1]), xytext=(tail[0], tail[1]), arrowprops=style)

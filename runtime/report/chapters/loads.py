@@ -10,15 +10,13 @@ from ...study.loads.sheets import overview
 from .chapter import Chapter, Picture
 
 
-def loads_chapter(found: xr.Dataset, *, note: str = "") -> Chapter:
+def loads_chapter(found: xr.Dataset) -> Chapter:
     """Return load cases with a picture of the free bodies for each.
 
     Parameters
     ----------
     found : xarray.Dataset
-        From `kintrafo.loads.static`.
-    note : str, optional
-        The first paragraph: of which side of an axle the loads are.
+        From `kintrafo.loads.static`, or `kintrafo.axles.static_loads`.
 
     Returns
     -------
@@ -31,7 +29,6 @@ def loads_chapter(found: xr.Dataset, *, note: str = "") -> Chapter:
         for case, reason in zip(found["case"].values, found["reason"].values, strict=True)
     }
     words = ["; ".join(filter(None, (found.attrs["message"], found.attrs["rules"]))) + "."]
-    words = [note, *words] if note else words
     words += [f"{case}: {reason}" for case, reason in reasons.items() if reason]
     pictures = []
     for case in (case for case, reason in reasons.items() if not reason):

@@ -8,15 +8,23 @@
     `datasets`   the labelled arrays
     `compare`    several axles over one motion
     `compliance` how both wheels give way together
+    `loads`      what every part carries in load cases
+    `along`      the same along a motion
+    `cases`      load cases of both wheels
+    `standing`   where both wheels stand, the bar between them
+    `between`    what both sides load: bar, drop links, rack
     `checkup`    a first look
     `ride`       at rest and over a road, by the equations of the whole axle
 
 What a single wheel does is in `kintrafo.characteristics`. Definitions and signs: docs/axles.md.
 """
 
+from .along import loads_along
+from .cases import standard_cases
 from .compare import compare, over
 from .compliance import compliance
 from .datasets import bump, by_side, roll, single, steer
+from .loads import static_loads
 from .motions import MOTIONS, Extent
 
 __all__ = [
@@ -26,8 +34,11 @@ __all__ = [
     "by_side",
     "compare",
     "compliance",
+    "loads_along",
     "over",
     "roll",
     "single",
+    "standard_cases",
+    "static_loads",
     "steer",
 ]

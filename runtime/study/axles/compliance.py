@@ -13,7 +13,6 @@ from ...core.quantities import variable
 from ...suspension.axle import Axle
 from ...suspension.axle.axle import LEFT, RIGHT
 from ...suspension.corner import Array
-from ...suspension.points import carried
 from ...suspension.positions import arm_angles, design_height
 from ...suspension.reach import at_rest
 from ..characteristics.datasets import TRAVEL
@@ -22,11 +21,9 @@ from ..loads.bushes import RACK, Bush, bushes_of, left_out, refuse_rigid, softne
 from ..loads.compliance import LOADED, MOVED, RIG_LOADS, RigLoad, load_at_contact, told
 from ..loads.flexibility import HELD, Held, Wheel, flexibility
 from ..loads.poses import Poses
-from ..loads.reactions import Load
 from . import motions
+from .between import SIDES, pull_of_bar
 from .motions import Extent
-
-SIDES = (LEFT, RIGHT)
 
 
 @dataclass(frozen=True)
@@ -171,20 +168,8 @@ def _wheel(axle: Axle, side: str, travels: Array, rack: float, bushes: list[Bush
     model = axle.models[side]
     angles = arm_angles(model, design_height(model) + travels, rack)
     poses = Poses.of(model, *at_rest(model, angles, rack))
-    return Wheel(poses, corner(model, angles, rack), bushes, _unit_of_bar(axle, side, poses))
-
-
-def _unit_of_bar(axle: Axle, side: str, poses: Poses) -> Load | None:
-    """Return what a unit torque of the bar does on a side: against more twist of it."""
-    if side not in axle.halves:
-        return None
-    half = axle.halves[side]
-    places = {"foot": (half.body, half.foot)}
-    foot = carried(poses.model, places, poses.states, poses.inputs)["foot"]
-    direction, lever = half.lever(foot, half.turn(foot))
-    sense = {LEFT: -1.0, RIGHT: 1.0}[side]
-    force = sense * direction / lever[:, None]
-    return Load(half.body, "link_foot", "bar", force, np.zeros(3), foot)
+    bar = pull_of_bar(axle, side, poses) if axle.halves else None
+    return Wheel(poses, corner(model, angles, rack), bushes, bar)
 
 
 def _dataset(wheels: list[Wheel], flexible: Array, travels: Array, held: Held) -> xr.Dataset:

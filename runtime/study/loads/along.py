@@ -1,5 +1,8 @@
 """The loads on every part of a suspension that moves: Newton and Euler along a simulation."""
 
+from collections.abc import Callable, Mapping
+from functools import partial
+
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
@@ -9,9 +12,9 @@ from ...core.quantities import variable
 from ...simulation.result import Simulation
 from ...suspension.model import Model
 from ...systems.inputs import rates_of
-from ..characteristics.wheel import upward_across
+from ...systems.system import System
 from ..recording import TIME
-from .dataset import dataset_of
+from .dataset import Between, alone, dataset_of, joined
 from .poses import CENTER, CONTACT, Poses
 from .reactions import Equations, Load, known
 
@@ -67,21 +70,26 @@ def along(model: Model, result: Simulation) -> xr.Dataset:
     with Arguments("along") as given:
         given.kind("model", model, Model, Model.NEEDED)
         given.kind("result", result, Simulation, "what kintrafo.simulate returns is needed")
-        if not given.refused and not _is_motion_of(model, result):
+        if not given.refused and not is_motion_of(model, result):
             given.refuse(f"result: it is not a motion of this model, {model!r}.")
+    found = over_time(partial(in_motion, model), result)
+    return found.assign_attrs(rules="; ".join(model.suspension.structure().rules))
+
+
+def over_time(find: Callable[[Array, Array], xr.Dataset], result: Simulation) -> xr.Dataset:
+    """Return the loads of a motion, from what finds those in some states with their inputs."""
     size = result.t.size
     found = [
-        in_motion(model, result.y.T[rows], result.inputs[rows])
+        find(result.y.T[rows], result.inputs[rows])
         for begin in range(0, size, _TOGETHER)
         for rows in [slice(begin, min(begin + _TOGETHER, size))]
     ]
     time = variable(TIME, result.t, "time", "s")
     dataset = xr.concat(found, TIME, data_vars="minimal").assign_coords({TIME: time})
-    rules = "; ".join(model.suspension.structure().rules)
-    return dataset.assign_attrs(title="loads along a motion", rules=rules)
+    return dataset.assign_attrs(title="loads along a motion")
 
 
-def _is_motion_of(model: Model, result: Simulation) -> bool:
+def is_motion_of(model: System, result: Simulation) -> bool:
     """Tell whether a result has the signals that the model has in its states."""
     if tuple(result.signals) != model.signal_names:
         return False
@@ -95,21 +103,44 @@ def _is_motion_of(model: Model, result: Simulation) -> bool:
 def in_motion(model: Model, states: Array, inputs: Array) -> xr.Dataset:
     """Return the loads in some states, of shape (n, states), as over time."""
     poses = Poses.of(model, states, inputs)
-    equations = Equations(poses)
-    acting = [*known(poses), _road(poses), *_on_the_wheel(poses), *_inertia(poses, equations.parts)]
-    unknowns = equations.solve(equations.applied(acting))
-    found = dataset_of(poses, TIME, equations.carried(unknowns) + acting)
+    return moving_loads({"": poses}, {"": model.evaluate("rhs", states, inputs)}, {"": []})
+
+
+def moving_loads(
+    poses: Mapping[str, Poses],
+    rates: Mapping[str, Array],
+    pulled: Mapping[str, list[Load]],
+    between: Between = alone,
+) -> xr.Dataset:
+    """Return the loads in a motion, of one suspension or of both of an axle.
+
+    Parameters
+    ----------
+    poses : mapping of str to Poses
+        By what goes behind their names: nothing for one suspension.
+    rates : mapping of str to ndarray
+        Rates of the states.
+    pulled : mapping of str to list of Load
+        What pulls at its parts besides.
+    between : callable, optional
+        See `joined`.
+    """
+    loads, holding = {}, {}
+    for suffix, own in poses.items():
+        equations = Equations(own)
+        acting = [*known(own), *pulled[suffix], _road(own), *_on_the_wheel(own)]
+        acting += _inertia(own, equations.parts, rates[suffix])
+        unknowns = equations.solve(equations.applied(acting))
+        loads[suffix] = [*equations.carried(unknowns), *acting]
+        holding[f"holding_force{suffix}"] = unknowns[:, -1]
     meaning = "vertical force at the wheel that the motion would need besides"
-    found["holding_force"] = variable(TIME, unknowns[:, -1], meaning, "N")
-    return found
+    told = {name: variable(TIME, values, meaning, "N") for name, values in holding.items()}
+    return dataset_of(TIME, *joined(poses, loads, between)).assign(told)
 
 
 def _road(poses: Poses) -> Load:
     """Return the force of the tyre, which acts in the plane of the wheel through its centre."""
-    model = poses.model
-    force = model.signal("tyre_force", poses.states, poses.inputs)
-    push = force[:, None] * upward_across(poses.axis)
-    return Load("wheel", CENTER, "road", push, np.zeros(3), poses.points[CENTER])
+    return Load("wheel", CENTER, "road", poses.push_of_tyre(), np.zeros(3), poses.points[CENTER])
 
 
 def _on_the_wheel(poses: Poses) -> list[Load]:
@@ -132,11 +163,11 @@ def _on_the_wheel(poses: Poses) -> list[Load]:
     ]
 
 
-def _inertia(poses: Poses, parts: tuple[str, ...]) -> list[Load]:
+def _inertia(poses: Poses, parts: tuple[str, ...], by_time: Array) -> list[Load]:
     """Return what the acceleration of each part takes, as loads."""
     model = poses.model
     twists = model.evaluate("velocities", poses.states, poses.inputs)
-    rates = _rates_of_twists(model, poses.states, poses.inputs)
+    rates = _rates_of_twists(model, poses.states, poses.inputs, by_time)
     loads = []
     for part in parts:
         mass = model.parameters[f"{part}_mass"]
@@ -167,9 +198,8 @@ def _inertia_at_design(poses: Poses, part: str) -> Array:
     return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 
 
-def _rates_of_twists(model: Model, states: Array, inputs: Array) -> Array:
+def _rates_of_twists(model: Model, states: Array, inputs: Array, by_time: Array) -> Array:
     """Return the rates of the parts' angular and linear velocities along the motion."""
-    by_time = model.evaluate("rhs", states, inputs)
     inputs_by_time = np.zeros_like(inputs)
     if not model.free_rack:
         names = ("rack_position", *rates_of("rack_position", model.equations.INPUTS))

@@ -81,7 +81,9 @@ def read(path: str | Path) -> dict[str, Any]:
     return read_sections(path, _SECTIONS, needed="cases.NAME")
 
 
-def cases_of(given: Arguments, described: Mapping[str, Any], static_load: float) -> list[Case]:
+def cases_of(
+    given: Arguments, described: Mapping[str, Any], static_load: float, *, of: str = ""
+) -> list[Case]:
     """Read load cases by their names.
 
     Parameters
@@ -92,10 +94,12 @@ def cases_of(given: Arguments, described: Mapping[str, Any], static_load: float)
         By name, each with keys of `docs/loads.md`.
     static_load : float
         Of the wheel, in parts of which forces may be given [N].
+    of : str, optional
+        Of which side of an axle they are.
     """
     cases = []
     for name, table in described.items():
-        title = f"[cases.{name}]"
+        title = f"[cases.{name}]{of and ' '}{of}"
         if not (isinstance(name, str) and re.fullmatch(r"[\w.-]+", name)):
             given.refuse(f"{title}: a name is a text of letters, digits, and _ - . only.")
         if not isinstance(table, Mapping):

@@ -1,6 +1,7 @@
 """Loads on parts as a dataset, and the extremes of them."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 import xarray as xr
@@ -20,25 +21,83 @@ CASE, LOAD, AXIS, PART = "case", "load", "axis", "part"
 _NEEDED = "what kintrafo.loads.static or along returns is needed"
 
 
-def dataset_of(poses: Poses, over: str, loads: Sequence[Load]) -> xr.Dataset:
+@dataclass(frozen=True)
+class Place:
+    """Where a part in equilibrium is, in n positions.
+
+    Attributes
+    ----------
+    center : ndarray, shape (n, 3)
+        About which its moments are summed [m].
+    turned : ndarray, shape (n, 3, 3)
+        Its rotation from design.
+    """
+
+    center: Array
+    turned: Array
+
+
+Between = Callable[[Mapping[str, Poses], list[Load]], tuple[list[Load], dict[str, Place]]]
+"""Takes poses by suffix and loads, and returns all loads with those between the sides, and the
+parts in equilibrium that are of neither."""
+
+
+def alone(_poses: Mapping[str, Poses], loads: list[Load]) -> tuple[list[Load], dict[str, Place]]:
+    """Return the loads of one suspension, which shares nothing."""
+    return loads, {}
+
+
+def joined(
+    poses: Mapping[str, Poses], loads: Mapping[str, Sequence[Load]], between: Between = alone
+) -> tuple[list[Load], dict[str, Place]]:
+    """Return the loads of one suspension, or of both of an axle and what is between them.
+
+    Parameters
+    ----------
+    poses, loads : mapping
+        By what goes behind the names of a side.
+    between : callable, optional
+    """
+    every = [_of_side(load, suffix) for suffix, own in loads.items() for load in own]
+    places = {
+        f"{part}{suffix}": Place(side.centers[part], side.turned[part])
+        for suffix, side in poses.items()
+        for part in side.model.suspension.structure().parts
+    }
+    every, shared = between(poses, every)
+    return every, places | shared
+
+
+def _of_side(load: Load, suffix: str) -> Load:
+    """Return a load whose names say of which side it is; what there is once has none."""
+    return replace(
+        load,
+        part=load.part if load.part in GROUND else load.part + suffix,
+        point=load.point if load.point == "mass" else load.point + suffix,
+        by=load.by if load.by in (*GROUND, "gravity", "inertia") else load.by + suffix,
+    )
+
+
+def dataset_of(over: str, loads: Sequence[Load], places: Mapping[str, Place]) -> xr.Dataset:
     """Return loads over the positions.
 
     Parameters
     ----------
-    poses : Poses
     over : str
         Dimension of the positions.
     loads : sequence of Load
         All that there are.
+    places : mapping
+        The parts that are in equilibrium.
     """
-    count = len(poses.states)
+    count = max(len(place.center) for place in places.values())
     fields = {
         name: _stacked([getattr(load, name) for load in loads], count)
         for name in ("force", "moment", "at")
     }
     still = np.broadcast_to(np.eye(3), (count, 3, 3))
     turned = np.stack(
-        [still if load.part in GROUND else poses.turned[load.part] for load in loads], axis=1
+        [places[load.part].turned if load.part in places else still for load in loads], axis=1
     )
     dims = (over, LOAD, AXIS)
     data = {
@@ -51,8 +110,8 @@ def dataset_of(poses: Poses, over: str, loads: Sequence[Load]) -> xr.Dataset:
         meaning = f"{name} on the part, in the axes that the part had at design"
         data[f"{name}_in_part"] = variable(dims, inside, meaning, data[name].attrs["units"])
     parts = [load.part for load in loads]
-    moving = list(dict.fromkeys(part for part in parts if part not in GROUND))
-    left = [_sum(fields, [p == part for p in parts], poses.centers[part]) for part in moving]
+    moving = list(dict.fromkeys(part for part in parts if part in places))
+    left = [_sum(fields, [p == part for p in parts], places[part].center) for part in moving]
     for name, unit, sums in zip(
         ("", "_moment"), ("N", "N m"), zip(*left, strict=True), strict=True
     ):

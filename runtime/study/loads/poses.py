@@ -9,7 +9,7 @@ from ...suspension.corner import UP
 from ...suspension.model import Model
 from ...suspension.points import hardpoints
 from ..characteristics.from_model import design_axis, vehicle
-from ..characteristics.wheel import lowest_point
+from ..characteristics.wheel import lowest_point, upward_across
 
 Array = NDArray[np.float64]
 
@@ -84,6 +84,12 @@ class Poses:
             line.name: sum((values[name] for name in line.signals if name in values), nothing)
             for line in self.model.suspension.structure().lines
         }
+
+    def push_of_tyre(self) -> Array:
+        """Return the force of the tyre, in the plane of the wheel, (n, 3) [N]."""
+        force = self.model.signal("tyre_force", self.states, self.inputs)
+        push: Array = force[:, None] * upward_across(self.axis)
+        return push
 
     def wheel_axes(self) -> Array:
         """Return the axes of the wheel on the road as rows, (n, 3, 3): forward, left, up.

@@ -12,8 +12,17 @@ from ...core.tabulated import Tabulated, significant, whole
 _IN_TABLES = ("toe", "toe_change", "camber", "camber_change", "displacement", "wheel_rate")
 _BESIDE = {"elastokinematic": "on bushes", "linear": "linear"}
 
-ACTING = ("spring", "damper", "road", "drive")
-"""What acts by itself, not between parts at a joint."""
+_ACTING = ("spring", "damper", "road", "drive", "steering")
+
+
+def acts(by: str) -> bool:
+    """Tell whether something acts by itself, not between parts at a joint."""
+    return without_side(by) in _ACTING
+
+
+def without_side(name: str) -> str:
+    """Return a name of an axle without its side."""
+    return name.removesuffix("_left").removesuffix("_right")
 
 
 def overview(found: xr.Dataset, title: str, parts: Sequence[str] = ()) -> Tabulated:
@@ -27,17 +36,31 @@ def overview(found: xr.Dataset, title: str, parts: Sequence[str] = ()) -> Tabula
     parts : sequence of str, optional
         Loads on these parts, with all that act on them; by default each joint once.
     """
-    travels = (f"{1e3 * travel:.1f}".replace("-0.0", "0.0") for travel in found["travel"].values)
     rows = [
-        ("wheel load", *(whole(float(load)) for load in found["wheel_load"].values)),
-        ("wheel travel [mm]", *(text.replace("nan", "-") for text in travels)),
+        (_words(n), *(whole(float(load)) for load in found[n].values))
+        for n in _named(found, "wheel_load")
     ]
+    for name in _named(found, "travel"):
+        travels = (f"{1e3 * travel:.1f}" for travel in found[name].values)
+        texts = (text.replace("-0.0", "0.0").replace("nan", "-") for text in travels)
+        rows.append((f"wheel {_words(name)} [mm]", *texts))
+    if "bar_torque" in found:
+        rows.append(("bar torque [N m]", *(whole(float(m)) for m in found["bar_torque"].values)))
     sizes = np.linalg.norm(found["force"].values, axis=-1)
     for i in shown_rows(found, parts):
         point, by = str(found["point"].values[i]), str(found["by"].values[i])
-        name = by if by in ACTING else point
+        name = by if acts(by) else point
         rows.append((name, *(whole(float(size)) for size in sizes[:, i])))
     return Tabulated(title, ("at", *map(str, found["case"].values)), tuple(rows))
+
+
+def _named(found: xr.Dataset, stem: str) -> list[str]:
+    """Return what there is of a wheel, or of both of an axle."""
+    return [name for name in map(str, found) if without_side(name) == stem]
+
+
+def _words(name: str) -> str:
+    return name.replace("_", " ")
 
 
 def shown_rows(found: xr.Dataset, parts: Sequence[str] = ()) -> list[int]:
@@ -52,7 +75,7 @@ def shown_rows(found: xr.Dataset, parts: Sequence[str] = ()) -> list[int]:
     for i, (name, point, by) in enumerate(
         zip(given, found["point"].values, found["by"].values, strict=True)
     ):
-        pair = frozenset((by,) if by in ACTING else (f"{name} {point}", f"{by} {point}"))
+        pair = frozenset((by,) if acts(by) else (f"{name} {point}", f"{by} {point}"))
         if strong[i] and pair not in seen and by != "gravity":
             rows.append(i)
             seen.add(pair)

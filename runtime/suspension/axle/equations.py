@@ -1,7 +1,7 @@
 """The equations of motion of an axle, derived and compiled when they are first needed."""
 
 from collections.abc import Callable
-from functools import partial
+from functools import cached_property, partial
 from typing import Any
 
 from ...core.arguments import Arguments
@@ -9,6 +9,7 @@ from ...core.errors import InputError
 from ...systems.compile.build import compile_mechanism, require_generator
 from ...systems.system import System
 from ..input.vectors import components
+from ..model import Model
 from .axle import LEFT, RIGHT, Axle
 
 
@@ -67,6 +68,13 @@ class AxleModel(System):
         known = {name: values[name] for name in values if name in equations.PARAMETERS}
         super().__init__(equations, known)
         self.axle, self.wheel_loads = axle, wheel_loads
+
+    @cached_property
+    def corners(self) -> dict[str, Model]:
+        """The equations of each side by itself, with the same loads on its wheel."""
+        if not self.wheel_loads:
+            return self.axle.models
+        return {side: Model(own, wheel_loads=True) for side, own in self.axle.sides.items()}
 
     def __reduce__(self) -> tuple[Any, ...]:
         return partial(AxleModel, wheel_loads=self.wheel_loads), (self.axle,)

@@ -347,6 +347,18 @@ CALLS = {
         ),
         _BAR | {"free_twist_deg": 1.0},
     ),
+    "axles.static_loads": (
+        axles.static_loads,
+        {"axle": _AXLE, "cases": {"a": {"contact_g": [0.0, 0.0, 1.0]}}, "static_load": 3000.0},
+    ),
+    "load case of an axle": (
+        lambda **given: axles.static_loads(_AXLE, {"a": given}),
+        {
+            "rack_mm": 10.0, "contact_N": [0.0, 100.0, 3000.0],
+            "left": {"contact_Nm": [10.0, 0.0, 0.0]}, "right": {"center_N": [1.0, 0.0, 0.0]},
+        },
+    ),
+    "axles.loads_along": (axles.loads_along, {"model": None, "result": _RESULT}),
     "axles.compliance": (
         axles.compliance,
         {
