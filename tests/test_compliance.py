@@ -1,11 +1,14 @@
 """Compliance: the unit-load theorem against stiffnesses in maximal coordinates."""
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import InputError, Model, Suspension, characteristics, loads
+from kintrafo import Axle, InputError, Model, Suspension, axles, characteristics, loads
+from kintrafo.suspension.toml_writer import write_toml
 from soft_suspensions import BUSHES_OF, LINKED, STRUT, WISHBONES, Stiffness, Z
+from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 
 @pytest.mark.parametrize(
@@ -155,3 +158,91 @@ def test_without_a_spring_nothing_holds_the_wheel() -> None:
     loose = Suspension.load("reference_car").with_changes({"strut.spring_rate_N_per_m": 0.0})
     with pytest.raises(InputError, match="nothing holds it"):
         loads.compliance(Model(loose), {"arm_rear": {"radial_N_per_mm": 1e3}}, [0.0])
+
+
+# -- bushes of the hardpoint file ---------------------------------------------------------------
+
+OF_THE_FILE: dict[str, Any] = {
+    "arm_rear": {"axial_N_per_mm": 500, "radial_N_per_mm": [2000.0, 900.0], "axis": [0.1, 0.9, 0]},
+    "strut_top": {"axial_N_per_mm": 900.0, "radial_curve": {"mm": [0, 1, 2], "N": [0, 500, 1500]}},
+    "rack": {"axial_N_per_mm": 5000.0},
+}
+WITH_BUSHES = Suspension.load("reference_car").with_changes({"bushings": OF_THE_FILE})
+
+
+def test_bushes_of_the_file_are_those_that_are_given() -> None:
+    plain, soft = Model("reference_car"), Model(WITH_BUSHES)
+    assert loads.compliance(soft, None, [0.0]).equals(loads.compliance(plain, OF_THE_FILE, [0.0]))
+    other = {"arm_rear": {"axial_N_per_mm": 100.0}}
+    assert loads.compliance(soft, other, [0.0]).equals(loads.compliance(plain, other, [0.0]))
+    one, same = (
+        loads.deflection(model, bushes, "lateral", [1000.0])
+        for model, bushes in ((soft, None), (plain, OF_THE_FILE))
+    )
+    assert one.equals(same)
+    assert loads.elastokinematics(soft, travel=[0.0]).equals(
+        loads.elastokinematics(plain, OF_THE_FILE, [0.0])
+    )
+    with pytest.raises(InputError, match="none are given, and the hardpoint file has none"):
+        loads.compliance(plain)
+
+
+def test_bushes_are_written_and_mirrored(tmp_path: Path) -> None:
+    path = write_toml(WITH_BUSHES, tmp_path / "soft.toml")
+    assert Suspension.load(path) == WITH_BUSHES
+    image = WITH_BUSHES.mirrored()
+    assert image.bushings is not None
+    assert image.bushings["arm_rear"]["axis"] == [0.1, -0.9, 0.0]
+    assert image.mirrored() == WITH_BUSHES
+    here, there = (loads.compliance(Model(side), None, [0.0]) for side in (WITH_BUSHES, image))
+    for name in ("toe_by_lateral", "camber_by_braking", "displacement_by_lateral"):
+        np.testing.assert_allclose(here[name], there[name], rtol=1e-9)
+    assert WITH_BUSHES.with_changes({"bushings.arm_rear": None}).bushings.keys() == {
+        "strut_top",
+        "rack",
+    }
+
+
+def test_each_side_of_an_axle_has_its_own_bushes() -> None:
+    other = WITH_BUSHES.mirrored().with_changes({"bushings.arm_rear.axial_N_per_mm": 5000.0})
+    even = Axle.from_dict({"axle": "front", "side": WITH_BUSHES})
+    odd = Axle.from_dict({"axle": "front", "right": WITH_BUSHES, "left": other})
+    plain = Axle.from_dict({"axle": "front", "side": "reference_car"})
+    found = axles.compliance(even, None, [0.0])
+    assert found.equals(axles.compliance(plain, OF_THE_FILE, [0.0]))
+    uneven = axles.compliance(odd, None, [0.0])
+    assert abs(float(uneven["toe_by_braking_parallel_left"][0])) < 0.9 * abs(
+        float(found["toe_by_braking_parallel_left"][0])
+    )
+    two = other.with_changes({"bushings.rack.axial_N_per_mm": 1.0})
+    with pytest.raises(InputError, match=r"\[bushings.rack\] differs"):
+        Axle.from_dict({"axle": "front", "right": WITH_BUSHES, "left": two})
+
+
+@pytest.mark.parametrize(
+    ("bushings", "words"),
+    [
+        ({"nowhere": {"axial_N_per_mm": 1.0}}, "'nowhere' is not known"),
+        ({"arm_rear": {"axial_N_per_mm": 1.0, "axial_damping_N_s_per_mm": 1.0}}, "damping of a"),
+        ({"arm_rear": 3}, "must be a section"),
+        (3, "must be sections"),
+        ({"rack": {}}, "must be a section with axial_N_per_mm"),
+    ],
+)
+def test_bushes_of_the_file_that_are_none(bushings: Any, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        Suspension.load("reference_car").with_changes({"bushings": bushings})
+
+
+def test_commands_take_bushes_from_the_file(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+    write_toml(WITH_BUSHES, tmp_path / "soft.toml")
+    text = "[bushings.arm_rear]\naxial_N_per_mm = 400.0\n"
+    (tmp_path / "b.toml").write_text(text, encoding="utf-8")
+    code, out, err = kintrafo("compliance", "soft.toml", "--bump", 10, "--rebound", 10)
+    assert (code, "in place of" in err + out) == (0, False)
+    code, out, err = kintrafo("compliance", "soft.toml", "b.toml", "--bump", 10, "--rebound", 10)
+    assert (code, "in place of any that soft.toml has" in err + out) == (0, True)
+    assert kintrafo("deflection", "soft.toml", "--bump", 10, "--rebound", 10)[0] == 0
+    code, _, err = kintrafo("compliance", "reference_car")
+    assert code == 2
+    assert "hardpoint file has none" in " ".join(err.split())

@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 from kintrafo import InputError, Model, Suspension, arm_angles, loads
 from kintrafo.core.arguments import Arguments
-from kintrafo.study.loads.bush_curve import Curve
-from kintrafo.study.loads.bushes import bushes_of
 from kintrafo.study.loads.elastic.connections import Soft
 from kintrafo.study.loads.elastic.equilibrium import Equilibrium, State
 from kintrafo.study.loads.elastic.places import Angles, Distances, Lengths, Places, Radii, Twists
 from kintrafo.study.loads.poses import Poses
+from kintrafo.suspension.bush_curve import Curve
 from kintrafo.suspension.positions import design_height
 from kintrafo.suspension.reach import at_rest
 from oracle.constraints import Pose
@@ -79,7 +78,7 @@ def pushed(car: Suspension, bushes: Any, travel: float, force: list[float]) -> t
     """Return the equilibrium under a force at the wheel centre, the wheel held at its height."""
     model = Model(car)
     with Arguments("test") as given:
-        read = bushes_of(given, model, bushes)
+        read = model.suspension.bushes(given, bushes)
     angles = arm_angles(model, [design_height(model) + travel])
     poses = Poses.of(model, *at_rest(model, angles))
     suspension = Equilibrium(poses, Soft({bush.point: bush for bush in read}, 0.0, {}))

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from xarray import Dataset
 
 EXAMPLES = (
+    "kintrafo compliance my_car.toml",
     "kintrafo compliance my_car.toml bushes.toml",
     "kintrafo compliance my_car.toml bushes.toml --held spring --plot curves.png -o curves.csv",
     "kintrafo compliance reference_axle bushes.toml",
@@ -23,7 +24,12 @@ EXAMPLES = (
 
 Held = Literal["height", "spring", "locked"]
 Bushes = Annotated[
-    Path, typer.Argument(metavar="BUSHES", help="TOML: [bushings.POINT] with stiffnesses.")
+    Path | None,
+    typer.Argument(
+        metavar="[BUSHES]",
+        help="TOML: [bushings.POINT] with stiffnesses. Default: those of FILE.",
+        show_default=False,
+    ),
 ]
 
 
@@ -39,7 +45,7 @@ class _Where(NamedTuple):
 
 def command(
     file: File,
-    bushes: Bushes,
+    bushes: Bushes = None,
     *,
     held: Annotated[
         Held,
@@ -61,12 +67,12 @@ def command(
     """
     from ..study import export
     from ..study.axles import by_side
-    from ..study.loads import read_bushes
     from ..study.loads.sheets import compliances
 
-    outputs = Outputs.of(out, plot, force=force, inputs=[file, bushes])
+    inputs: list[str | Path] = [file, *([] if bushes is None else [bushes])]
+    outputs = Outputs.of(out, plot, force=force, inputs=inputs)
     where = _Where(at, rack / 1e3, metres(rebound), metres(bump), held)
-    found = (_of_axle if is_axle(file) else _of_wheel)(file, read_bushes(bushes), where)
+    found = (_of_axle if is_axle(file) else _of_wheel)(file, described(file, bushes), where)
     curves = found.drop_dims(["moved", "by"])
     written = outputs.write_data(found, rows=curves)
     if outputs.pages:
@@ -75,7 +81,7 @@ def command(
         title = f"{file}: compliance, {found.attrs['held']}"
         drawn = by_side(curves) if is_axle(file) else curves
         written += [
-            plots.write_overview(drawn, path, (), title, force=force, inputs=[file, bushes])
+            plots.write_overview(drawn, path, (), title, force=force, inputs=inputs)
             for path in outputs.pages
         ]
     if json:
@@ -88,7 +94,17 @@ def command(
     name_files(written)
 
 
-def _of_wheel(file: str, bushes: Mapping[str, Any], where: _Where) -> "Dataset":
+def described(file: str, bushes: Path | None) -> dict[str, Any] | None:
+    """Return the bushes of a file of their own, where one is given in place of those of the car."""
+    from ..study.loads import read_bushes
+
+    if bushes is None:
+        return None
+    say(f"bushes: those of {bushes}, in place of any that {file} has.")
+    return read_bushes(bushes)
+
+
+def _of_wheel(file: str, bushes: Mapping[str, Any] | None, where: _Where) -> "Dataset":
     from ..study import sweep
     from ..study.loads import compliance
 
@@ -98,7 +114,7 @@ def _of_wheel(file: str, bushes: Mapping[str, Any], where: _Where) -> "Dataset":
     return compliance(model, bushes, travels, rack_position=where.rack, held=where.held)
 
 
-def _of_axle(file: str, bushes: Mapping[str, Any], where: _Where) -> "Dataset":
+def _of_axle(file: str, bushes: Mapping[str, Any] | None, where: _Where) -> "Dataset":
     from ..study.axles import Extent, compliance, motions
     from ..suspension.axle import Axle
 

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import typer
 
 from .axles import is_axle
-from .compliance import Bushes, Held
+from .compliance import Bushes, Held, described
 from .console import print_json, print_table, say
 from .options import Bump, File, Force, Json, Rebound, load
 from .outputs import Out, Outputs, Plot, name_files
@@ -13,6 +13,7 @@ from .variation_options import At, with_position
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from pathlib import Path
 
     from xarray import Dataset
 
@@ -28,7 +29,7 @@ _STEPS = 41
 
 def command(
     file: File,
-    bushes: Bushes,
+    bushes: Bushes = None,
     *,
     under: Annotated[
         Literal["lateral", "braking", "recession", "aligning"] | None,
@@ -64,28 +65,28 @@ def command(
     """
     from ..plots import curves as plots
     from ..study import export
-    from ..study.loads import read_bushes
     from ..study.loads.sheets import deflections
 
-    outputs = Outputs.of(out, plot, force=force, inputs=[file, bushes])
+    inputs: list[str | Path] = [file, *([] if bushes is None else [bushes])]
+    outputs = Outputs.of(out, plot, force=force, inputs=inputs)
     if is_axle(file):
         raise typer.BadParameter("the file of one suspension is needed; give a side of the axle")
     if under is None:
         if most is not None or held != "height":
             raise typer.BadParameter("--most and --held go with --under")
         extent = {"rebound": rebound, "bump": bump}
-        found = _over_travel(file, read_bushes(bushes), (at, rack), extent, hardpoints)
+        found = _over_travel(file, described(file, bushes), (at, rack), extent, hardpoints)
     else:
         if rebound is not None or bump is not None:
             raise typer.BadParameter("--rebound and --bump are for curves over travel")
         usual = _USUAL_TORQUE if under == "aligning" else _USUAL
         size = usual if most is None else most
         how: Any = {"held": held, "hardpoints": hardpoints}
-        found = _under(file, read_bushes(bushes), (at, rack), (under, size), how)
+        found = _under(file, described(file, bushes), (at, rack), (under, size), how)
     title = f"{file}: {found.attrs['title']}"
     written = outputs.write_data(found, rows=found)
     written += [
-        plots.write_overview(found, path, (), title, force=force, inputs=[file, bushes])
+        plots.write_overview(found, path, (), title, force=force, inputs=inputs)
         for path in outputs.pages
     ]
     if json:
@@ -99,7 +100,7 @@ def command(
 
 def _over_travel(
     file: str,
-    described: "Mapping[str, Any]",
+    bushings: "Mapping[str, Any] | None",
     where: tuple[float, float],
     extent: dict[str, float | None],
     hardpoints: Any,
@@ -111,13 +112,13 @@ def _over_travel(
     ends: Any = {name: None if end is None else end / 1e3 for name, end in extent.items()}
     travels = with_position(sweep.usual_travel(model, rack=rack / 1e3, **ends), at)
     return elastokinematics(
-        model, described, travels, rack_position=rack / 1e3, hardpoints=hardpoints
+        model, bushings, travels, rack_position=rack / 1e3, hardpoints=hardpoints
     )
 
 
 def _under(
     file: str,
-    described: "Mapping[str, Any]",
+    bushings: "Mapping[str, Any] | None",
     where: tuple[float, float],
     load_on_it: tuple[Any, float],
     how: "Mapping[str, Any]",
@@ -133,5 +134,5 @@ def _under(
     amounts = np.linspace(-most, most, _STEPS)
     model = load(file)
     return deflection(
-        model, described, under, amounts, travel=at / 1e3, rack_position=rack / 1e3, **how
+        model, bushings, under, amounts, travel=at / 1e3, rack_position=rack / 1e3, **how
     )

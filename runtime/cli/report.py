@@ -40,7 +40,10 @@ def command(
     ] = None,
     bushes: Annotated[
         Path | None,
-        typer.Option(metavar="PATH", help="With the compliance on the bushes of this file (TOML)."),
+        typer.Option(
+            metavar="PATH",
+            help="With the compliance on the bushes of this file (TOML), not those of FILE.",
+        ),
     ] = None,
     force: Force = False,
 ) -> None:
@@ -120,9 +123,10 @@ def _of_bushes(model: "Model", bushes: Path | None, axle: "Axle | None") -> "lis
     from ..study import axles
     from ..study import loads as study
 
-    if bushes is None:
+    suspensions = [model.suspension] if axle is None else [*axle.sides.values()]
+    if bushes is None and not any(suspension.bushings for suspension in suspensions):
         return []
-    described = study.read_bushes(bushes)
+    described = None if bushes is None else study.read_bushes(bushes)
     if axle is not None:
         return [compliance_chapter(axles.compliance(axle, described))]
     return [

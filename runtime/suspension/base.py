@@ -20,6 +20,7 @@ from pydantic import Field, ValidationError
 from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..core.suggestions import suggestion
+from .bushes import Bush, Bushings, bushes_of, mirrored_bushings, softness_of_rack
 from .corner import Array, Motion, Plane, Spring, Stroke
 from .data import find
 from .drawing import Drawing
@@ -112,6 +113,9 @@ class Suspension(Section):
     bodies: Bodies = Field(description="masses and inertia")
     bump_stop: Stop | None = Field(default=None, description="the stop in bump")
     rebound_stop: Stop | None = Field(default=None, description="the stop in rebound")
+    bushings: Bushings | None = Field(
+        default=None, description="what gives way at hardpoints, for compliance: see Loads"
+    )
 
     def __init__(self, /, **data: Any) -> None:
         problems = []
@@ -122,6 +126,10 @@ class Suspension(Section):
         problems += geometry_problems(type(self), data, self.further_problems)
         if problems:
             raise InputError(problems)
+        if self.bushings is not None:
+            with Arguments("bushings") as given:
+                self.bushes(given, self.bushings)
+                softness_of_rack(given, self.bushings)
 
     @classmethod
     def __pydantic_init_subclass__(cls, **_: Any) -> None:
@@ -291,7 +299,22 @@ class Suspension(Section):
         # The mirror image of (x, y, z) is (x, -y, z), which with the sense kept is (-x, y, -z).
         reverse(data["rack"]["axis"], 0)
         reverse(data["rack"]["axis"], 2)
+        if self.bushings is not None:
+            data["bushings"] = mirrored_bushings(self.bushings)
         return self.from_dict(data, "mirrored suspension")
+
+    def bushes(self, given: Arguments, described: Mapping[str, Any]) -> list[Bush]:
+        """Return bushes as they are described by their hardpoints; see `docs/loads.md`.
+
+        Parameters
+        ----------
+        given : Arguments
+            Gets what is wrong.
+        described : mapping
+        """
+        sign = self.vehicle.sign
+        spin = sign * self.wheel.spin_axis(sign)
+        return bushes_of(given, described, self.structure(), self.hardpoints.at_design(), spin)
 
     def allowed_lengths(self) -> tuple[Allowed, ...]:
         """Return the lengths that positions must keep, besides closing the loops.

@@ -13,6 +13,7 @@ from pydantic.json_schema import models_json_schema
 
 from .axle.file import AxleFile
 from .base import KIND
+from .bushes import BUSH_SCHEMA
 from .input.bodies import RigidBody
 from .input.section import Section
 from .input.units import unit_of
@@ -49,6 +50,14 @@ files; a first line
 says so to editors with a TOML language server, such as Even Better TOML for Visual Studio Code.
 Whether the points make a mechanism that can be assembled is not in the schema: that is what
 `kintrafo check FILE` says. The schema and this page are written by `make format-page`.
+"""
+
+_BUSHINGS = """\
+### [bushings.POINT] (optional)
+
+What gives way at a hardpoint where parts touch, for [compliance](loads.md#compliance); what is left
+out is rigid. One stiffness or curve is needed. `[bushings.rack]` has `axial_N_per_mm` alone: how
+stiff the steering holds the rack. All else that is computed takes joints as rigid.
 """
 
 _EVERY_BODY = """\
@@ -93,7 +102,7 @@ def schema() -> dict[str, Any]:
             "properties": {KIND: kinds},
             "allOf": [{"if": _names(name), "then": _reference(KINDS[name])} for name in KINDS],
         },
-        "$defs": sections,
+        "$defs": sections | {"Bushing": BUSH_SCHEMA},
     }
 
 
@@ -136,6 +145,7 @@ def page_text() -> str:
     first, *_ = KINDS.values()
     parts = [_HEAD, "## Every suspension\n"]
     parts += _described(sections, first, [name for name in first.model_fields if name in shared])
+    parts += [_BUSHINGS, *_table(BUSH_SCHEMA)]
     parts.append(_EVERY_BODY)
     parts += _table(_with_units(RigidBody.model_json_schema()))
     for name, kind in KINDS.items():

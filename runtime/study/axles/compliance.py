@@ -12,12 +12,19 @@ from ...core.arguments import Arguments
 from ...core.quantities import variable
 from ...suspension.axle import Axle
 from ...suspension.axle.axle import LEFT, RIGHT
+from ...suspension.bushes import (
+    Bush,
+    described_bushings,
+    left_out,
+    mirrored_bushings,
+    refuse_rigid,
+    softness_of_rack,
+)
 from ...suspension.corner import Array
 from ...suspension.positions import arm_angles, design_height
 from ...suspension.reach import at_rest
 from ..characteristics.datasets import TRAVEL
 from ..characteristics.from_model import corner
-from ..loads.bushes import RACK, Bush, bushes_of, left_out, refuse_rigid, softness_of_rack
 from ..loads.compliance import LOADED, MOVED, RIG_LOADS, RigLoad, load_at_contact, told
 from ..loads.flexibility import HELD, Held, Wheel, flexibility
 from ..loads.poses import Poses
@@ -71,7 +78,7 @@ _WORDS = {
 
 def compliance(
     axle: Axle,
-    bushings: Mapping[str, Any],
+    bushings: Mapping[str, Any] | None = None,
     travel: ArrayLike | None = None,
     *,
     rack_position: float = 0.0,
@@ -82,8 +89,9 @@ def compliance(
     Parameters
     ----------
     axle : Axle
-    bushings : mapping
-        As of `kintrafo.loads.compliance`, for the side whose points the anti-roll bar has: that
+    bushings : mapping, optional
+        In the place of those that the files of both sides have for each. As of
+        `kintrafo.loads.compliance`, for the side whose points the anti-roll bar has: that
         which the file names with ``side``, or the right one. The other side has the image.
         ``rack`` with its ``axial_N_per_mm`` says how stiff the steering holds the rack.
     travel : array_like, shape (n,), optional
@@ -130,38 +138,36 @@ def compliance(
         given.among("held", held, HELD)
         if travel is not None:
             travel = given.array("travel", travel, "m", dimensions=[1])
-        described = given.mapping("bushings", bushings, "hardpoints and stiffnesses")
         if not given.refused:
-            bushes = _bushes(given, axle, described)
-            rack = softness_of_rack(given, described)
-            refuse_rigid(given, bushes[RIGHT], rack)
+            described = _described(given, axle, bushings)
+            bushes = {s: side.bushes(given, described[s]) for s, side in axle.sides.items()}
+            rack = softness_of_rack(given, described[axle.bar_side])
+            refuse_rigid(given, [*bushes[LEFT], *bushes[RIGHT]], rack)
             if any(side.tyre_radius() is None for side in axle.sides.values()):
                 given.refuse("[tyre] radius_mm is needed: where the road touches the wheel.")
     travels = motions.travels(axle, Extent()) if travel is None else np.asarray(travel)
     wheels = [_wheel(axle, side, travels, rack_position, bushes[side]) for side in SIDES]
     bar = 1.0 / axle.bar.rate() if axle.bar else 0.0
     found = _dataset(wheels, flexibility(wheels, held, rack=rack, bar=bar), travels, held)
-    return found.assign_attrs(left_out=left_out(bushes[RIGHT]))
+    return found.assign_attrs(left_out=left_out([*bushes[LEFT], *bushes[RIGHT]]))
 
 
-def _bushes(given: Arguments, axle: Axle, described: Mapping[str, Any]) -> dict[str, list[Bush]]:
-    """Return the bushes of both sides: those that are given, and their images."""
+def _described(given: Arguments, axle: Axle, bushings: Any) -> dict[str, dict[str, Any]]:
+    """Return what is said of the bushes of both sides: the files', or what is given and its image.
+
+    What is wrong of the latter is told of the side that it is given for.
+    """
+    if bushings is None:
+        return {
+            side: described_bushings(given, None, suspension.bushings)
+            for side, suspension in axle.sides.items()
+        }
     one = axle.bar_side
     other = LEFT if one == RIGHT else RIGHT
-    bushes = {one: bushes_of(given, axle.models[one], described), other: list[Bush]()}
-    if not given.refused:  # all is said of those that are wrong
-        image = {
-            point: {key: _image(key, value) for key, value in table.items()}
-            for point, table in described.items()
-            if point != RACK
-        }
-        bushes[other] = bushes_of(given, axle.models[other], image)
-    return bushes
-
-
-def _image(key: str, value: Any) -> Any:
-    """Return the image of a value in the plane y = 0."""
-    return np.array([1.0, -1.0, 1.0]) * value if key in ("axis", "radial_axis") else value
+    described = described_bushings(given, bushings, None)
+    with_one = Arguments("compliance")
+    axle.sides[one].bushes(with_one, described)
+    return {one: described, other: {} if with_one.refused else mirrored_bushings(described)}
 
 
 def _wheel(axle: Axle, side: str, travels: Array, rack: float, bushes: list[Bush]) -> Wheel:

@@ -9,8 +9,8 @@
 `read`, `read_bushes`  a file of load cases, of bushes
 """
 
+from ...suspension.bushes import read_bushes
 from .along import along
-from .bushes import read_bushes
 from .cases import read, standard_cases
 from .compliance import compliance
 from .dataset import envelope, table

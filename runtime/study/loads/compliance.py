@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...core.arguments import Arguments
 from ...core.quantities import Display, display_of, variable
+from ...suspension.bushes import described_bushings, left_out, refuse_rigid, softness_of_rack
 from ...suspension.corner import Corner, Motion
 from ...suspension.model import Model
 from ...suspension.positions import arm_angles, design_height
@@ -19,7 +20,6 @@ from ..characteristics.catalogue import Quantity
 from ..characteristics.datasets import TRAVEL
 from ..characteristics.from_model import corner
 from ..sweep import usual_travel
-from .bushes import bushes_of, left_out, refuse_rigid, softness_of_rack
 from .flexibility import HELD, Held, Wheel, flexibility
 from .poses import CENTER, CONTACT, Poses, rotated
 
@@ -80,7 +80,7 @@ LOADED = ("fx", "fy", "fz", "mx", "my", "mz")
 
 def compliance(
     model: Model,
-    bushings: Mapping[str, Any],
+    bushings: Mapping[str, Any] | None = None,
     travel: ArrayLike | None = None,
     *,
     rack_position: float = 0.0,
@@ -91,10 +91,11 @@ def compliance(
     Parameters
     ----------
     model : Model
-    bushings : mapping
-        By hardpoint: ``axial_N_per_mm`` along its axis and ``radial_N_per_mm`` across it, one
-        number or two; what is left out is rigid. ``axis``, by default that of the arm's bearings,
-        of the strut, the tie rod or the wheel; at other ball joints it must be given.
+    bushings : mapping, optional
+        In the place of those of the file. By hardpoint: ``axial_N_per_mm`` along its axis and
+        ``radial_N_per_mm`` across it, one number or two; what is left out is rigid. ``axis``, by
+        default that of the arm's bearings, of the strut, the tie rod or the wheel; at other ball
+        joints it must be given.
         ``radial_axis``, the direction of the first of two radial numbers. Both in chassis axes at
         design; they turn with the part that is nearer to the chassis. In the place of stiffnesses
         ``axial_curve`` and ``radial_curve``, of which the slope at zero counts. At
@@ -144,9 +145,9 @@ def compliance(
         given.among("held", held, HELD)
         if travel is not None:
             travel = given.array("travel", travel, "m", dimensions=[1])
-        described = given.mapping("bushings", bushings, "hardpoints and stiffnesses")
         if not given.refused:
-            bushes = bushes_of(given, model, described)
+            described = described_bushings(given, bushings, model.suspension.bushings)
+            bushes = model.suspension.bushes(given, described)
             rack = softness_of_rack(given, described)
             refuse_rigid(given, bushes, rack)
             if model.suspension.tyre_radius() is None:

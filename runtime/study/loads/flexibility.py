@@ -13,12 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import InputError
+from ...suspension.bushes import Bush
 from ...suspension.corner import Corner
 from ...suspension.input.vectors import unit_vector
-from ...suspension.structure import Joint
+from ...suspension.structure import GROUND, Joint
 from ..characteristics import wheel
-from .bushes import Bush, world_compliance
-from .poses import CONTACT, Poses
+from .poses import CONTACT, Poses, rotated
 from .reactions import Equations, Load
 
 Array = NDArray[np.float64]
@@ -138,9 +138,16 @@ def _of_joint(joint: Joint, carried: Array, bushes: Mapping[str, Bush], poses: P
     total = np.zeros((*carried.shape[:1], *2 * carried.shape[-1:]))
     for i, point in enumerate(joint.at):
         if point in bushes:
-            soft = world_compliance(bushes[point], joint, poses.turned)
+            soft = _world_compliance(bushes[point], joint, poses.turned)
             total += _energy(carried[:, i], soft)
     return total
+
+
+def _world_compliance(bush: Bush, joint: Joint, turned: Mapping[str, Array]) -> Array:
+    """Return a compliance in chassis axes, the joint's first part having turned, (..., 6, 6)."""
+    if joint.first in GROUND:
+        return bush.compliance
+    return rotated(bush.compliance, turned[joint.first])
 
 
 class _Forces:

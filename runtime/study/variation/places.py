@@ -12,8 +12,9 @@ from ...suspension.input.units import unit_of, without_unit
 from ...suspension.kinds import Suspension
 
 _SPACES = str.maketrans("._", "  ")
-_TO_SI = {"mm": 1e-3, "deg": math.pi / 180.0, "N/mm^3": 1e9}
-_SI = {"mm": "m", "deg": "rad", "N/mm^3": "N/m^3", "": "1"}
+_DEG = math.pi / 180.0
+_TO_SI = {"mm": 1e-3, "deg": _DEG, "N/mm^3": 1e9, "N/mm": 1e3, "N m/deg": 1.0 / _DEG}
+_SI = {"mm": "m", "deg": "rad", "N/mm^3": "N/m^3", "N/mm": "N/m", "N m/deg": "N m/rad", "": "1"}
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ from pydantic import ValidationError
 from ...core.arguments import Arguments, shown
 from ...core.errors import InputError
 from ...core.suggestions import suggestion
+from ..bushes import RACK
 from ..data import data_sets, find
 from ..input.messages import messages_of
 from ..input.toml_file import read_toml
@@ -272,6 +273,11 @@ def _problems_of_sides(axle: Axle) -> list[str]:
         for side, suspension in axle.sides.items()
         for body, mass in suspension.neglected_masses().items()
     ]
+    if (axle.right.bushings or {}).get(RACK) != (axle.left.bushings or {}).get(RACK):
+        problems.append(
+            f"[bushings.{RACK}] differs in the files of both sides: they have one rack. Make them "
+            "equal."
+        )
     for section, key in _OF_THE_VEHICLE:
         right, left = (getattr(getattr(s, section), key) for s in (axle.right, axle.left))
         if right != left:

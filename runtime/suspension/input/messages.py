@@ -15,6 +15,7 @@ from .section import Range, Section
 _EXPECTATIONS = {
     "finite_number": "must be a finite number. Enter the measured or estimated value.",
     "float_type": "must be a number. Write digits without quotes, with a point for decimals.",
+    "dict_type": "must be sections. Write one for each, such as [bushings.arm_rear].",
     "bool_type": "must be true or false. Write it without quotes.",
     "three_numbers": "must be three numbers. Write them as [x, y, z].",
 }

@@ -8,6 +8,7 @@ LengthUnit = Literal["mm", "m"]
 _UNIT_OF_ENDING = {
     "N_per_mm3": "N/mm^3",
     "N_s_per_m": "N s/m",
+    "N_per_mm": "N/mm",
     "N_per_m": "N/m",
     "m_per_s2": "m/s^2",
     "m_per_s": "m/s",

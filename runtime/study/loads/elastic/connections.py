@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ....suspension.bushes import RACK, Bush
 from ....suspension.input.vectors import unit_vector
 from ....suspension.structure import Fixed, Joint, Line, frame
 from ...characteristics.from_model import design_axis
-from ..bushes import RACK, Bush
 from ..poses import Poses
 from .laws import Bent, Coil, Law, Stops, Straight
 from .places import Angles, Distances, Lengths, Measured, Places, Radii, Twists

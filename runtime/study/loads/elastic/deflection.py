@@ -39,7 +39,7 @@ _LEAST_STEP = 1e-3
 
 def deflection(
     model: Model,
-    bushings: Mapping[str, Any],
+    bushings: Mapping[str, Any] | None,
     under: str,
     amounts: ArrayLike,
     *,
@@ -53,8 +53,8 @@ def deflection(
     Parameters
     ----------
     model : Model
-    bushings : mapping
-        As of `elastokinematics`.
+    bushings : mapping or None
+        As of `elastokinematics`; None: those of the file.
     under : {'lateral', 'braking', 'recession', 'aligning'}
         A lateral force inward or a braking force at the contact, a rearward force at the wheel
         centre, or a torque about the vertical towards toe-out.

@@ -34,7 +34,7 @@ _CURVES = {
 
 def elastokinematics(
     model: Model,
-    bushings: Mapping[str, Any],
+    bushings: Mapping[str, Any] | None = None,
     travel: ArrayLike | None = None,
     *,
     rack_position: float = 0.0,
@@ -45,9 +45,9 @@ def elastokinematics(
     Parameters
     ----------
     model : Model
-    bushings : mapping
-        As `compliance` takes them; besides, ``axial_curve`` and ``radial_curve`` in the place of
-        stiffnesses, ``{"mm": [...], "N": [...]}``.
+    bushings : mapping, optional
+        In the place of those of the file, as `compliance` takes them; besides, ``axial_curve`` and
+        ``radial_curve`` in the place of stiffnesses, ``{"mm": [...], "N": [...]}``.
     travel : array_like, shape (n,), optional
         Heights of the wheel centre with rigid joints above its design height [m]: the road holds
         the contact where it then is. By default the usual range.

@@ -7,12 +7,12 @@ from numpy.typing import NDArray
 
 from ....core.arguments import Arguments
 from ....core.errors import InputError
+from ....suspension.bushes import RACK, described_bushings, softness_of_rack
 from ....suspension.corner import Corner
 from ....suspension.model import Model
 from ....suspension.positions import arm_angles, design_height
 from ....suspension.reach import at_rest
 from ...characteristics.from_model import corner
-from ..bushes import RACK, bushes_of, softness_of_rack
 from ..poses import Poses
 from ..reactions import Equations, known
 from .connections import GROUND, Soft
@@ -30,10 +30,11 @@ HARDPOINTS = {
 
 def soft_of(given: Arguments, model: Model, bushings: Any, hardpoints: Hardpoints) -> Soft:
     """Read what gives way, and what it carries at the hardpoints."""
-    described = given.mapping("bushings", bushings, "hardpoints and stiffnesses")
     if given.refused:
         return Soft({}, 0.0, {})
-    bushes, rack = bushes_of(given, model, described), softness_of_rack(given, described)
+    described = described_bushings(given, bushings, model.suspension.bushings)
+    bushes = model.suspension.bushes(given, described)
+    rack = softness_of_rack(given, described)
     if not bushes and not rack and not given.refused:
         given.refuse("bushings: one or more are needed.")
     if model.suspension.tyre_radius() is None:

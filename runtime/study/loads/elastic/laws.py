@@ -7,7 +7,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ..bush_curve import Curve
+from ....suspension.bush_curve import Curve
 
 Array = NDArray[np.float64]
 

@@ -3,33 +3,46 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import BeforeValidator, WithJsonSchema
 
-from ...core.arguments import Arguments
-from ...core.suggestions import suggestion
-from ...suspension.input.toml_file import read_sections
-from ...suspension.input.vectors import unit_vector
-from ...suspension.model import Model
-from ...suspension.structure import GROUND, Joint, Telescope
-from ..characteristics.from_model import design_axis
+from ..core.arguments import Arguments
+from ..core.suggestions import suggestion
 from .bush_curve import Curve, curve_of
-from .poses import CENTER, rotated
+from .input.toml_file import read_sections
+from .input.units import unit_of
+from .input.vectors import unit_vector
+from .structure import Joint, Points, Structure, Telescope
 
 Array = NDArray[np.float64]
 
-_STIFFNESSES = (
-    "axial_N_per_mm", "radial_N_per_mm", "tilt_Nm_per_deg", "torsion_Nm_per_deg", "axial_curve",
-    "radial_curve",
-)  # fmt: skip
-_KEYS = (*_STIFFNESSES, "axis", "radial_axis")
+_STIFFNESSES = {
+    "axial_N_per_mm": "stiffness along its axis",
+    "radial_N_per_mm": "stiffness across its axis; or two, along `radial_axis` and across that",
+    "tilt_Nm_per_deg": "stiffness against tilting about axes across its own",
+    "torsion_Nm_per_deg": "stiffness against turning about its axis",
+    "axial_curve": "in place of a stiffness, lists `mm` and `N`, both rising",
+    "radial_curve": "in place of a stiffness, lists `mm` and `N`, both rising from 0",
+}
+_DIRECTIONS = {
+    "axis": "its axis, chassis axes at design; by default that of the arm, the rod, the strut or "
+    "the wheel",
+    "radial_axis": "direction of the first of two radial stiffnesses; by default upward",
+}
+_KEYS = (*_STIFFNESSES, *_DIRECTIONS)
 RACK = "rack"
 """In the place of a hardpoint: how stiff the steering holds the rack along its axis."""
 _PER_MM, _PER_DEG = 1e3, 180.0 / np.pi
 # No bush is softer or stiffer than this, in its units for people.
 _SOFTEST, _STIFFEST = 1e-3, 1e12
+_CENTER = "wheel_center"
+_NO_DAMPING = (
+    "Nothing here moves so fast that the damping of a bush is felt: loads and compliance are at "
+    "rest, and motions have rigid joints. Leave it out."
+)
 # Two directions nearer to each other than this angle [rad] tell no plane.
 _LEAST_ANGLE = 1e-3
 
@@ -103,9 +116,98 @@ def read_bushes(path: str | Path) -> dict[str, Any]:
     return bushings
 
 
-def bushes_of(given: Arguments, model: Model, described: Mapping[str, Any]) -> list[Bush]:
-    """Read bushes by their hardpoints; see `docs/loads.md`."""
-    joints = {point: joint for joint in model.suspension.structure().joints for point in joint.at}
+def described_bushings(
+    given: Arguments, bushings: Any, of_the_file: Mapping[str, Any] | None
+) -> dict[str, Any]:
+    """Return the bushes that are given, or those of the hardpoint file where none are."""
+    if bushings is None and of_the_file is None:
+        given.refuse(
+            "bushings: none are given, and the hardpoint file has none. Give them, or add its "
+            "[bushings.POINT]."
+        )
+    found = of_the_file or {} if bushings is None else bushings
+    return dict(given.mapping("bushings", found, "hardpoints and stiffnesses"))
+
+
+def mirrored_bushings(described: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the images of bushes in the plane y = 0; what is no table as it is."""
+    return {
+        point: {key: _image(key, value) for key, value in table.items()}
+        if isinstance(table, Mapping)
+        else table
+        for point, table in described.items()
+    }
+
+
+def _image(key: str, value: Any) -> Any:
+    return [value[0], 0.0 - value[1], value[2]] if key in _DIRECTIONS else value
+
+
+def _plain(value: Any) -> Any:
+    """Return tables, lists and numbers as a file has them; what is None is left out."""
+    if isinstance(value, Mapping):
+        return {key: _plain(inner) for key, inner in value.items() if inner is not None}
+    if isinstance(value, np.ndarray | np.generic):
+        value = value.tolist()
+    if isinstance(value, list | tuple):
+        return [_plain(inner) for inner in value]
+    return float(value) if isinstance(value, int) and not isinstance(value, bool) else value
+
+
+def _schema_of(key: str, words: str) -> dict[str, Any]:
+    """Return what an editor knows of a key."""
+    number = {"type": "number", "exclusiveMinimum": 0.0}
+    numbers = {"type": "array", "items": {"type": "number"}}
+    unit = unit_of(key)
+    found: dict[str, Any] = {"description": words} | ({"x-unit": unit} if unit else {})
+    if key in _DIRECTIONS:
+        return found | numbers | {"minItems": 3, "maxItems": 3}
+    if key.endswith("_curve"):
+        properties = {name: {**numbers, "minItems": 2} for name in ("mm", "N")}
+        return found | {"type": "object", "properties": properties, "required": [*properties]}
+    if key == "radial_N_per_mm":
+        return found | {"anyOf": [number, {**numbers, "minItems": 2, "maxItems": 2}]}
+    return found | number
+
+
+BUSH_SCHEMA: dict[str, Any] = {
+    "type": "object",
+    "additionalProperties": False,
+    "properties": {k: _schema_of(k, words) for k, words in (_STIFFNESSES | _DIRECTIONS).items()},
+}
+"""JSON Schema of the section of a bush, ``Bushing``."""
+
+Bushings = Annotated[
+    dict[str, Any],
+    BeforeValidator(_plain),
+    WithJsonSchema({"type": "object", "additionalProperties": {"$ref": "#/$defs/Bushing"}}),
+]
+"""The section of a hardpoint file."""
+
+
+def bushes_of(
+    given: Arguments,
+    described: Mapping[str, Any],
+    structure: Structure,
+    design: Points,
+    spin: Array,
+) -> list[Bush]:
+    """Read bushes by their hardpoints; see `docs/loads.md`.
+
+    Parameters
+    ----------
+    given : Arguments
+        Gets what is wrong.
+    described : mapping
+        By hardpoint.
+    structure : Structure
+        Whose joints give way.
+    design : mapping
+        The hardpoints at design [m].
+    spin : ndarray, shape (3,)
+        The axis of the wheel at design, pointing outboard.
+    """
+    joints = {point: joint for joint in structure.joints for point in joint.at}
     found = []
     for point, table in described.items():
         title = f"[bushings.{point}]"
@@ -116,24 +218,25 @@ def bushes_of(given: Arguments, model: Model, described: Mapping[str, Any]) -> l
         if not isinstance(table, Mapping):
             given.refuse(f"{title} must be a section, with {', '.join(_KEYS)}.")
             continue
-        for key in (key for key in table if key not in _KEYS):
-            given.refuse(f"{title} {key} is not known. {suggestion(str(key), _KEYS)}")
+        for key in (str(key) for key in table if key not in _KEYS):
+            meant = _NO_DAMPING if "damp" in key or "N_s" in key else suggestion(key, _KEYS)
+            given.refuse(f"{title} {key} is not known. {meant}")
         if not any(key in table for key in _STIFFNESSES):
             given.refuse(f"{title}: one of {', '.join(_STIFFNESSES)} is needed, or it is rigid.")
-        if "torsion_Nm_per_deg" in table and point == CENTER:
+        if "torsion_Nm_per_deg" in table and point == _CENTER:
             given.refuse(f"{title} torsion_Nm_per_deg: the brake holds the wheel about its axis.")
         torsion, tilt = (_turning(given, title, table, which) for which in ("torsion", "tilt"))
-        is_bearing = point == CENTER
+        is_bearing = point == _CENTER
         soft = _translations(given, title, table)
         axial, radial = (_curve(given, title, table, which) for which in ("axial", "radial"))
         curves = (axial, radial, radial)
         bush = Bush(
             point=str(point),
-            axes=_axes(given, title, table, model, joints[point]),
+            axes=_axes(given, title, table, joints[point], design, spin),
             soft=np.array([_at_rest(c) if c else s for s, c in zip(soft, curves, strict=True)]),
             tilt=1.0 / tilt if is_bearing and tilt else 0.0,
             turning=(0.0, 0.0) if is_bearing else (torsion, tilt),
-            spin=design_axis(model.suspension),
+            spin=spin,
             curves=curves,
         )
         found.append(bush)
@@ -210,10 +313,15 @@ def _stiffness(given: Arguments, title: str, table: Mapping[str, Any], key: str)
 
 
 def _axes(
-    given: Arguments, title: str, table: Mapping[str, Any], model: Model, joint: Joint
+    given: Arguments,
+    title: str,
+    table: Mapping[str, Any],
+    joint: Joint,
+    design: Points,
+    spin: Array,
 ) -> Array:
     """Return the axes of a bush as rows: its own, and the two across it."""
-    usual_axis = _usual_axis(model, joint)
+    usual_axis = spin if joint.at == (_CENTER,) else joint.axis(design)
     if usual_axis is None and "axis" not in table:
         given.refuse(f"{title} axis is needed: no direction there is that of a bush by itself.")
         return np.eye(3)
@@ -234,13 +342,6 @@ def _axes(
     return np.stack([along, np.cross(across, along), across])
 
 
-def _usual_axis(model: Model, joint: Joint) -> Array | None:
-    """Return the axis that a bush has where nothing is said, at design."""
-    if joint.at == (CENTER,):
-        return design_axis(model.suspension)
-    return joint.axis(model.suspension.hardpoints.at_design())
-
-
 def _direction(
     given: Arguments, title: str, table: Mapping[str, Any], key: str, usual: Array | None
 ) -> Array:
@@ -252,10 +353,3 @@ def _direction(
         given.refuse(f"{title} {key}: {problem}")
         return np.array([1.0, 0.0, 0.0])
     return unit_vector(values)
-
-
-def world_compliance(bush: Bush, joint: Joint, turned: Mapping[str, Array]) -> Array:
-    """Return a compliance in chassis axes, the joint's first part having turned, (..., 6, 6)."""
-    if joint.first in GROUND:
-        return bush.compliance
-    return rotated(bush.compliance, turned[joint.first])

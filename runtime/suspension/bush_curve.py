@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 from scipy.optimize import brentq
 
-from ...core.arguments import Arguments
+from ..core.arguments import Arguments
 
 Array = NDArray[np.float64]
 
