@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from kintrafo import InputError, Model, Suspension, characteristics, variation
+from kintrafo import InputError, Model, Suspension, characteristics, loads, variation
+from kintrafo.core.quantities import display_of
 from kintrafo.study.variation.places import places_of
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
@@ -164,3 +165,106 @@ def test_the_command_tells_it(kintrafo: Any, tmp_path: Any) -> None:  # noqa: F8
     (tmp_path / "t.toml").write_text(text.replace("3.0", "0.1"), encoding="utf-8")
     code, out, _ = kintrafo("fit", *files)
     assert (code, "not explained" in out) == (1, True)
+
+
+# -- bushes -------------------------------------------------------------------------------------
+
+SOFT = CAR.with_changes(
+    {
+        "bushings": {
+            "arm_front": {"axial_N_per_mm": 800.0},
+            "arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": 1200.0},
+            "strut_top": {"axial_N_per_mm": 1500.0, "radial_N_per_mm": 700.0},
+            "rack": {"axial_N_per_mm": 5000.0},
+        }
+    }
+)
+REAR, TOP = "bushings.arm_rear.axial_N_per_mm", "bushings.strut_top.radial_N_per_mm"
+BY_LOAD = ["toe_by_lateral", "toe_by_braking", "camber_by_lateral", "displacement_by_braking"]
+
+
+def soft_rig(car: Suspension, held: Any = "height") -> xr.Dataset:
+    """Return toe, and what a rig finds with loads on the wheel."""
+    by_load = loads.compliance(Model(car), None, TRAVEL, held=held)
+    return by_load[BY_LOAD].merge(rig(car, names=["toe"]))
+
+
+@pytest.mark.parametrize("held", ["height", "spring"])
+def test_known_rates_of_bushes_are_found(held: Any) -> None:
+    """A third softer, a fifth stiffer, and the tie rod too high, which toe over travel tells."""
+    changes = {REAR: 270.0, TOP: 850.0} | places_of(SOFT)[ROD].moved(1.5e-3)
+    measured = soft_rig(SOFT.with_changes(changes), held)
+    # accurate to a thousandth of what they are, curves outweigh tolerances by 1e4 to 1
+    fine = {"toe": 1e-4, "toe_by_lateral": 1e-5, "toe_by_braking": 1e-5, "camber_by_lateral": 1e-4}
+    tolerances = {REAR: "60 %", TOP: 400.0, ROD: 3.0}
+    found = variation.fit(SOFT, measured, tolerances, accuracy=fine, held=held)
+    assert found.success, found.message
+    assert found.moved[REAR] == pytest.approx(-130.0, abs=2.0)
+    assert found.moved[TOP] == pytest.approx(150.0, abs=2.0)
+    assert found.moved[ROD] == pytest.approx(1.5, abs=0.02)
+    assert found.suspension.bushings is not None
+    assert found.suspension.bushings["arm_rear"]["axial_N_per_mm"] == pytest.approx(270.0, abs=2.0)
+    wrong: Any = "locked" if held == "height" else "height"
+    assert variation.fit(SOFT, measured, tolerances, accuracy=fine, held=wrong).moved != found.moved
+
+
+def test_small_errors_of_bushes_are_those_of_linear_regression() -> None:
+    """Normal prior and normal errors by formula, slopes by differences of compliances."""
+    measured = soft_rig(SOFT.with_changes({REAR: 402.0, TOP: 699.0}))[BY_LOAD]
+    tolerances, within = {REAR: 9.0, TOP: 6.0}, 1e-4
+    here = soft_rig(SOFT)[BY_LOAD]
+    factors = [display_of(here[name].attrs).factor for name in BY_LOAD]
+    rows = []
+    for place, rate in ((REAR, 400.0), (TOP, 700.0)):
+        up, down = (soft_rig(SOFT.with_changes({place: rate + by})) for by in (0.1, -0.1))
+        rows.append(
+            [f * (up[n] - down[n]).values / 0.2 for f, n in zip(factors, BY_LOAD, strict=True)]
+        )
+    slopes = np.reshape(rows, (2, -1)).T
+    gaps = np.concatenate(
+        [f * (measured[n] - here[n]).values for f, n in zip(factors, BY_LOAD, strict=True)]
+    )
+    prior = np.diag([(3.0 / tolerance) ** 2 for tolerance in tolerances.values()])
+    precision = slopes.T @ slopes / within**2 + prior
+    mean = np.linalg.solve(precision, slopes.T @ gaps / within**2)
+    accuracy = dict.fromkeys(BY_LOAD, within)
+    found = variation.fit(SOFT, measured, tolerances, accuracy=accuracy)
+    # second derivatives by a rate are 2 / rate of first ones, over 2 N/mm: a hundredth
+    np.testing.assert_allclose([*found.moved.values()], mean, rtol=0.02)
+    deviations = np.sqrt(np.diag(np.linalg.inv(precision)))
+    np.testing.assert_allclose([*found.uncertainty.values()], deviations, rtol=0.02)
+
+
+def test_parts_that_are_none_are_refused() -> None:
+    measured = soft_rig(SOFT)
+    for tolerances, words in (
+        ({REAR: "some"}, 'a number is needed, or a text such as "20 %"'),
+        ({REAR: "-3 %"}, "a number is needed, or a text"),
+        ({REAR: "0 %"}, "above 0"),
+        ({"wheel.toe_deg": "3 %"}, "is zero, of which there is no part"),
+    ):
+        with pytest.raises(InputError, match=words):
+            variation.fit(SOFT, measured, tolerances)
+    with pytest.raises(InputError, match=r"toe_by_lateral over travel: .* \[bushings\]"):
+        variation.fit(CAR, measured, {ROD: 3.0})
+    with pytest.raises(InputError, match="held"):
+        variation.fit(SOFT, measured, {REAR: "30 %"}, held="nothing")  # type: ignore[arg-type]
+
+
+def test_the_command_fits_bushes(kintrafo: Any, tmp_path: Any) -> None:  # noqa: F811
+    from kintrafo import export
+    from kintrafo.suspension.toml_writer import write_toml
+
+    write_toml(SOFT, tmp_path / "soft.toml")
+    everything = loads.compliance(Model(SOFT.with_changes({REAR: 300.0})), None, TRAVEL)
+    names = ["toe_by_lateral", "toe_by_aligning", "displacement_by_recession"]
+    export.write(everything[names], tmp_path / "rig.csv")
+    assert "toe_by_aligning [deg/100 N m]" in (tmp_path / "rig.csv").read_text(encoding="utf-8")
+    (tmp_path / "t.toml").write_text(f'[tolerances]\n"{REAR}" = "60 %"\n', encoding="utf-8")
+    files = ("soft.toml", "rig.csv", "t.toml")
+    code, out, err = kintrafo("fit", *files, "-o", "found.toml", "--plot", "a.png")
+    assert (code, "N/mm" in out) == (0, True), err
+    found = Suspension.load(tmp_path / "found.toml")
+    assert found.bushings is not None
+    assert found.bushings["arm_rear"]["axial_N_per_mm"] == pytest.approx(300.0, rel=0.03)
+    assert (tmp_path / "a.png").stat().st_size > 1000

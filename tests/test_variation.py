@@ -16,6 +16,7 @@ from kintrafo import (
     arm_angles,
     characteristics,
     export,
+    loads,
     roads,
     scenario,
     variation,
@@ -24,6 +25,7 @@ from kintrafo.core.quantities import display_of
 from kintrafo.study.characteristics.from_model import gaps
 from kintrafo.study.variation.curves import Curves, changed, model_of
 from kintrafo.study.variation.places import places_of
+from kintrafo.suspension.toml_writer import write_toml
 from numpy.polynomial import Chebyshev
 from scipy.optimize import brentq
 from test_cli_commands import commands_of, kintrafo  # noqa: F401 (a fixture)
@@ -533,6 +535,15 @@ def test_the_page_runs(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
     built = CAR.with_changes({"hardpoints.tie_rod_inner": [-140.0, -310.0, 280.3]})
     measured = characteristics.travel(Model(built))
     export.write(measured[["toe", "camber"]], tmp_path / "rig.csv")
+    bushes = {
+        "arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": 900.0},
+        "strut_top": {"axial_N_per_mm": 1500.0, "radial_N_per_mm": 700.0},
+    }
+    soft = CAR.with_changes({"bushings": bushes})
+    write_toml(soft, tmp_path / "soft_car.toml")
+    softer = Model(soft.with_changes({"bushings.strut_top.radial_N_per_mm": 600.0}))
+    found_by_load = loads.compliance(softer)[["toe_by_lateral", "camber_by_lateral"]]
+    export.write(found_by_load, tmp_path / "soft_rig.csv")
     (block,) = re.findall(r"```python\n(.*?)```", page, flags=re.DOTALL)
     found: dict[str, Any] = {}
     exec(block, found)

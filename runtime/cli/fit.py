@@ -8,12 +8,15 @@ from rich.markup import escape
 from rich.table import Table
 
 from ..core.tabulated import significant
+from .compliance import Held
 from .console import console, print_json, progress_bar, say
 from .exits import Exit
 from .options import File, Force, Json, Of, among
 from .outputs import Outputs, Plot, name_files
 
 if TYPE_CHECKING:
+    from xarray import Dataset
+
     from ..study.variation import Fit
 
 EXAMPLES = (
@@ -39,6 +42,9 @@ def command(
     ],
     *,
     of: Of = None,
+    held: Annotated[
+        Held, typer.Option(help="What held the wheel when compliance was measured.")
+    ] = "height",
     out: Annotated[
         Path | None,
         typer.Option(
@@ -78,6 +84,7 @@ def command(
             asked.get("tolerances", {}),
             accuracy=asked.get("accuracy"),
             names=names,
+            held=held,
             progress=lambda left: progress(1.0 - left),
         )
     written: list[Path] = []
@@ -86,7 +93,7 @@ def command(
         from ..study.variation.curves import model_of
 
         models = {"file": model_of(found.start), "fitted": model_of(found.suspension)}
-        shown = rig.beside(curves, models)[[curve.name for curve in found.curves]]
+        shown = rig.beside(curves, models, held=held)[[curve.name for curve in found.curves]]
         written += [
             plots.write_overview(
                 shown, path, (), f"{file}: {measured.name}", force=force, inputs=inputs
@@ -99,7 +106,7 @@ def command(
     if json:
         print_json(_facts(found))
     else:
-        _print(found, file)
+        _print(found, curves, file)
         if curves.attrs.get("left_out"):
             say(f"columns that were not read: {curves.attrs['left_out']}.")
         name_files(written)
@@ -114,9 +121,8 @@ def _facts(found: "Fit") -> dict[str, Any]:
     return facts | {"suspension": found.suspension.to_dict()}
 
 
-def _print(found: "Fit", file: str) -> None:
-    from ..core.quantities import bracketed, display_of
-    from ..study.characteristics.datasets import KNOWN
+def _print(found: "Fit", measured: "Dataset", file: str) -> None:
+    from ..core.quantities import bracketed, display_of, long_name
 
     values = Table(title=escape(f"{file}: what may be off"))
     values.add_column("value")
@@ -133,10 +139,9 @@ def _print(found: "Fit", file: str) -> None:
     for column in ("file", "fitted", "accuracy"):
         curves.add_column(column, justify="right")
     for curve in found.curves:
-        quantity = next(known[curve.name] for known in KNOWN.values() if curve.name in known)
-        attributes = quantity.attributes()
-        factor = display_of(attributes).factor
+        data = measured[curve.name]
+        factor = display_of(data.attrs).factor
         numbers = [significant(v * factor) for v in (curve.before, curve.after, curve.within)]
-        curves.add_row(escape(bracketed(quantity.long_name, attributes)), *numbers)
+        curves.add_row(escape(bracketed(long_name(data), data.attrs)), *numbers)
     console.print(curves)
     say(f"{found.message}; {found.evaluations} suspensions were looked at.")

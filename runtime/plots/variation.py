@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from textwrap import fill
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import xarray as xr
@@ -16,7 +16,7 @@ from ..core.files import Paths
 from ..core.quantities import bracketed, display_of, displayed, long_name
 from ..study.characteristics.datasets import ALONG, KNOWN
 from ..study.compare import common_positions
-from ..study.variation.curves import Curves, model_of
+from ..study.variation.curves import Curves, Over, model_of
 from ..study.variation.goals import Limit
 from ..study.variation.optimise import Optimum
 from ..study.variation.sensitivity import PLACE, Effect, effects
@@ -143,7 +143,9 @@ def write_optimum(
     models = {"before": model_of(found.start), "after": model_of(found.suspension)}
     goals = [*found.targets, *found.limits]
     panels = {f"{goal.name} over {goal.over}": goal for goal in goals}
-    positions = {over: common_positions(models, over=over) for over in {g.over for g in goals}}
+    # goals under loads are only fitted
+    ways = {cast("Over", goal.over) for goal in goals}
+    positions = {str(over): common_positions(models, over=over) for over in ways}
 
     def draw(axes: Axes, key: str) -> None:
         panel = panels[key]

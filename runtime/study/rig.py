@@ -18,6 +18,8 @@ from .characteristics.catalogue import Quantity
 from .characteristics.datasets import ALONG, KNOWN, RACK, TRAVEL
 from .compare import DATA_SET
 from .csv_columns import Sheet
+from .loads.compliance import COMPLIANCES, compliance
+from .loads.flexibility import HELD, Held
 
 Array = NDArray[np.float64]
 
@@ -29,14 +31,20 @@ _UNITS = {
     "\u00b0": ("rad", math.pi / 180.0),
     "N": ("N", 1.0),
     "kN": ("N", 1e3),
+    "N m": ("N m", 1.0),
+    "100 N m": ("N m", 1e2),
+    "kN m": ("N m", 1e3),
     "%": ("1", 1e-2),
     "1": ("1", 1.0),
     "-": ("1", 1.0),
     "": ("1", 1.0),
 }
-_EVERY = {name: quantity for known in KNOWN.values() for name, quantity in known.items()}
+_EVERY = COMPLIANCES | {
+    name: quantity for known in KNOWN.values() for name, quantity in known.items()
+}
 _ALONG = {quantity.name: quantity for quantity in ALONG.values()}
 _KNOWN = {ALONG[over].name: known for over, known in KNOWN.items()}
+_KNOWN[TRAVEL.name] = _KNOWN[TRAVEL.name] | COMPLIANCES
 # What is held moves by less than this [m], and by less than this part of what does not.
 _NOISE, _PART_OF_NOISE = 1e-4, 1e-2
 
@@ -46,7 +54,8 @@ def measured_curves(path: str | Path) -> xr.Dataset:
 
     The first line names the columns, each with its unit in brackets: ``wheel_travel [mm]`` or
     ``rack_position [mm]``, and characteristics, such as ``toe [deg]`` or ``wheel_rate [N/mm]``, by
-    their names in kintrafo. Columns of other names are left out. Rows may be in any order, and a
+    their names in kintrafo; over wheel travel compliance as well, ``toe_by_lateral [deg/kN]``.
+    Columns of other names are left out. Rows may be in any order, and a
     position may be there more than once, as of a loop with friction. A cell may be empty. Where
     both positions are there, one must be the same in all rows, to 0.1 mm: the suspension is held
     there, at its mean.
@@ -112,7 +121,13 @@ def _told_apart(sheet: Sheet, places: Mapping[str, Array]) -> tuple[str, list[tu
     return varying[0], held
 
 
-def beside(measured: xr.Dataset, models: Mapping[str, Model], name: str = "measured") -> xr.Dataset:
+def beside(
+    measured: xr.Dataset,
+    models: Mapping[str, Model],
+    name: str = "measured",
+    *,
+    held: Held = "height",
+) -> xr.Dataset:
     """Return characteristics at the positions of measured curves, beside these.
 
     Parameters
@@ -123,6 +138,8 @@ def beside(measured: xr.Dataset, models: Mapping[str, Model], name: str = "measu
         By the names that stand beside their curves.
     name : str, optional
         That of the measurement.
+    held : {'height', 'spring', 'locked'}, optional
+        What held the wheel when compliance was measured, see `kintrafo.loads.compliance`.
 
     Returns
     -------
@@ -141,6 +158,7 @@ def beside(measured: xr.Dataset, models: Mapping[str, Model], name: str = "measu
         for model in given.mapping("models", models, "names and models").values():
             given.kind("model", model, Model, Model.NEEDED)
         given.text("name", name)
+        given.among("held", held, HELD)
         if not given.refused and name in models:
             given.refuse(f"name = {name!r} is that of a model, too. Choose another one.")
         if not (models or given.refused):
@@ -149,7 +167,7 @@ def beside(measured: xr.Dataset, models: Mapping[str, Model], name: str = "measu
             given.refuse("measured: what kintrafo.rig.measured_curves returns is needed.")
     found = [measured]
     for model in models.values():
-        whole = _curves(model, measured)
+        whole = _curves(model, measured, held)
         found.append(whole[[n for n in map(str, measured) if n in whole]])
     names = xr.Variable(DATA_SET, [name, *models], {"long_name": "data set"})
     # positions are the same and may repeat: nothing is to be aligned
@@ -159,7 +177,7 @@ def beside(measured: xr.Dataset, models: Mapping[str, Model], name: str = "measu
     )  # fmt: skip
 
 
-def _curves(model: Model, measured: xr.Dataset) -> xr.Dataset:
+def _curves(model: Model, measured: xr.Dataset, held_by: Held) -> xr.Dataset:
     """Return the characteristics at the positions of a measurement."""
 
     def held(name: str) -> float:
@@ -167,7 +185,12 @@ def _curves(model: Model, measured: xr.Dataset) -> xr.Dataset:
 
     if TRAVEL.name in measured.dims:
         travels = measured[TRAVEL.name].values
-        return characteristics.travel(model, travels, rack_position=held(RACK.name))
+        rack = held(RACK.name)
+        found = characteristics.travel(model, travels, rack_position=rack)
+        if not (model.suspension.bushings and {*map(str, measured)} & {*COMPLIANCES}):
+            return found
+        soft = compliance(model, None, travels, rack_position=rack, held=held_by)
+        return found.assign({name: soft[name].variable for name in COMPLIANCES})
     return characteristics.steering(model, measured[RACK.name].values, travel=held(TRAVEL.name))
 
 
@@ -222,7 +245,8 @@ def _in_si(unit: str) -> tuple[str, float]:
     factor = known[0][1] / (known[1][1] if len(known) == 2 else 1.0)
     if len(known) == 1 or known[1][0] == "1":
         return known[0][0], factor
-    return ("1" if known[0][0] == known[1][0] else f"{known[0][0]}/{known[1][0]}"), factor
+    below = f"({known[1][0]})" if " " in known[1][0] else known[1][0]
+    return ("1" if known[0][0] == known[1][0] else f"{known[0][0]}/{below}"), factor
 
 
 def _factor(unit: str) -> float:

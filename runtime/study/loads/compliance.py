@@ -224,20 +224,29 @@ def told(
     turn = moved[:, 3:]
     shift = moved[:, :3] + np.cross(turn, poses.points[test.at] - poses.points[CONTACT])
     as_motion = replace(there, travel=Motion(shift, turn))
-    values: list[tuple[str, str, str, str, Array]] = [
-        ("toe", "rad", "toe angle", "positive toe-in", wheel.bump_steer(as_motion)),
-        ("camber", "rad", "camber", "positive with the top outboard",
-         wheel.camber_gradient(as_motion)),
-    ]  # fmt: skip
+    values = {
+        "toe": wheel.bump_steer(as_motion),
+        "camber": wheel.camber_gradient(as_motion),
+        "displacement": (sense_of(test, poses, there) * shift).sum(axis=-1),
+    }
+    for kind, quantity in _quantities(test, how).items():
+        yield quantity, values[kind]
+
+
+def _quantities(test: RigLoad, how: str = "") -> dict[str, Quantity]:
+    """Return what is told under a load, by what of the wheel it is."""
+    kinds = [
+        ("toe", "rad", "toe angle", "positive toe-in"),
+        ("camber", "rad", "camber", "positive with the top outboard"),
+    ]
     if test.where:
-        along = sense_of(test, poses, there)
-        words = f"displacement {test.where}"
-        values.append(("displacement", "m", words, "", (along * shift).sum(axis=-1)))
-    for name, unit, words, sign, numbers in values:
+        kinds.append(("displacement", "m", f"displacement {test.where}", ""))
+    found = {}
+    for name, unit, words, sign in kinds:
         shown = display_of({"units": unit})
         display = Display(f"{shown.units}/{test.shown.units}", shown.factor * test.shown.factor)
         where = f"of the {test.at.replace('_', ' ').replace('center', 'centre')}"
-        quantity = Quantity(
+        found[name] = Quantity(
             f"{name}_by_{test.name}",
             f"{unit}/({test.unit})" if " " in test.unit else f"{unit}/{test.unit}",
             f"{words} by {test.words}{how and f', {how}'}",
@@ -245,8 +254,12 @@ def told(
             sign or f"positive {test.where}",
             display=display,
         )
-        yield quantity, numbers
+    return found
 
 
 def _mirror(side: float) -> Array:
     return np.array([1.0, side, 1.0])
+
+
+COMPLIANCES = {q.name: q for test in RIG_LOADS for q in _quantities(test).values()}
+"""What is told of a wheel under loads, by name."""

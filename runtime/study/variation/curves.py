@@ -2,7 +2,7 @@
 
 from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,10 +11,15 @@ from ...core.arguments import Arguments
 from ...suspension.kinds import Suspension
 from ...suspension.model import Model
 from ..characteristics.datasets import ALONG, over_rack, over_travel
+from ..loads.compliance import COMPLIANCES, compliance
+from ..loads.flexibility import HELD, Held
 from ..sweep import usual_rack, usual_travel
 
 Array = NDArray[np.float64]
 Over = Literal["travel", "rack"]
+Way = Over | Held
+"""Characteristics over wheel travel or the rack; or compliance over wheel travel, by what holds the
+wheel under the loads."""
 
 
 @dataclass(frozen=True)
@@ -24,14 +29,14 @@ class Curves:
     Attributes
     ----------
     over : str
-        'travel' or 'rack'.
+        'travel' or 'rack'; or what holds the wheel under loads.
     positions : ndarray
         Wheel travel, or displacement of the rack [m].
     names : tuple of str
         The characteristics.
     """
 
-    over: Over
+    over: Way
     positions: Array
     names: tuple[str, ...]
 
@@ -52,7 +57,7 @@ class Together:
 
     def __init__(self, curves: Sequence[Curves]) -> None:
         self._curves = tuple(curves)
-        self._looks: dict[Over, Curves] = {}
+        self._looks: dict[Way, Curves] = {}
         for over in dict.fromkeys(c.over for c in curves):
             same = [c for c in curves if c.over == over]
             positions = np.unique(np.concatenate([c.positions for c in same]))
@@ -72,15 +77,20 @@ class Together:
 
 
 def values_of(
-    model: Model, over: Over, positions: Array, names: Container[str] | None = None
+    model: Model, over: Way, positions: Array, names: Container[str] | None = None
 ) -> dict[str, Array]:
-    """Return characteristics by name, all that there are or some."""
+    """Return characteristics or compliance by name, all that there are or some."""
+    if over in HELD:
+        found = compliance(model, None, positions, held=cast("Held", over))
+        return {name: found[name].values for name in COMPLIANCES}
     values = over_travel if over == "travel" else over_rack
     return {q.name: v for q, v in values(model, positions, names=names).items()}
 
 
-def there(model: Model, over: Over) -> tuple[str, ...]:
-    """Return the characteristics for which the file has the data."""
+def there(model: Model, over: Way) -> tuple[str, ...]:
+    """Return the characteristics, or compliance, for which the file has the data."""
+    if over in HELD and not model.suspension.bushings:
+        return ()
     return tuple(values_of(model, over, np.zeros(1)))
 
 

@@ -14,7 +14,9 @@ from ...core.errors import InputError
 from ...core.quantities import display_of
 from ...suspension.kinds import Suspension
 from ..characteristics.datasets import ALONG, KNOWN
-from .curves import Over
+from ..loads.compliance import COMPLIANCES
+from ..loads.flexibility import HELD, Held
+from .curves import Over, Way
 from .goals import Target, check_data
 from .places import Place, amounts
 from .search import Search, in_words, least
@@ -110,10 +112,11 @@ class Fit:
 def fit(
     suspension: Suspension,
     measured: xr.Dataset,
-    tolerances: Mapping[str, float],
+    tolerances: Mapping[str, float | str],
     *,
     accuracy: Mapping[str, float] | None = None,
     names: Sequence[str] | None = None,
+    held: Held = "height",
     progress: Callable[[float], None] | None = None,
 ) -> Fit:
     """Find which errors of the input file explain curves that were measured.
@@ -123,14 +126,19 @@ def fit(
     suspension : Suspension
     measured : xarray.Dataset
         From `kintrafo.rig.measured_curves`; the steering straight ahead, or the wheel at design.
-    tolerances : mapping of str to float
+        Compliance by the names of `kintrafo.loads.compliance` may be among the curves over wheel
+        travel, if the file has its bushes.
+    tolerances : mapping of str to float or str
         How far values may be off to either side, as of `tolerance`: normally distributed with a
-        third of it as standard deviation. None is moved farther.
+        third of it as standard deviation. None is moved farther. A text such as ``"30 %"`` is a
+        part of the value, as of the stiffness of a bush.
     accuracy : mapping of str to float, optional
         Standard deviation with which characteristics are measured, in the unit for people. By
         default 2 % of what the curve varies by.
     names : sequence of str, optional
         Which of the curves are to be explained; by default all.
+    held : {'height', 'spring', 'locked'}, optional
+        What held the wheel when compliance was measured, see `kintrafo.loads.compliance`.
     progress : callable, optional
         Called after every step of the solver with the cost that is left, as a part of that at the
         start.
@@ -171,7 +179,8 @@ def fit(
             "accuracy", {} if accuracy is None else accuracy, "names and numbers"
         )
         if not given.refused:
-            targets = _targets(given, measured, names, accuracies)
+            given.among("held", held, HELD)
+            targets = _targets(given, measured, names, accuracies, held)
         if not given.refused:
             check_data(given, suspension, targets)
             by_pattern = given.mapping("tolerances", tolerances, "places and numbers")
@@ -186,7 +195,11 @@ def fit(
 
 
 def _targets(
-    given: Arguments, measured: xr.Dataset, names: Any, accuracies: Mapping[str, Any]
+    given: Arguments,
+    measured: xr.Dataset,
+    names: Any,
+    accuracies: Mapping[str, Any],
+    held_by: Held,
 ) -> list[Target]:
     """Return the measured curves as targets, without the cells that are empty."""
     over = [way for way, along in ALONG.items() if along.name in measured.dims]
@@ -207,7 +220,8 @@ def _targets(
         for name in map(str, measured)
         if measured[name].dims == (along,) and np.issubdtype(measured[name].dtype, np.floating)
     ]
-    known = [name for name in there if name in KNOWN[way]]
+    under_loads = COMPLIANCES if way == "travel" else {}
+    known = [name for name in there if name in KNOWN[way] or name in under_loads]
     chosen = known if names is None else given.names("names", names, known)
     if not chosen and not given.refused:
         given.refuse("measured: one curve or more is needed.")
@@ -216,18 +230,20 @@ def _targets(
     return [
         target
         for name in chosen
-        if (target := _target(given, measured[name], way, accuracies.get(name))) is not None
+        for over in [held_by if name in under_loads else way]
+        if (target := _target(given, measured[name], over, accuracies.get(name))) is not None
     ]
 
 
-def _target(given: Arguments, curve: xr.DataArray, way: Over, accuracy: Any) -> Target | None:
+def _target(given: Arguments, curve: xr.DataArray, over: Way, accuracy: Any) -> Target | None:
     name = str(curve.name)
     fine = np.isfinite(curve.values)
-    values, at = curve.values[fine], curve[ALONG[way].name].values[fine]
+    values, at = curve.values[fine], curve[str(curve.dims[0])].values[fine]
     if not values.size:
         given.refuse(f"measured: {name} has no value.")
         return None
-    shown = display_of(KNOWN[way][name].attributes())
+    quantity = COMPLIANCES[name] if over in HELD else KNOWN[over][name]
+    shown = display_of(quantity.attributes())
     if accuracy is not None:
         number = given.number(f"accuracy of {name}", accuracy, shown.units, above=0.0)
         within = number / shown.factor
@@ -239,7 +255,7 @@ def _target(given: Arguments, curve: xr.DataArray, way: Over, accuracy: Any) -> 
                 f"Give its accuracy, in {shown.units or 'its unit'}."
             )
             return None
-    return Target(name, way, at, values, within * _repeated(values.size))
+    return Target(name, over, at, values, within * _repeated(values.size))
 
 
 def _repeated(points: int) -> float:

@@ -13,7 +13,8 @@ from ...core.quantities import display_of
 from ...suspension.input.toml_file import read_sections
 from ...suspension.kinds import Suspension
 from ..characteristics.datasets import KNOWN
-from .curves import Curves, Over, model_of, there
+from ..loads.flexibility import HELD
+from .curves import Curves, Over, Way, model_of, there
 
 Array = NDArray[np.float64]
 
@@ -31,13 +32,13 @@ class Goal:
     name : str
         Characteristic.
     over : str
-        'travel' or 'rack'.
+        'travel' or 'rack'; or what holds the wheel under loads, see `Way`.
     at : ndarray, shape (n,)
         Positions [m].
     """
 
     name: str
-    over: Over
+    over: Way
     at: Array
 
     @property
@@ -120,11 +121,11 @@ def check_data(given: Arguments, suspension: Suspension, goals: Iterable[Goal]) 
     """
     model = model_of(suspension)
     for goal in goals:
-        name = f"{goal.name} over {goal.over}"
+        name = f"{goal.name} over {'travel' if goal.over in HELD else goal.over}"
         if goal.name not in there(model, goal.over):
             given.refuse(
-                f"{name}: the file has not the data that this needs, see [vehicle], [rack] and "
-                "[tyre]."
+                f"{name}: the file has not the data that this needs, see [vehicle], [rack], "
+                "[tyre] and [bushings]."
             )
             continue
         missing = goal.at[~np.isfinite(goal.curves.of(model)[0])]

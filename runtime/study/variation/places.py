@@ -1,6 +1,7 @@
 """The numbers of an input file that may vary, and how they are called."""
 
 import math
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
@@ -101,14 +102,29 @@ def amounts(
 ) -> dict[Place, float]:
     """Return an amount in SI units for every number that a pattern names; later patterns count.
 
-    They are in the order of the file, whatever that of the patterns is.
+    They are in the order of the file, whatever that of the patterns is. A text such as "20 %" is a
+    part of each value.
     """
     found: dict[str, tuple[Place, float]] = {}
     for pattern, amount in by_pattern.items():
         for name, place in matching(given, suspension, [str(pattern)]).items():
-            checked = given.number(f"{what} of {pattern}", amount, place.unit, above=0.0)
+            title = f"{what} of {pattern}"
+            number = _part_of(given, title, amount, place) if isinstance(amount, str) else amount
+            checked = given.number(title, number, place.unit, above=0.0)
             found[name] = place, checked * place.to_si
     return dict(found[name] for name in places_of(suspension) if name in found)
+
+
+def _part_of(given: Arguments, title: str, text: str, place: Place) -> float:
+    """Return what a text such as "20 %" is of a value, in its unit."""
+    percent = re.fullmatch(r"\s*(\d+(?:\.\d*)?)\s*%\s*", text)
+    if percent is None:
+        given.refuse(f'{title} = "{text}": a number is needed, or a text such as "20 %".')
+        return 1.0
+    if place.value == 0.0:
+        given.refuse(f"{title} = {text}: {place.name} is zero, of which there is no part.")
+        return 1.0
+    return float(percent[1]) / 100.0 * abs(place.value)
 
 
 def _fits(name: str, pattern: str) -> bool:
