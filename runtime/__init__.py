@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     )
     from .systems.compile import CompilerError, MechanismError, proposals
     from .systems.compile import compile_mechanism as compile  # noqa: A004 (what the user calls it)
+    from .systems.derivatives import derivative, design_derivative, gradient
     from .systems.linearisation import Linearisation, linearise
     from .systems.modes import Mode
     from .systems.state import State
@@ -69,8 +70,11 @@ __all__ = [
     "System",
     "arm_angles",
     "compile",
+    "derivative",
+    "design_derivative",
     "ensemble",
     "equilibrium",
+    "gradient",
     "linearise",
     "proposals",
     "road_under_load",
@@ -89,6 +93,7 @@ _MODULES = {
     ".suspension.axle.equations": ("AxleModel",),
     ".suspension.kinds": ("Suspension",),
     ".simulation.interpolation": ("Samples",),
+    ".systems.derivatives": ("derivative", "design_derivative", "gradient"),
     ".systems.linearisation": ("Linearisation", "linearise"),
     ".suspension.model": ("Model",),
     ".systems.modes": ("Mode",),

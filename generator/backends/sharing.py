@@ -107,16 +107,19 @@ def together(
         Names of what not every function has to be read.
     """
     values = _Values.of(functions, order)
+    reading = {step.name: {*_symbols(step.value)} for step in values.schedule.steps}
     needed: dict[str, set[str]] = {}
-    for step in values.schedule.steps:
-        read = {*_symbols(step.value)}
-        needed[step.name] = {n for n in read if n in own}.union(*(needed.get(n, ()) for n in read))
+    for name, read in reading.items():
+        needed[name] = {n for n in read if n in own}.union(*(needed.get(n, ()) for n in read))
     parts, start = [], 0
     for function in functions:
         reads = frozenset(s.name for s in function.free_symbols if s.name in own)
-        steps = tuple(s for s in values.schedule.steps if needed[s.name] & reads)
         results = values.schedule.results[start : start + function.size]
-        parts.append(Part(reads, steps, results, values.names_in(function)))
+        names = values.names_in(function)
+        guarded = (names.get(g.quantity.name, g.quantity.name) for g in function.guards)
+        alive = _behind([*chain(*map(_symbols, results)), *guarded], reading)
+        steps = tuple(s for s in values.schedule.steps if needed[s.name] and s.name in alive)
+        parts.append(Part(reads, steps, results, names))
         start += function.size
     all_read = {s.name for function in functions for s in function.free_symbols}
     return Together(
@@ -124,6 +127,17 @@ def together(
         tuple(step for step in values.schedule.steps if not needed[step.name]),
         tuple(parts),
     )
+
+
+def _behind(names: Iterable[str], reading: Mapping[str, Iterable[str]]) -> set[str]:
+    """Return names, and the names of all that they are computed from."""
+    waiting, found = [*names], set[str]()
+    while waiting:
+        name = waiting.pop()
+        if name not in found:
+            found.add(name)
+            waiting += reading.get(name, ())
+    return found
 
 
 def _symbols(operation: Operation) -> Iterator[str]:

@@ -71,6 +71,12 @@ def blocks_of(functions: Iterable[Function | Stage]) -> list[Block]:
     return list(found.values())
 
 
+def emitted_names(derivation: Derivation) -> list[str]:
+    """Return the names of all functions, those of parameters first."""
+    of_parameters = (derivation.design, *derivation.by_parameters.of_parameters)
+    return ["prepare", *(function.name for function in of_parameters), *derivation.emitted]
+
+
 def mechanism_hash(derivation: Derivation) -> str:
     """Return a hash of everything that the emitted arithmetic depends on; computed once."""
     if derivation not in _hashes:

@@ -24,6 +24,7 @@ from .declared_outputs import signals_of
 from .design import design_state
 from .dynamics import Dynamics
 from .in_motion import InMotion
+from .parameter_derivatives import ParameterDerivatives, derivatives_by_parameters
 from .relative import RelativeCoordinates
 
 if TYPE_CHECKING:
@@ -115,6 +116,8 @@ class Derivation:
         By variants in which joints are held: the rates of these, which are zero then.
     order
         Places of all steps by their names: the order of the derivation.
+    by_parameters
+        Derivatives by parameters, where they were asked for.
     """
 
     formulation: Formulation
@@ -135,10 +138,13 @@ class Derivation:
     signals: tuple[Shown, ...]
     held_inputs: dict[str, tuple[str, ...]] = field(default_factory=dict)
     order: dict[str, int] = field(default_factory=dict)
+    by_parameters: ParameterDerivatives = field(default_factory=ParameterDerivatives)
 
 
 @uncollected()
-def generate(formulation: Formulation, *, derivatives: bool = True) -> Derivation:
+def generate(
+    formulation: Formulation, *, derivatives: bool = True, parameter_derivatives: bool = False
+) -> Derivation:
     """Derive a model and its functions.
 
     Parameters
@@ -149,8 +155,37 @@ def generate(formulation: Formulation, *, derivatives: bool = True) -> Derivatio
         Also those of the right-hand side and of the signals by state and inputs, which take half
         of the time. A linearisation needs them, and a solver of stiff equations; no simulation
         with an explicit method does.
+    parameter_derivatives
+        Also those by parameters: along a direction, and of weighted sums.
     """
-    return _Builder(formulation, derivatives=derivatives).build()
+    derivation = _Builder(formulation, derivatives=derivatives).build()
+    return _with_parameter_derivatives(derivation) if parameter_derivatives else derivation
+
+
+def _with_parameter_derivatives(derivation: Derivation) -> Derivation:
+    found = derivatives_by_parameters(
+        derivation.functions,
+        derivation.prepare,
+        derivation.design,
+        {
+            "parameters": [entry.name for entry in derivation.parameters],
+            "constants": list(derivation.prepare.labels),
+            "state": [entry.name for entry in derivation.state],
+            "inputs": [entry.name for entry in derivation.inputs],
+        },
+    )
+    functions = {function.name: function for function in found.functions}
+    stages = [s for s in derivation.emitted.values() if isinstance(s, Stage)]
+    together = list(found.stages(stages))
+    taken = {member.name for stage in together for member in stage.members}
+    alone = (function for function in found.functions if function.name not in taken)
+    emitted: tuple[Function | Stage, ...] = (*alone, *together)
+    return replace(
+        derivation,
+        functions=derivation.functions | functions,
+        emitted=derivation.emitted | {made.name: made for made in emitted},
+        by_parameters=found,
+    )
 
 
 def _refuse_free(formulation: Formulation) -> None:

@@ -10,27 +10,35 @@ import sympy as sp
 from .symbols import symbols_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Container, Iterator, Mapping
 
 
 def chain_rule(
     expression: sp.Expr, tangent: Mapping[sp.Symbol, sp.Expr], symbol: sp.Symbol | None = None
 ) -> sp.Expr:
-    """Return the sum of partial derivatives times tangents.
+    """Return the sum of partial derivatives times tangents; see `partials`."""
+    return sp.Add(*(partial * tangent[s] for s, partial in partials(expression, tangent, symbol)))
+
+
+def partials(
+    expression: sp.Expr, moving: Container[sp.Symbol], symbol: sp.Symbol | None = None
+) -> Iterator[tuple[sp.Symbol, sp.Expr]]:
+    """Yield each moving symbol of an expression with the derivative by it.
 
     A root or a reciprocal that is a step of its own is differentiated in terms of its own symbol,
     so that it is not computed again.
     """
     own = expression.is_Pow and expression.exp in (sp.Rational(1, 2), -1)
     if symbol is None or not own:
-        return sp.Add(*(partial * tangent[s] for s, partial in _partials(expression, tangent)))
+        yield from _partials(expression, moving)
+        return
     factor = 1 / (2 * symbol) if expression.exp > 0 else -symbol * symbol
-    inner = _partials(expression.base, tangent)
-    return sp.Add(*(partial * factor * tangent[s] for s, partial in inner))
+    for s, partial in _partials(expression.base, moving):
+        yield s, partial * factor
 
 
 def _partials(
-    expression: sp.Expr, moving: Mapping[sp.Symbol, sp.Expr]
+    expression: sp.Expr, moving: Container[sp.Symbol]
 ) -> Iterator[tuple[sp.Symbol, sp.Expr]]:
     """Yield each moving symbol of an expression with the derivative by it.
 
@@ -39,8 +47,9 @@ def _partials(
     """
     having: dict[sp.Symbol, list[sp.Expr]] = {}
     for term in sp.Add.make_args(expression):
-        for s in symbols_of(term) & moving.keys():
-            having.setdefault(s, []).append(term)
+        for s in symbols_of(term):
+            if s in moving:
+                having.setdefault(s, []).append(term)
     for s in sorted(having, key=attrgetter("name")):
         yield s, sp.Add(*(_partial(term, s) for term in having[s]))
 

@@ -24,6 +24,11 @@ class SignOf(sp.Function):  # type: ignore[misc]  # SymPy has no types
 
     nargs = 1
 
+    def fdiff(self, argindex: int = 1) -> sp.Expr:
+        """Differentiate: zero, since no branch is left without passing a dead point."""
+        del argindex
+        return sp.Integer(0)
+
 
 class Positive(sp.Function):  # type: ignore[misc]
     """The argument where it is positive, zero elsewhere."""

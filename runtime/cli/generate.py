@@ -39,6 +39,10 @@ def command(
     numpy: Annotated[
         bool, typer.Option("--numpy", help="Functions over NumPy arrays instead of compiled C.")
     ] = False,
+    parameter_derivatives: Annotated[
+        bool,
+        typer.Option("--parameter-derivatives", help="Also exact derivatives by parameters."),
+    ] = False,
     force: Force = False,
     json: Json = False,
 ) -> None:
@@ -58,6 +62,7 @@ def command(
             file,
             name=model,
             backend="numpy" if numpy else "auto",
+            parameter_derivatives=parameter_derivatives,
             progress=lambda text: progress.update(task, description=text),
         )
     seconds = time.perf_counter() - started

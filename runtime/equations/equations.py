@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..core.physical import inertia_of_no_body, out_of_range
+from .directions import ADJOINTS, TANGENTS, Behind, Directions
 from .errors import ClosureError, ModelError, ParameterError, place_of
 from .residuals import Residuals
 from .status import LAST_GUARD_BIT, NOT_FINITE, bit_of, mask_of
@@ -87,8 +88,10 @@ class Equations:
         self._acting = {n: tuple(f["guards"]) for n, f in manifest["functions"].items()}
         self._acting |= {name: self._acting_in(name) for name in manifest["stages"]}
         names = [*manifest["functions"], *manifest["stages"]]
-        self.functions = {name: self._function(name) for name in names if name != "residuals"}
+        made = {name: self._function(name) for name in names if name != "residuals"}
+        self.functions = {name: f for name, f in made.items() if not self._behind(name)}
         self.residuals = Residuals(self)
+        self.directions = Directions(self, {n: f for n, f in made.items() if self._behind(n)})
 
     @classmethod
     def beside(cls, module: str, code: Code) -> "Equations":
@@ -142,6 +145,7 @@ class Equations:
             "prepare": self.prepare,
             "design_state": self.design_state,
             **self.functions,
+            "DIRECTIONS": self.directions,
             "residuals": self.residuals,
             "__doc__": "\n".join(self._described()),
         }
@@ -181,6 +185,7 @@ class Equations:
         stages = self.manifest["stages"]
         described = stages[name] if name in stages else self.manifest["functions"][name]
         stage: str = described.get("stage", name)
+        behind = self._behind(name)
         labels = tuple(labels_of(described))
         if name in stages:
             parts = self._parts_of(name).items()
@@ -188,7 +193,7 @@ class Equations:
         shape = tuple(described.get("shape", [len(labels)]))
         operations = stages.get(stage, described)["operations"]
         return self._calls.Function(
-            self,
+            Behind(self, behind) if behind else self,
             name,
             self._code[stage],
             shape,
@@ -201,6 +206,22 @@ class Equations:
             mask_of(self._acting[name]),
         )
 
+    def _behind(self, name: str) -> tuple[int, ...]:
+        """Return how much a function reads behind constants, state and inputs; none of most."""
+        parts = [*self._parts_of(name).values()] or [self.manifest["functions"][name]]
+        part = parts[0].get("part")
+        if part == TANGENTS:
+            return self.widths
+        if part == ADJOINTS:
+            original = self.manifest["functions"][name.removesuffix("_adjoint")]
+            return 0, 0, len(labels_of(original))
+        return ()
+
+    def call_of_parameters(self, function: str, given: Array, found: Array) -> int:
+        """Fill what a function makes of parameters, and return what is wrong, if anything is."""
+        failed: int = self._calls.call_prepare(self._code[function], given, found)
+        return failed
+
     def design_state(self, parameters: Mapping[str, float]) -> Array:
         """Return the state at the design position of some parameters, at rest.
 
@@ -211,7 +232,7 @@ class Equations:
         """
         given = np.array([parameters[name] for name in self.parameter_names], dtype=np.float64)
         state = np.empty(len(self.state_names))
-        self._calls.call_prepare(self._code["design_state"], given, state)
+        self.call_of_parameters("design_state", given, state)
         return state
 
     def prepare(self, parameters: Mapping[str, float] | ArrayLike) -> Array:
@@ -250,7 +271,7 @@ class Equations:
         if problems:
             raise ParameterError(f"{self.name}: {'; '.join(problems)}")
         constants = np.empty(len(self.constant_names))
-        failed = self._calls.call_prepare(self._code["prepare"], given, constants)
+        failed = self.call_of_parameters("prepare", given, constants)
         if failed:
             raise ParameterError(f"{self.name}: {self._unusable(failed, constants)}")
         constants.flags.writeable = False

@@ -119,7 +119,12 @@ class Header(CText):
             f"{self._comment(self.derivation.design, self.derivation.design.doc)}\n"
             f"{self.from_parameters('design_state', 'state')};"
         )
-        return [prepare, design, *(self._prototype(f) for f in self.derivation.emitted.values())]
+        more = (
+            f"{self._comment(f, f.doc)}\n{self.from_parameters(f.name, 'out')};"
+            for f in self.derivation.by_parameters.of_parameters
+        )
+        emitted = (self._prototype(f) for f in self.derivation.emitted.values())
+        return [prepare, design, *more, *emitted]
 
     def _prepare_returns(self) -> str:
         first = " * Returns 0, or one plus the index of the first constant that is not finite"

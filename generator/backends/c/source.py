@@ -20,7 +20,7 @@ from .iteration import call_of, once
 from .statements import declared, in_all_lanes, printed, wrapped
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Mapping, Sequence
+    from collections.abc import Collection, Iterable, Mapping, Sequence
 
     import sympy as sp
 
@@ -56,7 +56,7 @@ class Source(CText):
             template("c", "inlined.c").template.strip(),
             template("c", "scalars.c").template.strip(),
             *self._blocks(blocks_of(functions)),
-            *([] if part else [*self._rounding(), self._prepare_body(), self._design_body()]),
+            *([] if part else self._bodies_of_parameters()),
             *self._functions(functions),
         ]
         return "\n\n".join(blocks) + "\n"
@@ -66,6 +66,11 @@ class Source(CText):
         """The functions that a simulation evaluates, of many systems at once."""
         variants = (f"rhs_{variant}" for variant in self.derivation.held_inputs)
         return frozenset({"rhs", *variants, "signals", "margins"})
+
+    def _bodies_of_parameters(self) -> list[str]:
+        more = map(self._body_of_parameters, self.derivation.by_parameters.of_parameters)
+        design = self._body_of_parameters(self.derivation.design, "state")
+        return [*self._rounding(), self._prepare_body(), design, *_plain([*more])]
 
     def _rounding(self) -> list[str]:
         if not self.derivation.assumptions:
@@ -116,22 +121,21 @@ class Source(CText):
         ]
         return "\n".join(lines)
 
-    def _design_body(self) -> str:
-        design = self.derivation.design
-        read = {s.name for s in design.free_symbols}
-        values = [e.name for e in self.derivation.parameters]
-        loads = [f"{n} = parameters[{i}]" for i, n in enumerate(values) if n in read]
+    def _body_of_parameters(self, function: Function, out: str = "out") -> str:
+        read = {s.name for s in function.free_symbols}
+        places = self._places("parameters", [e.name for e in self.derivation.parameters])
+        loads = [f"{n} = parameters[{i}]" for n, i in places.items() if n in read]
         finite = self.enumerator("status", "not_finite")
-        results = written(design, FORMULA)[1]
+        results = written(function, FORMULA)[1]
         return "\n".join(
             [
-                self.from_parameters("design_state", "state", "status_word"),
+                self.from_parameters(function.name, out, "status_word"),
                 "{",
                 *(declared(loads) or ["    (void)parameters;"]),
-                *printed(scheduled(design).steps, {}),
+                *printed(scheduled(function).steps, {}),
                 "",
-                *(f"    state[{i}] = {in_all_lanes(value)};" for i, value in enumerate(results)),
-                f"    return finite_bit(state, {len(self.derivation.state)}, {finite});",
+                *(f"    {out}[{i}] = {in_all_lanes(value)};" for i, value in enumerate(results)),
+                f"    return finite_bit({out}, {function.size}, {finite});",
                 "}",
             ]
         )
@@ -184,10 +188,11 @@ class Source(CText):
 
     def _compute(self, functions: Sequence[Function | Stage], *, given: bool) -> str:
         """Print what all functions compute, each step once."""
-        relative = {f"given_{e.name}" for e in self.derivation.relative}
-        whole = together(functions, self.derivation.order, relative)
+        own = {f"given_{e.name}" for e in self.derivation.relative}
+        own.update(self.derivation.by_parameters.weights("inputs"))
+        whole = together(functions, self.derivation.order, own)
         c = _free("c", whole.names)
-        names = {name: f"{c}->{name}" for name in self.derivation.prepare.labels}
+        names = self._constants(c)
         start = "INLINED status_word compute("
         indent, more = " " * len(start), " const double *restrict given," * given
         lines = [
@@ -212,28 +217,46 @@ class Source(CText):
             ]
         return "\n".join([*lines, "    return status;", "}"])
 
+    def _constants(self, c: str) -> dict[str, str]:
+        """Return how constants are read, and their directions, which stand behind them."""
+        labels = self.derivation.prepare.labels
+        names = {name: f"{c}->{name}" for name in labels}
+        behind = self.derivation.by_parameters.places("constants")
+        return names | {n: f"{c}[1].{labels[i - len(labels)]}" for n, i in behind.items()}
+
+    def _places(self, array: str, names: Iterable[str]) -> dict[str, int]:
+        """Return the places of the elements of an array, with what stands behind its values."""
+        behind = self.derivation.by_parameters.places(array)
+        return {name: i for i, name in enumerate(names)} | behind
+
     def _pointer(self, c: str, read: Collection[str]) -> list[str]:
         """Return the declaration of the constants; mark what is not read."""
-        labels, states = self.derivation.prepare.labels, [e.name for e in self.derivation.state]
-        unread = {"state": states, "inputs": [e.name for e in self.derivation.inputs]}
-        lines = [f"    (void){n};" for n, names in unread.items() if not {*names} & {*read}]
-        if not {*labels} & {*read}:
+        lines = [
+            f"    (void){array};"
+            for array, places in self._arrays().items()
+            if array != "given" and not places.keys() & {*read}
+        ]
+        if not self._constants(c).keys() & {*read}:
             return ["    (void)constants;", *lines]
         pointer = f"    const struct {self.prefix}_constants *const {c} = (const void *)constants;"
         return [pointer, *lines]
 
-    def _loads(self, read: Collection[str]) -> list[str]:
-        """Return the declarations of what is read of state, inputs and given coordinates."""
+    def _arrays(self) -> dict[str, dict[str, int]]:
+        """Return the places of all that is read by name but constants."""
         arrays = {
             "state": [e.name for e in self.derivation.state],
             "inputs": [e.name for e in self.derivation.inputs],
             "given": [f"given_{e.name}" for e in self.derivation.relative],
         }
+        return {array: self._places(array, names) for array, names in arrays.items()}
+
+    def _loads(self, read: Collection[str]) -> list[str]:
+        """Return the declarations of what is read of state, inputs and given coordinates."""
         return declared(
             [
                 f"{name} = {array}[{i}]"
-                for array, names in arrays.items()
-                for i, name in enumerate(names)
+                for array, places in self._arrays().items()
+                for name, i in places.items()
                 if name in read
             ]
         )

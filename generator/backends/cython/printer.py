@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..templates import template
-from ..words import reads_given
+from ..words import emitted_names, reads_given
 
 if TYPE_CHECKING:
     from ...equations.outputs import Derivation
@@ -17,19 +17,22 @@ class CythonPrinter:
 
     def __init__(self, derivation: Derivation) -> None:
         self.name = derivation.formulation.name
-        self._functions = derivation.emitted.values()
+        self._functions = derivation.emitted
+        self._names = emitted_names(derivation)
 
     def addresses(self) -> str:
         """Return the text of the ``.pyx`` file."""
         of_parameters = [
             f"    int {self.name}_{function}(const double *parameters, double *out)"
-            for function in ("prepare", "design_state")
+            for function in self._names
+            if function not in self._functions
         ]
-        names = ["prepare", "design_state", *(f.name for f in self._functions)]
         return template("cython", "addresses.pyx").substitute(
             name=self.name,
-            declarations="\n".join([*of_parameters, *map(self._declaration, self._functions)]),
-            addresses="\n".join(f'    "{n}": <uintptr_t> &{self.name}_{n},' for n in names),
+            declarations="\n".join(
+                [*of_parameters, *map(self._declaration, self._functions.values())]
+            ),
+            addresses="\n".join(f'    "{n}": <uintptr_t> &{self.name}_{n},' for n in self._names),
         )
 
     def addresses_stub(self) -> str:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import sympy as sp
 
 from ...declare.ranges import described as parameters_of
+from ...equations.parameter_derivatives import ADJOINTS, TANGENTS
 from ..counting import OPERATIONS, operations_of
 from ..text import formula
 from ..words import FORMULA, GENERATOR_VERSION, iteration_note, mechanism_hash
@@ -190,6 +191,7 @@ def _function(derivation: Derivation, function: Function) -> dict[str, Any]:
     rows, columns = _split(function.labels)
     described: dict[str, Any] = {"doc": function.doc, "shape": function.shape, "labels": rows}
     described |= {"by": columns} if columns else {}
+    described |= {"part": function.part} if function.part in (TANGENTS, ADJOINTS) else {}
     described |= {"iterates": [b.name for b in function.blocks]} if function.blocks else {}
     return described | {"guards": sorted(places[guard.name] for guard in function.guards)}
 

@@ -14,11 +14,11 @@ from ...program.floors import ROUNDING
 from ..sharing import names_in
 from ..templates import template
 from ..text import formula, written
-from ..words import blocks_of, reads_given
+from ..words import blocks_of, emitted_names, reads_given
 from .dialect import NUMPY
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
     from ...equations.outputs import Derivation
     from ...program.function import Block, Function, Stage
@@ -32,7 +32,6 @@ class ArraysPrinter:
 
     def source(self) -> str:
         """Return the text of the file that stands in for the addresses of the C functions."""
-        names = ["prepare", "design_state", *self.derivation.emitted]
         return template("numpy", "arrays.py").substitute(
             name=self.derivation.formulation.name,
             rounding=ROUNDING,
@@ -40,17 +39,19 @@ class ArraysPrinter:
                 [
                     *printed_blocks(blocks_of(self.derivation.emitted.values())),
                     self._prepare(),
-                    self._design(),
+                    *map(
+                        self._of_parameters,
+                        (self.derivation.design, *self.derivation.by_parameters.of_parameters),
+                    ),
                     *map(self._body, self.derivation.emitted.values()),
                 ]
             ),
-            table="\n".join(f'    "{name}": {name},' for name in names),
+            table="\n".join(f'    "{name}": {name},' for name in emitted_names(self.derivation)),
         )
 
     def _prepare(self) -> str:
-        loads = loaded(
-            "parameters", [e.name for e in self.derivation.parameters], self.derivation.prepare
-        )
+        names = [e.name for e in self.derivation.parameters]
+        loads = self._loaded("parameters", names, self.derivation.prepare)
         called = {
             sp.Symbol(n): sp.Symbol(other) for n, other in names_in(self.derivation.prepare).items()
         }
@@ -72,22 +73,21 @@ class ArraysPrinter:
         holds = [f"{place}: {test}" for place, test in enumerate(tests)]
         return definition(self.derivation.prepare, "parameters", loads, holds)
 
-    def _design(self) -> str:
-        design = self.derivation.design
-        loads = loaded("parameters", [e.name for e in self.derivation.parameters], design)
-        return definition(design, "parameters", loads)
+    def _of_parameters(self, function: Function) -> str:
+        names = [e.name for e in self.derivation.parameters]
+        return definition(function, "parameters", self._loaded("parameters", names, function))
 
     def _body(self, function: Function | Stage) -> str:
         loads = [
-            *loaded("constants", self.derivation.prepare.labels, function),
-            *loaded("state", [e.name for e in self.derivation.state], function),
-            *loaded("inputs", [e.name for e in self.derivation.inputs], function),
+            *self._loaded("constants", self.derivation.prepare.labels, function),
+            *self._loaded("state", [e.name for e in self.derivation.state], function),
+            *self._loaded("inputs", [e.name for e in self.derivation.inputs], function),
         ]
         arguments = "constants, state, inputs"
         if reads_given(function):
             arguments += ", given"
             names = [f"given_{e.name}" for e in self.derivation.relative]
-            loads += loaded("given", names, function)
+            loads += self._loaded("given", names, function)
         places = {guard.name: place for place, guard in enumerate(self.derivation.guards)}
         called = names_in(function)
         holds = [
@@ -96,6 +96,10 @@ class ArraysPrinter:
             for guard in function.guards
         ]
         return definition(function, arguments, loads, holds)
+
+    def _loaded(self, array: str, names: Iterable[str], function: Function | Stage) -> list[str]:
+        behind = self.derivation.by_parameters.places(array)
+        return loaded(array, names, function, behind)
 
 
 def definition(
@@ -157,10 +161,23 @@ def _block(block: Block) -> str:
     return "\n".join(lines)
 
 
-def loaded(array: str, names: Iterable[str], function: Function | Stage) -> list[str]:
-    """Return the lines that give the elements of an array, as far as they are read, their names."""
+def loaded(
+    array: str,
+    names: Iterable[str],
+    function: Function | Stage,
+    behind: Mapping[str, int] | None = None,
+) -> list[str]:
+    """Return the lines that give the elements of an array, as far as they are read, their names.
+
+    Parameters
+    ----------
+    behind
+        Names and places of what stands behind the values.
+    """
     read = {s.name for s in function.free_symbols}
-    return [f"{n} = {array}[..., {i}]" for i, n in enumerate(names) if n in read]
+    read.update(s.name for guard in function.guards for s in guard.floor.free_symbols)
+    places = {name: i for i, name in enumerate(names)} | dict(behind or {})
+    return [f"{n} = {array}[..., {i}]" for n, i in places.items() if n in read]
 
 
 def _written(function: Function | Stage) -> tuple[list[str], list[str]]:

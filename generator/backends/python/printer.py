@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..templates import template
+from ..words import emitted_names
 
 if TYPE_CHECKING:
     from ...equations.outputs import Derivation
@@ -22,9 +23,8 @@ def module(derivation: Derivation) -> str:
 
 def addresses_in(derivation: Derivation, library: str) -> str:
     """Return the text of a ``.py`` file that finds the functions in a library beside it."""
-    names = ["prepare", "design_state", *derivation.emitted]
     return template("python", "addresses.py").substitute(
         name=derivation.formulation.name,
         library=library,
-        functions="\n".join(f'        "{name}",' for name in names),
+        functions="\n".join(f'        "{name}",' for name in emitted_names(derivation)),
     )

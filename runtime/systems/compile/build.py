@@ -31,6 +31,7 @@ def compile_mechanism(
     *,
     name: str | None = None,
     backend: Backend = "auto",
+    parameter_derivatives: bool = False,
     folder: str | Path | None = None,
     progress: Report | None = None,
 ) -> ModuleType:
@@ -51,6 +52,9 @@ def compile_mechanism(
     backend : {'auto', 'c', 'numpy'}, optional
         'c': compiled by the C compiler of this machine, which ``CC`` and ``CFLAGS`` may name.
         'numpy': the same program over NumPy arrays, slower. 'auto': C where there is a compiler.
+    parameter_derivatives : bool, optional
+        Also exact derivatives by parameters, states and inputs, for `System.derivative` and
+        `System.gradient`: some six times as much code.
     folder : str or Path, optional
         Where compiled mechanisms are kept; by default what the environment variable
         ``KINTRAFO_CACHE`` names, or else the user's cache folder.
@@ -86,6 +90,7 @@ def compile_mechanism(
     with Arguments("compile") as given:
         given.among("backend", backend, ("auto", "c", "numpy"))
         given.function("progress", progress)
+        parameter_derivatives = given.flag("parameter_derivatives", parameter_derivatives)
         if folder is not None:
             given.path("folder", folder)
     require_generator()
@@ -95,7 +100,8 @@ def compile_mechanism(
     compiler = _compiler(backend)
     built_by = " ".join((*compiler.command, compiler.version)) if compiler else "numpy"
     # the declaration is made of nested records, whose text says everything
-    key = fingerprint(repr(model), built_by=built_by)
+    more = " with parameter_derivatives" if parameter_derivatives else ""
+    key = fingerprint(repr(model) + more, built_by=built_by)
     target = (cache_folder() if folder is None else Path(folder)) / f"{model.name}-{key}"
     problem = damage(target)
     if problem and target.exists():
@@ -105,7 +111,7 @@ def compile_mechanism(
         with appearing(target) as temporary:
             report("deriving the equations")
             with translated_errors(model):
-                derived = generate(model)
+                derived = generate(model, parameter_derivatives=parameter_derivatives)
             report("compiling" if compiler else "writing the functions")
             build(derived, temporary, compiler, name=target.name)
         refuse_damaged(target)

@@ -1,0 +1,128 @@
+"""Derivatives of a whole function: along a direction, and of a weighted sum of its results.
+
+Both are functions again: straight-line, without branches, with the guards of the function that they
+are of. They follow its steps as they are emitted, so they are the derivatives of what is computed.
+
+A *tangent* (forward mode) is given a direction of everything that the function reads and returns
+how its results change along it. An *adjoint* (reverse mode) is given a weight of each result, and
+returns the derivatives of the weighted sum by everything that the function reads. It passes the
+steps once from the last to the first, whatever their number, and costs some times the function.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from .derivatives import chain_rule, partials
+from .functions import Iterated
+from .sharing import drop_dead
+from .steps import Step, first_free
+from .symbols import symbols_of
+from .together import share_together
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+
+    from .function import Function
+
+TANGENT, ADJOINT = "tangent", "adjoint"
+"""How the names of such functions end."""
+
+
+def tangent(function: Function, direction: Mapping[sp.Symbol, sp.Symbol], doc: str) -> Function:
+    """Return the derivative of the results of a function along a direction.
+
+    Parameters
+    ----------
+    direction
+        Of each symbol that is read, the symbol of its derivative.
+    doc
+        One line that says what it returns.
+    """
+    known = _Names(function, direction.values())
+    along: dict[sp.Symbol, sp.Expr] = {s: direction[s] for s in function.free_symbols}
+    steps = []
+    for step in function.steps:
+        steps.append(step)
+        derivative = chain_rule(step.expression, along, step.symbol)
+        if derivative.is_Atom or (-derivative).is_Symbol:
+            along |= {step.symbol: derivative} if derivative != 0 else {}
+        else:
+            along[step.symbol] = known.free(f"d_{step.symbol}")
+            steps.append(Step(along[step.symbol], derivative, step.section))
+    results = tuple(chain_rule(result, along) for result in function.results)
+    return _written(replace(function, name=f"{function.name}_{TANGENT}", doc=doc), steps, results)
+
+
+def adjoint(
+    function: Function, by: Sequence[sp.Symbol], weights: Sequence[sp.Symbol], doc: str
+) -> Function:
+    """Return the derivatives of a weighted sum of the results of a function.
+
+    Parameters
+    ----------
+    by
+        What to differentiate by, in the order of the results.
+    weights
+        Of the results of the function.
+    doc
+        One line that says what it returns.
+    """
+    known = _Names(function, weights)
+    active = set(by)
+    shares: dict[sp.Symbol, list[sp.Expr]] = {symbol: [] for symbol in by}
+    for step in function.steps:
+        if not active.isdisjoint(symbols_of(step.expression)):
+            active.add(step.symbol)
+            shares[step.symbol] = []
+    for result, weight in zip(function.results, weights, strict=True):
+        for symbol, partial in partials(result, active):
+            shares[symbol].append(weight * partial)
+    steps = list(function.steps)
+    for step in reversed([s for s in function.steps if s.symbol in active]):
+        total = sp.Add(*shares[step.symbol])
+        if not (total.is_Atom or (-total).is_Symbol):
+            name = known.free(f"by_{step.symbol}")
+            steps.append(Step(name, total, f"backwards: {step.section}"))
+            total = name
+        if total != 0:
+            for symbol, partial in partials(step.expression, active, step.symbol):
+                shares[symbol].append(total * partial)
+    results = tuple(sp.Add(*shares[symbol]) for symbol in by)
+    changed = replace(
+        function,
+        name=f"{function.name}_{ADJOINT}",
+        doc=doc,
+        labels=tuple(map(str, by)),
+        shape=(len(results),),
+    )
+    return _written(changed, steps, results)
+
+
+class _Names:
+    """Names of the steps of a derivative, none of them that of anything else in it."""
+
+    def __init__(self, function: Function, more: Iterable[sp.Symbol]) -> None:
+        known = function.free_symbols.union(more, (step.symbol for step in function.steps))
+        self._taken = {symbol.name for symbol in known}
+
+    def free(self, name: str) -> sp.Symbol:
+        """Return a symbol of that name, or with a number behind it."""
+        symbol = first_free(name, self._taken.__contains__)
+        self._taken.add(symbol.name)
+        return symbol
+
+
+def _written(function: Function, steps: list[Step], results: tuple[sp.Expr, ...]) -> Function:
+    """Return a function of some steps that guards what its original guards."""
+    kept = (*results, *(guard.quantity for guard in function.guards))
+    alive, _ = drop_dead(steps, list(kept))
+    called = {s.expression.args[0].name for s in alive if isinstance(s.expression, Iterated)}
+    blocks = tuple(block for block in function.blocks if block.name in called)
+    pruned = replace(function, steps=tuple(alive), results=kept, blocks=blocks)
+    read = {symbol.name for symbol in pruned.free_symbols}
+    (shared,), _ = share_together({"": [pruned]}, [s.symbol for s in alive], read.__contains__)
+    return replace(shared, results=shared.results[: len(results)])

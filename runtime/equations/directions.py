@@ -1,0 +1,162 @@
+"""Calls of the derivatives of a model: along directions, and of weighted sums of results.
+
+The compiled functions read directions and weights behind the values in the same arrays; see
+`kintrafo.generator.equations.parameter_derivatives`.
+"""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import ModelError, place_of
+
+Array = NDArray[np.float64]
+
+TANGENTS, ADJOINTS = "tangents", "adjoints"
+"""Parts of the emitted code that have such functions."""
+
+_GEOMETRY = ("m", "rad", "1")
+# A step along a direction, as a part of the greatest length. What is assumed to be zero is checked
+# to 1e-9: a direction that leaves the assumption is off by some 1e-6 then, one that follows it
+# by the square of that.
+_STEP = 1e-6
+
+
+class Behind:
+    """What a derivative knows of its model: its arrays have more than values.
+
+    Parameters
+    ----------
+    model : Equations
+    more : tuple of int
+        How many numbers stand behind the constants, the state and the inputs.
+    """
+
+    def __init__(self, model: Any, more: tuple[int, ...]) -> None:
+        self._model = model
+        self.name: str = model.name
+        self.widths = tuple(a + b for a, b in zip(model.widths, more, strict=True))
+
+    def refuse(
+        self,
+        function: str,
+        status: int,
+        constants: Array,
+        state: Array,
+        inputs: Array,
+        index: tuple[int, ...],
+    ) -> None:
+        """Raise the error of a status word, about the values alone."""
+        arrays = zip((constants, state, inputs), self._model.widths, strict=True)
+        self._model.refuse(function, status, *(array[:width] for array, width in arrays), index)
+
+
+class Directions:
+    """The derivatives of a model by everything that its functions read.
+
+    Parameters
+    ----------
+    model : Equations
+    calls : mapping
+        The functions; none where they were not asked for.
+
+    Attributes
+    ----------
+    of : tuple of str
+        The functions that there are derivatives of.
+    """
+
+    def __init__(self, model: Any, calls: Mapping[str, Any]) -> None:
+        self._model, self._calls = model, calls
+        known = model.manifest["functions"]
+        self.of = tuple(name for name in known if f"{name}_tangent" in known)
+
+    def of_parameters(self, function: str, parameters: Array, behind: Array, size: int) -> Array:
+        """Return what a function makes of parameters, for one or many directions or weights.
+
+        Parameters
+        ----------
+        function : str
+            ``prepare_tangent``, ``prepare_adjoint`` or ``design_state_tangent``.
+        parameters : ndarray, shape (parameters,)
+        behind : ndarray, shape (..., n)
+            Directions or weights.
+        size : int
+            Number of results.
+
+        Returns
+        -------
+        ndarray, shape (..., size)
+
+        Raises
+        ------
+        ModelError
+            If a result is not finite.
+        """
+        found = np.empty((*behind.shape[:-1], size))
+        for index in np.ndindex(behind.shape[:-1]):
+            given, one = np.concatenate([parameters, behind[index]]), np.empty(size)
+            if self._model.call_of_parameters(function, given, one):
+                where = f"{self._model.name}.{function}{place_of(index)}"
+                raise ModelError(f"{where}: what constants change by is not finite")
+            found[index] = one
+        return found
+
+    def tangent(
+        self, function: str, values: tuple[Array, ...], directions: tuple[Array, ...]
+    ) -> Array:
+        """Return the derivative of a function along directions.
+
+        Parameters
+        ----------
+        function : str
+        values, directions : tuple of ndarray
+            Constants, state and inputs, and how they change; leading dimensions are broadcast.
+        """
+        constants, state, inputs = map(_joined, values, directions)
+        found: Array = self._calls[f"{function}_tangent"](state, inputs, constants)
+        return found
+
+    def adjoint(self, function: str, values: tuple[Array, ...], weights: Array) -> list[Array]:
+        """Return the derivatives of a weighted sum by constants, state and inputs.
+
+        Parameters
+        ----------
+        function : str
+        values : tuple of ndarray
+            Constants, state and inputs.
+        weights : ndarray, shape (..., results)
+        """
+        constants, state, inputs = values
+        call = self._calls[f"{function}_adjoint"]
+        found: Array = call(state, _joined(inputs, weights), constants)
+        return np.split(found, np.cumsum(self._model.widths)[:-1], axis=-1)
+
+    def broken(self, parameters: Array, direction: Array) -> str:
+        """Say what the equations take to be zero and a direction does not keep; nothing if all.
+
+        Parameters
+        ----------
+        parameters, direction : ndarray, shape (parameters,)
+        """
+        assumed = [a for a in self._model.manifest["assumptions"] if "least" not in a]
+        units = [entry["unit"] for entry in self._model.manifest["parameters"].values()]
+        size = max((abs(d) for d, u in zip(direction, units, strict=True) if u in _GEOMETRY))
+        if not assumed or size == 0.0:
+            return ""
+        length = max(abs(p) for p, u in zip(parameters, units, strict=True) if u == "m")
+        moved = parameters + _STEP * length / size * direction
+        constants = np.empty(len(self._model.constant_names))
+        number = self._model.call_of_parameters("prepare", moved, constants) - constants.size
+        if not 0 < number <= len(assumed):
+            return ""
+        return str(assumed[number - 1]["meaning"])
+
+
+def _joined(values: Array, behind: Array) -> Array:
+    """Return values with something behind them, along the last axis."""
+    lead = np.broadcast_shapes(values.shape[:-1], behind.shape[:-1])
+    parts = [np.broadcast_to(array, (*lead, array.shape[-1])) for array in (values, behind)]
+    return np.concatenate(parts, axis=-1)

@@ -1,0 +1,274 @@
+"""Exact derivatives by parameters, states and inputs: along a direction, and of weighted sums."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..core.arguments import Arguments
+from ..core.errors import InputError
+from ..equations.directions import Directions
+from .state import inputs_of
+from .system import System
+
+Array = NDArray[np.float64]
+
+
+def derivative(
+    system: System,
+    function: str,
+    along: Mapping[str, ArrayLike],
+    state: ArrayLike,
+    inputs: ArrayLike | None = None,
+) -> Array:
+    """Return the exact derivative of a function along a direction.
+
+    Parameters
+    ----------
+    system : System
+        With equations that were compiled with ``parameter_derivatives=True``.
+    function : str
+        ``rhs``, ``signals``, ``relative_coordinates``, ``positions``, ``orientations`` or
+        ``velocities``.
+    along : mapping of str to array_like
+        The direction: by how much parameters, elements of the state and inputs change, by name, SI
+        units. What is not named stays. Arrays are broadcast with the leading dimensions of the
+        state, so that many directions are followed at once.
+    state, inputs : array_like
+        Where, as for `System.evaluate`.
+
+    Returns
+    -------
+    ndarray
+        Shape of the result behind the leading dimensions.
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used; or if a direction leaves what the equations take to be zero,
+        such as hinges that are parallel: there they mean nothing.
+    ClosureError, ModelError
+        Where the function itself refuses the state.
+
+    Notes
+    -----
+    The derivative of what is computed, step by step (forward mode); nothing is differenced. It
+    takes three times the operations of the function.
+
+    Examples
+    --------
+    >>> import kintrafo
+    >>> from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
+    >>> four_bar = kintrafo.System(kintrafo.compile(FOUR_BAR, parameter_derivatives=True))
+    >>> at = four_bar.state(crank_angle=0.3)
+    >>> kintrafo.derivative(four_bar, "relative_coordinates", {"crank_angle": 1.0}, at).round(4)
+    array([ 1.    , -0.6797,  0.1396])
+    """
+    with Arguments("derivative") as given:
+        directions = _directions(given, system)
+        if not given.refused:
+            given.among("function", function, directions.of)
+            named = given.mapping("along", along, "names and numbers")
+            changes = _changes(given, system, named)
+            values = _values(given, system, state, inputs)
+            _broadcast(given, "along, state and inputs", [*changes, *values])
+    parameters, of_state, of_inputs = changes
+    of_constants = _of_constants(system, directions, parameters)
+    found: Array = directions.tangent(
+        function, (system.constants, *values), (of_constants, of_state, of_inputs)
+    )
+    return found
+
+
+def gradient(
+    system: System,
+    function: str,
+    weights: ArrayLike,
+    state: ArrayLike,
+    inputs: ArrayLike | None = None,
+) -> dict[str, Array]:
+    """Return the exact derivatives of a weighted sum by all parameters, states and inputs.
+
+    Parameters
+    ----------
+    system : System
+        With equations that were compiled with ``parameter_derivatives=True``.
+    function : str
+        As for `derivative`.
+    weights : array_like
+        Of the elements of the result, in its shape; more dimensions in front are broadcast with
+        the leading ones of the state.
+    state, inputs : array_like
+        Where, as for `System.evaluate`.
+
+    Returns
+    -------
+    dict of str to ndarray
+        By the names of parameters, states and inputs: derivatives of the sum, SI units, over the
+        leading dimensions. NaN by a parameter that cannot move alone, since the equations take
+        something to be zero that it changes; `derivative` takes directions of several.
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used.
+    ClosureError, ModelError
+        Where the function itself refuses the state.
+
+    Notes
+    -----
+    Backwards through the program (reverse mode): it takes three times the operations of the
+    function and of `prepare`, however many parameters there are.
+
+    Examples
+    --------
+    >>> import kintrafo
+    >>> from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
+    >>> four_bar = kintrafo.System(kintrafo.compile(FOUR_BAR, parameter_derivatives=True))
+    >>> by = kintrafo.gradient(four_bar, "rhs", [0.0, 1.0], four_bar.state(crank_angle=0.3))
+    >>> len(by), round(float(by["crank_mass"]), 4)
+    (27, 5.3046)
+    """
+    with Arguments("gradient") as given:
+        directions = _directions(given, system)
+        if not given.refused:
+            given.among("function", function, directions.of)
+            values = _values(given, system, state, inputs)
+        if not given.refused:
+            shape = getattr(system.equations, function).shape
+            rows = _flat(given, weights, shape)
+            _broadcast(given, "weights, state and inputs", [rows, *values])
+    by_constants, *rest = directions.adjoint(function, (system.constants, *values), rows)
+    parameters = np.array([*system.parameters.values()])
+    by_parameters = directions.of_parameters(
+        "prepare_adjoint", parameters, by_constants, parameters.size
+    )
+    alone = (directions.broken(parameters, unit) for unit in np.eye(parameters.size))
+    by_parameters[..., [bool(broken) for broken in alone]] = np.nan
+    found = (by_parameters, *rest)
+    return {
+        name: array[..., i]
+        for names, array in zip(_names(system), found, strict=True)
+        for i, name in enumerate(names)
+    }
+
+
+def design_derivative(system: System, along: Mapping[str, ArrayLike]) -> dict[str, Array]:
+    """Return how the state at the design position changes with parameters.
+
+    Parameters
+    ----------
+    system : System
+        With equations that were compiled with ``parameter_derivatives=True``.
+    along : mapping of str to array_like
+        By how much parameters change, by name, SI units.
+
+    Returns
+    -------
+    dict of str to ndarray
+        Derivatives of the elements of the state, by name: with ``along`` they are the direction in
+        which the design position moves, ``along | design_derivative(system, along)``.
+
+    Raises
+    ------
+    InputError
+        As of `derivative`.
+    """
+    with Arguments("design_derivative") as given:
+        directions = _directions(given, system)
+        if not given.refused:
+            named = given.mapping("along", along, "names and numbers")
+            for name in named:
+                given.among("parameter", name, system.parameters)
+        if not given.refused:
+            direction, *_ = _changes(given, system, named)
+    _of_constants(system, directions, direction)  # refuses what leaves the equations
+    values = np.array([*system.parameters.values()])
+    count = len(system.state_names)
+    found = directions.of_parameters("design_state_tangent", values, direction, count)
+    return {name: found[..., i] for i, name in enumerate(system.state_names)}
+
+
+# -- what is given --------------------------------------------------------------------------------
+
+
+def _directions(given: Arguments, system: Any) -> Any:
+    """Return the derivatives that a system's equations have; None where that is refused."""
+    given.kind("system", system, System, System.NEEDED)
+    if not given.refused and not system.equations.DIRECTIONS.of:
+        given.refuse(
+            f"{system.equations.NAME} has no derivatives by parameters. Compile the mechanism with "
+            "kintrafo.compile(..., parameter_derivatives=True)."
+        )
+    return None if given.refused else system.equations.DIRECTIONS
+
+
+def _names(system: System) -> tuple[tuple[str, ...], ...]:
+    return tuple(system.parameters), system.state_names, system.input_names
+
+
+def _changes(given: Arguments, system: System, along: Mapping[str, Any]) -> list[Array]:
+    """Return the direction as arrays of parameters, state and inputs."""
+    known = [name for names in _names(system) for name in names]
+    checked = {
+        given.among("name", name, known): given.array(f"along {name}", value, empty=True)
+        for name, value in along.items()
+    }
+    if given.refused or not _go_together(given, "along", [v.shape for v in checked.values()]):
+        return []
+    found = []
+    for names in _names(system):
+        own = {name: value for name, value in checked.items() if name in names}
+        lead = np.broadcast_shapes(*(value.shape for value in own.values()))
+        direction = np.zeros((*lead, len(names)))
+        for name, value in own.items():
+            direction[..., names.index(name)] = value
+        found.append(direction)
+    return found
+
+
+def _values(given: Arguments, system: System, state: Any, inputs: Any) -> list[Array]:
+    rows = given.array("state", state, last=len(system.state_names), empty=True, finite=False)
+    held = inputs_of(state, system.names_of_states) if inputs is None else inputs
+    count = len(system.input_names)
+    if held is None:
+        return [rows, np.zeros(count)]
+    return [rows, given.array("inputs", held, last=count, empty=True, finite=False)]
+
+
+def _flat(given: Arguments, weights: Any, shape: tuple[int, ...]) -> Array:
+    rows = given.array("weights", weights, empty=True)
+    if rows.shape[-len(shape) :] != shape:
+        given.refuse(f"weights have the shape {rows.shape}: (..., {', '.join(map(str, shape))})")
+        return np.zeros(1)
+    return rows.reshape(*rows.shape[: -len(shape)], -1)
+
+
+def _broadcast(given: Arguments, what: str, arrays: list[Array]) -> None:
+    if not given.refused:
+        _go_together(given, what, [array.shape[:-1] for array in arrays])
+
+
+def _go_together(given: Arguments, what: str, shapes: list[tuple[int, ...]]) -> bool:
+    try:
+        np.broadcast_shapes(*shapes)
+    except ValueError:
+        told = ", ".join(map(str, shapes))
+        given.refuse(f"{what}: the leading dimensions {told} must go together.")
+        return False
+    return True
+
+
+def _of_constants(system: System, directions: Directions, direction: Array) -> Array:
+    """Return how constants change with parameters, along directions that keep the equations."""
+    parameters = np.array([*system.parameters.values()])
+    for index in np.ndindex(direction.shape[:-1]):
+        broken = directions.broken(parameters, direction[index])
+        if broken:
+            problem = (
+                f"along: this direction leaves the mechanisms that the equations are of: {broken}. "
+                "Move what keeps it together as well."
+            )
+            raise InputError([problem], "derivative")
+    return directions.of_parameters("prepare_tangent", parameters, direction, system.constants.size)
