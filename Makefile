@@ -1,7 +1,7 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
 .PHONY: docs drawings help setup sundials generate build run test test-elsewhere fuzz package wheel lint tree types format baseline clean \
-	benchmark benchmark-andrews benchmark-axles benchmark-bits benchmark-bushes benchmark-ensemble benchmark-growth benchmark-loads benchmark-loops benchmark-page benchmark-peers benchmark-speed benchmark-studies format-page front-axle-page report-assets
+	benchmark benchmark-andrews benchmark-axles benchmark-bits benchmark-bushes benchmark-derivatives benchmark-ensemble benchmark-growth benchmark-loads benchmark-loops benchmark-page benchmark-peers benchmark-speed benchmark-studies format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
 EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/equations/*.pyx runtime/simulation/native/*.pyx runtime/simulation/*/*.[ch])
@@ -124,6 +124,9 @@ benchmark-bushes: build ## Suspensions on bushes beside Exudyn, an independent p
 
 benchmark-studies: build ## How long sensitivity, tolerance and optimise take; the pictures of docs/studies.md
 	@$(PYTHON) -m benchmarks.studies
+
+benchmark-derivatives: build ## What exact derivatives by parameters cost, and their page in docs/
+	@$(PYTHON) -m benchmarks.derivatives
 
 benchmark-speed: build ## Times of everything, with pytest-benchmark (ARGS=--benchmark-compare)
 	@$(PYTHON) -m pytest -q benchmarks/test_speed.py -p no:xdist --benchmark-only \

@@ -31,7 +31,7 @@ def made(tmp_path_factory):
     """What was derived of a mechanism, its folder, and what its right-hand side gives."""
     folder, derived = tmp_path_factory.mktemp("made"), outputs.generate(model_of(FOUR_BAR))
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(outputs, "generate", lambda _: derived)
+        patched.setattr(outputs, "generate", lambda _, **__: derived)
         module = kintrafo.compile(FOUR_BAR, folder=folder)
     return derived, next(folder.iterdir()), module.rhs(STATES)
 
@@ -41,7 +41,7 @@ def cache(made, tmp_path, monkeypatch):
     """A copy of that folder; nothing is derived or compiled a second time."""
     derived, target, _ = made
     forget()
-    monkeypatch.setattr(outputs, "generate", lambda _: derived)
+    monkeypatch.setattr(outputs, "generate", lambda _, **__: derived)
     monkeypatch.setattr(
         Compiler, "build", lambda _, __, library: shutil.copy(target / library.name, library)
     )

@@ -31,6 +31,7 @@ from kintrafo import (
     variation,
 )
 from kintrafo.generated import four_bar
+from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
 from kintrafo.study.recording import dataset_of, statistics
 from kintrafo.suspension.points import hardpoints
 from kintrafo.suspension.positions import design_height
@@ -40,6 +41,8 @@ from ..attempts import RawError, WrongError
 SHORT = 60
 _CAR = kintrafo.Model("reference_car")
 _SYSTEM = kintrafo.System(four_bar)
+_DIFFERENTIABLE = kintrafo.System(kintrafo.compile(FOUR_BAR, parameter_derivatives=True))
+_BAR_AT = _DIFFERENTIABLE.state(crank_angle=0.3)
 _REST = kintrafo.equilibrium(_CAR)
 _LINEAR = kintrafo.linearise(_CAR, _REST)
 _RESULT = kintrafo.simulate(_CAR, (0.0, 0.01), _REST)
@@ -244,6 +247,19 @@ CALLS = {
     "hardpoints": (hardpoints, {"model": _CAR, "state": _REST, "inputs": None}),
     "linearise": (
         kintrafo.linearise, {"model": _CAR, "state": _REST, "inputs": None, "outputs": ["camber"]}
+    ),
+    "derivative": (
+        kintrafo.derivative,
+        {"system": _DIFFERENTIABLE, "function": "rhs", "along": {"crank_mass": 1.0},
+         "state": _BAR_AT, "inputs": None},
+    ),
+    "gradient": (
+        kintrafo.gradient,
+        {"system": _DIFFERENTIABLE, "function": "rhs", "weights": [0.0, 1.0], "state": _BAR_AT,
+         "inputs": None},
+    ),
+    "design_derivative": (
+        kintrafo.design_derivative, {"system": _DIFFERENTIABLE, "along": {"crank_mass": 1.0}}
     ),
     "frequency_response": (
         _LINEAR.frequency_response, {"frequency": [1.0, 2.0], "source": "road_height"}

@@ -34,7 +34,7 @@ STATES = np.random.default_rng(8).normal(size=(6, 2)) * [0.3, 2.0]
 def sound() -> tuple[Path, bytes]:
     """Return the folder of a mechanism and what it computes; from then on nothing is compiled."""
     derived = outputs.generate(model_of(FOUR_BAR))
-    outputs.generate = lambda _: derived
+    outputs.generate = lambda _, **__: derived
     os.environ["CFLAGS"] = "-O0"  # compiled once, and hardly run
     root = Path(tempfile.mkdtemp())
     atexit.register(shutil.rmtree, root, ignore_errors=True)
