@@ -11,12 +11,16 @@ import kintrafo
 import numpy as np
 from kintrafo import Suspension, variation
 from kintrafo.generator.mechanisms import MODELS
+from scipy.optimize import least_squares
 
+from . import studies
 from .report import fill_page, milliseconds
 
 PAGE = Path(__file__).parent.parent / "docs/derivatives.md"
 MECHANISMS = ("four_bar", "macpherson", "multi_link")
-TRAVEL = np.linspace(-0.06, 0.06, 13)
+TRAVEL = studies.TRAVEL
+FREE = [(point, axis) for point in ("tie_rod_inner", "tie_rod_outer") for axis in "xyz"]
+REACH_MM, WITHIN, RELUCTANCE = 10.0, np.deg2rad(0.05), 0.01
 STATES = 200
 REPEATED = 5
 SHIPPED = {model.name: model for model in MODELS}
@@ -96,44 +100,112 @@ def _sources(module: Any) -> int:
     return sum(file.stat().st_size for file in files if file.suffix in (".c", ".h"))
 
 
+class Toe:
+    """Toe of the reference car over travel, and its derivatives with the wheel at its height."""
+
+    def __init__(self) -> None:
+        self.car = Suspension.load("reference_car")
+        equations = kintrafo.Model(self.car).equations
+        self._module = kintrafo.compile(SHIPPED[equations.NAME], parameter_derivatives=True)
+        self._seen: dict[bytes, tuple[kintrafo.Model, Any]] = {}
+
+    def at(self, model: kintrafo.Model) -> Any:
+        """Return the states in which the wheel has its heights."""
+        height = model.signal("wheel_center_z", model.design_state)
+        states = np.tile(model.design_state, (TRAVEL.size, 1))
+        states[:, 0] = kintrafo.arm_angles(model, height + TRAVEL)
+        return states
+
+    def by_parameters(self, model: kintrafo.Model, states: Any) -> dict[str, Any]:
+        """Return the derivatives by all parameters."""
+        system = kintrafo.System(self._module, model.parameters)
+        toe, rise = (
+            kintrafo.gradient(
+                system, "signals", [float(name == of) for name in system.signal_names], states
+            )
+            for of in ("toe", "wheel_center_z")
+        )
+        slope = toe["beta1"] / rise["beta1"]
+        return {name: toe[name] - slope * rise[name] for name in system.parameters}
+
+    def optimised(self) -> Any:
+        """Bring toe to zero with exact derivatives: the problem of `studies`, by itself."""
+        self._seen.clear()
+        ones = np.ones(len(FREE))
+        return least_squares(
+            self._missed,
+            0.0 * ones,
+            self._slopes,
+            bounds=(-ones, ones),
+            xtol=1e-8,
+            ftol=1e-8,
+            gtol=1e-8,
+        )
+
+    def _look(self, x: Any) -> tuple[kintrafo.Model, Any]:
+        if x.tobytes() not in self._seen:
+            start = self.car.to_dict()["hardpoints"]
+            changes = {
+                f"hardpoints.{point}.{axis}": start[point]["xyz".index(axis)] + REACH_MM * by
+                for (point, axis), by in zip(FREE, x, strict=True)
+            }
+            model = kintrafo.Model(self.car.with_changes(changes))
+            self._seen[x.tobytes()] = model, self.at(model)
+        return self._seen[x.tobytes()]
+
+    def _missed(self, x: Any) -> Any:
+        model, states = self._look(x)
+        return np.concatenate([model.signals(states)["toe"] / WITHIN, RELUCTANCE * x])
+
+    def _slopes(self, x: Any) -> Any:
+        by = self.by_parameters(*self._look(x))
+        columns = [by[f"{point}_{axis}"] * 1e-3 * REACH_MM / WITHIN for point, axis in FREE]
+        return np.concatenate([np.transpose(columns), RELUCTANCE * np.eye(len(FREE))])
+
+
 def toe() -> list[str]:
-    """Return what the derivatives of toe by all parameters take, and by differences of cars."""
-    car = Suspension.load("reference_car")
-    model = kintrafo.Model(car)
-    same = SHIPPED[model.equations.NAME]
-    system = kintrafo.System(kintrafo.compile(same, parameter_derivatives=True), model.parameters)
-    height = model.signal("wheel_center_z", model.design_state)
-    states = np.tile(model.design_state, (TRAVEL.size, 1))
-    states[:, 0] = kintrafo.arm_angles(model, height + TRAVEL)
-
-    def gradient_of(signal: str) -> dict[str, Any]:
-        weights = [float(name == signal) for name in system.signal_names]
-        return kintrafo.gradient(system, "signals", weights, states)
-
-    def exact() -> dict[str, Any]:
-        of_toe, rise = gradient_of("toe"), gradient_of("wheel_center_z")
-        slope = of_toe["beta1"] / rise["beta1"]
-        return {n: of_toe[n] - slope * rise[n] for n in system.parameters}
+    """Return what the derivatives of toe take, and a search with them, beside those of cars."""
+    exact = Toe()
+    model = kintrafo.Model(exact.car)
+    states = exact.at(model)
 
     def compared() -> Any:
-        return variation.sensitivity(car, ["hardpoints"], positions=TRAVEL, names=["toe"])["toe"]
+        points = ["hardpoints"]
+        return variation.sensitivity(exact.car, points, positions=TRAVEL, names=["toe"])["toe"]
 
-    found, differences = exact(), compared()
+    found, differences = exact.by_parameters(model, states), compared()
     names = [
         str(p).removeprefix("hardpoints.").replace(".", "_") for p in differences["place"].values
     ]
     rows = [i for i, name in enumerate(names) if not name.startswith("wheel_center")]
     off = max(float(np.abs(found[names[i]] - differences.values[i]).max()) for i in rows)
     greatest = float(np.abs(differences.values[rows]).max())
-    return [
-        (
-            f"Toe of the reference car at {TRAVEL.size} positions takes "
-            f"{milliseconds(quickest(exact))} ms by all of its {len(found)} parameters, and "
-            f"{milliseconds(quickest(compared))} ms by {len(names)} hardpoint coordinates with "
-            "`kintrafo.variation.sensitivity`, which"
+    optimum, other = exact.optimised(), variation.optimise(exact.car, studies.FREE, studies.TOE)
+    ends = [other.moved[f"hardpoints.{point}.{axis}"] for point, axis in FREE]
+    apart = float(np.abs(REACH_MM * optimum.x - ends).max())
+    times = {
+        "derivatives of toe at 13 positions": (
+            lambda: exact.by_parameters(model, states),
+            f"by all {len(found)} parameters",
+            compared,
+            f"by {len(names)} coordinates",
         ),
-        f"compares cars. The two agree to {off / greatest:.0e} of the greatest derivative.",
-    ]
+        "toe brought to zero by 6 coordinates": (
+            exact.optimised,
+            f"{optimum.njev} steps",
+            studies.optimise,
+            f"{other.evaluations} cars",
+        ),
+    }
+    table = ["| the reference car | exact, ms | differences of cars, ms |", "|---|---:|---:|"]
+    for title, (one, much, two, more) in times.items():
+        cells = f"{milliseconds(quickest(one))} ({much}) | {milliseconds(quickest(two))} ({more})"
+        table.append(f"| {title} | {cells} |")
+    agreed = (
+        f"The derivatives agree to {off / greatest:.0e} of the greatest one, what was found to "
+        f"{apart:.0e} mm."
+    )
+    return [*table, "", agreed]
 
 
 if __name__ == "__main__":

@@ -28,8 +28,8 @@ from symbolic import constants_of, python
 SHIPPED = {model.name: model for model in MODELS}
 # closed forms in a plane and in space, hinges whose angle at design depends on points, iterations
 MECHANISMS = [*(SHIPPED[n] for n in ("four_bar", "double_wishbone", "macpherson")), STEPHENSON]
-# Some thousand roundings of 1.1e-16, of numbers that cancel to a tenth or so.
-ROUNDED = 1e-11
+# Some thousand roundings of 1.1e-16, as parts of the greatest element.
+ROUNDED = 1e-12
 STEP = mpmath.mpf("1e-22")
 
 
@@ -226,20 +226,42 @@ def test_arguments_are_refused_by_name() -> None:
         kintrafo.gradient(system, "rhs", [1.0], at)
 
 
-def test_kinematics_as_the_study_has_them() -> None:
-    """The page's example: toe with the wheel centre held, by hardpoints, and sensitivity's cars."""
+@pytest.fixture(scope="module")
+def page() -> dict[str, Any]:
+    """Return what the examples of the page find."""
     found: dict[str, Any] = {}
-    page = (Path(__file__).parents[1] / "docs/derivatives.md").read_text(encoding="utf-8")
-    for code in re.findall(r"```python\n(.*?)```", page, re.DOTALL):
-        exec(code, found)
+    text = (Path(__file__).parents[1] / "docs/derivatives.md").read_text(encoding="utf-8")
+    exec("\n".join(re.findall(r"```python\n(.*?)```", text, re.DOTALL)), found)
+    return found
+
+
+def test_kinematics_as_the_study_has_them(page: dict[str, Any]) -> None:
+    """Toe with the wheel centre held, by hardpoints, and the cars of `sensitivity`."""
     car = kintrafo.Suspension.load("reference_car")
     travel = np.linspace(-0.06, 0.06, 13)
     points = ["hardpoints.tie_rod_inner", "hardpoints.ball_joint", "hardpoints.arm_rear"]
     study = variation.sensitivity(car, points, positions=travel, names=["toe"])["toe"]
     names = [str(p).removeprefix("hardpoints.").replace(".", "_") for p in study["place"].values]
-    exact = np.array([found["held"][name] for name in names])
+    exact = np.array([page["held"][name] for name in names])
     # differences of fourth order with steps of 0.5 mm, see `sensitivity`
     assert np.abs(exact - study.values).max() <= 1e-9 * np.abs(exact).max()
+
+
+def test_a_motion_and_its_neighbours(page: dict[str, Any]) -> None:
+    """What a parameter does to a motion: differences of motions with other values."""
+    system, step = page["four_bar"], 0.02
+
+    def end(mass: float) -> Any:
+        other = kintrafo.System(system.equations, system.parameters | {"crank_mass": mass})
+        result = kintrafo.simulate(other, (0.0, 0.5), page["start"], rtol=1e-12, atol=1e-12)
+        return result.y[:, -1]
+
+    weights = {-2: 1 / 12, -1: -8 / 12, 1: 8 / 12, 2: -1 / 12}
+    mass = system.parameters["crank_mass"]
+    expected = sum(w * end(mass + k * step) for k, w in weights.items()) / step
+    assert np.abs(expected).min() > 1e-3
+    # of fourth order: (0.02 kg / 2 kg)^4 = 1e-8 of what grows as powers of the mass, some times
+    assert np.allclose(page["motion"].y[2:, -1], expected, rtol=1e-6)
 
 
 def test_gradients_cost_three_times_the_function() -> None:

@@ -166,7 +166,8 @@ class Equations:
         yield "`STATE`, `INPUTS`, `PARAMETERS`, `SIGNALS` and `RELATIVE_COORDINATES` give unit,"
         yield "meaning and sign of every element. A state at which a loop cannot close raises"
         yield "`ClosureError`; there is no silent NaN.\n\nFunctions\n---------"
-        for name, function in manifest["functions"].items():
+        own = ((n, f) for n, f in manifest["functions"].items() if not self._behind(n))
+        for name, function in own:
             yield f"``{name}``\n    {function['doc']}"
 
     # -- functions --------------------------------------------------------------------------------
