@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from ...equations.directions import ADJOINTS, TANGENTS
 from ..program.directions import TANGENT, adjoint, tangent
 from ..program.function import Stage
 
@@ -28,10 +29,6 @@ if TYPE_CHECKING:
 
 OF = ("rhs", "signals", "relative_coordinates", "positions", "orientations", "velocities")
 """What is differentiated: all but what is a derivative itself, or a part of the equations."""
-
-
-TANGENTS, ADJOINTS = "tangents", "adjoints"
-"""Parts of the emitted code."""
 
 
 @dataclass(frozen=True)

@@ -139,10 +139,11 @@ class Program:
         Raises
         ------
         ValueError
-            If the symbol is a parameter: the constant stage is not differentiated.
+            If the symbol is a parameter: derivatives by those are of whole functions, and of
+            `prepare` (`directions`).
         """
         if self.constants.contains(along):
-            message = f"{along} is a parameter; only what varies in time is differentiated by"
+            message = f"{along} is a parameter; see `directions` for derivatives by parameters"
             raise ValueError(message)
         targets = list(targets)
         needed = ancestors(self.steps, targets)

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
+from ....equations.directions import ADJOINTS, TANGENTS
 from ...declare.ranges import described as parameters_of
-from ...equations.parameter_derivatives import ADJOINTS, TANGENTS
 from ..counting import OPERATIONS, operations_of
 from ..text import formula
 from ..words import FORMULA, GENERATOR_VERSION, iteration_note, mechanism_hash
