@@ -1,14 +1,19 @@
 """Compliance: the unit-load theorem against stiffnesses in maximal coordinates."""
 
+import re
+import tomllib
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from kintrafo import Axle, InputError, Model, Suspension, axles, characteristics, loads
+from kintrafo.suspension.kinds import KINDS
 from kintrafo.suspension.toml_writer import write_toml
 from soft_suspensions import BUSHES_OF, LINKED, STRUT, WISHBONES, Stiffness, Z
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
+
+DATA = Path(__file__).parents[1] / "runtime/suspension/data"
 
 
 @pytest.mark.parametrize(
@@ -201,6 +206,16 @@ def test_bushes_are_written_and_mirrored(tmp_path: Path) -> None:
         "strut_top",
         "rack",
     }
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_new_file_shows_how_bushes_are_written(kind: str) -> None:
+    """The lines that are comments there are an input file without their signs."""
+    text = (DATA / f"{KINDS[kind].STARTER}.toml").read_text(encoding="utf-8")
+    (lines,) = re.findall(r"(# \[bushings\..*?)\n\n", text, flags=re.DOTALL)
+    described = tomllib.loads(re.sub(r"^# ", "", lines, flags=re.MULTILINE))
+    soft = Suspension.from_dict(tomllib.loads(text) | described)
+    assert abs(float(loads.compliance(Model(soft), None, [0.0])["camber_by_lateral"][0])) > 0.0
 
 
 def test_each_side_of_an_axle_has_its_own_bushes() -> None:

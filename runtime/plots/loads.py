@@ -1,7 +1,6 @@
 """Free bodies: every part of a suspension with the forces on it."""
 
 from collections.abc import Sequence
-from itertools import chain, product
 from pathlib import Path
 from typing import Any
 
@@ -76,27 +75,15 @@ def free_bodies(
     """Draw the moving parts of a suspension with the forces on them; see `write_free_bodies`."""
     here = dataset.sel(case=case)
     shown = parts or [str(part) for part in here["moving_part"].values]
-    # both sides of an axle stand beside each other, so that its page is not twice as long
-    beside = 1 if len({without_side(part) for part in shown}) == len(shown) else 2
-    rows = _rows(shown, beside)
-    figure = Figure(figsize=(7.4 * beside, 0.6 + 2.5 * len(rows)), layout="constrained")
-    grid = figure.subplots(len(rows), len(_VIEWS) * beside, squeeze=False)
-    for axes, (part, view) in zip(grid.flat, product(chain(*rows), _VIEWS), strict=True):
-        if not part:
-            axes.set_axis_off()
-            continue
-        _draw(axes, here.isel(load=(here["part"] == part).values), view)
-        axes.set_title(f"{part.replace('_', ' ')}, {view}", fontsize=9.5)
+    figure = Figure(figsize=(7.4, 0.6 + 2.5 * len(shown)), layout="constrained")
+    grid = figure.subplots(len(shown), len(_VIEWS), squeeze=False)
+    for row, part in zip(grid, shown, strict=True):
+        chosen = here.isel(load=(here["part"] == part).values)
+        for axes, view in zip(row, _VIEWS, strict=True):
+            _draw(axes, chosen, view)
+            axes.set_title(f"{part.replace('_', ' ')}, {view}", fontsize=9.5)
     figure.suptitle(title, fontsize=11)
     return written_plainly(figure)
-
-
-def _rows(parts: Sequence[str], beside: int) -> list[list[str]]:
-    """Return which parts stand in each row: of an axle both of a name, then nothing."""
-    rows: dict[str, list[str]] = {}
-    for part in parts:
-        rows.setdefault(without_side(part), []).append(part)
-    return [row + [""] * (beside - len(row)) for row in rows.values()]
 
 
 def _draw(axes: Axes, loads: xr.Dataset, view: str) -> None:

@@ -36,6 +36,8 @@ _KEYS = (*_STIFFNESSES, *_DIRECTIONS)
 RACK = "rack"
 """In the place of a hardpoint: how stiff the steering holds the rack along its axis."""
 _PER_MM, _PER_DEG = 1e3, 180.0 / np.pi
+# What is greater is left to the checks [any unit].
+_LARGEST = 1e300
 # No bush is softer or stiffer than this, in its units for people.
 _SOFTEST, _STIFFEST = 1e-3, 1e12
 _CENTER = "wheel_center"
@@ -151,7 +153,8 @@ def _plain(value: Any) -> Any:
         value = value.tolist()
     if isinstance(value, list | tuple):
         return [_plain(inner) for inner in value]
-    return float(value) if isinstance(value, int) and not isinstance(value, bool) else value
+    whole = isinstance(value, int) and not isinstance(value, bool)
+    return float(value) if whole and abs(value) < _LARGEST else value
 
 
 def _schema_of(key: str, words: str) -> dict[str, Any]:

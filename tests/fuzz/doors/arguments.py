@@ -389,6 +389,17 @@ CALLS = {
             "radial_axis": [0.0, 0.0, 1.0],
         },
     ),
+    "bush of a file": (
+        lambda **given: _CAR.suspension.with_changes({"bushings": {"arm_rear": given}}),
+        {
+            "axial_N_per_mm": 1e3, "radial_N_per_mm": [1e3, 2e3], "axis": [1.0, 0.1, 0.0],
+            "radial_axis": [0.0, 0.0, 1.0], "tilt_Nm_per_deg": 3.0,
+        },
+    ),
+    "bushes of a file": (
+        lambda **given: _CAR.suspension.with_changes(given),
+        {"bushings": {"arm_rear": {"axial_curve": {"mm": [-1, 0, 1], "N": [-3, 0, 9]}}}},
+    ),
     "rack": (
         lambda **given: axles.compliance(_AXLE, {"rack": given}, [0.0]),
         {"axial_N_per_mm": 1e3},
