@@ -20,7 +20,7 @@ from kintrafo import (
 from kintrafo.generator import DeclarationError, Direction, Input
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.mechanisms.suspension import with_wheel_loads
-from kintrafo.study.axles import ride
+from kintrafo.study.axles import loads_along, ride
 from kintrafo.study.checkup import checkup
 from kintrafo.study.loads.along import in_motion
 from kintrafo.study.measurement import measured
@@ -88,10 +88,13 @@ def test_both_sides_of_an_axle_do_what_one_does() -> None:
         found = float(model.signal(f"{side}_front_wheel_center_z", rest))
         assert found == pytest.approx(height, abs=1e-9)
     scenario = Scenario(duration=0.1, inputs=braked)
-    _, motion = ride.run(model, scenario, wheels="left")
+    result, motion = ride.run(model, scenario, wheels="left")
     twist = motion["bar_spring_moment"].values
     # at rest from the beginning; the brake holds the wheel, but for its camber
     assert np.ptp(twist) < 0.01 * abs(twist[0]) > 0.0
+    of_parts = loads_along(model, result)
+    for side in ("left", "right"):
+        assert abs(of_parts[f"holding_force_{side}"]).max() < 1e-9 * abs(of_parts["force"]).max()
     with pytest.raises(InputError, match="contact_force_x and left_contact_force_x are given"):
         ride.run(model, replace(scenario, inputs={**braked, "left_contact_force_x": 0.0}))
 
