@@ -27,7 +27,7 @@ from symbolic import constants_of, python
 
 SHIPPED = {model.name: model for model in MODELS}
 # closed forms in a plane and in space, hinges whose angle at design depends on points, iterations
-MECHANISMS = [*(SHIPPED[n] for n in ("four_bar", "double_wishbone", "macpherson")), STEPHENSON]
+MECHANISMS = [*(SHIPPED[n] for n in ("four_bar", "macpherson")), STEPHENSON]
 # Some thousand roundings of 1.1e-16, as parts of the greatest element.
 ROUNDED = 1e-12
 STEP = mpmath.mpf("1e-22")
