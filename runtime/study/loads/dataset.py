@@ -110,7 +110,7 @@ def dataset_of(over: str, loads: Sequence[Load], places: Mapping[str, Place]) ->
         meaning = f"{name} on the part, in the axes that the part had at design"
         data[f"{name}_in_part"] = variable(dims, inside, meaning, data[name].attrs["units"])
     parts = [load.part for load in loads]
-    moving = list(dict.fromkeys(part for part in parts if part in places))
+    moving = [part for part in places if part in parts]
     left = [_sum(fields, [p == part for p in parts], places[part].center) for part in moving]
     for name, unit, sums in zip(
         ("", "_moment"), ("N", "N m"), zip(*left, strict=True), strict=True
