@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from kintrafo import Axle, InputError, Model, Suspension, axles, characteristics, loads
+from kintrafo.report.tables import input_tables
 from kintrafo.suspension.kinds import KINDS
 from kintrafo.suspension.toml_writer import write_toml
 from soft_suspensions import BUSHES_OF, LINKED, STRUT, WISHBONES, Stiffness, Z
@@ -261,3 +262,11 @@ def test_commands_take_bushes_from_the_file(kintrafo: Any, tmp_path: Path) -> No
     code, _, err = kintrafo("compliance", "reference_car")
     assert code == 2
     assert "hardpoint file has none" in " ".join(err.split())
+
+
+def test_the_report_shows_the_bushes_of_the_file() -> None:
+    """Each as a section of the input data, and what it does as a chapter of its own."""
+    tables = {table.name: table.rows for table in input_tables(WITH_BUSHES)}
+    assert tables["bushings.arm_rear"][1][:2] == ("radial_N_per_mm", "2000, 900")
+    assert tables["bushings.strut_top"][1][1] == "mm: 0, 1, 2; N: 0, 500, 1500"
+    assert tables["bushings.rack"][0][2] == "stiffness along its axis"

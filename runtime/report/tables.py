@@ -1,9 +1,10 @@
 """The tables of the page: characteristics at design, and the input data."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from ..suspension.bushes import BUSH_SCHEMA
 from ..suspension.input.section import Section
 from ..suspension.kinds import Suspension
 from ..suspension.typical import typical_ranges
@@ -129,19 +130,31 @@ def _tables(section: Section, name: str, meaning: str) -> Iterator[InputTable]:
     rows = [
         (key, _text(value), fields[key].description or "")
         for key, value in values.items()
-        if value is not None and not isinstance(value, Section)
+        if value is not None and not isinstance(value, Section | Mapping)
     ]
     if rows:
         yield InputTable(name, meaning, rows)
     for key, value in values.items():
         if isinstance(value, Section):
             yield from _tables(value, f"{name}.{key}".lstrip("."), fields[key].description or "")
+        elif isinstance(value, Mapping):
+            yield from _of_bushes(value, key, fields[key].description or "")
+
+
+def _of_bushes(bushings: Mapping[str, Any], name: str, meaning: str) -> Iterator[InputTable]:
+    """Return a table for each bush."""
+    for point, table in bushings.items():
+        known = BUSH_SCHEMA["properties"]
+        rows = [(key, _text(value), known[key]["description"]) for key, value in table.items()]
+        yield InputTable(f"{name}.{point}", meaning, rows)
 
 
 def _text(value: Any) -> str:
     """Write a value as a person reads it; numbers in full, points with commas."""
     if isinstance(value, tuple | list):
         return ", ".join(_text(item) for item in value)
+    if isinstance(value, Mapping):
+        return "; ".join(f"{key}: {_text(inner)}" for key, inner in value.items())
     if isinstance(value, float):
         return f"{value:.12g}".replace("-", "\u2212")
     return str(value)
