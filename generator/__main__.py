@@ -11,7 +11,14 @@ from rich.table import Table
 
 from ..cli.exits import guarded, standing_streams
 from .backends.files import project_files, shared_files
-from .backends.report.markdown import block_diagram, bodies_of, joint_rows, mobility_line, path_rows
+from .backends.report.markdown import (
+    block_diagram,
+    bodies_of,
+    cycles_line,
+    joint_rows,
+    mobility_line,
+    path_rows,
+)
 from .equations.outputs import generate
 from .mechanisms import MODELS
 from .planning.plan import Plan
@@ -97,6 +104,7 @@ def show_topology(plan: Plan) -> None:
     for row in path_rows(graph):
         paths.add_row(*(cell.strip("*") for cell in row))
     console.print(paths)
+    console.print(cycles_line(graph), soft_wrap=True)
     cycles = Table(title="Cycles (Horton)")
     for column in ("bodies", "length", "in the basis"):
         cycles.add_column(column)

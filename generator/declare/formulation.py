@@ -47,7 +47,8 @@ class Formulation:
         Whether a loop without a closed form may be solved by Newton's method, for that loop alone.
         Without it such a loop is refused.
     cites
-        Where a publication has what a function returns, by the name of the function.
+        Where a publication has what a function returns, by the name of the function; how a body
+        moves, by ``omega of <body>`` and ``position of <body>``; what a force does, by its name.
     """
 
     name: Name

@@ -7,15 +7,14 @@ rotations, and so check what `closed_forms` solved.
 
 from __future__ import annotations
 
-import itertools
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import networkx as nx
 import sympy as sp
 
 from ..declare.geometry import Point
 from ..declare.joints import Cylindrical, Joint, Prismatic, Revolute, Universal
+from ..kinematics.chain import chain_to, reported
 from ..kinematics.hinge_angles import angle_of, is_first_axis, positive_axis_at_design, turn_between
 from ..kinematics.motion import (
     IDENTITY,
@@ -222,22 +221,12 @@ class RelativeCoordinates:
 
     def reaches(self, body: str) -> bool:
         """Tell whether joints with reported coordinates lead from the ground to a body."""
-        graph = self._reported_joints()
-        ends = self.mechanism.ground, body
-        return all(end in graph for end in ends) and nx.has_path(graph, *ends)
-
-    def _reported_joints(self) -> nx.DiGraph:
-        graph = nx.DiGraph()
-        for joint in self.mechanism.joints:
-            if all(self.reported(joint.name, c) for c in joint.coordinates):
-                graph.add_edge(*joint.bodies, joint=joint)
-        return graph
+        return chain_to(self.mechanism, body) is not None
 
     def _chain(self, body: str) -> list[_Screw]:
         """Return the screws from the ground to a body, along joints with reported coordinates."""
-        graph = self._reported_joints()
-        path = nx.shortest_path(graph, self.mechanism.ground, body)
-        joints = [graph.edges[a, b]["joint"] for a, b in itertools.pairwise(path)]
+        joints = chain_to(self.mechanism, body)
+        assert joints is not None, body
         screws = [screw for joint in joints for screw in self._screws(joint)]
         if isinstance(joints[-1], Universal):
             screws = [self._on_cross(body, screw) for screw in screws]
@@ -245,8 +234,7 @@ class RelativeCoordinates:
 
     def reported(self, joint: str, kind: str) -> str | None:
         """Return the first name under which a joint's coordinate is reported."""
-        entries = self.mechanism.coordinates
-        return next((c.name for c in entries if (c.joint.name, c.kind) == (joint, kind)), None)
+        return reported(self.mechanism, joint, kind)
 
     def _screws(self, joint: Joint) -> list[_Screw]:
         names = {c: self.reported(joint.name, c) or "" for c in joint.coordinates}

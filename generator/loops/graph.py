@@ -138,6 +138,24 @@ class Topology:
         """The number of each body, by its name."""
         return self.mechanism.numbers
 
+    def path_table(self) -> list[list[list[str]]]:
+        """Return all shortest paths (Table 2): by the bodies they start at and those they end at.
+
+        A path is the numbers of its bodies, with strokes between them where some have two digits.
+        """
+        between = "" if max(self._numbers.values()) < 10 else "-"
+        return [
+            [
+                [
+                    between.join(map(str, self._path_numbers(path)))
+                    for path in self.shortest_paths(start, end)
+                    if start != end
+                ]
+                for end in self._numbers
+            ]
+            for start in self._numbers
+        ]
+
     def path_length(self, path: Sequence[str]) -> int:
         """Return the sum of the joint freedoms along a path."""
         return sum(self.joint_between(a, b).freedoms for a, b in pairwise(path))
@@ -161,18 +179,36 @@ class Topology:
 
     def horton_candidates(self) -> list[Cycle]:
         """Return every simple cycle that a pair of vertex and edge gives, with repetitions."""
-        cycles = []
-        for vertex in self.graph.nodes:
-            paths = self._paths_from(vertex)
-            for joint in self.mechanism.joints:
-                if paths.all_part_alike(*joint.bodies):
-                    continue
-                for there in paths.to(joint.first.name):
-                    for back in paths.to(joint.second.name):
-                        round_trip = (*there, *reversed(back[1:]))
-                        if len(set(round_trip)) == len(round_trip) > 2:
-                            cycles.append(self.cycle(round_trip))
-        return cycles
+        return [
+            self.cycle(round_trip)
+            for vertex in self.graph.nodes
+            for joint in self.mechanism.joints
+            for round_trip in self._closed(vertex, joint)
+        ]
+
+    def _closed(self, vertex: str, joint: Joint) -> list[tuple[str, ...]]:
+        """Return the bodies of each simple cycle that a pair of vertex and edge gives."""
+        paths = self._paths_from(vertex)
+        if paths.all_part_alike(*joint.bodies):
+            return []
+        trips = (
+            (*there, *reversed(back[1:]))
+            for there in paths.to(joint.first.name)
+            for back in paths.to(joint.second.name)
+        )
+        return [trip for trip in trips if len(set(trip)) == len(trip) > 2]
+
+    @property
+    def pair_count(self) -> int:
+        """Number of pairs of a body and a joint that do not touch: the paper's 40 cycles."""
+        return len(self.mechanism.joints) * (len(self.mechanism.bodies) - 2)
+
+    @property
+    def closing_pairs(self) -> int:
+        """Number of those pairs that close at least one simple cycle."""
+        return sum(
+            bool(self._closed(v, j)) for v in self.graph.nodes for j in self.mechanism.joints
+        )
 
     def cycle(self, bodies: Sequence[str]) -> Cycle:
         """Return the cycle through some bodies, beginning at the one of the lowest number."""

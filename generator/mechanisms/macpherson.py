@@ -184,7 +184,7 @@ def general(*, free_rack: bool = False) -> d.Mechanism:
     )
 
 
-# where the paper has what the functions return
+# where the paper has what the functions return, how bodies move, and what forces do
 EQUATIONS_OF_THE_PAPER = {
     "relative_coordinates": "Figure 3",
     "residuals": "Eqs. 4 to 13",
@@ -192,6 +192,14 @@ EQUATIONS_OF_THE_PAPER = {
     "mass_matrix": "Eq. 3",
     "bias": "Eq. 3",
     "forces": "Eq. 3",
+    "position of knuckle": "Eq. 17",
+    "position of wheel": "Eq. 18",
+    "position of control_arm": "Eq. 19",
+    "omega of knuckle": "Eq. 20",
+    "omega of wheel": "Eq. 21",
+    "omega of control_arm": "Eq. 22",
+    "strut": "Eq. 23",
+    "front": "Eq. 24",
 }
 
 

@@ -52,7 +52,7 @@ def command(
     )
     choices = _choices(file) if file is not None and file.endswith(".py") else None
     if json:
-        kept = ("title", "bodies", "joints", "mobility", "loops", "pairs")
+        kept = ("title", "bodies", "joints", "mobility", "paths", "candidates", "loops", "pairs")
         facts = {key: getattr(found, key) for key in kept}
         print_json(facts if choices is None else facts | {"choices": choices})
         return
@@ -66,7 +66,21 @@ def command(
     for choice in choices or ():
         needs = ", if loops may be solved by iteration" if choice["iterates"] else ""
         say(f"Can be independent: {', '.join(choice['independent'])}{needs}")
+    _show_paths(found)
     _show_loops(found)
+
+
+def _show_paths(found: "Topology") -> None:
+    paths = Table("", *map(str, found.numbers), title="Shortest paths between bodies")
+    for number, row in zip(found.numbers, found.paths, strict=True):
+        paths.add_row(str(number), *(" or ".join(cell) for cell in row))
+    console.print(paths)
+    tried = found.candidates
+    say(
+        f"{tried['pairs']} pairs of a body and a joint that do not touch; {tried['closing']} "
+        f"close, to {tried['cycles']} cycles where equally short ways are counted each, "
+        f"{len(found.cycles)} of them distinct."
+    )
 
 
 def _show_loops(found: "Topology") -> None:

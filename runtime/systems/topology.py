@@ -27,6 +27,14 @@ class Topology:
         Name, type, the two bodies, number of freedoms, what the bodies have in common.
     mobility : int
         Number of independent coordinates (Grübler).
+    numbers : tuple of int
+        The numbers of all bodies, the ground among them.
+    paths : tuple of tuple of tuple of str
+        All shortest paths from each body to each, as the numbers of the bodies on the way; a joint
+        is as long as it has freedoms.
+    candidates : dict
+        What Horton's construction tries: ``pairs`` of a body and a joint that do not touch, how
+        many of them are ``closing``, and to how many ``cycles``, with repetitions.
     cycles : tuple of tuple
         The bodies of each simple cycle that may be chosen, and its length.
     loops : tuple of tuple of str
@@ -42,6 +50,9 @@ class Topology:
     bodies: tuple[str, ...]
     joints: tuple[dict[str, str], ...]
     mobility: int
+    numbers: tuple[int, ...]
+    paths: tuple[tuple[tuple[str, ...], ...], ...]
+    candidates: dict[str, int]
     cycles: tuple[tuple[str, int], ...]
     loops: tuple[tuple[str, ...], ...]
     pairs: tuple[tuple[dict[str, str], ...], ...]
@@ -79,6 +90,9 @@ def topology(model: str | ModuleType = "macpherson") -> Topology:
         bodies=tuple(manifest["bodies"]),
         joints=tuple(_joint(joint, numbers) for joint in manifest["joints"]),
         mobility=manifest["mobility"],
+        numbers=tuple(numbers.values()),
+        paths=tuple(tuple(map(tuple, row)) for row in manifest["paths"]),
+        candidates=manifest["candidates"],
         cycles=tuple((_named(c["bodies"], numbers), c["length"]) for c in manifest["cycles"]),
         loops=tuple(tuple(t["bodies"]) for t in transformers),
         pairs=tuple(tuple(map(_pair, t["pairs"])) for t in transformers),

@@ -77,6 +77,12 @@ def _facts(derivation: Derivation) -> dict[str, Any]:
             }
             for joint in topology.mechanism.joints
         ],
+        "paths": topology.path_table(),
+        "candidates": {
+            "pairs": topology.pair_count,
+            "closing": topology.closing_pairs,
+            "cycles": len(topology.horton_candidates()),
+        },
         "cycles": [
             {"bodies": cycle.bodies, "length": cycle.length} for cycle in topology.candidate_cycles
         ],

@@ -10,26 +10,14 @@ from ...program.floors import ROUNDING
 from ..counting import OPERATIONS, operations_of
 from ..text import formula
 from ..words import FORMULA, iteration_note, mechanism_hash
+from .motion import motion_sections
+from .tables import table
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from ...declare.mechanism import Mechanism
     from ...equations.outputs import Derivation
     from ...loops.graph import Cycle, Topology
     from ...loops.planner import Transformer
-
-
-def table(header: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> str:
-    """Return an aligned Markdown table."""
-    widths = [max(len(row[i]) for row in (header, *rows)) for i in range(len(header))]
-
-    def line(cells: tuple[str, ...]) -> str:
-        padded = (c.ljust(w) for c, w in zip(cells, widths, strict=True))
-        return "| " + " | ".join(padded) + " |"
-
-    rule = "|" + "|".join("-" * (w + 2) for w in widths) + "|"
-    return "\n".join([line(header), rule, *(line(row) for row in rows)])
 
 
 def bodies_of(topology: Topology, cycle: Cycle) -> str:
@@ -59,16 +47,11 @@ def joint_rows(topology: Topology) -> list[tuple[str, ...]]:
 
 def path_rows(topology: Topology) -> list[tuple[str, ...]]:
     """Return the rows of the table of shortest paths (Table 2), ties included."""
-    numbers = topology.mechanism.numbers
-    rows = []
-    for start, number in numbers.items():
-        cells = [f"**{number}**"]
-        for end in numbers:
-            paths = topology.shortest_paths(start, end) if start != end else []
-            texts = ("".join(str(numbers[body]) for body in path) for path in paths)
-            cells.append(" or ".join(texts) or "")
-        rows.append(tuple(cells))
-    return rows
+    numbers = topology.mechanism.numbers.values()
+    return [
+        (f"**{number}**", *(" or ".join(paths) for paths in row))
+        for number, row in zip(numbers, topology.path_table(), strict=True)
+    ]
 
 
 def mobility_line(topology: Topology) -> str:
@@ -78,6 +61,19 @@ def mobility_line(topology: Topology) -> str:
     planar = topology.planar_loop_count
     extra = f" + 3 x {planar} planar loops" if planar else ""
     return f"f = 6 x {moving} - ({' + '.join(closed)}){extra} = {topology.mobility}"
+
+
+def cycles_line(topology: Topology) -> str:
+    """Say how many cycles Horton's construction tries, and what is left of them."""
+    bodies, joints = len(topology.mechanism.bodies), len(topology.mechanism.joints)
+    return (
+        "Horton's construction closes a path over each joint from each body that the joint does "
+        f"not touch: {joints} x ({bodies} - 2) = {topology.pair_count} candidates. Where the "
+        f"shortest ways to the two ends share a body, nothing closes; {topology.closing_pairs} "
+        f"candidates do close. A pair counts once for each way where several are equally short, "
+        f"which makes {len(topology.horton_candidates())} simple cycles with repetitions; "
+        f"{len(topology.candidate_cycles)} of them are distinct:"
+    )
 
 
 def _cut(transformer: Transformer) -> str:
@@ -173,16 +169,14 @@ def markdown(derivation: Derivation) -> str:
         ),
         table(("", *map(str, topology.mechanism.numbers.values())), path_rows(topology)),
         "## Cycles",
-        (
-            f"Horton's construction gives {len(topology.horton_candidates())} simple cycles with "
-            f"repetitions, {len(topology.candidate_cycles)} distinct ones:"
-        ),
+        (cycles_line(topology)),
         table(
             ("bodies", "length"),
             [(bodies_of(topology, c), str(c.length)) for c in topology.candidate_cycles],
         ),
         "## Kinematic transformers",
         *_transformer_sections(derivation),
+        *motion_sections(derivation),
         "## Functions",
         _counts(derivation),
         "A leading sign counts as an addition; guards are comparisons and do not count.",

@@ -1,0 +1,500 @@
+"""The report from velocities on: screws of the joints, Jacobians, M, B and Q.
+
+Formulas are LaTeX in the signs that the section *Signs* explains. Everything follows from the
+declaration; what the compiled functions compute stands beside it by its name.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from ...declare.bodies import Rotor
+from ...declare.geometry import Point
+from ...declare.joints import Cylindrical, Prismatic, Revolute, Universal
+from ...kinematics.chain import chain_to, reported
+from ...program.steps import ancestors
+from ...program.symbols import symbols_of
+from .forces import force_rows
+from .tables import table
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from ...declare.joints import Joint, RelativeCoordinate
+    from ...equations.outputs import Derivation
+
+
+@dataclass(frozen=True)
+class Screw:
+    """How a unit rate of a relative coordinate moves what follows in the chain.
+
+    Attributes
+    ----------
+    axis
+        Unit vector along or about which it moves, as LaTeX.
+    point
+        A point on the axis, of which body; None of a slide.
+    """
+
+    axis: str
+    point: tuple[Point, str] | None
+
+
+class Equations:
+    """Numbers equations, and puts the paper's numbers beside them."""
+
+    def __init__(self) -> None:
+        self._count = 0
+
+    def __call__(self, formula: str, paper: str = "") -> str:
+        """Return a displayed equation under the next number."""
+        self._count += 1
+        beside = rf";\ \text{{paper: {paper}}}" if paper else ""
+        return f"```math\n{formula} \\tag{{{self._count}{beside}}}\n```"
+
+
+class Motion:
+    """Screws and chains of a model, as formulas.
+
+    Attributes
+    ----------
+    numbers
+        Place of each relative coordinate in the report, from 1 on: the index of its beta.
+    """
+
+    def __init__(self, derivation: Derivation) -> None:
+        self.derivation = derivation
+        self.formulation = derivation.formulation
+        self.mechanism = derivation.formulation.mechanism
+        self.numbers = {c.name: i for i, c in enumerate(self.mechanism.coordinates, 1)}
+
+    # -- coordinates ----------------------------------------------------------------------------
+
+    def first(self, coordinate: RelativeCoordinate) -> str:
+        """Return the first name of a coordinate, of which this one may be a copy."""
+        return reported(self.mechanism, coordinate.joint.name, coordinate.kind) or ""
+
+    def coordinate_rows(self) -> list[tuple[str, ...]]:
+        """Return the table of the relative coordinates (Figure 3)."""
+        return [
+            (
+                inline(beta(number)),
+                f"`{c.name}`",
+                f"`{c.joint.name}.{c.kind}`",
+                self._origin(c),
+                c.meaning,
+            )
+            for number, c in enumerate(self.mechanism.coordinates, 1)
+        ]
+
+    def _origin(self, coordinate: RelativeCoordinate) -> str:
+        """Say where the value of a coordinate comes from."""
+        first, joint = self.first(coordinate), coordinate.joint
+        if first != coordinate.name:
+            return f"copy of {inline(beta(self.numbers[first]))}"
+        if joint in self.formulation.independent:
+            place = self.formulation.independent.index(joint) + 1
+            return f"independent, {inline(f'q_{{{place}}}')}"
+        if joint in self.formulation.prescribed:
+            return f"prescribed by `{self.formulation.prescribed[joint].inputs[0].name}`"
+        name = f"{joint.name}.{coordinate.kind}"
+        for transformer in self.derivation.plan.transformers:
+            if name in transformer.outputs:
+                return f"transformer {transformer.number}"
+        return "follows from the poses"
+
+    # -- screws ---------------------------------------------------------------------------------
+
+    @cached_property
+    def screws(self) -> dict[str, Screw]:
+        """The screw of each coordinate that is not a copy and is in a chain, by its name."""
+        names = {c.name for body in self.bodies for c in self.in_chain(body)}
+        return {c.name: self._screw(c) for c in self.mechanism.coordinates if c.name in names}
+
+    @cached_property
+    def bodies(self) -> tuple[str, ...]:
+        """The bodies with mass that a chain of reported coordinates leads to."""
+        massive = self.derivation.massive_bodies
+        return tuple(b for b in massive if chain_to(self.mechanism, b) is not None)
+
+    def in_chain(self, body: str) -> list[RelativeCoordinate]:
+        """Return the coordinates that move a body, from the ground on."""
+        by_name = {c.name: c for c in self.mechanism.coordinates}
+        return [
+            by_name[reported(self.mechanism, joint.name, kind) or ""]
+            for joint in chain_to(self.mechanism, body) or ()
+            for kind in joint.coordinates
+        ]
+
+    def _screw(self, coordinate: RelativeCoordinate) -> Screw:
+        joint = coordinate.joint
+        frame = self._frame(joint.first.name)
+        if isinstance(joint, Revolute):
+            return Screw(f"{frame}{along(joint)}", (joint.axis.through, joint.first.name))
+        if isinstance(joint, Prismatic):
+            return Screw(f"{frame}{along(joint)}", None)
+        if isinstance(joint, Universal):
+            turned = "" if coordinate.kind == "azimuth" else f"{self._turn(joint, 'azimuth')}\\,"
+            axis = r"\mathbf{e}_z" if coordinate.kind == "azimuth" else r"\mathbf{e}_x"
+            return Screw(f"{frame}{turned}{axis}", (joint.at, joint.first.name))
+        assert isinstance(joint, Cylindrical)
+        assert isinstance(joint.axis.towards, Point)
+        holder = self._holder(joint)
+        point = None if coordinate.kind == "slide" else (joint.axis.towards, joint.first.name)
+        return Screw(f"-{self.shaft(holder)}", point)
+
+    def shaft(self, joint: Universal) -> str:
+        """Return the unit vector along the shaft of a universal joint, from its centre on."""
+        turns = (self._turn(joint, kind) for kind in ("azimuth", "elevation"))
+        return self._frame(joint.first.name) + r"\,".join((*turns, r"\mathbf{e}_y"))
+
+    def _turn(self, joint: Universal, kind: str) -> str:
+        number = self.numbers[reported(self.mechanism, joint.name, kind) or ""]
+        axis = "z" if kind == "azimuth" else "x"
+        return rf"\mathbf{{R}}_{axis}({beta(number)})"
+
+    def _holder(self, joint: Cylindrical) -> Universal:
+        center = joint.axis.towards
+        assert isinstance(center, Point)
+        holder = self.mechanism.universal_at(joint.first.name, center)
+        assert holder is not None, joint
+        return holder
+
+    def _frame(self, body: str) -> str:
+        """Return the rotation of a body with which its own directions turn; nothing at rest."""
+        if body == self.mechanism.ground:
+            return ""
+        return rf"{rotation(self.mechanism.numbers[body])}\,"
+
+    def screw_rows(self) -> list[tuple[str, ...]]:
+        """Return the table of the screws."""
+        rows = []
+        for name, screw in self.screws.items():
+            number, place = self.numbers[name], "slides along it"
+            if screw.point is not None:
+                point, body = screw.point
+                place = f"`{point.name}` of {self.mechanism.numbers[body]} {body}"
+            rows.append((inline(beta(number)), inline(screw.axis), place))
+        return rows
+
+    # -- bodies ---------------------------------------------------------------------------------
+
+    def twist_of(self, body: str) -> tuple[str, str]:
+        """Return angular velocity and velocity of the centre of mass of a body."""
+        place = self.mechanism.numbers[body]
+        turns, moves = [], []
+        own = self._own_shaft(body)
+        for coordinate in self.in_chain(body):
+            number, screw = self.numbers[coordinate.name], self.screws[coordinate.name]
+            rate = rf"\dot{{\beta}}_{{{number}}}"
+            sign = "c" if coordinate.joint is own else "a"
+            axis = rf"\mathbf{{{sign}}}_{{{number}}}"
+            if screw.point is None:
+                moves.append(rf"{axis}\,{rate}")
+                continue
+            arm = rf"(\mathbf{{s}}_{{{place}}}-\mathbf{{p}}_{{{number}}})"
+            turns.append(rf"{axis}\,{rate}")
+            moves.append(rf"({axis}\times {arm})\,{rate}")
+        angular = " + ".join(turns) or r"\mathbf{0}"
+        return (
+            rf"\boldsymbol{{\omega}}_{{{place}}} = {angular}",
+            rf"\mathbf{{v}}_{{{place}}} = {' + '.join(moves)}",
+        )
+
+    def pose_of(self, body: str) -> list[str]:
+        """Return orientation and position of a body from its last joint; a cross gives no angle."""
+        joint = (chain_to(self.mechanism, body) or [])[-1]
+        b, f = (self.mechanism.numbers[name] for name in (body, joint.first.name))
+        k = self.numbers[reported(self.mechanism, joint.name, joint.coordinates[-1]) or ""]
+        frame = self._frame(joint.first.name)
+        if isinstance(joint, Prismatic):
+            resting = not frame
+            start = rf"\mathbf{{s}}^0_{{{b}}}"
+            if not resting:
+                offset = rf"(\mathbf{{s}}^0_{{{b}}}-\mathbf{{s}}^0_{{{f}}})"
+                start = rf"\mathbf{{s}}_{{{f}}} + {frame}{offset}"
+            turn = rotation(f) if frame else r"\mathbf{1}"
+            moved = rf"{beta(k)}\,\mathbf{{a}}_{{{k}}}"
+            return [
+                rf"{rotation(b)} = {turn}",
+                rf"\mathbf{{s}}_{{{b}}} = {start} + {moved}",
+            ]
+        at, mark, turned = rf"\mathbf{{p}}_{{{k}}}", rf"\mathbf{{p}}^0_{{{k}}}", []
+        if isinstance(joint, Revolute):
+            angle = rf"{beta(k)}-\beta^0_{{{k}}}"
+            turned = [rf"{rotation(b)} = {frame}\mathbf{{R}}({along(joint)},\ {angle})"]
+        elif isinstance(joint, Cylindrical):
+            slide = self.numbers[reported(self.mechanism, joint.name, "slide") or ""]
+            length = rf"(L_{{\mathrm{{{plain(joint.name)}}}}}-{beta(slide)})"
+            at, mark = rf"{at} - {length}\,\mathbf{{a}}_{{{k}}}", rf"\mathbf{{t}}^0_{{{k}}}"
+            holder = self._holder(joint)
+            turns = "\\,".join(self._turn(holder, kind) for kind in ("azimuth", "elevation"))
+            product = rf"\mathbf{{F}}_{{{b}}}\,(\mathbf{{F}}^0_{{{b}}})^T"
+            turned = [
+                rf"\mathbf{{F}}_{{{b}}} = {turns}\,\mathbf{{R}}_y(-{beta(k)})",
+                rf"{rotation(b)} = {self._frame(holder.first.name)}{product}",
+            ]
+        arm = rf"{rotation(b)}\,(\mathbf{{s}}^0_{{{b}}}-{mark})"
+        return [*turned, rf"\mathbf{{s}}_{{{b}}} = {at} + {arm}"]
+
+    def _own_shaft(self, body: str) -> Joint | None:
+        """Return the universal joint at the end of a chain: the body is its shaft."""
+        last = (chain_to(self.mechanism, body) or [None])[-1]
+        return last if isinstance(last, Universal) else None
+
+    def shaft_equations(self) -> Iterator[str]:
+        """Yield how the shafts among the bodies turn about themselves, as their crosses demand."""
+        for body in self.bodies:
+            joint = self._own_shaft(body)
+            if isinstance(joint, Universal):
+                for kind in joint.coordinates:
+                    k = self.numbers[reported(self.mechanism, joint.name, kind) or ""]
+                    n, h = rf"({self.shaft(joint)})", rf"\mathbf{{h}}_{{\mathrm{{{joint.name}}}}}"
+                    share = rf"\frac{{\mathbf{{a}}_{{{k}}}\cdot {h}}}{{{n}\cdot {h}}}"
+                    yield rf"\mathbf{{c}}_{{{k}}} = \mathbf{{a}}_{{{k}}} - {share}\,{n}"
+
+    def rotors(self) -> list[Rotor]:
+        """Return the bodies of revolution among those with mass."""
+        bodies = (self.mechanism.body(name) for name in self.derivation.massive_bodies)
+        return [body for body in bodies if isinstance(body, Rotor)]
+
+
+def beta(number: int) -> str:
+    """Return the sign of a relative coordinate."""
+    return rf"\beta_{{{number}}}"
+
+
+def rotation(number: int) -> str:
+    """Return the sign of the rotation of a body from its design orientation."""
+    return rf"\mathbf{{A}}_{{{number}}}"
+
+
+def along(joint: Joint) -> str:
+    """Return the sign of the unit vector along a joint's axis at the design position."""
+    return rf"\mathbf{{u}}_{{\mathrm{{{plain(joint.name)}}}}}"
+
+
+def plain(name: str) -> str:
+    """Return a name as it can stand in a formula."""
+    return name.replace("_", r"\ ")
+
+
+def inline(formula: str) -> str:
+    """Return a formula in a line, in the way that forges read without changing it."""
+    return f"$`{formula}`$"
+
+
+_SIGNS = (
+    r"Signs, all in the axes of the ground: $`\mathbf{e}_x, \mathbf{e}_y, \mathbf{e}_z`$ are its "
+    r"unit vectors, $`\mathbf{R}_x(\beta)`$ and $`\mathbf{R}_z(\beta)`$ turn about them; "
+    r"$`\mathbf{A}_b`$ turns body b from its design orientation; $`\mathbf{u}_{\mathrm{J}}`$ is "
+    r"the unit vector along joint J at the design position, in the sense in which its coordinate "
+    r"grows; $`\mathbf{s}_b`$ is the centre of mass of body b. The coordinate $`\beta_k`$ moves "
+    r"what follows in the chain along or about the axis $`\mathbf{a}_k`$, which passes through "
+    r"$`\mathbf{p}_k`$. A raised 0 is the design position; R(u, angle) turns about u, L is a "
+    r"telescope's length at zero slide, and t the point of its second body to which it leads:"
+)
+
+_SHAFTS = (
+    r"A shaft that universal joint J holds turns about itself as the cross demands: with "
+    r"$`\mathbf{h}_{\mathrm{J}}`$ normal to both axes of the cross, its angular velocity relative "
+    r"to the first body has no part along $`\mathbf{h}_{\mathrm{J}}`$. In the velocities of the "
+    r"shaft itself c stands for a:"
+)
+
+
+def motion_sections(derivation: Derivation) -> list[str]:
+    """Return the sections from the relative coordinates to M, B and Q."""
+    motion, number = Motion(derivation), Equations()
+    return [
+        *_coordinates(motion),
+        *_relative(motion, number),
+        *_absolute(motion, number),
+        *_global(number),
+        *_dynamics(motion, number),
+    ]
+
+
+def _coordinates(motion: Motion) -> list[str]:
+    return [
+        "## Relative coordinates",
+        (
+            "The coordinates in which everything below is written (Figure 3), and where the value "
+            "of each comes from."
+        ),
+        table(("", "name", "joint", "value", "meaning"), motion.coordinate_rows()),
+    ]
+
+
+def _relative(motion: Motion, number: Equations) -> list[str]:
+    read = closure_reads(motion.derivation)
+    rows = [
+        (
+            inline(rf"g_{{{motion.numbers[name]}}}"),
+            ", ".join(inline(beta(motion.numbers[n])) for n in others),
+            ", ".join(f"`{n}`" for n in given),
+        )
+        for name, (others, given) in read.items()
+    ]
+    return [
+        "## Relative Jacobian",
+        (
+            "For each coordinate there is one closure equation (`residuals`). What it reads, "
+            "beside hardpoints, is where its row of the derivative is not zero:"
+        ),
+        table(("equation", "relative coordinates", "independent and given"), rows),
+        "Differentiated with respect to time, where u are the inputs that prescribe a motion:",
+        number(
+            r"\mathbf{g}(\boldsymbol{\beta}, \mathbf{q}, \mathbf{u}) = \mathbf{0}",
+            "Eqs. 4 to 13",
+        ),
+        number(
+            r"\frac{\partial\mathbf{g}}{\partial\boldsymbol{\beta}}\,\dot{\boldsymbol{\beta}}"
+            r" + \frac{\partial\mathbf{g}}{\partial\mathbf{q}}\,\dot{\mathbf{q}}"
+            r" + \frac{\partial\mathbf{g}}{\partial\mathbf{u}}\,\dot{\mathbf{u}} = \mathbf{0}"
+        ),
+        number(
+            r"\dot{\boldsymbol{\beta}} = \mathbf{J}_{rel}\,\dot{\mathbf{q}}"
+            r" + \mathbf{J}_{u}\,\dot{\mathbf{u}}, \qquad \mathbf{J}_{rel} = "
+            r"-\left(\frac{\partial\mathbf{g}}{\partial\boldsymbol{\beta}}\right)^{-1}"
+            r"\frac{\partial\mathbf{g}}{\partial\mathbf{q}}",
+            "section 4.2",
+        ),
+        (
+            "No matrix is inverted for it: the closed forms give beta explicitly, and "
+            "`relative_jacobian` is their exact derivative with respect to q."
+        ),
+    ]
+
+
+def closure_reads(derivation: Derivation) -> dict[str, tuple[list[str], list[str]]]:
+    """Return for each closure equation the given coordinates, and states and inputs, it reads."""
+    function, names = derivation.functions["residuals"], [e.name for e in derivation.relative]
+    given = {f"given_{name}": name for name in names}
+    outer = [e.name for e in (*derivation.state, *derivation.inputs)]
+    steps = {step.symbol: step for step in function.steps}
+    found = {}
+    for name, value in zip(names, function.results, strict=True):
+        expressions = [value, *(steps[s].expression for s in ancestors(steps, [value]))]
+        read = {symbol.name for e in expressions for symbol in symbols_of(e)}
+        others = [own for sign, own in given.items() if sign in read]
+        found[name] = others, [o for o in outer if o in read]
+    return found
+
+
+def _absolute(motion: Motion, number: Equations) -> list[str]:
+    cites = motion.formulation.cites
+    sections = [
+        "## Absolute kinematics",
+    ]
+    if motion.bodies:
+        screws = table(("coordinate", "axis a", "through p"), motion.screw_rows())
+        sections += [_SIGNS, screws]
+    shafts = list(motion.shaft_equations())
+    if shafts:
+        sections.append(_SHAFTS)
+        sections += [number(text) for text in shafts]
+    for body in motion.bodies:
+        angular, linear = motion.twist_of(body)
+        *turned, place = motion.pose_of(body)
+        sections += [
+            f"Body {motion.mechanism.numbers[body]}, `{body}`:",
+            *map(number, turned),
+            number(place, cites.get(f"position of {body}", "")),
+            number(angular, cites.get(f"omega of {body}", "")),
+            number(linear),
+        ]
+    missing = [b for b in motion.derivation.massive_bodies if b not in motion.bodies]
+    if missing:
+        sections.append(
+            f"No chain of coordinates of this table leads to {', '.join(f'`{b}`' for b in missing)}"
+            ": a joint is on the way whose coordinates are not all reported. Their velocities "
+            "follow from their pose as the closed form gives it, by exact differentiation "
+            "(`global_jacobian`)."
+        )
+    else:
+        sections += [
+            (
+                "The coefficients of the relative rates, body by body, are the rows of the "
+                "absolute Jacobian (`absolute_jacobian`):"
+            ),
+            number(
+                r"\begin{bmatrix}\boldsymbol{\omega}_b\\ \mathbf{v}_b\end{bmatrix}"
+                r" = \mathbf{J}_{abs,b}\,\dot{\boldsymbol{\beta}}",
+                "section 4.3",
+            ),
+        ]
+    return sections
+
+
+def _global(number: Equations) -> list[str]:
+    return [
+        "## Global Jacobian",
+        number(
+            r"\mathbf{J}_b = \begin{bmatrix}\mathbf{W}_b\\ \mathbf{V}_b\end{bmatrix}"
+            r" = \mathbf{J}_{abs,b}\,\mathbf{J}_{rel}",
+            "section 4.3",
+        ),
+        (
+            "W has the angular, V the linear velocity of the centre of mass per rate of each "
+            "independent coordinate (`global_jacobian`)."
+        ),
+    ]
+
+
+def _dynamics(motion: Motion, number: Equations) -> list[str]:
+    numbers = motion.mechanism.numbers
+    bodies = ", ".join(f"{numbers[b]} `{b}`" for b in motion.derivation.massive_bodies)
+    inertia = r"\boldsymbol{\Theta}_b"
+    turned = r"\mathbf{A}_b\,\boldsymbol{\Theta}_b^0\,\mathbf{A}_b^T"
+    sections = [
+        "## Equations of motion",
+        (
+            f"The sums are over the bodies with mass: {bodies}. "
+            f"{inline(rf'{inertia} = {turned}')} is the inertia of a body about its centre of mass."
+        ),
+        number(
+            r"\sum_b \left[\mathbf{J}_b^T\left(\boldsymbol{\Xi}_b\,\ddot{\mathbf{s}}_b"
+            r" + \mathbf{b}_b - \mathbf{w}_b\right)\right] = \mathbf{0}",
+            "Eq. 2",
+        ),
+        number(
+            r"\mathbf{M}(\mathbf{q})\,\ddot{\mathbf{q}} + \mathbf{B}(\mathbf{q},\dot{\mathbf{q}})"
+            r" = \mathbf{Q}(\mathbf{q},\dot{\mathbf{q}})",
+            "Eq. 3",
+        ),
+        number(
+            r"\mathbf{M} = \sum_b \left(m_b\,\mathbf{V}_b^T\mathbf{V}_b"
+            rf" + \mathbf{{W}}_b^T{inertia}\mathbf{{W}}_b\right)",
+            "Eq. 3",
+        ),
+        number(
+            r"\mathbf{B} = \sum_b \left[m_b\,\mathbf{V}_b^T\bar{\mathbf{a}}_b + \mathbf{W}_b^T"
+            rf"\left({inertia}\bar{{\boldsymbol{{\alpha}}}}_b + \boldsymbol{{\omega}}_b\times"
+            rf"{inertia}\boldsymbol{{\omega}}_b\right)\right]",
+            "Eq. 3",
+        ),
+        (
+            "The barred accelerations are those at q'' = 0: what changes of the Jacobian with "
+            "the pose, and what prescribed motions accelerate. The compiled `mass_matrix`, `bias` "
+            "and `forces` return these three."
+        ),
+    ]
+    for rotor in motion.rotors():
+        name = inline(rf"\boldsymbol{{\Theta}}_{{{numbers[rotor.name]}}}")
+        sections.append(
+            f"Body {numbers[rotor.name]}, `{rotor.name}`, is a body of revolution: {name} has "
+            f"`{rotor.name}_inertia_spin` about its axis and `{rotor.name}_inertia_diametral` "
+            "across it, however far it has turned."
+        )
+    rows = force_rows(motion.formulation)
+    sections += [
+        (
+            "Each force that acts adds its share to Q, the coefficient of its power in the rate of "
+            "each independent coordinate:"
+        ),
+        table(("force", "acts", "share of Q", "paper"), rows),
+    ]
+    return sections

@@ -1,0 +1,31 @@
+"""The chain of joints with reported coordinates that leads from the ground to a body."""
+
+from __future__ import annotations
+
+import itertools
+from typing import TYPE_CHECKING
+
+import networkx as nx
+
+if TYPE_CHECKING:
+    from ..declare.joints import Joint
+    from ..declare.mechanism import Mechanism
+
+
+def reported(mechanism: Mechanism, joint: str, kind: str) -> str | None:
+    """Return the first name under which a joint's coordinate is reported."""
+    entries = mechanism.coordinates
+    return next((c.name for c in entries if (c.joint.name, c.kind) == (joint, kind)), None)
+
+
+def chain_to(mechanism: Mechanism, body: str) -> list[Joint] | None:
+    """Return the joints from the ground to a body, as few as can be; None if none lead there."""
+    graph = nx.DiGraph()
+    for joint in mechanism.joints:
+        if all(reported(mechanism, joint.name, kind) for kind in joint.coordinates):
+            graph.add_edge(*joint.bodies, joint=joint)
+    ends = mechanism.ground, body
+    if not all(end in graph for end in ends) or not nx.has_path(graph, *ends):
+        return None
+    path = nx.shortest_path(graph, *ends)
+    return [graph.edges[a, b]["joint"] for a, b in itertools.pairwise(path)]
