@@ -28,7 +28,7 @@ generate: .venv/.ready ## Derive the equations again and write generated/
 	@$(PYTHON) -m kintrafo.generator generate generated
 
 run: build ## The paper's suspension: topology, Figures 4 to 6, summary, all in out/
-	@$(PYTHON) -m kintrafo.generator topology --picture out/topology.png --force
+	@$(PYTHON) -m kintrafo.generator topology --picture out/topology.png --figures out --force
 	@$(PYTHON) -m kintrafo paper out --force
 
 # Tests start hundreds of processes, and each would compile what it imports again.

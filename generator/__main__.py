@@ -71,19 +71,34 @@ def topology(
     picture: Annotated[
         Path | None, typer.Option(help="Write the joint graph here (PNG, SVG).")
     ] = None,
+    model: Annotated[
+        str, typer.Option(help="Which of the models that come with the project.")
+    ] = MODELS[0].name,
+    figures: Annotated[
+        Path | None,
+        typer.Option(help="Write bodies, graph and transformers as figures (SVG, PNG) here."),
+    ] = None,
     *,
     force: Annotated[
         bool, typer.Option("--force", help="Replace a file that kintrafo did not write.")
     ] = False,
 ) -> None:
-    """Show mobility, shortest paths, cycles and transformers of the MacPherson suspension."""
-    plan = Plan.of(MODELS[0])
+    """Show mobility, shortest paths, cycles and transformers of a mechanism."""
+    names = {known.name: known for known in MODELS}
+    if model not in names:
+        raise typer.BadParameter(f"there is no model {model!r}; there are {', '.join(names)}")
+    plan = Plan.of(names[model])
     show_topology(plan)
     if picture is not None:
         from .backends.report.picture import draw  # noqa: PLC0415 (matplotlib is slow to import)
 
         draw(plan, picture, force=force)
         console.print(f"joint graph written to {picture}")
+    if figures is not None:
+        from .backends.report.figures import draw_figures  # noqa: PLC0415 (as above)
+
+        for path in draw_figures(plan, figures, force=force):
+            console.print(f"  {path}")
 
 
 def show_topology(plan: Plan) -> None:

@@ -170,7 +170,7 @@ class Motion:
 
     def screw_rows(self) -> list[tuple[str, ...]]:
         """Return the table of the screws."""
-        rows = []
+        rows: list[tuple[str, ...]] = []
         for name, screw in self.screws.items():
             number, place = self.numbers[name], "slides along it"
             if screw.point is not None:
@@ -241,8 +241,8 @@ class Motion:
 
     def _own_shaft(self, body: str) -> Joint | None:
         """Return the universal joint at the end of a chain: the body is its shaft."""
-        last = (chain_to(self.mechanism, body) or [None])[-1]
-        return last if isinstance(last, Universal) else None
+        chain = chain_to(self.mechanism, body) or []
+        return next((joint for joint in chain[-1:] if isinstance(joint, Universal)), None)
 
     def shaft_equations(self) -> Iterator[str]:
         """Yield how the shafts among the bodies turn about themselves, as their crosses demand."""
@@ -373,12 +373,12 @@ def closure_reads(derivation: Derivation) -> dict[str, tuple[list[str], list[str
     """Return for each closure equation the given coordinates, and states and inputs, it reads."""
     function, names = derivation.functions["residuals"], [e.name for e in derivation.relative]
     given = {f"given_{name}": name for name in names}
-    outer = [e.name for e in (*derivation.state, *derivation.inputs)]
+    outer = [e.name for e in derivation.state] + [e.name for e in derivation.inputs]
     steps = {step.symbol: step for step in function.steps}
-    found = {}
+    found: dict[str, tuple[list[str], list[str]]] = {}
     for name, value in zip(names, function.results, strict=True):
         expressions = [value, *(steps[s].expression for s in ancestors(steps, [value]))]
-        read = {symbol.name for e in expressions for symbol in symbols_of(e)}
+        read = {str(symbol) for e in expressions for symbol in symbols_of(e)}
         others = [own for sign, own in given.items() if sign in read]
         found[name] = others, [o for o in outer if o in read]
     return found

@@ -1,0 +1,414 @@
+"""Three figures of any mechanism, after the paper's Figures 1 to 3, from its declaration alone.
+
+Its bodies and joints in space, its graph of physical and of elementary joints, and its kinematic
+transformers with the relative coordinates as wires.
+"""
+
+from __future__ import annotations
+
+from itertools import combinations, pairwise
+from textwrap import fill
+from typing import TYPE_CHECKING, Any
+
+import matplotlib as mpl
+
+mpl.use("Agg")
+import networkx as nx
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+
+from ....core.files import replacing
+from ...declare.geometry import Point
+from ...declare.joints import Cylindrical, Prismatic, Revolute
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from matplotlib.axes import Axes
+
+    from ...declare.joints import Joint
+    from ...declare.mechanism import Mechanism
+    from ...loops.planner import Plan, Transformer
+
+INK, GREY, PALE = "#222222", "#8a8a8a", "#d9d9d9"
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#7b5ea7", "#56a0d3", "#a6761d")
+ELEMENTS = {
+    "revolute": "R",
+    "prismatic": "P",
+    "cylindrical": "PR",
+    "universal": "RR",
+    "spherical": "RRR",
+    "free": "PPPRRR",
+}
+"""The elementary joints that a joint is equivalent to: guides (P) and hinges (R), in a row."""
+
+
+def draw_figures(plan: Plan, folder: Path, *, force: bool = False) -> list[Path]:
+    """Write the three figures of a mechanism; return where they are.
+
+    Parameters
+    ----------
+    plan
+        The analysed mechanism.
+    folder
+        Where to write; made if it is not there.
+    force
+        Whether files that somebody else wrote are replaced, see `kintrafo.core.files`.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    written = []
+    for name, drawn in (("bodies", bodies), ("graph", graph), ("transformers", transformers)):
+        path = folder / f"{plan.formulation.name}_{name}.svg"
+        figure = drawn(plan)
+        with mpl.rc_context({"svg.hashsalt": "kintrafo", "svg.fonttype": "none"}):
+            for target in (path, path.with_suffix(".png")):
+                facts: dict[str, Any] = {"Date": None} if target.suffix == ".svg" else {}
+                with replacing(target, force=force) as temporary:
+                    figure.savefig(temporary, dpi=160, metadata=facts)
+                written.append(target)
+    return written
+
+
+def _axes(figure: Figure, *place: int) -> Axes:
+    axes = figure.add_subplot(*place)
+    axes.set_axis_off()
+    return axes
+
+
+# -- Figure 1 -------------------------------------------------------------------------------------
+
+
+def bodies(plan: Plan) -> Figure:
+    """Draw bodies with their numbers, and joints with their names, at the design position."""
+    mechanism = plan.formulation.mechanism
+    values = {p.symbol: p.default for p in mechanism.parameters}
+    values |= {name: value.subs(values) for name, value in mechanism.derived.items()}
+    named = {str(symbol): value for symbol, value in values.items()}
+
+    def place(point: Point) -> np.ndarray[Any, Any]:
+        return np.array([float(c.subs(named)) for c in point.position])
+
+    ends = {j.name: [place(p) for p in _points(j)] for j in mechanism.joints}
+    view = _view(np.array([p for points in ends.values() for p in points]))
+    held = _held(mechanism, {n: [view @ p for p in ps] for n, ps in ends.items()})
+    size = float(np.ptp(np.array([p for points in held.values() for p in points]), axis=0).max())
+    for joint in mechanism.joints:
+        if isinstance(joint, Prismatic) and mechanism.ground in joint.bodies:
+            along = np.array([float(c.subs(named)) for c in joint.direction.components])
+            body = joint.other(mechanism.ground)
+            shift = 0.12 * size * (view @ along)
+            held[body] += [p + sign * shift for p in held[body][:1] for sign in (1, -1)]
+    figure = Figure(figsize=(7.2, 7.2), layout="constrained")
+    axes = _axes(figure)
+    axes.set_aspect("equal")
+    marks, obstacles = [], []
+    for (body, number), colour in zip(
+        mechanism.numbers.items(), (INK, *COLOURS * len(held)), strict=False
+    ):
+        points = np.array(held[body])
+        if not len(points):
+            continue
+        at_rest = body == mechanism.ground
+        center = points.mean(axis=0)
+        marks.append((str(number), colour, center))
+        for point in np.unique(points.round(9), axis=0):
+            style = ":" if at_rest else "-"
+            axes.plot(*zip(center, point, strict=True), style, color=colour, lw=1 if at_rest else 3)
+            obstacles += [center + share * (point - center) for share in (0.25, 0.5, 0.75, 1.0)]
+    letters = [(text, view @ point) for text, point in _letters(mechanism.joints, ends)]
+    spots = [at for _, at in letters]
+    for text, colour, center in marks:
+        crowded = min(float(np.hypot(*(center - spot))) for spot in spots) < 0.04 * size
+        at = _free(center, [*spots, *obstacles], 0.07 * size) if crowded else center
+        axes.plot(*zip(center, at, strict=True), color=colour, lw=1)
+        box = {"boxstyle": "circle,pad=0.25", "facecolor": colour, "edgecolor": "white"}
+        axes.text(
+            at[0], at[1], text, ha="center", va="center", size=12, color="white", zorder=5, bbox=box
+        )
+        spots.append(at)
+    short = all(len(text) <= 5 for text, _ in letters)
+    legend = []
+    for place_of, (text, seen) in zip("abcdefghijklmnopqrstuvwxyz", letters, strict=False):
+        at = _free(seen, [*spots, *obstacles], 0.05 * size)
+        spots.append(at)
+        axes.plot(*seen, "o", ms=6, mfc="white", mec=INK, zorder=4)
+        axes.text(
+            at[0], at[1], text if short else place_of, ha="center", va="center", size=13, zorder=6
+        )
+        legend += [] if short else [f"{place_of} {text.replace('_', ' ')}"]
+    names = ", ".join(f"{n} {b.replace('_', ' ')}" for b, n in mechanism.numbers.items())
+    axes.set_title(mechanism.title, fontsize=13)
+    lines = [fill(names, 70), *([fill("; ".join(legend), 70)] if legend else [])]
+    figure.supxlabel("\n".join(lines), fontsize=10)
+    axes.margins(0.08)
+    return figure
+
+
+def _held(mechanism: Mechanism, ends: dict[str, list[Any]]) -> dict[str, list[Any]]:
+    """Return what each body is drawn between: its joints, and of a telescope the middle too."""
+    held: dict[str, list[Any]] = {body: [] for body in mechanism.numbers}
+    for joint in mechanism.joints:
+        if not isinstance(joint, Cylindrical):
+            for body in joint.bodies:
+                held[body] += ends[joint.name]
+    for joint in mechanism.joints:
+        pair = [held[body] for body in joint.bodies]
+        if isinstance(joint, Cylindrical):
+            middle = sum(ends[joint.name]) / 2
+        elif isinstance(joint, Prismatic) and mechanism.ground not in joint.bodies and all(pair):
+            middle = (pair[0][0] + pair[1][0]) / 2
+        else:
+            continue
+        for points in pair:
+            points.append(middle)
+    return held
+
+
+def _free(at: Any, others: list[Any], radius: float) -> Any:
+    """Return the place around a point that is farthest from all others."""
+    angles = np.arange(16) * np.pi / 8
+    around = [at + radius * np.array([np.cos(a), np.sin(a)]) for a in angles]
+    return max(around, key=lambda p: min(round(float(np.hypot(*(p - o))), 9) for o in others))
+
+
+def _points(joint: Joint) -> list[Point]:
+    """Return the hardpoints of a joint, or nothing of a guide, which is anywhere."""
+    if joint.center is not None:
+        return [joint.center]
+    if isinstance(joint, Revolute | Cylindrical):
+        return [p for p in (joint.axis.through, joint.axis.towards) if isinstance(p, Point)]
+    return []
+
+
+def _letters(joints: tuple[Joint, ...], ends: dict[str, Any]) -> list[tuple[str, Any]]:
+    """Return what is written at which place; a name of two letters is one for each end."""
+    taken: dict[tuple[float, ...], list[str]] = {}
+    for joint in joints:
+        points = ends[joint.name]
+        names = list(joint.name) if len(joint.name) == len(points) == 2 else [joint.name]
+        for name, point in zip(names, points, strict=False):
+            words = taken.setdefault(tuple(point.round(9)), [])
+            if name not in words:
+                words.append(name)
+    return [(", ".join(words), np.array(point)) for point, words in taken.items()]
+
+
+def _view(points: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    """Return the projection: along the normal of a plane mechanism, else from the front above."""
+    for axis in (1, 2, 0):
+        if np.ptp(points[:, axis]) < 1e-9:
+            return np.delete(np.eye(3), axis, axis=0)
+    turn, tilt = np.radians(35.0), np.radians(18.0)
+    c, s = np.cos(turn), np.sin(turn)
+    up = np.array([-np.sin(tilt) * c, np.sin(tilt) * s, np.cos(tilt)])
+    return np.array([[-s, -c, 0.0], up])
+
+
+# -- Figure 2 -------------------------------------------------------------------------------------
+
+
+def graph(plan: Plan) -> Figure:
+    """Draw the joint graph, and beside it that of the elementary joints."""
+    figure = Figure(figsize=(15.0, 7.2), layout="constrained")
+    places = _layout(plan)
+    for index, elementary in enumerate((False, True), 1):
+        axes = _axes(figure, 1, 2, index)
+        for joint in plan.formulation.mechanism.joints:
+            _edge(axes, joint, *(places[b] for b in joint.bodies), elementary=elementary)
+        for body, number in plan.formulation.mechanism.numbers.items():
+            words = body.replace("_", "\n")
+            _node(axes, places[body], f"{number} {words}", PALE, "round,pad=0.4", 11)
+        what = "elementary joints" if elementary else "physical joints"
+        beside = (
+            "R hinges, P guides; between those of one joint, white, its fictitious bodies"
+            if elementary
+            else "on each joint its number of freedoms"
+        )
+        axes.set_title(f"{what}\n{beside}", fontsize=12)
+        axes.margins(0.1)
+    figure.suptitle(plan.formulation.mechanism.title, fontsize=14)
+    return figure
+
+
+def _layout(plan: Plan) -> dict[str, Any]:
+    """Return places without crossings, where there are such, drawn out evenly."""
+    joints = plan.topology.graph
+    layouts: list[dict[str, Any]] = [nx.kamada_kawai_layout(joints, weight=None)]
+    if nx.check_planarity(joints)[0]:
+        plane = nx.planar_layout(joints)
+        layouts += [nx.kamada_kawai_layout(joints, pos=plane, weight=None), plane]
+    return min(layouts, key=lambda places: _crossings(joints, places))
+
+
+def _crossings(joints: nx.Graph, places: dict[str, Any]) -> int:
+    """Return how many pairs of straight edges cross each other."""
+
+    def side(a: Any, b: Any, c: Any) -> bool:
+        return bool((b[0] - a[0]) * (c[1] - a[1]) > (b[1] - a[1]) * (c[0] - a[0]))
+
+    pairs = (pair for pair in combinations(joints.edges, 2) if not {*pair[0]} & {*pair[1]})
+    ends = ([places[body] for edge in pair for body in edge] for pair in pairs)
+    return sum(
+        side(a, b, c) != side(a, b, d) and side(c, d, a) != side(c, d, b) for a, b, c, d in ends
+    )
+
+
+def _edge(axes: Axes, joint: Joint, start: Any, end: Any, *, elementary: bool) -> None:
+    """Draw a joint between two bodies: as one, or as a row of elementary ones."""
+    start, end = np.array(start), np.array(end)
+    axes.plot(*zip(start, end, strict=True), color=GREY, lw=1.2, zorder=1)
+    if not elementary:
+        _node(axes, (start + end) / 2, f"{joint.name}: {joint.freedoms}", "white", "round", 10)
+        return
+    letters = ELEMENTS[joint.kind]
+    shares = np.linspace(0.0, 1.0, 2 * len(letters) + 1)[1:-1]
+    shares = 0.5 + (shares - 0.5) * (0.8 if len(letters) > 1 else 1.0)
+    for place, share in enumerate(shares):
+        at = start + share * (end - start)
+        if place % 2:
+            axes.plot(*at, marker="D", ms=6, mfc="white", mec=INK, zorder=3)
+        else:
+            _node(axes, at, letters[place // 2], "white", "circle,pad=0.15", 8)
+    across = np.array([end[1] - start[1], start[0] - end[0]])
+    across = across / max(float(np.hypot(*across)), 1e-9) * 15
+    axes.annotate(
+        joint.name,
+        (start + end) / 2,
+        (across[0], across[1]),
+        textcoords="offset points",
+        ha="center",
+        va="center",
+        fontsize=11,
+        color=COLOURS[0],
+    )
+
+
+def _node(axes: Axes, at: Any, text: str, colour: str, shape: str, size: int) -> None:
+    box = {"boxstyle": shape, "facecolor": colour, "edgecolor": INK}
+    axes.annotate(
+        text, at, ha="center", va="center", fontsize=size, bbox=box, zorder=4, linespacing=0.95
+    )
+
+
+# -- Figure 3 -------------------------------------------------------------------------------------
+
+WIDE, PITCH = 3.4, 0.5
+
+
+class _Wires:
+    """Names of coordinates at the two ends of a wire, as the mechanism reports them."""
+
+    def __init__(self, plan: Plan) -> None:
+        self.names: dict[str, list[str]] = {}
+        for c in plan.formulation.mechanism.coordinates:
+            self.names.setdefault(f"{c.joint.name}.{c.kind}", []).append(c.name)
+
+    def leaving(self, wire: str) -> str | None:
+        """Return the name under which a coordinate is known where it is found."""
+        return _sign(self.names[wire][0]) if wire in self.names else None
+
+    def entering(self, wire: str) -> str | None:
+        """Return its name where it is taken up: that of its copies, where there are some."""
+        found = self.names.get(wire, [])[1:]
+        return ", ".join(map(_sign, found)) or None
+
+
+def _sign(name: str) -> str:
+    """Return a name as it is written in a figure: betaN with its Greek letter."""
+    number = name.removeprefix("beta")
+    return f"$\\beta_{{{number}}}$" if number != name and number.isdigit() else name
+
+
+def transformers(plan: Plan) -> Figure:
+    """Draw the transformers as blocks, and the relative coordinates as the wires between them."""
+    wires, blocks = _Wires(plan), plan.transformers
+    heights = [max(len(t.inputs), len(_shown(t, wires)) + 1, 3) * PITCH for t in blocks]
+    tops = np.concatenate([[0.0], -np.cumsum(np.array(heights) + PITCH)])
+    gap = max(3.0, 1.4 + 0.2 * max(map(len, wires.names)))
+    lefts = [i * (WIDE + gap) for i in range(len(blocks))]
+    figure = Figure(
+        figsize=(0.8 * (WIDE + gap) * len(blocks), 1.8 + 0.8 * -tops[-1]), layout="constrained"
+    )
+    axes = _axes(figure)
+    sources: dict[str, tuple[float, float]] = {}
+    used: set[str] = set()
+    for t, left, top, height in zip(blocks, lefts, tops, heights, strict=False):
+        axes.add_patch(Rectangle((left, top - height), WIDE, height, fc=PALE, ec=INK, lw=1.5))
+        numbers = "-".join(str(plan.formulation.mechanism.numbers[b]) for b in t.cycle.bodies)
+        words = f"transformer {t.number}\nbodies {numbers}"
+        axes.text(left + WIDE / 2, top - height / 2, words, ha="center", va="center", fontsize=12)
+        for place, wire in enumerate(t.inputs):
+            y = top - (place + 0.5) * height / max(len(t.inputs), 1)
+            channel = left - 0.9 - 0.22 * place
+            _enter(axes, sources, wires, wire, (channel, left, y), first=wire not in used)
+            used.add(wire)
+        shown = _shown(t, wires)
+        for place, wire in enumerate(shown):
+            y = top - (place + 0.5) * height / (len(shown) + 1)
+            sources[wire] = (left + WIDE, y)
+            _arrow(axes, (left + WIDE, y), (left + WIDE + 0.5, y))
+            axes.text(
+                left + WIDE + 0.08, y + 0.05, wires.leaving(wire) or "", fontsize=13, va="bottom"
+            )
+        rest = [w for w in t.outputs if w not in shown]
+        if rest:
+            words = "also " + ",\n".join(rest)
+            axes.text(
+                left + WIDE / 2,
+                top - height - 0.06,
+                words,
+                va="top",
+                ha="center",
+                fontsize=8,
+                color=GREY,
+            )
+    _others(axes, wires, {*sources, *used}, tops[-1])
+    axes.set_title(plan.formulation.mechanism.title, fontsize=13)
+    axes.set_xlim(-gap / 2, lefts[-1] + WIDE + gap / 2)
+    axes.set_ylim(tops[-1] - 0.8, 0.2)
+    return figure
+
+
+def _shown(transformer: Transformer, wires: _Wires) -> list[str]:
+    """Return the coordinates that a transformer finds and the mechanism reports."""
+    return [wire for wire in transformer.outputs if wire in wires.names]
+
+
+def _enter(
+    axes: Axes,
+    sources: dict[str, tuple[float, float]],
+    wires: _Wires,
+    wire: str,
+    place: tuple[float, float, float],
+    *,
+    first: bool,
+) -> None:
+    """Draw a wire into a block: from the block that found it, or from outside."""
+    channel, left, y = place
+    name = wires.entering(wire)
+    if wire in sources:
+        x0, y0 = sources[wire]
+        corners = [(x0 + 0.5, y0), (channel, y0), (channel, y), (left - 0.1, y)]
+        for one, other in pairwise(corners):
+            axes.plot(*zip(one, other, strict=True), color=INK, lw=1.1)
+    elif first and wire in wires.names:
+        name = wires.leaving(wire)
+    if wire not in wires.names:
+        name = wire
+    _arrow(axes, (left - 0.8 if wire not in sources else left - 0.3, y), (left, y))
+    if name:
+        axes.text(left - 0.1, y + 0.05, name, fontsize=13, ha="right", va="bottom")
+
+
+def _arrow(axes: Axes, start: tuple[float, float], end: tuple[float, float]) -> None:
+    style = {"arrowstyle": "-|>", "color": INK, "shrinkA": 0, "shrinkB": 0}
+    axes.annotate("", end, start, arrowprops=style)
+
+
+def _others(axes: Axes, wires: _Wires, drawn: set[str], bottom: float) -> None:
+    """Write the coordinates that no block finds or reads: they are inputs of the bodies alone."""
+    rest = [_sign(names[0]) for wire, names in wires.names.items() if wire not in drawn]
+    if rest:
+        words = f"through no transformer: {', '.join(rest)}"
+        axes.text(0.0, bottom - 0.1, words, va="top", fontsize=12)
