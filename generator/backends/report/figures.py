@@ -235,10 +235,16 @@ def _layout(plan: Plan) -> dict[str, Any]:
     """Return places without crossings, where there are such, drawn out evenly."""
     joints = plan.topology.graph
     layouts: list[dict[str, Any]] = [nx.kamada_kawai_layout(joints, weight=None)]
-    if nx.check_planarity(joints)[0]:
-        plane = nx.planar_layout(joints)
-        layouts += [nx.kamada_kawai_layout(joints, pos=plane, weight=None), plane]
-    return min(layouts, key=lambda places: _crossings(joints, places))
+    for seed in range(6):  # from other starts it finds others, some of them without crossings
+        start = nx.random_layout(joints, seed=seed)
+        layouts.append(nx.kamada_kawai_layout(joints, pos=start, weight=None))
+    return min(layouts, key=lambda at: 0.1 * _crossings(joints, at) - _nearest(joints, at))
+
+
+def _nearest(joints: nx.Graph, places: dict[str, Any]) -> float:
+    """Return the least distance of what is written: at bodies, and halfway between them."""
+    at = [*places.values(), *((places[a] + places[b]) / 2 for a, b in joints.edges)]
+    return round(min(float(np.hypot(*(p - q))) for p, q in combinations(at, 2)), 3)
 
 
 def _crossings(joints: nx.Graph, places: dict[str, Any]) -> int:
@@ -325,7 +331,7 @@ def transformers(plan: Plan) -> Figure:
     wires, blocks = _Wires(plan), plan.transformers
     heights = [max(len(t.inputs), len(_shown(t, wires)) + 1, 3) * PITCH for t in blocks]
     tops = np.concatenate([[0.0], -np.cumsum(np.array(heights) + PITCH)])
-    gap = max(3.0, 1.4 + 0.2 * max(map(len, wires.names)))
+    gap = max(3.0, 1.4 + 0.34 * max(len(n[0]) for n in wires.names.values()))
     lefts = [i * (WIDE + gap) for i in range(len(blocks))]
     figure = Figure(
         figsize=(0.8 * (WIDE + gap) * len(blocks), 1.8 + 0.8 * -tops[-1]), layout="constrained"
@@ -340,8 +346,8 @@ def transformers(plan: Plan) -> Figure:
         axes.text(left + WIDE / 2, top - height / 2, words, ha="center", va="center", fontsize=12)
         for place, wire in enumerate(t.inputs):
             y = top - (place + 0.5) * height / max(len(t.inputs), 1)
-            channel = left - 0.9 - 0.22 * place
-            _enter(axes, sources, wires, wire, (channel, left, y), first=wire not in used)
+            channel = left - _room(t, wires) - 0.22 * place
+            _enter(axes, sources, wires, wire, (channel, left, y))
             used.add(wire)
         shown = _shown(t, wires)
         for place, wire in enumerate(shown):
@@ -375,14 +381,17 @@ def _shown(transformer: Transformer, wires: _Wires) -> list[str]:
     return [wire for wire in transformer.outputs if wire in wires.names]
 
 
+def _room(transformer: Transformer, wires: _Wires) -> float:
+    """Return how far before a block wires may turn, so as to pass what is written there."""
+    return max(0.9, 0.17 * max(len(wires.entering(w) or "") for w in transformer.inputs))
+
+
 def _enter(
     axes: Axes,
     sources: dict[str, tuple[float, float]],
     wires: _Wires,
     wire: str,
     place: tuple[float, float, float],
-    *,
-    first: bool,
 ) -> None:
     """Draw a wire into a block: from the block that found it, or from outside."""
     channel, left, y = place
@@ -392,7 +401,7 @@ def _enter(
         corners = [(x0 + 0.5, y0), (channel, y0), (channel, y), (left - 0.1, y)]
         for one, other in pairwise(corners):
             axes.plot(*zip(one, other, strict=True), color=INK, lw=1.1)
-    elif first and wire in wires.names:
+    elif wire in wires.names:
         name = wires.leaving(wire)
     if wire not in wires.names:
         name = wire
