@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import gc
 import os
+import signal
 from functools import cache
 from typing import TYPE_CHECKING
 
@@ -16,7 +17,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable
+    from collections.abc import Callable, Hashable, Iterator
     from types import ModuleType
 
     import xarray as xr
@@ -101,6 +102,14 @@ def _compares(module: ModuleType | None) -> bool:
 
     names = vars(module or object).values()
     return any(home(value).startswith(("oracle", "own_models", "cases")) for value in names)
+
+
+@pytest.fixture
+def interruptible() -> Iterator[None]:
+    """Let Python hear of interrupts: what a script starts in the background ignores them."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 @pytest.fixture(scope="session")

@@ -232,7 +232,7 @@ WRONG: list[tuple[Any, str]] = [
     ({"a": {"contact_N": [0, 0, 1], "left": {"contact_N": [0, 0, 1]}}}, "is that of both wheels"),
     ({"a": {"left": {"contact_K": [0, 0, 1]}}}, r"\[cases.a\] left contact_K is not known"),
     ({"a": {"travel_mm": 1.0, "left": {"contact_N": [0, 0, 1]}}}, "cannot be given besides"),
-    ({"a": {"left": {"travel_mm": 900.0}}}, "a: wheel height 1200 mm is out of reach"),
+    ({"a": {"left": {"travel_mm": 900.0}}}, "a: left: wheel height 1200 mm is out of reach"),
     ({"a": {"rack_mm": 900.0}}, "a: "),
     ({"a": {"travel_mm": 0.0, "right": {"center_N": [0, 0, 9e3]}}}, "right: the road would have"),
     ({"a": {"contact_N": [0.0, 0.0, 9e5]}}, "too much for spring and stops|is stable"),
@@ -257,3 +257,14 @@ def test_the_command_tells_both_sides(kintrafo: Any, tmp_path: Path) -> None:  #
     table = (tmp_path / "loads.csv").read_text(encoding="utf-8")
     assert "anti_roll_bar at bar_bush_left by chassis,turn" in table
     assert (tmp_path / "bodies_turn.png").stat().st_size > 1000
+
+
+def test_a_search_that_leads_out_of_reach_ends_no_other_case() -> None:
+    """Newton's method may step to where the arm or a drop link does not reach."""
+    awkward = {"left": {"contact_g": [0.0, 0.0, 0.2]}, "right": {"contact_g": [0.0, 1.5, 0.5]}}
+    still = {"contact_g": [0.0, 0.0, 1.0]}
+    found = axles.static_loads(Axle.load("reference_axle"), {"awkward": awkward, "still": still})
+    assert found["reason"].sel(case="still") == ""
+    far = {"left": {"travel_mm": 400.0}, "right": still}
+    found = axles.static_loads(Axle.load("reference_axle"), {"far": far, "still": still})
+    assert str(found["reason"].sel(case="far").values).startswith("left: ")

@@ -394,6 +394,7 @@ def test_progress_is_told(car: Model, start: Any, monkeypatch: Any) -> None:
     assert told[-1] == 50
 
 
+@pytest.mark.usefixtures("interruptible")
 def test_an_interruption_ends_it(car: Model, start: Any) -> None:
     """Of what would take hours; without an end at once, this test has none."""
     timer = threading.Timer(0.3, _thread.interrupt_main)

@@ -26,14 +26,6 @@ def endless():
     simulate(CRANK, (0.0, 1e9), TURNING, t_eval=[1e9], max_step=1e-3, max_steps=10**10)
 
 
-@pytest.fixture
-def interruptible():
-    """Let Python hear of interrupts: what a script starts in the background ignores them."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    yield
-    signal.signal(signal.SIGINT, before)
-
-
 @needs_sundials
 @pytest.mark.skipif(os.name == "nt", reason="signals are sent to processes")
 @pytest.mark.usefixtures("interruptible")

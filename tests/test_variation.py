@@ -589,3 +589,15 @@ def test_commands_refuse_and_end_as_others_do(kintrafo: Any, tmp_path: Path) -> 
     code, _, err = kintrafo("sensitivity", "reference_car", "--of", "camberr")
     assert code == 2
     assert "Did you mean camber" in err
+
+
+def test_bushes_are_refused_where_joints_are_rigid() -> None:
+    soft = CAR.with_changes({"bushings": {"arm_rear": {"axial_N_per_mm": 400.0}}})
+    name = "bushings.arm_rear.axial_N_per_mm"
+    for call in (
+        lambda: variation.tolerance(soft, {name: 10.0}),
+        lambda: variation.sensitivity(soft, [name]),
+        lambda: variation.sweep(soft, {name: [400.0]}),
+    ):
+        with pytest.raises(InputError, match="nothing here depends on bushes"):
+            call()

@@ -74,6 +74,16 @@ def test_every_part_is_in_balance(car: Suspension) -> None:
     np.testing.assert_allclose(carried, hub, rtol=0.0, atol=1e-9 * abs(found["moment"]).max())
 
 
+@pytest.mark.parametrize("name", [name for name in UNITS if name != "hub_torque"])
+def test_what_is_at_rest_stays_there(name: str) -> None:
+    """The state carries the brake that holds the wheel, against whatever turns it."""
+    model = Model(CARS[0], wheel_loads=True)
+    rest = equilibrium(model, inputs={name: 0.25 * LIMITS[UNITS[name]]}, spin_rate=20.0)
+    rates = model.evaluate("rhs", rest, rest.inputs)
+    # roundings of moments of 1e3 N m over inertias of some kg m^2, with a spin that does not end
+    np.testing.assert_allclose(rates, [0.0, 20.0, 0.0, 0.0], atol=1e-9)
+
+
 def test_both_sides_of_an_axle_do_what_one_does() -> None:
     """Loads alike on both sides, as if one stood alone; on one side, the bar takes a part of it."""
     axle = Axle.load("reference_axle")

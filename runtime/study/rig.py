@@ -196,8 +196,8 @@ def _curves(model: Model, measured: xr.Dataset, held_by: Held) -> xr.Dataset:
 
 def _split(column: str) -> tuple[str, str]:
     """Return name and unit of a column: ``toe [deg]``, ``toe (deg)``, ``motion_ratio``."""
-    found = re.fullmatch(r"\s*(\w+)\s*(?:[\[(]([^\])]*)[\])])?\s*", column)
-    return (found[1], (found[2] or "").strip()) if found else (column, "")
+    found = re.fullmatch(r"\s*(\w+)\s*(?:\[([^\]]*)\]|\((.*)\))?\s*", column)
+    return (found[1], (found[2] or found[3] or "").strip()) if found else (column, "")
 
 
 def _check(
@@ -238,7 +238,7 @@ def _check(
 
 def _in_si(unit: str) -> tuple[str, float]:
     """Return the SI unit of one for people, and the factor to it; empty if it is not known."""
-    parts = [_UNITS.get(part.strip()) for part in unit.split("/")]
+    parts = [_UNITS.get(part.strip(" ()")) for part in unit.split("/")]
     known = [part for part in parts if part is not None]
     if len(known) < len(parts) or len(parts) > 2:
         return "", math.nan

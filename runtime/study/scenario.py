@@ -79,7 +79,7 @@ class Scenario:
             road_height=known["road_height"],
             strut_force=known[model.names.actuator],
             spin_rate=self.spin_rate,
-            inputs={name: known[name] for name in UNITS if name in known},
+            inputs={name: known[name] for name in UNITS if name in self.inputs},
         )
 
 

@@ -179,8 +179,9 @@ def equilibrium(
     spin_rate : float, optional
         Rate of the wheel relative to the knuckle [rad/s].
     inputs : mapping of str to float, optional
-        Further inputs by name, in SI units: forces on the wheel of a model with ``wheel_loads``.
-        The wheel is taken as braked by its carrier, whatever the torques on it.
+        Further inputs by name, in SI units: loads on the wheel of a model with ``wheel_loads``.
+        The wheel is braked by its carrier: where no ``hub_torque`` is given, the state carries that
+        which holds the wheel.
 
     Returns
     -------
@@ -232,7 +233,12 @@ def equilibrium(
         return model.evaluate("forces", *at(arm_angle))[..., 0]
 
     angle = _stable_root(moment, travel_range(model, rack_position), model.design_state[0])
-    return _spinning(model, State.of(*at(angle), model.names_of_states), spin_rate)
+    state, held = at(angle)
+    if model.wheel_loads and "hub_torque" not in further:
+        spin = model.state_names.index(model.names.spin)
+        brake = -model.evaluate("forces", state, held)[spin]
+        held[model.input_names.index("hub_torque")] = brake
+    return _spinning(model, State.of(state, held, model.names_of_states), spin_rate)
 
 
 def road_under_load(

@@ -60,7 +60,7 @@ def static_loads(
     Notes
     -----
     As of `kintrafo.loads.static`; where both wheels stand with the bar between them is the stable
-    equilibrium nearest to design.
+    equilibrium that was found nearest to design.
 
     Examples
     --------
@@ -157,7 +157,10 @@ def _with_bar(axle: Axle, cases: Mapping[str, Case]) -> tuple[Array, float]:
         model, held = axle.models[side], None
         if case.travel is not None:
             height = design_height(model) + case.travel
-            held = float(arm_angles(model, height, case.rack))
+            try:
+                held = float(arm_angles(model, height, case.rack))
+            except PositionError as error:
+                raise PositionError(f"{side}: {error}") from None
         wheels[side] = Wheel(axle, side, case.rack, partial(_given, case), held)
     angles, torque = balanced(axle, wheels)
     for angle, (side, wheel) in zip(angles, wheels.items(), strict=True):

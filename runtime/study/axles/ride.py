@@ -54,7 +54,8 @@ def equilibrium(
     spin_rate : float, optional
         Rate of both wheels relative to their carriers, positive rolling forward [rad/s].
     inputs : mapping of str to float, optional
-        Further inputs of the model by name, in SI units, such as ``left_contact_force_x``.
+        Further inputs of the model by name, in SI units, such as ``left_contact_force_x``. Of a
+        wheel without ``hub_torque``, the state carries that which holds it.
 
     Returns
     -------
@@ -115,6 +116,10 @@ def equilibrium(
         raise PositionError(message)
     state = at(found.x)
     for side, corner in corners.items():
+        if model.wheel_loads and f"{side}_hub_torque" not in further:
+            place = model.state_names.index(f"{side}_{corner.names.spin}")
+            brake = -model.evaluate("forces", state, held)[place]
+            held[model.input_names.index(f"{side}_hub_torque")] = brake
         state[model.state_names.index(f"{side}_{corner.names.spin}_rate")] = spin
     return State.of(state, held, model.names_of_states)
 
@@ -169,7 +174,7 @@ def run(
         rack_position=float(first["rack_position"]),
         road_height={side: float(first[f"{side}_road_height"]) for side in (LEFT, RIGHT)},
         spin_rate=scenario.spin_rate,
-        inputs={name: float(first[name]) for name in first if name.endswith(tuple(UNITS))},
+        inputs={name: float(first[name]) for name in inputs if name.endswith(tuple(UNITS))},
     )
     events = [
         f"{side}_{model.axle.end}_wheel_{what}_ground"

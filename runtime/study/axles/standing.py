@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import root
 
+from ...equations.errors import ModelError
 from ...suspension.axle import Axle
 from ...suspension.corner import Array
 from ...suspension.model import Model
@@ -117,7 +118,7 @@ def balanced(axle: Axle, wheels: Mapping[str, Wheel]) -> tuple[Array, float]:
     middles = corners + 0.5 * sizes
     design = np.array([wheel.model.design_state[0] for wheel in both])
     for i in np.argsort(((middles - design) ** 2).sum(axis=-1), kind="stable")[:_MOST]:
-        found = _newton(axle, both, middles[i], ways)
+        found = _newton(axle, both, middles[i], ways, grids)
         # an equilibrium outside of its cell is found from its own
         if found is not None and (np.abs(found[0] - middles[i]) <= np.abs(sizes[i])).all():
             return found
@@ -127,8 +128,8 @@ def balanced(axle: Axle, wheels: Mapping[str, Wheel]) -> tuple[Array, float]:
         for wheel, force in zip(both, (forces[0], forces[1].T), strict=True)
     ]
     unstable = (
-        "it is not carried: no position of both wheels that the drop links reach is stable. Give "
-        "a wheel its travel_mm, or correct the forces."
+        "it is not carried: no position of both wheels was found that the drop links reach and "
+        "that is stable. Give a wheel its travel_mm, or correct the forces."
     )
     raise PositionError("; ".join(filter(None, words)) or unstable)
 
@@ -144,21 +145,26 @@ def _together(axle: Axle, wheels: Sequence[Wheel], grids: Sequence[Array]) -> tu
 
 
 def _newton(
-    axle: Axle, wheels: Sequence[Wheel], begin: Array, ways: Array
+    axle: Axle, wheels: Sequence[Wheel], begin: Array, ways: Array, grids: Sequence[Array]
 ) -> tuple[Array, float] | None:
     """Return a stable equilibrium near some angles, with the torque of the bar there."""
+    low, high = ([end(grid) for grid in grids] for end in (np.min, np.max))
 
     def at(angles: Array) -> tuple[Array, Array, float]:
+        angles = np.clip(angles, low, high)  # a step of the search may lead out of the reach
         near = [angle + np.array([-_STEP, 0.0, _STEP]) for angle in angles]
         forces, torque = _together(axle, wheels, near)
         slopes = [forces[:, 2, 1] - forces[:, 0, 1], forces[:, 1, 2] - forces[:, 1, 0]]
         return forces[:, 1, 1], np.stack(slopes, axis=-1) / (2.0 * _STEP), float(torque[1, 1])
 
     search: Any = root  # its stubs know no function that gives its slopes as well
-    solved = search(lambda angles: at(angles)[:2], begin, jac=True, options={"xtol": 1e-14})
-    missing, slopes, _ = at(solved.x)
-    angles = solved.x - np.linalg.solve(slopes, missing)
-    missing, slopes, torque = at(angles)
+    try:
+        solved = search(lambda angles: at(angles)[:2], begin, jac=True, options={"xtol": 1e-14})
+        missing, slopes, _ = at(solved.x)
+        angles = solved.x - np.linalg.solve(slopes, missing)
+        missing, slopes, torque = at(angles)
+    except (ModelError, np.linalg.LinAlgError):  # it has come to where a drop link does not reach
+        return None
     stiffness = slopes * ways  # upward
     stable = (np.diag(stiffness) > 0.0).all() and np.linalg.det(stiffness) > 0.0
     return (angles, torque) if stable and np.abs(missing).max() < _FOUND else None

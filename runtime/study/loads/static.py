@@ -194,7 +194,9 @@ def dataset_of_cases(
     if not sound.all():  # these are not carried either
         lost = np.isin(np.arange(len(cases)), np.array(carried)[~sound])
         left = {s: replace(v, angles=np.where(lost, np.nan, v.angles)) for s, v in sides.items()}
-        told = [DEAD_POINT if gone else text for gone, text in zip(lost, reasons, strict=True)]
+        where = [s.strip("_") for s, stand in stands.items() if s and not stand.sound.all()]
+        words = f"{' and '.join(where)}: {DEAD_POINT}" if where else DEAD_POINT
+        told = [words if gone else text for gone, text in zip(lost, reasons, strict=True)]
         return dataset_of_cases(left, told, between)
     poses = {suffix: stand.poses for suffix, stand in stands.items()}
     loads = {suffix: stand.loads for suffix, stand in stands.items()}

@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from typing import Any
@@ -97,6 +97,16 @@ def matching(given: Arguments, suspension: Suspension, patterns: Any) -> dict[st
     return {name: place for name, place in known.items() if name in wanted}
 
 
+def refuse_bushes(given: Arguments, places: Iterable[Place]) -> None:
+    """Refuse bushes where joints are rigid, so that nothing would depend on them."""
+    soft = [place.name for place in places if place.name.startswith("bushings.")]
+    if soft:
+        given.refuse(
+            f"{', '.join(soft[:3])}{' ...' if soft[3:] else ''}: nothing here depends on bushes, "
+            "joints are rigid. Leave them out; `kintrafo fit` takes them with curves under loads."
+        )
+
+
 def amounts(
     given: Arguments, suspension: Suspension, by_pattern: Mapping[str, Any], what: str
 ) -> dict[Place, float]:
@@ -137,6 +147,8 @@ def _places(table: Mapping[str, Any], above: str, in_file: float) -> Iterator[Pl
         if isinstance(value, Mapping):
             yield from _places(value, f"{name}.", in_file)
             continue
+        if above.startswith("bushings.") and key == "axis":
+            continue  # a direction, whose length does not count
         of_points = above == "hardpoints."
         unit, factor = ("mm", in_file) if of_points else (unit_of(key), 1.0)
         if isinstance(value, list) and (of_points or key.endswith("com_mm") or key == "axis"):

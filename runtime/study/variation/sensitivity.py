@@ -13,7 +13,7 @@ from ...core.quantities import Display, display_of
 from ...suspension.kinds import Suspension
 from ..characteristics.datasets import ALONG, KNOWN
 from .curves import Curves, Over, changed, curves_of, model_of
-from .places import Place, matching
+from .places import Place, matching, refuse_bushes
 
 Array = NDArray[np.float64]
 
@@ -103,6 +103,7 @@ def sensitivity(
         if not given.refused:
             curves = curves_of(given, suspension, over, positions, names)
             chosen = [*matching(given, suspension, places).values()]
+            refuse_bushes(given, chosen)
     found = []
     for count, place in enumerate(chosen, 1):
         found.append(derivative(suspension, place, curves))

@@ -17,7 +17,7 @@ from ..ensembles import ensemble
 from ..ensembles.variants import without_mass
 from ..scenario import Scenario
 from .curves import changed, model_of
-from .places import Place, matching
+from .places import Place, matching, refuse_bushes
 
 Array = NDArray[np.float64]
 
@@ -111,6 +111,7 @@ def _axes(given: Arguments, suspension: Suspension, grid: Mapping[Any, Any]) -> 
     axes: dict[Place, Array] = {}
     for name, along in grid.items():
         places = matching(given, suspension, [name] if isinstance(name, str) else name)
+        refuse_bushes(given, places.values())
         if len(places) > 1:
             given.refuse(f"{name} stands for {len(places)} numbers: name one of them.")
             continue

@@ -14,7 +14,7 @@ from ...suspension.kinds import Suspension
 from ..characteristics.datasets import ALONG, KNOWN
 from .curves import Curves, Over, Together, changed, curves_of, model_of
 from .goals import Limit, check_data, limits_of
-from .places import Place, amounts
+from .places import Place, amounts, refuse_bushes
 from .sensitivity import PLACE, ROUNDING, derivative
 
 Array = NDArray[np.float64]
@@ -118,6 +118,7 @@ def tolerance(
             check_data(given, suspension, bounds)
             by_pattern = given.mapping("tolerances", tolerances, "places and numbers")
             spread = amounts(given, suspension, by_pattern, "tolerance")
+            refuse_bushes(given, spread)
             if not spread:
                 given.refuse("tolerances: one or more are needed.")
             root = _root_of(given, correlation, len(spread), distribution)
