@@ -194,6 +194,12 @@ def test_what_leaves_the_equations_is_refused() -> None:
     for name in broken:
         with pytest.raises(InputError, match="leaves the mechanisms that the equations are of"):
             kintrafo.derivative(system, "rhs", {name: 1.0}, at)
+    # beside what may move by itself, however far
+    free = next(
+        n for n, e in system.equations.PARAMETERS.items() if e["unit"] == "m" and n not in broken
+    )
+    with pytest.raises(InputError, match="leaves the mechanisms"):
+        kintrafo.derivative(system, "rhs", {free: 1.0, broken[0]: 1e-6}, at)
     kept = next(name for name in system.parameters if name.endswith("mass"))
     found = kintrafo.derivative(system, "rhs", {kept: 1.0}, at)
     assert np.isclose(weights @ found, by[kept], rtol=1e-10)

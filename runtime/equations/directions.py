@@ -140,7 +140,17 @@ class Directions:
         Parameters
         ----------
         parameters, direction : ndarray, shape (parameters,)
+
+        Notes
+        -----
+        What may move by itself is left out, so that the rest is not small beside it.
         """
+        units = np.eye(direction.size)[direction != 0.0]
+        risky = sum((unit for unit in units if self._leaves(parameters, unit)), 0.0 * direction)
+        return self._leaves(parameters, risky * direction)
+
+    def _leaves(self, parameters: Array, direction: Array) -> str:
+        """Say what a small step along a direction breaks."""
         assumed = [a for a in self._model.manifest["assumptions"] if "least" not in a]
         units = [entry["unit"] for entry in self._model.manifest["parameters"].values()]
         size = max((abs(d) for d, u in zip(direction, units, strict=True) if u in _GEOMETRY))

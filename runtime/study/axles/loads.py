@@ -185,7 +185,10 @@ def with_shared(axle: Axle, found: xr.Dataset, over: str, torques: Array) -> xr.
     words = "force of the steering on the rack along its axis"
     found["rack_force"] = variable(over, force, words, "N")
     if axle.halves:
-        words = "torque of the anti-roll bar, positive with the left half turned the farther"
+        words = (
+            "torque of the anti-roll bar, positive with the left half turned the farther, "
+            "right-handed about the axis that points left"
+        )
         found["bar_torque"] = variable(over, torques, words, "N m")
     rules = [rule for side in axle.sides.values() for rule in side.structure().rules]
     return found.assign_attrs(rules="; ".join(dict.fromkeys([*rules, *RULES])))
