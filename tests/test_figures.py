@@ -9,7 +9,7 @@ from kintrafo.generator.backends.report.figures import ELEMENTS, draw_figures
 from kintrafo.generator.mechanisms import MODELS
 from kintrafo.generator.planning.plan import Plan
 
-SHOWN = [m for m in MODELS if m.name in ("macpherson", "excavator", "andrews")]
+SHOWN = [m for m in MODELS if m.name in ("macpherson", "andrews")]
 
 
 @pytest.fixture(scope="module", params=SHOWN, ids=lambda model: model.name)

@@ -75,7 +75,9 @@ def test_less_work_than_alone(derived: Callable[[str], Derivation], name: str) -
     model = derived(name)
     for stage in stages(model):
         alone = sum(operations_of(member).total() for member in stage.members)
-        assert operations_of(stage).total() < alone, stage.name
+        together = operations_of(stage).total()
+        # what closes no loop may have nothing in common
+        assert together < alone or (together == alone and not model.plan.transformers), stage.name
     together = {member for _, members in TOGETHER.values() for member in members}
     assert together <= model.functions.keys() | {"absolute_jacobian", "signals_jacobian"} | {
         "signals_input_jacobian"
