@@ -429,3 +429,15 @@ def test_design_position_is_before_anything_has_moved(watched):
     watched.page.locator("#design").click()
     state = watched.state()
     assert (state["time"], state["travel"], state["rack"]) == (0.0, 0.0, 0.0)
+
+
+def test_what_is_for_paper_is_not_on_the_screen(watch):
+    page = watch().page
+    shown = "elements => elements.filter((e) => e.checkVisibility()).length"
+    for_paper, for_screen = page.locator(".on-paper"), page.locator(".on-screen")
+    assert for_paper.count() >= 2
+    assert for_paper.evaluate_all(shown) == 0
+    assert for_screen.evaluate_all(shown) == for_screen.count()
+    page.emulate_media(media="print")
+    assert for_paper.evaluate_all(shown) == for_paper.count()
+    assert for_screen.evaluate_all(shown) == 0
