@@ -146,3 +146,14 @@ def test_the_command(kintrafo: Any, loop: Path, tmp_path: Path) -> None:  # noqa
     code, _, err = kintrafo("compare", loop.name, loop.name)
     assert code == 2
     assert "one file of measured curves" in " ".join(err.split())
+
+
+def test_units_may_have_brackets_of_their_own(tmp_path):
+    file = tmp_path / "rig.csv"
+    file.write_text("wheel_travel [mm],toe_by_aligning [deg/(100 N m)]\n-10,0.1\n10,0.2\n")
+    found = rig.measured_curves(file)["toe_by_aligning"].values
+    assert found == pytest.approx(np.deg2rad([0.1, 0.2]) / 100.0, rel=1e-15)
+    file.write_text("wheel_travel (mm),toe_by_aligning (rad/(N m))\n-10,0.1\n10,0.2\n")
+    assert rig.measured_curves(file)["toe_by_aligning"].values == pytest.approx(
+        [0.1, 0.2], rel=1e-15
+    )
