@@ -7,13 +7,13 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
+from kintrafo.simulation.lanes.options import OF_WIDTH
 from numpy.typing import NDArray
 
 ROOT = Path(__file__).parent.parent
 HEADERS = ROOT / "runtime/simulation/lanes"
-# as setup.py has them
+# as setup.py has them, but for speed
 FLAGS = ["-O1", "-fno-math-errno", "-ffp-contract=off", "-fPIC"]
-OF_WIDTH = {2: [], 4: ["-mavx2"], 8: ["-mavx512f", "-mavx512vl", "-mavx512dq"]}
 
 Array = NDArray[np.float64]
 

@@ -93,6 +93,10 @@ class AnyLaw(ABC):
         del element
         return ()
 
+    def told(self) -> str:
+        """Return what a report says of it: what it is, with a formula where that is short."""
+        return self.meaning
+
     @abstractmethod
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""
@@ -101,6 +105,13 @@ class AnyLaw(ABC):
         """Say what of it cannot be on a path."""
         del path
         return []
+
+
+def _with_formula(law: AnyLaw) -> str:
+    """Return what a law is, and its force by the names of what it depends on."""
+    length, velocity, slide = (sp.Symbol(name) for name in ("length", "velocity", "slide"))
+    force = law.force(Stretch(None, "", length, velocity, slide))  # type: ignore[arg-type]
+    return f"{law.meaning} `{force}`"
 
 
 @declared
@@ -127,6 +138,10 @@ class LinearSpring(AnyLaw):
 
     signal = "spring_force"
     meaning = "spring force"
+
+    def told(self) -> str:
+        """Return what it is, and its formula."""
+        return _with_formula(self)
 
     def problems(self, path: AnyPath) -> list[str]:
         """See that the path has the coordinate that it is free of force at."""
@@ -157,6 +172,10 @@ class LinearDamper(AnyLaw):
 
     signal = "damper_force"
     meaning = "damper force"
+
+    def told(self) -> str:
+        """Return what it is, and its formula."""
+        return _with_formula(self)
 
     def force(self, at: Stretch) -> sp.Expr:
         """Return the force on the ends."""

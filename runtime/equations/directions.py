@@ -72,6 +72,7 @@ class Directions:
         self._model, self._calls = model, calls
         known = model.manifest["functions"]
         self.of = tuple(name for name in known if f"{name}_tangent" in known)
+        self._zero = [a["meaning"] for a in model.manifest["assumptions"] if "least" not in a]
 
     def of_parameters(self, function: str, parameters: Array, behind: Array, size: int) -> Array:
         """Return what a function makes of parameters, for one or many directions or weights.
@@ -134,35 +135,32 @@ class Directions:
         found: Array = call(state, _joined(inputs, weights), constants)
         return np.split(found, np.cumsum(self._model.widths)[:-1], axis=-1)
 
+    def bound(self, parameters: Array) -> NDArray[np.bool_]:
+        """Tell which parameters cannot move alone, (parameters,): only with others."""
+        units = np.eye(parameters.size)
+        if not self._zero:
+            return np.zeros(parameters.size, dtype=bool)
+        return np.array([bool(self.broken(parameters, unit)) for unit in units])
+
     def broken(self, parameters: Array, direction: Array) -> str:
         """Say what the equations take to be zero and a direction does not keep; nothing if all.
 
         Parameters
         ----------
         parameters, direction : ndarray, shape (parameters,)
-
-        Notes
-        -----
-        What may move by itself is left out, so that the rest is not small beside it.
+            The latter of what is `bound`: it would be too small to be seen beside the rest.
         """
-        units = np.eye(direction.size)[direction != 0.0]
-        risky = sum((unit for unit in units if self._leaves(parameters, unit)), 0.0 * direction)
-        return self._leaves(parameters, risky * direction)
-
-    def _leaves(self, parameters: Array, direction: Array) -> str:
-        """Say what a small step along a direction breaks."""
-        assumed = [a for a in self._model.manifest["assumptions"] if "least" not in a]
         units = [entry["unit"] for entry in self._model.manifest["parameters"].values()]
         size = max((abs(d) for d, u in zip(direction, units, strict=True) if u in _GEOMETRY))
-        if not assumed or size == 0.0:
+        if not self._zero or size == 0.0:
             return ""
         length = max(abs(p) for p, u in zip(parameters, units, strict=True) if u == "m")
         moved = parameters + _STEP * length / size * direction
         constants = np.empty(len(self._model.constant_names))
         number = self._model.call_of_parameters("prepare", moved, constants) - constants.size
-        if not 0 < number <= len(assumed):
+        if not 0 < number <= len(self._zero):
             return ""
-        return str(assumed[number - 1]["meaning"])
+        return str(self._zero[number - 1])
 
 
 def _joined(values: Array, behind: Array) -> Array:

@@ -207,6 +207,11 @@ class Equations:
             mask_of(self._acting[name]),
         )
 
+    @property
+    def iterates(self) -> bool:
+        """Whether a loop is closed by iteration."""
+        return any("iterates" in told for told in self.manifest["functions"].values())
+
     def _behind(self, name: str) -> tuple[int, ...]:
         """Return how much a function reads behind constants, state and inputs; none of most."""
         parts = [*self._parts_of(name).values()] or [self.manifest["functions"][name]]

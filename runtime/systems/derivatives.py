@@ -73,8 +73,11 @@ def derivative(
             changes = _changes(given, system, named)
             values = _values(given, system, state, inputs)
             _broadcast(given, "along, state and inputs", [*changes, *values])
-    parameters, of_state, of_inputs = changes
-    of_constants = _of_constants(system, directions, parameters)
+    direction, of_state, of_inputs = changes
+    parameters = _kept(system, directions, direction)
+    of_constants = directions.of_parameters(
+        "prepare_tangent", parameters, direction, system.constants.size
+    )
     found: Array = directions.tangent(
         function, (system.constants, *values), (of_constants, of_state, of_inputs)
     )
@@ -144,8 +147,7 @@ def gradient(
     by_parameters = directions.of_parameters(
         "prepare_adjoint", parameters, by_constants, parameters.size
     )
-    alone = (directions.broken(parameters, unit) for unit in np.eye(parameters.size))
-    by_parameters[..., [bool(broken) for broken in alone]] = np.nan
+    by_parameters[..., directions.bound(parameters)] = np.nan
     found = (by_parameters, *rest)
     return {
         name: array[..., i]
@@ -183,10 +185,9 @@ def design_derivative(system: System, along: Mapping[str, ArrayLike]) -> dict[st
                 given.among("parameter", name, system.parameters)
         if not given.refused:
             direction, *_ = _changes(given, system, named)
-    _of_constants(system, directions, direction)  # refuses what leaves the equations
-    values = np.array([*system.parameters.values()])
+    parameters = _kept(system, directions, direction)
     count = len(system.state_names)
-    found = directions.of_parameters("design_state_tangent", values, direction, count)
+    found = directions.of_parameters("design_state_tangent", parameters, direction, count)
     return {name: found[..., i] for i, name in enumerate(system.state_names)}
 
 
@@ -260,15 +261,16 @@ def _go_together(given: Arguments, what: str, shapes: list[tuple[int, ...]]) -> 
     return True
 
 
-def _of_constants(system: System, directions: Directions, direction: Array) -> Array:
-    """Return how constants change with parameters, along directions that keep the equations."""
+def _kept(system: System, directions: Directions, direction: Array) -> Array:
+    """Return the parameters of a system; refuse directions that leave its equations."""
     parameters = np.array([*system.parameters.values()])
+    of_bound = np.where(directions.bound(parameters), direction, 0.0)
     for index in np.ndindex(direction.shape[:-1]):
-        broken = directions.broken(parameters, direction[index])
+        broken = directions.broken(parameters, of_bound[index])
         if broken:
             problem = (
                 f"along: this direction leaves the mechanisms that the equations are of: {broken}. "
                 "Move what keeps it together as well."
             )
             raise InputError([problem], "derivative")
-    return directions.of_parameters("prepare_tangent", parameters, direction, system.constants.size)
+    return parameters

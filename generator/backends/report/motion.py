@@ -6,7 +6,7 @@ declaration; what the compiled functions compute stands beside it by its name.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -16,12 +16,12 @@ from ...declare.joints import Cylindrical, Prismatic, Revolute, Universal
 from ...kinematics.chain import chain_to, reported
 from ...program.steps import ancestors
 from ...program.symbols import symbols_of
-from .forces import force_rows
 from .tables import table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from ...declare.formulation import Formulation
     from ...declare.joints import Joint, RelativeCoordinate
     from ...equations.outputs import Derivation
 
@@ -489,7 +489,7 @@ def _dynamics(motion: Motion, number: Equations) -> list[str]:
             f"`{rotor.name}_inertia_spin` about its axis and `{rotor.name}_inertia_diametral` "
             "across it, however far it has turned."
         )
-    rows = force_rows(motion.formulation)
+    rows = _force_rows(motion.formulation)
     sections += [
         (
             "Each force that acts adds its share to Q, the coefficient of its power in the rate of "
@@ -498,3 +498,9 @@ def _dynamics(motion: Motion, number: Equations) -> list[str]:
         table(("force", "acts", "share of Q", "paper"), rows),
     ]
     return sections
+
+
+def _force_rows(formulation: Formulation) -> list[tuple[str, ...]]:
+    """Return for each force that acts its name, what it does, its share of Q, the paper's place."""
+    acting = [f for f in formulation.mechanism.forces if f.along not in formulation.prescribed]
+    return [(*astuple(f.told()), formulation.cites.get(f.identity[1], "")) for f in acting]

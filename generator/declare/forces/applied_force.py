@@ -11,7 +11,7 @@ from ..bodies import Body
 from ..declared import declared
 from ..geometry import Direction, Point
 from ..inputs import Input
-from .force import Action, Force, check_applied
+from .force import Action, Force, Told, check_applied
 
 if TYPE_CHECKING:
     from ..surroundings import Surroundings
@@ -47,6 +47,15 @@ class AppliedForce(Force):
     def identity(self) -> tuple[str, str]:
         """Body and input: several may push at one body."""
         return "AppliedForce at", f"{self.body.name} by {self.input.name}"
+
+    def told(self) -> Told:
+        """Return what a report says of it."""
+        name = self.input.name
+        return Told(
+            name,
+            f"`{name}` on {self.body.name} at `{self.point.name}` along d",
+            r"$`\left(\partial\mathbf{v}_P/\partial\dot{\mathbf{q}}\right)^T\mathbf{d}\,F`$",
+        )
 
     def act(self, at: Surroundings) -> Action:
         """Append its power on the velocity of the point."""

@@ -11,7 +11,7 @@ from ..bodies import Body
 from ..declared import declared
 from ..geometry import Direction
 from ..inputs import Input
-from .force import Action, Force, check_applied
+from .force import Action, Force, Told, check_applied
 
 if TYPE_CHECKING:
     from ..surroundings import Surroundings
@@ -48,6 +48,12 @@ class AppliedMoment(Force):
     def identity(self) -> tuple[str, str]:
         """Body and input: several may turn one body."""
         return "AppliedMoment on", f"{self.body.name} by {self.input.name}"
+
+    def told(self) -> Told:
+        """Return what a report says of it."""
+        name = self.input.name
+        share = r"$`\mathbf{W}_b^T\mathbf{d}\,F`$"
+        return Told(name, f"`{name}` on {self.body.name} about d", share)
 
     def act(self, at: Surroundings) -> Action:
         """Append its power on the turning of the body."""

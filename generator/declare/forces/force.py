@@ -41,6 +41,25 @@ class Action:
     total: sp.Expr | None = None
 
 
+@dataclass(frozen=True)
+class Told:
+    """How a report speaks of a force.
+
+    Attributes
+    ----------
+    name
+        What it is called.
+    acts
+        What it does, with names of parameters and inputs.
+    share
+        Its share of Q, by the paper's Eqs. 23 and 24: words, or LaTeX between ``$`` and ``$``.
+    """
+
+    name: str
+    acts: str
+    share: str
+
+
 class Force(ABC):
     """Something that acts on the bodies of a mechanism: a dataclass with a decorator, `declared`.
 
@@ -62,6 +81,11 @@ class Force(ABC):
     def along(self) -> Joint | None:
         """The joint whose coordinate it acts along, so that this must be driven."""
         return None
+
+    def told(self) -> Told:
+        """Return what a report says of it."""
+        does = (type(self).__doc__ or "").partition("\n")[0]
+        return Told(" ".join(self.identity), does, "its power by the rate")
 
     @abstractmethod
     def act(self, at: Surroundings) -> Action:

@@ -10,7 +10,7 @@ import sympy as sp
 from ..declared import declared
 from ..inputs import Input
 from ..joints import Prismatic, Revolute
-from .force import Action, Force
+from .force import Action, Force, Told
 
 if TYPE_CHECKING:
     from ..surroundings import Surroundings
@@ -33,6 +33,11 @@ class JointForce(Force):
     def along(self) -> Revolute | Prismatic:
         """The joint."""
         return self.joint
+
+    def told(self) -> Told:
+        """Return what a report says of it."""
+        name = self.input.name
+        return Told(name, f"`{name}` along the coordinate of joint {self.joint.name}", "itself")
 
     def act(self, at: Surroundings) -> Action:
         """Append the force; it does its work on the coordinate."""

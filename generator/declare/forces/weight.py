@@ -10,7 +10,7 @@ import sympy as sp
 from ..declared import declared
 from ..geometry import UP, Direction
 from ..parameters import Gravity
-from .force import Action, Force
+from .force import Action, Force, Told
 
 if TYPE_CHECKING:
     from ..surroundings import Surroundings
@@ -41,6 +41,12 @@ class Weight(Force):
     def identity(self) -> tuple[str, str]:
         """There is one."""
         return "weight", "Weight"
+
+    def told(self) -> Told:
+        """Return what a report says of it."""
+        up = r"\mathbf{e}_z" if self.upward.name == "up" else r"\mathbf{d}"
+        share = rf"$`-\sum_b m_b\,g\,\mathbf{{V}}_b^T\,{up}`$"
+        return Told("weight", f"g = `{self.gravity.name}` on every body with mass", share)
 
     def act(self, at: Surroundings) -> Action:
         """Append the work of gravity on the momentum per unit rate."""

@@ -12,7 +12,7 @@ from ..inputs import Input
 from ..joints import Revolute
 from ..parameters import Length
 from ..wheel import Wheel
-from .force import Action, Force
+from .force import Action, Force, Told
 
 if TYPE_CHECKING:
     from ...program.vectors import Vector
@@ -95,6 +95,17 @@ class WheelLoads(Force):
     def along(self) -> Revolute:
         """The bearing: its coordinate is turned."""
         return self.bearing
+
+    def told(self) -> Told:
+        """Return what a report says of it."""
+        named = ", ".join(f"`{i.name}`" for i in (*self.contact, *self.center, *self.moment))
+        torques = f"torques `{self.shaft.name}` and `{self.hub.name}` about the spin axis"
+        return Told(
+            f"loads on the wheel of {self.bearing.name}",
+            f"F at the lowest point and at the centre, M: {named}; {torques}",
+            r"$`\left(\partial\mathbf{v}_P/\partial\dot{\mathbf{q}}\right)^T\mathbf{F} + "
+            r"\mathbf{W}_b^T\mathbf{M}`$",
+        )
 
     def act(self, at: Surroundings) -> Action:
         """Append the power of all of it on the motion of the carrier, and on the spin."""

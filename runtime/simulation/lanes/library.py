@@ -7,9 +7,9 @@ from importlib import import_module
 from types import ModuleType
 
 from ...core.errors import InputError
+from .options import OF_WIDTH
 from .own import is_own, library_of
 
-WIDTHS = (2, 4, 8)
 _SOLVER = f"{__package__}._integrate"
 
 
@@ -19,7 +19,7 @@ def widths() -> tuple[int, ...]:
     if solver is None:
         return ()
     widest: int = solver.kt_widest()
-    return tuple(w for w in WIDTHS if w <= widest and hasattr(solver, f"kt_integrate_{w}"))
+    return tuple(w for w in OF_WIDTH if w <= widest and hasattr(solver, f"kt_integrate_{w}"))
 
 
 def solver(width: int) -> Callable[..., int]:
@@ -51,7 +51,7 @@ def functions(equations: ModuleType, width: int, variant: str) -> Mapping[str, i
             "with one of them, or call simulate for each."
         )
         raise InputError([problem], "ensemble")
-    if any("iterates" in told for told in equations.equations.manifest["functions"].values()):
+    if equations.equations.iterates:
         problem = (
             f"the equations of {name} are closed by iteration, which many systems at once in lanes "
             "cannot do. Call simulate for each."

@@ -132,8 +132,7 @@ def _axes(given: Arguments, suspension: Suspension, grid: Mapping[Any, Any]) -> 
 
 def _refuse_iteration(model: Model) -> None:
     """Say before anything is simulated that cars whose loops are iterated do not go together."""
-    functions = model.equations.equations.manifest["functions"]
-    if any("iterates" in told for told in functions.values()):
+    if model.equations.equations.iterates:
         problem = (
             f"the loops of a {model.suspension.TITLE} are closed by iteration, which many cars at "
             "once in lanes cannot do. Simulate one after another: "
