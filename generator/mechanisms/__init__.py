@@ -12,6 +12,7 @@ from . import (
     pull_rod,
     push_rod,
     slider_crank,
+    trailing_arm,
 )
 
 MODELS = (
@@ -20,6 +21,7 @@ MODELS = (
     *push_rod.MODELS,
     *pull_rod.MODELS,
     *multi_link.MODELS,
+    *trailing_arm.MODELS,
     *front_axle.MODELS,
     *four_bar.MODELS,
     *slider_crank.MODELS,

@@ -106,5 +106,5 @@ def poses(model: Model, travel: Array, rack: Array) -> Poses:
     parameters = model.suspension.parameters()
     axis = np.array([parameters[f"spin_axis_{c}"] for c in "xyz"])
     rotations = model.evaluate("orientations", states, inputs)
-    knuckle = rotations[..., model.equations.BODIES.index("knuckle"), :, :]
-    return Poses({name: np.array(p) for name, p in points.items()}, knuckle @ axis)
+    carrier = rotations[..., model.equations.BODIES.index(model.suspension.carrier), :, :]
+    return Poses({name: np.array(p) for name, p in points.items()}, carrier @ axis)

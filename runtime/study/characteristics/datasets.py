@@ -84,7 +84,8 @@ def travel(
             travel = given.array("travel", travel, "m", dimensions=[1])
     travels = usual_travel(model, rack=rack_position) if travel is None else travel
     data = over_travel(model, travels, rack_position)
-    return _dataset(data, TRAVEL, travels, {RACK: rack_position})
+    held = {RACK: rack_position} if model.suspension.steered() else {}
+    return _dataset(data, TRAVEL, travels, held)
 
 
 def steering(model: Model, rack: ArrayLike | None = None, *, travel: float = 0.0) -> xr.Dataset:
@@ -142,6 +143,7 @@ def over_rack(
     model: Model, racks: Array, travel: float = 0.0, names: Container[str] | None = None
 ) -> dict[Quantity, Array]:
     """Return characteristics over rack travel without labels, all or some; see `steering`."""
+    model.suspension.refuse_without_rack("characteristics over the rack")
     own = _at_height(model, travel, racks)
     found = _evaluated(_chosen(catalogue.CORNER + catalogue.STEERING, names), own)
     if _chosen(catalogue.AXLE.values(), names):
