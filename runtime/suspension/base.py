@@ -264,10 +264,8 @@ class Suspension(Section):
             If there is no rack.
         """
         if not self.steered():
-            problem = (
-                f"{what}: a {self.TITLE} has no rack, and nothing steers its wheel. Leave that out."
-            )
-            raise InputError([problem])
+            problem = f"{what}: it has no rack, and nothing steers its wheel. Leave that out."
+            raise InputError([problem], self.TITLE)
 
     @property
     def carrier(self) -> str:
@@ -464,8 +462,9 @@ class Suspension(Section):
         -------
         dict of str to float
             - ``wheel_center_x`` and so on for every hardpoint and component, in m;
-            - ``rack_axis_*`` where there is one and ``spin_axis_*``, unit vectors; the latter points left at zero
-              camber and toe on both sides, so that rolling forward is a positive rate;
+            - ``rack_axis_*``, where there is a rack, and ``spin_axis_*``, unit vectors; the spin
+              axis points left at zero camber and toe on both sides, so that rolling forward is a
+              positive rate;
             - ``tyre_rate`` in N/m and ``tyre_free_height`` in m, ``gravity`` in m/s^2;
             - ``knuckle_mass`` in kg, ``knuckle_com_*`` in m and ``knuckle_inertia_*`` in kg m^2,
               the latter the *elements* xx, yy, zz, xy, xz, yz of the tensor about the centre of

@@ -200,7 +200,7 @@ CORNER = (
         "arm_rotation",
         "rad",
         "arm rotation",
-        "rotation of the lower control arm, or the arm alone (of five links: of a height sensor), from design",
+        "rotation of the arm, the lower of two (of five links: of a height sensor), from design",
         "positive with the wheel up",
         lambda corner: corner.arm_rotation,
     ),

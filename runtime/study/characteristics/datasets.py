@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from ...core.arguments import Arguments
 from ...suspension.corner import Array, Corner
+from ...suspension.kinds import Suspension
 from ...suspension.model import Model
 from ...suspension.positions import arm_angles, design_height
 from ..sweep import usual_rack, usual_travel
@@ -38,6 +39,33 @@ KNOWN: dict[str, dict[str, Quantity]] = {
     "rack": {q.name: q for q in (*catalogue.CORNER, *catalogue.STEERING, *catalogue.AXLE.values())},
 }
 """Characteristics by name, over wheel travel and over the rack."""
+
+
+_OF_STEERING = {
+    q.name
+    for known in KNOWN.values()
+    for q in known.values()
+    if "steered" in q.needs or q.name not in KNOWN["travel"]
+}
+
+
+def refuse_of_steering(suspension: Suspension, names: Iterable[str]) -> None:
+    """Refuse characteristics that have no meaning for a wheel that nothing steers.
+
+    Parameters
+    ----------
+    suspension : Suspension
+    names : iterable of str
+        What somebody asked for; names that nothing has are left to others.
+
+    Raises
+    ------
+    InputError
+        If it has no rack and one of them needs it.
+    """
+    for name in names:
+        if isinstance(name, str) and name in _OF_STEERING:
+            suspension.refuse_without_rack(name)
 
 
 def travel(

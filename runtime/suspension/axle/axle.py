@@ -178,6 +178,10 @@ class Axle:
             return {}
         return {side: self.bar.half(mirrored=side != self.bar_side) for side in self.sides}
 
+    def steered(self) -> bool:
+        """Tell whether its wheels can be steered: whether there is a rack."""
+        return self.right.steered()
+
     def heading(self) -> str:
         """Return what the axle is called."""
         kinds = " and ".join(dict.fromkeys(side.TITLE for side in self.sides.values()))

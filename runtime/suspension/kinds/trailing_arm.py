@@ -187,7 +187,6 @@ length."""
 
     def drawing(self) -> Drawing:
         """Return how arm, spring and damper are drawn."""
-        arm = {f"arm_{end}": (f"arm_{end}", "wheel_center") for end in ("inner", "outer")}
         held = {
             f"{name}_bracket": ((f"{name}_seat", "wheel_center", "arm_inner"), f"{name}_seat")
             for name in ("spring", "damper")
@@ -199,11 +198,11 @@ length."""
                 "damper": ("damper_top", "damper_seat", "strut"),
             },
             knuckle=("arm_outer", "wheel_center"),
-            legend={"arm": "arm", "strut": "damper"},
+            legend={"arm": "arm", "strut": "damper", "knuckle": "hub carrier"},
             damper=Axis("damper_seat", "damper_top", 0.5),
             spring=Axis("spring_seat", "spring_top", 0.0),
-            upright=("arm_outer", "wheel_center"),
-            brackets={**arm, **held},
+            upright=(("wheel_center", *_BEARINGS), "arm_outer"),
+            brackets=held,
         )
 
     # -- what holds it together -----------------------------------------------------------------
