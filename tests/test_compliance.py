@@ -10,7 +10,7 @@ import pytest
 from kintrafo import Axle, InputError, Model, Suspension, axles, characteristics, loads
 from kintrafo.suspension.kinds import KINDS
 from kintrafo.suspension.toml_writer import write_toml
-from soft_suspensions import BUSHES_OF, LINKED, STRUT, WISHBONES, Stiffness, Z
+from soft_suspensions import BUSHES_OF, LINKED, STRUT, TRAILING, WISHBONES, Stiffness, Z
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 DATA = Path(__file__).parents[1] / "runtime/suspension/data"
@@ -27,7 +27,7 @@ DATA = Path(__file__).parents[1] / "runtime/suspension/data"
     ],
 )
 @pytest.mark.parametrize("some", [False, True])
-@pytest.mark.parametrize("car", [STRUT, WISHBONES, LINKED], ids=lambda car: car.TITLE)
+@pytest.mark.parametrize("car", [STRUT, WISHBONES, LINKED, TRAILING], ids=lambda car: car.TITLE)
 def test_the_wheel_gives_way_as_springs_do(
     car: Suspension, some: bool, held: Any, travel: float, rack: float
 ) -> None:

@@ -15,9 +15,9 @@ from kintrafo.suspension.positions import design_height
 from kintrafo.suspension.reach import at_rest
 from oracle.constraints import Pose
 from scipy.spatial.transform import Rotation
-from soft_suspensions import BUSHES, BUSHES_OF, LINKED, STRUT, WISHBONES, Stiffness
+from soft_suspensions import BUSHES, BUSHES_OF, LINKED, STRUT, TRAILING, WISHBONES, Stiffness
 
-CARS = [STRUT, WISHBONES, LINKED]
+CARS = [STRUT, WISHBONES, LINKED, TRAILING]
 UNDER = ["lateral", "braking", "recession", "aligning"]
 # A tenth as stiff, so that parts are displaced by some 10 mm; the bearing, which tilts, is rigid.
 SOFTER = {

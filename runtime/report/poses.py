@@ -59,30 +59,35 @@ def reachable_grid(model: Model) -> Grid:
     """
     design = design_height(model)
     if not model.suspension.steered():
-        ends = travel_range(model).height
-        low, high = (
-            max(ends[0] - design + _MARGIN, -TRAVEL),
-            min(ends[1] - design - _MARGIN, TRAVEL),
+        travel = _travel(travel_range(model).height, design)
+        if travel is not None:
+            return Grid(travel, _STILL)
+        problem = (
+            f"the wheel cannot travel {TRAVEL_STEP * 1e3:g} mm up and down, so there is nothing to "
+            "report. Check the hardpoints of the arm."
         )
-        if low < -TRAVEL_STEP and high > TRAVEL_STEP:
-            return Grid(Axis.around_zero(low, high, TRAVEL_STEP), _STILL)
+        raise PositionError(problem)
     for rack in np.arange(RACK, 0.5 * RACK_STEP, -RACK_STEP):
         ends = _common_reach(model, float(rack))
         if ends is None:
             continue
-        low = max(ends[0] - design + _MARGIN, -TRAVEL)
-        high = min(ends[1] - design - _MARGIN, TRAVEL)
-        if low < -TRAVEL_STEP and high > TRAVEL_STEP:
-            return Grid(
-                Axis.around_zero(low, high, TRAVEL_STEP),
-                Axis.around_zero(-float(rack), float(rack), RACK_STEP),
-            )
+        travel = _travel(ends, design)
+        if travel is not None:
+            return Grid(travel, Axis.around_zero(-float(rack), float(rack), RACK_STEP))
     message = (
         f"the wheel cannot travel {TRAVEL_STEP * 1e3:g} mm up and down with the rack "
         f"{RACK_STEP * 1e3:g} mm to either side, so there is nothing to report. Check the "
         "lengths of tie rod, arms and strut."
     )
     raise PositionError(message)
+
+
+def _travel(ends: tuple[float, float], design: float) -> Axis | None:
+    """Return the usual travel within a reach of the wheel; None if hardly any is."""
+    low, high = max(ends[0] - design + _MARGIN, -TRAVEL), min(ends[1] - design - _MARGIN, TRAVEL)
+    if low < -TRAVEL_STEP and high > TRAVEL_STEP:
+        return Axis.around_zero(low, high, TRAVEL_STEP)
+    return None
 
 
 def _common_reach(model: Model, rack: float) -> tuple[float, float] | None:

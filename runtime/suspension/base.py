@@ -108,7 +108,7 @@ class Suspension(Section):
     hardpoints: Hardpoints = Field(description="the points that define the geometry")
     wheel: Wheel = Field(description="alignment of the wheel")
     tyre: Tyre = Field(description="the tyre")
-    rack: Steering = Field(description="the steering rack")
+    rack: Steering = Field(description="the steering rack, where the wheel is steered")
     gravity: Gravity = Field(description="gravity")
     bodies: Bodies = Field(description="masses and inertia")
     bump_stop: Stop | None = Field(default=None, description="the stop in bump")

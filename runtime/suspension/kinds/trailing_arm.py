@@ -63,8 +63,12 @@ class TrailingArmHardpoints(Hardpoints):
         list of str
             One text for each problem.
         """
-        bodies = {name: (f"{name}_seat", f"{name}_top") for name in ("spring", "damper")}
-        problems = self.coincidence_problems(self.coinciding({"arm": _ARM} | bodies))
+        bodies: dict[str, tuple[str, ...]] = {
+            "arm": _ARM,
+            "spring": ("spring_seat", "spring_top"),
+            "damper": ("damper_seat", "damper_top"),
+        }
+        problems = self.coincidence_problems(self.coinciding(bodies))
         return problems or self._of_hinge()
 
     def _of_hinge(self) -> list[str]:
@@ -187,10 +191,6 @@ length."""
 
     def drawing(self) -> Drawing:
         """Return how arm, spring and damper are drawn."""
-        held = {
-            f"{name}_bracket": ((f"{name}_seat", "wheel_center", "arm_inner"), f"{name}_seat")
-            for name in ("spring", "damper")
-        }
         return Drawing(
             links={
                 "arm": ("arm_inner", "wheel_center", "arm"),
@@ -202,7 +202,10 @@ length."""
             damper=Axis("damper_seat", "damper_top", 0.5),
             spring=Axis("spring_seat", "spring_top", 0.0),
             upright=(("wheel_center", *_BEARINGS), "arm_outer"),
-            brackets=held,
+            brackets={
+                f"{name}_bracket": ((f"{name}_seat", "wheel_center", "arm_inner"), f"{name}_seat")
+                for name in ("spring", "damper")
+            },
         )
 
     # -- what holds it together -----------------------------------------------------------------

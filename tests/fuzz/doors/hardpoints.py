@@ -29,6 +29,7 @@ CARS = {
         "push_rod_car",
         "pull_rod_car",
         "multi_link_car",
+        "trailing_arm_car",
     )
 }
 # Hardpoints whose distances no motion changes; the bearings stay where they are.
@@ -61,12 +62,14 @@ BODIES["multi_link"] = (
     *((f"{link}_outer", f"{link}_inner") for link in _LINKS),
     ("rear_lower_link_outer", "rear_lower_link_inner", "spring_seat"),
 )
+BODIES["trailing_arm"] = (("arm_inner", "arm_outer", "wheel_center", "spring_seat", "damper_seat"),)
 
 
 def attempt(random):
     car = _car(random)
     model = Model(car)
     rack = float(random.choice([0.0, 0.0, random.uniform(-0.06, 0.06)]))
+    rack = rack if car.steered() else 0.0
     reach = travel_range(model, rack)
     low, high = reach.height
     parts = [0.0, 1.0, *random.uniform(size=3), 10.0 ** random.uniform(-12.0, -1.0)]
