@@ -4,6 +4,8 @@
 `test_compliance` and `test_deflection` its bushes.
 """
 
+import shlex
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -25,6 +27,7 @@ from kintrafo.study.compare import compare
 from kintrafo.study.sweep import positions, usual_rack
 from kintrafo.study.variation import sensitivity
 from kintrafo.suspension.positions import design_height
+from test_cli_commands import commands_of, kintrafo  # noqa: F401 (a fixture)
 
 CAR = Suspension.load("trailing_arm_car")
 ACROSS = CAR.with_changes(
@@ -345,3 +348,26 @@ def test_equations_of_an_axle_are_those_of_its_sides() -> None:
         for side in ("right", "left"):
             ours = found[both.state_names.index(f"{side}_{name}")]
             assert ours == pytest.approx(expected[one.state_names.index(name)], rel=1e-9, abs=1e-9)
+
+
+# -- its page -----------------------------------------------------------------------------------
+
+
+@pytest.mark.usefixtures("coarse_report", "first_page_of_curves")
+def test_the_commands_of_the_page_run(kintrafo: Any) -> None:  # noqa: F811
+    page = Path(__file__).parent.parent / "docs/trailing-arm.md"
+    commands = commands_of(page.read_text(encoding="utf-8"))
+    assert len(commands) == 8
+    for line in commands:
+        program, *arguments = shlex.split(line)
+        assert program == "kintrafo"
+        code, out, err = kintrafo(*arguments)
+        assert (code, bool(out)) == (0, True), (line, err)
+    text = Path("my_arm.html").read_text(encoding="utf-8")
+    assert ">tie rod<" not in text
+    assert ">Typical" not in text
+    for asked in (["characteristics", "--of", "caster"], ["simulate", "--rack-sine", "3"]):
+        command, *options = asked
+        code, out, err = kintrafo(command, "my_arm.toml", *options)
+        assert code != 0
+        assert "it has no rack, and nothing steers its wheel" in out + err

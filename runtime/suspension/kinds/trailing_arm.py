@@ -197,7 +197,7 @@ length."""
                 "spring": ("spring_top", "spring_seat", "strut"),
                 "damper": ("damper_top", "damper_seat", "strut"),
             },
-            knuckle=("arm_outer", "wheel_center"),
+            knuckle=("arm_inner", "arm_outer", "wheel_center"),
             legend={"arm": "arm", "strut": "damper", "knuckle": "hub carrier"},
             damper=Axis("damper_seat", "damper_top", 0.5),
             spring=Axis("spring_seat", "spring_top", 0.0),
