@@ -52,6 +52,7 @@ NAMES = {
         "pull_rod_inner": "prod_inboard",
     },
     "multi_link": {"tie_rod_outer": "tierod_outer", "tie_rod_inner": "tierod_inner"},
+    "trailing_arm": {},
 }
 MILLIMETRES = {"mm": 1.0, "meter": 1000.0, "inch": 25.4, "cm": 10.0}
 

@@ -29,6 +29,9 @@ WISHBONES = Suspension.load("double_wishbone_car").with_changes(
 LINKED = Suspension.load("multi_link_car").with_changes(
     FREE | {"spring.free_length_mm": None, "spring.force_at_design_N": 0.0}
 )
+TRAILING = Suspension.load("trailing_arm_car").with_changes(
+    FREE | {"spring.free_length_mm": None, "spring.force_at_design_N": 0.0}
+)
 LINKS = ("front_upper_link", "rear_upper_link", "front_lower_link", "rear_lower_link")
 BUSHES: dict[str, dict[str, Any]] = {
     "arm_front": {"axial_N_per_mm": 1500.0, "radial_N_per_mm": [8000.0, 5000.0]},
@@ -56,6 +59,11 @@ BUSHES_OF = {
         "tie_rod_inner": BUSHES["tie_rod_inner"],
         "wheel_center": BUSHES["wheel_center"],
     },
+    TRAILING: {
+        "arm_inner": BUSHES["arm_front"],
+        "arm_outer": BUSHES["arm_rear"],
+        "wheel_center": BUSHES["wheel_center"],
+    },
 }
 # Joints by hand, the arms' hinges as two points: what touches, the parts, and where.
 POINTS = {
@@ -67,6 +75,7 @@ POINTS = {
                                            ("ball_joint", f"{arm}_arm", "knuckle"))],
     LINKED: [place for link in LINKS for place in ((f"{link}_outer", "knuckle", link),
                                                    (f"{link}_inner", 0, link))],
+    TRAILING: [(f"arm_{end}", 0, "trailing_arm") for end in ("inner", "outer")],
 }  # fmt: skip
 X, Z = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
 
@@ -79,6 +88,7 @@ class Stiffness:
         state = at_rest(
             self.model, arm_angles(self.model, design_height(self.model) + travel, rack), rack
         )
+        self.carrier = "trailing_arm" if car is TRAILING else "knuckle"
         self.bodies = ("chassis", *self.model.equations.BODIES)
         self.pose = Pose(
             self.model.evaluate("positions", *state), self.model.evaluate("orientations", *state)
@@ -172,19 +182,21 @@ class Stiffness:
     def bearing(self) -> tuple[int, int, np.ndarray, np.ndarray, np.ndarray]:
         spin = self.car.wheel.spin_axis(-1.0)
         across, other = np.linalg.svd(spin[None])[2][1:]
-        return self.index("knuckle"), self.index("wheel"), spin, across, other
+        return self.index(self.carrier), self.index("wheel"), spin, across, other
 
     def parts(self, bushes: dict[str, Any]) -> tuple[list[Any], list[np.ndarray], Any, Any]:
         """Return the points that hold or give way, what else holds, and the ends of the lines."""
-        rigid = [np.eye(self.size)[6 * self.index("rack") - 6 :][:6]]
+        rigid = []
         knuckle, wheel, _, across, other = self.bearing()
         joints = [
             *POINTS[self.car],
-            ("tie_rod_outer", "knuckle", "tie_rod"),
-            ("tie_rod_inner", "rack", "tie_rod"),
-            ("wheel_center", "knuckle", "wheel"),
+            ("wheel_center", self.carrier, "wheel"),
         ]
-        rigid.append(self.cross("rack", "tie_rod"))
+        if self.car is not TRAILING:
+            joints.append(("tie_rod_outer", "knuckle", "tie_rod"))
+            joints.append(("tie_rod_inner", "rack", "tie_rod"))
+            rigid.append(np.eye(self.size)[6 * self.index("rack") - 6 :][:6])
+            rigid.append(self.cross("rack", "tie_rod"))
         if self.car is STRUT:
             strut = self.index("upper_strut")
             axis = self.at["strut_top"] - self.at["strut_lower"]
@@ -198,6 +210,9 @@ class Stiffness:
             rigid += [self.cross(0, link) for link in LINKS]
             spring = (0, "spring_top", "rear_lower_link", "spring_seat")
             stop = (0, "damper_top", "knuckle", "damper_seat")
+        elif self.car is TRAILING:
+            spring = (0, "spring_top", "trailing_arm", "spring_seat")
+            stop = (0, "damper_top", "trailing_arm", "damper_seat")
         else:
             spring = stop = (0, "spring_top", "lower_arm", "spring_seat")
         rigid.append(self.rows(lambda a: a.perpendicular(knuckle, wheel, across, other)))
@@ -231,9 +246,8 @@ class Stiffness:
         else:
             rod = name.rpartition("_")[0]
             arm = name.replace("front", "").replace("rear", "")
-            usual = (
-                (f"{rod}_inner", f"{rod}_outer") if "link" in rod else (f"{arm}front", f"{arm}rear")
-            )
+            along = "link" in rod or self.car is TRAILING
+            usual = (f"{rod}_inner", f"{rod}_outer") if along else (f"{arm}front", f"{arm}rear")
             start, end = ends.get(name, usual)
             axis = self.at[end] - self.at[start]
         axis = axis / np.linalg.norm(axis)

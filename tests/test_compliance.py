@@ -11,7 +11,7 @@ from kintrafo import Axle, InputError, Model, Suspension, axles, characteristics
 from kintrafo.report.tables import input_tables
 from kintrafo.suspension.kinds import KINDS
 from kintrafo.suspension.toml_writer import write_toml
-from soft_suspensions import BUSHES_OF, LINKED, STRUT, WISHBONES, Stiffness, Z
+from soft_suspensions import BUSHES_OF, LINKED, STRUT, TRAILING, WISHBONES, Stiffness, Z
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
 DATA = Path(__file__).parents[1] / "runtime/suspension/data"
@@ -28,14 +28,15 @@ DATA = Path(__file__).parents[1] / "runtime/suspension/data"
     ],
 )
 @pytest.mark.parametrize("some", [False, True])
-@pytest.mark.parametrize("car", [STRUT, WISHBONES, LINKED], ids=lambda car: car.TITLE)
+@pytest.mark.parametrize("car", [STRUT, WISHBONES, LINKED, TRAILING], ids=lambda car: car.TITLE)
 def test_the_wheel_gives_way_as_springs_do(
     car: Suspension, some: bool, held: Any, travel: float, rack: float
 ) -> None:
     """Forces by statics and least energy against stiffnesses and constraints, two theories."""
-    bushes = BUSHES_OF[car]
+    bushes, rack = BUSHES_OF[car], rack if car.steered() else 0.0
     if some:
-        bushes = {name: bushes[name] for name in bushes if "rear" in name or "tie" in name}
+        kept = ("rear", "tie", "arm_outer")
+        bushes = {name: bushes[name] for name in bushes if any(part in name for part in kept)}
     found = loads.compliance(Model(car), bushes, [travel], rack_position=rack, held=held)
     ours = found["flexibility"].values[0]
     springs = Stiffness(car, travel, rack)

@@ -15,9 +15,9 @@ from kintrafo.suspension.positions import design_height
 from kintrafo.suspension.reach import at_rest
 from oracle.constraints import Pose
 from scipy.spatial.transform import Rotation
-from soft_suspensions import BUSHES, BUSHES_OF, LINKED, STRUT, WISHBONES, Stiffness
+from soft_suspensions import BUSHES, BUSHES_OF, LINKED, STRUT, TRAILING, WISHBONES, Stiffness
 
-CARS = [STRUT, WISHBONES, LINKED]
+CARS = [STRUT, WISHBONES, LINKED, TRAILING]
 UNDER = ["lateral", "braking", "recession", "aligning"]
 # A tenth as stiff, so that parts are displaced by some 10 mm; the bearing, which tilts, is rigid.
 SOFTER = {
@@ -175,6 +175,12 @@ def test_nothing_is_left_of_the_potential(
     assert np.abs(left).max() > 1e3
 
 
+def with_rack(car: Suspension) -> dict[str, Any]:
+    """Return the bushes of a car, and a soft rack if it has one."""
+    rack = {"rack": {"axial_N_per_mm": 3000.0}} if car.steered() else {}
+    return BUSHES_OF[car] | rack
+
+
 # -- limits ---------------------------------------------------------------------------------------
 
 
@@ -204,7 +210,7 @@ def test_loaded_bushes_leave_the_design_as_it_is(car: Suspension) -> None:
         {"strut.spring_force_at_design_N" if car is STRUT else "spring.force_at_design_N": 4000.0,
          "gravity.acceleration_m_per_s2": 9.81}
     )  # fmt: skip
-    bushes = {**BUSHES_OF[car], "rack": {"axial_N_per_mm": 3000.0}}
+    bushes = with_rack(car)
     found = loads.elastokinematics(Model(heavy), bushes, [0.0, 0.03])
     at_design = found.sel(wheel_travel=0.0)
     for name in ("toe", "camber", "half_track_change", "wheelbase_change"):
@@ -266,7 +272,7 @@ def test_other_travels_change_nothing(car: Suspension, hardpoints: Any, camber: 
          "gravity.acceleration_m_per_s2": 9.81, "wheel.camber_deg": camber}
     )  # fmt: skip
     model, travels = Model(heavy), np.array([-0.04, -0.02, 0.0, 0.02])
-    bushes = BUSHES_OF[car] | {"rack": {"axial_N_per_mm": 3000.0}}
+    bushes = with_rack(car)
     whole = loads.elastokinematics(model, bushes, travels, hardpoints=hardpoints)
     for order in ([3, 2, 1, 0], [2, 0, 3], [1]):
         found = loads.elastokinematics(model, bushes, travels[order], hardpoints=hardpoints)

@@ -25,6 +25,7 @@ WISHBONES = Suspension.load("double_wishbone_car")
 OFFSET = Suspension.load("offset_strut_car")
 PUSHED = Suspension.load("push_rod_car")
 LINKED = Suspension.load("multi_link_car")
+TRAILING = Suspension.load("trailing_arm_car")
 PULLED = Suspension.load("pull_rod_car")
 STOPPED = CAR.with_changes(
     {
@@ -96,7 +97,7 @@ def test_joints_carry_what_multipliers_say(seed: int, free: bool) -> None:
 
 
 @pytest.mark.parametrize(
-    "car", [CAR, WISHBONES, OFFSET, PUSHED, PULLED, LINKED], ids=lambda car: car.TITLE
+    "car", [CAR, WISHBONES, OFFSET, PUSHED, PULLED, LINKED, TRAILING], ids=lambda car: car.TITLE
 )
 def test_joints_do_no_work(car: Suspension) -> None:
     """Whatever moves, what a joint exerts on its two parts has no power together."""

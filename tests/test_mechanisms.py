@@ -428,7 +428,7 @@ AFLOAT = {
     "push_rod": {"tyre_rate": 0.0, "spring_free_length": 0.291},
     "pull_rod": {"tyre_rate": 0.0, "spring_free_length": 0.318},
     "multi_link": {"tyre_rate": 0.0, "spring_free_length": 0.291},
-    "trailing_arm": {"tyre_rate": 0.0, "spring_free_length": 0.36},
+    "trailing_arm": {"tyre_rate": 0.0, "spring_free_length": 0.3},
     "front_axle": {"tyre_rate": 0.0, "spring_free_slide": 0.18},
 }
 """Suspensions without a road, on springs that carry the arms only."""

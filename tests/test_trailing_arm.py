@@ -1,148 +1,373 @@
-"""The trailing arm by hand: Rodrigues' rotation about its hinge, moments about it at rest.
+"""The trailing arm: one hinge, by Rodrigues' rotation and the balance of one body, by hand.
 
-`test_mechanisms` compares its equations with maximal coordinates, like those of every model.
+`test_mechanisms` compares its equations with maximal coordinates, like those of every model;
+`test_compliance` and `test_deflection` its bushes.
 """
+
+import shlex
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import System
-from kintrafo.generated import trailing_arm
-from kintrafo.generator.mechanisms.trailing_arm import MODELS
-from numpy.typing import NDArray
+from kintrafo import (
+    Axle,
+    AxleModel,
+    InputError,
+    Model,
+    Suspension,
+    arm_angles,
+    axles,
+    characteristics,
+    equilibrium,
+    loads,
+    travel_range,
+)
+from kintrafo.study.compare import compare
+from kintrafo.study.sweep import positions, usual_rack
+from kintrafo.study.variation import sensitivity
+from kintrafo.suspension.positions import design_height
+from test_cli_commands import commands_of, kintrafo  # noqa: F401 (a fixture)
 
-Array = NDArray[np.float64]
-
-DEFAULTS = {p.name: p.default for p in MODELS[0].mechanism.parameters}
-TURNS = np.linspace(-0.3, 0.3, 13)  # rad, positive with the wheel going up
-# lengths of a metre through some tens of operations; angles of 1e-2 are differences of them
-ROUNDING = 1e-14
-
-
-def placed(**points: tuple[float, float, float]) -> dict[str, float]:
-    """Return the default values with some points elsewhere."""
-    at = {f"{n}_{a}": v for n, p in points.items() for a, v in zip("xyz", p, strict=True)}
-    return DEFAULTS | at
-
-
-def mirrored(values: dict[str, float]) -> dict[str, float]:
-    """Return the left side of a car; its spin axis points to the left, too."""
-    turned = [n for n in values if n.endswith(("_y", "_inertia_xy", "_inertia_yz"))]
-    return values | {n: -values[n] for n in turned if n != "spin_axis_y"}
-
-
-CARS = {
-    "semi-trailing": DEFAULTS,
-    "trailing": placed(arm_outer=(0.42, -0.62, 0.29), arm_inner=(0.42, -0.30, 0.29)),
-    "inclined": placed(arm_outer=(0.40, -0.60, 0.33), arm_inner=(0.22, -0.20, 0.21)),
-}
-EACH_CAR = pytest.mark.parametrize("values", CARS.values(), ids=CARS)
-
-
-def point(values: dict[str, float], name: str) -> Array:
-    return np.array([values[f"{name}_{axis}"] for axis in "xyz"])
+CAR = Suspension.load("trailing_arm_car")
+ACROSS = CAR.with_changes(
+    {"hardpoints.arm_outer": [380.0, -620.0, 285.0], "wheel.camber_deg": 0.0, "wheel.toe_deg": 0.0}
+)
+CARS = {"askew": CAR, "left": CAR.mirrored(), "across": ACROSS}
+TRAVELS = np.linspace(-0.1, 0.1, 9)
+UP = np.array([0.0, 0.0, 1.0])
+# What has no meaning where nothing steers.
+OF_STEERING = {
+    "caster", "caster_gradient", "kingpin_inclination", "trail", "steering_axis_offset",
+    "scrub_radius", "hub_trail", "spindle_offset", "steer_gradient", "steering_ratio", "ackermann",
+    "ackermann_error", "turning_circle",
+}  # fmt: skip
 
 
-def hinge(values: dict[str, float]) -> tuple[Array, Array]:
-    """Return a point of the hinge and the unit vector about which the wheel turns upwards."""
-    outer, inner = point(values, "arm_outer"), point(values, "arm_inner")
-    axis = (inner - outer) / np.linalg.norm(inner - outer)
-    rises = np.cross(axis, point(values, "wheel_center") - outer)[2]
-    return outer, axis * np.sign(rises)
-
-
-def rotated(vector: Array, axis: Array, turn: float) -> Array:
-    """Return a vector turned about a unit vector, by Rodrigues' formula."""
+def turned(vector: np.ndarray, axis: np.ndarray, angle: float) -> np.ndarray:
+    """Rodrigues' formula."""
     along = axis * (axis @ vector)
-    return along + (vector - along) * np.cos(turn) + np.cross(axis, vector) * np.sin(turn)
+    return along + np.cos(angle) * (vector - along) + np.sin(angle) * np.cross(axis, vector)
 
 
-def carried(values: dict[str, float], place: Array, turn: float) -> Array:
-    """Return where the arm has taken a place of the design position."""
-    through, axis = hinge(values)
-    return through + rotated(place - through, axis, turn)
+def hinge(car: Suspension) -> tuple[np.ndarray, np.ndarray]:
+    """Return a point of the hinge and its direction."""
+    inner, outer = (car.hardpoints.metres(f"arm_{end}") for end in ("inner", "outer"))
+    return inner, (outer - inner) / np.linalg.norm(outer - inner)
 
 
-def system(values: dict[str, float]) -> System:
-    return System(trailing_arm, values)
+def angle_for(car: Suspension, travel: float) -> float:
+    """Return the angle about the hinge that lifts the wheel centre, the smaller of two."""
+    start, axis = hinge(car)
+    arm = car.hardpoints.metres("wheel_center") - start
+    along = axis * (axis @ arm)
+    # z = a + b cos + c sin
+    a, b, c = along[2], (arm - along)[2], np.cross(axis, arm)[2]
+    middle, swing = np.arctan2(c, b), np.arccos((arm[2] + travel - a) / np.hypot(b, c))
+    found = [(angle + np.pi) % (2.0 * np.pi) - np.pi for angle in (middle - swing, middle + swing)]
+    return float(min(found, key=abs))
 
 
-def state(car: System, turn: float) -> Array:
-    """Return a state at rest; the angle falls as the wheel rises."""
-    return car.state(arm_angle=float(car.design_state[0]) - turn)
+def spin_outboard(car: Suspension) -> np.ndarray:
+    """Return the spin axis at design, by the definitions of camber and toe."""
+    camber, toe = np.radians([car.wheel.camber_deg, car.wheel.toe_deg])
+    axis = np.array([np.tan(toe), car.vehicle.sign, -np.tan(camber)])
+    return np.asarray(axis / np.linalg.norm(axis))
 
 
-@EACH_CAR
-def test_the_wheel_goes_round_the_hinge(values: dict[str, float]) -> None:
-    car, (_, axis) = system(values), hinge(values)
-    for turn in TURNS:
-        found = car.signals(state(car, turn))
-        center = carried(values, point(values, "wheel_center"), turn)
-        spin = rotated(point(values, "spin_axis"), axis, turn)
-        expected = {
-            **{f"wheel_center_{a}": v for a, v in zip("xyz", center, strict=True)},
-            "camber": np.arctan2(spin[2], spin[1]),  # right: the top of the wheel outboard
-            "toe": np.arctan2(-spin[0], spin[1]),
-            "steer": np.arctan2(-spin[0], spin[1]),
+def wheel_at(car: Suspension, travel: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return wheel centre, spin axis pointing outboard, and contact."""
+    (start, axis), angle = hinge(car), angle_for(car, travel)
+    center = start + turned(car.hardpoints.metres("wheel_center") - start, axis, angle)
+    spin = turned(spin_outboard(car), axis, angle)
+    upward = UP - (UP @ spin) * spin
+    return center, spin, center - 0.3 * upward / np.linalg.norm(upward)
+
+
+# -- where the wheel goes -----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", CARS)
+def test_wheel_swings_about_the_hinge(name: str) -> None:
+    car = CARS[name]
+    side, model = car.vehicle.sign, Model(car)
+    found, path = characteristics.travel(model, TRAVELS), positions(model, TRAVELS)
+    _, _, at_design = wheel_at(car, 0.0)
+    # roundings of lengths and angles below 1
+    near: dict[str, float] = {"rtol": 0.0, "atol": 1e-13}
+    for i, travel in enumerate(TRAVELS):
+        center, spin, contact = wheel_at(car, travel)
+        ours = [path[f"wheel_center_{axis}"].values[i] for axis in "xyz"]
+        np.testing.assert_allclose(ours, center, **near)
+        angles = {
+            "camber": np.arctan2(-spin[2], side * spin[1]),
+            "toe": np.arctan2(spin[0], side * spin[1]),
+            "half_track_change": side * (contact - at_design)[1],
+            "wheelbase_change": center[0] - car.hardpoints.metres("wheel_center")[0],
         }
-        for element in ("spring", "damper"):
-            seat = carried(values, point(values, f"{element}_seat"), turn)
-            length = float(np.linalg.norm(point(values, f"{element}_top") - seat))
-            expected[f"{element}_length"] = length
-        for name, value in expected.items():
-            assert float(found[name]) == pytest.approx(value, abs=ROUNDING), name
+        for quantity, expected in angles.items():
+            np.testing.assert_allclose(found[quantity].values[i], expected, **near)
 
 
-def test_a_hinge_across_the_car_changes_neither_camber_nor_toe() -> None:
-    car = system(CARS["trailing"])
-    found = car.signals(np.array([state(car, turn) for turn in TURNS]))
-    for name in ("camber", "toe"):
-        np.testing.assert_allclose(found[name], 0.0, atol=ROUNDING)
+@pytest.mark.parametrize("name", CARS)
+def test_instant_centres_are_where_the_hinge_passes(name: str) -> None:
+    """Seen from the front, the hinge pierces the plane across through the contact; so from aside.
 
-
-@EACH_CAR
-def test_the_left_side_is_the_mirror_image(values: dict[str, float]) -> None:
-    right, left = system(values), system(mirrored(values))
-    assert right.design_state[0] == pytest.approx(left.design_state[0], abs=ROUNDING)
-    states = np.array([state(right, turn) for turn in TURNS])
-    one, two = right.signals(states), left.signals(states)
-    for name, values_there in one.items():
-        sign = -1.0 if name in ("wheel_center_y", "steer") else 1.0
-        # forces are up to 1e5 N/m times a length, accelerations up to 1e2 m/s^2
-        scale = max(1.0, float(np.abs(values_there).max()))
+    In the plane the part of the turning along it does nothing, which leaves a turn about a point.
+    """
+    car = CARS[name]
+    start, axis = hinge(car)
+    found = characteristics.travel(Model(car), TRAVELS)
+    given = car.vehicle
+    lever = 2600.0 / 550.0 * 0.7  # as the file has them
+    for i, travel in enumerate(TRAVELS):
+        _, _, contact = wheel_at(car, travel)
+        aside = start + axis * (contact - start)[1] / axis[1] - contact
+        slope = aside[2] / -aside[0]  # the path is at right angles to the arm to the centre
         np.testing.assert_allclose(
-            sign * two[name], values_there, rtol=0.0, atol=1e-12 * scale, err_msg=name
+            found["side_view_swing_arm_angle"][i], np.arctan(slope), rtol=1e-11
+        )
+        np.testing.assert_allclose(found["anti_dive"][i], lever * slope, rtol=1e-11)
+        if name == "across":
+            # parallel to the plane: the wheel moves straight, seen from the front
+            assert np.isinf(found["swing_arm_length_kinematic"][i])
+            assert abs(found["roll_center_height_kinematic"][i]) < 1e-13
+            continue
+        front = start + axis * (contact - start)[0] / axis[0] - contact
+        np.testing.assert_allclose(
+            found["swing_arm_length_kinematic"][i], -given.sign * front[1], rtol=1e-11
+        )
+        height = front[2] * contact[1] / -front[1]
+        np.testing.assert_allclose(
+            found["roll_center_height_kinematic"][i], height, rtol=1e-11, atol=1e-13
         )
 
 
-@EACH_CAR
-def test_it_starts_from_rest_as_moments_about_the_hinge_say(values: dict[str, float]) -> None:
-    """The bearing passes no moment about the spin axis: the wheel resists tilting only."""
-    car, (through, axis) = system(values), hinge(values)
-    names = ("xx", "yy", "zz", "xy", "xz", "yz")
-    xx, yy, zz, xy, xz, yz = (values[f"arm_inertia_{n}"] for n in names)
-    inertia = axis @ np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) @ axis
-    masses = {"arm_com": values["arm_mass"], "wheel_center": values["wheel_mass"]}
-    for name, mass in masses.items():
-        inertia += mass * np.linalg.norm(np.cross(axis, point(values, name) - through)) ** 2
-    share = axis @ point(values, "spin_axis") / np.linalg.norm(point(values, "spin_axis"))
-    inertia += values["wheel_inertia_diametral"] * (1.0 - share**2)
-    for turn in TURNS:
-        center = carried(values, point(values, "wheel_center"), turn)
-        seat = carried(values, point(values, "spring_seat"), turn)
-        line = seat - point(values, "spring_top")
-        length = np.linalg.norm(line)
-        push = values["spring_rate"] * (values["spring_free_length"] - length) / length
-        tyre = values["tyre_rate"] * (values["tyre_free_height"] - center[2])
-        spin = rotated(point(values, "spin_axis"), axis, turn)
-        radial = np.array([0.0, 0.0, 1.0]) - spin * spin[2]  # in the wheel plane, Eq. 24
-        forces = [(seat, push * line), (center, tyre * radial / (1.0 - spin[2] ** 2))]
-        for name, mass in masses.items():
-            weight = np.array([0.0, 0.0, -mass * values["gravity"]])
-            forces.append((carried(values, point(values, name), turn), weight))
-        moments = [float(axis @ np.cross(at - through, force)) for at, force in forces]
-        rates = car.evaluate("rhs", state(car, turn))
-        # forces are of differences of lengths, a twentieth of them: some 20 epsilon, with a margin
-        tolerance = 1e-13 * sum(map(abs, moments)) / inertia
-        assert -rates[2] == pytest.approx(sum(moments) / inertia, abs=tolerance)
-        # the wheel keeps its direction about the spin axis
-        assert rates[3] == pytest.approx(-share * sum(moments) / inertia, abs=tolerance)
+def test_reach_ends_where_the_wheel_turns_back() -> None:
+    """The highest wheel centre: amplitude of a + b cos + c sin."""
+    start, axis = hinge(CAR)
+    arm = CAR.hardpoints.metres("wheel_center") - start
+    along = axis * (axis @ arm)
+    highest = (start + along)[2] + np.hypot((arm - along)[2], np.cross(axis, arm)[2])
+    # 1e-12 rad before it, of a parabola
+    assert travel_range(Model(CAR)).height[1] == pytest.approx(highest, abs=1e-13)
+
+
+def test_angle_of_the_arm_falls_as_the_wheel_rises() -> None:
+    for car in CARS.values():
+        model = Model(car)
+        angles = arm_angles(model, design_height(model) + TRAVELS)
+        assert (np.diff(angles) < 0.0).all()
+        expected = [abs(angle_for(car, travel)) for travel in TRAVELS]
+        np.testing.assert_allclose(np.abs(angles - model.design_state[0]), expected, atol=1e-13)
+
+
+# -- what it carries ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", CARS)
+def test_bearings_balance_the_arm(name: str) -> None:
+    """Spring by the moment about the hinge, then force and moment of both bearings together."""
+    car = CARS[name]
+    case: dict[str, Any] = {"corner": {"contact_N": [700.0, 900.0, 0.0], "travel_mm": 20.0}}
+    found = loads.static(Model(car), case)
+    start, axis = hinge(car)
+    angle = angle_for(car, 0.02)
+    center, spin, contact = wheel_at(car, 0.02)
+
+    def carried(place: np.ndarray) -> np.ndarray:
+        return np.asarray(start + turned(place - start, axis, angle))
+
+    forward = np.cross(car.vehicle.sign * spin, UP)
+    forward /= np.linalg.norm(forward)
+    part = car.bodies.rigid()["trailing_arm"]
+    weights = -9.81 * UP * part.mass_kg, -9.81 * UP * car.bodies.wheel.mass_kg
+    road = 700.0 * forward + 900.0 * np.cross(UP, forward)
+    seat, top = carried(car.hardpoints.metres("spring_seat")), car.hardpoints.metres("spring_top")
+    along = (seat - top) / np.linalg.norm(seat - top)
+    length = np.linalg.norm(car.hardpoints.metres("spring_seat") - top) - np.linalg.norm(seat - top)
+    assert car.spring.force_at_design_N is not None
+    spring = (car.spring.force_at_design_N + car.spring.rate_N_per_m * length) * along
+    known = [
+        (road, contact),
+        (weights[0], carried(part.centre_of_mass(car.hardpoints))),
+        (weights[1], center),
+        (spring, seat),
+    ]
+    # the wheel is held there: the road pushes as it needs
+    missing = sum(axis @ np.cross(at - start, force) for force, at in known)
+    known.append((-missing / (axis @ np.cross(contact - start, UP)) * UP, contact))
+    total = sum(force for force, _ in known)
+    moment = sum(np.cross(at - start, force) for force, at in known)
+    one = found.isel(load=((found["part"] == "trailing_arm") & (found["by"] == "chassis")).values)
+    force, at = one["force"].values[0], one["at"].values[0]
+    assert force.shape == (2, 3)
+    # of some 10 kN, with the spring's force to a rounding of its length
+    np.testing.assert_allclose(force.sum(0), -total, rtol=0.0, atol=1e-7)
+    np.testing.assert_allclose(np.cross(at - start, force).sum(0), -moment, rtol=0.0, atol=1e-7)
+    np.testing.assert_allclose(*(force @ axis), rtol=0.0, atol=1e-7)
+
+
+def test_rests_where_its_moments_balance() -> None:
+    """Vertical load at rest from weights and spring about the hinge."""
+    model = Model(CAR)
+    rest = equilibrium(model)
+    start, axis = hinge(CAR)
+    travel = float(model.signal("wheel_center_z", rest)) - design_height(model)
+    center, spin, _ = wheel_at(CAR, travel)
+    upward = UP - (UP @ spin) * spin
+    tyre = float(model.signal("tyre_force", rest)) * upward / np.linalg.norm(upward)
+    part = CAR.bodies.rigid()["trailing_arm"]
+    seat, top = CAR.hardpoints.metres("spring_seat"), CAR.hardpoints.metres("spring_top")
+    spring = float(model.signal("spring_force", rest)) * (seat - top) / np.linalg.norm(seat - top)
+    assert abs(travel) < 1e-8
+    forces = [
+        (tyre, center),
+        (-9.81 * part.mass_kg * UP, part.centre_of_mass(CAR.hardpoints)),
+        (-9.81 * CAR.bodies.wheel.mass_kg * UP, center),
+        (spring, seat),
+    ]
+    moments = [axis @ np.cross(at - start, force) for force, at in forces]
+    # the travel of some nanometres turns nothing that matters: 1e-8 of the moments
+    assert abs(sum(moments)) < 1e-6 * max(map(abs, moments))
+
+
+# -- nothing steers it --------------------------------------------------------------------------
+
+
+def test_what_belongs_to_steering_is_not_there() -> None:
+    model = Model(CAR)
+    found = characteristics.travel(model, TRAVELS)
+    assert not OF_STEERING & set(found)
+    assert "rack_position" not in found.coords
+    assert "rack_position" not in positions(model, TRAVELS).coords
+    assert all(np.isfinite(values).all() for values in found.values())
+    words = f"{CAR.to_dict()} {model.equations.STATE} {model.equations.INPUTS} {model.parameters}"
+    for word in ("rack", "tie_rod", "knuckle"):
+        assert word not in words.replace("bracket", "").replace("half_track", ""), word
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        characteristics.steering,
+        lambda model: characteristics.steering(model, [0.0]),
+        lambda model: characteristics.travel(model, TRAVELS, rack_position=0.005),
+        lambda model: positions(model, [0.0], [0.0, 0.01]),
+        usual_rack,
+        lambda model: equilibrium(model, rack_position=-0.001),
+        lambda model: travel_range(model, 0.01),
+        lambda _: sensitivity(CAR, ["hardpoints.arm_inner.z"], over="rack"),
+        lambda model: compare({"one": model, "other": Model("multi_link_car")}, over="rack"),
+        lambda model: loads.static(model, {"a": {"contact_N": [0, 0, 3e3], "rack_mm": 5.0}}),
+    ],
+)
+def test_what_moves_a_rack_is_refused(ask: Any) -> None:
+    with pytest.raises(InputError, match="it has no rack, and nothing steers its wheel"):
+        ask(Model(CAR))
+
+
+@pytest.mark.parametrize("name", sorted(OF_STEERING & {"caster", "scrub_radius", "steering_ratio"}))
+def test_characteristics_of_steering_are_refused_by_name(name: str) -> None:
+    with pytest.raises(InputError, match=f"{name}: it has no rack"):
+        sensitivity(CAR, ["hardpoints.arm_inner.z"], names=[name])
+
+
+def test_free_rack_a_section_and_a_bush_of_it_are_refused() -> None:
+    with pytest.raises(InputError, match="has no rack"):
+        Model(CAR, free_rack=True)
+    with pytest.raises(InputError, match="rack"):
+        Suspension.from_dict(CAR.to_dict() | {"rack": {"axis": [0.0, 1.0, 0.0]}})
+    with pytest.raises(InputError, match="'rack' is not known"):
+        CAR.with_changes({"bushings": {"rack": {"axial_N_per_mm": 1e4}}})
+
+
+def test_comparison_shows_what_both_have() -> None:
+    found = compare({"arm": Model(CAR), "links": Model("multi_link_car")}, TRAVELS)
+    assert not OF_STEERING & set(found)
+    assert np.isfinite(found["camber"].values).all()
+
+
+# -- what cannot move ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"wheel_center": [500.0, -620.0, 280.0]}, "two points of the arm"),
+        ({"wheel_center": [560.0, -805.0, 277.5]}, "from the hinge axis"),
+        ({"arm_outer": [380.0, -250.0, 600.0]}, "from the vertical"),
+        ({"wheel_center": [440.0, -435.0, 100.0]}, "dead centre"),
+        ({"spring_top": [110.0, -505.0, 235.0]}, "two points of the spring"),
+    ],
+)
+def test_arms_that_cannot_move_are_refused(changes: dict[str, Any], words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        CAR.with_changes({f"hardpoints.{name}": place for name, place in changes.items()})
+
+
+# -- two of them --------------------------------------------------------------------------------
+
+BAR = {
+    "unit": "mm", "bush": [250.0, -400.0, 300.0], "link_top": [100.0, -560.0, 350.0],
+    "link_foot": [100.0, -600.0, 260.0], "link_on": "trailing_arm", "rate_Nm_per_deg": 20.0,
+}  # fmt: skip
+REAR = {"axle": "rear", "side": CAR}
+
+
+def test_axle_has_no_rack_between_its_sides() -> None:
+    axle = Axle.from_dict(REAR | {"anti_roll_bar": BAR})
+    found = axles.bump(axle, TRAVELS)
+    one = characteristics.travel(Model(CAR), TRAVELS)
+    np.testing.assert_allclose(found["camber_left"], one["camber"], rtol=0.0, atol=1e-13)
+    assert "rack_position" not in found.coords
+    with pytest.raises(InputError, match="'steer': it has no rack"):
+        axles.steer(axle)
+    with pytest.raises(InputError, match="no rack"):
+        Axle.from_dict(REAR | {"steering": {"angle_deg": [-90.0, 90.0], "rack_mm": [-9.0, 9.0]}})
+    held = axles.static_loads(axle, {"corner": {"contact_g": [0.0, 0.5, 1.0]}}, static_load=3400.0)
+    assert "rack" not in held["part"].values
+    assert "rack_force" not in held
+
+
+def test_equations_of_an_axle_are_those_of_its_sides() -> None:
+    """Without a bar, both sides move by themselves."""
+    both, one = AxleModel(Axle.from_dict(REAR)), Model(CAR)
+    assert not [name for name in both.input_names if "rack" in name]
+    state = np.array([*both.design_state])
+    rates = {"arm_angle": 0.7, "spin_angle": -30.0}
+    single = one.design_state.copy()
+    for name, rate in rates.items():
+        single[one.state_names.index(f"{name}_rate")] = rate
+        for side in ("right", "left"):
+            state[both.state_names.index(f"{side}_{name}_rate")] = rate
+    expected = one.evaluate("rhs", single, one.inputs({"road_height": 0.01}))
+    roads = {f"{side}_road_height": 0.01 for side in ("right", "left")}
+    found = both.evaluate("rhs", state, both.inputs(roads))
+    for name in one.state_names:
+        for side in ("right", "left"):
+            ours = found[both.state_names.index(f"{side}_{name}")]
+            assert ours == pytest.approx(expected[one.state_names.index(name)], rel=1e-9, abs=1e-9)
+
+
+# -- its page -----------------------------------------------------------------------------------
+
+
+@pytest.mark.usefixtures("coarse_report", "first_page_of_curves")
+def test_the_commands_of_the_page_run(kintrafo: Any) -> None:  # noqa: F811
+    page = Path(__file__).parent.parent / "docs/trailing-arm.md"
+    commands = commands_of(page.read_text(encoding="utf-8"))
+    assert len(commands) == 8
+    for line in commands:
+        program, *arguments = shlex.split(line)
+        assert program == "kintrafo"
+        code, out, err = kintrafo(*arguments)
+        assert (code, bool(out)) == (0, True), (line, err)
+    text = Path("my_arm.html").read_text(encoding="utf-8")
+    assert ">tie rod<" not in text
+    assert ">Typical" not in text
+    for asked in (["characteristics", "--of", "caster"], ["simulate", "--rack-sine", "3"]):
+        command, *options = asked
+        code, out, err = kintrafo(command, "my_arm.toml", *options)
+        assert code != 0
+        assert "it has no rack, and nothing steers its wheel" in out + err

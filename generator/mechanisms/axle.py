@@ -1,4 +1,4 @@
-"""An axle of two suspensions: one of the right side and its mirror image, on one rack.
+"""An axle of two suspensions: one of the right side and its mirror image, on one rack if any.
 
 Any suspension of one side makes an axle, with an anti-roll bar or without. Half a bar turns in its
 bushes on the chassis and is pulled by a drop link from a body of the suspension; the loop of each
@@ -36,7 +36,7 @@ def mechanism(
     name, title
         What it is called.
     corner
-        The equations of the suspension of the right side, whose rack is prescribed.
+        The equations of the suspension of the right side, whose rack, if any, is prescribed.
     pulls
         The body of the suspension that the drop link joins to an anti-roll bar; without it, there
         is no bar.
@@ -57,7 +57,7 @@ def mechanism(
 def model(
     corner: d.Formulation, declared: d.Mechanism, *, with_mass: tuple[str, ...] = ()
 ) -> d.Formulation:
-    """Return the equations of an axle with prescribed rack.
+    """Return the equations of an axle, whose rack is prescribed if it has one.
 
     Parameters
     ----------
@@ -71,7 +71,7 @@ def model(
     heavy = (*(body.name for body in corner.massive), *with_mass)
     return d.Formulation(
         name=declared.name,
-        title=declared.title + "; rack prescribed",
+        title=declared.title + ("; rack prescribed" if corner.prescribed else ""),
         mechanism=declared,
         independent=tuple(
             declared.joint(f"{s}{joint.name}") for s in SIDES for joint in corner.independent
@@ -137,10 +137,10 @@ def _with_half_a_bar(suspension: d.Mechanism, bar: _HalfBar) -> d.Mechanism:
 
 
 def _copies(corner: d.Formulation, side: d.Mechanism, *, own: bool) -> tuple[d.Copy, d.Copy]:
-    """Return a suspension of the right side and its mirror image, on one rack."""
+    """Return a suspension of the right side and its mirror image, on one rack if any."""
     shared: tuple[d.Body | d.Input, ...] = (
         *(guide.second for guide in corner.prescribed),
-        RACK_FORCE,
+        *((RACK_FORCE,) if corner.prescribed else ()),
     )
     theirs = tuple(side.every(Owner)) if own else ()
     return (

@@ -1,7 +1,9 @@
-"""A trailing or semi-trailing arm: one hinge on the chassis, whose two bearings may lie anywhere.
+"""A trailing arm: one hinge on the chassis, and the arm is the wheel carrier.
 
-The arm carries the wheel, so that there is no loop to close, and no rack. The default values are
-this project's own: a rear right corner, ISO 8855 axes, ground at z = 0.
+There is no loop, no tie rod and no rack, so that nothing steers the wheel. Askew, the axis of the
+hinge makes it a semi-trailing arm. Spring and damper act between the chassis and the arm, each with
+ends of its own. The default values are this project's own: a rear right corner, ISO 8855 axes,
+ground at z = 0.
 """
 
 from __future__ import annotations
@@ -9,20 +11,19 @@ from __future__ import annotations
 from .. import declare as d
 from .suspension import ROAD_HEIGHT, further_laws, of_rubber
 
-ARM_OUTER = d.Point("arm_outer", (0.44, -0.62, 0.29), "outer bearing of the arm")
-ARM_INNER = d.Point("arm_inner", (0.30, -0.24, 0.27), "inner bearing of the arm")
-SPRING_TOP = d.Point("spring_top", (0.06, -0.53, 0.60), "upper end of the spring, on the chassis")
-SPRING_SEAT = d.Point("spring_seat", (0.08, -0.54, 0.25), "lower end of the spring, on the arm")
-DAMPER_TOP = d.Point("damper_top", (-0.06, -0.56, 0.68), "upper end of the damper, on the chassis")
-DAMPER_SEAT = d.Point("damper_seat", (-0.05, -0.60, 0.24), "lower end of the damper, on the arm")
-WHEEL_CENTER = d.Point("wheel_center", (0.0, -0.74, 0.31), "wheel centre")
+ARM_INNER = d.Point("arm_inner", (0.40, -0.27, 0.28), "inner bearing of the arm on the chassis")
+ARM_OUTER = d.Point("arm_outer", (0.52, -0.63, 0.28), "outer bearing of the arm on the chassis")
+SPRING_TOP = d.Point("spring_top", (0.10, -0.50, 0.52), "upper seat of the spring, on the chassis")
+SPRING_SEAT = d.Point("spring_seat", (0.10, -0.50, 0.24), "lower seat of the spring, on the arm")
+DAMPER_TOP = d.Point("damper_top", (0.0, -0.56, 0.72), "upper end of the damper, on the chassis")
+DAMPER_SEAT = d.Point("damper_seat", (-0.06, -0.60, 0.23), "lower end of the damper, on the arm")
+WHEEL_CENTER = d.Point("wheel_center", (0.0, -0.74, 0.30), "wheel centre")
 SPIN_AXIS = d.Direction("spin_axis", (0.0, 1.0, 0.0), "spin axis of the wheel, pointing left")
 
 CHASSIS = d.Ground("chassis", 1)
-ARM = d.Body("arm", 14.0, (0.12, -0.58, 0.28), (0.25, 0.30, 0.45))
-WHEEL = d.Rotor("wheel", 20.0, WHEEL_CENTER, axis=SPIN_AXIS, spin=1.0, diametral=0.55)
+ARM = d.Body("trailing_arm", 18.0, (0.12, -0.59, 0.28), (0.35, 0.65, 0.9))
+WHEEL = d.Rotor("wheel", 20.0, WHEEL_CENTER, axis=SPIN_AXIS, spin=0.95, diametral=0.52)
 
-# an angle to a point counts in the same sense on both sides of a car
 HINGE = d.Revolute(
     "arm_hinge", CHASSIS, ARM, axis=d.Line(ARM_OUTER, ARM_INNER), angle_to=WHEEL_CENTER
 )
@@ -31,45 +32,43 @@ BEARING = d.Revolute("bearing", ARM, WHEEL, axis=d.Line(WHEEL_CENTER, SPIN_AXIS)
 SPRING = d.LinearSpring(
     rate=d.SpringRate("spring_rate", 55000.0, "rate of the spring"),
     free_length=d.Length(
-        "spring_free_length", 0.44, "distance of its ends with the spring force-free"
+        "spring_free_length", 0.36, "distance of the seats with the spring force-free"
     ),
-)
-DAMPER = d.LinearDamper(
-    rate=d.DamperRate("damper_rate", 2500.0, "rate of the damper along its own line")
 )
 ACTUATOR = d.Actuator(
     input=d.Input(
-        "damper_actuator", "N", "actuator force, positive when it pushes the damper's ends apart"
+        "spring_actuator", "N", "actuator force, positive when it pushes the spring's seats apart"
     )
+)
+DAMPER = d.LinearDamper(
+    rate=d.DamperRate("damper_rate", 2000.0, "rate of the damper along its axis")
+)
+COIL = d.ForceElement(
+    "spring", d.AlongLine((CHASSIS, SPRING_TOP), (ARM, SPRING_SEAT)), (SPRING, ACTUATOR)
+)
+SHOCK = d.ForceElement(
+    "damper",
+    d.AlongLine((CHASSIS, DAMPER_TOP), (ARM, DAMPER_SEAT)),
+    (DAMPER, *further_laws("damper", 1.0)),
 )
 TYRE = d.LinearTyre(
     name="rear",
     wheel=d.Wheel(ARM, WHEEL_CENTER, SPIN_AXIS),
     rate=d.SpringRate("tyre_rate", 200000.0, "radial rate of the tyre"),
     free_height=d.Displacement(
-        "tyre_free_height", 0.328, "height of the wheel centre at which the tyre is free of force"
+        "tyre_free_height", 0.318, "height of the wheel centre at which the tyre is free of force"
     ),
     road=ROAD_HEIGHT,
 )
 
 TRAILING_ARM = d.Mechanism(
     name="trailing_arm",
-    title="Trailing arm, also semi-trailing",
+    title="Trailing arm",
     joints=(HINGE, BEARING),
-    forces=(
-        d.Weight(),
-        d.ForceElement("spring", d.AlongLine((CHASSIS, SPRING_TOP), (ARM, SPRING_SEAT)), (SPRING,)),
-        d.ForceElement(
-            "damper",
-            d.AlongLine((CHASSIS, DAMPER_TOP), (ARM, DAMPER_SEAT)),
-            (DAMPER, *further_laws("damper", 1.0), ACTUATOR),
-        ),
-        of_rubber(TYRE),
-    ),
+    forces=(d.Weight(), COIL, SHOCK, of_rubber(TYRE)),
     coordinates=(
         HINGE.angle(
-            "arm_angle",
-            "angle of the wheel centre from the chassis vertical; falls as the wheel rises",
+            "arm_angle", "angle of the arm from the chassis vertical; falls as the wheel rises"
         ),
         BEARING.angle(
             "spin_angle", "wheel spin angle relative to the arm, positive rolling forward"
@@ -80,7 +79,7 @@ TRAILING_ARM = d.Mechanism(
 MODELS = (
     d.Formulation(
         name="trailing_arm",
-        title="Trailing arm with a damper curve, friction and stops",
+        title="Trailing arm, whose axis may be askew",
         mechanism=TRAILING_ARM,
         independent=(HINGE, BEARING),
         massive=(ARM, WHEEL),

@@ -59,16 +59,22 @@ def command(
     force: Force = False,
     json: Json = False,
 ) -> None:
-    """All characteristics over wheel travel, and over the rack; a table of them at design.
+    """All characteristics over wheel travel, and over a rack; a table of them at design.
 
-    Each data file and page is written twice, with _travel and _rack behind its name. Of an axle
+    Data files and pages are written twice, with _travel and _rack behind their names. Of an axle
     they go over the motions of a rig, with _bump, _roll, _left and _steer.
     """
     from ..study import characteristics, export, sweep
     from ..study.axles.motions import MOTIONS, Extent
+    from ..study.characteristics.datasets import refuse_of_steering
+    from ..suspension.axle import Axle
+    from ..suspension.kinds import Suspension
 
     of_axle = axles.is_axle(file)
-    chosen = among(motion or ["bump", "roll", "left", "steer"], MOTIONS, "--motion")
+    steered = (Axle if of_axle else Suspension).load(file).steered()
+    usual = ["bump", "roll", "left", *(["steer"] if steered else [])]
+    chosen = among(motion or usual, MOTIONS, "--motion")
+    ways = ("travel", "rack") if steered else ("travel",)
     outputs = Outputs.of(
         out,
         plot,
@@ -76,7 +82,7 @@ def command(
         formats,
         force=force,
         inputs=[file],
-        suffixes=[f"_{name}" for name in (chosen if of_axle else ("travel", "rack"))],
+        suffixes=[f"_{name}" for name in (chosen if of_axle else ways)],
     )
     if of_axle:
         extent = Extent(
@@ -94,11 +100,11 @@ def command(
     ends: dict[str, Any] = {"rebound": metres(rebound), "bump": metres(bump)}
     at_travel, at_rack, spacing = travel / 1e3, rack / 1e3, step / 1e3
     travels = sweep.usual_travel(model, **ends, step=spacing, rack=at_rack)
-    racks = sweep.usual_rack(model, extent=metres(rack_extent), step=spacing, travel=at_travel)
-    curves = {
-        "travel": characteristics.travel(model, travels, rack_position=at_rack),
-        "rack": characteristics.steering(model, racks, travel=at_travel),
-    }
+    curves = {"travel": characteristics.travel(model, travels, rack_position=at_rack)}
+    if steered or rack_extent is not None or travel:
+        racks = sweep.usual_rack(model, extent=metres(rack_extent), step=spacing, travel=at_travel)
+        curves["rack"] = characteristics.steering(model, racks, travel=at_travel)
+    refuse_of_steering(model.suspension, of or ())
     drawn = named(of, curves)
     written = [
         path

@@ -137,6 +137,9 @@ def command(
     on_wheels = not UNITS.keys().isdisjoint(scenario.inputs)
     of_one = {"--height": height}
     ride = _ride(file, wheels, of_one, wheel_loads=on_wheels)
+    one = ride.model.suspension if isinstance(ride.model, Model) else ride.model.axle.right
+    if "rack_position" in scenario.inputs:
+        one.refuse_without_rack("a motion of the rack")
     if isinstance(ride.model, Model) and ride.model.free_rack:
         _tell_of_the_free_rack(file, scenario.inputs)
     options = {

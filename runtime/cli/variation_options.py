@@ -42,8 +42,10 @@ _USUAL = {
 
 def chosen(model: "Model", wanted: list[str] | None, over: Literal["travel", "rack"]) -> list[str]:
     """Return the characteristics that are shown, those that were asked for or the usual ones."""
+    from ..study.characteristics.datasets import refuse_of_steering
     from ..study.variation.curves import there
 
+    refuse_of_steering(model.suspension, wanted or ())
     known = there(model, over)
     if wanted is None:
         return [name for name in _USUAL[over] if name in known]

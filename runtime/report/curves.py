@@ -15,6 +15,7 @@ from ..suspension.model import Model
 from ..suspension.positions import arm_angles, design_height
 from .grid import Grid
 from .plotted import has_pole
+from .poses import racks_of
 
 if TYPE_CHECKING:
     from xarray import DataArray, Dataset
@@ -112,13 +113,13 @@ def curves(
         nowhere.
     """
     tell("characteristics over wheel travel")
+    rack = racks_of(model, rack)
     lengthwise = [characteristics.travel(model, travel, rack_position=float(r)) for r in rack]
-    tell("characteristics over rack displacement")
-    crosswise = [characteristics.steering(model, rack, travel=float(t)) for t in travel]
-    found = [
-        *_stacked(lengthwise, "wheel_travel", "travel"),
-        *_stacked(crosswise, "rack_position", "rack"),
-    ]
+    found = _stacked(lengthwise, "wheel_travel", "travel")
+    if model.suspension.steered():
+        tell("characteristics over rack displacement")
+        crosswise = [characteristics.steering(model, rack, travel=float(t)) for t in travel]
+        found += _stacked(crosswise, "rack_position", "rack")
     return [curve for curve in found if np.isfinite(curve.values).any()]
 
 
@@ -135,7 +136,7 @@ def gaps_on(model: Model, grid: Grid) -> list[Array]:
     list of ndarray, shape (travels, racks)
         Negative where the stop is compressed [m].
     """
-    rack = grid.rack.values
+    rack = racks_of(model, grid.rack.values)
     angles = arm_angles(model, design_height(model) + grid.travel.values[:, None], rack)
     return [gap for gap in gaps(model, angles, rack) if gap.min() <= 0.0 < gap.max()]
 

@@ -125,11 +125,11 @@ def _simulate(model: Model) -> Motion:
     times = np.linspace(0.0, DURATION, _FINER * round(DURATION / STEP) + 1)
     result = simulate(model, (0.0, DURATION), start, t_eval=times, rtol=1e-8, atol=1e-10)
     travel = result.signals["wheel_center_z"] - design
-    rack = (
-        result.y[model.state_names.index(model.names.rack)]
-        if model.free_rack
-        else result.inputs[:, model.input_names.index("rack_position")]
-    )
+    rack = np.zeros_like(times)
+    if model.free_rack:
+        rack = result.y[model.state_names.index(model.names.rack)]
+    elif model.suspension.steered():
+        rack = result.inputs[:, model.input_names.index("rack_position")]
     time = Axis(0.0, STEP, round(DURATION / STEP) + 1)
     kept = slice(None, None, _FINER)
     error = np.abs(time.interpolate(travel[kept], times) - travel).max()

@@ -114,16 +114,17 @@ def render(
 ) -> str:
     """Return the report as text; see `write`."""
     samples = _sample(model, tell, without)
-    side = model.suspension.vehicle.side
+    side, steered = model.suspension.vehicle.side, model.suspension.steered()
     template = _environment().get_template("page.html.jinja")
     return template.render(
-        title=legible(title or f"{model.suspension.heading()}, front {side}"),
+        title=legible(title or f"{model.suspension.heading()}, {'front ' * steered}{side}"),
+        steered=steered,
         side=side,
         version=version("kintrafo"),
         samples=samples,
         over_travel=_over_travel(samples.curves),
         over_rack=_over_rack(samples.curves),
-        rows=summary(samples.curves, samples.grid, samples.looks, model.suspension.suspension),
+        rows=summary(samples.curves, samples.grid, samples.looks, model.suspension),
         inputs=input_tables(model.suspension),
         parts=model.suspension.drawing().legend,
         chapters=chapters,

@@ -149,7 +149,8 @@ def _drawing(suspension: Suspension, grid: Grid, sampled: Poses) -> dict[str, An
         name: values[grid.travel.zero, grid.rack.zero] for name, values in sampled.points.items()
     }
     parameters = suspension.parameters()
-    rack = np.array([parameters[f"rack_axis_{c}"] for c in "xyz"])
+    steered = suspension.steered()
+    rack = np.array([parameters[f"rack_axis_{c}"] if steered else 0.0 for c in "xyz"])
     x, y, z = at_design["wheel_center"]
     loaded = suspension.tyre_radius() or TYRE_RADIUS
     # free of force, the tyre is larger by what it is compressed at design
@@ -158,6 +159,7 @@ def _drawing(suspension: Suspension, grid: Grid, sampled: Poses) -> dict[str, An
     low, high = corners.min(axis=0), corners.max(axis=0)
     return {
         "suspension": suspension.suspension,
+        "steered": steered,
         "linkage": _linkage(suspension),
         "side_sign": suspension.vehicle.sign,
         "road_height": float(z) - loaded,

@@ -63,7 +63,9 @@ class InputTable:
     rows: list[tuple[str, str, str]]
 
 
-def summary(drawn: list[Curve], grid: Grid, looks: dict[str, Look], kind: str) -> list[Row]:
+def summary(
+    drawn: list[Curve], grid: Grid, looks: dict[str, Look], suspension: Suspension
+) -> list[Row]:
     """Return the characteristics over travel at the design position.
 
     Parameters
@@ -73,14 +75,14 @@ def summary(drawn: list[Curve], grid: Grid, looks: dict[str, Look], kind: str) -
     grid : Grid
     looks : dict
         How each is written, by its key.
-    kind : str
-        Kind of the suspension, as in the input file.
+    suspension : Suspension
+        What is usual is known of front wheels alone, which are steered.
 
     Returns
     -------
     list of Row
     """
-    usual = typical_ranges(kind)
+    usual = typical_ranges(suspension.suspension) if suspension.steered() else {}
     design = grid.travel.zero, grid.rack.zero
     return [
         _row(curve, curve.values[design], looks[curve.key].decimals, usual.get(curve.name))

@@ -207,14 +207,18 @@ def _ride_frequency(model: Model, state: Array) -> float | None:
 def _geometry(model: Model) -> dict[str, float]:
     points = model.suspension.hardpoints
     at_design = corner(model, model.design_state[0])
-    axis = at_design.steering_axis.lower, at_design.steering_axis.upper
-    center = points.metres("wheel_center")
-    return {
+    axis, center = at_design.steering_axis, points.metres("wheel_center")
+    found = {
         "half_track": abs(float(center[1])),
         "wheel_center_height": float(center[2]),
         **model.suspension.lengths(),
+    }
+    if axis is None:
+        return found
+    outer = points.metres("tie_rod_outer")
+    return found | {
         "tie_rod_length": points.distance("tie_rod_outer", "tie_rod_inner"),
-        "steering_arm_length": distance_from_line(points.metres("tie_rod_outer"), *axis),
+        "steering_arm_length": distance_from_line(outer, axis.lower, axis.upper),
         "caster_angle": float(wheel.caster(at_design)),
         "kingpin_inclination_angle": float(wheel.kingpin_inclination(at_design)),
     }

@@ -12,7 +12,7 @@ from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..suspension.model import Model
 from . import characteristics
-from .sweep import usual_rack, usual_travel
+from .sweep import RACK, usual_rack, usual_travel
 
 Array = NDArray[np.float64]
 Over = Literal["travel", "rack"]
@@ -47,7 +47,8 @@ def compare(
     Returns
     -------
     xarray.Dataset
-        As that of `kintrafo.characteristics`, with the further dimension ``data_set``.
+        As that of `kintrafo.characteristics`, with the further dimension ``data_set``. Beside a
+        suspension that nothing steers, only what all of them have.
     """
     with Arguments("compare") as given:
         for model in given.mapping("models", models, "names and models").values():
@@ -67,6 +68,12 @@ def compare(
         datasets.append(curves(model, positions))
         if progress is not None:
             progress((index + 1) / len(models))
+    # what belongs to steering, a suspension that nothing steers has not: no gaps in the others
+    steered = [model.suspension.steered() for model in models.values()]
+    if not all(steered):
+        common = set.intersection(*(set(dataset) for dataset in datasets))
+        datasets = [dataset[[n for n in dataset if n in common]] for dataset in datasets]
+        datasets = [dataset.drop_vars(RACK, errors="ignore") for dataset in datasets]
     names = xr.Variable(DATA_SET, list(models), {"long_name": "data set"})
     return xr.concat(datasets, names, coords="minimal", compat="override", combine_attrs="override")
 

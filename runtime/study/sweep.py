@@ -69,6 +69,8 @@ def positions(
         travels = given.array("travel", 0.0 if travel is None else travel, "m", dimensions=[0, 1])
         racks = given.array("rack", 0.0 if rack is None else rack, "m", dimensions=[0, 1])
     travels = usual_travel(model) if travel is None else travels
+    if racks.ndim:
+        model.suspension.refuse_without_rack("positions over the rack")
     # travels go down, racks across; a single one of either has no dimension
     heights = design_height(model) + (travels[:, None] if travels.ndim and racks.ndim else travels)
     angles = arm_angles(model, heights, racks)
@@ -180,6 +182,7 @@ def usual_rack(
     with Arguments("sweep") as given:
         given.kind("model", model, Model, Model.NEEDED)
         travel = given.number("travel", travel, "m")
+    model.suspension.refuse_without_rack("positions over the rack")
     _check_amounts(extent=extent)
     if extent is None:
         extent = _reachable_rack(model, travel)
@@ -236,8 +239,9 @@ def _dataset(model: Model, travels: Array, racks: Array, columns: dict[str, Arra
     across = (RACK,) * racks.ndim
     meaning = "wheel travel, positive in bump"
     coordinates = {TRAVEL: variable(along, travels, meaning, "m")}
-    meaning = "rack displacement, positive along its axis"
-    coordinates[RACK] = variable(across, racks, meaning, "m")
+    if model.suspension.steered():
+        meaning = "rack displacement, positive along its axis"
+        coordinates[RACK] = variable(across, racks, meaning, "m")
     data = {
         name: variable(along + across, values, *_described(name, model))
         for name, values in columns.items()

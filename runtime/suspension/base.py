@@ -108,7 +108,7 @@ class Suspension(Section):
     hardpoints: Hardpoints = Field(description="the points that define the geometry")
     wheel: Wheel = Field(description="alignment of the wheel")
     tyre: Tyre = Field(description="the tyre")
-    rack: Steering = Field(description="the steering rack")
+    rack: Steering = Field(description="the steering rack, where the wheel is steered")
     gravity: Gravity = Field(description="gravity")
     bodies: Bodies = Field(description="masses and inertia")
     bump_stop: Stop | None = Field(default=None, description="the stop in bump")
@@ -245,6 +245,33 @@ class Suspension(Section):
         """Return what the suspension is called, as the beginning of a heading."""
         return cls.TITLE[:1].upper() + cls.TITLE[1:]
 
+    @classmethod
+    def steered(cls) -> bool:
+        """Tell whether the wheel can be steered: whether there is a rack."""
+        return bool(cls.NAMES.rack)
+
+    def refuse_without_rack(self, what: str) -> None:
+        """Refuse what has no meaning for a wheel that cannot be steered.
+
+        Parameters
+        ----------
+        what : str
+            What somebody asked for.
+
+        Raises
+        ------
+        InputError
+            If there is no rack.
+        """
+        if not self.steered():
+            problem = f"{what}: it has no rack, and nothing steers its wheel. Leave that out."
+            raise InputError([problem], self.TITLE)
+
+    @property
+    def carrier(self) -> str:
+        """The body that carries the wheel."""
+        return self.hardpoints.CARRIERS["wheel_center"]
+
     def tyre_radius(self) -> float | None:
         """Return the radius of the wheel as a thin disc.
 
@@ -297,8 +324,9 @@ class Suspension(Section):
             reverse(body, "inertia_xy_kg_m2")
             reverse(body, "inertia_yz_kg_m2")
         # The mirror image of (x, y, z) is (x, -y, z), which with the sense kept is (-x, y, -z).
-        reverse(data["rack"]["axis"], 0)
-        reverse(data["rack"]["axis"], 2)
+        if self.steered():
+            reverse(data["rack"]["axis"], 0)
+            reverse(data["rack"]["axis"], 2)
         if self.bushings is not None:
             data["bushings"] = mirrored_bushings(self.bushings)
         return self.from_dict(data, "mirrored suspension")
@@ -434,8 +462,9 @@ class Suspension(Section):
         -------
         dict of str to float
             - ``wheel_center_x`` and so on for every hardpoint and component, in m;
-            - ``rack_axis_*`` and ``spin_axis_*``, unit vectors; the spin axis points left at zero
-              camber and toe on both sides, so that rolling forward is a positive rate;
+            - ``rack_axis_*``, where there is a rack, and ``spin_axis_*``, unit vectors; the spin
+              axis points left at zero camber and toe on both sides, so that rolling forward is a
+              positive rate;
             - ``tyre_rate`` in N/m and ``tyre_free_height`` in m, ``gravity`` in m/s^2;
             - ``knuckle_mass`` in kg, ``knuckle_com_*`` in m and ``knuckle_inertia_*`` in kg m^2,
               the latter the *elements* xx, yy, zz, xy, xz, yz of the tensor about the centre of
@@ -445,7 +474,7 @@ class Suspension(Section):
         """
         return {
             **self.hardpoints.parameters(optional=optional_points),
-            **components("rack_axis", unit_vector(self.rack.axis)),
+            **(components("rack_axis", unit_vector(self.rack.axis)) if self.steered() else {}),
             **components("spin_axis", self.wheel.spin_axis(self.vehicle.sign)),
             **self.tyre.parameters(),
             "gravity": self.gravity.acceleration_m_per_s2,

@@ -211,12 +211,11 @@ def bushes_of(
         The axis of the wheel at design, pointing outboard.
     """
     joints = {point: joint for joint in structure.joints for point in joint.at}
+    known = [*joints, *[RACK for joint in structure.joints if joint.first == RACK]]
     found = []
     for point, table in described.items():
         title = f"[bushings.{point}]"
-        if point == RACK:
-            continue
-        if given.among("bushings at", point, [*joints, RACK]) != point:
+        if given.among("bushings at", point, known) != point or point == RACK:
             continue
         if not isinstance(table, Mapping):
             given.refuse(f"{title} must be a section, with {', '.join(_KEYS)}.")

@@ -147,6 +147,8 @@ class Vehicle:
         Part of the braking force at the front wheels.
     travel_per_turn : float or None
         Rack travel for one turn of the steering wheel [m].
+    steered : bool or None
+        Whether the wheel can be steered; None where it cannot.
     """
 
     side: float
@@ -156,6 +158,7 @@ class Vehicle:
     center_of_gravity_height: float | None = None
     front_brake_share: float | None = None
     travel_per_turn: float | None = None
+    steered: bool | None = True
 
 
 @dataclass(frozen=True)
@@ -173,12 +176,13 @@ class Corner:
         Unit vector along the spin axis, pointing outboard.
     design_axis : ndarray, shape (3,)
         The same at design.
-    steering_axis : SteeringAxis
-        About which it is steered.
+    steering_axis : SteeringAxis or None
+        About which it is steered; None where nothing steers it.
     travel : Motion
         Per unit of wheel travel (height of the wheel centre) with the steering held [per m].
-    steering : Motion
-        Per unit of rack travel with the wheel centre held at its height [per m].
+    steering : Motion or None
+        Per unit of rack travel with the wheel centre held at its height [per m]; None where
+        nothing steers it.
     links : tuple of Plane
         The two planes whose common line is the axis about which the carrier turns first when it
         is held by the links in them: for a wishbone the plane of its three joints, for a strut the
@@ -197,9 +201,9 @@ class Corner:
     design_center: Array
     axis: Array
     design_axis: Array
-    steering_axis: SteeringAxis
+    steering_axis: SteeringAxis | None
     travel: Motion
-    steering: Motion
+    steering: Motion | None
     links: tuple[Plane, Plane]
     spring: Spring
     stops: tuple[Spring, ...]

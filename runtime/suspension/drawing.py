@@ -42,7 +42,8 @@ class Drawing:
     knuckle : tuple of str
         Points of the line that stands for the knuckle there.
     legend : mapping
-        What the arms and the strut are called on the page of the report.
+        What the arms and the strut are called on the page of the report, and the ``knuckle`` where
+        that is not its name.
     damper, spring : Axis
     upright : tuple of places
         The ends of the knuckle in three dimensions, which holds the wheel between them.

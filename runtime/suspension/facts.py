@@ -11,7 +11,8 @@ class Names(NamedTuple):
     arm, spin : str
         States: angle of the lower arm, which falls as the wheel rises, and of the wheel [rad].
     rack : str
-        Relative coordinate, and with a free rack a state: displacement of the rack [m].
+        Relative coordinate, and with a free rack a state: displacement of the rack [m]. Empty
+        where nothing steers the wheel.
     actuator : str
         Input: force of an actuator in the strut, or beside the spring [N].
     """

@@ -153,6 +153,8 @@ def _stray(suspension: Suspension) -> Iterator[str]:
 
 
 def _rack(suspension: Suspension) -> Iterator[str]:
+    if not suspension.steered():
+        return
     points, axis = suspension.hardpoints, suspension.rack.axis
     rod = points.metres("tie_rod_outer") - points.metres("tie_rod_inner")
     angle = angle_between_lines(np.array(axis), rod)

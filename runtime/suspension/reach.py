@@ -236,8 +236,11 @@ def at_rest(
     states[..., names.index(f"{model.names.arm}_rate")] = arm_rate
     if model.free_rack:
         states[..., names.index(model.names.rack)] = racks
-    else:
+    elif model.suspension.steered():
         inputs[..., model.input_names.index("rack_position")] = racks
+    elif racks.any():
+        at = 1e3 * float(racks.flat[np.abs(racks).argmax()])
+        model.suspension.refuse_without_rack(f"displacement of the rack = {at:g} mm")
     return states, inputs
 
 

@@ -158,11 +158,18 @@ def page_text() -> str:
 
 
 def _shared() -> set[str]:
-    """Return the names of the sections that are the same for every kind."""
+    """Return the names of the sections that are the same for every kind that has them.
+
+    These are several kinds: what is of one alone belongs to that.
+    """
     first, *others = (
         {name: _model_of(kind, name) for name in kind.model_fields} for kind in KINDS.values()
     )
-    return {name for name, model in first.items() if all(o.get(name) is model for o in others)}
+    return {
+        name
+        for name, model in first.items()
+        if any(name in o for o in others) and all(o.get(name, model) is model for o in others)
+    }
 
 
 def _described(

@@ -25,7 +25,7 @@ def kinds() -> tuple[str, ...]:
     Examples
     --------
     >>> kinds()
-    ('macpherson', 'double_wishbone', 'multi_link', 'pull_rod', 'push_rod')
+    ('macpherson', 'double_wishbone', 'multi_link', 'pull_rod', 'push_rod', 'trailing_arm')
     """
     files = resources.files(__package__).joinpath("kinds").iterdir()
     names = sorted(f.name.removesuffix(".py") for f in files if f.name.endswith(".py"))

@@ -54,8 +54,10 @@ def axle_chapter(axle: Axle) -> Chapter:
     """
     with Arguments("axle_chapter") as given:
         given.kind("axle", axle, Axle, Axle.NEEDED)
-    curves = {motion: axles.over(axle, motion) for motion in _DRAWN}
-    words = [f"Both wheels of the {axle.heading()}, on one rack."]
+    drawn = [motion for motion in _DRAWN if motion != "steer" or axle.steered()]
+    curves = {motion: axles.over(axle, motion) for motion in drawn}
+    on_rack = ", on one rack" if axle.steered() else ""
+    words = [f"Both wheels of the {axle.heading()}{on_rack}."]
     words.append(
         "One side is the mirror image of the other." if axle.symmetric else "The sides differ."
     )

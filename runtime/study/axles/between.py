@@ -17,11 +17,13 @@ from ..loads.reactions import Load
 SIDES = (LEFT, RIGHT)
 BAR, LINK, RACK, STEERING = "anti_roll_bar", "drop_link", "rack", "steering"
 
-RULES = (
-    "two bearings of an anti-roll bar share the force along it equally",
-    "the housing of the rack holds it in the middle between the tie rods",
-)
-"""What decides where statics alone does not."""
+_OF_BAR = "two bearings of an anti-roll bar share the force along it equally"
+_OF_RACK = "the housing of the rack holds it in the middle between the tie rods"
+
+
+def rules_of(axle: Axle) -> tuple[str, ...]:
+    """Return what decides where statics alone does not."""
+    return (_OF_BAR, _OF_RACK) if axle.steered() else (_OF_BAR,)
 
 
 def turn_of_half(axle: Axle, side: str, poses: Poses) -> tuple[Array, Array]:
@@ -71,7 +73,7 @@ class Between:
         self, poses: Mapping[str, Poses], loads: list[Load]
     ) -> tuple[list[Load], dict[str, Place]]:
         """Return all loads, and where bar, links and rack are; see `kintrafo.study.loads`."""
-        rack, places = self._rack(loads)
+        rack, places = self._rack(loads) if self.axle.steered() else ([], {})
         if self.axle.halves:
             bar, of_bar = self._bar(poses, loads)
             rack, places = [*bar, *rack], of_bar | places

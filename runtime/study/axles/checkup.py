@@ -128,6 +128,8 @@ def _in_roll(axle: Axle) -> dict[str, str]:
 
 
 def _in_steering(axle: Axle) -> dict[str, str]:
+    if not axle.steered():
+        return {}
     dataset = steer(axle)
     if axle.end == "rear":
         return {}

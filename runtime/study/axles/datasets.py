@@ -76,7 +76,7 @@ def bump(axle: Axle, travel: ArrayLike | None = None, *, rack_position: float = 
     values = motions.travels(axle, Extent()) if travels is None else travels
     pair = Pair.at(axle, values, values, rack)
     title = "characteristics over parallel wheel travel"
-    return _dataset(pair, OVER_TRAVEL, TRAVEL, values, {RACK: rack}, title)
+    return _dataset(pair, OVER_TRAVEL, TRAVEL, values, _held(axle, rack), title)
 
 
 def roll(axle: Axle, angle: ArrayLike | None = None, *, rack_position: float = 0.0) -> xr.Dataset:
@@ -113,7 +113,7 @@ def roll(axle: Axle, angle: ArrayLike | None = None, *, rack_position: float = 0
     values = motions.rolls(axle, Extent()) if angles is None else angles
     pair = Pair.at(axle, *motions.opposite(axle, values), rack)
     title = "characteristics over roll"
-    return _dataset(pair, OVER_TRAVEL, ROLL, values, {RACK: rack}, title)
+    return _dataset(pair, OVER_TRAVEL, ROLL, values, _held(axle, rack), title)
 
 
 def single(
@@ -149,7 +149,7 @@ def single(
     both = {side: values, (RIGHT if side == LEFT else LEFT): np.zeros_like(values)}
     pair = Pair.at(axle, both[LEFT], both[RIGHT], rack)
     title = f"characteristics over travel of the {side} wheel"
-    return _dataset(pair, OVER_TRAVEL, TRAVEL, values, {RACK: rack}, title)
+    return _dataset(pair, OVER_TRAVEL, TRAVEL, values, _held(axle, rack), title)
 
 
 def steer(
@@ -186,6 +186,8 @@ def steer(
     with Arguments("axle") as given:
         given.kind("axle", axle, Axle, Axle.NEEDED)
         travel = given.number("travel", travel, "m")
+        if not given.refused:
+            axle.right.refuse_without_rack("the motion 'steer'")
         if angle is not None and rack is not None:
             given.refuse("angle and rack are both given. Give one of them.")
         angles = None if angle is None else given.array("angle", angle, "rad", dimensions=[1])
@@ -261,6 +263,11 @@ def _checked(
         if along is None:
             return rack, None
         return rack, given.array(name, along, unit, dimensions=[1])
+
+
+def _held(axle: Axle, rack: float) -> dict[Quantity, float]:
+    """Return where the rack is held, if there is one."""
+    return {RACK: rack} if axle.steered() else {}
 
 
 def _refuse_angles(given: Arguments, axle: Axle, angles: Array) -> None:

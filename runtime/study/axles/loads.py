@@ -11,6 +11,7 @@ from ...core.arguments import Arguments
 from ...core.quantities import variable
 from ...suspension.axle import Axle
 from ...suspension.corner import Array
+from ...suspension.input.vectors import unit_vector
 from ...suspension.positions import PositionError, arm_angles, design_height, equilibrium
 from ...suspension.reach import at_rest
 from ..loads.cases import GREATEST, Case
@@ -19,7 +20,7 @@ from ..loads.poses import Poses
 from ..loads.reactions import Load
 from ..loads.standing import standing
 from ..loads.static import Side, dataset_of_cases, in_parts_of_it
-from .between import RACK, RULES, SIDES, STEERING, Between, pull_of_bar
+from .between import RACK, SIDES, STEERING, Between, pull_of_bar, rules_of
 from .cases import cases_of_sides, standard_cases
 from .standing import Wheel, balanced
 
@@ -179,11 +180,11 @@ def _given(case: Case, poses: Poses) -> Array:
 
 def with_shared(axle: Axle, found: xr.Dataset, over: str, torques: Array) -> xr.Dataset:
     """Return loads with the torque of the bar and the force of the steering told."""
-    axis = np.array(axle.right.rack.axis) / np.linalg.norm(axle.right.rack.axis)
-    (row,) = np.flatnonzero((found["part"] == RACK) & (found["by"] == STEERING))
-    force = found["force"].values[:, row] @ axis
-    words = "force of the steering on the rack along its axis"
-    found["rack_force"] = variable(over, force, words, "N")
+    if axle.steered():
+        (row,) = np.flatnonzero((found["part"] == RACK) & (found["by"] == STEERING))
+        force = found["force"].values[:, row] @ unit_vector(axle.right.rack.axis)
+        words = "force of the steering on the rack along its axis"
+        found["rack_force"] = variable(over, force, words, "N")
     if axle.halves:
         words = (
             "torque of the anti-roll bar, positive with the left half turned the farther, "
@@ -191,4 +192,4 @@ def with_shared(axle: Axle, found: xr.Dataset, over: str, torques: Array) -> xr.
         )
         found["bar_torque"] = variable(over, torques, words, "N m")
     rules = [rule for side in axle.sides.values() for rule in side.structure().rules]
-    return found.assign_attrs(rules="; ".join(dict.fromkeys([*rules, *RULES])))
+    return found.assign_attrs(rules="; ".join(dict.fromkeys([*rules, *rules_of(axle)])))

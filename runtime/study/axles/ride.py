@@ -90,7 +90,8 @@ def equilibrium(
         for side, corner in corners.items()
     }
     road_heights = {f"{side}_road_height": height for side, height in roads.items()}
-    held = model.inputs({**further, "rack_position": rack, **road_heights})
+    of_rack = {"rack_position": rack} if model.axle.steered() else {}
+    held = model.inputs({**further, **of_rack, **road_heights})
     arm = corners[RIGHT].names.arm
     arms = [model.state_names.index(f"{side}_{arm}") for side in corners]
 
@@ -171,7 +172,7 @@ def run(
     first = dict(zip(model.input_names, courses.at(0.0, courses.segments[0]), strict=True))
     start = equilibrium(
         model,
-        rack_position=float(first["rack_position"]),
+        rack_position=float(first.get("rack_position", 0.0)),
         road_height={side: float(first[f"{side}_road_height"]) for side in (LEFT, RIGHT)},
         spin_rate=scenario.spin_rate,
         inputs={name: float(first[name]) for name in inputs if name.endswith(tuple(UNITS))},

@@ -63,6 +63,7 @@ def _display(units: str) -> Display:
 
 
 _GROUND = ("tyre_radius",)
+_STEERED = ("steered",)
 _BRAKING = ("tyre_radius", "wheelbase", "center_of_gravity_height", "front_brake_share")
 
 CORNER = (
@@ -113,6 +114,7 @@ CORNER = (
         "inclination of the steering axis in side view, atan2(-k_x, k_z)",
         "positive with the top rearward",
         wheel.caster,
+        _STEERED,
     ),
     Quantity(
         "caster_gradient",
@@ -121,6 +123,7 @@ CORNER = (
         "derivative of caster by wheel travel",
         "positive when caster grows in bump",
         wheel.caster_gradient,
+        _STEERED,
     ),
     Quantity(
         "kingpin_inclination",
@@ -129,6 +132,7 @@ CORNER = (
         "inclination of the steering axis in front view, atan2(-s k_y, k_z)",
         "positive with the top inboard",
         wheel.kingpin_inclination,
+        _STEERED,
     ),
     Quantity(
         "trail",
@@ -137,7 +141,7 @@ CORNER = (
         "from the contact to where the steering axis meets the ground, along the wheel",
         "positive with the axis ahead of the contact",
         wheel.trail,
-        _GROUND,
+        (*_STEERED, *_GROUND),
     ),
     Quantity(
         "steering_axis_offset",
@@ -146,7 +150,7 @@ CORNER = (
         "from the contact to where the steering axis meets the ground, across the wheel",
         "positive with the axis inboard of the contact",
         wheel.steering_axis_offset,
-        _GROUND,
+        (*_STEERED, *_GROUND),
     ),
     Quantity(
         "scrub_radius",
@@ -155,7 +159,7 @@ CORNER = (
         "distance of the contact from where the steering axis meets the ground (ISO 8855)",
         "without sign; the signed lateral part is the steering-axis offset at ground",
         wheel.scrub_radius,
-        _GROUND,
+        (*_STEERED, *_GROUND),
     ),
     Quantity(
         "hub_trail",
@@ -164,6 +168,7 @@ CORNER = (
         "from the wheel centre to the steering axis at its height, along the wheel",
         "positive with the axis ahead of the wheel centre",
         wheel.hub_trail,
+        _STEERED,
     ),
     Quantity(
         "spindle_offset",
@@ -172,6 +177,7 @@ CORNER = (
         "from the wheel centre to the steering axis at its height, across the wheel",
         "positive with the axis inboard of the wheel centre",
         wheel.spindle_offset,
+        _STEERED,
     ),
     Quantity(
         "half_track_change",
@@ -194,7 +200,7 @@ CORNER = (
         "arm_rotation",
         "rad",
         "arm rotation",
-        "rotation of the lower control arm (of five links: of a height sensor) from design",
+        "rotation of the arm, the lower of two (of five links: of a height sensor), from design",
         "positive with the wheel up",
         lambda corner: corner.arm_rotation,
     ),

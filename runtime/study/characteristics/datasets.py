@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from ...core.arguments import Arguments
 from ...suspension.corner import Array, Corner
+from ...suspension.kinds import Suspension
 from ...suspension.model import Model
 from ...suspension.positions import arm_angles, design_height
 from ..sweep import usual_rack, usual_travel
@@ -38,6 +39,33 @@ KNOWN: dict[str, dict[str, Quantity]] = {
     "rack": {q.name: q for q in (*catalogue.CORNER, *catalogue.STEERING, *catalogue.AXLE.values())},
 }
 """Characteristics by name, over wheel travel and over the rack."""
+
+
+_OF_STEERING = {
+    q.name
+    for known in KNOWN.values()
+    for q in known.values()
+    if "steered" in q.needs or q.name not in KNOWN["travel"]
+}
+
+
+def refuse_of_steering(suspension: Suspension, names: Iterable[str]) -> None:
+    """Refuse characteristics that have no meaning for a wheel that nothing steers.
+
+    Parameters
+    ----------
+    suspension : Suspension
+    names : iterable of str
+        What somebody asked for; names that nothing has are left to others.
+
+    Raises
+    ------
+    InputError
+        If it has no rack and one of them needs it.
+    """
+    for name in names:
+        if isinstance(name, str) and name in _OF_STEERING:
+            suspension.refuse_without_rack(name)
 
 
 def travel(
@@ -84,7 +112,8 @@ def travel(
             travel = given.array("travel", travel, "m", dimensions=[1])
     travels = usual_travel(model, rack=rack_position) if travel is None else travel
     data = over_travel(model, travels, rack_position)
-    return _dataset(data, TRAVEL, travels, {RACK: rack_position})
+    held = {RACK: rack_position} if model.suspension.steered() else {}
+    return _dataset(data, TRAVEL, travels, held)
 
 
 def steering(model: Model, rack: ArrayLike | None = None, *, travel: float = 0.0) -> xr.Dataset:
@@ -142,6 +171,7 @@ def over_rack(
     model: Model, racks: Array, travel: float = 0.0, names: Container[str] | None = None
 ) -> dict[Quantity, Array]:
     """Return characteristics over rack travel without labels, all or some; see `steering`."""
+    model.suspension.refuse_without_rack("characteristics over the rack")
     own = _at_height(model, travel, racks)
     found = _evaluated(_chosen(catalogue.CORNER + catalogue.STEERING, names), own)
     if _chosen(catalogue.AXLE.values(), names):

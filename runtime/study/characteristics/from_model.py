@@ -3,6 +3,8 @@
 It is exact: nothing is differenced but, where a steering axis is that of the motion, its rate.
 """
 
+from functools import cached_property
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -38,7 +40,7 @@ def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -
     states, inputs = at_rest(model, arm_angle, rack_position)
     pose = _Pose(model, states, inputs)
     points, travel = pose.points, pose.travel
-    turned = model.evaluate("orientations", states, inputs)[..., pose.knuckle, :, :]
+    turned = model.evaluate("orientations", states, inputs)[..., pose.carrier, :, :]
     at_design = design_axis(model.suspension)
     strokes = _strokes(model, states, inputs)
     return Corner(
@@ -47,9 +49,9 @@ def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -
         design_center=model.suspension.hardpoints.metres("wheel_center"),
         axis=turned @ at_design,
         design_axis=at_design,
-        steering_axis=_steering_axis(pose),
+        steering_axis=_steering_axis(pose) if kind.steered() else None,
         travel=travel,
-        steering=pose.steering,
+        steering=pose.steering if kind.steered() else None,
         links=kind.links_at(points, travel),
         spring=kind.spring_at(strokes),
         stops=kind.stops_at(strokes),
@@ -88,7 +90,7 @@ def vehicle(suspension: Suspension) -> Vehicle:
     -------
     Vehicle
     """
-    given = suspension.vehicle
+    given, steered = suspension.vehicle, suspension.steered()
     return Vehicle(
         side=given.sign,
         tyre_radius=suspension.tyre_radius(),
@@ -96,7 +98,8 @@ def vehicle(suspension: Suspension) -> Vehicle:
         wheelbase=_metres(given.wheelbase_mm),
         center_of_gravity_height=_metres(given.center_of_gravity_height_mm),
         front_brake_share=given.front_brake_share,
-        travel_per_turn=_metres(suspension.rack.travel_per_turn_mm),
+        travel_per_turn=_metres(suspension.rack.travel_per_turn_mm) if steered else None,
+        steered=True if steered else None,
     )
 
 
@@ -120,11 +123,19 @@ class _Pose:
     def __init__(self, model: Model, states: Array, inputs: Array) -> None:
         self.model, self.states, self.inputs = model, states, inputs
         self.points = hardpoints(model, states, inputs)
-        self.knuckle: int = model.equations.BODIES.index("knuckle")
+        self.carrier: int = model.equations.BODIES.index(model.suspension.carrier)
         self.by_arm = self._motion("arm")
         self.travel = self.by_arm.per(self.by_arm.velocity[..., 2])
-        self.by_rack = self._motion("rack")
-        self.steering = self.by_rack.minus(self.travel, self.by_rack.velocity[..., 2])
+
+    @cached_property
+    def by_rack(self) -> Motion:
+        """The motion for a unit rate of the rack, the arm held."""
+        return self._motion("rack")
+
+    @property
+    def steering(self) -> Motion:
+        """The motion per unit of rack travel, the wheel centre held at its height."""
+        return self.by_rack.minus(self.travel, self.by_rack.velocity[..., 2])
 
     def steering_with_spring_locked(self) -> Motion:
         """Return the motion per unit of rack travel with the spring's length held.
@@ -143,9 +154,9 @@ class _Pose:
         """Return the motion for a unit rate of the arm angle, or of the rack, the other held."""
         model = self.model
         states, inputs = self._at_unit_rate(what)
-        twist = model.evaluate("velocities", states, inputs)[..., self.knuckle, :]
+        twist = model.evaluate("velocities", states, inputs)[..., self.carrier, :]
         turning, velocity = twist[..., :3], twist[..., 3:]
-        origin = model.evaluate("positions", states, inputs)[..., self.knuckle, :]
+        origin = model.evaluate("positions", states, inputs)[..., self.carrier, :]
         arm = self.points["wheel_center"] - origin
         return Motion(velocity + np.cross(turning, arm), turning)
 

@@ -7,7 +7,7 @@ instant centre far away) becomes infinite there.
 
 import numpy as np
 
-from ...suspension.corner import UP, Array, Corner, Motion
+from ...suspension.corner import UP, Array, Corner, Motion, SteeringAxis
 
 # -- angles of the wheel --------------------------------------------------------------------------
 
@@ -41,6 +41,7 @@ def bump_steer(corner: Corner) -> Array:
 
 def steer_gradient(corner: Corner) -> Array:
     """Return the derivative of the steer angle by rack travel, wheel height held [rad/m]."""
+    assert corner.steering is not None
     turned = _turned_axis(corner, corner.steering)
     rate = _angle_rate(_toe_sides(corner, corner.axis), _toe_sides(corner, turned))
     return -corner.vehicle.side * rate
@@ -56,7 +57,7 @@ def caster(corner: Corner) -> Array:
 
 def caster_gradient(corner: Corner) -> Array:
     """Return the derivative of caster by wheel travel [rad/m]."""
-    axis, rate = _steering_axis(corner), corner.steering_axis.rate
+    axis, rate = _steering_axis(corner), _steered_about(corner).rate
     return _angle_rate(_caster_sides(axis), _caster_sides(rate))
 
 
@@ -256,13 +257,19 @@ def contact_velocity(corner: Corner) -> Array:
     return motion.velocity + np.cross(motion.turning, contact(corner) - corner.center)
 
 
+def _steered_about(corner: Corner) -> SteeringAxis:
+    assert corner.steering_axis is not None  # what needs it is left out where there is none
+    return corner.steering_axis
+
+
 def _steering_axis(corner: Corner) -> Array:
-    return corner.steering_axis.upper - corner.steering_axis.lower
+    axis = _steered_about(corner)
+    return axis.upper - axis.lower
 
 
 def _offsets(corner: Corner, point: Array) -> tuple[Array, Array]:
     """Return where the steering axis passes a point at its height: ahead and inboard."""
-    axis, lower = _steering_axis(corner), corner.steering_axis.lower
+    axis, lower = _steering_axis(corner), _steered_about(corner).lower
     rise = (point - lower)[..., 2:] / axis[..., 2:]
     away = lower + rise * axis - point
     heading = _heading(corner)

@@ -201,7 +201,7 @@ def _inertia_at_design(poses: Poses, part: str) -> Array:
 def _rates_of_twists(model: Model, states: Array, inputs: Array, by_time: Array) -> Array:
     """Return the rates of the parts' angular and linear velocities along the motion."""
     inputs_by_time = np.zeros_like(inputs)
-    if not model.free_rack:
+    if model.suspension.steered() and not model.free_rack:
         names = ("rack_position", *rates_of("rack_position", model.equations.INPUTS))
         position, velocity, acceleration = (model.input_names.index(name) for name in names)
         inputs_by_time[:, position] = inputs[:, velocity]

@@ -120,10 +120,10 @@ class _Side:
             spring, stops = _compliance_of_lines(there)
             self.energy += _energy(forces.spring, spring[:, None, None])
         by_point = {bush.point: bush for bush in wheel.bushes}
-        axis = unit_vector(poses.model.suspension.rack.axis)
         structure = poses.model.suspension.structure()
         for joint, carried in zip(structure.joints, forces.carried, strict=True):
             if joint.first == "rack":
+                axis = unit_vector(poses.model.suspension.rack.axis)
                 self.on_rack -= np.einsum("c,nkcu->nku", axis, carried[:, :, :3])
             self.energy += _of_joint(joint, carried, by_point, poses)
         if forces.stopped:

@@ -49,7 +49,7 @@ class Poses:
         centers = model.evaluate("positions", states, inputs)
         rotations = model.evaluate("orientations", states, inputs)
         turned = {name: rotations[..., i, :, :] for i, name in enumerate(bodies)}
-        axis = turned["knuckle"] @ design_axis(model.suspension)
+        axis = turned[model.suspension.carrier] @ design_axis(model.suspension)
         points = hardpoints(model, states, inputs)
         radius = vehicle(model.suspension).tyre_radius
         if radius is not None:

@@ -202,7 +202,9 @@ def dataset_of_cases(
     loads = {suffix: stand.loads for suffix, stand in stands.items()}
     found = dataset_of(CASE, *joined(poses, loads, between))
     racks = np.array([cases[i].rack for i in carried])
-    described = {"rack": (racks, "displacement of the rack", "m")} | {
+    steered = next(iter(sides.values())).model.suspension.steered()
+    of_rack = {"rack": (racks, "displacement of the rack", "m")} if steered else {}
+    described = of_rack | {
         f"{name}{suffix}": (values, f"{words}{suffix.replace('_', ', ')}", unit)
         for suffix, stand in stands.items()
         for name, (values, words, unit) in stand.told.items()

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ...core.arguments import Arguments
 from ...suspension.kinds import Suspension
 from ...suspension.model import Model
-from ..characteristics.datasets import ALONG, over_rack, over_travel
+from ..characteristics.datasets import ALONG, over_rack, over_travel, refuse_of_steering
 from ..loads.compliance import COMPLIANCES, compliance
 from ..loads.flexibility import HELD, Held
 from ..sweep import usual_rack, usual_travel
@@ -118,6 +118,8 @@ def curves_of(
         positions = given.array("positions", positions, "m", dimensions=[1])
     if given.refused:
         return Curves("travel", np.zeros(1), ())
+    if isinstance(names, list | tuple):
+        refuse_of_steering(suspension, names)
     model = model_of(suspension)
     if positions is None:
         positions = (usual_travel if over == "travel" else usual_rack)(model)

@@ -12,7 +12,7 @@ from ...core.arguments import Arguments
 from ...core.quantities import display_of
 from ...suspension.input.toml_file import read_sections
 from ...suspension.kinds import Suspension
-from ..characteristics.datasets import KNOWN
+from ..characteristics.datasets import KNOWN, refuse_of_steering
 from ..loads.flexibility import HELD
 from .curves import Curves, Over, Way, model_of, there
 
@@ -122,6 +122,7 @@ def check_data(given: Arguments, suspension: Suspension, goals: Iterable[Goal]) 
     model = model_of(suspension)
     for goal in goals:
         name = f"{goal.name} over {'travel' if goal.over in HELD else goal.over}"
+        refuse_of_steering(suspension, [goal.name])
         if goal.name not in there(model, goal.over):
             given.refuse(
                 f"{name}: the file has not the data that this needs, see [vehicle], [rack], "

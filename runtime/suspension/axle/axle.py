@@ -16,6 +16,7 @@ from ..bushes import RACK
 from ..data import data_sets, find
 from ..input.messages import messages_of
 from ..input.toml_file import read_toml
+from ..input.vectors import unit_vector
 from ..kinds import Suspension
 from ..model import Model
 from .bar import AntiRollBar, HalfBar
@@ -36,14 +37,14 @@ _OF_THE_VEHICLE = (
     ("vehicle", "wheelbase_mm"),
     ("vehicle", "center_of_gravity_height_mm"),
     ("vehicle", "front_brake_share"),
-    ("rack", "travel_per_turn_mm"),
     ("gravity", "acceleration_m_per_s2"),
 )
+_OF_THE_RACK = (("rack", "travel_per_turn_mm"),)
 
 
 @dataclass(frozen=True)
 class Axle:
-    """Two suspensions on one rack, with an anti-roll bar. Immutable.
+    """Two suspensions on one rack, if they have one, with an anti-roll bar. Immutable.
 
     Make one with `load` or `from_dict`.
 
@@ -177,6 +178,10 @@ class Axle:
             return {}
         return {side: self.bar.half(mirrored=side != self.bar_side) for side in self.sides}
 
+    def steered(self) -> bool:
+        """Tell whether its wheels can be steered: whether there is a rack."""
+        return self.right.steered()
+
     def heading(self) -> str:
         """Return what the axle is called."""
         kinds = " and ".join(dict.fromkeys(side.TITLE for side in self.sides.values()))
@@ -258,11 +263,13 @@ def _problems_of_sides(axle: Axle) -> list[str]:
             f"right is a {axle.right.TITLE} and left a {axle.left.TITLE}: both sides of an axle "
             "are of one kind."
         )
-    axes = [
-        np.array(side.rack.axis) / np.linalg.norm(side.rack.axis)
-        for side in (axle.right, axle.left)
-    ]
-    if np.abs(axes[0] - axes[1]).max() > _SAME_AXIS:
+    steered = axle.right.steered() and axle.left.steered()
+    if axle.steering is not None and not steered:
+        problems.append(
+            f"[steering]: a {axle.right.TITLE} has no rack, and nothing steers its wheel. Remove "
+            "that section."
+        )
+    if steered and _apart(axle):
         problems.append(
             f"[rack] axis is {list(axle.right.rack.axis)} of the right side and "
             f"{list(axle.left.rack.axis)} of the left: they have one rack. Make them equal."
@@ -278,7 +285,8 @@ def _problems_of_sides(axle: Axle) -> list[str]:
             f"[bushings.{RACK}] differs in the files of both sides: they have one rack. Make them "
             "equal."
         )
-    for section, key in _OF_THE_VEHICLE:
+    of_both = [*_OF_THE_VEHICLE, *(_OF_THE_RACK if steered else ())]
+    for section, key in of_both:
         right, left = (getattr(getattr(s, section), key) for s in (axle.right, axle.left))
         if right != left:
             problems.append(
@@ -286,6 +294,12 @@ def _problems_of_sides(axle: Axle) -> list[str]:
                 f"{_told(left)} in that of the left: they have one of it. Make them equal."
             )
     return problems
+
+
+def _apart(axle: Axle) -> bool:
+    """Tell whether the racks of both sides go different ways."""
+    right, left = (unit_vector(side.rack.axis) for side in (axle.right, axle.left))
+    return bool(np.abs(right - left).max() > _SAME_AXIS)
 
 
 def _told(value: float | None) -> str:

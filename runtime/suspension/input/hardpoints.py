@@ -28,8 +28,8 @@ Pair = tuple[str, str]
 class Hardpoints(Section):
     """The points that define a suspension, at the design position.
 
-    Any suspension has ``wheel_center``, ``tie_rod_outer`` and ``tie_rod_inner``. All points are in
-    chassis axes (ISO 8855: x forward, y left, z up), in the unit that `unit` names.
+    Any suspension has ``wheel_center``, a steered one ``tie_rod_outer`` and ``tie_rod_inner``. All
+    points are in chassis axes (ISO 8855: x forward, y left, z up), in the unit that `unit` names.
 
     Attributes
     ----------

@@ -74,7 +74,7 @@ export class Mechanism extends Group {
     this.linkage = new Linkage(data.linkage);
     this.linkage.build(this);
     this.#buildKnuckle();
-    this.#buildSteering();
+    if (data.steered) this.#buildSteering();
     this.wheel = this.#buildWheel(data.tyre);
     this.pad = this.#solid("pad", new BoxGeometry(0.46, 0.34, 0.012));
     this.axis = this.#line("axis", 2);
@@ -102,7 +102,7 @@ export class Mechanism extends Group {
   pose(points, spinAxis, spin, roadHeight) {
     this.linkage.pose(this, points);
     this.#poseKnuckle(points);
-    this.#poseSteering(points);
+    if (this.data.steered) this.#poseSteering(points);
     this.#poseWheel(points.wheel_center, spinAxis, spin);
     this.pad.position.set(points.wheel_center.x, points.wheel_center.y, roadHeight - 0.006);
     this.#poseSteeringAxis(this.linkage.steeringAxis(points), roadHeight);
@@ -166,7 +166,8 @@ export class Mechanism extends Group {
   }
 
   #buildKnuckle() {
-    this.buildBars(["upright", "spindle", "lower_web", "steering_arm"], "knuckle");
+    this.buildBars(["upright", "spindle", "lower_web"], "knuckle");
+    if (this.data.steered) this.buildBars(["steering_arm"], "knuckle");
     this.#solids.spindle.userData.radius = 0.021;
     this.#joint("hub", "knuckle", 0.034);
   }
@@ -255,7 +256,7 @@ export class Mechanism extends Group {
     this.poseBar("upright", foot, head);
     this.poseBar("spindle", middle, points.wheel_center);
     this.poseBar("lower_web", foot, points.wheel_center);
-    this.poseBar("steering_arm", middle, points.tie_rod_outer);
+    if (this.data.steered) this.poseBar("steering_arm", middle, points.tie_rod_outer);
     this.#solids.hub.position.copy(points.wheel_center);
   }
 

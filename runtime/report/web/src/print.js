@@ -24,9 +24,10 @@ export function connectPrinting({ view, charts, position }) {
 
 function showPicture(view, { travel, rack, time, byHand }) {
   const place = (value) => quantity(value * 1e3, 1, "mm", { signed: true });
+  const steered = !document.getElementById("rack").closest("[hidden]");
   const when = byHand ? "" : `, ${quantity(time, 3, "s")} after the release`;
   document.getElementById("picture-position").textContent =
-    `Wheel travel ${place(travel)}, rack displacement ${place(rack)}${when}.`;
+    `Wheel travel ${place(travel)}${steered ? `, rack displacement ${place(rack)}` : ""}${when}.`;
   const image = document.getElementById("picture");
   image.hidden = view === null;
   if (view) image.src = view.picture(PICTURE);

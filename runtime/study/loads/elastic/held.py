@@ -62,6 +62,8 @@ def _carried_at_design(model: Model) -> dict[tuple[str, str, str], Array]:
         )
         for which, point in enumerate(joint.at)
     }
+    if not model.suspension.steered():
+        return found
     # the guide of the rack holds what the tie rod does to it
     on_tie_rod = found[RACK, "tie_rod", "tie_rod_inner"]
     return found | {(GROUND, RACK, "tie_rod_inner"): on_tie_rod}
