@@ -71,7 +71,7 @@ def solver_extension() -> Extension | None:
     headers, linked = _mpi_flags(prefix / "include")
     return Extension(
         "kintrafo.simulation.native._sundials",
-        [(NATIVE / name).as_posix() for name in ("_sundials.pyx", "integrate.c", "margins.c")],
+        [path.as_posix() for path in (NATIVE / "_sundials.pyx", *sorted(NATIVE.glob("[!_]*.c")))],
         include_dirs=[NATIVE.as_posix(), (prefix / "include").as_posix()],
         library_dirs=homes,
         # found again when the module is imported, wherever they are

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from kintrafo import simulate, state_at_height
 from kintrafo.simulation.dead_points import meanings
-from kintrafo.simulation.solvers import SUNDIALS_METHODS, sundials
+from kintrafo.simulation.solvers import NATIVE_METHODS, sundials
 from kintrafo.study.paper import (
     DURATION,
     OUTPUT_INTERVAL,
@@ -133,7 +133,7 @@ def native_call(
             np.zeros(0),  # milestones
             case.start,
             times,
-            method=SUNDIALS_METHODS[method],
+            method=NATIVE_METHODS[method],
             rtol=rtol,
             atol=atol,
             first_step=0.0,

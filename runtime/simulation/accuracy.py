@@ -57,7 +57,7 @@ def accuracy_of(
         absolute = np.ones(())
     return Accuracy(
         rtol=given.number("rtol", rtol, least=_SMALLEST_RTOL, below=1.0, advice="Try 1e-6."),
-        atol=np.broadcast_to(absolute, size).copy(),
+        atol=np.full(size, absolute),
         max_step=given.step("max_step", max_step, "s"),
         first_step=None if first_step is None else given.number(
             "first_step", first_step, "s", above=0.0
@@ -82,7 +82,7 @@ def outputs_of(given: Arguments, t_eval: Any, span: tuple[float, float]) -> Arra
         return times
     sign = np.sign(span[1] - span[0])
     inside = sign * times[0] >= sign * span[0] and sign * times[-1] <= sign * span[1]
-    if not (inside and (sign * np.diff(times) > 0.0).all()):
+    if not (inside and (sign * (times[1:] - times[:-1]) > 0.0).all()):
         given.refuse(
             f"t_eval: times from {span[0]:g} s to {span[1]:g} s are needed, in that order, each of "
             "them once."

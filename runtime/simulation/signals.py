@@ -146,7 +146,7 @@ def time_inputs(
     TimeInputs
     """
     names, inputs = model.input_names, model.equations.INPUTS
-    derived = derived_inputs(inputs)
+    derived = derived_inputs(inputs) if signals else {}
     with Arguments("inputs") as given:
         given.mapping("inputs", {} if signals is None else signals, "input names, what they do")
     collected = _Collected(np.zeros(len(names)) if held is None else held.copy())
@@ -190,6 +190,8 @@ def _segments(
 ) -> tuple[Segment, ...]:
     """Cut the time where the integration begins anew, and give each part its splines."""
     first, last = (float(t) for t in t_span)
+    if not collected.curves:
+        return (Segment(first, last, (), np.empty(0)),)
     backward = last < first
     inside = (t for t in collected.borders if min(t_span) < t < max(t_span))
     borders = [first, *sorted(inside, reverse=backward), last]

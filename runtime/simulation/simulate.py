@@ -20,11 +20,12 @@ from .result import DenseOutput, Signals, Simulation, SimulationError
 from .signals import Segment, TimeInputs, time_inputs
 from .solvers import (
     SCIPY_METHODS,
-    SUNDIALS_METHODS,
+    NATIVE_METHODS,
     Options,
     Piece,
     native_available,
     native_methods,
+    native_name,
     native_version,
     solve_native,
     solve_scipy,
@@ -78,9 +79,9 @@ def simulate(
         cubics of SciPy, or functions of time; see Notes. Others stay as they are in the state, if
         it comes from `equilibrium` or `state_at_height`, or else zero.
     method : str, optional
-        'BDF' (Gear's formulas) or 'Adams'; Runge-Kutta 'Verner' (8 stages, order 6),
-        'DormandPrince' or 'Tsitouras' (order 5); or SciPy's 'Radau', 'LSODA', 'RK45', 'DOP853'.
-        Implicit methods use the exact Jacobian.
+        'BDF' (Gear's formulas) or 'Adams'; Runge-Kutta 'DormandPrince' (order 5, as in
+        `ensemble`), 'Tsitouras' (order 5) or 'Verner' (8 stages, order 6); or SciPy's 'Radau',
+        'LSODA', 'RK45', 'DOP853'. Implicit methods use the exact Jacobian.
     t_eval : array_like, optional
         Times of the output; every step by default. As in SciPy, the point of a terminal event is in
         ``t_events`` and not in the output then.
@@ -99,9 +100,10 @@ def simulate(
         signal and a level; or a function of time and state with SciPy's attributes ``terminal``
         and ``direction``.
     stop_at_outputs : bool, optional
-        Whether to step onto every output time instead of interpolating. SUNDIALS only.
+        Whether to step onto every output time instead of interpolating. Not by SciPy.
     backend : str, optional
-        'sundials', 'scipy', or 'auto': SUNDIALS where it has the method and is built in.
+        'sundials' (all in C), 'scipy', or 'auto': the former where it has the method and is built
+        in.
 
     Returns
     -------
@@ -142,7 +144,7 @@ def simulate(
     usual = _TOLERANCE_OF_BDF if method == "BDF" else _TOLERANCE
     with Arguments("simulate") as arguments:
         arguments.kind("model", model, System, System.NEEDED)
-        arguments.among("method", method, SUNDIALS_METHODS | SCIPY_METHODS)
+        arguments.among("method", method, NATIVE_METHODS | SCIPY_METHODS)
         if not arguments.refused:
             state = _state(arguments, model, y0)
             span = span_of(arguments, t_span)
@@ -195,13 +197,13 @@ def _choose_backend(model: System, backend: Backend, options: Options) -> Callab
         return solve_native
     if backend == "sundials" or options.stop_at_outputs or method not in SCIPY_METHODS:
         raise InputError([_missing(method, compiled=compiled)], "simulate")
-    if backend == "auto" and method in SUNDIALS_METHODS and compiled:
+    if backend == "auto" and method in NATIVE_METHODS and compiled:
         _tell_once()
     return solve_scipy
 
 
 def _missing(method: str, *, compiled: bool) -> str:
-    if method not in SUNDIALS_METHODS:
+    if method not in NATIVE_METHODS:
         return f"method {method!r} is one of SciPy; SUNDIALS has {', '.join(native_methods())}."
     if not compiled:
         return (
@@ -372,7 +374,7 @@ class _Run:
             success=not failure,
             signals=Signals(self._model, y, inputs, failed=bool(failure)),
             sol=self._dense(),
-            solver=f"SUNDIALS {native_version()}" if native else "SciPy",
+            solver=native_name(self._options.method) if native else "SciPy",
             **self._crossings(),
             **counts,
         )

@@ -1,4 +1,4 @@
-"""The two solvers behind `simulate`: SUNDIALS in C, and SciPy.
+"""The solvers behind `simulate`: those in C, of SUNDIALS and our own, and SciPy.
 
 Both integrate one segment of time, in which the inputs are smooth, and return the same `Piece`.
 """
@@ -24,14 +24,16 @@ from .watched import watched
 
 Array = NDArray[np.float64]
 
-# Method name to what it is called in SUNDIALS: a multistep family, or a Butcher table.
-SUNDIALS_METHODS = {
+# Method name to what it is called in C: a multistep family or a Butcher table of SUNDIALS, or a
+# method of our own.
+NATIVE_METHODS = {
     "BDF": "BDF",
     "Adams": "Adams",
     "Verner": "ARKODE_VERNER_8_5_6",
-    "DormandPrince": "ARKODE_DORMAND_PRINCE_7_4_5",
+    "DormandPrince": "DormandPrince",
     "Tsitouras": "ARKODE_TSITOURAS_7_4_5",
 }
+_OF_OUR_OWN = ("DormandPrince",)
 _FIRST_WITH_TSITOURAS = (7, 3)
 # What stands in for them without SUNDIALS; those without an equivalent need it.
 SCIPY_METHODS = {
@@ -127,26 +129,31 @@ def native_version() -> str:
     return sundials.version() if native_available() else "none"
 
 
+def native_name(method: str) -> str:
+    """Return what integrates by a method in C."""
+    return "kintrafo" if method in _OF_OUR_OWN else f"SUNDIALS {native_version()}"
+
+
 def native_methods() -> tuple[str, ...]:
-    """Return the methods that the linked SUNDIALS has."""
+    """Return the methods that there are in C, with the SUNDIALS that is linked."""
     if not native_available():
         return ()
     release = tuple(int(part) for part in native_version().split(".")[:2])
     return tuple(
-        m for m in SUNDIALS_METHODS if m != "Tsitouras" or release >= _FIRST_WITH_TSITOURAS
+        m for m in NATIVE_METHODS if m != "Tsitouras" or release >= _FIRST_WITH_TSITOURAS
     )
 
 
-# What CVODE and ARKODE return, the arguments being checked, when an event's function stays at zero.
+# What solvers in C return, the arguments being checked, when an event's function stays at zero.
 _ILL_INPUT = -22
-# What both return when the step has become as small as it can be.
+# What they return when the step has become as small as it can be.
 _WHY = {
     -3: "its steps became too small, since the error stays too large",
     -4: "its steps became too small, since Newton's method does not converge",
 }
 
 
-# -- SUNDIALS -----------------------------------------------------------------------------------
+# -- in C ---------------------------------------------------------------------------------------
 
 
 def solve_native(
@@ -172,7 +179,7 @@ def solve_native(
         segment.milestones,
         np.ascontiguousarray(state),
         np.ascontiguousarray(times),
-        method=SUNDIALS_METHODS[options.method],
+        method=NATIVE_METHODS[options.method],
         rtol=options.rtol,
         atol=options.atol,
         first_step=options.first_step or 0.0,
@@ -203,7 +210,7 @@ def solve_native(
         refused_time=raw["refused_time"],
         refused_state=np.array(raw["refused_state"]),
         refused_guard=raw["refused_guard"] if raw["refused_guard"] >= 0 else None,
-        detail=_WHY.get(raw["code"], f"SUNDIALS {native_version()} returned {raw['code']}"),
+        detail=_WHY.get(raw["code"], f"{native_name(options.method)} returned {raw['code']}"),
     )
 
 
@@ -395,7 +402,7 @@ def _piece_of(
         counts=counts | {"steps": len(steps) - 1},
         reached_time=steps[-1][0],
         reached_state=steps[-1][1],
-        events=sorted(crossings, key=lambda c: c[1]),
+        events=sorted(crossings, key=lambda c: c[1], reverse=bool(result.t[-1] < result.t[0])),
         interpolants=interpolants,
         detail=str(result.message),
     )

@@ -4,13 +4,12 @@
 #ifndef KINTRAFO_CREW_H
 #define KINTRAFO_CREW_H
 
+#include "../native/dormand_prince.h"
 #include "ensemble.h"
 #include "vectors.h"
 
 typedef bits (*kt_prepare)(const real *parameters, real *out);
 typedef bits (*kt_function)(const real *constants, const real *state, const real *inputs, real *out);
-
-#define STAGES 7
 
 /* The piece of a course at which each lane is. */
 typedef struct {

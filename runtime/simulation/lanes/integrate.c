@@ -8,31 +8,6 @@
 
 #include <stdlib.h>
 
-/* The order of the estimate and one, and how much of the error before it counts (Hairer & Wanner). */
-#define OF_ERROR 0.17
-#define OF_ERROR_BEFORE 0.04
-#define SAFE 0.9
-#define MOST_SHORTER 0.2
-#define MOST_LONGER 10.0
-/* Part of the time below which a step is one of rounding. */
-#define ROUNDING 4.0e-16
-
-static const double NODES[STAGES] = {0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0};
-
-static const double TABLE[STAGES][STAGES - 1] = {
-    {0.0},
-    {0.2},
-    {3.0 / 40.0, 9.0 / 40.0},
-    {44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0},
-    {19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0},
-    {9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0},
-    {35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0},
-};
-
-static const double ERROR[STAGES] = {
-    71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -0.025,
-};
-
 /* -- systems that wait ------------------------------------------------------------------------ */
 
 /* Take over the parameters of some systems, one in each lane. */
@@ -242,8 +217,7 @@ static real first_step(const crew *w)
     const kt_problem *p = w->p;
     real size = mean_square(w, w->state);
     real rate = bounded_logarithm(mean_square(w, w->rates + (STAGES - 1) * p->state_count));
-    /* what an error of a hundredth of the tolerance would ask for, if it grew with the rates */
-    real step = exponential(0.2 * (-6.6438562 - 0.5 * rate));
+    real step = exponential(0.2 * (LOG2_FIRST - 0.5 * rate));
     real of_state = exponential(0.5 * (bounded_logarithm(size) - rate));
     step = lesser(step, choose(size > 1.0e-10, of_state, SPREAD(1.0e-4)));
     return lesser(step, SPREAD(p->end - p->start));
@@ -261,8 +235,7 @@ static real next_step(crew *w, real step, real error, bits good)
     real next = step * factor;
     /* a step that was shorter for its goal says nothing against the length that was planned */
     next = choose(good & ~w->again & (step < w->step), greater(next, w->step), next);
-    /* of an error below a part of 1e-4 of the tolerance nothing follows for the step after it */
-    w->error = choose(good, greater(now, SPREAD(-26.5754248)), w->error);
+    w->error = choose(good, greater(now, SPREAD(LOG2_LEAST_SQUARE)), w->error);
     return choose(w->running & ~w->fresh, next, w->step);
 }
 

@@ -29,13 +29,6 @@ static void begin_outputs(crew *w, int lane)
     }
 }
 
-/* Weights of the interpolant's fifth term, which makes it one of fourth order (Hairer & Wanner). */
-static const double DENSE[STAGES] = {
-    -12715105075.0 / 11282082432.0, 0.0, 87487479700.0 / 32700410799.0,
-    -10690763975.0 / 1880347072.0, 701980252875.0 / 199316789632.0, -1453857185.0 / 822651844.0,
-    69997945.0 / 29380423.0,
-};
-
 /* Find what the states within a step are interpolated by. */
 static void find_terms(crew *w, real step)
 {

@@ -89,8 +89,8 @@ OUTCOMES = (
     "done", "event", "state", "too_many_steps", "too_accurate", "caller", "bad_table", "memory",
     "failed",
 )
-METHODS = {"BDF": 0, "Adams": 1}
-RUNGE_KUTTA = 2
+METHODS = {"BDF": 0, "Adams": 1, "DormandPrince": 2}
+RUNGE_KUTTA = 3
 
 
 def version():

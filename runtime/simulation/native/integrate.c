@@ -1,40 +1,11 @@
-#include "integrate.h"
-#include "margins.h"
+/* What comes of the steps of a solver: outputs, events, dead points, and the end. */
 #include "pieces.h"
 #include "versions.h"
+#include "worker.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-
-#include <nvector/nvector_serial.h>
-#include <sunlinsol/sunlinsol_dense.h>
-#include <sunmatrix/sunmatrix_dense.h>
-
-/* What a call works with. The solver is CVODE for the multistep methods, ERKStep for the others. */
-typedef struct {
-    const kt_problem *problem;
-    const kt_options *options;
-    kt_result *result;
-    SUNContext context;
-    N_Vector y, tolerance, scratch;
-    SUNMatrix matrix;
-    SUNLinearSolver linear;
-    void *solver;
-    int runge_kutta, order; /* of the Runge-Kutta method */
-    double *inputs, *jacobian, *signals;
-    int *piece;        /* of each spline: where it was evaluated last */
-    int *crossings;    /* of each event */
-    int *found;        /* root information of the solver */
-    int caller_failed;
-    kt_margins margins;
-    double *moved;       /* a state a short time later */
-    double start, end;   /* of the whole time */
-    double longest_step; /* so far */
-    int stuck;           /* very short steps in a row */
-    clock_t asked;       /* when the caller was asked last whether to go on */
-} worker;
 
 const char *kt_version(void) { return SUNDIALS_VERSION; }
 
@@ -67,7 +38,7 @@ static int append_state(kt_table *table, double time, const double *state, int c
 
 /* -- inputs ----------------------------------------------------------------------------------- */
 
-static void evaluate_inputs(worker *w, double time)
+void kt_evaluate_inputs(worker *w, double time)
 {
     for (int i = 0; i < w->problem->spline_count; ++i) {
         const kt_spline *s = &w->problem->splines[i];
@@ -88,7 +59,7 @@ static void evaluate_inputs(worker *w, double time)
     }
 }
 
-/* -- callbacks -------------------------------------------------------------------------------- */
+/* -- the model -------------------------------------------------------------------------------- */
 
 /* A refused state is recoverable: the solver tries a smaller step, and gives up by itself. */
 static int refuse(worker *w, int status, double time, const double *state)
@@ -100,43 +71,29 @@ static int refuse(worker *w, int status, double time, const double *state)
     return 1;
 }
 
-static int call_rhs(sunrealtype time, N_Vector y, N_Vector derivative, void *data)
+int kt_rates(worker *w, double time, const double *state, double *out)
 {
-    worker *w = data;
-    const double *state = N_VGetArrayPointer(y);
-    evaluate_inputs(w, time);
-    int status = w->problem->rhs(w->problem->constants, state, w->inputs,
-                                 N_VGetArrayPointer(derivative));
+    const kt_problem *p = w->problem;
+    kt_evaluate_inputs(w, time);
+    int status = p->rhs(p->constants, state, w->inputs, out);
     return status ? refuse(w, status, time, state) : 0;
 }
 
-static int call_jacobian(sunrealtype time, N_Vector y, N_Vector derivative, SUNMatrix matrix,
-                         void *data, N_Vector t1, N_Vector t2, N_Vector t3)
+int kt_jacobian(worker *w, double time, const double *state, double *out)
 {
-    (void)derivative, (void)t1, (void)t2, (void)t3;
-    worker *w = data;
-    int n = w->problem->state_count;
-    const double *state = N_VGetArrayPointer(y);
-    evaluate_inputs(w, time);
-    int status = w->problem->jacobian(w->problem->constants, state, w->inputs, w->jacobian);
-    if (status) {
-        return refuse(w, status, time, state);
-    }
-    for (int i = 0; i < n; ++i) {
-        for (int j = 0; j < n; ++j) {
-            SM_ELEMENT_D(matrix, i, j) = w->jacobian[n * i + j]; /* SUNDIALS is column-major */
-        }
-    }
-    return 0;
+    const kt_problem *p = w->problem;
+    kt_evaluate_inputs(w, time);
+    int status = p->jacobian(p->constants, state, w->inputs, out);
+    return status ? refuse(w, status, time, state) : 0;
 }
 
-static int call_roots(sunrealtype time, N_Vector y, sunrealtype *out, void *data)
+int kt_root_count(const worker *w) { return w->problem->event_count + w->problem->root_count; }
+
+int kt_roots(worker *w, double time, const double *state, double *out)
 {
-    worker *w = data;
     const kt_problem *p = w->problem;
-    const double *state = N_VGetArrayPointer(y);
     if (p->event_count) {
-        evaluate_inputs(w, time);
+        kt_evaluate_inputs(w, time);
         int status = p->signals(p->constants, state, w->inputs, w->signals);
         if (status) {
             refuse(w, status, time, state);
@@ -153,199 +110,52 @@ static int call_roots(sunrealtype time, N_Vector y, sunrealtype *out, void *data
     return 0;
 }
 
-/* -- vectors ---------------------------------------------------------------------------------- */
-
-/*
- * The sum of products that every stage of a Runge-Kutta method begins with, in the order of SUNDIALS and
- * so with the same bits. SUNDIALS keeps the sums in memory, and Debian's package of it is not optimised.
- */
-static int combine(int count, sunrealtype *factors, N_Vector *vectors, N_Vector out)
-{
-    for (sunindextype j = 0; j < NV_LENGTH_S(out); ++j) {
-        sunrealtype sum = factors[0] * NV_Ith_S(vectors[0], j);
-        for (int i = 1; i < count; ++i) {
-            sum += factors[i] * NV_Ith_S(vectors[i], j);
-        }
-        NV_Ith_S(out, j) = sum;
-    }
-    return 0;
-}
-
-/* Return a new vector; its clones have the same operations. */
-static N_Vector new_vector(sunindextype length, SUNContext context)
-{
-    N_Vector vector = N_VNew_Serial(length, context);
-    if (vector) {
-        N_VEnableFusedOps_Serial(vector, SUNTRUE);
-        vector->ops->nvlinearcombination = combine;
-    }
-    return vector;
-}
-
 /* -- setting up ------------------------------------------------------------------------------- */
 
-static int set_up_cvode(worker *w, double start)
-{
-    const kt_options *o = w->options;
-    w->solver = CVodeCreate(o->method == KT_BDF ? CV_BDF : CV_ADAMS, w->context);
-    if (!w->solver) {
-        return KT_MEMORY;
-    }
-    silence_cvode(w->solver);
-    int n = w->problem->state_count, roots = w->problem->event_count + w->problem->root_count;
-    w->matrix = SUNDenseMatrix(n, n, w->context);
-    w->linear = w->matrix ? SUNLinSol_Dense(w->y, w->matrix, w->context) : NULL;
-    if (!w->linear) {
-        return KT_MEMORY;
-    }
-    double sign = w->end > w->start ? 1.0 : -1.0;
-    int bad = CVodeInit(w->solver, call_rhs, start, w->y)
-        || CVodeSetUserData(w->solver, w)
-        || CVodeSVtolerances(w->solver, o->rtol, w->tolerance)
-        || CVodeSetLinearSolver(w->solver, w->linear, w->matrix)
-        || CVodeSetJacFn(w->solver, call_jacobian)
-        || CVodeSetMaxNumSteps(w->solver, -1)
-        || (o->first_step > 0.0 && CVodeSetInitStep(w->solver, sign * o->first_step))
-        || (o->max_step > 0.0 && CVodeSetMaxStep(w->solver, o->max_step))
-        || (roots && CVodeRootInit(w->solver, roots, call_roots))
-        || (roots && CVodeSetRootDirection(w->solver, (int *)w->problem->directions))
-        || (roots && CVodeSetNoInactiveRootWarn(w->solver));
-    return bad ? KT_FAILED : KT_DONE;
-}
-
-/*
- * ERKStep of SUNDIALS 6.4 takes every method whose last stage is at the end of the step for one whose
- * last stage is the first of the next step. Where that is not so, an added stage makes it so: it
- * is at the step's end, with no weight. The method stays the same, and evaluates as often.
- */
-static ARKodeButcherTable table_of(const char *name)
-{
-    ARKodeButcherTable short_one = ARKodeButcherTable_LoadERKByName(name), table;
-    if (!short_one) {
-        return NULL;
-    }
-    int n = short_one->stages, same = fabs(short_one->c[n - 1] - 1.0) < 1e-12;
-    for (int i = 0; i < n; ++i) {
-        same = same && fabs(short_one->A[n - 1][i] - short_one->b[i]) < 1e-12;
-    }
-    if (same) {
-        return short_one;
-    }
-    table = ARKodeButcherTable_Alloc(n + 1, SUNTRUE);
-    if (table) {
-        table->q = short_one->q;
-        table->p = short_one->p;
-        for (int i = 0; i < n; ++i) {
-            table->c[i] = short_one->c[i];
-            table->A[n][i] = table->b[i] = short_one->b[i];
-            table->d[i] = short_one->d[i];
-            for (int j = 0; j < n; ++j) {
-                table->A[i][j] = short_one->A[i][j];
-            }
-        }
-        table->c[n] = 1.0;
-    }
-    ARKodeButcherTable_Free(short_one);
-    return table;
-}
-
-static int set_up_runge_kutta(worker *w, double start)
-{
-    const kt_options *o = w->options;
-    w->solver = ERKStepCreate(call_rhs, start, w->y, w->context);
-    if (!w->solver) {
-        return KT_MEMORY;
-    }
-    silence_arkode(w->solver);
-    ARKodeButcherTable table = table_of(o->table);
-    int unknown = !table || ERKStepSetTable(w->solver, table); /* copies it */
-    w->order = unknown ? 0 : table->q;
-    ARKodeButcherTable_Free(table);
-    if (unknown) {
-        return KT_BAD_TABLE;
-    }
-    int roots = w->problem->event_count + w->problem->root_count;
-    /* Nothing is interpolated then, and a cubic needs no evaluations of its own. */
-    int exact = o->stop_at_outputs && !o->dense && !roots;
-    double sign = w->end > w->start ? 1.0 : -1.0;
-    int bad = ARKodeSetUserData(w->solver, w)
-        || (exact && ARKodeSetInterpolantDegree(w->solver, 3))
-        || ARKodeSVtolerances(w->solver, o->rtol, w->tolerance)
-        || ARKodeSetMaxNumSteps(w->solver, -1)
-        || (o->first_step > 0.0 && ARKodeSetInitStep(w->solver, sign * o->first_step))
-        || (o->max_step > 0.0 && ARKodeSetMaxStep(w->solver, o->max_step))
-        || (roots && ARKodeRootInit(w->solver, roots, call_roots))
-        || (roots && ARKodeSetRootDirection(w->solver, (int *)w->problem->directions))
-        || (roots && ARKodeSetNoInactiveRootWarn(w->solver));
-    return bad ? KT_FAILED : KT_DONE;
-}
+static const kt_solver *const SOLVERS[] = {
+    [KT_BDF] = &kt_cvode, [KT_ADAMS] = &kt_cvode, [KT_DORMAND_PRINCE] = &kt_dormand_prince,
+    [KT_RUNGE_KUTTA] = &kt_erk,
+};
 
 static int set_up(worker *w, const double *state, double start)
 {
     const kt_problem *p = w->problem;
     kt_result *r = w->result;
-    size_t n = (size_t)p->state_count, events = (size_t)(p->event_count + p->root_count);
+    size_t n = (size_t)p->state_count, events = (size_t)kt_root_count(w);
     r->output.width = (int)n + 1;
     r->events.width = (int)n + 2;
     r->dense.width = 3 + (KT_MAX_ORDER + 1) * (int)n;
     r->state = calloc(n, sizeof *r->state);
     r->refused_state = calloc(n, sizeof *r->refused_state);
+    w->y = calloc(n, sizeof *w->y);
+    w->scratch = calloc(n, sizeof *w->scratch);
     w->inputs = calloc((size_t)p->input_count + 1, sizeof *w->inputs);
-    w->jacobian = calloc(n * n, sizeof *w->jacobian);
     w->signals = calloc((size_t)p->signal_count + 1, sizeof *w->signals);
     w->piece = calloc((size_t)p->spline_count + 1, sizeof *w->piece);
     w->crossings = calloc(events + 1, sizeof *w->crossings);
     w->found = calloc(events + 1, sizeof *w->found);
     w->moved = calloc(n, sizeof *w->moved);
     if (!kt_open_margins(&w->margins, p->guard_count, p->guards, p->usual_margins) || !w->moved
-        || !r->state || !r->refused_state || !w->inputs || !w->jacobian || !w->signals || !w->piece
-        || !w->crossings || !w->found || open_silent_context(&w->context)) {
+        || !r->state || !r->refused_state || !w->y || !w->scratch || !w->inputs || !w->signals
+        || !w->piece || !w->crossings || !w->found) {
         return KT_MEMORY;
     }
     memcpy(w->inputs, p->inputs, (size_t)p->input_count * sizeof *w->inputs);
-    w->y = new_vector((sunindextype)n, w->context);
-    w->tolerance = w->y ? N_VClone(w->y) : NULL;
-    w->scratch = w->y ? N_VClone(w->y) : NULL;
-    if (!w->tolerance || !w->scratch) {
-        return KT_MEMORY;
-    }
-    memcpy(N_VGetArrayPointer(w->y), state, n * sizeof *state);
-    memcpy(N_VGetArrayPointer(w->tolerance), w->options->atol, n * sizeof *state);
+    memcpy(w->y, state, n * sizeof *state);
     memcpy(r->state, state, n * sizeof *state);
     r->time = start;
-    w->runge_kutta = w->options->method == KT_RUNGE_KUTTA;
-    return w->runge_kutta ? set_up_runge_kutta(w, start) : set_up_cvode(w, start);
+    w->solver = SOLVERS[w->options->method];
+    return w->solver->open(w, start);
 }
 
 static void tear_down(worker *w)
 {
     if (w->solver) {
-        if (w->runge_kutta) {
-            ARKodeFree(&w->solver);
-        } else {
-            CVodeFree(&w->solver);
-        }
+        w->solver->close(w);
     }
-    if (w->linear) {
-        SUNLinSolFree(w->linear);
-    }
-    if (w->matrix) {
-        SUNMatDestroy(w->matrix);
-    }
-    if (w->scratch) {
-        N_VDestroy(w->scratch);
-    }
-    if (w->tolerance) {
-        N_VDestroy(w->tolerance);
-    }
-    if (w->y) {
-        N_VDestroy(w->y);
-    }
-    if (w->context) {
-        SUNContext_Free(&w->context);
-    }
+    free(w->y);
+    free(w->scratch);
     free(w->inputs);
-    free(w->jacobian);
     free(w->signals);
     free(w->piece);
     free(w->crossings);
@@ -356,92 +166,12 @@ static void tear_down(worker *w)
 
 /* -- stepping --------------------------------------------------------------------------------- */
 
-static int one_step(worker *w, double end, double *time)
-{
-    return w->runge_kutta ? ARKodeEvolve(w->solver, end, w->y, time, ARK_ONE_STEP)
-                          : CVode(w->solver, end, w->y, time, CV_ONE_STEP);
-}
-
-static int set_stop(worker *w, double end)
-{
-    return w->runge_kutta ? ARKodeSetStopTime(w->solver, end) : CVodeSetStopTime(w->solver, end);
-}
-
-static int interpolate(worker *w, double time, int derivative, N_Vector out)
-{
-    return w->runge_kutta ? ARKodeGetDky(w->solver, time, derivative, out)
-                          : CVodeGetDky(w->solver, time, derivative, out);
-}
-
-/* Length of the step that the solver tries next, or has tried last without success. */
-static double current_step(worker *w)
-{
-    double step = 0.0;
-    if (w->runge_kutta) {
-        ARKodeGetCurrentStep(w->solver, &step);
-    } else {
-        CVodeGetCurrentStep(w->solver, &step);
-    }
-    return fabs(step);
-}
-
-/* Time that the solver has reached inside; it is past a root that it has returned. */
-static double current_time(worker *w)
-{
-    double time = 0.0;
-    if (w->runge_kutta) {
-        ARKodeGetCurrentTime(w->solver, &time);
-    } else {
-        CVodeGetCurrentTime(w->solver, &time);
-    }
-    return time;
-}
-
-/* Add what the solver has counted since it began, or began anew. */
-static void add_statistics(worker *w)
-{
-    kt_statistics *s = &w->result->statistics;
-    long steps = 0, evaluations = 0, jacobians = 0, factorisations = 0, failures = 0;
-    int order = w->order;
-    if (!w->solver) {
-        return;
-    }
-    if (w->runge_kutta) {
-        ARKodeGetNumSteps(w->solver, &steps);
-        ARKodeGetNumRhsEvals(w->solver, 0, &evaluations);
-        ARKodeGetNumErrTestFails(w->solver, &failures);
-    } else {
-        CVodeGetNumSteps(w->solver, &steps);
-        CVodeGetNumRhsEvals(w->solver, &evaluations);
-        CVodeGetNumJacEvals(w->solver, &jacobians);
-        CVodeGetNumLinSolvSetups(w->solver, &factorisations);
-        CVodeGetNumErrTestFails(w->solver, &failures);
-        CVodeGetLastOrder(w->solver, &order);
-    }
-    s->steps += steps;
-    s->evaluations += evaluations;
-    s->jacobians += jacobians;
-    s->factorisations += factorisations;
-    s->error_test_failures += failures;
-    s->order = order;
-}
-
 /* Begin anew with a step of this length. */
 static int begin_anew(worker *w, double time, double step)
 {
-    double signed_step = w->end > w->start ? step : -step;
-    add_statistics(w);
-    memcpy(N_VGetArrayPointer(w->y), w->result->state,
-           (size_t)w->problem->state_count * sizeof(double));
-    return w->runge_kutta ? ERKStepReInit(w->solver, call_rhs, time, w->y)
-                                || ARKodeSetInitStep(w->solver, signed_step)
-                          : CVodeReInit(w->solver, time, w->y)
-                                || CVodeSetInitStep(w->solver, signed_step);
-}
-
-static int is_root(const worker *w, int code)
-{
-    return code == (w->runge_kutta ? ARK_ROOT_RETURN : CV_ROOT_RETURN);
+    w->solver->count(w, &w->result->statistics);
+    memcpy(w->y, w->result->state, (size_t)w->problem->state_count * sizeof *w->y);
+    return w->solver->begin_anew(w, time, w->end > w->start ? step : -step);
 }
 
 /* Translate the solver's way of giving up. */
@@ -452,8 +182,7 @@ static int explain(worker *w, int code)
     if (w->caller_failed) {
         return KT_CALLER;
     }
-    int too_accurate = w->runge_kutta ? ARK_TOO_MUCH_ACC : CV_TOO_MUCH_ACC;
-    if (code == too_accurate) {
+    if (code == w->solver->too_accurate) {
         return KT_TOO_ACCURATE;
     }
     return r->refused_status ? KT_STATE : KT_FAILED;
@@ -463,12 +192,8 @@ static int explain(worker *w, int code)
 static int note_events(worker *w, double time)
 {
     const kt_problem *p = w->problem;
-    int count = p->event_count + p->root_count, stop = 0;
-    if (w->runge_kutta) {
-        ARKodeGetRootInfo(w->solver, w->found);
-    } else {
-        CVodeGetRootInfo(w->solver, w->found);
-    }
+    int count = kt_root_count(w), stop = 0;
+    w->solver->crossings(w, w->found);
     for (int i = 0; i < count; ++i) {
         if (!w->found[i]) {
             continue;
@@ -479,7 +204,7 @@ static int note_events(worker *w, double time)
         }
         row[0] = i;
         row[1] = time;
-        memcpy(row + 2, N_VGetArrayPointer(w->y), (size_t)p->state_count * sizeof *row);
+        memcpy(row + 2, w->y, (size_t)p->state_count * sizeof *row);
         stop |= p->terminal[i] && ++w->crossings[i] >= p->terminal[i];
     }
     return stop;
@@ -488,10 +213,7 @@ static int note_events(worker *w, double time)
 /* Keep the derivatives of the step's polynomial at its end. */
 static int keep_polynomial(worker *w, double from, double to)
 {
-    int n = w->problem->state_count, order = 5;
-    if (!w->runge_kutta) {
-        CVodeGetLastOrder(w->solver, &order);
-    }
+    int n = w->problem->state_count;
     double *row = append(&w->result->dense);
     if (!row) {
         return KT_MEMORY;
@@ -499,11 +221,7 @@ static int keep_polynomial(worker *w, double from, double to)
     memset(row, 0, (size_t)w->result->dense.width * sizeof *row);
     row[0] = from;
     row[1] = to;
-    for (int k = 0; k <= order; ++k) {
-        if (interpolate(w, to, k, w->scratch)) {
-            break; /* the polynomial has no more derivatives */
-        }
-        memcpy(row + 3 + k * n, N_VGetArrayPointer(w->scratch), (size_t)n * sizeof *row);
+    for (int k = 0; k <= KT_MAX_ORDER && !w->solver->interpolate(w, to, k, row + 3 + k * n); ++k) {
         row[2] = k;
     }
     return KT_DONE;
@@ -513,7 +231,7 @@ static int keep_polynomial(worker *w, double from, double to)
 
 static void evaluate_margins(worker *w, double time, const double *state, double *out)
 {
-    evaluate_inputs(w, time);
+    kt_evaluate_inputs(w, time);
     w->problem->margins(w->problem->constants, state, w->inputs, out);
 }
 
@@ -577,10 +295,10 @@ static int put_out(worker *w, course *c, double reached)
     int n = w->problem->state_count;
     for (; c->next < c->count && c->sign * (c->times[c->next] - reached) <= 0.0; ++c->next) {
         double time = c->times[c->next];
-        const double *row = N_VGetArrayPointer(w->y);
+        const double *row = w->y;
         if (time != reached) {
-            interpolate(w, time, 0, w->scratch); /* cannot fail within the step */
-            row = N_VGetArrayPointer(w->scratch);
+            w->solver->interpolate(w, time, 0, w->scratch); /* cannot fail within the step */
+            row = w->scratch;
             evaluate_margins(w, time, row, w->margins.between);
             int guard = kt_crossed(&w->margins, w->margins.between);
             if (guard != KT_NONE) {
@@ -600,19 +318,18 @@ static int put_out(worker *w, course *c, double reached)
  */
 static int doubt(worker *w, course *c, double reached, double step, int *looked)
 {
-    const double *state = N_VGetArrayPointer(w->y);
-    evaluate_margins(w, reached, state, w->margins.now);
+    evaluate_margins(w, reached, w->y, w->margins.now);
     int guard = kt_crossed(&w->margins, w->margins.now);
-    *looked = kt_changes(&w->margins, current_step(w) / step);
+    *looked = kt_changes(&w->margins, w->solver->next_step(w) / step);
     if (guard == KT_NONE && *looked) {
-        look_ahead(w, reached, state, KT_LAPSE * step);
+        look_ahead(w, reached, w->y, KT_LAPSE * step);
         guard = kt_reflected(&w->margins, KT_LAPSE * step, step);
     }
     if (guard != KT_NONE) {
         return guard;
     }
     if (c->every_step) {
-        return append_state(&w->result->output, reached, state, w->problem->state_count)
+        return append_state(&w->result->output, reached, w->y, w->problem->state_count)
             ? KT_NO_MEMORY : KT_NONE;
     }
     return put_out(w, c, reached);
@@ -650,7 +367,7 @@ static int accept(worker *w, course *c, double reached)
         return outcome == KT_STATE ? end_at(w, guard, 0.0) : outcome ? outcome : KT_AGAIN;
     }
     r->time = reached;
-    memcpy(r->state, N_VGetArrayPointer(w->y), (size_t)w->problem->state_count * sizeof(double));
+    memcpy(r->state, w->y, (size_t)w->problem->state_count * sizeof *r->state);
     w->longest_step = fmax(w->longest_step, step);
     kt_reach(&w->margins);
     c->trusted = INFINITY;
@@ -674,7 +391,7 @@ static double sooner(const worker *w, course *c, double goal)
 static double stop_of(worker *w, const course *c, double goal)
 {
     double time = w->result->time, stop = time + c->sign * c->trusted;
-    int limits = c->sign * (goal - stop) > 0.0 && c->sign * (stop - current_time(w)) > 0.0;
+    int limits = c->sign * (goal - stop) > 0.0 && c->sign * (stop - w->solver->time(w)) > 0.0;
     return limits ? stop : goal;
 }
 
@@ -701,15 +418,15 @@ static int advance(worker *w, course *c, int *root)
     kt_result *r = w->result;
     double goal = c->times[w->options->stop_at_outputs ? c->next : c->count - 1], reached = r->time;
     goal = sooner(w, c, goal);
-    if (set_stop(w, stop_of(w, c, goal))) {
+    if (w->solver->set_stop(w, stop_of(w, c, goal))) {
         return KT_FAILED;
     }
-    int code = one_step(w, goal, &reached);
-    *root = is_root(w, code);
+    int code = w->solver->step(w, goal, &reached);
+    *root = code == KT_ROOT;
     if (code < 0) {
         int outcome = explain(w, code);
         if (outcome == KT_STATE) {
-            outcome = shorten(w, current_step(w));
+            outcome = shorten(w, w->solver->next_step(w));
             return outcome ? outcome : KT_AGAIN;
         }
         return outcome;
@@ -762,8 +479,8 @@ int kt_integrate(const kt_problem *problem, const kt_options *options, const dou
     int outcome = set_up(&w, state, times[0]);
     if (outcome == KT_DONE) {
         outcome = run(&w, times, count, every_step);
+        w.solver->count(&w, &result->statistics);
     }
-    add_statistics(&w);
     tear_down(&w);
     return outcome;
 }

@@ -1,7 +1,7 @@
 /*
- * Integrate a generated model with SUNDIALS, from the first step to the last without leaving C.
+ * Integrate a generated model, from the first step to the last without leaving C.
  *
- * One call is independent of all others: it owns its SUNDIALS context and its memory.
+ * One call is independent of all others: it owns its memory, and the context of SUNDIALS where it has one.
  */
 #ifndef KINTRAFO_INTEGRATE_H
 #define KINTRAFO_INTEGRATE_H
@@ -56,11 +56,11 @@ typedef struct {
     void *interrupted_data;
 } kt_problem;
 
-enum kt_method { KT_BDF, KT_ADAMS, KT_RUNGE_KUTTA };
+enum kt_method { KT_BDF, KT_ADAMS, KT_DORMAND_PRINCE, KT_RUNGE_KUTTA };
 
 typedef struct {
     int method;
-    const char *table; /* Butcher table of a Runge-Kutta method */
+    const char *table; /* Butcher table of KT_RUNGE_KUTTA */
     double rtol;
     const double *atol;
     double first_step; /* 0: chosen by the solver */
@@ -105,7 +105,7 @@ typedef struct {
     int refused_guard; /* the guard at whose dead point the motion ends; -1: none */
     double refused_time;
     double *refused_state;
-    int code;          /* return code of SUNDIALS */
+    int code;          /* of the solver, as SUNDIALS has them */
 } kt_result;
 
 enum { KT_MAX_ORDER = 12 };

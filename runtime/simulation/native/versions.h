@@ -43,28 +43,28 @@
 /* Errors are told by return codes alone: each solver was silenced before 7.0, and the context since. */
 #if SUNDIALS_VERSION_MAJOR < 7
 
-static void be_silent(int code, const char *module, const char *function, char *message, void *data)
+static inline void be_silent(int code, const char *module, const char *function, char *message, void *data)
 {
     (void)code, (void)module, (void)function, (void)message, (void)data;
 }
 
-static int open_silent_context(SUNContext *context) { return SUNContext_Create(NULL, context); }
+static inline int open_silent_context(SUNContext *context) { return SUNContext_Create(NULL, context); }
 
-static void silence_cvode(void *solver) { CVodeSetErrHandlerFn(solver, be_silent, NULL); }
+static inline void silence_cvode(void *solver) { CVodeSetErrHandlerFn(solver, be_silent, NULL); }
 
-static void silence_arkode(void *solver) { ERKStepSetErrHandlerFn(solver, be_silent, NULL); }
+static inline void silence_arkode(void *solver) { ERKStepSetErrHandlerFn(solver, be_silent, NULL); }
 
 #else
 
-static int open_silent_context(SUNContext *context)
+static inline int open_silent_context(SUNContext *context)
 {
     int code = SUNContext_Create(SUN_COMM_NULL, context);
     return code ? code : SUNContext_ClearErrHandlers(*context);
 }
 
-static void silence_cvode(void *solver) { (void)solver; }
+static inline void silence_cvode(void *solver) { (void)solver; }
 
-static void silence_arkode(void *solver) { (void)solver; }
+static inline void silence_arkode(void *solver) { (void)solver; }
 
 #endif
 

@@ -1,0 +1,167 @@
+/* Explicit Runge-Kutta methods with ERKStep of SUNDIALS, by their tables. */
+#include "sundials.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+    kt_vectors vectors;
+    int order;
+    void *memory;
+} runge_kutta;
+
+/*
+ * ERKStep of SUNDIALS 6.4 takes every method whose last stage is at the end of the step for one whose
+ * last stage is the first of the next step. Where that is not so, an added stage makes it so: it
+ * is at the step's end, with no weight. The method stays the same, and evaluates as often.
+ */
+static ARKodeButcherTable table_of(const char *name)
+{
+    ARKodeButcherTable short_one = ARKodeButcherTable_LoadERKByName(name), table;
+    if (!short_one) {
+        return NULL;
+    }
+    int n = short_one->stages, same = fabs(short_one->c[n - 1] - 1.0) < 1e-12;
+    for (int i = 0; i < n; ++i) {
+        same = same && fabs(short_one->A[n - 1][i] - short_one->b[i]) < 1e-12;
+    }
+    if (same) {
+        return short_one;
+    }
+    table = ARKodeButcherTable_Alloc(n + 1, SUNTRUE);
+    if (table) {
+        table->q = short_one->q;
+        table->p = short_one->p;
+        for (int i = 0; i < n; ++i) {
+            table->c[i] = short_one->c[i];
+            table->A[n][i] = table->b[i] = short_one->b[i];
+            table->d[i] = short_one->d[i];
+            for (int j = 0; j < n; ++j) {
+                table->A[i][j] = short_one->A[i][j];
+            }
+        }
+        table->c[n] = 1.0;
+    }
+    ARKodeButcherTable_Free(short_one);
+    return table;
+}
+
+static int open_erk(worker *w, double start)
+{
+    const kt_options *o = w->options;
+    runge_kutta *m = w->own = calloc(1, sizeof *m);
+    if (!m || kt_open_vectors(&m->vectors, w)) {
+        return KT_MEMORY;
+    }
+    m->memory = ERKStepCreate(kt_call_rates, start, m->vectors.y, m->vectors.context);
+    if (!m->memory) {
+        return KT_MEMORY;
+    }
+    silence_arkode(m->memory);
+    ARKodeButcherTable table = table_of(o->table);
+    int unknown = !table || ERKStepSetTable(m->memory, table); /* copies it */
+    m->order = unknown ? 0 : table->q;
+    ARKodeButcherTable_Free(table);
+    if (unknown) {
+        return KT_BAD_TABLE;
+    }
+    int roots = kt_root_count(w);
+    /* Nothing is interpolated then, and a cubic needs no evaluations of its own. */
+    int exact = o->stop_at_outputs && !o->dense && !roots;
+    double sign = w->end > w->start ? 1.0 : -1.0;
+    int bad = ARKodeSetUserData(m->memory, w)
+        || (exact && ARKodeSetInterpolantDegree(m->memory, 3))
+        || ARKodeSVtolerances(m->memory, o->rtol, m->vectors.tolerance)
+        || ARKodeSetMaxNumSteps(m->memory, -1)
+        || (o->first_step > 0.0 && ARKodeSetInitStep(m->memory, sign * o->first_step))
+        || (o->max_step > 0.0 && ARKodeSetMaxStep(m->memory, o->max_step))
+        || (roots && ARKodeRootInit(m->memory, roots, kt_call_roots))
+        || (roots && ARKodeSetRootDirection(m->memory, (int *)w->problem->directions))
+        || (roots && ARKodeSetNoInactiveRootWarn(m->memory));
+    return bad ? KT_FAILED : KT_DONE;
+}
+
+static void close_erk(worker *w)
+{
+    runge_kutta *m = w->own;
+    if (!m) {
+        return;
+    }
+    if (m->memory) {
+        ARKodeFree(&m->memory);
+    }
+    kt_close_vectors(&m->vectors);
+    free(m);
+}
+
+static int step(worker *w, double goal, double *time)
+{
+    runge_kutta *m = w->own;
+    int code = ARKodeEvolve(m->memory, goal, m->vectors.y, time, ARK_ONE_STEP);
+    return code == ARK_ROOT_RETURN ? KT_ROOT : code < 0 ? code : KT_STEPPED;
+}
+
+static int set_stop(worker *w, double time)
+{
+    runge_kutta *m = w->own;
+    return ARKodeSetStopTime(m->memory, time);
+}
+
+static int interpolate(worker *w, double time, int derivative, double *out)
+{
+    runge_kutta *m = w->own;
+    /* the interpolant is of degree 5 */
+    if (derivative > 5 || ARKodeGetDky(m->memory, time, derivative, m->vectors.scratch)) {
+        return 1;
+    }
+    memcpy(out, N_VGetArrayPointer(m->vectors.scratch), (size_t)w->problem->state_count * sizeof *out);
+    return 0;
+}
+
+static int begin_anew(worker *w, double time, double length)
+{
+    runge_kutta *m = w->own;
+    return ERKStepReInit(m->memory, kt_call_rates, time, m->vectors.y)
+        || ARKodeSetInitStep(m->memory, length);
+}
+
+static double next_step(worker *w)
+{
+    runge_kutta *m = w->own;
+    double length = 0.0;
+    ARKodeGetCurrentStep(m->memory, &length);
+    return fabs(length);
+}
+
+static double time_inside(worker *w)
+{
+    runge_kutta *m = w->own;
+    double time = 0.0;
+    ARKodeGetCurrentTime(m->memory, &time);
+    return time;
+}
+
+static void crossings(worker *w, int *found)
+{
+    runge_kutta *m = w->own;
+    ARKodeGetRootInfo(m->memory, found);
+}
+
+static void count(worker *w, kt_statistics *total)
+{
+    runge_kutta *m = w->own;
+    long steps = 0, evaluations = 0, failures = 0;
+    ARKodeGetNumSteps(m->memory, &steps);
+    ARKodeGetNumRhsEvals(m->memory, 0, &evaluations);
+    ARKodeGetNumErrTestFails(m->memory, &failures);
+    total->steps += steps;
+    total->evaluations += evaluations;
+    total->error_test_failures += failures;
+    total->order = m->order;
+}
+
+const kt_solver kt_erk = {
+    open_erk, close_erk, step, set_stop, interpolate, begin_anew,
+    next_step, time_inside, crossings, count, ARK_TOO_MUCH_ACC,
+};

@@ -1,0 +1,77 @@
+/*
+ * What an integration works with, and what the solvers have in common: each takes one step at a time, and
+ * `integrate.c` decides what comes of it.
+ */
+#ifndef KINTRAFO_WORKER_H
+#define KINTRAFO_WORKER_H
+
+#include "integrate.h"
+#include "margins.h"
+
+#include <time.h>
+
+typedef struct worker worker;
+
+/* What solvers return in place of a length of time; else what SUNDIALS returns, which is negative. */
+enum { KT_STEPPED = 0, KT_ROOT = 1 };
+
+/*
+ * A solver; w->own is its memory, and w->y the state at the time that it has returned last. Lengths of
+ * steps have no sign, but for that of `begin_anew`.
+ */
+typedef struct {
+    int (*open)(worker *w, double start); /* begin with the state w->y; returns an outcome */
+    void (*close)(worker *w);
+    /* Take a step, or come to the next root within the last one; the time returned has its state in w->y. */
+    int (*step)(worker *w, double goal, double *time);
+    /* Let no step pass over a time, which is not before that reached inside. Returns 0, as do the next two. */
+    int (*set_stop)(worker *w, double time);
+    /* A derivative of the state within the last step; fails where its polynomial has none so high. */
+    int (*interpolate)(worker *w, double time, int derivative, double *out);
+    /* Begin with the state w->y and a step of this length. */
+    int (*begin_anew)(worker *w, double time, double step);
+    double (*next_step)(worker *w); /* length of what it tries next, or has tried last without success */
+    double (*time)(worker *w);      /* reached inside: it is past a root that it has returned */
+    void (*crossings)(worker *w, int *found);       /* which functions are zero at the root */
+    void (*count)(worker *w, kt_statistics *total); /* add what was counted since it began, or began anew */
+    int too_accurate; /* the code that says that tolerances are below what the arithmetic can do */
+} kt_solver;
+
+extern const kt_solver kt_cvode, kt_erk, kt_dormand_prince;
+
+struct worker {
+    const kt_problem *problem;
+    const kt_options *options;
+    kt_result *result;
+    const kt_solver *solver;
+    void *own;
+    double *y, *scratch;
+    double *inputs, *signals;
+    int *piece;          /* of each spline: where it was evaluated last */
+    int *crossings;      /* of each event */
+    int *found;          /* those that are zero at a root */
+    int caller_failed;
+    kt_margins margins;
+    double *moved;       /* a state a short time later */
+    double start, end;   /* of the whole time */
+    double longest_step; /* so far */
+    int stuck;           /* very short steps in a row */
+    clock_t asked;       /* when the caller was asked last whether to go on */
+};
+
+/* Evaluate the inputs at a time. */
+void kt_evaluate_inputs(worker *w, double time);
+
+/* Evaluate the right-hand side; positive where the model refuses the state, which is noted. */
+int kt_rates(worker *w, double time, const double *state, double *out);
+
+/* Evaluate the Jacobian, row-major, likewise. */
+int kt_jacobian(worker *w, double time, const double *state, double *out);
+
+/* How many functions there are whose zeros are events. */
+int kt_root_count(const worker *w);
+
+/* Evaluate them; negative where one cannot be. */
+int kt_roots(worker *w, double time, const double *state, double *out);
+
+#endif

@@ -1,0 +1,109 @@
+"""Functions of time alone as events: their zeros are known, whatever the motion is."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from kintrafo import InputError, Model, SimulationError, ensemble, simulate, state_at_height
+from kintrafo.simulation.solvers import native_methods
+
+MODEL = Model("reference_car")
+START = state_at_height(MODEL, 0.325, spin_rate=93.0)
+METHODS = [*native_methods(), "RK45"]
+each_method = pytest.mark.parametrize("method", METHODS)
+# Solvers tell times apart that differ by some hundred roundings of a second; SciPy's by 4e-12.
+RESOLVED = 1e-11
+
+
+def sine(frequency, phase, *, direction=0.0, terminal=False):
+    """Return an event with zeros at (phase + k) / frequency, which rises where k is even."""
+
+    def event(time, _):
+        return float(np.sin(np.pi * (frequency * time - phase)))
+
+    event.direction, event.terminal = direction, terminal
+    return event
+
+
+def zeros(frequency, phase, direction, last):
+    """Return the times of its zeros after the begin."""
+    number = np.arange(np.floor(-phase), np.ceil(frequency * last - phase) + 1.0)
+    if direction:
+        number = number[(number % 2.0 == 0.0) == (direction > 0.0)]
+    times = (phase + number) / frequency
+    return times
+
+
+@each_method
+@given(
+    st.lists(
+        st.tuples(st.floats(5.0, 40.0), st.floats(0.0, 1.0), st.sampled_from([-1.0, 0.0, 1.0])),
+        min_size=1,
+        max_size=4,
+    )
+)
+def test_every_zero_is_found(method, drawn):
+    """Several in a step, and none twice: no step is longer than the time between two of one."""
+    last = 0.2
+    events = [sine(f, p, direction=d) for f, p, d in drawn]
+    found = simulate(MODEL, (0.0, last), START, method=method, events=events, max_step=0.02)
+    for times, one in zip(found.t_events, drawn, strict=True):
+        known = zeros(*one, last)
+        # a zero next to an end of the time may be seen or not
+        times, known = (t[(t > 1e-9) & (t < last - 1e-9)] for t in (times, known))
+        np.testing.assert_allclose(times, known, rtol=0.0, atol=RESOLVED)
+
+
+@each_method
+def test_backward_in_time(method):
+    event = sine(20.0, 0.25)
+    found = simulate(MODEL, (0.0, -0.1), START, method=method, events=event, max_step=0.02)
+    expected = (0.25 + np.array([-1.0, -2.0])) / 20.0
+    np.testing.assert_allclose(found.t_events[0], expected, rtol=0.0, atol=RESOLVED)
+
+
+@each_method
+def test_the_third_crossing_ends_the_motion(method):
+    event = sine(20.0, 0.5, terminal=3)
+    found = simulate(MODEL, (0.0, 0.4), START, method=method, events=event, max_step=0.02)
+    np.testing.assert_allclose(found.t_events[0], [0.025, 0.075, 0.125], rtol=0.0, atol=RESOLVED)
+    assert found.t[-1] == found.t_events[0][-1]
+    np.testing.assert_array_equal(found.y[:, -1], found.y_events[0][-1])
+
+
+@each_method
+def test_the_state_of_an_event_is_on_the_way(method):
+    """Of two signals: where one passes a level, the other has the value that the motion has then."""
+    event = sine(20.0, 0.5)
+    found = simulate(
+        MODEL, (0.0, 0.4), START, method=method, events=event, dense_output=True, rtol=1e-6
+    )
+    np.testing.assert_allclose(found.y_events[0].T, found.sol(found.t_events[0]), rtol=1e-12)
+
+
+@pytest.mark.parametrize("method", native_methods())
+def test_a_function_that_is_zero_at_first_waits(method):
+    def event(time, _):
+        return max(0.0, time - 0.1) if time < 0.15 else 0.2 - time
+
+    found = simulate(MODEL, (0.0, 0.3), START, method=method, events=event, max_step=0.02)
+    np.testing.assert_allclose(found.t_events[0], [0.2], rtol=0.0, atol=RESOLVED)
+
+
+@pytest.mark.parametrize("method", native_methods())
+def test_a_function_that_stays_zero_is_an_error(method):
+    with pytest.raises(SimulationError, match="event stays at zero"):
+        simulate(
+            MODEL, (0.0, 0.3), START, method=method, events=lambda time, _: min(0.0, time - 0.1)
+        )
+
+
+@pytest.mark.parametrize("method", native_methods())
+def test_an_event_that_gives_up_in_the_middle(method):
+    def event(time, _):
+        return np.nan if time > 0.1 else 1.0
+
+    with pytest.raises(InputError, match="a finite number is needed"):
+        simulate(MODEL, (0.0, 0.3), START, method=method, events=event)
+
+
