@@ -1,5 +1,7 @@
 """Our own Runge-Kutta method for one system: its order, its polynomial, its kin in lanes."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from kintrafo import Model, SignalEvent, ensemble, simulate, state_at_height
@@ -41,9 +43,8 @@ def test_it_is_of_fifth_order_and_its_polynomial_of_fourth() -> None:
         drift = (of_steps[1:] + of_steps[:-1]) / 2.0
         within.append(np.abs((found.sol(middles) - TRUTH.sol(middles))[0] - drift).max())
     for errors in (steps, within):
-        assert [a / b for a, b in zip(errors, errors[1:], strict=False)] == pytest.approx(
-            [32.0, 32.0], rel=0.2
-        ), errors
+        gains = [a / b for a, b in pairwise(errors)]
+        assert gains == pytest.approx([32.0, 32.0], rel=0.2), errors
 
 
 @pytest.mark.parametrize("rtol", [1e-4, 1e-6])

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
-from kintrafo import InputError, Model, SimulationError, ensemble, simulate, state_at_height
+from kintrafo import InputError, Model, SimulationError, simulate, state_at_height
 from kintrafo.simulation.solvers import native_methods
 
 MODEL = Model("reference_car")
@@ -30,8 +30,7 @@ def zeros(frequency, phase, direction, last):
     number = np.arange(np.floor(-phase), np.ceil(frequency * last - phase) + 1.0)
     if direction:
         number = number[(number % 2.0 == 0.0) == (direction > 0.0)]
-    times = (phase + number) / frequency
-    return times
+    return (phase + number) / frequency
 
 
 @each_method
@@ -42,15 +41,15 @@ def zeros(frequency, phase, direction, last):
         max_size=4,
     )
 )
+@example([(8.0, 0.0, 0.0), (16.7, 3e-308, 1.0)])  # SUNDIALS' own search goes on for ever
 def test_every_zero_is_found(method, drawn):
     """Several in a step, and none twice: no step is longer than the time between two of one."""
     last = 0.2
     events = [sine(f, p, direction=d) for f, p, d in drawn]
     found = simulate(MODEL, (0.0, last), START, method=method, events=events, max_step=0.02)
-    for times, one in zip(found.t_events, drawn, strict=True):
-        known = zeros(*one, last)
+    for both in zip(found.t_events, [zeros(*one, last) for one in drawn], strict=True):
         # a zero next to an end of the time may be seen or not
-        times, known = (t[(t > 1e-9) & (t < last - 1e-9)] for t in (times, known))
+        times, known = (t[(t > 1e-9) & (t < last - 1e-9)] for t in both)
         np.testing.assert_allclose(times, known, rtol=0.0, atol=RESOLVED)
 
 
@@ -73,7 +72,6 @@ def test_the_third_crossing_ends_the_motion(method):
 
 @each_method
 def test_the_state_of_an_event_is_on_the_way(method):
-    """Of two signals: where one passes a level, the other has the value that the motion has then."""
     event = sine(20.0, 0.5)
     found = simulate(
         MODEL, (0.0, 0.4), START, method=method, events=event, dense_output=True, rtol=1e-6
@@ -105,5 +103,3 @@ def test_an_event_that_gives_up_in_the_middle(method):
 
     with pytest.raises(InputError, match="a finite number is needed"):
         simulate(MODEL, (0.0, 0.3), START, method=method, events=event)
-
-

@@ -17,7 +17,7 @@ from kintrafo import (
     simulate,
     state_at_height,
 )
-from kintrafo.simulation.solvers import native_available, native_methods, native_version
+from kintrafo.simulation.solvers import native_available, native_methods
 from oracle import multipliers, newton
 from oracle.reference import DYNAMICS, SPIN_RATE, reference_parameters
 from scipy.interpolate import CubicSpline

@@ -19,8 +19,8 @@ from .events import Event, Events, events_of
 from .result import DenseOutput, Signals, Simulation, SimulationError
 from .signals import Segment, TimeInputs, time_inputs
 from .solvers import (
-    SCIPY_METHODS,
     NATIVE_METHODS,
+    SCIPY_METHODS,
     Options,
     Piece,
     native_available,

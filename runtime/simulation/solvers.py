@@ -139,9 +139,7 @@ def native_methods() -> tuple[str, ...]:
     if not native_available():
         return ()
     release = tuple(int(part) for part in native_version().split(".")[:2])
-    return tuple(
-        m for m in NATIVE_METHODS if m != "Tsitouras" or release >= _FIRST_WITH_TSITOURAS
-    )
+    return tuple(m for m in NATIVE_METHODS if m != "Tsitouras" or release >= _FIRST_WITH_TSITOURAS)
 
 
 # What solvers in C return, the arguments being checked, when an event's function stays at zero.

@@ -33,7 +33,7 @@ static int call_jacobian(sunrealtype time, N_Vector y, N_Vector derivative, SUNM
 static int open_cvode(worker *w, double start)
 {
     const kt_options *o = w->options;
-    int n = w->problem->state_count, roots = kt_root_count(w);
+    int n = w->problem->state_count;
     multistep *m = w->own = calloc(1, sizeof *m);
     if (!m || kt_open_vectors(&m->vectors, w)) {
         return KT_MEMORY;
@@ -55,10 +55,7 @@ static int open_cvode(worker *w, double start)
         || CVodeSetJacFn(m->memory, call_jacobian)
         || CVodeSetMaxNumSteps(m->memory, -1)
         || (o->first_step > 0.0 && CVodeSetInitStep(m->memory, sign * o->first_step))
-        || (o->max_step > 0.0 && CVodeSetMaxStep(m->memory, o->max_step))
-        || (roots && CVodeRootInit(m->memory, roots, kt_call_roots))
-        || (roots && CVodeSetRootDirection(m->memory, (int *)w->problem->directions))
-        || (roots && CVodeSetNoInactiveRootWarn(m->memory));
+        || (o->max_step > 0.0 && CVodeSetMaxStep(m->memory, o->max_step));
     return bad ? KT_FAILED : KT_DONE;
 }
 
@@ -86,7 +83,7 @@ static int step(worker *w, double goal, double *time)
 {
     multistep *m = w->own;
     int code = CVode(m->memory, goal, m->vectors.y, time, CV_ONE_STEP);
-    return code == CV_ROOT_RETURN ? KT_ROOT : code < 0 ? code : KT_STEPPED;
+    return code < 0 ? code : 0;
 }
 
 static int set_stop(worker *w, double time)
@@ -121,20 +118,6 @@ static double next_step(worker *w)
     return length < 0.0 ? -length : length;
 }
 
-static double time_inside(worker *w)
-{
-    multistep *m = w->own;
-    double time = 0.0;
-    CVodeGetCurrentTime(m->memory, &time);
-    return time;
-}
-
-static void crossings(worker *w, int *found)
-{
-    multistep *m = w->own;
-    CVodeGetRootInfo(m->memory, found);
-}
-
 static void count(worker *w, kt_statistics *total)
 {
     multistep *m = w->own;
@@ -156,5 +139,5 @@ static void count(worker *w, kt_statistics *total)
 
 const kt_solver kt_cvode = {
     open_cvode, close_cvode, step, set_stop, interpolate, begin_anew,
-    next_step, time_inside, crossings, count, CV_TOO_MUCH_ACC,
+    next_step, count, CV_TOO_MUCH_ACC,
 };

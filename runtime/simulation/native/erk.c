@@ -66,19 +66,15 @@ static int open_erk(worker *w, double start)
     if (unknown) {
         return KT_BAD_TABLE;
     }
-    int roots = kt_root_count(w);
     /* Nothing is interpolated then, and a cubic needs no evaluations of its own. */
-    int exact = o->stop_at_outputs && !o->dense && !roots;
+    int exact = o->stop_at_outputs && !o->dense && !kt_root_count(w);
     double sign = w->end > w->start ? 1.0 : -1.0;
     int bad = ARKodeSetUserData(m->memory, w)
         || (exact && ARKodeSetInterpolantDegree(m->memory, 3))
         || ARKodeSVtolerances(m->memory, o->rtol, m->vectors.tolerance)
         || ARKodeSetMaxNumSteps(m->memory, -1)
         || (o->first_step > 0.0 && ARKodeSetInitStep(m->memory, sign * o->first_step))
-        || (o->max_step > 0.0 && ARKodeSetMaxStep(m->memory, o->max_step))
-        || (roots && ARKodeRootInit(m->memory, roots, kt_call_roots))
-        || (roots && ARKodeSetRootDirection(m->memory, (int *)w->problem->directions))
-        || (roots && ARKodeSetNoInactiveRootWarn(m->memory));
+        || (o->max_step > 0.0 && ARKodeSetMaxStep(m->memory, o->max_step));
     return bad ? KT_FAILED : KT_DONE;
 }
 
@@ -99,7 +95,7 @@ static int step(worker *w, double goal, double *time)
 {
     runge_kutta *m = w->own;
     int code = ARKodeEvolve(m->memory, goal, m->vectors.y, time, ARK_ONE_STEP);
-    return code == ARK_ROOT_RETURN ? KT_ROOT : code < 0 ? code : KT_STEPPED;
+    return code < 0 ? code : 0;
 }
 
 static int set_stop(worker *w, double time)
@@ -134,20 +130,6 @@ static double next_step(worker *w)
     return fabs(length);
 }
 
-static double time_inside(worker *w)
-{
-    runge_kutta *m = w->own;
-    double time = 0.0;
-    ARKodeGetCurrentTime(m->memory, &time);
-    return time;
-}
-
-static void crossings(worker *w, int *found)
-{
-    runge_kutta *m = w->own;
-    ARKodeGetRootInfo(m->memory, found);
-}
-
 static void count(worker *w, kt_statistics *total)
 {
     runge_kutta *m = w->own;
@@ -163,5 +145,5 @@ static void count(worker *w, kt_statistics *total)
 
 const kt_solver kt_erk = {
     open_erk, close_erk, step, set_stop, interpolate, begin_anew,
-    next_step, time_inside, crossings, count, ARK_TOO_MUCH_ACC,
+    next_step, count, ARK_TOO_MUCH_ACC,
 };

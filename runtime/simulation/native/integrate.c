@@ -133,17 +133,16 @@ static int set_up(worker *w, const double *state, double start)
     w->signals = calloc((size_t)p->signal_count + 1, sizeof *w->signals);
     w->piece = calloc((size_t)p->spline_count + 1, sizeof *w->piece);
     w->crossings = calloc(events + 1, sizeof *w->crossings);
-    w->found = calloc(events + 1, sizeof *w->found);
     w->moved = calloc(n, sizeof *w->moved);
     if (!kt_open_margins(&w->margins, p->guard_count, p->guards, p->usual_margins) || !w->moved
-        || !r->state || !r->refused_state || !w->y || !w->scratch || !w->inputs || !w->signals
-        || !w->piece || !w->crossings || !w->found) {
+        || !kt_open_search(w, start) || !r->state || !r->refused_state || !w->y || !w->scratch
+        || !w->inputs || !w->signals || !w->piece || !w->crossings) {
         return KT_MEMORY;
     }
     memcpy(w->inputs, p->inputs, (size_t)p->input_count * sizeof *w->inputs);
     memcpy(w->y, state, n * sizeof *state);
     memcpy(r->state, state, n * sizeof *state);
-    r->time = start;
+    r->time = w->reached = start;
     w->solver = SOLVERS[w->options->method];
     return w->solver->open(w, start);
 }
@@ -159,7 +158,7 @@ static void tear_down(worker *w)
     free(w->signals);
     free(w->piece);
     free(w->crossings);
-    free(w->found);
+    kt_close_search(w);
     free(w->moved);
     kt_close_margins(&w->margins);
 }
@@ -171,6 +170,7 @@ static int begin_anew(worker *w, double time, double step)
 {
     w->solver->count(w, &w->result->statistics);
     memcpy(w->y, w->result->state, (size_t)w->problem->state_count * sizeof *w->y);
+    w->reached = time;
     return w->solver->begin_anew(w, time, w->end > w->start ? step : -step);
 }
 
@@ -192,10 +192,9 @@ static int explain(worker *w, int code)
 static int note_events(worker *w, double time)
 {
     const kt_problem *p = w->problem;
-    int count = kt_root_count(w), stop = 0;
-    w->solver->crossings(w, w->found);
-    for (int i = 0; i < count; ++i) {
-        if (!w->found[i]) {
+    int stop = 0;
+    for (int i = 0; i < kt_root_count(w); ++i) {
+        if (!w->search.found[i]) {
             continue;
         }
         double *row = append(&w->result->events);
@@ -370,6 +369,7 @@ static int accept(worker *w, course *c, double reached)
     memcpy(r->state, w->y, (size_t)w->problem->state_count * sizeof *r->state);
     w->longest_step = fmax(w->longest_step, step);
     kt_reach(&w->margins);
+    kt_pass_root(w);
     c->trusted = INFINITY;
     int outcome = looked ? limit(w, c, KT_LAPSE * step) : KT_DONE;
     return outcome;
@@ -387,11 +387,11 @@ static double sooner(const worker *w, course *c, double goal)
         ? p->milestones[*next] : goal;
 }
 
-/* Return up to where the solver may step: it must not be told a time that it has passed inside. */
+/* Return up to where the solver may step: it must not be told a time that it has passed. */
 static double stop_of(worker *w, const course *c, double goal)
 {
     double time = w->result->time, stop = time + c->sign * c->trusted;
-    int limits = c->sign * (goal - stop) > 0.0 && c->sign * (stop - w->solver->time(w)) > 0.0;
+    int limits = c->sign * (goal - stop) > 0.0 && c->sign * (stop - w->reached) > 0.0;
     return limits ? stop : goal;
 }
 
@@ -412,6 +412,20 @@ static int interrupted(worker *w, long tried)
     return w->problem->interrupted(w->problem->interrupted_data);
 }
 
+/* Take a step, or go on within the last one behind a root; the time that this leads to has its state in w->y. */
+static int move(worker *w, double goal, double *time, int *root)
+{
+    int rest = w->reached != w->result->time;
+    int code = rest ? 0 : w->solver->step(w, goal, &w->reached);
+    *time = w->reached;
+    if (code < 0 || !kt_root_count(w)) {
+        return code;
+    }
+    code = kt_find_root(w, w->reached, time);
+    *root = code > 0;
+    return code;
+}
+
 /* Take a step; KT_AGAIN where it came to nothing and a shorter one is to be tried. */
 static int advance(worker *w, course *c, int *root)
 {
@@ -421,8 +435,8 @@ static int advance(worker *w, course *c, int *root)
     if (w->solver->set_stop(w, stop_of(w, c, goal))) {
         return KT_FAILED;
     }
-    int code = w->solver->step(w, goal, &reached);
-    *root = code == KT_ROOT;
+    *root = 0;
+    int code = move(w, goal, &reached, root);
     if (code < 0) {
         int outcome = explain(w, code);
         if (outcome == KT_STATE) {

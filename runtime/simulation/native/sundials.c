@@ -57,8 +57,3 @@ int kt_call_rates(sunrealtype time, N_Vector y, N_Vector out, void *data)
 {
     return kt_rates(data, time, N_VGetArrayPointer(y), N_VGetArrayPointer(out));
 }
-
-int kt_call_roots(sunrealtype time, N_Vector y, sunrealtype *out, void *data)
-{
-    return kt_roots(data, time, N_VGetArrayPointer(y), out);
-}

@@ -17,8 +17,7 @@ int kt_open_vectors(kt_vectors *v, worker *w);
 
 void kt_close_vectors(kt_vectors *v);
 
-/* Evaluate the right-hand side and the roots, as SUNDIALS calls them; `data` is the worker. */
+/* Evaluate the right-hand side, as SUNDIALS calls it; `data` is the worker. */
 int kt_call_rates(sunrealtype time, N_Vector y, N_Vector out, void *data);
-int kt_call_roots(sunrealtype time, N_Vector y, sunrealtype *out, void *data);
 
 #endif

@@ -7,13 +7,12 @@
 
 #include "integrate.h"
 #include "margins.h"
+#include "roots.h"
 
 #include <time.h>
 
-typedef struct worker worker;
-
-/* What solvers return in place of a length of time; else what SUNDIALS returns, which is negative. */
-enum { KT_STEPPED = 0, KT_ROOT = 1 };
+/* What solvers return where they give up: what SUNDIALS returns in the same cases. */
+enum { KT_TOO_SMALL = -3, KT_REFUSED = -8, KT_NO_ROOTS = -12, KT_FLAT = -22 };
 
 /*
  * A solver; w->own is its memory, and w->y the state at the time that it has returned last. Lengths of
@@ -22,17 +21,15 @@ enum { KT_STEPPED = 0, KT_ROOT = 1 };
 typedef struct {
     int (*open)(worker *w, double start); /* begin with the state w->y; returns an outcome */
     void (*close)(worker *w);
-    /* Take a step, or come to the next root within the last one; the time returned has its state in w->y. */
+    /* Take a step; the time returned has its state in w->y. Returns a negative code where it gives up. */
     int (*step)(worker *w, double goal, double *time);
-    /* Let no step pass over a time, which is not before that reached inside. Returns 0, as do the next two. */
+    /* Let no step pass over a time, which is not before that reached. Returns 0, as the next two do. */
     int (*set_stop)(worker *w, double time);
     /* A derivative of the state within the last step; fails where its polynomial has none so high. */
     int (*interpolate)(worker *w, double time, int derivative, double *out);
     /* Begin with the state w->y and a step of this length. */
     int (*begin_anew)(worker *w, double time, double step);
     double (*next_step)(worker *w); /* length of what it tries next, or has tried last without success */
-    double (*time)(worker *w);      /* reached inside: it is past a root that it has returned */
-    void (*crossings)(worker *w, int *found);       /* which functions are zero at the root */
     void (*count)(worker *w, kt_statistics *total); /* add what was counted since it began, or began anew */
     int too_accurate; /* the code that says that tolerances are below what the arithmetic can do */
 } kt_solver;
@@ -49,9 +46,10 @@ struct worker {
     double *inputs, *signals;
     int *piece;          /* of each spline: where it was evaluated last */
     int *crossings;      /* of each event */
-    int *found;          /* those that are zero at a root */
     int caller_failed;
     kt_margins margins;
+    kt_search search;
+    double reached;      /* by the last step; what has been looked at may end before */
     double *moved;       /* a state a short time later */
     double start, end;   /* of the whole time */
     double longest_step; /* so far */

@@ -1,0 +1,194 @@
+#include "roots.h"
+#include "worker.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Times nearer to each other than this part of them are one. */
+#define RESOLVED (100.0 * DBL_EPSILON)
+
+int kt_open_search(worker *w, double start)
+{
+    kt_search *s = &w->search;
+    size_t count = (size_t)kt_root_count(w);
+    s->memory = calloc(4 * count + 1, sizeof *s->memory);
+    s->idle = calloc(2 * count + 1, sizeof *s->idle);
+    s->passed = s->memory;
+    s->low = s->passed + count;
+    s->high = s->low + count;
+    s->middle = s->high + count;
+    s->found = s->idle + count;
+    s->seen = s->next = start;
+    return s->memory && s->idle;
+}
+
+void kt_close_search(worker *w)
+{
+    free(w->search.memory);
+    free(w->search.idle);
+}
+
+/* Evaluate the functions at a time within the last step. */
+static int look_at(worker *w, double time, double *values)
+{
+    if (w->solver->interpolate(w, time, 0, w->y) || kt_roots(w, time, w->y, values)) {
+        return KT_NO_ROOTS;
+    }
+    return 0;
+}
+
+/* Return the sense in which a function passes zero between two values, if it is wanted; else 0. */
+static int sense(const worker *w, int which, double from, double to)
+{
+    int wanted = w->problem->directions[which], way = from < 0.0 ? 1 : -1;
+    int passes = !w->search.idle[which] && from != 0.0 && (to == 0.0 || (from < 0.0) != (to < 0.0));
+    return passes && wanted * way >= 0 ? way : 0;
+}
+
+static int any_passes(const worker *w, const double *from, const double *to)
+{
+    int some = 0;
+    for (int i = 0; i < kt_root_count(w); ++i) {
+        some |= sense(w, i, from[i], to[i]) != 0;
+    }
+    return some;
+}
+
+/*
+ * Take the values just behind the begin for those at it: a function that passes zero that near to the begin
+ * begins there, which is no event. One that stays zero waits.
+ */
+static void begin(worker *w)
+{
+    kt_search *s = &w->search;
+    for (int i = 0; i < kt_root_count(w); ++i) {
+        s->passed[i] = s->middle[i];
+        s->idle[i] = s->middle[i] == 0.0;
+    }
+    s->known = 1;
+}
+
+/* Give functions that are zero at the root that was passed the values just behind it, if they have one. */
+static int leave(worker *w)
+{
+    kt_search *s = &w->search;
+    for (int i = 0; i < kt_root_count(w); ++i) {
+        if (s->passed[i] == 0.0 && !s->idle[i]) {
+            s->passed[i] = s->middle[i];
+            if (s->middle[i] == 0.0 && s->found[i]) {
+                return KT_FLAT;
+            }
+        }
+    }
+    return 0;
+}
+
+static int leaves_zero(const worker *w)
+{
+    const kt_search *s = &w->search;
+    int some = 0;
+    for (int i = 0; i < kt_root_count(w); ++i) {
+        some |= s->passed[i] == 0.0 && !s->idle[i];
+    }
+    return some;
+}
+
+/* Return the part of a time after which a function passes zero first, as straight lines tell it. */
+static double first_crossing(const worker *w, double weight)
+{
+    const kt_search *s = &w->search;
+    double part = 1.0;
+    for (int i = 0; i < kt_root_count(w); ++i) {
+        if (sense(w, i, s->low[i], s->high[i])) {
+            double crossed = s->low[i] / (s->low[i] - weight * s->high[i]);
+            /* half way to an end that is zero, since all before it may be so too */
+            part = fmin(part, s->high[i] == 0.0 ? 0.5 : crossed);
+        }
+    }
+    return part;
+}
+
+/* Narrow down the first zero between two times: the rule of false position, as Illinois has it. */
+static int narrow(worker *w, double from, double *end, double resolved)
+{
+    kt_search *s = &w->search;
+    size_t size = (size_t)kt_root_count(w) * sizeof *s->middle;
+    int moved = 0; /* +1: the end in the last turn, -1: the begin */
+    double weight = 1.0;
+    while (fabs(*end - from) > resolved) {
+        double room = 0.5 * resolved / fabs(*end - from);
+        double part = fmin(fmax(first_crossing(w, weight), room), 1.0 - room);
+        double time = from + part * (*end - from);
+        int code = look_at(w, time, s->middle);
+        if (code) {
+            return code;
+        }
+        /* the end that stays counts half, again and again */
+        if (any_passes(w, s->low, s->middle)) {
+            *end = time;
+            memcpy(s->high, s->middle, size);
+            weight = moved > 0 ? 2.0 * weight : 1.0;
+            moved = 1;
+        } else {
+            from = time;
+            memcpy(s->low, s->middle, size);
+            weight = moved < 0 ? 0.5 * weight : 1.0;
+            moved = -1;
+        }
+    }
+    return 0;
+}
+
+/* Know the values from which functions go, behind the begin of the motion or the root that was passed. */
+static int set_out(worker *w, double end, double resolved)
+{
+    kt_search *s = &w->search;
+    int code = 0;
+    if (!s->known || leaves_zero(w)) {
+        double part = fmin(1.0, resolved / fabs(end - s->seen));
+        code = look_at(w, s->seen + part * (end - s->seen), s->middle);
+        if (!code && s->known) {
+            code = leave(w);
+        } else if (!code) {
+            begin(w);
+        }
+    }
+    return code;
+}
+
+int kt_find_root(worker *w, double end, double *time)
+{
+    kt_search *s = &w->search;
+    int count = kt_root_count(w), root;
+    double resolved = RESOLVED * (fabs(end) + fabs(end - s->seen));
+    int code = set_out(w, end, resolved);
+    code = code ? code : look_at(w, end, s->high);
+    if (code) {
+        return code;
+    }
+    memcpy(s->low, s->passed, (size_t)count * sizeof *s->low);
+    root = any_passes(w, s->low, s->high);
+    if (root) {
+        code = narrow(w, s->seen, &end, resolved);
+        if (code || look_at(w, end, s->high)) {
+            return code ? code : KT_NO_ROOTS;
+        }
+    }
+    for (int i = 0; i < count; ++i) {
+        s->found[i] = root ? sense(w, i, s->low[i], s->high[i]) : 0;
+    }
+    *time = s->next = end;
+    return root;
+}
+
+void kt_pass_root(worker *w)
+{
+    kt_search *s = &w->search;
+    for (int i = 0; i < kt_root_count(w); ++i) {
+        s->passed[i] = s->high[i];
+        s->idle[i] = s->idle[i] && s->high[i] == 0.0;
+    }
+    s->seen = s->next;
+}
