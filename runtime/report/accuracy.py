@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.vectors import cross
 from ..suspension.model import Model
 from .curves import Curve, curves
 from .encode import rounded
@@ -97,7 +98,7 @@ def _angle(grid: Grid, samples: Array, exact: Array) -> float:
     near = grid.interpolate(as_encoded(grid, samples), grid.travel.between, grid.rack.between)
     near /= np.linalg.norm(near, axis=-1, keepdims=True)
     # from the sine: the cosine of a small angle has no digits left
-    return float(np.arcsin(np.linalg.norm(np.cross(near, exact), axis=-1).max()))
+    return float(np.arcsin(np.linalg.norm(cross(near, exact), axis=-1).max()))
 
 
 def _of_curves(

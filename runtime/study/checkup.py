@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..core.arguments import Arguments
+from ..core.vectors import distance_from_line
 from ..suspension.facts import Extended
-from ..suspension.input.vectors import distance_from_line
 from ..suspension.kinds import Suspension
 from ..suspension.model import Model
 from ..suspension.plausibility import USUAL_HOP, plausibility

@@ -20,6 +20,7 @@ from pydantic import Field, ValidationError
 from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..core.suggestions import suggestion
+from ..core.vectors import components, unit_vector
 from .bushes import Bush, Bushings, bushes_of, mirrored_bushings, softness_of_rack
 from .corner import Array, Motion, Plane, Spring, Stroke
 from .data import find
@@ -34,7 +35,6 @@ from .input.section import Section
 from .input.stop import NO_STOP, Stop
 from .input.toml_file import read_toml
 from .input.units import in_metres
-from .input.vectors import components, unit_vector
 from .input.vehicle import Gravity, Steering, Tyre, Vehicle, Wheel
 from .places import put, reverse
 from .starter import DEFAULT, packaged_axles

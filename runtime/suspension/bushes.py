@@ -11,10 +11,10 @@ from pydantic import BeforeValidator, WithJsonSchema
 
 from ..core.arguments import Arguments
 from ..core.suggestions import suggestion
+from ..core.vectors import cross, unit_vector
 from .bush_curve import Curve, curve_of
 from .input.toml_file import read_sections
 from .input.units import unit_of
-from .input.vectors import unit_vector
 from .structure import Joint, Points, Structure, Telescope
 
 Array = NDArray[np.float64]
@@ -336,12 +336,12 @@ def _axes(
     # the first of the radial directions, for two stiffnesses: as upright as it can be
     usual = np.eye(3)[0 if abs(along[2]) > np.cos(_LEAST_ANGLE) else 2]
     aside = _direction(given, title, table, "radial_axis", usual)
-    across = np.cross(along, aside)
+    across = cross(along, aside)
     if np.linalg.norm(across) < np.sin(_LEAST_ANGLE):
         given.refuse(f"{title} radial_axis lies along the axis: a direction across it is needed.")
         return np.eye(3)
     across /= np.linalg.norm(across)
-    return np.stack([along, np.cross(across, along), across])
+    return np.stack([along, cross(across, along), across])
 
 
 def _direction(

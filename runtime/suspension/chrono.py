@@ -20,6 +20,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from ..core.errors import InputError
 from ..core.files import reason
 from ..core.legible import short
+from ..core.vectors import cross
 from .kinds import Suspension
 
 Array = NDArray[np.float64]
@@ -95,12 +96,12 @@ class _ControlArm(_Body):
     def axes(self) -> Array:
         """Return Chrono's axes of the arm: x from its rear to its front bearing, z across it."""
         front, back, upright = map(np.array, (self.front, self.back, self.upright))
-        z = np.cross(back - upright, front - upright)
+        z = cross(back - upright, front - upright)
         x = front - back
         if not (np.linalg.norm(z) > 0.0 and np.linalg.norm(x) > 0.0):
             return np.eye(3)  # no triangle: the hardpoints are refused later, by name
         x, z = x / np.linalg.norm(x), z / np.linalg.norm(z)
-        return np.column_stack((x, np.cross(z, x), z))
+        return np.column_stack((x, cross(z, x), z))
 
 
 class _Ends(_Part):
@@ -367,7 +368,5 @@ def _assumptions(given: _File, tire: _Tire) -> list[str]:
 def _damps_along_the_strut(given: _File) -> bool:
     start, end = np.array(given.spring.upright), np.array(given.spring.chassis)
     line = (end - start) / np.linalg.norm(end - start)
-    offsets = [
-        np.cross(np.array(p) - start, line) for p in (given.shock.chassis, given.shock.upright)
-    ]
+    offsets = [cross(np.array(p) - start, line) for p in (given.shock.chassis, given.shock.upright)]
     return bool(max(np.linalg.norm(offset) for offset in offsets) < _ON_THE_LINE)

@@ -11,6 +11,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.vectors import cross
+
 Array = NDArray[np.float64]
 
 UP = np.array([0.0, 0.0, 1.0])
@@ -59,7 +61,7 @@ class Motion:
         """
         square = np.einsum("...i,...i->...", self.turning, self.turning)[..., None]
         with np.errstate(divide="ignore", invalid="ignore"):
-            nearest: Array = center + np.cross(self.turning, self.velocity) / square
+            nearest: Array = center + cross(self.turning, self.velocity) / square
         return nearest
 
 

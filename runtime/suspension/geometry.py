@@ -5,10 +5,10 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from ..core.vectors import angle_between_lines
 from .input.hardpoints import Hardpoints
 from .input.messages import subsection
 from .input.section import Section
-from .input.vectors import angle_between_lines
 from .input.vehicle import Vehicle, Wheel
 
 # A wheel nearer to the vehicle's centre plane than this is on neither side, in m.

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .input.vectors import angle_between_lines
+from ..core.vectors import angle_between_lines
 from .kinds import Suspension
 from .typical import typical_ranges
 

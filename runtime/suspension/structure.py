@@ -12,6 +12,8 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ..core.vectors import cross
+
 Array = NDArray[np.float64]
 Points = Mapping[str, Array]
 
@@ -165,7 +167,7 @@ class Cross(Joint):
         (center,) = self.at
         loads = np.zeros((*points[center].shape[:-1], 1, 6, 4))
         loads[..., 0, :3, :3] = np.eye(3)
-        loads[..., 0, 3:, 3] = _unit(np.cross(*self._axes(turned, design)))
+        loads[..., 0, 3:, 3] = _unit(cross(*self._axes(turned, design)))
         return loads
 
     def right_angles(
@@ -178,7 +180,7 @@ class Cross(Joint):
 
     def _axes(self, turned: Mapping[str, Array], design: Points) -> tuple[Array, Array]:
         first, (center,) = np.array(self.first_axis), self.at
-        return first, turned[self.second] @ np.cross(design[self.shaft] - design[center], first)
+        return first, turned[self.second] @ cross(design[self.shaft] - design[center], first)
 
 
 class Hinge(Joint):
@@ -331,5 +333,5 @@ def frame(axis: Array) -> tuple[Array, Array, Array]:
     along = _unit(axis)
     # the chassis axis that is most nearly across
     aside = np.eye(3)[np.abs(along).argmin(axis=-1)]
-    across = _unit(np.cross(along, aside))
-    return along, across, np.cross(along, across)
+    across = _unit(cross(along, aside))
+    return along, across, cross(along, across)

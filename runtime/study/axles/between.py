@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...core.vectors import cross, unit_vector
 from ...suspension.axle import Axle
 from ...suspension.axle.axle import LEFT, RIGHT
 from ...suspension.corner import Array
-from ...suspension.input.vectors import unit_vector
 from ...suspension.points import carried
 from ..loads.dataset import Place
 from ..loads.poses import Poses, wrench_about
@@ -140,7 +140,7 @@ def _on_bearings(bushes: list[Array], wrench: Array) -> tuple[Array, Array]:
     apart = bushes[0] - bushes[1]
     square = (apart * apart).sum(-1, keepdims=True)
     # couple of forces across the line: apart x pair = -moment, but for what is about the line
-    pair = np.cross(apart, moment) / square
+    pair = cross(apart, moment) / square
     about = (moment * apart).sum(-1, keepdims=True) / square * apart
     left, right = (
         np.concatenate([sign * pair - 0.5 * force, -0.5 * about], -1) for sign in (1, -1)

@@ -9,9 +9,9 @@ import xarray as xr
 
 from ...core.arguments import Arguments
 from ...core.quantities import variable
+from ...core.vectors import unit_vector
 from ...suspension.axle import Axle
 from ...suspension.corner import Array
-from ...suspension.input.vectors import unit_vector
 from ...suspension.positions import PositionError, arm_angles, design_height, equilibrium
 from ...suspension.reach import at_rest
 from ..loads.cases import GREATEST, Case

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...core.errors import InputError
+from ...core.vectors import cross
 from ...suspension.axle import Axle
 from ...suspension.axle.axle import LEFT, RIGHT
 from ...suspension.axle.bar import HalfBar
@@ -131,7 +132,7 @@ def _turned(model: Model, half: HalfBar, angle: Array, rack: Array) -> tuple[Arr
     which = model.equations.BODIES.index(half.body)
     twist = model.evaluate("velocities", states, inputs)[..., which, :]
     center = model.evaluate("positions", states, inputs)[..., which, :]
-    velocity = twist[..., 3:] + np.cross(twist[..., :3], foot - center)
+    velocity = twist[..., 3:] + cross(twist[..., :3], foot - center)
     turn = half.turn(foot)
     rise = model.signal("wheel_velocity", states, inputs)
     _, lever = half.lever(foot, turn)

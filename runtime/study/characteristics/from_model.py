@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...core.vectors import cross
 from ...suspension.corner import Array, Corner, Motion, SteeringAxis, Vehicle
 from ...suspension.input.units import in_metres
 from ...suspension.kinds import Suspension
@@ -158,7 +159,7 @@ class _Pose:
         turning, velocity = twist[..., :3], twist[..., 3:]
         origin = model.evaluate("positions", states, inputs)[..., self.carrier, :]
         arm = self.points["wheel_center"] - origin
-        return Motion(velocity + np.cross(turning, arm), turning)
+        return Motion(velocity + cross(turning, arm), turning)
 
     def _at_unit_rate(self, what: str) -> tuple[Array, Array]:
         """Return states and inputs with a unit rate of the arm angle, or of the rack.
@@ -186,7 +187,7 @@ def _steering_axis(pose: _Pose) -> SteeringAxis:
         # a strut turns about its mount on the chassis
         if point not in given.CARRIERS:
             return np.zeros_like(travel.velocity)
-        return travel.velocity + np.cross(travel.turning, points[point] - points["wheel_center"])
+        return travel.velocity + cross(travel.turning, points[point] - points["wheel_center"])
 
     low, high = given.STEERING_AXIS
     return AxisOfPoints(points[low], points[high], rate(high) - rate(low))

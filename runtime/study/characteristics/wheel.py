@@ -7,6 +7,7 @@ instant centre far away) becomes infinite there.
 
 import numpy as np
 
+from ...core.vectors import cross
 from ...suspension.corner import UP, Array, Corner, Motion, SteeringAxis
 
 # -- angles of the wheel --------------------------------------------------------------------------
@@ -236,7 +237,7 @@ def _angle_rate(sides: tuple[Array, Array], rates: tuple[Array, Array]) -> Array
 
 
 def _turned_axis(corner: Corner, motion: Motion) -> Array:
-    return np.cross(motion.turning, corner.axis)
+    return cross(motion.turning, corner.axis)
 
 
 def lowest_point(center: Array, axis: Array, radius: float) -> Array:
@@ -254,7 +255,7 @@ def upward_across(axis: Array) -> Array:
 def contact_velocity(corner: Corner) -> Array:
     """Return the velocity of the contact point, fixed to the carrier, per wheel travel."""
     motion = corner.travel
-    return motion.velocity + np.cross(motion.turning, contact(corner) - corner.center)
+    return motion.velocity + cross(motion.turning, contact(corner) - corner.center)
 
 
 def _steered_about(corner: Corner) -> SteeringAxis:
@@ -273,14 +274,14 @@ def _offsets(corner: Corner, point: Array) -> tuple[Array, Array]:
     rise = (point - lower)[..., 2:] / axis[..., 2:]
     away = lower + rise * axis - point
     heading = _heading(corner)
-    left = np.cross(UP, heading)
+    left = cross(UP, heading)
     ahead = np.einsum("...i,...i->...", away, heading)
     return ahead, -corner.vehicle.side * np.einsum("...i,...i->...", away, left)
 
 
 def _heading(corner: Corner) -> Array:
     """Return the horizontal unit vector in which the wheel rolls forward."""
-    heading = np.cross(corner.vehicle.side * corner.axis, UP)
+    heading = cross(corner.vehicle.side * corner.axis, UP)
     length: Array = np.linalg.norm(heading, axis=-1, keepdims=True)
     return heading / length
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ...core.arguments import Arguments
 from ...core.quantities import variable
+from ...core.vectors import cross
 from ...simulation.result import Simulation
 from ...suspension.model import Model
 from ...systems.inputs import rates_of
@@ -177,7 +178,7 @@ def _inertia(poses: Poses, parts: tuple[str, ...], by_time: Array) -> list[Load]
         turning, rate = twists[:, which, :3], rates[:, which]
         inertia = poses.turned[part] @ _inertia_at_design(poses, part) @ poses.turned[part].mT
         momentum = np.einsum("nij,nj->ni", inertia, turning)
-        moment = np.einsum("nij,nj->ni", inertia, rate[:, :3]) + np.cross(turning, momentum)
+        moment = np.einsum("nij,nj->ni", inertia, rate[:, :3]) + cross(turning, momentum)
         loads.append(
             Load(part, "mass", "inertia", -mass * rate[:, 3:], -moment, poses.centers[part])
         )

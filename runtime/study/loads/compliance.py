@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...core.arguments import Arguments
 from ...core.quantities import Display, display_of, variable
+from ...core.vectors import cross
 from ...suspension.bushes import described_bushings, left_out, refuse_rigid, softness_of_rack
 from ...suspension.corner import Corner, Motion
 from ...suspension.model import Model
@@ -196,7 +197,7 @@ def load_at_contact(test: RigLoad, poses: Poses, there: Corner) -> Array:
         for vector in (_mirror(side) * test.force, side * _mirror(side) * test.moment)
     )
     arm = poses.points[test.at] - poses.points[CONTACT]
-    return np.concatenate([force, moment + np.cross(arm, force)], axis=-1)
+    return np.concatenate([force, moment + cross(arm, force)], axis=-1)
 
 
 def sense_of(test: RigLoad, poses: Poses, there: Corner) -> Array:
@@ -222,7 +223,7 @@ def told(
         How both wheels of an axle are loaded.
     """
     turn = moved[:, 3:]
-    shift = moved[:, :3] + np.cross(turn, poses.points[test.at] - poses.points[CONTACT])
+    shift = moved[:, :3] + cross(turn, poses.points[test.at] - poses.points[CONTACT])
     as_motion = replace(there, travel=Motion(shift, turn))
     values = {
         "toe": wheel.bump_steer(as_motion),

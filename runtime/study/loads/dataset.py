@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ...core.arguments import Arguments
 from ...core.quantities import variable
+from ...core.vectors import cross
 from ...suspension.structure import GROUND
 from .poses import Poses
 from .reactions import Load
@@ -132,7 +133,7 @@ def dataset_of(over: str, loads: Sequence[Load], places: Mapping[str, Place]) ->
 def _sum(fields: dict[str, Array], rows: list[bool], about: Array) -> tuple[Array, Array]:
     """Return the sum of some loads, and of their moments about a point, (count, 3)."""
     force, moment, at = (fields[name][:, rows] for name in ("force", "moment", "at"))
-    turning = moment + np.cross(at - about[:, None], force)
+    turning = moment + cross(at - about[:, None], force)
     return force.sum(axis=1), turning.sum(axis=1)
 
 

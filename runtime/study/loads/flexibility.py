@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import InputError
+from ...core.vectors import unit_vector
 from ...suspension.bushes import Bush
 from ...suspension.corner import Corner
-from ...suspension.input.vectors import unit_vector
 from ...suspension.structure import GROUND, Joint
 from ..characteristics import wheel
 from .poses import CONTACT, Poses, rotated

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.vectors import cross
 from ...suspension.corner import UP
 from ...suspension.model import Model
 from ...suspension.points import hardpoints
@@ -97,9 +98,9 @@ class Poses:
         Forward is horizontal in the plane of the wheel, as in the tyre axes of ISO 8855.
         """
         side = self.model.suspension.vehicle.sign
-        forward = np.cross(side * self.axis, UP)
+        forward = cross(side * self.axis, UP)
         forward /= np.linalg.norm(forward, axis=-1, keepdims=True)
-        return np.stack([forward, np.cross(UP, forward), np.broadcast_to(UP, forward.shape)], -2)
+        return np.stack([forward, cross(UP, forward), np.broadcast_to(UP, forward.shape)], -2)
 
 
 def rotated(matrix: Array, rotation: Array) -> Array:
@@ -112,4 +113,4 @@ def rotated(matrix: Array, rotation: Array) -> Array:
 
 def wrench_about(point: Array, at: Array, force: Array, moment: Array | float = 0.0) -> Array:
     """Return force and moment about a point, (..., 6), of a force and a moment elsewhere."""
-    return np.concatenate(np.broadcast_arrays(force, moment + np.cross(at - point, force)), axis=-1)
+    return np.concatenate(np.broadcast_arrays(force, moment + cross(at - point, force)), axis=-1)

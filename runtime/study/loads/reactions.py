@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import InputError
+from ...core.vectors import cross
 from ...suspension.corner import UP
 from ...suspension.structure import GROUND, Joint, Line
 from .poses import CENTER, CONTACT, Poses, wrench_about
@@ -227,4 +228,5 @@ def _about(poses: Poses, part: str, point: str, units: Array) -> Array:
     """Return unit loads at a point as columns of forces and moments about a centre of mass."""
     arm = poses.points[point] - poses.centers[part]
     forces, moments = units[..., :3, :], units[..., 3:, :]
-    return np.concatenate([forces, moments + np.cross(arm[..., :, None], forces, axis=-2)], -2)
+    turning = cross(arm[..., None, :], forces.swapaxes(-1, -2)).swapaxes(-1, -2)
+    return np.concatenate([forces, moments + turning], -2)

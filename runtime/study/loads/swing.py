@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.vectors import cross
 from ...suspension.structure import GROUND
 from .poses import Poses
 from .reactions import Load
@@ -50,5 +51,5 @@ class Swing:
     def velocity(self, part: str, at: Array) -> Array:
         """Return the velocity of a point of a part, (n, 3) [m/rad]."""
         own = self.twists[:, self.poses.model.equations.BODIES.index(part), 3:]
-        moved: Array = own + np.cross(self.turning(part), at - self.poses.centers[part])
+        moved: Array = own + cross(self.turning(part), at - self.poses.centers[part])
         return moved

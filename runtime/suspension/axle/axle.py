@@ -12,11 +12,11 @@ from pydantic import ValidationError
 from ...core.arguments import Arguments, shown
 from ...core.errors import InputError
 from ...core.suggestions import suggestion
+from ...core.vectors import unit_vector
 from ..bushes import RACK
 from ..data import data_sets, find
 from ..input.messages import messages_of
 from ..input.toml_file import read_toml
-from ..input.vectors import unit_vector
 from ..kinds import Suspension
 from ..model import Model
 from .bar import AntiRollBar, HalfBar

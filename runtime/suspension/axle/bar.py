@@ -18,10 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field
 
+from ...core.vectors import angle_between_lines, cross, distance_from_line, unit_vector
 from ..input.hardpoints import SMALLEST_DISTANCE
 from ..input.section import NonNegative, Number, Range, Section, Triple
 from ..input.units import LengthUnit, in_metres
-from ..input.vectors import angle_between_lines, distance_from_line, unit_vector
 
 Array = NDArray[np.float64]
 
@@ -167,7 +167,7 @@ class AntiRollBar(Section):
                 f"least {_SMALLEST_CROSS_ANGLE:g} deg are needed. Move one of the two points."
             )
         axis = unit_vector(self.axis)
-        pull = abs(float(np.cross(axis, top - bush) @ unit_vector(top - foot)))
+        pull = abs(float(cross(axis, top - bush) @ unit_vector(top - foot)))
         if pull < SMALLEST_DISTANCE:
             problems.append(
                 f"the drop link pulls with a lever of {1e3 * pull:.3f} mm about the bar's axis; at "
@@ -252,7 +252,7 @@ class HalfBar:
         along = (lever @ self.axis) * (away @ self.axis)
         reach = 0.5 * (lever @ lever + np.einsum("...i,...i", away, away) - link @ link) - along
         across = self._across
-        return away @ across, away @ np.cross(self.axis, across), reach
+        return away @ across, away @ cross(self.axis, across), reach
 
     def turn(self, foot: Array) -> Array:
         """Return the angle of the half from design, right-handed about its axis [rad].
@@ -282,7 +282,7 @@ class HalfBar:
         across = self._across
         cosine, sine = np.cos(turn)[..., None], np.sin(turn)[..., None]
         fixed = self.top - across
-        place: Array = fixed + cosine * across + sine * np.cross(self.axis, across)
+        place: Array = fixed + cosine * across + sine * cross(self.axis, across)
         return place
 
     def lever(self, foot: Array, turn: Array) -> tuple[Array, Array]:
@@ -298,7 +298,7 @@ class HalfBar:
         top = self.top_at(turn)
         link = top - foot
         direction = link / np.linalg.norm(link, axis=-1, keepdims=True)
-        arm = np.cross(self.axis, top - self.bush)
+        arm = cross(self.axis, top - self.bush)
         return direction, np.einsum("...i,...i->...", arm, direction)
 
     def rate_of_turn(self, foot: Array, turn: Array, velocity: Array) -> Array:

@@ -6,9 +6,9 @@ from typing import Any
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError
+from ...core.vectors import components
 from ...systems.compile.build import compile_mechanism, require_generator
 from ...systems.system import System
-from ..input.vectors import components
 from ..model import Model
 from .axle import LEFT, RIGHT, Axle
 

@@ -6,10 +6,10 @@ from typing import ClassVar
 import numpy as np
 from pydantic import Field
 
+from ...core.vectors import Vector, components
 from .hardpoints import Hardpoints
 from .section import NonNegative, Number, Positive, Section, Triple
 from .units import in_metres
-from .vectors import Vector, components
 
 _ELEMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 

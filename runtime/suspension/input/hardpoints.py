@@ -8,9 +8,16 @@ from typing import Any, ClassVar, get_args
 import numpy as np
 from pydantic import Field
 
+from ...core.vectors import (
+    Vector,
+    angle_between_lines,
+    components,
+    cross,
+    distance_from_line,
+    unit_vector,
+)
 from .section import Section
 from .units import LengthUnit, in_metres
-from .vectors import Vector, angle_between_lines, components, distance_from_line, unit_vector
 
 # Closer than this, two points that define a direction or a rod are taken for one, in m.
 SMALLEST_DISTANCE = 0.001
@@ -250,7 +257,7 @@ class Hardpoints(Section):
             )
             return [problem]
         rod = unit_vector(inner - outer)
-        lever = abs(float(np.cross(outer - foot, rod) @ direction))
+        lever = abs(float(cross(outer - foot, rod) @ direction))
         if lever < SMALLEST_DISTANCE:
             problem = (
                 f"{self.text('tie_rod_outer', 'tie_rod_inner')}: the tie rod pulls with a lever of "

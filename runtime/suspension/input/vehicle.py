@@ -5,9 +5,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from ...core.vectors import Vector, unit_vector
 from .section import Flag, NonNegative, Number, Positive, Range, Section, Triple
 from .units import in_metres
-from .vectors import Vector, unit_vector
 
 Angle = Annotated[
     Number,

@@ -12,6 +12,7 @@ import numpy as np
 from pydantic import Field
 
 from ...core.errors import InputError
+from ...core.vectors import Vector, cross, distance_from_line, unit_vector
 from ...generated import double_wishbone, double_wishbone_general
 from ..coil_sprung import CoilDamper, CoilSprung, Spring
 from ..corner import Array, Motion, Plane
@@ -20,7 +21,6 @@ from ..facts import Names
 from ..input.bodies import Bodies, Rack, RigidBody, TieRod
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
 from ..input.section import Triple
-from ..input.vectors import Vector, distance_from_line, unit_vector
 from ..structure import FORCES_OF_A_DAMPER, Ball, Hinge, Line, Structure, steered
 
 _UP = np.array([0.0, 0.0, 1.0])
@@ -121,7 +121,7 @@ class DoubleWishboneHardpoints(Hardpoints):
         """Check that the knuckle can turn the upper arm, as it has to when the wheel moves."""
         hinge = self.metres("upper_arm_front") - self.metres("upper_arm_rear")
         arm = self.metres("upper_ball_joint") - self.metres("upper_arm_rear")
-        lever = abs(float(np.cross(arm, axis) @ unit_vector(hinge)))
+        lever = abs(float(cross(arm, axis) @ unit_vector(hinge)))
         if lever >= SMALLEST_DISTANCE:
             return []
         problem = (
@@ -268,7 +268,7 @@ damper has a rate or a curve; the stops are touched by its length."""
         """Return the planes of the lower and of the upper arm."""
         del travel
         lower, upper = (
-            Plane(points[ball], np.cross(points[front] - points[rear], points[ball] - points[rear]))
+            Plane(points[ball], cross(points[front] - points[rear], points[ball] - points[rear]))
             for ball, (front, rear) in self.hardpoints.ARMS.items()
         )
         return lower, upper

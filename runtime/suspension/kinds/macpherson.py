@@ -13,6 +13,7 @@ from typing import Any, ClassVar, Literal, Self
 import numpy as np
 from pydantic import Field
 
+from ...core.vectors import Vector, cross, unit_vector
 from ...generated import macpherson, macpherson_free_rack, macpherson_general
 from ...systems.compile.build import compile_mechanism, require_generator
 from ..base import Suspension
@@ -25,7 +26,6 @@ from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
 from ..input.section import Number, Triple
 from ..input.strut import Strut
 from ..input.units import in_metres
-from ..input.vectors import Vector, unit_vector
 from ..strokes import Strokes
 from ..structure import (
     FORCES_OF_A_DAMPER,
@@ -361,7 +361,7 @@ the strut extended (`spring_preload_N`), or by its force at the design position
         del travel
         ball, front, rear = points["ball_joint"], points["arm_front"], points["arm_rear"]
         top, bottom = points["strut_top"], points["strut_lower"]
-        return Plane(ball, np.cross(front - rear, ball - rear)), Plane(top, top - bottom)
+        return Plane(ball, cross(front - rear, ball - rear)), Plane(top, top - bottom)
 
     def spring_at(self, strokes: Strokes) -> Spring:
         """Return the spring, which may have an axis of its own."""

@@ -12,6 +12,7 @@ import numpy as np
 from pydantic import Field
 
 from ...core.errors import InputError
+from ...core.vectors import Vector, components, cross, unit_vector
 from ...generated import multi_link
 from ..coil_sprung import CoilDamper, CoilSprung, Spring
 from ..corner import Array, Motion, Plane
@@ -20,7 +21,6 @@ from ..facts import Names
 from ..input.bodies import Bodies, Rack, RigidBody, TieRod
 from ..input.hardpoints import Hardpoints, Pair
 from ..input.section import Positive, Triple
-from ..input.vectors import Vector, components, unit_vector
 from ..structure import FORCES_OF_A_DAMPER, Ball, Cross, Line, Structure, frame, steered
 
 LINKS = ("front_upper_link", "rear_upper_link", "front_lower_link", "rear_lower_link")
@@ -114,7 +114,7 @@ class MultiLinkHardpoints(Hardpoints):
         """Check that the links hold the knuckle at its height, firmly."""
         center = self.metres("wheel_center")
         held = [
-            [*along, *(np.cross(self.metres(f"{link}_outer") - center, along) / _RADIUS)]
+            [*along, *(cross(self.metres(f"{link}_outer") - center, along) / _RADIUS)]
             for link, along in self.directions().items()
         ]
         _, firm, free = np.linalg.svd(np.array([*held, [0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))

@@ -9,11 +9,11 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
+from ...core.vectors import Vector
 from ...generated import pull_rod
 from ..input.bodies import RigidBody
 from ..input.hardpoints import Hardpoints, Pair
 from ..input.section import Triple
-from ..input.vectors import Vector
 from .double_wishbone import DoubleWishboneHardpoints
 from .push_rod import PushRod, RockerBodies, RockerHardpoints
 

@@ -8,17 +8,16 @@ from collections.abc import Mapping
 from types import ModuleType
 from typing import ClassVar, Literal
 
-import numpy as np
 from pydantic import Field
 
 from ...core.errors import InputError
+from ...core.vectors import Vector, cross, distance_from_line, unit_vector
 from ...generated import push_rod
 from ..coil_sprung import CoilDamper, Spring
 from ..drawing import Axis, Drawing
 from ..input.bodies import Rack, RigidBody, TieRod
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
 from ..input.section import Triple
-from ..input.vectors import Vector, distance_from_line, unit_vector
 from ..structure import FORCES_OF_A_DAMPER, Ball, Cross, Hinge, Line, Structure
 from .double_wishbone import DoubleWishbone, DoubleWishboneBodies, DoubleWishboneHardpoints
 
@@ -81,7 +80,7 @@ class RockerHardpoints(DoubleWishboneHardpoints):
         if self.distance(place, end) < SMALLEST_DISTANCE:
             return 0.0
         arm = at - self.metres("rocker_rear")
-        return abs(float(np.cross(arm, unit_vector(to - at)) @ axis))
+        return abs(float(cross(arm, unit_vector(to - at)) @ axis))
 
 
 class PushRodHardpoints(RockerHardpoints):

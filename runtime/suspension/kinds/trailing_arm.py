@@ -12,6 +12,7 @@ import numpy as np
 from pydantic import Field
 
 from ...core.errors import InputError
+from ...core.vectors import Vector, angle_between_lines, cross, distance_from_line
 from ...generated import trailing_arm
 from ..coil_sprung import CoilDamper, CoilSprung, Spring
 from ..corner import Array, Motion, Plane
@@ -20,7 +21,6 @@ from ..facts import Names
 from ..input.bodies import Bodies, RigidBody
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
 from ..input.section import Positive, Triple
-from ..input.vectors import Vector, angle_between_lines, distance_from_line
 from ..structure import FORCES_OF_A_DAMPER, Fixed, Hinge, Line, Structure, frame
 
 _BEARINGS = ("arm_inner", "arm_outer")
@@ -91,9 +91,7 @@ class TrailingArmHardpoints(Hardpoints):
             )
             return [problem]
         # the velocity of the wheel centre about the axis; by the lever, its part upward
-        rise = float(np.cross(outer - inner, center - inner)[2]) / float(
-            np.linalg.norm(outer - inner)
-        )
+        rise = float(cross(outer - inner, center - inner)[2]) / float(np.linalg.norm(outer - inner))
         if abs(rise) >= SMALLEST_DISTANCE:
             return []
         problem = (

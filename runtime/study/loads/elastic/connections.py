@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.vectors import cross, unit_vector
 from ....suspension.bushes import RACK, Bush
-from ....suspension.input.vectors import unit_vector
 from ....suspension.structure import Fixed, Joint, Line, frame
 from ...characteristics.from_model import design_axis
 from ..poses import Poses
@@ -154,7 +154,7 @@ class Connections:
             if bush is not None and bush.tilt and which < _TILTING:
                 # in axes that turn with the bush, where it stands; they are those of design
                 back = poses.turned[joint.first][0].T
-                moment = carried[3:] @ np.cross(back @ second[0], back @ first[0])
+                moment = carried[3:] @ cross(back @ second[0], back @ first[0])
                 law = Straight(1.0 / bush.tilt, -float(moment))
             yield self._indices(joint.first, joint.second), (first, second), law
 

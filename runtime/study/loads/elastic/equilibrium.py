@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.vectors import cross
 from ....suspension.corner import UP
 from ...characteristics.wheel import lowest_point
 from ..flexibility import Held
@@ -249,7 +250,7 @@ class Equilibrium:
         axis, center = self.axis(places), places.centers[:, self._wheel]
         arm, spoke = self.contact(places) - center, self.center(places) - center
         total[:, wheel : wheel + 3] += force + pushed
-        total[:, rows] += moment + np.cross(arm, force) + np.cross(spoke, pushed)
+        total[:, rows] += moment + cross(arm, force) + cross(spoke, pushed)
         # how the lowest point moves as the wheel turns
         turning = -cross_matrix(axis)
         rise = axis[:, 2, None]
