@@ -161,7 +161,7 @@ def draw(points: Sequence[Point], processor: str) -> Figure:
                 (evaluations, [p.evaluations for p in own]),
                 (times, [1e3 * p.seconds.least for p in own]),
             ):
-                colour, marker = LOOKS["SUNDIALS" if native_available() else "SciPy", name]
+                colour, marker = LOOKS["C" if native_available() else "SciPy", name]
                 axes.plot(rates, values, color=colour, marker=marker, label=NAMES.get(name, name))
         _axes(evaluations, "evaluations of the right-hand side")
         _axes(times, "processor time [ms]")

@@ -34,10 +34,10 @@ _IMPLICIT = ("BDF", "Radau", "LSODA")
 PURPLE, SKY, GREY, BLACK = "#cc79a7", "#56b4e9", "#777777", "#000000"
 # Colour and marker of each curve: the same colour for the same formulas.
 LOOKS = {
-    ("SUNDIALS", "Verner"): (GREEN, "s"),
-    ("SUNDIALS", "DormandPrince"): (BLUE, "o"),
-    ("SUNDIALS", "BDF"): (ORANGE, "^"),
-    ("SUNDIALS", "Adams"): (PURPLE, "D"),
+    ("C", "Verner"): (GREEN, "s"),
+    ("C", "DormandPrince"): (BLUE, "o"),
+    ("C", "BDF"): (ORANGE, "^"),
+    ("C", "Adams"): (PURPLE, "D"),
     ("SciPy", "RK45"): (BLUE, "o"),
     ("SciPy", "DOP853"): (SKY, "v"),
     ("SciPy", "BDF"): (ORANGE, "^"),
@@ -92,7 +92,7 @@ class Stiffness:
 
 def curves() -> list[tuple[str, str]]:
     """Return library and method of every curve that can be measured here."""
-    native = [("SUNDIALS", m) for m in NATIVE if m in native_methods()]
+    native = [("C", m) for m in NATIVE if m in native_methods()]
     return native + [("SciPy", m) for m in SCIPY]
 
 
@@ -134,7 +134,7 @@ def measure(
 
 
 def _call(case: Case, library: str, method: str, rtol: float) -> Callable[[], dict[str, Any]]:
-    return (_native if library == "SUNDIALS" else _scipy)(case, method, rtol)
+    return (_native if library == "C" else _scipy)(case, method, rtol)
 
 
 def _repeat(
@@ -298,7 +298,7 @@ def stiffness_table(result: Stiffness, points: Sequence[Point]) -> str:
     rows += [
         [f"its mean step at rtol {power(p.rtol)} [ms]", f"{1e3 * DURATION / p.steps:.2g}"]
         for p in points
-        if (p.library, p.method) == ("SUNDIALS", "DormandPrince") and p.rtol in _SHOWN
+        if (p.library, p.method) == ("C", "DormandPrince") and p.rtol in _SHOWN
     ]
     return markdown_table(["", "value"], rows)
 
@@ -318,7 +318,7 @@ def draw(points: Sequence[Point], processor: str) -> Figure:
     with rc_context(STYLE):
         figure = Figure(figsize=(9.0, 5.2), layout="constrained")
         evaluations, times = figure.subplots(1, 2)
-        lines: dict[str, list[Line2D]] = {"SUNDIALS": [], "SciPy": []}
+        lines: dict[str, list[Line2D]] = {"C": [], "SciPy": []}
         for library, method in dict.fromkeys((p.library, p.method) for p in points):
             own = [p for p in points if (p.library, p.method) == (library, method)]
             lines[library].append(_curve(evaluations, own, [p.evaluations for p in own]))
@@ -337,7 +337,7 @@ def draw(points: Sequence[Point], processor: str) -> Figure:
 def _curve(axes: Axes, points: Sequence[Point], values: Sequence[float]) -> Line2D:
     library, method = points[0].library, points[0].method
     colour, marker = LOOKS[library, method]
-    native = library == "SUNDIALS"
+    native = library == "C"
     (line,) = axes.plot(
         [p.error for p in points],
         values,
