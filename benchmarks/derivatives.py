@@ -31,7 +31,7 @@ def main() -> None:
     where = (
         f"On {platform.machine()}, one core, Python {platform.python_version()}; the quickest of"
     )
-    text = "\n".join([*costs(), "", *toe(), "", f"{where} {REPEATED} runs."])
+    text = "\n".join([*costs(), "", *toe(), "", *motion(), "", f"{where} {REPEATED} runs."])
     print(text)
     fill_page(PAGE, {"derivatives": text})
 
@@ -161,6 +161,31 @@ class Toe:
         by = self.by_parameters(*self._look(x))
         columns = [by[f"{point}_{axis}"] * 1e-3 * REACH_MM / WITHIN for point, axis in FREE]
         return np.concatenate([np.transpose(columns), RELUCTANCE * np.eye(len(FREE))])
+
+
+def motion() -> list[str]:
+    """Return how long the gradient of a motion takes, beside the motion."""
+    car = kintrafo.Model("reference_car")
+    module = kintrafo.compile(SHIPPED[car.equations.NAME], parameter_derivatives=True)
+    system = kintrafo.System(module, car.parameters)
+    start, times = kintrafo.state_at_height(car, 0.325, spin_rate=93.0), np.linspace(0.0, 1.0, 201)
+
+    def simulated() -> Any:
+        found = kintrafo.simulate(car, (0.0, 1.0), start, method="DormandPrince", t_eval=times)
+        return found.signals["wheel_acceleration"]
+
+    def differentiated() -> Any:
+        asked = {"wheel_acceleration": "rms"}
+        return kintrafo.motion_gradient(system, (0.0, 1.0), start, asked, t_eval=times)
+
+    forward, backward = quickest(simulated), quickest(differentiated)
+    times_longer = f"{milliseconds(backward)}, {backward / forward:.0f} times"
+    return [
+        "| a second of the reference car, ms | |",
+        "|---|---:|",
+        f"| simulated, with a signal at 201 times | {milliseconds(forward)} |",
+        f"| with the gradient of its RMS by {len(differentiated().by)} | {times_longer} |",
+    ]
 
 
 def toe() -> list[str]:

@@ -1,7 +1,7 @@
 """The paper's protocol: one second, output every 1e-4 s, Runge-Kutta against Gear's method.
 
 IMSL's DIVPRK (Verner's formulas of order 5 and 6) steps onto every output; DIVPAG (Gear's formulas)
-takes steps of its own and interpolates. Here a solver in C does both, with the same compiled equations.
+takes steps of its own and interpolates. Here C does both, with the same compiled equations.
 The four combinations that the paper does not have show what makes the difference.
 """
 

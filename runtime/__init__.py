@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .core.errors import InputError, KintrafoError
     from .equations.errors import ClosureError, ModelError, ParameterError
+    from .simulation.backwards import MotionGradient, motion_gradient
     from .simulation.events import SignalEvent
     from .simulation.interpolation import Samples
     from .simulation.result import Simulation, SimulationError
@@ -58,6 +59,7 @@ __all__ = [
     "Mode",
     "Model",
     "ModelError",
+    "MotionGradient",
     "ParameterError",
     "PositionError",
     "Range",
@@ -76,6 +78,7 @@ __all__ = [
     "equilibrium",
     "gradient",
     "linearise",
+    "motion_gradient",
     "proposals",
     "road_under_load",
     "simulate",
@@ -93,6 +96,7 @@ _MODULES = {
     ".suspension.axle.equations": ("AxleModel",),
     ".suspension.kinds": ("Suspension",),
     ".simulation.interpolation": ("Samples",),
+    ".simulation.backwards": ("MotionGradient", "motion_gradient"),
     ".systems.derivatives": ("derivative", "design_derivative", "gradient"),
     ".systems.linearisation": ("Linearisation", "linearise"),
     ".suspension.model": ("Model",),

@@ -66,7 +66,7 @@ def derivative(
     array([ 1.    , -1.0119,  0.3715])
     """
     with Arguments("derivative") as given:
-        directions = _directions(given, system)
+        directions = checked_directions(given, system)
         if not given.refused:
             given.among("function", function, directions.of)
             named = given.mapping("along", along, "names and numbers")
@@ -134,7 +134,7 @@ def gradient(
     (28, 23.239)
     """
     with Arguments("gradient") as given:
-        directions = _directions(given, system)
+        directions = checked_directions(given, system)
         if not given.refused:
             given.among("function", function, directions.of)
             values = _values(given, system, state, inputs)
@@ -178,7 +178,7 @@ def design_derivative(system: System, along: Mapping[str, ArrayLike]) -> dict[st
         As of `derivative`.
     """
     with Arguments("design_derivative") as given:
-        directions = _directions(given, system)
+        directions = checked_directions(given, system)
         if not given.refused:
             named = given.mapping("along", along, "names and numbers")
             for name in named:
@@ -194,7 +194,7 @@ def design_derivative(system: System, along: Mapping[str, ArrayLike]) -> dict[st
 # -- what is given --------------------------------------------------------------------------------
 
 
-def _directions(given: Arguments, system: Any) -> Any:
+def checked_directions(given: Arguments, system: Any) -> Any:
     """Return the derivatives that a system's equations have; None where that is refused."""
     given.kind("system", system, System, System.NEEDED)
     if not given.refused and not system.equations.DIRECTIONS.of:

@@ -1,0 +1,122 @@
+"""Gradients of what a motion is judged by, against differences of motions."""
+
+from typing import Any
+
+import kintrafo
+import numpy as np
+import pytest
+from kintrafo import InputError, Samples
+from kintrafo.generator.mechanisms import MODELS
+from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
+
+CAR = kintrafo.Model("reference_car")
+SHIPPED = {model.name: model for model in MODELS}
+TIMES = np.linspace(0.0, 0.3, 61)
+SPAN = (0.0, 0.3)
+START = np.array(kintrafo.state_at_height(CAR, 0.325, spin_rate=93.0))
+WEIGHTS = np.cos(40.0 * TIMES)
+OF = {"wheel_acceleration": "rms", "toe": "mean", "beta1": WEIGHTS}
+LENGTHS = ["tie_rod_inner_z", "strut_top_y", "wheel_center_x"]
+OTHERS = ["spring_rate", "tyre_rate", "damper_rate", "knuckle_mass", "gravity"]
+ROAD = Samples([0.0, 0.1, 0.1, 0.3], [0.0, 0.01, 0.03, 0.0], "linear")
+
+
+@pytest.fixture(scope="module")
+def system() -> kintrafo.System:
+    module = kintrafo.compile(SHIPPED[CAR.equations.NAME], parameter_derivatives=True)
+    return kintrafo.System(module, CAR.parameters)
+
+
+def judged(signals: Any, states: Any) -> float:
+    """Return the number, from its definition."""
+    share = np.full(TIMES.size, 1.0 / (TIMES.size - 1))
+    share[[0, -1]] /= 2.0
+    moved = signals["wheel_acceleration"] - share @ signals["wheel_acceleration"]
+    return float(np.sqrt(share @ moved**2) + share @ signals["toe"] + WEIGHTS @ states[0])
+
+
+def moved(system: kintrafo.System, name: str, by: float, inputs: Any, **options: Any) -> float:
+    """Return the number of a motion in which something is another."""
+    parameters, start, own = dict(system.parameters), START.copy(), dict(inputs)
+    if name in parameters:
+        parameters[name] += by
+    elif name in system.state_names:
+        start[system.state_names.index(name)] += by
+    else:
+        own[name] = own.get(name, 0.0) + by
+    other = kintrafo.System(system.equations, parameters)
+    found = kintrafo.simulate(other, SPAN, start, inputs=own, t_eval=TIMES, **options)
+    return judged(found.signals, found.y)
+
+
+def by_difference(
+    system: kintrafo.System, name: str, step: float, inputs: Any, **options: Any
+) -> float:
+    up, down = (moved(system, name, sign * step, inputs, **options) for sign in (1.0, -1.0))
+    return (up - down) / (2.0 * step)
+
+
+@pytest.mark.parametrize("inputs", [{}, {"road_height": ROAD}], ids=["free", "over a jump"])
+def test_against_motions_beside_it(system: kintrafo.System, inputs: Any) -> None:
+    """Both followed to 1e-12; differences of steps of 1e-5 are known to about 1e-7."""
+    tight = {"rtol": 1e-12, "atol": 1e-14}
+    found = kintrafo.motion_gradient(system, SPAN, START, OF, inputs=inputs, t_eval=TIMES, **tight)
+    there = kintrafo.simulate(
+        system, SPAN, START, inputs=inputs, method="DOP853", t_eval=TIMES, **tight
+    )
+    assert found.value == pytest.approx(judged(there.signals, there.y), rel=1e-9)
+    steps = {
+        **dict.fromkeys(LENGTHS, 1e-05),
+        **{name: 1e-4 * system.parameters[name] for name in OTHERS},
+        **dict.fromkeys(("beta1", "beta1_rate"), 1e-5),
+        "strut_force": 1.0,
+    }
+    for name, step in steps.items():
+        expected = by_difference(system, name, step, inputs, method="DOP853", **tight)
+        assert found.by[name] == pytest.approx(expected, rel=2e-6), name
+    known = {*system.parameters, *system.state_names, *system.input_names}
+    varied = {"road_height", "road_velocity"} if inputs else set()
+    assert set(found.by) == known - varied
+
+
+def test_it_is_the_gradient_of_the_numbers_that_the_steps_give(system: kintrafo.System) -> None:
+    """Steps of 10 ms all along, whatever the error: of these numbers, not of the true motion."""
+    coarse: dict[str, Any] = {"rtol": 0.5, "atol": 1e3, "max_step": 0.01}
+    found = kintrafo.motion_gradient(system, SPAN, START, OF, t_eval=TIMES, **coarse)
+    true = kintrafo.motion_gradient(system, SPAN, START, OF, t_eval=TIMES, rtol=1e-11, atol=1e-13)
+    apart = []
+    for name in ("damper_rate", "spring_rate", "knuckle_mass"):
+        step = 1e-4 * system.parameters[name]
+        expected = by_difference(system, name, step, {}, method="DormandPrince", **coarse)
+        assert found.by[name] == pytest.approx(expected, rel=1e-6), name
+        apart.append(abs(found.by[name] / true.by[name] - 1.0))
+    assert max(apart) > 1e-4
+
+
+def test_a_signal_that_stays_has_no_slope_of_its_rms() -> None:
+    module = kintrafo.compile(FOUR_BAR, parameter_derivatives=True)
+    floating = kintrafo.System(module, {"spring_rate": 0.0})
+    start = floating.design_state
+    found = kintrafo.motion_gradient(floating, SPAN, start, {"crank_angle": "rms"}, t_eval=TIMES)
+    assert found.value == 0.0
+    assert not any(found.by.values())
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"of": {"camberr": "rms"}}, "is not known"),
+        ({"of": {"camber": "max"}}, "There are mean, rms"),
+        ({"of": {"camber": [1.0, 2.0]}}, "2 weights are given for 61 times"),
+        ({"of": {}}, "of is empty"),
+        ({"t_span": (0.3, 0.0)}, "must be the later one"),
+        ({"t_eval": [0.1]}, "two times"),
+        ({"system": CAR}, "has no derivatives by parameters"),
+    ],
+)
+def test_bad_arguments_are_refused(system: kintrafo.System, changes: Any, words: str) -> None:
+    given = {"system": system, "t_span": SPAN, "of": {"camber": "rms"}, "t_eval": TIMES} | changes
+    with pytest.raises(InputError, match=words):
+        kintrafo.motion_gradient(
+            given["system"], given["t_span"], START, given["of"], t_eval=given["t_eval"]
+        )
