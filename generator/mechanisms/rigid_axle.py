@@ -91,7 +91,7 @@ ACTUATOR = d.Actuator(
     )
 )
 TYRE = d.LinearTyre(
-    name="rear",
+    name="axle",
     wheel=d.Wheel(BEAM, WHEEL_CENTER, SPIN_AXIS),
     rate=d.SpringRate("tyre_rate", 230000.0, "radial rate of the tyre"),
     free_height=d.Displacement(

@@ -10,7 +10,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from ..core.tabulated import number
-from . import axles
+from . import axles, rigid
 from .console import console, print_json, problems, say
 from .exits import Exit
 from .options import File, Force, Json, load
@@ -51,6 +51,7 @@ EXAMPLES = (
     "kintrafo simulate my_car.toml --road-step 60 --loads loads.csv",
     "kintrafo simulate my_car.toml --measured road.csv --speed 60 -o ride.nc",
     "kintrafo simulate reference_axle --road-step 20 --wheels left",
+    "kintrafo simulate rigid_axle --road-step 20 --wheels left",
 )
 
 # On the page of curves, in this order; what stands still is left out.
@@ -136,7 +137,10 @@ def command(
     )
     on_wheels = not UNITS.keys().isdisjoint(scenario.inputs)
     of_one = {"--height": height}
-    ride = _ride(file, wheels, of_one, wheel_loads=on_wheels)
+    if rigid.is_rigid_axle(file):
+        ride = rigid.ride(file, wheels or "both", {**of_one, "--loads": loads})
+    else:
+        ride = _ride(file, wheels, of_one, wheel_loads=on_wheels)
     if isinstance(ride.model, Model) and ride.model.free_rack:
         _tell_of_the_free_rack(file, scenario.inputs)
     options = {
