@@ -6,6 +6,7 @@ of everything that is told of first and second derivatives.
 """
 
 import math
+import re
 import shlex
 from pathlib import Path
 from typing import Any
@@ -24,6 +25,7 @@ from kintrafo import (
 )
 from kintrafo.study.rigid import formulas
 from kintrafo.study.rigid.beam import Beam
+from kintrafo.study.rigid.catalogue import MEASURES
 from kintrafo.study.scenario import Scenario
 from scipy.interpolate import PchipInterpolator
 from scipy.optimize import fsolve
@@ -34,6 +36,7 @@ Array = np.ndarray
 AXLE = RigidAxle.load("rigid_axle")
 MODEL = RigidAxleModel(AXLE)
 LEFT = np.array([0.0, 1.0, 0.0])
+PAGE = Path(__file__).parent.parent / "docs/rigid-axle.md"
 # lower links along x, upper ones that meet in a point ahead of the axle
 TRIANGULATED = AXLE.with_changes(
     {
@@ -476,7 +479,7 @@ def test_the_damper_ends_the_travel() -> None:
 
 def test_four_links_and_a_panhard_rod_are_one_too_many() -> None:
     """Five rods take five freedoms: what is left is neither heave nor roll alone."""
-    both = {"chassis": [500.0, -400.0, 480.0], "axle": [-20.0, -400.0, 525.0]}
+    right = {"chassis": [500.0, -400.0, 480.0], "axle": [-20.0, -400.0, 525.0]}
     with pytest.raises(InputError) as error:
         AXLE.with_changes(
             {
@@ -484,7 +487,7 @@ def test_four_links_and_a_panhard_rod_are_one_too_many() -> None:
                     "chassis": [500.0, 400.0, 480.0],
                     "axle": [-20.0, 400.0, 525.0],
                 },
-                "rods.right_upper_link": both,
+                "rods.right_upper_link": right,
             }
         )
     (problem,) = error.value.problems
@@ -492,6 +495,8 @@ def test_four_links_and_a_panhard_rod_are_one_too_many() -> None:
     assert "These take 5 (the singular values of their constraints are" in problem
     assert "one is left" in problem
     assert "only because its bushes give way" in problem
+    # word for word on the page
+    assert problem in " ".join(PAGE.read_text(encoding="utf-8").split())
 
 
 def test_a_rod_that_repeats_another_is_one_too_many() -> None:
@@ -559,6 +564,40 @@ def test_other_doors_refuse_it_by_name() -> None:
         RigidAxleModel(3)  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize(
+    "line",
+    [
+        "loads rigid_axle",
+        "compliance rigid_axle",
+        "deflection rigid_axle",
+        "kinematics rigid_axle",
+        "sensitivity rigid_axle",
+        "sweep rigid_axle wheel.toe_deg=0,1",
+        "export-points rigid_axle a.csv",
+        "topology rigid_axle",
+        "compare rigid_axle reference_car",
+        "compare rigid_axle reference_axle",
+        "simulate rigid_axle --loads a.csv",
+        "simulate rigid_axle --height 400",
+        "simulate rigid_axle --rack 5",
+        "characteristics rigid_axle --motion steer",
+        "characteristics rigid_axle --rack 5",
+        "compare rigid_axle rigid_axle --over travel",
+        "report rigid_axle --loads",
+        "new a.toml --rigid-axle --axle",
+        "new a.toml --rigid-axle --template reference_car",
+    ],
+)
+def test_commands_that_have_nothing_for_it_say_so(kintrafo: Any, line: str) -> None:  # noqa: F811
+    code, out, err = kintrafo(*shlex.split(line))
+    assert code != 0, out
+    assert out == ""
+    words = ("rigid axle", "rigid-axle", "only for", "steer", "rack")
+    assert any(word in err for word in words), err
+    assert "Traceback" not in err
+    assert not Path("a.csv").exists()
+
+
 def test_positions_beyond_reach_are_refused() -> None:
     with pytest.raises(PositionError, match=r"left wheel at \+900 mm"):
         rigid_axles.bump(AXLE, [0.0, 0.9])
@@ -589,11 +628,27 @@ def test_two_axles_are_compared_over_the_same_positions() -> None:
 
 
 def test_the_commands_of_the_page_run(kintrafo: Any) -> None:  # noqa: F811
-    page = Path(__file__).parent.parent / "docs/rigid-axle.md"
-    commands = commands_of(page.read_text(encoding="utf-8"))
+    commands = commands_of(PAGE.read_text(encoding="utf-8"))
     assert len(commands) == 7
     for line in commands:
         program, *arguments = shlex.split(line)
         assert program == "kintrafo"
         code, out, err = kintrafo(*arguments)
         assert (code, bool(out)) == (0, True), (line, err)
+
+
+def test_every_characteristic_is_on_the_page() -> None:
+    text = PAGE.read_text(encoding="utf-8")
+    for measure in MEASURES:
+        stem = measure.quantity.name.removesuffix("_left").removesuffix("_right")
+        assert f"`{stem}`" in text or f"`{stem}_left`" in text, stem
+
+
+def test_the_report_has_no_reference_to_others(kintrafo: Any) -> None:  # noqa: F811
+    code, out, err = kintrafo("report", "rigid_axle", "axle.html")
+    assert (code, err) == (0, ""), err
+    assert "axle.html" in out
+    text = Path("axle.html").read_text(encoding="utf-8")
+    assert "[rods.panhard_rod]" in text
+    assert "roll-centre height" in text
+    assert not re.search(r"(src|href)=\"(?!data:|#)", text)

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
@@ -9,7 +10,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from .axles import Ride
-from .console import console, curve_table, print_json, print_table, say
+from .console import console, curve_table, print_json, print_table
 from .options import among
 from .outputs import Outputs, name_files, named
 
@@ -146,9 +147,7 @@ def ride(file: str, wheels: str, refused: Mapping[str, Any]) -> Ride:
     from ..study.axles.ride import by_side
     from ..suspension.rigid.model import RigidAxleModel
 
-    for option, value in refused.items():
-        if value is not None:
-            raise typer.BadParameter(f"{option} is not for the file of a rigid axle")
+    _refuse(refused)
     of_sides = [f"{side}_{stem}" for stem in _OF_SIDES for side in ("left", "right")]
     played = partial(study.run, wheels=wheels)
     model = RigidAxleModel(file)
@@ -161,6 +160,31 @@ def _no_loads(model: Any, result: Any) -> "Dataset":
     raise NotImplementedError(model, result)
 
 
-def report(file: str) -> None:
-    """Say that there is none."""
-    say(f"{file}: report of a rigid axle is not there yet")
+def report(
+    file: str,
+    target: Path,
+    title: str | None,
+    refused: Mapping[str, Any],
+    *,
+    force: bool,
+    inputs: list[str | Path],
+) -> Path:
+    """Write the report of a rigid axle: drawings, tables and curves, nothing to be moved."""
+    from ..report import rigid_axle_chapters, write_chapters
+    from ..suspension.rigid import RigidAxle
+
+    _refuse(refused)
+    axle = RigidAxle.load(file)
+    heading = axle.heading()
+    heading = title or f"{heading[:1].upper()}{heading[1:]}"
+    chapters = rigid_axle_chapters(axle)
+    return write_chapters(
+        target, title=heading, chapters=chapters, data=axle, force=force, inputs=inputs
+    )
+
+
+def _refuse(options: Mapping[str, Any]) -> None:
+    """Refuse options that the files of rigid axles do not have."""
+    for option, value in options.items():
+        if value is not None:
+            raise typer.BadParameter(f"{option} is not for the file of a rigid axle")
