@@ -97,12 +97,13 @@ def characteristics(
     """All characteristics of a rigid axle over the motions of a rig."""
     from ..study import export
     from ..study import rigid as study
+    from ..study.axles import by_side
     from ..study.axles.sheet import at_design
     from ..suspension.rigid import RigidAxle
 
     axle = RigidAxle.load(file)
     curves = {motion: study.over(axle, motion, extent) for motion in chosen}
-    drawn = {motion: study.by_side(dataset) for motion, dataset in curves.items()}
+    drawn = {motion: by_side(dataset) for motion, dataset in curves.items()}
     # both wheels of a curve are drawn together
     of = [name.removesuffix("_left").removesuffix("_right") for name in of or ()]
     names = named(of, drawn)

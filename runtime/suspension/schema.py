@@ -82,7 +82,8 @@ _A_RIGID_AXLE = """\
 ## A rigid axle
 
 A file of its own, of a beam on four rods; `kintrafo new FILE --rigid-axle` writes one. See
-[A rigid axle](rigid-axle.md).
+[A rigid axle](rigid-axle.md). What is not described here is as of every suspension: `[tyre]`,
+`[gravity]`, the stops, and `[wheel]`, which may be left out.
 """
 
 _TABLE_HEAD = "| key | unit | allowed | left out | meaning |\n|---|---|---|---|---|"
@@ -169,7 +170,12 @@ def page_text() -> str:
     parts += [_AN_AXLE, *_table(sections[AxleFile.__name__])]
     parts += _described(sections, AxleFile, AxleFile.model_fields)
     parts += [_A_RIGID_AXLE, *_table(sections[RigidAxle.__name__])]
-    parts += _described(sections, RigidAxle, RigidAxle.model_fields)
+    own = [
+        name
+        for name in RigidAxle.model_fields
+        if name not in shared or _model_of(RigidAxle, name) is not _model_of(first, name)
+    ]
+    parts += _described(sections, RigidAxle, own)
     return "\n".join(parts).rstrip() + "\n"
 
 

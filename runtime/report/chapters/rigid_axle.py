@@ -10,6 +10,7 @@ from ...plots.curves import figure
 from ...plots.figures import STYLE
 from ...plots.rigid_axle import views
 from ...study import rigid
+from ...study.axles import by_side
 from ...study.axles.sheet import at_design
 from ...study.rigid.checkup import RigidAxleCheckup, checkup
 from ...suspension.rigid import RigidAxle
@@ -79,7 +80,7 @@ def _told(found: RigidAxleCheckup) -> list[tuple[str, str]]:
 
 
 def _picture(motion: str, dataset: xr.Dataset) -> Picture:
-    drawn = rigid.by_side(dataset)
+    drawn = by_side(dataset)
     there = [name for name in _DRAWN[motion] if name in drawn.data_vars]
     names = [name for name in there if bool(np.isfinite(drawn[name]).any())]
     words = rigid.MOTIONS[motion]

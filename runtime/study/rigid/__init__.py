@@ -11,17 +11,13 @@ Definitions and signs: docs/rigid-axle.md.
 """
 
 from ...suspension.rigid.model import equilibrium
-from ..axles.datasets import by_side
-from ..axles.motions import Extent
 from .checkup import checkup
 from .datasets import MOTIONS, bump, compare, over, roll, single
 from .ride import run
 
 __all__ = [
     "MOTIONS",
-    "Extent",
     "bump",
-    "by_side",
     "checkup",
     "compare",
     "equilibrium",

@@ -74,7 +74,7 @@ def checkup(axle: RigidAxle) -> RigidAxleCheckup:
     --------
     >>> found = checkup(RigidAxle.load("rigid_axle"))
     >>> found.problems, round(found.values["roll_center_height"], 2)
-    ((), 0.42)
+    ((), 0.41)
     """
     with Arguments("checkup") as given:
         given.kind("axle", axle, RigidAxle, RigidAxle.NEEDED)

@@ -67,8 +67,8 @@ def bump(axle: RigidAxle, travel: ArrayLike | None = None) -> xr.Dataset:
     --------
     >>> from kintrafo import RigidAxle
     >>> curves = bump(RigidAxle.load("rigid_axle"), [-0.05, 0.0, 0.05])
-    >>> (curves["axle_lateral"].values * 1e3).round(2).tolist()
-    [3.0, 0.0, -0.25]
+    >>> (curves["axle_lateral"].values[[0, 2]] * 1e3).round(2).tolist()
+    [-3.11, 0.2]
     """
     return _curves(axle, "bump", _given("travel", travel, "m"))
 
