@@ -274,8 +274,9 @@ def test_the_roll_centre_is_where_a_panhard_rod_crosses_the_middle(
     assert float(told["roll_center_height"][0]) == pytest.approx(1e-3 * height, rel=1e-11)
     # links along x that rise to the front turn the axle out of the curve
     assert float(told["roll_steer"][0]) == pytest.approx(-slope, abs=1e-12)
-    # the rod falls by 60 mm over 920 mm to the left: raised, its left end goes to the left
-    assert float(told["jacking"][0]) == pytest.approx(60.0 / 920.0, rel=1e-11)
+    # the rod falls by 60 mm over 920 mm to its end on the axle, at the left: a force to the left
+    # draws at it, and so its other end with the body down
+    assert float(told["jacking"][0]) == pytest.approx(-60.0 / 920.0, rel=1e-11)
 
 
 def test_the_roll_centre_of_triangulated_links_is_on_the_line_through_their_meeting_point() -> None:
@@ -305,6 +306,11 @@ def test_anti_squat_is_that_of_the_side_view(torque_on: str) -> None:
     whole = rise * 3000.0 / 720.0
     assert float(told["anti_squat"][0]) == pytest.approx(whole, rel=1e-10)
     assert float(told["anti_lift_braked"][0]) == pytest.approx((1.0 - 0.65) * whole, rel=1e-10)
+    # in front, the same path dives and lifts the other way
+    front = rigid_axles.bump(axle.with_changes({"rigid_axle": "front"}), [0.0])
+    assert float(front["anti_lift_driven"][0]) == pytest.approx(-whole, rel=1e-10)
+    assert float(front["anti_dive"][0]) == pytest.approx(-0.65 * whole, rel=1e-10)
+    assert "anti_squat" not in front
     # the axle turns about the pole as it rises: its nose, which points to the pole, down
     travel = 1e-5
     nose = rigid_axles.bump(axle, [-travel, travel])["pinion_angle"].values
@@ -332,7 +338,7 @@ def test_guidance_is_that_of_the_root_finder(axle: RigidAxle) -> None:
     moves = slopes(lambda h, r: found.place(still, h, r), (heave, roll)) @ [times, 1.0]
     # the roll centre does not move along the line through the contacts
     assert line @ moves[1:] == pytest.approx(0.0, abs=1e-9)
-    assert float(formulas.jacking(beam)[0]) == pytest.approx(by[1, 0] / by[2, 0], abs=1e-9)
+    assert float(formulas.jacking(beam)[0]) == pytest.approx(-by[1, 0] / by[2, 0], abs=1e-9)
     assert float(formulas.path(beam, "carrier")[0]) == pytest.approx(by[0, 0] / by[2, 0], abs=1e-9)
 
 
@@ -596,6 +602,25 @@ def test_commands_that_have_nothing_for_it_say_so(kintrafo: Any, line: str) -> N
     assert any(word in err for word in words), err
     assert "Traceback" not in err
     assert not Path("a.csv").exists()
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"tyre.rate_N_per_m": 230.0}, "Is the rate in N/mm"),
+        ({"bodies.beam.mass_kg": 80000.0, "bodies.wheel.mass_kg": 26000.0}, "a mass in grams"),
+        ({"spring.rate_N_per_m": 48.0, "spring.force_at_design_N": 1.0}, "Is it in N/mm"),
+        ({"damper.rate_N_s_per_m": 3.2}, "Is it in N s/mm"),
+        (
+            {"rods.upper_link": {"chassis": [-20.0, 60.0, 525.0], "axle": [500.0, 60.0, 480.0]}},
+            r"\[rods.upper_link\]: the end on the axle is 514 mm",
+        ),
+    ],
+)
+def test_mistakes_that_can_move_are_told(changes: dict[str, Any], words: str) -> None:
+    assert rigid_axles.checkup(AXLE).problems == ()
+    problems = rigid_axles.checkup(AXLE.with_changes(changes)).problems
+    assert any(re.search(words, problem) for problem in problems), problems
 
 
 def test_positions_beyond_reach_are_refused() -> None:

@@ -40,7 +40,6 @@ def views(axle: RigidAxle) -> Figure:
     with Arguments("views") as given:
         given.kind("axle", axle, RigidAxle, RigidAxle.NEEDED)
     result = Figure(figsize=(6.4, 5.6), layout="constrained")
-    result.get_layout_engine().set(hspace=0.06)
     grid = result.add_gridspec(2, 2)
     places = (grid[0, 0], grid[0, 1], grid[1, 0])
     lines = list(_lines(axle))

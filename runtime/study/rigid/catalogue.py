@@ -162,8 +162,8 @@ GROUND = (
             "jacking",
             "1",
             "jacking coefficient",
-            "lift of the body by a lateral force at the contacts, over the force, v_y / v_z in "
-            "heave",
+            "lift of the body by a lateral force at the contacts, over the force, -v_y / v_z "
+            "in heave",
             "positive when a force to the left lifts the body",
         ),
         formulas.jacking,

@@ -1,5 +1,6 @@
 """A first look at a rigid axle: reach, rest, modes, guidance and roll."""
 
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -7,6 +8,7 @@ import numpy as np
 
 from ...core.arguments import Arguments
 from ...core.quantities import display_of
+from ...suspension.plausibility import unlikely_rates
 from ...suspension.reach import PositionError
 from ...suspension.rigid.axle import RigidAxle
 from ...suspension.rigid.model import HEAVE, ROLL, RigidAxleModel, equilibrium
@@ -32,6 +34,10 @@ _AT_DESIGN = {
 _FAR = 0.4
 # At rest so far from design, or on tyres so far apart, a rate, a unit or a free length is wrong.
 _MOST_TRAVEL = 0.5 * USUAL_TRAVEL
+# A rod whose axle's end is so much farther from the axle than the other one is swapped [m].
+_SWAPPED = 0.2
+# Where rates stand in the file.
+_RATES = {"spring": "[spring] rate_N_per_m", "damper": "[damper] rate_N_s_per_m"}
 
 
 @dataclass(frozen=True)
@@ -80,7 +86,7 @@ def checkup(axle: RigidAxle) -> RigidAxleCheckup:
         given.kind("axle", axle, RigidAxle, RigidAxle.NEEDED)
     model = RigidAxleModel(axle)
     values, rows = _reach(model)
-    problems: list[str] = []
+    problems = [*_unlikely(axle)]
     notes: list[str] = []
     try:
         at_rest, told = _rest(model)
@@ -113,6 +119,19 @@ def as_dict(found: RigidAxleCheckup) -> dict[str, Any]:
     kept = asdict(found)
     del kept["rows"]
     return kept
+
+
+def _unlikely(axle: RigidAxle) -> Iterator[str]:
+    """Say what is almost surely a mistake: units of rates and masses, rods that are swapped."""
+    half = 0.5 * axle.bodies.beam.mass_kg + axle.bodies.wheel.mass_kg
+    yield from unlikely_rates(axle.parameters(), half, _RATES.__getitem__)
+    for name, ends in axle.ends().items():
+        chassis, beam = (float(np.hypot(*(end - axle.center)[[0, 2]])) for end in ends)
+        if beam > chassis + _SWAPPED:
+            yield (
+                f"[rods.{name}]: the end on the axle is {1e3 * beam:.0f} mm from the line through "
+                f"the wheels, that on the chassis {1e3 * chassis:.0f} mm. Are the two swapped?"
+            )
 
 
 def _reach(model: RigidAxleModel) -> tuple[dict[str, float], dict[str, str]]:

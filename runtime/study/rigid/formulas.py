@@ -36,10 +36,14 @@ def roll_center_height(beam: Beam) -> Array:
 
 
 def jacking(beam: Beam) -> Array:
-    """Return the lift of the body by a force on the tyres to the left, over that force [1]."""
+    """Return the lift of the body by a force on the tyres to the left, over that force [1].
+
+    By virtual work the force pushes the axle up, so the body down, where the axle goes to the left
+    as it rises.
+    """
     middle = 0.5 * (beam.contact(LEFT) + beam.contact(RIGHT))
     velocity = beam.velocity(middle, HEAVE)
-    lift: Array = velocity[:, 1] / velocity[:, 2]
+    lift: Array = -velocity[:, 1] / velocity[:, 2]
     return lift
 
 
