@@ -185,11 +185,11 @@ def test_forces_are_the_slopes_of_the_energy(axle: RigidAxle) -> None:
     for at in PLACES[:3]:
         forces = model.evaluate("forces", model.state(heave=at[0], roll=at[1]))[:2]
         by = slopes(found.energy, at)
-        # 1e-13 of some 1e3 J over the step, of forces of 1e4 N
-        np.testing.assert_allclose(forces, -by, rtol=0.0, atol=1e-5)
+        # 1e-13 m of the root finder, by forces of 1e4 N, over the step of 1e-3, some of them
+        np.testing.assert_allclose(forces, -by, rtol=0.0, atol=5e-5)
         beam = beam_at(axle, *at)
         heave_and_roll = beam.of_springs[0] + beam.of_bar[0]
-        np.testing.assert_allclose(heave_and_roll[0], -slopes(springs.energy, at), atol=1e-5)
+        np.testing.assert_allclose(heave_and_roll[0], -slopes(springs.energy, at), atol=5e-5)
         second = slopes(lambda h, r: slopes(springs.energy, (h, r)), at)
         stiffness = beam.of_springs[1] + beam.of_bar[1]
         # the same over the step once more
@@ -210,7 +210,7 @@ def test_rates_at_the_wheels_are_those_of_the_energy() -> None:
     model = RigidAxleModel(LOPSIDED)
     beam = Beam(model, model.states_at(*at)[None])
     forces = [formulas.wheel_force(beam, side)[0] for side in ("left", "right")]
-    np.testing.assert_allclose(forces, slopes(energy, at), rtol=0.0, atol=1e-5)
+    np.testing.assert_allclose(forces, slopes(energy, at), rtol=0.0, atol=5e-5)
     second = slopes(lambda a, b: slopes(energy, (a, b)), at)
     np.testing.assert_allclose(formulas.of_all(beam)[0], second, rtol=0.0, atol=1e-2)
     rates = [formulas.wheel_rate(beam, side)[0] for side in ("left", "right")]
@@ -407,8 +407,8 @@ def test_it_stands_on_its_wheels(road: float) -> None:
         hub = AXLE.center + sign * AXLE.half_track * LEFT
         load = 230000.0 * (0.3876 + ground - found.place(hub, *at)[2])
         work += load * pull @ slopes(lambda h, r, hub=hub: found.place(hub, h, r), at)
-    # 1e-13 of some 1e3 J over the step of the differences
-    np.testing.assert_allclose(work, slopes(found.energy, at), rtol=0.0, atol=1e-5)
+    # 1e-13 m of the root finder, by forces of 1e4 N, over the step of 1e-3, some of them
+    np.testing.assert_allclose(work, slopes(found.energy, at), rtol=0.0, atol=5e-5)
     # the packaged file says that it rests at design
     assert road or abs(at[0]) < 1e-6
 
