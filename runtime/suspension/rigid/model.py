@@ -96,8 +96,10 @@ class RigidAxleModel(System):
         states = self._states(lefts, rights)
         missed = ~self._reached(states)
         if missed.any():
-            first = int(np.flatnonzero(missed)[0])
-            self._refuse(float(lefts.ravel()[first]), float(rights.ravel()[first]))
+            # the one that somebody asked for is at the end of a range
+            far = np.where(missed, np.abs(lefts).ravel() + np.abs(rights).ravel(), -1.0)
+            worst = int(far.argmax())
+            self._refuse(float(lefts.ravel()[worst]), float(rights.ravel()[worst]))
         return states
 
     def farthest(self, left: float, right: float) -> float:
