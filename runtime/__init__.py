@@ -37,6 +37,8 @@ if TYPE_CHECKING:
         state_at_height,
         travel_range,
     )
+    from .suspension.rigid import RigidAxle
+    from .suspension.rigid.model import RigidAxleModel
     from .systems.compile import CompilerError, MechanismError, proposals
     from .systems.compile import compile_mechanism as compile  # noqa: A004 (what the user calls it)
     from .systems.derivatives import derivative, design_derivative, gradient
@@ -63,6 +65,8 @@ __all__ = [
     "ParameterError",
     "PositionError",
     "Range",
+    "RigidAxle",
+    "RigidAxleModel",
     "Samples",
     "SignalEvent",
     "Simulation",
@@ -111,6 +115,8 @@ _MODULES = {
         "state_at_height",
         "travel_range",
     ),
+    ".suspension.rigid": ("RigidAxle",),
+    ".suspension.rigid.model": ("RigidAxleModel",),
     ".simulation.result": ("Simulation", "SimulationError"),
     ".simulation.simulate": ("simulate",),
     ".study.ensembles": ("ensemble",),
@@ -138,6 +144,7 @@ _INTERFACES = {
     "point_table": ".suspension.point_table",
     "report": ".report",
     "rig": ".study.rig",
+    "rigid_axles": ".study.rigid",
     "roads": ".simulation.roads",
     "scenario": ".study.scenario",
     "schema": ".suspension.schema",

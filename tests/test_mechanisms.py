@@ -430,6 +430,11 @@ AFLOAT = {
     "multi_link": {"tyre_rate": 0.0, "spring_free_length": 0.291},
     "trailing_arm": {"tyre_rate": 0.0, "spring_free_length": 0.3},
     "front_axle": {"tyre_rate": 0.0, "spring_free_slide": 0.18},
+    "rigid_axle": {
+        name: value
+        for prefix in ("", "left_")
+        for name, value in ((f"{prefix}tyre_rate", 0.0), (f"{prefix}spring_free_length", 0.258))
+    },
 }
 """Suspensions without a road, on springs that carry the arms only."""
 

@@ -11,6 +11,7 @@ from . import (
     multi_link,
     pull_rod,
     push_rod,
+    rigid_axle,
     slider_crank,
     trailing_arm,
 )
@@ -23,6 +24,7 @@ MODELS = (
     *multi_link.MODELS,
     *trailing_arm.MODELS,
     *front_axle.MODELS,
+    *rigid_axle.MODELS,
     *four_bar.MODELS,
     *slider_crank.MODELS,
     *andrews.MODELS,

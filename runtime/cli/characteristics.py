@@ -8,7 +8,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from ..core.tabulated import significant
-from . import axles
+from . import axles, rigid
 from .console import console, print_json
 from .options import Bump, File, Force, Json, Of, RackExtent, Rebound, Step, among, load, metres
 from .outputs import Figures, Formats, Out, Outputs, Plot, name_files, named
@@ -35,7 +35,7 @@ def command(
         typer.Option(
             metavar="NAME",
             help="Of an axle: what the rig does, of bump, roll, left, right, steer. May be "
-            "repeated. Default: bump, roll, left, steer.",
+            "repeated. Default: bump, roll, left, steer. A rigid axle is not steered.",
         ),
     ] = None,
     roll: Annotated[
@@ -70,11 +70,14 @@ def command(
     from ..suspension.axle import Axle
     from ..suspension.kinds import Suspension
 
-    of_axle = axles.is_axle(file)
-    steered = (Axle if of_axle else Suspension).load(file).steered()
-    usual = ["bump", "roll", "left", *(["steer"] if steered else [])]
-    chosen = among(motion or usual, MOTIONS, "--motion")
-    ways = ("travel", "rack") if steered else ("travel",)
+    of_axle, of_rigid_axle = axles.is_axle(file), rigid.is_rigid_axle(file)
+    if of_rigid_axle:
+        steered, chosen = False, rigid.motions(motion)
+    else:
+        steered = (Axle if of_axle else Suspension).load(file).steered()
+        usual = ["bump", "roll", "left", *(["steer"] if steered else [])]
+        chosen = among(motion or usual, MOTIONS, "--motion")
+    ways = ["travel", "rack"] if steered else ["travel"]
     outputs = Outputs.of(
         out,
         plot,
@@ -82,9 +85,9 @@ def command(
         formats,
         force=force,
         inputs=[file],
-        suffixes=[f"_{name}" for name in (chosen if of_axle else ways)],
+        suffixes=[f"_{name}" for name in (chosen if of_axle or of_rigid_axle else ways)],
     )
-    if of_axle:
+    if of_axle or of_rigid_axle:
         extent = Extent(
             rebound=metres(rebound),
             bump=metres(bump),
@@ -92,6 +95,11 @@ def command(
             rack=metres(rack_extent),
             step=step / 1e3,
         )
+        if of_rigid_axle:
+            steering = {"--rack-extent": rack_extent, "--rack": rack or None}
+            axles.refuse_options("what has a rack", steering | {"--travel": travel or None})
+            rigid.characteristics(file, chosen, extent, outputs, of=of, json=json)
+            return
         held = {"travel": travel / 1e3, "rack": rack / 1e3}
         axles.characteristics(file, chosen, extent, held, outputs, of=of, json=json)
         return

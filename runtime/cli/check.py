@@ -1,12 +1,12 @@
 """``kintrafo check``: what is wrong with a hardpoint file, or what the suspension is like."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import typer
 from rich.markup import escape
 from rich.table import Table
 
-from . import axles
+from . import axles, rigid
 from .console import console, print_json, say
 from .exits import Exit
 from .options import File, Json, load
@@ -14,11 +14,13 @@ from .options import File, Json, load
 if TYPE_CHECKING:
     from ..study.axles.checkup import AxleCheckup
     from ..study.checkup import Checkup
+    from ..study.rigid.checkup import RigidAxleCheckup
 
 EXAMPLES = (
     "kintrafo check reference_car",
     "kintrafo check my_car.toml --json",
     "kintrafo check reference_axle",
+    "kintrafo check rigid_axle",
 )
 
 
@@ -29,15 +31,16 @@ def command(file: File, *, json: Json = False) -> None:
     The exit code is 1 if there is a problem.
     """
     from ..core.errors import InputError
-    from ..study.axles.checkup import AxleCheckup
-    from ..study.axles.checkup import as_dict as axle_as_dict
-    from ..study.checkup import as_dict, checkup, readable
+    from ..study.checkup import checkup, readable
 
-    of_axle = axles.is_axle(file)
-    if not of_axle:
+    of_axle, of_rigid_axle = axles.is_axle(file), rigid.is_rigid_axle(file)
+    if not of_axle and not of_rigid_axle:
         readable(file)
     try:
-        found = axles.looked_at(file) if of_axle else checkup(load(file))
+        if of_rigid_axle:
+            found: Checkup | AxleCheckup | RigidAxleCheckup = rigid.looked_at(file)
+        else:
+            found = axles.looked_at(file) if of_axle else checkup(load(file))
     except InputError as error:
         if json:
             print_json({"problems": list(error.problems)})
@@ -45,18 +48,33 @@ def command(file: File, *, json: Json = False) -> None:
             say(str(error))
         raise typer.Exit(Exit.REFUSED) from None
     if json:
-        print_json(axle_as_dict(found) if isinstance(found, AxleCheckup) else as_dict(found))
+        print_json(_as_dict(found))
     else:
         _print(found, file)
     if found.problems:
         raise typer.Exit(Exit.REFUSED)
 
 
-def _print(found: "Checkup | AxleCheckup", file: str) -> None:
+def _as_dict(found: "Checkup | AxleCheckup | RigidAxleCheckup") -> dict[str, Any]:
     from ..study.axles.checkup import AxleCheckup
+    from ..study.axles.checkup import as_dict as of_axle
+    from ..study.checkup import as_dict
+    from ..study.rigid.checkup import RigidAxleCheckup
+    from ..study.rigid.checkup import as_dict as of_rigid_axle
 
-    for side in found.sides.values() if isinstance(found, AxleCheckup) else (found,):
-        console.print(_table(side, file))
+    if isinstance(found, RigidAxleCheckup):
+        return of_rigid_axle(found)
+    return of_axle(found) if isinstance(found, AxleCheckup) else as_dict(found)
+
+
+def _print(found: "Checkup | AxleCheckup | RigidAxleCheckup", file: str) -> None:
+    from ..study.axles.checkup import AxleCheckup
+    from ..study.rigid.checkup import RigidAxleCheckup
+
+    if isinstance(found, RigidAxleCheckup):
+        rigid.print_look(found, file)
+    else:
+        _print_sides(found, file)
     if isinstance(found, AxleCheckup):
         axles.print_look(found, file)
     for kind, texts in (("problem", found.problems), ("note", found.notes)):
@@ -64,6 +82,13 @@ def _print(found: "Checkup | AxleCheckup", file: str) -> None:
             say(f"{kind}: {text}")
     if not found.problems:
         say("No problems found.")
+
+
+def _print_sides(found: "Checkup | AxleCheckup", file: str) -> None:
+    from ..study.axles.checkup import AxleCheckup
+
+    for side in found.sides.values() if isinstance(found, AxleCheckup) else (found,):
+        console.print(_table(side, file))
 
 
 def _table(found: "Checkup", file: str) -> Table:

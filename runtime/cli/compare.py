@@ -7,7 +7,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from ..core.tabulated import significant
-from . import axles
+from . import axles, rigid
 from .console import console, print_json, progress_bar, say
 from .options import Files, Force, Json, Of, among, load
 from .outputs import Figures, Formats, Out, Outputs, Plot, name_files
@@ -54,7 +54,9 @@ def command(
 
     outputs = Outputs.of(out, plot, figures, formats, force=force, inputs=files)
     measured = [file for file in files if file.lower().endswith(".csv")]
-    if axles.all_axles(files):
+    if rigid.all_rigid(files):
+        dataset = rigid.compared(files, over)
+    elif axles.all_axles(files):
         dataset = axles.compared(files, over)
     elif over not in (None, "travel", "rack"):
         raise typer.BadParameter(f"--over {over} is only for the files of axles")

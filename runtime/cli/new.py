@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from ..suspension.starter import DEFAULT, kinds
+from ..suspension.starter import DEFAULT, RIGID_AXLE, kinds
 from .console import say
 from .options import Force
 
@@ -13,6 +13,7 @@ EXAMPLES = (
     "kintrafo new my_car.toml",
     "kintrafo new my_car.toml --suspension double_wishbone",
     "kintrafo new my_axle.toml --axle",
+    "kintrafo new my_rear.toml --rigid-axle",
     "kintrafo new my_car.toml --template chrono_generic --force",
 )
 
@@ -35,16 +36,22 @@ def command(
     axle: Annotated[
         bool, typer.Option("--axle", help="Write the file of an axle, which names its sides.")
     ] = False,
+    rigid_axle: Annotated[
+        bool, typer.Option("--rigid-axle", help="Write the file of a rigid axle on four rods.")
+    ] = False,
     force: Force = False,
 ) -> None:
     """Write an annotated hardpoint file to begin with: every key, its unit and its sign."""
     from ..suspension.kinds import KINDS
     from ..suspension.starter import write_starter
 
-    if axle and (template is not None or suspension != DEFAULT):
+    if (axle or rigid_axle) and (template is not None or suspension != DEFAULT):
         other = "--suspension" if template is None else "--template"
-        raise typer.BadParameter(f"--axle and {other} are both given: an axle names its sides")
-    usual = "reference_axle" if axle else KINDS[suspension].STARTER
+        given, why = ("--axle", "names its sides") if axle else ("--rigid-axle", "has none")
+        raise typer.BadParameter(f"{given} and {other} are both given: such an axle {why}")
+    if axle and rigid_axle:
+        raise typer.BadParameter("--axle and --rigid-axle are both given: choose one of them")
+    usual = "reference_axle" if axle else RIGID_AXLE if rigid_axle else KINDS[suspension].STARTER
     copied = usual if template is None else template
     say(f"  {write_starter(path, template=copied, force=force)}")
     say(f"Edit it, then: kintrafo check {path}")

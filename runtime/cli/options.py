@@ -14,13 +14,12 @@ if TYPE_CHECKING:
 
 def complete_file(incomplete: str) -> list[str]:
     """Return packaged names and TOML files that begin like this."""
-    from ..suspension.starter import packaged, packaged_axles
+    from ..suspension.starter import RIGID_AXLE, packaged, packaged_axles
 
     parent = Path(incomplete).parent if "/" in incomplete else Path()
     files = sorted(str(path) for path in parent.glob("*.toml"))
-    return [
-        name for name in (*files, *packaged(), *packaged_axles()) if name.startswith(incomplete)
-    ]
+    names = (*files, *packaged(), *packaged_axles(), RIGID_AXLE)
+    return [name for name in names if name.startswith(incomplete)]
 
 
 File = Annotated[

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from . import axles
+from . import axles, rigid
 from .console import problems, say
 from .loads import subject
 from .options import File, Force, load
@@ -20,6 +20,7 @@ EXAMPLES = (
     'kintrafo report my_car.toml front_axle.html --title "Front axle, stage 2"',
     "kintrafo report my_car.toml --loads --bushes bushes.toml",
     "kintrafo report reference_axle",
+    "kintrafo report rigid_axle",
 )
 
 
@@ -49,7 +50,8 @@ def command(
 ) -> None:
     """Write a report that opens in any browser: the mechanism to move by hand, curves, data.
 
-    Of an axle it has one side to be moved, and what a rig finds of both.
+    Of an axle it has one side to be moved, and what a rig finds of both; of a rigid axle drawings,
+    tables and curves.
     """
     from ..core.files import refuse
     from ..report import ENDINGS
@@ -57,6 +59,10 @@ def command(
     target = path or Path(f"{Path(file).stem}.html")
     inputs: list[str | Path] = [file, *(read for read in (cases, bushes) if read is not None)]
     refuse([target], force=force, inputs=inputs, endings=ENDINGS)
+    if rigid.is_rigid_axle(file):
+        refused = {"--loads": loads or None, "--cases": cases, "--bushes": bushes}
+        say(f"  {rigid.report(file, target, title, refused, force=force, inputs=inputs)}")
+        return
     model, title, axle = _subject(file, title)
     without = _of_one_side(axle)
     with problems.status("report") as status:

@@ -10,7 +10,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from ..core.tabulated import number
-from . import axles
+from . import axles, rigid
 from .console import console, print_json, problems, say
 from .exits import Exit
 from .options import File, Force, Json, load
@@ -51,6 +51,7 @@ EXAMPLES = (
     "kintrafo simulate my_car.toml --road-step 60 --loads loads.csv",
     "kintrafo simulate my_car.toml --measured road.csv --speed 60 -o ride.nc",
     "kintrafo simulate reference_axle --road-step 20 --wheels left",
+    "kintrafo simulate rigid_axle --road-step 20 --wheels left",
 )
 
 # On the page of curves, in this order; what stands still is left out.
@@ -136,10 +137,12 @@ def command(
     )
     on_wheels = not UNITS.keys().isdisjoint(scenario.inputs)
     of_one = {"--height": height}
-    ride = _ride(file, wheels, of_one, wheel_loads=on_wheels)
-    one = ride.model.suspension if isinstance(ride.model, Model) else ride.model.axle.right
-    if "rack_position" in scenario.inputs:
-        one.refuse_without_rack("a motion of the rack")
+    if rigid.is_rigid_axle(file):
+        ride = rigid.ride(file, wheels or "both", {**of_one, "--loads": loads})
+    else:
+        ride = _ride(file, wheels, of_one, wheel_loads=on_wheels)
+        if "rack_position" in scenario.inputs:
+            _refuse_without_rack(ride.model)
     if isinstance(ride.model, Model) and ride.model.free_rack:
         _tell_of_the_free_rack(file, scenario.inputs)
     options = {
@@ -183,6 +186,14 @@ def _ride(
 
     axles.refuse_options("the file of an axle", {"--wheels": wheels})
     return axles.Ride(load(file, wheel_loads=wheel_loads), run, _DRAWN, along)
+
+
+def _refuse_without_rack(model: Any) -> None:
+    """Refuse to move a rack where there is none."""
+    from ..suspension.model import Model
+
+    one = model.suspension if isinstance(model, Model) else model.axle.right
+    one.refuse_without_rack("a motion of the rack")
 
 
 def _tell_of_the_free_rack(file: str, inputs: dict[str, Any]) -> None:

@@ -6,8 +6,9 @@ from .chapters import (
     compliance_chapter,
     elastokinematics_chapter,
     loads_chapter,
+    rigid_axle_chapters,
 )
-from .page import ENDINGS, write
+from .page import ENDINGS, write, write_chapters
 
 __all__ = [
     "ENDINGS",
@@ -16,5 +17,7 @@ __all__ = [
     "compliance_chapter",
     "elastokinematics_chapter",
     "loads_chapter",
+    "rigid_axle_chapters",
     "write",
+    "write_chapters",
 ]

@@ -15,6 +15,7 @@ from ..core.files import Paths, refuse, replacing
 from ..core.legible import legible
 from ..study.characteristics.groups import ORDER
 from ..study.paper import SPIN_RATE
+from ..suspension.input.section import Section
 from ..suspension.model import Model
 from .accuracy import Accuracy, measure
 from .chapters.chapter import Chapter
@@ -134,6 +135,54 @@ def render(
         script=_asset("report.js"),
         style=_asset("report.css"),
     )
+
+
+def write_chapters(
+    path: str | Path,
+    *,
+    title: str,
+    chapters: Sequence[Chapter],
+    data: Section,
+    force: bool = False,
+    inputs: Paths = (),
+) -> Path:
+    """Write an HTML report that is chapters and input data, with nothing to be moved by hand.
+
+    Parameters
+    ----------
+    path, force, inputs
+        As of `write`.
+    title : str
+        Heading of the page.
+    chapters : sequence of Chapter
+    data : Section
+        What the input file says.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    Raises
+    ------
+    InputError
+        If the file must not or cannot be written.
+    """
+    refuse([path], force=force, inputs=inputs, endings=ENDINGS)
+    text = (
+        _environment()
+        .get_template("plain.html.jinja")
+        .render(
+            title=legible(title),
+            version=version("kintrafo"),
+            inputs=input_tables(data),
+            chapters=chapters,
+            style=_asset("report.css"),
+        )
+    )
+    with replacing(path, force=force, inputs=inputs) as temporary:
+        temporary.write_text(text, encoding="utf-8", newline="\n")
+    return Path(path)
 
 
 def _sample(model: Model, tell: Callable[[str], None], without: Container[str] = ()) -> _Samples:

@@ -111,18 +111,19 @@ def _row(curve: Curve, value: float, decimals: int, usual: dict[str, Any] | None
     )
 
 
-def input_tables(suspension: Suspension) -> list[InputTable]:
+def input_tables(described: Section) -> list[InputTable]:
     """Return the input data as they stand in the file, section by section.
 
     Parameters
     ----------
-    suspension : Suspension
+    described : Section
+        A suspension, or a rigid axle.
 
     Returns
     -------
     list of InputTable
     """
-    return list(_tables(suspension, "", "above the first section"))
+    return list(_tables(described, "", "above the first section"))
 
 
 def _tables(section: Section, name: str, meaning: str) -> Iterator[InputTable]:
@@ -139,6 +140,9 @@ def _tables(section: Section, name: str, meaning: str) -> Iterator[InputTable]:
     for key, value in values.items():
         if isinstance(value, Section):
             yield from _tables(value, f"{name}.{key}".lstrip("."), fields[key].description or "")
+        elif isinstance(value, Mapping) and all(isinstance(v, Section) for v in value.values()):
+            for inner, named in value.items():
+                yield from _tables(named, f"{key}.{inner}", fields[key].description or "")
         elif isinstance(value, Mapping):
             yield from _of_bushes(value, key, fields[key].description or "")
 

@@ -23,7 +23,7 @@ from ..core.suggestions import suggestion
 from ..core.vectors import components, unit_vector
 from .bushes import Bush, Bushings, bushes_of, mirrored_bushings, softness_of_rack
 from .corner import Array, Motion, Plane, Spring, Stroke
-from .data import find
+from .data import data_sets, find
 from .drawing import Drawing
 from .facts import Allowed, Extended, Names
 from .geometry import geometry_problems
@@ -37,7 +37,7 @@ from .input.toml_file import read_toml
 from .input.units import in_metres
 from .input.vehicle import Gravity, Steering, Tyre, Vehicle, Wheel
 from .places import put, reverse
-from .starter import DEFAULT, packaged_axles
+from .starter import DEFAULT, NOT_A_RIGID_AXLE, RIGID_AXLE, RIGID_AXLES, packaged_axles
 from .strokes import Strokes
 from .structure import Structure
 
@@ -162,6 +162,8 @@ class Suspension(Section):
             given.path("path_or_name", path_or_name)
         if path_or_name in packaged_axles():
             raise InputError([_AN_AXLE], str(path_or_name))
+        if path_or_name in data_sets(RIGID_AXLES):
+            raise InputError([NOT_A_RIGID_AXLE], str(path_or_name))
         file = find(path_or_name)
         # Printing the path inside the package would not help whoever asked for a name.
         return cls.from_dict(read_toml(file), source=str(path_or_name))
@@ -563,6 +565,8 @@ def _kind_of(data: Mapping[str, Any], wanted: type[SuspensionT]) -> type[Suspens
     """
     if "axle" in data and "hardpoints" not in data:
         raise InputError([_AN_AXLE])
+    if RIGID_AXLE in data:
+        raise InputError([NOT_A_RIGID_AXLE])
     name = data.get(KIND, DEFAULT)
     if not isinstance(name, str) or name not in _known:
         meant = suggestion(str(name), known_kinds())

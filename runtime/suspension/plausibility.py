@@ -6,7 +6,7 @@ between what cars have and what the mistake makes of it, on a scale of factors h
 are mistaken differ by 1,000 or more.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -166,9 +166,25 @@ def _rack(suspension: Suspension) -> Iterator[str]:
 
 
 def _rates(suspension: Suspension) -> Iterator[str]:
-    """Compare tyre and masses, the tyre with the spring, and the damper with both."""
-    values, bodies = suspension.parameters(), suspension.bodies
+    bodies = suspension.bodies
     mass = bodies.wheel.mass_kg + sum(body.mass_kg for body in bodies.rigid().values())
+    yield from unlikely_rates(suspension.parameters(), mass, suspension.rate_key)
+
+
+def unlikely_rates(
+    values: Mapping[str, float], mass: float, key: Callable[[str], str]
+) -> Iterator[str]:
+    """Compare tyre and masses, the tyre with the spring, and the damper with both.
+
+    Parameters
+    ----------
+    values : mapping
+        Rates by their names in the equations.
+    mass : float
+        Of all bodies of a wheel [kg].
+    key : callable
+        Returns where the rate of a part, "spring" or "damper", stands in the file.
+    """
     tyre, spring, damper = (values[f"{part}_rate"] for part in ("tyre", "spring", "damper"))
     if tyre == 0.0:
         return
@@ -184,14 +200,14 @@ def _rates(suspension: Suspension) -> Iterator[str]:
     least, most = _TYRE_TO_SPRING
     if spring != 0.0 and not least <= tyre / spring <= most:
         yield (
-            f"{suspension.rate_key('spring')} = {spring:g} N/m: the tyre's rate is "
+            f"{key('spring')} = {spring:g} N/m: the tyre's rate is "
             f"{tyre / spring:.3g} times that, on cars it is 5 to 20 times as much. Is it in N/mm?"
         )
     least, most = _DAMPING
     ratio = damper / (2.0 * float(np.sqrt(tyre * mass)))
     if damper != 0.0 and not least <= ratio <= most:
         yield (
-            f"{suspension.rate_key('damper')} = {damper:g} N s/m: the wheel on its tyre has a "
+            f"{key('damper')} = {damper:g} N s/m: the wheel on its tyre has a "
             f"damping ratio of {ratio:.2g} by it, on cars some 0.1 to 0.6. Is it in N s/mm?"
         )
 

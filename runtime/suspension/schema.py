@@ -15,10 +15,12 @@ from .axle.file import AxleFile
 from .base import KIND
 from .bushes import BUSH_SCHEMA
 from .input.bodies import RigidBody
+from .input.messages import is_named
 from .input.section import Section
 from .input.units import unit_of
 from .kinds import KINDS
-from .starter import DEFAULT
+from .rigid import RigidAxle
+from .starter import DEFAULT, RIGID_AXLE
 
 _LIMITS = {
     "ge": "minimum",
@@ -76,19 +78,28 @@ one. See [Axles](axles.md).
 
 _AXLE = "axle"  # the key of a file of an axle, and of no other
 
+_A_RIGID_AXLE = """\
+## A rigid axle
+
+A file of its own, of a beam on four rods; `kintrafo new FILE --rigid-axle` writes one. See
+[A rigid axle](rigid-axle.md). What is not described here is as of every suspension: `[tyre]`,
+`[gravity]`, the stops, and `[wheel]`, which may be left out.
+"""
+
 _TABLE_HEAD = "| key | unit | allowed | left out | meaning |\n|---|---|---|---|---|"
 
 
 def schema() -> dict[str, Any]:
-    """Return the JSON Schema of input files: of a suspension, and of an axle.
+    """Return the JSON Schema of input files: of a suspension, an axle, and a rigid axle.
 
     Returns
     -------
     dict
         Every key with its description, its unit as ``x-unit`` and its range. A file with ``axle``
-        is that of an axle; of others the kind that they name decides which sections there are.
+        is that of an axle, one with ``rigid_axle`` that of a rigid one; of others the kind that
+        they name decides which sections there are.
     """
-    models: list[type[Section]] = [*KINDS.values(), AxleFile]
+    models: list[type[Section]] = [*KINDS.values(), AxleFile, RigidAxle]
     _, made = models_json_schema([(model, "validation") for model in models])
     sections = {name: _with_units(section) for name, section in made["$defs"].items()}
     kinds = {"description": "the kind of suspension", "enum": list(KINDS), "default": DEFAULT}
@@ -99,8 +110,12 @@ def schema() -> dict[str, Any]:
         "if": {"required": [_AXLE]},
         "then": _reference(AxleFile),
         "else": {
-            "properties": {KIND: kinds},
-            "allOf": [{"if": _names(name), "then": _reference(KINDS[name])} for name in KINDS],
+            "if": {"required": [RIGID_AXLE]},
+            "then": _reference(RigidAxle),
+            "else": {
+                "properties": {KIND: kinds},
+                "allOf": [{"if": _names(name), "then": _reference(KINDS[name])} for name in KINDS],
+            },
         },
         "$defs": sections | {"Bushing": BUSH_SCHEMA},
     }
@@ -154,6 +169,13 @@ def page_text() -> str:
         parts += _described(sections, kind, own)
     parts += [_AN_AXLE, *_table(sections[AxleFile.__name__])]
     parts += _described(sections, AxleFile, AxleFile.model_fields)
+    parts += [_A_RIGID_AXLE, *_table(sections[RigidAxle.__name__])]
+    own = [
+        name
+        for name in RigidAxle.model_fields
+        if name not in shared or _model_of(RigidAxle, name) is not _model_of(first, name)
+    ]
+    parts += _described(sections, RigidAxle, own)
     return "\n".join(parts).rstrip() + "\n"
 
 
@@ -181,7 +203,7 @@ def _described(
         inner = _model_of(model, name)
         if inner is None:
             continue
-        title = f"{prefix}{name}"
+        title = f"{prefix}{name}" + (".NAME" if is_named(model, name) else "")
         optional = "" if name in required else " (optional)"
         is_body = issubclass(inner, RigidBody)
         also = ", with the keys of every body" if is_body else ""
@@ -217,7 +239,8 @@ def _rows(section: dict[str, Any], known: Container[str]) -> Iterator[str]:
 
 
 def _is_section(entry: dict[str, Any]) -> bool:
-    return any("$ref" in option for option in (entry, *entry.get("anyOf", ())))
+    options = (entry, *entry.get("anyOf", ()), entry.get("additionalProperties", {}))
+    return any("$ref" in option for option in options)
 
 
 def _default(entry: dict[str, Any]) -> str:

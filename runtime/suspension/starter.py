@@ -10,6 +10,17 @@ from .data import data_sets
 
 _ENDING = ".toml"
 _AXLES = f"{__package__}.axle.data"
+RIGID_AXLES = f"{__package__}.rigid.data"
+"""Where the rigid axles are that come with kintrafo."""
+
+RIGID_AXLE = "rigid_axle"
+"""The top-level key that says that a file describes a rigid axle; the packaged one has its name."""
+
+NOT_A_RIGID_AXLE = (
+    "this is the file of a rigid axle. Its commands are check, characteristics, compare, simulate, "
+    "new and report; others are not there for it yet. In Python: kintrafo.RigidAxle."
+)
+"""Said where something else is needed than a rigid axle."""
 
 DEFAULT = "macpherson"
 """The kind of a file that does not say it."""
@@ -64,7 +75,7 @@ def write_starter(
     path : str or pathlib.Path
         A name that ends in ``.toml``.
     template : str, optional
-        Name of the packaged data set that is copied: of a suspension, or of an axle.
+        Name of the packaged data set that is copied: of a suspension, an axle, or a rigid axle.
     force : bool, optional
         Whether a file that somebody else wrote or changed is replaced, see `kintrafo.core.files`.
 
@@ -77,7 +88,7 @@ def write_starter(
     InputError
         If there is a file already, or the name cannot be used.
     """
-    known = data_sets() | data_sets(_AXLES)
+    known = data_sets() | data_sets(_AXLES) | data_sets(RIGID_AXLES)
     if template not in known:
         problem = f"no data set {template!r} comes with kintrafo. {suggestion(template, known)}"
         raise InputError([problem], "template")

@@ -2,6 +2,7 @@
 
 `chapter`     what a chapter is
 `axle`        both wheels and the anti-roll bar over the motions of a rig
+`rigid_axle`  a rigid axle, drawn and over the motions of a rig
 `loads`       load cases, with the free bodies
 `compliance`  how the wheel gives way on its bushes
 `elastokinematics`  what bushes do to the curves over wheel travel
@@ -12,6 +13,7 @@ from .chapter import Chapter
 from .compliance import compliance_chapter
 from .elastokinematics import elastokinematics_chapter
 from .loads import loads_chapter
+from .rigid_axle import rigid_axle_chapters
 
 __all__ = [
     "Chapter",
@@ -19,4 +21,5 @@ __all__ = [
     "compliance_chapter",
     "elastokinematics_chapter",
     "loads_chapter",
+    "rigid_axle_chapters",
 ]

@@ -165,7 +165,7 @@ def run(
         given.among("wheels", wheels, WHEELS)
         if not given.refused and scenario.height is not None:
             given.refuse("height: an axle starts from rest. Leave it out.")
-    inputs = _of_the_axle(scenario.inputs, WHEELS[wheels])
+    inputs = of_the_axle(scenario.inputs, WHEELS[wheels])
     times = scenario.times()
     span = (0.0, scenario.duration)
     courses = time_inputs(model, inputs, span)
@@ -183,10 +183,10 @@ def run(
         for what in ("leaves", "touches")
     ]
     result = simulate(model, span, start, inputs=inputs, t_eval=times, events=events, **options)
-    return result, _told(dataset_of(model, result))
+    return result, with_sides_told(dataset_of(model, result))
 
 
-def _of_the_axle(given: Mapping[str, Signal], sides: tuple[str, ...]) -> dict[str, Signal]:
+def of_the_axle(given: Mapping[str, Signal], sides: tuple[str, ...]) -> dict[str, Signal]:
     """Return inputs by the names of the axle: what is given for one wheel, for each of these."""
     inputs = dict(given)
     for name in ("road_height", *UNITS):
@@ -206,7 +206,7 @@ def by_side(motion: xr.Dataset) -> xr.Dataset:
     return by_ends(motion, "{side}_{stem}")
 
 
-def _told(motion: xr.Dataset) -> xr.Dataset:
+def with_sides_told(motion: xr.Dataset) -> xr.Dataset:
     """Say in words, too, which side a signal is of."""
     if "bar_spring_moment" in motion:
         motion["bar_spring_moment"].attrs["long_name"] = "moment of the anti-roll bar"

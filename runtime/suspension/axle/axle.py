@@ -19,6 +19,7 @@ from ..input.messages import messages_of
 from ..input.toml_file import read_toml
 from ..kinds import Suspension
 from ..model import Model
+from ..starter import NOT_A_RIGID_AXLE, RIGID_AXLE, RIGID_AXLES
 from .bar import AntiRollBar, HalfBar
 from .file import SIDES, AxleFile, Brakes, Drive, End
 from .steering import SteeringCurve
@@ -100,6 +101,8 @@ class Axle:
         with Arguments(cls.__name__) as given:
             given.path("path_or_name", path_or_name)
         packaged = packaged_axles()
+        if path_or_name in data_sets(RIGID_AXLES):
+            raise InputError([NOT_A_RIGID_AXLE], str(path_or_name))
         file = find(path_or_name, packaged)
         folder = file.parent if isinstance(file, Path) else Path()
         return cls.from_dict(read_toml(file), source=str(path_or_name), folder=folder)
@@ -200,7 +203,8 @@ def is_axle(path_or_name: str | Path) -> bool:
     """
     if path_or_name in packaged_axles():
         return True
-    if path_or_name in data_sets() or not Path(path_or_name).is_file():
+    packaged = data_sets() | data_sets(RIGID_AXLES)
+    if path_or_name in packaged or not Path(path_or_name).is_file():
         return False
     try:
         return KIND in read_toml(Path(path_or_name))
@@ -210,7 +214,9 @@ def is_axle(path_or_name: str | Path) -> bool:
 
 def _refuse_other_files(data: Mapping[str, Any], source: str) -> None:
     problem = f'{KIND} is missing: where the axle is. Add a line `{KIND} = "front"` or "rear".'
-    if "hardpoints" in data:
+    if RIGID_AXLE in data:
+        problem = NOT_A_RIGID_AXLE
+    elif "hardpoints" in data:
         problem = (
             "this is the file of one suspension, not of an axle. Name it in an axle's file, as "
             "`side`; `kintrafo new FILE --axle` writes one."

@@ -3,7 +3,7 @@
 import reprlib
 from collections.abc import Mapping
 from itertools import chain
-from typing import Any, get_args
+from typing import Any, get_args, get_origin
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
@@ -72,10 +72,13 @@ class _Place:
         sections: list[str] = []
         rest = list(location)
         while rest and (below := subsection(model, rest[0])):
-            sections.append(str(rest.pop(0)))
-            model = below
-            inner = data.get(sections[-1])
-            data = inner if isinstance(inner, Mapping) else {}
+            # of sections by names of any choice the name follows, or else what stands for it
+            parts = 2 if is_named(model, rest[0]) else 1
+            model, rest = below, rest if len(rest) >= parts else [*rest, "NAME"]
+            for _ in range(parts):
+                sections.append(str(rest.pop(0)))
+                inner = data.get(sections[-1])
+                data = inner if isinstance(inner, Mapping) else {}
         self.sections = tuple(sections)
         self.model = model
         self.key = str(rest[0]) if rest else ""
@@ -102,6 +105,12 @@ def subsection(model: type[Section], name: int | str) -> type[Section] | None:
     kinds = (field.annotation, *get_args(field.annotation)) if field else ()
     sections = (kind for kind in kinds if isinstance(kind, type) and issubclass(kind, Section))
     return next(sections, None)
+
+
+def is_named(model: type[Section], name: int | str) -> bool:
+    """Tell whether a key holds sections by names of any choice."""
+    field = model.model_fields.get(str(name))
+    return field is not None and get_origin(field.annotation) is dict
 
 
 def _element(model: type[Section], key: str, index: int | str) -> str:

@@ -1,0 +1,175 @@
+"""A beam with two wheels on four rods, which leave it heave and roll: a rigid axle.
+
+Each rod leads from the chassis to the beam, anywhere. Three links and a Panhard rod are four rods,
+and so are four links of which two are triangulated. The coordinates are what an axle moves in:
+the height of the middle between the wheels, and the inclination of the line through them. From the
+chassis outward the beam is moved up, to the left and forward, turned about the vertical (yaw), then
+about its axis forward (roll) and last about the line through the wheels (pitch). So the heights of
+both wheels are those of these two coordinates alone, exactly; the other four close the loops of
+the rods, by Newton's method.
+
+A side has springs, dampers and a wheel; right and left have each their own values. The default
+values are this project's own: a rear axle, ISO 8855 axes, ground at z = 0.
+"""
+
+from __future__ import annotations
+
+from .. import declare as d
+from ..declare.declared import parts
+from ..declare.parameters import Owner
+from ..program.vectors import UNIT_Y
+from .suspension import ROAD_HEIGHT, further_laws, of_rubber
+
+Place = tuple[float, float, float]
+
+AXLE_CENTER = d.Point("axle_center", (0.0, 0.0, 0.36), "middle between the wheels")
+LEFTWARD = d.Direction("leftward", fixed=UNIT_Y)
+
+CHASSIS = d.Ground("chassis", 1)
+BEAM = d.Body("beam", 80.0, (0.02, 0.0, 0.37), (14.0, 1.1, 14.5))
+
+
+def _way(name: str) -> d.Body:
+    """Return a body between chassis and beam: without mass, at the middle of the axle."""
+    return d.Body(f"{name}_frame", 0.0, AXLE_CENTER)
+
+
+HEAVING, SWAYING, SHIFTING, YAWING, ROLLING = map(_way, ("heave", "sway", "shift", "yaw", "roll"))
+HEAVE = d.Prismatic("heave_guide", CHASSIS, HEAVING, direction=d.UP)
+SWAY = d.Prismatic("sway_guide", HEAVING, SWAYING, direction=LEFTWARD)
+SHIFT = d.Prismatic("shift_guide", SWAYING, SHIFTING, direction=d.FORWARD)
+YAW = d.Revolute("yaw_hinge", SHIFTING, YAWING, axis=d.Line(AXLE_CENTER, d.UP))
+ROLL = d.Revolute("roll_hinge", YAWING, ROLLING, axis=d.Line(AXLE_CENTER, d.FORWARD))
+PITCH = d.Revolute("pitch_hinge", ROLLING, BEAM, axis=d.Line(AXLE_CENTER, LEFTWARD))
+
+
+def _rod(number: int, chassis: Place, axle: Place) -> tuple[d.Joint, d.Joint]:
+    """Return the cross and the ball joint of a rod without mass."""
+    name = f"rod_{number}"
+    x, y, z = ((a + b) / 2.0 for a, b in zip(chassis, axle, strict=True))
+    body = d.Body(name, 0.0, (x, y, z))
+    inner = d.Point(f"{name}_chassis", chassis, f"end of rod {number} on the chassis")
+    outer = d.Point(f"{name}_axle", axle, f"end of rod {number} on the axle")
+    return (
+        d.Universal(
+            f"{name}_cross", CHASSIS, body, at=inner, shaft=d.Line(inner, outer), first_axis=d.UP
+        ),
+        d.Spherical(f"{name}_ball", BEAM, body, at=outer),
+    )
+
+
+RODS = (
+    *_rod(1, (0.62, 0.47, 0.38), (0.02, 0.53, 0.31)),
+    *_rod(2, (0.62, -0.47, 0.38), (0.02, -0.53, 0.31)),
+    *_rod(3, (0.50, 0.06, 0.54), (-0.02, 0.06, 0.52)),
+    *_rod(4, (-0.13, -0.46, 0.43), (-0.13, 0.46, 0.40)),
+)
+
+# -- a side, the right one ------------------------------------------------------------------------
+
+WHEEL_CENTER = d.Point("wheel_center", (0.0, -0.78, 0.36), "wheel centre")
+SPIN_AXIS = d.Direction("spin_axis", (0.0, 1.0, 0.0), "spin axis of the wheel, pointing left")
+SPRING_TOP = d.Point("spring_top", (0.05, -0.47, 0.68), "upper seat of the spring, on the chassis")
+SPRING_SEAT = d.Point("spring_seat", (0.04, -0.49, 0.43), "lower seat of the spring, on the axle")
+DAMPER_TOP = d.Point("damper_top", (-0.03, -0.47, 0.78), "upper end of the damper, on the chassis")
+DAMPER_SEAT = d.Point("damper_seat", (-0.09, -0.56, 0.30), "lower end of the damper, on the axle")
+WHEEL = d.Rotor("wheel", 26.0, WHEEL_CENTER, axis=SPIN_AXIS, spin=1.6, diametral=0.85)
+BEARING = d.Revolute("bearing", BEAM, WHEEL, axis=d.Line(WHEEL_CENTER, SPIN_AXIS))
+
+SPRING = d.LinearSpring(
+    rate=d.SpringRate("spring_rate", 48000.0, "rate of the spring"),
+    free_length=d.Length(
+        "spring_free_length", 0.355, "distance of the seats with the spring force-free"
+    ),
+)
+DAMPER = d.LinearDamper(
+    rate=d.DamperRate("damper_rate", 3200.0, "rate of the damper along its axis")
+)
+ACTUATOR = d.Actuator(
+    input=d.Input(
+        "spring_actuator", "N", "actuator force, positive when it pushes the spring's seats apart"
+    )
+)
+TYRE = d.LinearTyre(
+    name="axle",
+    wheel=d.Wheel(BEAM, WHEEL_CENTER, SPIN_AXIS),
+    rate=d.SpringRate("tyre_rate", 230000.0, "radial rate of the tyre"),
+    free_height=d.Displacement(
+        "tyre_free_height", 0.382, "height of the wheel centre at which the tyre is free of force"
+    ),
+    road=ROAD_HEIGHT,
+)
+OF_A_SIDE = (
+    d.ForceElement(
+        "spring", d.AlongLine((CHASSIS, SPRING_TOP), (BEAM, SPRING_SEAT)), (SPRING, ACTUATOR)
+    ),
+    d.ForceElement(
+        "damper",
+        d.AlongLine((CHASSIS, DAMPER_TOP), (BEAM, DAMPER_SEAT)),
+        (DAMPER, *further_laws("damper", 1.0)),
+    ),
+    of_rubber(TYRE),
+)
+
+BAR = d.ForceElement(
+    "bar",
+    d.AlongHinge(ROLL),
+    (
+        d.LinearSpring(
+            rate=d.TorsionRate("bar_rate", 0.0, "rate of the anti-roll bar, by roll of the axle"),
+            free_length=d.Angle("bar_free_angle", 0.0, "roll at which the bar is free"),
+        ),
+    ),
+)
+WEIGHT = d.Weight()
+
+_SIDE = d.Mechanism(
+    name="side",
+    title="Half of a rigid axle",
+    joints=(HEAVE, SWAY, SHIFT, YAW, ROLL, PITCH, *RODS, BEARING),
+    forces=(WEIGHT, *OF_A_SIDE),
+    coordinates=(
+        HEAVE.slide("heave", "height of the middle of the axle above that at design"),
+        ROLL.angle("roll", "inclination of the axle, positive with the left wheel up"),
+        SWAY.slide("sway", "displacement of the axle to the left"),
+        SHIFT.slide("shift", "displacement of the axle forward"),
+        YAW.angle("yaw", "steer angle of the axle, positive to the left"),
+        PITCH.angle("pitch", "turn of the axle about the line through its wheels, nose down"),
+        BEARING.angle(
+            "spin_angle", "wheel spin angle relative to the axle, positive rolling forward"
+        ),
+    ),
+)
+_SHARED = tuple(body for body in _SIDE.bodies if body not in (CHASSIS, WHEEL))
+# what each side has its own values of: all that its wheel, spring, damper and tyre are made of
+_OWN = tuple(
+    part
+    for part in dict.fromkeys(parts((BEARING, OF_A_SIDE)))
+    if isinstance(part, Owner) and part not in parts(BEAM)
+)
+
+RIGID_AXLE = d.combined(
+    "rigid_axle",
+    "Rigid axle on four rods",
+    (
+        d.Copy(_SIDE, "right_", shared=_SHARED),
+        d.Copy(_SIDE, "left_", mirrored=True, shared=_SHARED, own=_OWN),
+    ),
+    forces=(BAR,),
+)
+
+MODELS = (
+    d.Formulation(
+        name="rigid_axle",
+        title="Rigid axle on four rods",
+        mechanism=RIGID_AXLE,
+        independent=(
+            HEAVE,
+            ROLL,
+            RIGID_AXLE.joint("right_bearing"),
+            RIGID_AXLE.joint("left_bearing"),
+        ),
+        massive=(BEAM, RIGID_AXLE.body("right_wheel"), RIGID_AXLE.body("left_wheel")),
+        allow_iteration=True,
+    ),
+)

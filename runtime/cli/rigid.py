@@ -1,0 +1,191 @@
+"""What the commands do with the file of a rigid axle."""
+
+from collections.abc import Mapping
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import typer
+from rich.markup import escape
+from rich.table import Table
+
+from .axles import Ride
+from .console import console, curve_table, print_json, print_table
+from .options import among
+from .outputs import Outputs, name_files, named
+
+if TYPE_CHECKING:
+    from xarray import Dataset
+
+    from ..study.axles.motions import Extent
+    from ..study.rigid.checkup import RigidAxleCheckup
+
+# Beside the tables at design: what changes over roll, and over one wheel's travel.
+_TOLD = {
+    "roll": (
+        "roll_moment",
+        "roll_stiffness",
+        "roll_center_height",
+        "axle_steer",
+        "axle_lateral",
+    ),
+}
+_OF_ONE_WHEEL = ("wheel_force_left", "wheel_force_right", "axle_steer", "axle_lateral")
+# On the page of curves of a simulation, of both sides and of the axle.
+_OF_SIDES = (
+    "road_height",
+    "axle_wheel_center_z",
+    "axle_wheel_acceleration",
+    "axle_tyre_force",
+    "spring_spring_force",
+    "damper_damper_force",
+    "axle_camber",
+    "axle_steer",
+)
+_OF_AXLE = ("heave", "roll", "bar_spring_moment")
+
+
+def is_rigid_axle(file: str) -> bool:
+    """Tell whether a file is that of a rigid axle."""
+    from ..suspension.rigid.axle import is_rigid_axle as found
+
+    return found(file)
+
+
+def all_rigid(files: list[str]) -> bool:
+    """Tell whether files are those of rigid axles; refuse these beside others."""
+    rigid = [file for file in files if is_rigid_axle(file)]
+    if rigid and len(rigid) < len(files):
+        other = next(file for file in files if file not in rigid)
+        message = f"{rigid[0]} is a rigid axle and {other} is not: compare files of one sort"
+        raise typer.BadParameter(message)
+    return bool(rigid)
+
+
+def looked_at(file: str) -> "RigidAxleCheckup":
+    """Return a first look at a rigid axle."""
+    from ..study.rigid.checkup import checkup
+    from ..suspension.rigid import RigidAxle
+
+    return checkup(RigidAxle.load(file))
+
+
+def print_look(found: "RigidAxleCheckup", file: str) -> None:
+    """Print a first look."""
+    table = Table(title=f"{escape(file)}: {escape(found.heading)}", show_header=False)
+    for name, text in found.rows.items():
+        table.add_row(name, escape(text))
+    console.print(table)
+
+
+def motions(wanted: list[str] | None) -> list[str]:
+    """Return the motions of the rig that are asked for, or the usual ones."""
+    from ..study.rigid import MOTIONS
+
+    return among(wanted or ["bump", "roll", "left"], MOTIONS, "--motion")
+
+
+def characteristics(
+    file: str,
+    chosen: list[str],
+    extent: "Extent",
+    outputs: Outputs,
+    *,
+    of: list[str] | None,
+    json: bool,
+) -> None:
+    """All characteristics of a rigid axle over the motions of a rig."""
+    from ..study import export
+    from ..study import rigid as study
+    from ..study.axles import by_side
+    from ..study.axles.sheet import at_design
+    from ..suspension.rigid import RigidAxle
+
+    axle = RigidAxle.load(file)
+    curves = {motion: study.over(axle, motion, extent) for motion in chosen}
+    drawn = {motion: by_side(dataset) for motion, dataset in curves.items()}
+    # both wheels of a curve are drawn together
+    of = [name.removesuffix("_left").removesuffix("_right") for name in of or ()]
+    names = named(of, drawn)
+    written = []
+    for motion, dataset in curves.items():
+        written += outputs.write(
+            dataset,
+            title=f"{file}: {study.MOTIONS[motion]}",
+            names=names[motion],
+            suffix=f"_{motion}",
+            drawn=drawn[motion],
+        )
+    if json:
+        print_json({f"over_{motion}": export.as_dict(curves[motion]) for motion in curves})
+        return
+    for motion, dataset in curves.items():
+        if motion == "bump":
+            for table in at_design(dataset, f"{file}: "):
+                print_table(table)
+            continue
+        told = [name for name in _TOLD.get(motion, _OF_ONE_WHEEL) if name in dataset]
+        console.print(curve_table(dataset, told, f"{file}: {study.MOTIONS[motion]}"))
+    name_files(written)
+
+
+def compared(files: list[str], over: str | None) -> "Dataset":
+    """Return the characteristics of several rigid axles over one motion."""
+    from ..core.quantities import distinct
+    from ..study import rigid as study
+    from ..suspension.rigid import RigidAxle
+
+    motion = over or "bump"
+    if motion not in study.MOTIONS:
+        raise typer.BadParameter(f"--over {over}: of rigid axles it is {', '.join(study.MOTIONS)}")
+    found = dict(zip(distinct(files), map(RigidAxle.load, files), strict=True))
+    return study.compare(found, over=motion)
+
+
+def ride(file: str, wheels: str, refused: Mapping[str, Any]) -> Ride:
+    """Return a rigid axle to be simulated over a road under one wheel or both."""
+    from ..study import rigid as study
+    from ..study.axles.ride import by_side
+    from ..suspension.rigid.model import RigidAxleModel
+
+    _refuse(refused)
+    of_sides = [f"{side}_{stem}" for stem in _OF_SIDES for side in ("left", "right")]
+    played = partial(study.run, wheels=wheels)
+    model = RigidAxleModel(file)
+    curves = (*of_sides, *_OF_AXLE)
+    return Ride(model, played, curves, _no_loads, by_side, wheels=("left_", "right_"))
+
+
+def _no_loads(model: Any, result: Any) -> "Dataset":
+    """Stand where loads of other axles are; `ride` has refused them."""
+    raise NotImplementedError(model, result)
+
+
+def report(
+    file: str,
+    target: Path,
+    title: str | None,
+    refused: Mapping[str, Any],
+    *,
+    force: bool,
+    inputs: list[str | Path],
+) -> Path:
+    """Write the report of a rigid axle: drawings, tables and curves, nothing to be moved."""
+    from ..report import rigid_axle_chapters, write_chapters
+    from ..suspension.rigid import RigidAxle
+
+    _refuse(refused)
+    axle = RigidAxle.load(file)
+    heading = axle.heading()
+    heading = title or f"{heading[:1].upper()}{heading[1:]}"
+    chapters = rigid_axle_chapters(axle)
+    return write_chapters(
+        target, title=heading, chapters=chapters, data=axle, force=force, inputs=inputs
+    )
+
+
+def _refuse(options: Mapping[str, Any]) -> None:
+    """Refuse options that the files of rigid axles do not have."""
+    for option, value in options.items():
+        if value is not None:
+            raise typer.BadParameter(f"{option} is not for the file of a rigid axle")

@@ -1,0 +1,186 @@
+"""A rigid axle at many positions: where it is, how it moves first, and what its springs do.
+
+The two motions are those of the coordinates: heave, the middle of the axle rising by a metre with
+its inclination held; and roll, the wheels moving oppositely, by a radian with the left wheel up.
+Lengths of springs, and their forces, are differentiated by the equations themselves: velocities at
+unit rates are first derivatives, and the derivatives of these are second ones.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ...core.vectors import cross
+from ...suspension.axle.axle import LEFT, RIGHT
+from ...suspension.corner import UP, Array
+from ...suspension.rigid.axle import RigidAxle
+from ...suspension.rigid.model import HEAVE, ROLL, RigidAxleModel
+from ..characteristics.wheel import lowest_point
+
+SIDES = (LEFT, RIGHT)
+SENSE = {LEFT: 1.0, RIGHT: -1.0}
+"""Where a wheel is along the axle, in half tracks to the left."""
+COORDINATES = (HEAVE, ROLL)
+
+
+@dataclass(frozen=True)
+class Beam:
+    """A rigid axle at rest in many positions, of shape (n,).
+
+    Attributes
+    ----------
+    model : RigidAxleModel
+    states : ndarray, shape (n, 8)
+    """
+
+    model: RigidAxleModel
+    states: Array
+
+    @property
+    def axle(self) -> RigidAxle:
+        """The axle."""
+        return self.model.axle
+
+    # -- where it is ----------------------------------------------------------------------------
+
+    @cached_property
+    def _relative(self) -> dict[str, Array]:
+        values = self.model.evaluate("relative_coordinates", self.states)
+        return {n: values[:, i] for i, n in enumerate(self.model.equations.RELATIVE_COORDINATES)}
+
+    @cached_property
+    def _slopes(self) -> dict[str, Array]:
+        """Derivatives of the relative coordinates by heave and roll, (n, 2) each."""
+        by = self.model.evaluate("relative_jacobian", self.states)[..., : len(COORDINATES)]
+        return {n: by[:, i] for i, n in enumerate(self.model.equations.RELATIVE_COORDINATES)}
+
+    def coordinate(self, name: str) -> Array:
+        """Return heave, sway (left), shift (forward) [m], roll, yaw (left) or pitch [rad]."""
+        return self._relative[name]
+
+    def slope(self, name: str, by: str) -> Array:
+        """Return the derivative of such a coordinate by heave or roll."""
+        found: Array = self._slopes[name][:, COORDINATES.index(by)]
+        return found
+
+    @cached_property
+    def center(self) -> Array:
+        """The middle between the wheels [m], (n, 3)."""
+        moved = np.stack([self.coordinate(name) for name in ("shift", "sway", "heave")], -1)
+        return self.axle.center + moved
+
+    @cached_property
+    def _axes(self) -> tuple[Array, Array, Array]:
+        """About which yaw, roll and pitch turn it, each (n, 3): yaw, then roll, then pitch."""
+        yaw, roll = self.coordinate("yaw"), self.coordinate("roll")
+        ahead = np.stack([np.cos(yaw), np.sin(yaw), np.zeros_like(yaw)], -1)
+        across = np.stack(
+            [-np.sin(yaw) * np.cos(roll), np.cos(yaw) * np.cos(roll), np.sin(roll)], -1
+        )
+        return np.broadcast_to(UP, ahead.shape), ahead, across
+
+    def wheel_center(self, side: str) -> Array:
+        """Return the centre of a wheel [m], (n, 3)."""
+        return self.center + SENSE[side] * self.axle.half_track * self._axes[2]
+
+    def contact(self, side: str) -> Array:
+        """Return the lowest point of a wheel as a thin disc [m], (n, 3)."""
+        radius = self.axle.tyre_radius()
+        assert radius is not None
+        return lowest_point(self.wheel_center(side), self._spin_axis(side), radius)
+
+    def _spin_axis(self, side: str) -> Array:
+        _, ahead, across = self._axes
+        pitch = self.coordinate("pitch")[:, None]
+        upright = cross(ahead, across)
+        forward = np.cos(pitch) * ahead - np.sin(pitch) * upright
+        upward = np.sin(pitch) * ahead + np.cos(pitch) * upright
+        x, y, z = self.axle.wheel.spin_axis(SENSE[side])
+        axis: Array = x * forward + y * across + z * upward
+        return axis
+
+    # -- how it moves ---------------------------------------------------------------------------
+
+    def turning(self, by: str) -> Array:
+        """Return the angular velocity per unit of heave [rad/m] or roll, (n, 3)."""
+        turns = zip(("yaw", "roll", "pitch"), self._axes, strict=True)
+        return sum((self.slope(n, by)[:, None] * axis for n, axis in turns), np.zeros(3))
+
+    def velocity(self, place: Array, by: str) -> Array:
+        """Return the velocity of a place that is fixed to the axle, per unit of heave or roll."""
+        middle = np.stack([self.slope(name, by) for name in ("shift", "sway", "heave")], -1)
+        velocity: Array = middle + cross(self.turning(by), place - self.center)
+        return velocity
+
+    @cached_property
+    def lever(self) -> Array:
+        """How fast the left wheel rises in roll, and the right one falls [m/rad]."""
+        return self.axle.half_track * np.cos(self.coordinate("roll"))
+
+    # -- its springs ----------------------------------------------------------------------------
+
+    @cached_property
+    def _signals(self) -> dict[str, Array]:
+        return self.model.signals(self.states)
+
+    @cached_property
+    def _at_unit_rate(self) -> dict[str, tuple[dict[str, Array], dict[str, Array]]]:
+        """Signals in heave and in roll at unit rates, and their derivatives by both, (n, 2)."""
+        found = {}
+        for by in COORDINATES:
+            states = self.states.copy()
+            states[:, self.model.state_names.index(f"{by}_rate")] = 1.0
+            slopes = self.model.evaluate("signals_jacobian", states)[..., : len(COORDINATES)]
+            by_name = dict(zip(self.model.signal_names, np.moveaxis(slopes, -2, 0), strict=True))
+            found[by] = self.model.signals(states), by_name
+        return found
+
+    def signal(self, name: str) -> Array:
+        """Return a signal of the equations at rest."""
+        return self._signals[name]
+
+    def compression(self, part: str, by: str) -> Array:
+        """Return how a spring or a damper is compressed per unit of heave [1] or roll [m/rad]."""
+        signals, _ = self._at_unit_rate[by]
+        return -signals[f"{part}_velocity"]
+
+    @cached_property
+    def of_springs(self) -> tuple[Array, Array]:
+        """What springs and stops do in heave and roll, (n, 2), and its derivatives, (n, 2, 2)."""
+        forces = [self._virtual_work(f"{side}_{part}", force) for side, part, force in _SPRINGS]
+        work, slopes = zip(*forces, strict=True)
+        return np.sum(work, axis=0), np.sum(slopes, axis=0)
+
+    @cached_property
+    def of_bar(self) -> tuple[Array, Array]:
+        """The same of the anti-roll bar."""
+        rate, roll = self.model.parameters["bar_rate"], self.coordinate("roll")
+        nothing = np.zeros_like(roll)
+        return np.stack([nothing, -rate * roll], -1), np.broadcast_to(
+            np.diag([0.0, -rate]), (roll.size, 2, 2)
+        )
+
+    def _virtual_work(self, path: str, force: str) -> tuple[Array, Array]:
+        """Return what a force along a path does in heave and roll, and its derivatives by them."""
+        acting = self._signals[force]
+        grows, bends = [], []
+        for by in COORDINATES:
+            signals, slopes = self._at_unit_rate[by]
+            grows.append(signals[f"{path}_velocity"])
+            bends.append(slopes[f"{path}_velocity"])
+        growth, changes = np.stack(grows, -1), self._at_unit_rate[HEAVE][1][force]
+        work = acting[:, None] * growth
+        slopes_of_work = growth[..., :, None] * changes[..., None, :]
+        return work, slopes_of_work + acting[:, None, None] * np.stack(bends, -2)
+
+
+_SPRINGS = tuple(
+    (side, part, f"{side}_{part}_{force}")
+    for side in SIDES
+    for part, force in (
+        ("spring", "spring_force"),
+        ("damper", "bump_stop_force"),
+        ("damper", "rebound_stop_force"),
+    )
+)

@@ -1,0 +1,77 @@
+"""A rigid axle over a road, from rest."""
+
+from typing import Any
+
+import xarray as xr
+
+from ...core.arguments import Arguments
+from ...simulation.result import Simulation
+from ...simulation.signals import time_inputs
+from ...simulation.simulate import simulate
+from ...suspension.rigid.axle import SIDES
+from ...suspension.rigid.model import RigidAxleModel, equilibrium
+from ...suspension.wheel_loads import UNITS
+from ..axles.ride import WHEELS, of_the_axle, with_sides_told
+from ..recording import dataset_of
+from ..scenario import Scenario
+
+
+def run(
+    model: RigidAxleModel, scenario: Scenario, *, wheels: str = "both", **options: Any
+) -> tuple[Simulation, xr.Dataset]:
+    """Simulate a rigid axle over a road, from rest.
+
+    Parameters
+    ----------
+    model : RigidAxleModel
+    scenario : Scenario
+        Its ``road_height`` is that of the wheels that are named; the others have a level road.
+        Inputs of the axle may be given by their own names as well.
+    wheels : {'both', 'left', 'right'}, optional
+    **options : Any
+        Of `kintrafo.simulate`: ``method``, ``rtol``, ``atol``, ...
+
+    Returns
+    -------
+    Simulation
+        With the times at which the left wheel left the ground in ``t_events[0]`` and came back in
+        ``t_events[1]``; those of the right one behind them.
+    xarray.Dataset
+        Signals, states and inputs over time, see `kintrafo.study.recording.dataset_of`.
+
+    Raises
+    ------
+    InputError, PositionError, SimulationError
+        As `kintrafo.simulate` and `kintrafo.rigid_axles.equilibrium`.
+    """
+    with Arguments("simulation") as given:
+        given.kind("model", model, RigidAxleModel, RigidAxleModel.NEEDED)
+        given.kind("scenario", scenario, Scenario, "a Scenario is needed")
+        given.among("wheels", wheels, WHEELS)
+        if not given.refused:
+            if scenario.height is not None:
+                given.refuse("height: an axle starts from rest. Leave it out.")
+            if "rack_position" in scenario.inputs:
+                given.refuse("rack_position: a rigid axle has no rack. Leave it out.")
+            loads = [name for name in scenario.inputs if name.endswith(tuple(UNITS))]
+            if loads:
+                given.refuse(
+                    f"{', '.join(loads)}: the equations of a rigid axle have no loads on the "
+                    "wheels besides those of the tyres. Leave them out."
+                )
+    inputs = of_the_axle(scenario.inputs, WHEELS[wheels])
+    times = scenario.times()
+    span = (0.0, scenario.duration)
+    courses = time_inputs(model, inputs, span)
+    first = dict(zip(model.input_names, courses.at(0.0, courses.segments[0]), strict=True))
+    start = equilibrium(
+        model,
+        road_height={side: float(first[f"{side}_road_height"]) for side in SIDES},
+        spin_rate=scenario.spin_rate,
+        inputs={n: float(v) for n, v in first.items() if n.endswith("_actuator")},
+    )
+    events = [
+        f"{side}_axle_wheel_{what}_ground" for side in SIDES for what in ("leaves", "touches")
+    ]
+    result = simulate(model, span, start, inputs=inputs, t_eval=times, events=events, **options)
+    return result, with_sides_told(dataset_of(model, result))

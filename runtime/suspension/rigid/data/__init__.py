@@ -1,0 +1,1 @@
+"""Rigid axles that come with the project."""

@@ -1,0 +1,260 @@
+"""The equations of motion of a rigid axle, and the positions that it takes."""
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import root
+
+from ...core.arguments import Arguments, shown
+from ...core.errors import InputError
+from ...equations.errors import ModelError
+from ...generated import rigid_axle as equations
+from ...systems.state import State
+from ...systems.system import System
+from ..axle.axle import LEFT, RIGHT
+from ..corner import Array
+from ..input.units import in_metres
+from ..reach import PositionError
+from .axle import SIDES, RigidAxle
+
+Booleans = NDArray[np.bool_]
+
+HEAVE, ROLL = "heave", "roll"
+"""The coordinates: height of the middle between the wheels above design [m], inclination [rad]."""
+
+# An axle that is inclined as far stands on its end [rad].
+_MOST_ROLL = np.pi / 4.0
+# Lengths at design are read from the same numbers [m].
+_ROUNDING = 1e-12
+# A way is looked at in so many steps, and its end found by so many halvings of one.
+_STEPS, _HALVINGS = 64, 40
+# What is left of the forces at rest, over the stiffness times a metre, or a radian.
+_AT_REST = 1e-9
+
+
+class RigidAxleModel(System):
+    """The compiled equations of a rigid axle: beam, wheels, springs, dampers, stops and tyres.
+
+    Parameters
+    ----------
+    axle : RigidAxle, str or Path
+        The data, or the name of a packaged data set or path of a TOML file.
+
+    Attributes
+    ----------
+    axle : RigidAxle
+    parameters, constants, design_state
+        As of `System`. The states are ``heave`` [m] and ``roll`` [rad], positive with the left
+        wheel up, and the angles of the wheels; signals and inputs of a side begin with ``right_``
+        or ``left_``.
+
+    Examples
+    --------
+    >>> model = RigidAxleModel("rigid_axle")
+    >>> model.state_names[:2]
+    ('heave', 'roll')
+    """
+
+    NEEDED = 'a kintrafo.RigidAxleModel, such as RigidAxleModel("rigid_axle"), is needed'
+
+    def __init__(self, axle: RigidAxle | str | Path) -> None:
+        self.axle = _axle_of(axle)
+        super().__init__(equations, self.axle.parameters())
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return RigidAxleModel, (self.axle,)
+
+    def __repr__(self) -> str:
+        return f"<RigidAxleModel of a {self.axle.heading()}>"
+
+    # -- positions ------------------------------------------------------------------------------
+
+    def states_at(self, left: ArrayLike, right: ArrayLike) -> Array:
+        """Return the states at rest with the wheel centres at some travels.
+
+        Parameters
+        ----------
+        left, right : array_like
+            Heights of the wheel centres above design [m].
+
+        Returns
+        -------
+        ndarray, shape (..., 8)
+
+        Raises
+        ------
+        PositionError
+            If the axle cannot be there; the message states how far it goes on this way.
+        """
+        with Arguments("states_at") as given:
+            lefts = given.array("left", left, "m", dimensions=[0, 1])
+            rights = given.array("right", right, "m", dimensions=[0, 1])
+        lefts, rights = np.broadcast_arrays(lefts, rights)
+        states = self._states(lefts, rights)
+        missed = ~self._reached(states)
+        if missed.any():
+            # the one that somebody asked for is at the end of a range
+            far = np.where(missed, np.abs(lefts).ravel() + np.abs(rights).ravel(), -1.0)
+            worst = int(far.argmax())
+            self._refuse(float(lefts.ravel()[worst]), float(rights.ravel()[worst]))
+        return states
+
+    def farthest(self, left: float, right: float) -> float:
+        """Return how much of a way from design the axle can go, straight in the wheels' travels.
+
+        Parameters
+        ----------
+        left, right : float
+            Travels of the wheels at the end of the way [m].
+
+        Returns
+        -------
+        float
+            1 where it comes to the end, less where it does not.
+        """
+
+        def reached(parts: Array) -> Booleans:
+            return self._reached(self._states(parts * left, parts * right))
+
+        parts = np.linspace(0.0, 1.0, _STEPS + 1)
+        missed = np.flatnonzero(~reached(parts))
+        if missed.size == 0:
+            return 1.0
+        if missed[0] == 0:
+            return 0.0
+        low, high = float(parts[missed[0] - 1]), float(parts[missed[0]])
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if reached(np.array([middle])).all() else (low, middle)
+        return low
+
+    def _states(self, left: Array, right: Array) -> Array:
+        """Return states at rest; NaN where no beam is as long as the wheels would be apart."""
+        states = np.broadcast_to(self.design_state, (*left.shape, self.design_state.size)).copy()
+        states[..., self.state_names.index(HEAVE)] = 0.5 * (left + right)
+        with np.errstate(invalid="ignore"):
+            rolls = np.arcsin(0.5 * (left - right) / self.axle.half_track)
+        states[..., self.state_names.index(ROLL)] = rolls
+        return states
+
+    def _reached(self, states: Array) -> Booleans:
+        """Tell of each state whether the rods reach, and the dampers are long and short enough."""
+        rolls = states[..., self.state_names.index(ROLL)]
+        fine: Booleans = np.atleast_1d(np.abs(rolls) < _MOST_ROLL)
+        rows = np.atleast_2d(states)
+        fine[fine] = (self.evaluate("margins", rows[fine]) > 0.0).all(axis=-1)
+        signals = self.signals(rows[fine])
+        allowed = np.ones(int(fine.sum()), dtype=bool)
+        damper = self.axle.damper
+        for side in SIDES:
+            length = signals[f"{side}_damper_length"]
+            if damper.length_min_mm is not None:
+                allowed &= length >= in_metres(damper.length_min_mm, "mm") - _ROUNDING
+            if damper.length_max_mm is not None:
+                allowed &= length <= in_metres(damper.length_max_mm, "mm") + _ROUNDING
+        fine[fine] = allowed
+        return fine
+
+    def _refuse(self, left: float, right: float) -> None:
+        part = self.farthest(left, right)
+        ends = np.floor(1e5 * part * np.abs([left, right])) / 1e2 * np.sign([left, right])
+        message = (
+            f"the axle cannot be with its left wheel at {1e3 * left:+g} mm and its right one at "
+            f"{1e3 * right:+g} mm from design: on this way it comes to {ends[0]:+.2f} mm and "
+            f"{ends[1]:+.2f} mm, where a rod reaches no farther, a damper is at the end of its "
+            "length, or the axle is inclined by 45 deg. Choose less."
+        )
+        raise PositionError(message)
+
+
+def _axle_of(given: Any) -> RigidAxle:
+    if isinstance(given, str | Path):
+        return RigidAxle.load(given)
+    if isinstance(given, RigidAxle):
+        return given
+    problem = f"a RigidAxle, a name or a path is needed, not {shown(given)}."
+    raise InputError([problem], "RigidAxleModel")
+
+
+def equilibrium(
+    model: RigidAxleModel,
+    *,
+    road_height: Mapping[str, float] | None = None,
+    spin_rate: float = 0.0,
+    inputs: Mapping[str, float] | None = None,
+) -> State:
+    """Return the state of a rigid axle at rest on its wheels, the body held.
+
+    Parameters
+    ----------
+    model : RigidAxleModel
+    road_height : mapping of str to float, optional
+        Height of the road under the wheels 'left' and 'right' [m], zero where it is not given.
+    spin_rate : float, optional
+        Rate of both wheels relative to the axle, positive rolling forward [rad/s].
+    inputs : mapping of str to float, optional
+        Further inputs by name, such as ``left_spring_actuator`` [N].
+
+    Returns
+    -------
+    State
+        Near the design position.
+
+    Raises
+    ------
+    PositionError
+        If there is no stable one.
+
+    Examples
+    --------
+    >>> model = RigidAxleModel("rigid_axle")
+    >>> rest = equilibrium(model)
+    >>> bool(abs(model.signal("left_axle_wheel_center_z", rest) - 0.36) < 1e-4)
+    True
+    """
+    with Arguments("equilibrium") as given:
+        given.kind("model", model, RigidAxleModel, RigidAxleModel.NEEDED)
+        spin = given.number("spin_rate", spin_rate, "rad/s")
+        roads = dict(given.mapping("road_height", road_height or {}, "sides and heights"))
+        for side, height in roads.items():
+            given.among("side", side, SIDES)
+            roads[side] = given.number(f"road_height of the {side} wheel", height, "m")
+        further = given.mapping("inputs", inputs or {}, "input names and values")
+    heights = {f"{side}_road_height": height for side, height in roads.items()}
+    held = model.inputs({**further, **heights})
+    places = [model.state_names.index(name) for name in (HEAVE, ROLL)]
+
+    def at(coordinates: ArrayLike) -> Array:
+        state = model.design_state.copy()
+        state[places] = coordinates
+        return state
+
+    def forces(coordinates: ArrayLike) -> Array:
+        return np.asarray(model.evaluate("forces", at(coordinates), held)[:2])
+
+    message = (
+        "the axle has no stable equilibrium near its design position. Check the springs' rate and "
+        "free length, the tyres' rate and free height, the load of the wheels, or the road."
+    )
+    try:
+        found = root(forces, np.zeros(2), options={"xtol": 1e-14}).x
+        left, slopes = forces(found), _slopes(forces, found)
+    except ModelError:
+        raise PositionError(message) from None
+    # nothing is nearer to zero than the stiffness times the rounding of a coordinate
+    small = _AT_REST * max(float(np.abs(slopes).max()), 1.0)
+    if not np.abs(left).max() <= small or not (np.linalg.eigvals(slopes).real < 0.0).all():
+        raise PositionError(message)
+    state = at(found)
+    for side in (LEFT, RIGHT):
+        state[model.state_names.index(f"{side}_spin_angle_rate")] = spin
+    return State.of(state, held, model.names_of_states)
+
+
+def _slopes(forces: Callable[[ArrayLike], Array], at: Array, step: float = 1e-6) -> Array:
+    """Return the derivatives of the forces by the coordinates."""
+    columns = [forces(at + d) - forces(at - d) for d in step * np.eye(at.size)]
+    return np.stack(columns, -1) / (2.0 * step)
