@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
-from kintrafo import InputError, Model, SimulationError, simulate, state_at_height
+from kintrafo import InputError, Model, Samples, SimulationError, simulate, state_at_height
 from kintrafo.simulation.solvers import native_methods
 
 MODEL = Model("reference_car")
@@ -80,12 +80,38 @@ def test_the_state_of_an_event_is_on_the_way(method):
 
 
 @pytest.mark.parametrize("method", native_methods())
+def test_a_zero_next_to_a_border_is_not_lost(method):
+    """0.1 + 0.2 is 6e-17 more than the 0.3 at which the road, and so a segment, breaks off."""
+    road = Samples([0.0, 0.3, 0.3, 1.0], [0.0, 0.0, 0.01, 0.01], "linear")
+    for late in (-1e-16, 0.0, 1e-16):
+
+        def event(time, _, late=late):
+            return time - (0.1 + 0.2) - late
+
+        found = simulate(
+            MODEL, (0.0, 0.4), START, method=method, events=event, inputs={"road_height": road}
+        )
+        np.testing.assert_allclose(found.t_events[0], [0.3], rtol=0.0, atol=RESOLVED)
+
+
+@pytest.mark.parametrize("method", native_methods())
 def test_a_function_that_is_zero_at_first_waits(method):
     def event(time, _):
         return max(0.0, time - 0.1) if time < 0.15 else 0.2 - time
 
     found = simulate(MODEL, (0.0, 0.3), START, method=method, events=event, max_step=0.02)
     np.testing.assert_allclose(found.t_events[0], [0.2], rtol=0.0, atol=RESOLVED)
+
+
+@pytest.mark.parametrize("method", native_methods())
+def test_a_function_of_few_digits_is_zero_for_a_while(method):
+    """As is the distance of a state from a level, for some 1e-16 of it: that is no error."""
+
+    def event(time, _):
+        return round((time - 0.1) * 1e12) * 1e-12
+
+    found = simulate(MODEL, (0.0, 0.3), START, method=method, events=event, max_step=0.02)
+    np.testing.assert_allclose(found.t_events[0], [0.1], rtol=0.0, atol=1e-12)
 
 
 @pytest.mark.parametrize("method", native_methods())

@@ -21,6 +21,7 @@ int kt_open_search(worker *w, double start)
     s->middle = s->high + count;
     s->found = s->idle + count;
     s->seen = s->next = start;
+    s->begins = 1;
     return s->memory && s->idle;
 }
 
@@ -56,33 +57,27 @@ static int any_passes(const worker *w, const double *from, const double *to)
     return some;
 }
 
-/*
- * Take the values just behind the begin for those at it: a function that passes zero that near to the begin
- * begins there, which is no event. One that stays zero waits.
- */
-static void begin(worker *w)
+/* Give functions that are zero where the search begins the values just behind it. */
+static void leave(worker *w)
 {
     kt_search *s = &w->search;
     for (int i = 0; i < kt_root_count(w); ++i) {
-        s->passed[i] = s->middle[i];
-        s->idle[i] = s->middle[i] == 0.0;
-    }
-    s->known = 1;
-}
-
-/* Give functions that are zero at the root that was passed the values just behind it, if they have one. */
-static int leave(worker *w)
-{
-    kt_search *s = &w->search;
-    for (int i = 0; i < kt_root_count(w); ++i) {
-        if (s->passed[i] == 0.0 && !s->idle[i]) {
+        if (s->passed[i] == 0.0) {
             s->passed[i] = s->middle[i];
-            if (s->middle[i] == 0.0 && s->found[i]) {
-                return KT_FLAT;
-            }
+            s->idle[i] |= s->middle[i] == 0.0 && s->begins; /* it waits until it leaves zero */
         }
     }
-    return 0;
+}
+
+/* Tell whether a function is zero at the root that was passed, behind it, and at the end of a step. */
+static int stays_zero(const worker *w)
+{
+    const kt_search *s = &w->search;
+    int some = 0;
+    for (int i = 0; i < kt_root_count(w); ++i) {
+        some |= s->found[i] && s->passed[i] == 0.0 && s->high[i] == 0.0;
+    }
+    return some;
 }
 
 static int leaves_zero(const worker *w)
@@ -145,17 +140,19 @@ static int narrow(worker *w, double from, double *end, double resolved)
 static int set_out(worker *w, double end, double resolved)
 {
     kt_search *s = &w->search;
-    int code = 0;
-    if (!s->known || leaves_zero(w)) {
-        double part = fmin(1.0, resolved / fabs(end - s->seen));
-        code = look_at(w, s->seen + part * (end - s->seen), s->middle);
-        if (!code && s->known) {
-            code = leave(w);
-        } else if (!code) {
-            begin(w);
-        }
+    if (s->begins && kt_roots(w, s->seen, w->result->state, s->passed)) {
+        return KT_NO_ROOTS;
     }
-    return code;
+    if (leaves_zero(w)) {
+        double part = fmin(1.0, resolved / fabs(end - s->seen));
+        int code = look_at(w, s->seen + part * (end - s->seen), s->middle);
+        if (code) {
+            return code;
+        }
+        leave(w);
+    }
+    s->begins = 0;
+    return 0;
 }
 
 int kt_find_root(worker *w, double end, double *time)
@@ -167,6 +164,9 @@ int kt_find_root(worker *w, double end, double *time)
     code = code ? code : look_at(w, end, s->high);
     if (code) {
         return code;
+    }
+    if (stays_zero(w)) {
+        return KT_FLAT;
     }
     memcpy(s->low, s->passed, (size_t)count * sizeof *s->low);
     root = any_passes(w, s->low, s->high);

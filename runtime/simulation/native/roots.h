@@ -17,7 +17,7 @@ typedef struct {
     int *idle;            /* functions that have been zero since the motion began */
     int *found;           /* of each function: the sense in which it passes zero at the root, or 0 */
     double seen, next;    /* up to where roots have been passed, and up to where the last search went */
-    int known;            /* `passed` is known */
+    int begins;           /* nothing has been looked at yet */
 } kt_search;
 
 /* Begin at a time; returns whether there is memory. */
