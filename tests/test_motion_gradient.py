@@ -79,6 +79,38 @@ def test_against_motions_beside_it(system: kintrafo.System, inputs: Any) -> None
     assert set(found.by) == known - varied
 
 
+def test_what_is_at_rest_at_first_is_followed_too(system: kintrafo.System) -> None:
+    """Nothing moves until the road does, and steps that err by nothing could have any length."""
+    rest = kintrafo.equilibrium(CAR)
+    inputs = {"road_height": Samples([0.0, 0.2, 0.2, 0.3], [0.0, 0.0, 0.01, 0.01], "linear")}
+    rows = {"rtol": 1e-9, "atol": 1e-12}
+    start, of = np.array(rest), {"wheel_acceleration": "rms"}
+
+    def acceleration(parameters: Any, at: Any) -> float:
+        other = kintrafo.System(system.equations, parameters)
+        found = kintrafo.simulate(
+            other, SPAN, at, inputs=inputs, method="DOP853", t_eval=TIMES, max_step=0.002,
+            rtol=1e-12, atol=1e-14,
+        )  # fmt: skip
+        share = np.full(TIMES.size, 1.0 / (TIMES.size - 1))
+        share[[0, -1]] /= 2.0
+        own = found.signals["wheel_acceleration"]
+        return float(np.sqrt(share @ (own - share @ own) ** 2))
+
+    found = kintrafo.motion_gradient(system, SPAN, start, of, inputs=inputs, t_eval=TIMES, **rows)
+    for name in ("spring_rate", "knuckle_mass", "beta1"):
+        at, own = start.copy(), dict(system.parameters)
+        step = 1e-6 if name == "beta1" else 1e-5 * own[name]
+        ends = []
+        for sign in (1.0, -1.0):
+            if name == "beta1":
+                at[0] = start[0] + sign * step
+            else:
+                own[name] = system.parameters[name] + sign * step
+            ends.append(acceleration(own, at))
+        assert found.by[name] == pytest.approx((ends[0] - ends[1]) / 2.0 / step, rel=1e-4), name
+
+
 def test_it_is_the_gradient_of_the_numbers_that_the_steps_give(system: kintrafo.System) -> None:
     """Steps of 10 ms all along, whatever the error: of these numbers, not of the true motion."""
     coarse: dict[str, Any] = {"rtol": 0.5, "atol": 1e3, "max_step": 0.01}
@@ -112,11 +144,18 @@ def test_a_signal_that_stays_has_no_slope_of_its_rms() -> None:
         ({"t_span": (0.3, 0.0)}, "must be the later one"),
         ({"t_eval": [0.1]}, "two times"),
         ({"system": CAR}, "has no derivatives by parameters"),
+        ({"y0": [0.0, 1.0]}, "its last dimension must be 4"),
     ],
 )
 def test_bad_arguments_are_refused(system: kintrafo.System, changes: Any, words: str) -> None:
-    given = {"system": system, "t_span": SPAN, "of": {"camber": "rms"}, "t_eval": TIMES} | changes
+    given = {
+        "system": system,
+        "t_span": SPAN,
+        "of": {"camber": "rms"},
+        "t_eval": TIMES,
+        "y0": START,
+    } | changes
     with pytest.raises(InputError, match=words):
         kintrafo.motion_gradient(
-            given["system"], given["t_span"], START, given["of"], t_eval=given["t_eval"]
+            given["system"], given["t_span"], given["y0"], given["of"], t_eval=given["t_eval"]
         )

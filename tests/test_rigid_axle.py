@@ -318,6 +318,9 @@ def test_anti_squat_is_that_of_the_side_view(torque_on: str) -> None:
     nose = rigid_axles.bump(axle, [-travel, travel])["pinion_angle"].values
     by = (nose[1] - nose[0]) / (2.0 * travel)
     assert by == pytest.approx(-1e3 / x, rel=1e-6)  # the square of the travel
+    turned = axle.with_changes({"rigid_axle": "front"})
+    other = rigid_axles.bump(turned, [-travel, travel])["pinion_angle"].values
+    np.testing.assert_allclose(other, -nose, rtol=0.0, atol=1e-15)
 
 
 @each_axle

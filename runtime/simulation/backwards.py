@@ -30,6 +30,9 @@ Measure = Literal["mean", "rms"]
 _OUTPUTS = 201
 # Rows that are differentiated at a time: some MB.
 _ROWS = 4096
+# Steps whose Jacobian is looked at, and by how much they may be longer than it allows.
+_LOOKS = 32
+_MORE = 1.2
 
 # Dormand and Prince's method: nodes, stages, and weights of a step and of its polynomial
 # (../native/dormand_prince.h has the same, Hairer, Norsett and Wanner II.5 and II.6).
@@ -112,8 +115,10 @@ def motion_gradient(
     Notes
     -----
     The lengths of steps are taken as they are. They change with parameters, too, which changes
-    the result by no more than the integration errs. Where a stop or a curve has a kink, the
-    derivative is that of one side.
+    the result by no more than the integration errs. No step is so long that what is at rest, and a
+    parameter would move, is not followed as accurately: h |l| is at most (3600 rtol)^(1/6) for all
+    eigenvalues l of the Jacobian, so that stiff members make it slow. Where a stop or a curve has
+    a kink, the derivative is that of one side.
 
     Examples
     --------
@@ -135,16 +140,51 @@ def motion_gradient(
                 given, np.linspace(*span, _OUTPUTS) if t_eval is None else t_eval, span
             )
             asked = _asked(given, system, of, times)
-    motion = simulate(
-        system, span, y0, inputs=inputs, method="DormandPrince", rtol=rtol, atol=atol,
-        max_step=max_step,
-    )  # fmt: skip
+            given.array("y0", y0, dimensions=[1], last=len(system.state_names), empty=True)
     held = inputs_of(y0, system.names_of_states)
     courses = time_inputs(system, inputs, span, held=held, max_step=max_step)
+    longest = min(max_step, _longest(system, courses, rtol, np.array([span[0]]), np.atleast_2d(y0)))
+    while True:
+        motion = simulate(
+            system, span, y0, inputs=inputs, method="DormandPrince", rtol=rtol, atol=atol,
+            max_step=longest,
+        )  # fmt: skip
+        allowed = _longest(system, courses, rtol, *_looked_at(motion))
+        if np.diff(motion.t).max() <= _MORE * allowed:
+            break
+        longest = min(longest, allowed)
     steps = _Steps(system, motion, courses)
     value, weights = _judged(system, asked, times, *steps.at(times))
     swept = _Sweep(system, directions, steps).backwards(times, weights)
     return MotionGradient(value, _named(system, directions, courses, *swept), motion)
+
+
+def _looked_at(motion: Simulation) -> tuple[Array, Array]:
+    """Return times and states of some steps: all along, and where they are longest."""
+    count = motion.t.size - 1
+    lengths = np.diff(motion.t)
+    along = np.linspace(0, count - 1, min(count, _LOOKS)).astype(int)
+    rows = np.union1d(along, np.argsort(lengths)[-_LOOKS:])
+    return motion.t[rows], motion.y.T[rows]
+
+
+def _longest(
+    system: System, courses: TimeInputs, rtol: float, times: Array, states: Array
+) -> float:
+    """Return how long steps may be for what moves beside the motion to be followed as well.
+
+    Where nothing moves a step errs by nothing, however long it is; but a small disturbance, such as
+    a parameter makes, would grow by all that the polynomial of the method is beside exp(h l), for
+    an eigenvalue l of the Jacobian. That is (h l)^6 / 3600 at first.
+    """
+    inputs = np.empty((times.size, len(system.input_names)))
+    for part in courses.segments:
+        rows = (times >= part.start) & (times <= part.end)
+        inputs[rows] = courses.table(times[rows], part)
+    fastest = float(
+        np.abs(np.linalg.eigvals(system.evaluate("rhs_jacobian", states, inputs))).max()
+    )
+    return (3600.0 * rtol) ** (1.0 / 6.0) / fastest if fastest > 0.0 else np.inf
 
 
 def _asked(given: Arguments, system: System, of: Any, times: Array) -> dict[str, Any]:

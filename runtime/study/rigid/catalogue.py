@@ -136,7 +136,8 @@ GUIDANCE = (
             "turn of the axle about the line through its wheels, from design",
             "positive with the nose of the final drive up",
         ),
-        lambda beam: -beam.coordinate("pitch"),
+        # it points to the middle of the car
+        lambda beam: (1.0 if beam.axle.rigid_axle == "front" else -1.0) * beam.coordinate("pitch"),
     ),
     *_both(_ALIGNMENT["camber"], _signal("axle_camber")),
     *_both(_ALIGNMENT["toe"], _signal("axle_toe")),

@@ -224,6 +224,8 @@ class RigidAxle(Section):
 
     def points(self, side: str) -> dict[str, Array]:
         """Return the hardpoints of a side at design [m]."""
+        with Arguments("points") as given:
+            given.among("side", side, (RIGHT, LEFT))
         found = self.hardpoints.at_design()
         if side == RIGHT:
             return found

@@ -92,6 +92,10 @@ class RigidAxleModel(System):
         with Arguments("states_at") as given:
             lefts = given.array("left", left, "m", dimensions=[0, 1])
             rights = given.array("right", right, "m", dimensions=[0, 1])
+            if lefts.ndim and rights.ndim and lefts.shape != rights.shape:
+                given.refuse(
+                    f"left has {lefts.size} travels and right {rights.size}: as many are needed."
+                )
         lefts, rights = np.broadcast_arrays(lefts, rights)
         states = self._states(lefts, rights)
         missed = ~self._reached(states)
@@ -115,6 +119,8 @@ class RigidAxleModel(System):
         float
             1 where it comes to the end, less where it does not.
         """
+        with Arguments("farthest") as given:
+            left, right = given.number("left", left, "m"), given.number("right", right, "m")
 
         def reached(parts: Array) -> Booleans:
             return self._reached(self._states(parts * left, parts * right))
