@@ -195,24 +195,40 @@ class CardanShaft(ClosedForm):
         kin.slides[shaft.joint.name] = program.define(f"slide_{shaft.joint.name}", slide)
 
     def _place_far(self, kin: Kinematics, end: PointMotion) -> None:
-        """Place the link at the driven body: it turns with the other one, from its own centre."""
-        near, far = kin.placed[self.shaft.near], self.shaft.far
+        """Place the link at the driven body; the second of its axes is that of its own cross."""
+        near, far, program = kin.placed[self.shaft.near], self.shaft.far, kin.program
+        n, second, third = near.design_axes
+        b = _second_axis(kin, self, -n)
+        c = program.define(f"{far}_phase_cosine", b.dot(second))
+        s = program.define(f"{far}_phase_sine", b.dot(third))
+
+        def axes_from(x: Vector, y: Vector, z: Vector) -> Axes:
+            return -x, y * c + z * s, y * s - z * c
+
+        def seen(v: Vector) -> Vector:
+            return Vector(-v.x, v.y * c + v.z * s, v.y * s - v.z * c)
+
+        parts = (f"{far}_line", f"{far}_second_axis", f"{far}_third_axis")
         placed = BodyMotion(
             far,
             origin=end.position,
-            axes=near.axes,
+            axes=program.axes(parts, axes_from(*near.axes)),
             design_origin=kin.design(self.shaft.end),
-            design_axes=near.design_axes,
+            design_axes=(-n, b, program.vector(f"{far}_third_design", b.cross(n))),
             local={self.shaft.end: ZERO},
             carrier=(self.parent, kin.local(kin.placed[self.parent], self.shaft.end)),
         )
         to_body = projector(kin, placed)
         for k in dict.fromkeys([*near.motion, *end.motion]):
             base = to_body(f"velocity_{k}", end.motion.get(k, ZERO))
-            placed.motion[k] = Twist(near.motion.get(k, NO_TWIST).angular, base)
-        placed.bias = once(
-            lambda: Twist(near.bias().angular, to_body("acceleration", end.bias)),
-        )
+            omega = seen(near.motion.get(k, NO_TWIST).angular)
+            placed.motion[k] = kin.define_twist(far, k, Twist(omega, base))
+
+        def bias() -> Twist:
+            base = to_body("acceleration", end.bias)
+            return kin.define_bias(far, Twist(seen(near.bias().angular), base))
+
+        placed.bias = once(bias)
         kin.placed[far] = placed
 
 
@@ -239,12 +255,11 @@ class _Yoke:
         program, body = kin.program, step.about
         shaft, parent = kin.placed[step.shaft.far], kin.placed[step.parent]
         design_axes, first = _first_axis(kin, step)
-        b_design, on_shaft = _second_axis(kin, step)
+        b = shaft.axes[1]
         hinge = program.vector(
             f"{body}_hinge_on_parent", to_axes(parent.design_axes, design_axes[0])
         )
         e = program.vector(f"{body}_hinge", from_axes(parent.axes, hinge))
-        b = program.vector(f"{body}_second_axis", from_axes(shaft.axes, on_shaft))
         along = program.define(f"{body}_second_along", b.dot(e))
         beta = program.vector(f"{body}_second_across", b - e * along)
         slope = program.define(f"{body}_first_slope", first.x / first.y)
@@ -259,7 +274,7 @@ class _Yoke:
             "1",
             DIRECTION,
         )
-        branch = _branch(kin, step, b_design, design_axes)
+        branch = _branch(kin, step, shaft.design_axes[1], design_axes)
         height = program.define(f"{body}_second_height", branch * sp.sqrt(room))
         inverse = program.define(f"{body}_second_inverse", 1 / (room + k**2))
         cosine = program.define(f"{body}_turn_cosine", k * inverse)
@@ -344,26 +359,22 @@ def _first_axis(kin: Kinematics, step: CardanShaft) -> tuple[Axes, Vector]:
     return (e, t, normal), Vector(along, radius, ZERO.z)
 
 
-def _second_axis(kin: Kinematics, step: CardanShaft) -> tuple[Vector, Vector]:
-    """Return b at the design position, and in the axes of the shaft, which it is across."""
-    program, joint = kin.program, step.driven
-    n, second, third = kin.placed[step.shaft.far].design_axes
-    across = program.vector(
-        f"{step.about}_second_cross_design", kin.design_direction(joint.first_axis).cross(n)
-    )
+def _second_axis(kin: Kinematics, step: CardanShaft, line: Vector) -> Vector:
+    """Return b at the design position, across the line of the shaft."""
+    joint, far = step.driven, step.shaft.far
+    across = kin.design_direction(joint.first_axis).cross(line)
+    across = kin.program.vector(f"{far}_cross_design", across)
     require(
         kin,
-        f"{step.about}_second_sine_design",
+        f"{far}_cross_design",
         sp.sqrt(across.dot(across)),
         LENGTH,
         "1",
-        f"at the design position, the shaft {step.shaft.far} lies along the first axis of "
-        f"universal joint {joint.name}",
+        f"at the design position, the shaft {far} lies along the first axis of universal joint "
+        f"{joint.name}",
         "turn that axis, or move an end of the shaft",
     )
-    b = kin.unit(f"{step.about}_second_design", across)
-    on_shaft = Vector(ZERO.x, b.dot(second), b.dot(third))
-    return b, program.vector(f"{step.about}_second_on_shaft", on_shaft, "123")
+    return kin.unit(f"{far}_second_design", across)
 
 
 def _branch(kin: Kinematics, step: CardanShaft, b: Vector, design_axes: Axes) -> sp.Expr:
