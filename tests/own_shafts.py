@@ -22,6 +22,7 @@ def column(
     along: Place | None = None,
     beside: float = 0.0,
     swinging: bool = False,
+    links: str = "",
 ) -> Formulation:
     """Return a column whose shaft lies along x, with both bearings in the plane y = 0.
 
@@ -37,6 +38,9 @@ def column(
         How far the bearing of the pinion is from its cross, across its axis.
     swinging
         Whether the column's bearing is on a bracket that turns about y, so that the shaft slides.
+    links
+        What is between the bearings instead: a ``rigid`` shaft, one with a cross that is ``turned``
+        round, or ``one`` cross alone.
     """
     across = np.array([0.0, 1.0, 0.0])
     start = atan2(sin(phase), cos(second) * cos(phase))
@@ -45,16 +49,28 @@ def column(
     base = "bracket" if swinging else "ground"
     swing = (hinge("swing", "ground", "bracket", "bracket_bearing", "plane"),) if swinging else ()
     at = "pinion_bearing" if beside else "lower_center"
-    names = [*(["bracket"] if swinging else []), "column", "upper", "lower", "pinion"]
+    upper = cross("upper_cross", "column", "upper", *ends, "plane")
+    spline = guide("spline", "upper", "lower", ends if along is None else "way")
+    between = {
+        "": (upper, spline, cross("lower_cross", "pinion", "lower", *ends[::-1], "lower_fork")),
+        "turned": (upper, spline, cross("lower_cross", "lower", "pinion", *ends[::-1], "plane")),
+        "rigid": (
+            cross("upper_cross", "column", "shaft", *ends, "plane"),
+            cross("lower_cross", "pinion", "shaft", *ends[::-1], "lower_fork"),
+        ),
+        "one": (cross("upper_cross", "column", "pinion", *ends, "plane"),),
+    }[links]
+    if links == "one":
+        at = "upper_center"
+    moving = dict.fromkeys(body for joint in between for body in (joint.first, joint.second))
+    names = ["bracket", *moving] if swinging else [*moving]
     return declare(
         name,
         {body: (0.1 * i, 0.02 * i, 0.01) for i, body in enumerate(names)},
         (
             *swing,
             hinge("steer", base, "column", "upper_center", "column_line"),
-            cross("upper_cross", "column", "upper", *ends, "plane"),
-            guide("spline", "upper", "lower", ends if along is None else "way"),
-            cross("lower_cross", "pinion", "lower", *ends[::-1], "lower_fork"),
+            *between,
             hinge("rolling", "ground", "pinion", at, "pinion_line"),
         ),
         {

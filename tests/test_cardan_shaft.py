@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from math import atan2, cos, degrees, pi, radians, sin
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
+from changes import changed
 from kintrafo.equations.errors import ParameterError
-from kintrafo.generator import DeclarationError
+from kintrafo.generator import DeclarationError, Direction, Universal
 from kintrafo.generator.closed_forms.cardan_shaft import CardanShaft
 from kintrafo.generator.equations.outputs import generate
+from kintrafo.generator.loops.errors import NoClosedFormError
+from kintrafo.generator.mechanisms import held_by_rods
 from kintrafo.generator.planning.plan import Plan
 from oracle_check import check_with_the_oracle
 from own_mechanisms import cross, declare, guide, hinge
@@ -203,3 +207,42 @@ def test_a_hinge_beside_its_cross_is_told_by_how_much() -> None:
     said = r"hinge rolling must go through the centre lower_center .* 4 mm"
     with pytest.raises(DeclarationError, match=said):
         generate(model, derivatives=False)
+
+
+BETWEEN = r"Only the crosses '\w+' and '\w+' hold '{}'\. {}"
+
+
+@pytest.mark.parametrize("allowed", [False, True], ids=["closed form", "iteration"])
+@pytest.mark.parametrize(
+    ("links", "said"),
+    [
+        ("rigid", BETWEEN.format("shaft", "As a rod .* ball joint. As a shaft it must telescope")),
+        ("turned", "declare 'pinion' first and 'lower' second in 'lower_cross'"),
+    ],
+)
+def test_what_is_no_such_shaft_is_told_what_to_do(links: str, said: str, *, allowed: bool) -> None:
+    """A shaft that cannot telescope, and a cross whose second body is not the shaft."""
+    model = replace(column("other", 0.3, 0.3, 0.0, links=links), allow_iteration=allowed)
+    with pytest.raises(NoClosedFormError, match=said):
+        Plan.of(model)
+
+
+def test_a_rod_with_two_crosses_holds_no_carrier_by_iteration() -> None:
+    """Its second cross would be one equation more, which used to be left out."""
+    model = next(m for m in held_by_rods.MODELS if m.name == "control_arm_multi_link")
+    ball = model.mechanism.joint("toe_link_ball")
+    way = model.mechanism.joint("toe_link_cross").shaft
+    crossed = Universal(ball.name, ball.first, ball.second, ball.at, way, Direction("z", (0, 0, 1)))
+    Plan.of(model)
+    with pytest.raises(NoClosedFormError, match=BETWEEN.format("toe_link", "As a rod")):
+        Plan.of(changed(model, (ball, crossed)))
+
+
+def test_one_cross_between_two_hinges_is_solved_by_iteration(tmp_path: Path) -> None:
+    model = replace(column("one_cross", 0.3, 0.0, 0.0, links="one"), allow_iteration=True)
+    built = check_with_the_oracle(model, tmp_path, pi)
+    row = list(built.module.RELATIVE_COORDINATES).index("rolling_angle")
+    for turn in TURNS:
+        found = built("relative_coordinates", np.array([turn, 0.0]))[row]
+        # Newton's method ends at 1e-12 of what it began with
+        assert off(found, atan2(cos(0.3) * sin(turn), cos(turn))) < 1e-11
