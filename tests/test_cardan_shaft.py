@@ -12,14 +12,14 @@ import numpy as np
 import pytest
 from changes import changed
 from kintrafo.equations.errors import ParameterError
-from kintrafo.generator import DeclarationError, Direction, Universal
+from kintrafo.generator import DeclarationError, Direction, Input, JointForce, Motion, Universal
 from kintrafo.generator.closed_forms.cardan_shaft import CardanShaft
 from kintrafo.generator.equations.outputs import generate
 from kintrafo.generator.loops.errors import NoClosedFormError
 from kintrafo.generator.mechanisms import held_by_rods
 from kintrafo.generator.planning.plan import Plan
 from oracle_check import check_with_the_oracle
-from own_mechanisms import cross, declare, guide, hinge
+from own_mechanisms import cross, declare, guide, hinge, steering_shaft
 from own_models import Built, own
 from own_shafts import column
 from scipy.optimize import brentq
@@ -128,6 +128,27 @@ def test_the_page_prints_what_it_says(
     code, printed = re.search(r"```py\n(.*?)```\n\n```none\n(.*?)```", page, re.DOTALL).groups()
     exec(compile(code, PAGE.name, "exec"), {})
     assert capsys.readouterr().out == printed
+
+
+def test_a_bearing_that_moves_as_given_moves_the_pinion(tmp_path: Path) -> None:
+    model = steering_shaft("given_shaft")
+    tilt, steer, shake = model.independent
+    forces = tuple(f for f in model.mechanism.forces if f.along != shake)
+    given = replace(
+        model,
+        mechanism=replace(model.mechanism, forces=forces),
+        independent=(tilt, steer),
+        prescribed={shake: Motion("shaking", "rad", "turn of the box")},
+    )
+    check_with_the_oracle(given, tmp_path, 0.3)
+
+
+def test_the_pinion_may_turn_the_column(tmp_path: Path) -> None:
+    model = column("backwards", 0.3, 0.5, 0.4)
+    rolling = model.mechanism.joint("rolling")
+    forces = (JointForce(rolling, Input("torque", "N m", "torque on the pinion")),)
+    mechanism = replace(model.mechanism, forces=forces)
+    check_with_the_oracle(replace(model, mechanism=mechanism, independent=(rolling,)), tmp_path, pi)
 
 
 # -- several in a row ------------------------------------------------------------------------------
