@@ -132,6 +132,16 @@ def reported(joints: Sequence[Joint]) -> tuple:
     )
 
 
+def shaft_angles(joints: Sequence[Joint]) -> tuple:
+    """Return the angles of the shafts at crosses, named after their joints."""
+    crosses = [joint for joint in joints if isinstance(joint, Universal)]
+    return tuple(
+        report(f"{joint.name}_{kind}", f"{kind} of {joint.name}")
+        for joint in crosses
+        for kind, report in (("azimuth", joint.azimuth), ("elevation", joint.elevation))
+    )
+
+
 def motion_of(joint: Joint, name: str) -> Motion:
     """Return a prescribed motion of a joint."""
     return Motion(name, "m" if isinstance(joint, Prismatic) else "rad", f"position of {name}")
@@ -148,6 +158,7 @@ def declare(
     spring: tuple[str, str],
     prescribed: Mapping[str, str] | None = None,
     wheel: tuple[str, Place] | None = None,
+    crosses: bool = False,
     **more: object,
 ) -> Formulation:
     """Return a model with weight, a spring with a damper, and a force on every coordinate.
@@ -160,6 +171,8 @@ def declare(
         Two points; each is taken with the body whose name begins its own.
     wheel
         Name of a rotor among the bodies, with the direction of its axis.
+    crosses
+        Whether the angles of the crosses are reported, too.
     more
         Of the model; bodies with mass by their names.
     """
@@ -186,7 +199,7 @@ def declare(
                 for j in independent
             ),
         ),
-        coordinates=reported(built),
+        coordinates=reported(built) + (shaft_angles(built) if crosses else ()),
     )
     given = {named[j]: motion_of(named[j], motion) for j, motion in (prescribed or {}).items()}
     massive = more.pop("massive", bodies)
@@ -639,6 +652,72 @@ def turret(name: str, driven: str, *, carriage: bool = False, reverse: bool = Fa
         },
         ("slew", driven),
         spring=("ground_seat", "piston_seat"),
+        crosses=True,
+    )
+
+
+# -- a steering column whose shaft telescopes between two crosses ----------------------------------
+
+
+def steering_shaft(name: str, *, turned: bool = False) -> Formulation:
+    """Return column, shaft of two links and pinion; the bearings of both ends move by themselves.
+
+    The crosses have axes that are oblique to their bearings, and the column's is beside its own.
+
+    Parameters
+    ----------
+    turned
+        Whether guide and driven hinge are declared the other way round.
+    """
+    links = ("lower", "upper") if turned else ("upper", "lower")
+    ends = ("upper_center", "lower_center")
+    bearing = hinge("rolling", "box", "pinion", "lower_center", "pinion_line")
+    if turned:
+        bearing = hinge("rolling", "pinion", "box", "lower_center", "pinion_line", to="box_seat")
+    return declare(
+        name,
+        {
+            "bracket": (0.1, -0.1, 0.5),
+            "column": (0.2, 0.03, 0.55),
+            "upper": (0.4, 0.05, 0.45),
+            "lower": (0.5, 0.15, 0.3),
+            "pinion": (0.65, 0.22, 0.2),
+            "box": (0.7, 0.1, 0.1),
+        },
+        (
+            hinge("tilt", "ground", "bracket", "bracket_bearing", "bracket_line"),
+            hinge("steer", "bracket", "column", "column_bearing", "column_line"),
+            cross("upper_cross", "column", "upper", *ends, "upper_fork"),
+            guide("spline", *links, ends),
+            cross("lower_cross", "pinion", "lower", *ends[::-1], "lower_fork"),
+            bearing,
+            hinge("shake", "ground", "box", "box_bearing", "box_line"),
+        ),
+        {
+            "bracket_bearing": (0.0, 0.1, 0.4),
+            "column_bearing": (0.1, 0.0, 0.6),
+            "upper_center": (0.3, 0.03, 0.53),
+            "lower_center": (
+                0.6,
+                0.2,
+                0.25,
+            ),  # beside y = 0, where the sine of an azimuth says least
+            "box_bearing": (0.8, 0.0, 0.0),
+            "box_seat": (0.72, 0.2, 0.1),
+            "ground_seat": (0.5, 0.3, 0.4),
+            "column_seat": (0.2, 0.1, 0.6),
+        },
+        {
+            "bracket_line": (0.2, 1.0, -0.3),
+            "column_line": (0.9, 0.1, -0.2),
+            "upper_fork": (0.3, -0.4, 1.0),
+            "lower_fork": (0.1, 1.0, 0.3),
+            "pinion_line": (0.7, 0.3, -0.8),
+            "box_line": (0.4, -0.3, 0.9),
+        },
+        ("tilt", "steer", "shake"),
+        spring=("ground_seat", "column_seat"),
+        crosses=True,
     )
 
 
@@ -658,6 +737,8 @@ MODELS = (
     turret("pushed_turret", "stroke"),
     turret("pulled_carriage", "stroke", carriage=True, reverse=True),
     chain(),
+    steering_shaft("steering_shaft"),
+    steering_shaft("turned_shaft", turned=True),
 )
 """All of them, each as one model."""
 
@@ -668,6 +749,7 @@ DIFFERENTIATED = (
     "pushed_slider",
     "lifted_turret",
     "pulled_carriage",
+    "steering_shaft",
 )
 """Those whose derivatives are looked at; no other such model has what they have of the catalogue.
 

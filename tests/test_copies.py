@@ -88,6 +88,7 @@ SAMPLE = (
     "plate_on_a_pin",
     "knee_bar",
     "scotch_yoke",
+    "steering_shaft",
     "loaded_crank",
 )
 """Mechanisms with every step of the catalogue; all of them are tried by the fuzzer."""

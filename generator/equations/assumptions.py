@@ -86,6 +86,8 @@ def _assumptions(plan: Plan) -> Iterator[Assumption]:
     for joint in plan.topology.mechanism.joints:
         if isinstance(joint, Universal) and joint.second.name in lines:
             yield from _of_shaft(joint, lines[joint.second.name])
+    for step in plan.steps:
+        yield from step.assumptions()
     yield from _of_rotors(plan.formulation)
 
 

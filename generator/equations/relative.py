@@ -14,7 +14,7 @@ import sympy as sp
 
 from ..declare.geometry import Point
 from ..declare.joints import Cylindrical, Joint, Prismatic, Revolute, Universal
-from ..kinematics.chain import chain_to, reported
+from ..kinematics.chain import before_telescope, chain_to, reported
 from ..kinematics.hinge_angles import angle_of, is_first_axis, positive_axis_at_design, turn_between
 from ..kinematics.motion import (
     IDENTITY,
@@ -29,7 +29,7 @@ from ..program.floors import DIRECTION
 from ..program.vectors import UNIT_X, UNIT_Y, UNIT_Z, ZERO, Vector
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from ..declare.joints import RelativeCoordinate
     from ..kinematics.kinematics import Kinematics
@@ -227,9 +227,16 @@ class RelativeCoordinates:
         """Return the screws from the ground to a body, along joints with reported coordinates."""
         joints = chain_to(self.mechanism, body)
         assert joints is not None, body
-        screws = [screw for joint in joints for screw in self._screws(joint)]
-        if isinstance(joints[-1], Universal):
-            screws = [self._on_cross(body, screw) for screw in screws]
+        return [screw for joint in joints for screw in self._screws_in(joints, joint)]
+
+    def _screws_in(self, chain: Sequence[Joint], joint: Joint) -> list[_Screw]:
+        """Return the screws of a joint of a chain: a shaft turns about itself with its cross.
+
+        The angle of a telescope behind it counts from the z-x sequence.
+        """
+        screws = self._screws(joint)
+        if isinstance(joint, Universal) and not before_telescope(chain, joint):
+            return [self._on_cross(joint, screw) for screw in screws]
         return screws
 
     def reported(self, joint: str, kind: str) -> str | None:
@@ -246,7 +253,7 @@ class RelativeCoordinates:
             return [_Screw(names["slide"], ZERO, ZERO, direction)]
         if isinstance(joint, Universal):
             shaft = self._shaft(joint)
-            center = self.kin.on_line[joint.second.name].anchor_motion.position
+            center = self.kin.point_motion(joint.first.name, joint.at).position
             return [
                 _Screw(names["azimuth"], shaft.up, center, ZERO),
                 _Screw(names["elevation"], shaft.x, center, ZERO),
@@ -269,14 +276,11 @@ class RelativeCoordinates:
         axis = from_axes(first.axes, to_axes(first.design_axes, n))
         return _Screw(name, axis, kin.position(first, joint.axis.through), ZERO)
 
-    def _on_cross(self, body: str, screw: _Screw) -> _Screw:
+    def _on_cross(self, joint: Universal, screw: _Screw) -> _Screw:
         """Let a shaft turn about itself as its cross demands, not as the z-x sequence does."""
-        n, second, third = self.kin.placed[body].axes
-        joint = next(j for j in self.mechanism.joints_of(body) if isinstance(j, Universal))
+        n, second, third = self.kin.placed[joint.second.name].axes
         parent = self.kin.placed[joint.first.name]
         axis = from_axes(parent.axes, self.kin.local_direction(parent, joint.first_axis))
-        if screw.angular.is_zero:
-            return screw
         hinge = second.cross(axis)
         across = screw.angular - n * screw.angular.dot(n)
         turn = -across.dot(hinge) / axis.dot(third)

@@ -7,7 +7,11 @@ from typing import TYPE_CHECKING
 
 import networkx as nx
 
+from ..declare.joints import Cylindrical
+
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from ..declare.joints import Joint
     from ..declare.mechanism import Mechanism
 
@@ -29,3 +33,9 @@ def chain_to(mechanism: Mechanism, body: str) -> list[Joint] | None:
         return None
     path = nx.shortest_path(graph, *ends)
     return [graph.edges[a, b]["joint"] for a, b in itertools.pairwise(path)]
+
+
+def before_telescope(chain: Sequence[Joint], joint: Joint) -> bool:
+    """Tell whether a telescope is next behind a joint of a chain."""
+    behind = chain[chain.index(joint) + 1 :]
+    return bool(behind) and isinstance(behind[0], Cylindrical)

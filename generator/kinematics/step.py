@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from ..declare.geometry import Point
+    from ..program.conditions import Assumption
     from .kinematics import Kinematics
 
 
@@ -45,4 +46,8 @@ class Step(ABC):
 
     def lines(self) -> Iterator[Ends]:
         """Yield the links whose line it finds, each with two points of the line."""
+        yield from ()
+
+    def assumptions(self) -> Iterator[Assumption]:
+        """Yield what it takes to be zero, beside what `lines` and a plane ask for."""
         yield from ()

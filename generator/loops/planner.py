@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, ClassVar, Self
 from ..declare.formulation import DRIVABLE
 from ..declare.joints import Free, Joint, Prismatic, Revolute, Spherical, Universal
 from ..kinematics.kinematics import Loop
+from .crossed import between_crosses, crosses_turned
 from .cut import PairCandidate, pair_candidates, views
 from .errors import NoClosedFormError
 from .graph import Cycle, MinimalBasis, Topology
@@ -238,12 +239,15 @@ class Plan:
         A body that rods hold together, or else the fewest loops of hinges and guides.
         """
         cycles = [cycle for cycle, _ in waiting]
-        tried = (f.attempt(self._known, self._driven, cycles) for f in self.catalogue.iterations)
+        crossed = [c for c in cycles if between_crosses(self._mechanism, c)]
+        forms = () if crossed else self.catalogue.iterations
+        tried = (f.attempt(self._known, self._driven, cycles) for f in forms)
         attempt = next((a for a in tried if a), None)
         if attempt is None or attempt.obstacle or not self.formulation.allow_iteration:
-            cycle = (attempt.cycles if attempt else cycles)[0]
+            cycle = (attempt.cycles if attempt else crossed or cycles)[0]
             message = self._refusal(cycle, pair_candidates(self._known, cycle))
-            hint = tilted(self._mechanism)
+            hint = "" if attempt else self._about_crosses(cycle)
+            hint = hint or tilted(self._mechanism)
             if hint:
                 message += f" {hint}."
             elif attempt is None or attempt.obstacle:
@@ -310,6 +314,10 @@ class Plan:
             "unknown. "
             f"Pairs tried: {tried or 'none, since no two of its joints keep a point in common'}."
         )
+
+    def _about_crosses(self, cycle: Cycle) -> str:
+        """Return a sentence on the crosses of a loop that nothing solves, if they are why."""
+        return between_crosses(self._mechanism, cycle) or crosses_turned(self._mechanism, cycle)
 
     def _miscounted(self) -> str:
         """Say by how much the driven coordinates differ from the degrees of freedom."""

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from ...declare.bodies import Rotor
 from ...declare.geometry import Point
 from ...declare.joints import Cylindrical, Prismatic, Revolute, Universal
-from ...kinematics.chain import chain_to, reported
+from ...kinematics.chain import before_telescope, chain_to, reported
 from ...program.steps import ancestors
 from ...program.symbols import symbols_of
 from .tables import table
@@ -185,11 +185,11 @@ class Motion:
         """Return angular velocity and velocity of the centre of mass of a body."""
         place = self.mechanism.numbers[body]
         turns, moves = [], []
-        own = self._own_shaft(body)
+        crosses = self._crosses(body)
         for coordinate in self.in_chain(body):
             number, screw = self.numbers[coordinate.name], self.screws[coordinate.name]
             rate = rf"\dot{{\beta}}_{{{number}}}"
-            sign = "c" if coordinate.joint is own else "a"
+            sign = "c" if coordinate.joint in crosses else "a"
             axis = rf"\mathbf{{{sign}}}_{{{number}}}"
             if screw.point is None:
                 moves.append(rf"{axis}\,{rate}")
@@ -239,21 +239,20 @@ class Motion:
         arm = rf"{rotation(b)}\,(\mathbf{{s}}^0_{{{b}}}-{mark})"
         return [*turned, rf"\mathbf{{s}}_{{{b}}} = {at} + {arm}"]
 
-    def _own_shaft(self, body: str) -> Joint | None:
-        """Return the universal joint at the end of a chain: the body is its shaft."""
+    def _crosses(self, body: str) -> list[Universal]:
+        """Return the crosses in a chain whose shafts turn about themselves as they demand."""
         chain = chain_to(self.mechanism, body) or []
-        return next((joint for joint in chain[-1:] if isinstance(joint, Universal)), None)
+        crosses = (joint for joint in chain if isinstance(joint, Universal))
+        return [joint for joint in crosses if not before_telescope(chain, joint)]
 
     def shaft_equations(self) -> Iterator[str]:
-        """Yield how the shafts among the bodies turn about themselves, as their crosses demand."""
-        for body in self.bodies:
-            joint = self._own_shaft(body)
-            if isinstance(joint, Universal):
-                for kind in joint.coordinates:
-                    k = self.numbers[reported(self.mechanism, joint.name, kind) or ""]
-                    n, h = rf"({self.shaft(joint)})", rf"\mathbf{{h}}_{{\mathrm{{{joint.name}}}}}"
-                    share = rf"\frac{{\mathbf{{a}}_{{{k}}}\cdot {h}}}{{{n}\cdot {h}}}"
-                    yield rf"\mathbf{{c}}_{{{k}}} = \mathbf{{a}}_{{{k}}} - {share}\,{n}"
+        """Yield how shafts turn about themselves, as their crosses demand."""
+        for joint in dict.fromkeys(joint for body in self.bodies for joint in self._crosses(body)):
+            for kind in joint.coordinates:
+                k = self.numbers[reported(self.mechanism, joint.name, kind) or ""]
+                n, h = rf"({self.shaft(joint)})", rf"\mathbf{{h}}_{{\mathrm{{{joint.name}}}}}"
+                share = rf"\frac{{\mathbf{{a}}_{{{k}}}\cdot {h}}}{{{n}\cdot {h}}}"
+                yield rf"\mathbf{{c}}_{{{k}}} = \mathbf{{a}}_{{{k}}} - {share}\,{n}"
 
     def rotors(self) -> list[Rotor]:
         """Return the bodies of revolution among those with mass."""

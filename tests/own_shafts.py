@@ -1,0 +1,95 @@
+"""Steering shafts in a plane: column, shaft of two links between two crosses, and pinion."""
+
+from __future__ import annotations
+
+from math import atan2, cos, sin
+from typing import TYPE_CHECKING
+
+import numpy as np
+from own_mechanisms import cross, declare, guide, hinge
+
+if TYPE_CHECKING:
+    from kintrafo.generator import Formulation
+    from own_mechanisms import Place
+
+
+def column(
+    name: str,
+    first: float,
+    second: float,
+    phase: float,
+    *,
+    along: Place | None = None,
+    beside: float = 0.0,
+    swinging: bool = False,
+    links: str = "",
+) -> Formulation:
+    """Return a column whose shaft lies along x, with both bearings in the plane y = 0.
+
+    Parameters
+    ----------
+    first, second
+        Angles of the axes of column and pinion to the shaft, down from it.
+    phase
+        By how much the second fork of the shaft is ahead of the first one, about x.
+    along
+        Direction of the guide; None: from cross to cross.
+    beside
+        How far the bearing of the pinion is from its cross, across its axis.
+    swinging
+        Whether the column's bearing is on a bracket that turns about y, so that the shaft slides.
+    links
+        What is between the bearings instead: a ``rigid`` shaft, one with a cross that is ``turned``
+        round, or ``one`` cross alone.
+    """
+    across = np.array([0.0, 1.0, 0.0])
+    start = atan2(sin(phase), cos(second) * cos(phase))
+    ends = "upper_center", "lower_center"
+    axis = {e: np.array([cos(a), 0.0, -sin(a)]) for e, a in (("column", first), ("pinion", second))}
+    base = "bracket" if swinging else "ground"
+    swing = (hinge("swing", "ground", "bracket", "bracket_bearing", "plane"),) if swinging else ()
+    at = "pinion_bearing" if beside else "lower_center"
+    upper = cross("upper_cross", "column", "upper", *ends, "plane")
+    spline = guide("spline", "upper", "lower", ends if along is None else "way")
+    between = {
+        "": (upper, spline, cross("lower_cross", "pinion", "lower", *ends[::-1], "lower_fork")),
+        "turned": (upper, spline, cross("lower_cross", "lower", "pinion", *ends[::-1], "plane")),
+        "rigid": (
+            cross("upper_cross", "column", "shaft", *ends, "plane"),
+            cross("lower_cross", "pinion", "shaft", *ends[::-1], "lower_fork"),
+        ),
+        "one": (cross("upper_cross", "column", "pinion", *ends, "plane"),),
+    }[links]
+    if links == "one":
+        at = "upper_center"
+    moving = dict.fromkeys(body for joint in between for body in (joint.first, joint.second))
+    names = ["bracket", *moving] if swinging else [*moving]
+    return declare(
+        name,
+        {body: (0.1 * i, 0.02 * i, 0.01) for i, body in enumerate(names)},
+        (
+            *swing,
+            hinge("steer", base, "column", "upper_center", "column_line"),
+            *between,
+            hinge("rolling", "ground", "pinion", at, "pinion_line"),
+        ),
+        {
+            "bracket_bearing": (-0.2, 0.0, 0.3),
+            "upper_center": (0.0, 0.0, 0.0),
+            "lower_center": (0.4, 0.0, 0.0),
+            "pinion_bearing": (0.4, beside, 0.0),
+            "ground_seat": (0.0, 0.3, 0.0),
+            "column_seat": (-0.1, 0.0, 0.1),
+        },
+        {
+            "plane": tuple(across),
+            "column_line": tuple(axis["column"]),
+            "pinion_line": tuple(axis["pinion"]),
+            "lower_fork": tuple(
+                cos(start) * across + sin(start) * np.cross(axis["pinion"], across)
+            ),
+            "way": along or (1.0, 0.0, 0.0),
+        },
+        ("swing", "steer") if swinging else ("steer",),
+        spring=("ground_seat", "column_seat"),
+    )
