@@ -129,3 +129,22 @@ def test_an_event_that_gives_up_in_the_middle(method):
 
     with pytest.raises(InputError, match="a finite number is needed"):
         simulate(MODEL, (0.0, 0.3), START, method=method, events=event)
+
+
+@pytest.mark.parametrize("method", native_methods())
+@pytest.mark.parametrize("terminal", [False, 2])
+def test_what_passes_together_passes_once(method, terminal):
+    """Zeros that differ by less than is resolved, and values with noise of more than that."""
+
+    def late(by, noise):
+        def event(time, _):
+            return time - 0.1 - by + noise * np.sin(1e17 * time)
+
+        event.terminal = terminal
+        return event
+
+    events = [late(by, noise) for by in (-3e-16, 0.0, 2e-16, 1e-13) for noise in (0.0, 1e-13)]
+    found = simulate(MODEL, (0.0, 0.2), START, method=method, events=events, max_step=0.02)
+    for times in found.t_events:
+        np.testing.assert_allclose(times, [0.1], rtol=0.0, atol=RESOLVED)
+    assert found.t[-1] == 0.2

@@ -421,7 +421,7 @@ static int move(worker *w, double goal, double *time, int *root)
     if (code < 0 || !kt_root_count(w)) {
         return code;
     }
-    code = kt_find_root(w, w->reached, time);
+    code = kt_find_root(w, w->reached, rest, time);
     *root = code > 0;
     return code;
 }

@@ -13,10 +13,11 @@ int kt_open_search(worker *w, double start)
 {
     kt_search *s = &w->search;
     size_t count = (size_t)kt_root_count(w);
-    s->memory = calloc(4 * count + 1, sizeof *s->memory);
+    s->memory = calloc(5 * count + 1, sizeof *s->memory);
     s->idle = calloc(2 * count + 1, sizeof *s->idle);
     s->passed = s->memory;
-    s->low = s->passed + count;
+    s->last = s->passed + count;
+    s->low = s->last + count;
     s->high = s->low + count;
     s->middle = s->high + count;
     s->found = s->idle + count;
@@ -48,11 +49,12 @@ static int sense(const worker *w, int which, double from, double to)
     return passes && wanted * way >= 0 ? way : 0;
 }
 
+/* Tell whether a function that passes in this step does so between two rows of values. */
 static int any_passes(const worker *w, const double *from, const double *to)
 {
     int some = 0;
     for (int i = 0; i < kt_root_count(w); ++i) {
-        some |= sense(w, i, from[i], to[i]) != 0;
+        some |= w->search.found[i] && sense(w, i, from[i], to[i]);
     }
     return some;
 }
@@ -75,7 +77,7 @@ static int stays_zero(const worker *w)
     const kt_search *s = &w->search;
     int some = 0;
     for (int i = 0; i < kt_root_count(w); ++i) {
-        some |= s->found[i] && s->passed[i] == 0.0 && s->high[i] == 0.0;
+        some |= s->found[i] && s->passed[i] == 0.0 && s->last[i] == 0.0;
     }
     return some;
 }
@@ -96,7 +98,7 @@ static double first_crossing(const worker *w, double weight)
     const kt_search *s = &w->search;
     double part = 1.0;
     for (int i = 0; i < kt_root_count(w); ++i) {
-        if (sense(w, i, s->low[i], s->high[i])) {
+        if (s->found[i] && sense(w, i, s->low[i], s->high[i])) {
             double crossed = s->low[i] / (s->low[i] - weight * s->high[i]);
             /* half way to an end that is zero, since all before it may be so too */
             part = fmin(part, s->high[i] == 0.0 ? 0.5 : crossed);
@@ -105,7 +107,7 @@ static double first_crossing(const worker *w, double weight)
     return part;
 }
 
-/* Narrow down the first zero between two times: the rule of false position, as Illinois has it. */
+/* Narrow down the first of what is found between two times: the rule of false position, as Illinois has it. */
 static int narrow(worker *w, double from, double *end, double resolved)
 {
     kt_search *s = &w->search;
@@ -155,40 +157,51 @@ static int set_out(worker *w, double end, double resolved)
     return 0;
 }
 
-int kt_find_root(worker *w, double end, double *time)
+int kt_find_root(worker *w, double end, int rest, double *time)
 {
     kt_search *s = &w->search;
-    int count = kt_root_count(w), root;
+    int count = kt_root_count(w), root = 0, code;
+    size_t size = (size_t)count * sizeof *s->low;
     double resolved = RESOLVED * (fabs(end) + fabs(end - s->seen));
-    int code = set_out(w, end, resolved);
-    code = code ? code : look_at(w, end, s->high);
-    if (code) {
-        return code;
+    code = set_out(w, end, resolved);
+    if (code || (!rest && look_at(w, end, s->last))) {
+        return code ? code : KT_NO_ROOTS;
     }
     if (stays_zero(w)) {
         return KT_FLAT;
     }
-    memcpy(s->low, s->passed, (size_t)count * sizeof *s->low);
-    root = any_passes(w, s->low, s->high);
-    if (root) {
-        code = narrow(w, s->seen, &end, resolved);
-        if (code || look_at(w, end, s->high)) {
-            return code ? code : KT_NO_ROOTS;
-        }
+    memcpy(s->low, s->passed, size);
+    memcpy(s->high, s->last, size);
+    for (int i = 0; i < count; ++i) {
+        s->found[i] = sense(w, i, s->passed[i], s->last[i]);
+        root |= s->found[i] != 0;
+    }
+    code = root ? narrow(w, s->seen, &end, resolved) : 0;
+    if (code) {
+        return code;
     }
     for (int i = 0; i < count; ++i) {
-        s->found[i] = root ? sense(w, i, s->low[i], s->high[i]) : 0;
+        s->found[i] *= sense(w, i, s->low[i], s->high[i]) != 0;
     }
     *time = s->next = end;
+    s->ends = !root;
+    w->solver->interpolate(w, end, 0, w->y); /* cannot fail within the step */
     return root;
 }
 
+/*
+ * Functions that pass zero together to rounding may come in any order, and each of them would be on its
+ * old side again at the root of the next one. So what has passed is taken to be where the step ends: each
+ * function passes at most once in a step, and once where its ends lie on two sides.
+ */
 void kt_pass_root(worker *w)
 {
     kt_search *s = &w->search;
     for (int i = 0; i < kt_root_count(w); ++i) {
-        s->passed[i] = s->high[i];
-        s->idle[i] = s->idle[i] && s->high[i] == 0.0;
+        if (s->ends || s->found[i]) {
+            s->passed[i] = s->last[i];
+            s->idle[i] = s->idle[i] && s->last[i] == 0.0;
+        }
     }
     s->seen = s->next;
 }
