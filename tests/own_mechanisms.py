@@ -6,10 +6,11 @@ or slides itself, so that no term of a velocity or of a bias is zero by accident
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from changes import changed
 from kintrafo.generator import (
     FORWARD,
     AlongLine,
@@ -18,9 +19,11 @@ from kintrafo.generator import (
     Direction,
     ForceElement,
     Formulation,
+    Gear,
     Ground,
     Input,
     JointForce,
+    Lead,
     Length,
     Line,
     LinearDamper,
@@ -29,10 +32,12 @@ from kintrafo.generator import (
     Motion,
     Point,
     Prismatic,
+    Ratio,
     Revolute,
     Rotor,
     Spherical,
     SpringRate,
+    TurnPerTravel,
     Universal,
     Weight,
 )
@@ -213,6 +218,26 @@ def declare(
         held={"still": tuple(given)} if given else {},
         **more,
     )
+
+
+def geared(model: Formulation, follower: str, followed: str, ratio: float) -> Formulation:
+    """Return a model in which one of the driven joints follows another through a gear."""
+    behind, before = map(model.mechanism.joint, (follower, followed))
+    units = ["m" if isinstance(joint, Prismatic) else "rad" for joint in (behind, before)]
+    unit = "1" if units[0] == units[1] else "/".join(units)
+    kind = {"1": Ratio, "m/rad": Lead, "rad/m": TurnPerTravel}[unit]
+    gear = Gear(before, kind(f"{follower}_ratio", ratio, "ratio of the gear"))
+    given = {joint: motion for joint, motion in model.prescribed.items() if joint != behind}
+    forces = tuple(f for f in model.mechanism.forces if f.along != behind)
+    alone = replace(
+        model,
+        name=f"{model.name}_{follower}_behind_{followed}",
+        mechanism=replace(model.mechanism, forces=forces),
+        independent=tuple(joint for joint in model.independent if joint != behind),
+        prescribed=given,
+        held={"still": tuple(given)} if given else {},
+    )
+    return changed(alone, (behind, replace(behind, follows=gear)))
 
 
 def _parts(
@@ -739,6 +764,8 @@ MODELS = (
     chain(),
     steering_shaft("steering_shaft"),
     steering_shaft("turned_shaft", turned=True),
+    geared(steering_shaft("shaft"), "shake", "tilt", -1.7),
+    geared(given_telescope(), "bore", "swing", 0.13),
 )
 """All of them, each as one model."""
 
@@ -750,6 +777,7 @@ DIFFERENTIATED = (
     "lifted_turret",
     "pulled_carriage",
     "steering_shaft",
+    "given_telescope_bore_behind_swing",
 )
 """Those whose derivatives are looked at; no other such model has what they have of the catalogue.
 

@@ -68,7 +68,7 @@ class Placements:
         guards = {guard.name: guard.margin for guard in program.guards.values()}
         function = program.function("places", "", places | guards)
         prepare = constants.function([function])
-        names = tuple(str(kin.coordinates.symbol(joint)) for joint in model.driven)
+        names = tuple(str(kin.coordinates.symbols[kin.coordinates.of(j)]) for j in model.driven)
         source = _printed(function, prepare, [str(s) for s in symbols], list(names))
         found: dict[str, Any] = {"follow_turns": follow_turns}
         exec(source, found)

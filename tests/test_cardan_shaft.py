@@ -125,9 +125,12 @@ def test_the_page_prints_what_it_says(
 ) -> None:
     monkeypatch.setenv("KINTRAFO_CACHE", str(tmp_path))
     page = PAGE.read_text(encoding="utf-8").partition("## A steering shaft\n")[2]
-    code, printed = re.search(r"```py\n(.*?)```\n\n```none\n(.*?)```", page, re.DOTALL).groups()
-    exec(compile(code, PAGE.name, "exec"), {})
-    assert capsys.readouterr().out == printed
+    examples = re.findall(r"```py\n(.*?)```\n\n```none\n(.*?)```", page, re.DOTALL)
+    assert len(examples) == 2, "the shaft, and the rack behind it"
+    names: dict[str, object] = {}
+    for code, printed in examples:
+        exec(compile(code, PAGE.name, "exec"), names)
+        assert capsys.readouterr().out == printed
 
 
 def test_a_bearing_that_moves_as_given_moves_the_pinion(tmp_path: Path) -> None:

@@ -240,7 +240,7 @@ def _driven_axis(kin: Kinematics, joint: Revolute | Prismatic) -> Vector:
 
 def _given(kin: Kinematics, joint: Revolute | Prismatic, size: sp.Expr) -> sp.Expr:
     """Return how far a driven coordinate is from its design position; a slide in units of c."""
-    coordinate = kin.coordinates.symbol(joint)
+    coordinate = kin.given(joint)
     if isinstance(joint, Prismatic):
         return kin.program.define(f"{joint.name}_given", coordinate / size)
     if joint.angle_to is None:
@@ -451,14 +451,15 @@ def _driven_rate(kin: Kinematics, solved: _Solved, branch: JointOfTree, k: str) 
     """Return the rate of a joint per unit rate of a coordinate, with the unknowns at rest."""
     if not branch.driven or kin.coordinates.of(branch.joint) != k:
         return sp.Integer(0)
-    return 1 / solved.size if isinstance(branch.joint, Prismatic) else sp.Integer(1)
+    rate = kin.coordinates.ratio(branch.joint)
+    return rate / solved.size if isinstance(branch.joint, Prismatic) else rate
 
 
 def _driven_acceleration(kin: Kinematics, solved: _Solved, branch: JointOfTree) -> sp.Expr:
     """Return the acceleration of a joint that an input gives."""
     if not branch.driven:
         return sp.Integer(0)
-    given = kin.coordinates.acceleration(kin.coordinates.of(branch.joint))
+    given = kin.coordinates.given_acceleration(branch.joint)
     return given / solved.size if isinstance(branch.joint, Prismatic) else given
 
 

@@ -86,7 +86,7 @@ class _HingeFrame:
 def _place_revolute(kin: Kinematics, joint: Revolute, parent_name: str, child: str) -> None:
     parent = kin.placed[parent_name]
     coordinate = kin.coordinates.of(joint)
-    angle = kin.coordinates.symbols[coordinate]
+    angle = kin.given(joint)
     frame = _revolute_frame(kin, joint, parent, child)
     cosine = kin.program.define(f"cos_{angle}", sp.cos(angle))
     sine = kin.program.define(f"sin_{angle}", sp.sin(angle))
@@ -113,11 +113,10 @@ def _place_revolute(kin: Kinematics, joint: Revolute, parent_name: str, child: s
     for k, twist in parent.motion.items():
         velocity = twist.linear + twist.angular.cross(frame.origin)
         placed.motion[k] = kin.define_twist(child, k, Twist(turn(twist.angular), turn(velocity)))
-    if (
-        coordinate in kin.coordinates.moving
-    ):  # where a closed form reads the angle, it moves the parent too
+    if kin.coordinates.moves(joint):  # where a closed form reads the angle, it moves the parent too
         carried = placed.motion.get(coordinate, NO_TWIST)
-        placed.motion[coordinate] = carried + Twist(UNIT_X, ZERO)
+        own = UNIT_X * kin.coordinates.ratio(joint)
+        placed.motion[coordinate] = carried + Twist(own, ZERO)
 
     def bias() -> Twist:
         if coordinate in kin.coordinates.rotors and kin.coordinates.rate_scale_of(parent) != 1:
@@ -125,13 +124,11 @@ def _place_revolute(kin: Kinematics, joint: Revolute, parent_name: str, child: s
             raise ValueError(message)
         carried = parent.bias()
         omega = turn(kin.total(parent).angular)
-        spin = UNIT_X * (
-            kin.coordinates.rate(coordinate) if coordinate in kin.coordinates.moving else 0
-        )
+        spin = UNIT_X * kin.coordinates.speed(joint)
         angular = (
             turn(carried.angular)
             + omega.cross(spin)
-            + UNIT_X * kin.coordinates.acceleration(coordinate)
+            + UNIT_X * kin.coordinates.given_acceleration(joint)
         )
         linear = turn(kin.point_bias(parent, frame.origin))
         return kin.define_bias(child, Twist(angular, linear))
@@ -205,7 +202,7 @@ def _beside(kin: Kinematics, joint: Revolute, child: str, axis: Vector) -> Vecto
 def _place_prismatic(kin: Kinematics, joint: Prismatic, parent_name: str, child: str) -> None:
     parent = kin.placed[parent_name]
     coordinate = kin.coordinates.of(joint)
-    slide = kin.coordinates.symbols[coordinate]
+    slide = kin.given(joint)
     direction = kin.local_direction(parent, joint.direction)
     start = parent.design_origin
     offset = direction * slide
@@ -221,20 +218,19 @@ def _place_prismatic(kin: Kinematics, joint: Prismatic, parent_name: str, child:
     for k, twist in parent.motion.items():
         velocity = twist.linear + twist.angular.cross(offset)
         placed.motion[k] = kin.define_twist(child, k, Twist(twist.angular, velocity))
-    if coordinate in kin.coordinates.moving:  # that of a strut turns its first link as well
+    if kin.coordinates.moves(joint):  # that of a strut turns its first link as well
         carried = placed.motion.get(coordinate, NO_TWIST)
-        placed.motion[coordinate] = carried + Twist(ZERO, direction)
+        own = direction * kin.coordinates.ratio(joint)
+        placed.motion[coordinate] = carried + Twist(ZERO, own)
 
     def bias() -> Twist:
         carried = parent.bias()
         omega = kin.total(parent).angular
-        speed = direction * (
-            kin.coordinates.rate(coordinate) if coordinate in kin.coordinates.moving else 0
-        )
+        speed = direction * kin.coordinates.speed(joint)
         linear = (
             kin.point_bias(parent, offset)
             + omega.cross(speed) * 2
-            + direction * kin.coordinates.acceleration(coordinate)
+            + direction * kin.coordinates.given_acceleration(joint)
         )
         return kin.define_bias(child, Twist(carried.angular, linear))
 

@@ -156,15 +156,14 @@ class Elbow(Leg):
             f"{' and '.join(self.links)} coincide",
             "move one of the two",
         )
-        coordinate = kin.coordinates.of(self.pair.joint)
+        coordinates, joint = kin.coordinates, self.pair.joint
         stretch, bias = {}, sp.Integer(0)
-        if coordinate in kin.coordinates.moving:
+        if coordinates.moves(joint):
             slope = bend.skew * bend.cosine - reach * bend.sine
             slope = program.define(f"{name}_stretch", slope)
-            stretch[coordinate] = slope
+            stretch[coordinates.of(joint)] = slope * coordinates.ratio(joint)
             bias = (
-                slope * kin.coordinates.acceleration(coordinate)
-                - near * kin.coordinates.rate(coordinate) ** 2
+                slope * coordinates.given_acceleration(joint) - near * coordinates.speed(joint) ** 2
             )
         length = program.define(f"{name}_length_now", sp.sqrt(squared))
         return Rod(f"pair of {' and '.join(self.links)}", design, length, squared, stretch, bias)
@@ -250,7 +249,7 @@ class _Bend:
         v = program.vector(
             f"{joint.name}_second_way", kin.design(pair.end) - kin.design(pair.middle)
         )
-        angle = kin.coordinates.symbol(joint)
+        angle = kin.given(joint)
         if joint.angle_to is not None:
             start = HingeDesign.of(kin, joint).angle(program, joint.name)
             angle = program.define(f"{joint.name}_bent", angle - start)
@@ -323,15 +322,12 @@ def _place(
         carrier=(parent.body, kin.local(parent, hinge.through)),
         hinge=hinge.first_axis_of,
     )
-    turning, coordinate = (
-        TurningBody(kin, placed, hinge.origin, end),
-        kin.coordinates.of(pair.joint),
-    )
-    moves = coordinate in kin.coordinates.moving
+    turning, coordinates = TurningBody(kin, placed, hinge.origin, end), kin.coordinates
+    own = coordinates.of(pair.joint)
     grip = Vector(ZERO.x, -s.z, s.y)  # n x s
-    for k in turning.moved_by([coordinate] if moves else []):
+    for k in turning.moved_by([own] if coordinates.moves(pair.joint) else []):
         given = turning.rates(k)
-        bending = reach.swing if k == coordinate else ZERO
+        bending = reach.swing * coordinates.ratio(pair.joint) if k == own else ZERO
         relative_velocity = given.target - given.base - given.carried.cross(s) - bending
         turn = program.define(f"{body}_turn_{k}", grip.dot(relative_velocity) * inverse)
         omega = program.vector(f"{body}_omega_{k}", given.carried + UNIT_X * turn, "123")
@@ -339,11 +335,10 @@ def _place(
 
     def bias() -> Twist:
         given, omega = turning.biases(), kin.total(placed).angular
-        rate = kin.coordinates.rate(coordinate) if moves else sp.Integer(0)
+        rate = coordinates.speed(pair.joint)
         pull = given.target - given.base - omega.cross(omega.cross(s)) - given.carried.cross(s)
-        pull -= omega.cross(reach.swing * rate) * 2 + reach.swing * kin.coordinates.acceleration(
-            coordinate
-        )
+        pull -= omega.cross(reach.swing * rate) * 2
+        pull -= reach.swing * coordinates.given_acceleration(pair.joint)
         pull -= reach.curl * rate**2
         turn = program.define(f"{body}_turn_bias", grip.dot(pull) * inverse)
         return kin.define_bias(body, Twist(given.carried + UNIT_X * turn, given.base))

@@ -198,12 +198,12 @@ class PinnedTelescope(Leg):
         extension = guide.known_extension(kin, extent)
         beside = guide.start.x**2 + guide.start.z**2
         squared = kin.program.define(f"{near}_length_squared", extension**2 + beside)
-        coordinate = kin.coordinates.of(telescope.joint)
+        coordinates, joint = kin.coordinates, telescope.joint
         stretch, bias = {}, sp.Integer(0)
-        if coordinate in kin.coordinates.moving:
-            stretch[coordinate] = telescope.sense * extension
-            given = telescope.sense * kin.coordinates.acceleration(coordinate)
-            bias = kin.coordinates.rate(coordinate) ** 2 + extension * given
+        if coordinates.moves(joint):
+            stretch[coordinates.of(joint)] = telescope.sense * extension * coordinates.ratio(joint)
+            given = telescope.sense * coordinates.given_acceleration(joint)
+            bias = coordinates.speed(joint) ** 2 + extension * given
         name = f"telescope of {telescope.links}"
         return Rod(name, design, sp.sqrt(squared), squared, stretch, bias)
 
@@ -294,7 +294,7 @@ class _Guide:
     def known_extension(self, kin: Kinematics, extent: sp.Expr) -> sp.Expr:
         """Return c + x of a telescope of known slide x."""
         telescope = self.telescope
-        slide = kin.coordinates.symbol(telescope.joint)
+        slide = kin.given(telescope.joint)
         drawn = kin.program.guarded(
             f"{telescope.near}_extension",
             self.branch * (self.start.y + telescope.sense * slide),

@@ -189,20 +189,19 @@ class Strut(Leg):
         """Append its length, l = l_0 + x or l_0 - x."""
         program, near, sense = kin.program, self.rod, _growth(self.strut)
         start = program.define(f"{near}_length_start", sp.sqrt(design.dot(design)))
-        coordinate = kin.coordinates.of(self.strut.joint)
+        joint = self.strut.joint
         length = program.guarded(
             f"{near}_length",
-            start + sense * kin.coordinates.symbols[coordinate],
+            start + sense * kin.given(joint),
             f"the strut of {self.strut.links} is drawn in until its ends meet",
             "m",
             LENGTH * sp.sqrt(extent),
         )
         stretch, bias = {}, sp.Integer(0)
-        if coordinate in kin.coordinates.moving:
-            stretch[coordinate] = sense * length
-            bias = kin.coordinates.rate(
-                coordinate
-            ) ** 2 + sense * length * kin.coordinates.acceleration(coordinate)
+        if kin.coordinates.moves(joint):
+            stretch[kin.coordinates.of(joint)] = sense * length * kin.coordinates.ratio(joint)
+            given = sense * kin.coordinates.given_acceleration(joint)
+            bias = kin.coordinates.speed(joint) ** 2 + length * given
         return Rod(f"strut {near}", design, length, length**2, stretch, bias)
 
 

@@ -126,6 +126,11 @@ class Assembly:
         return [j for j in self.joints if body in j.bodies]
 
     @property
+    def geared(self) -> tuple[Joint, ...]:
+        """The hinges and guides that follow others."""
+        return tuple(joint for joint in self.joints if joint.gear)
+
+    @property
     def passive_links(self) -> tuple[str, ...]:
         """Links that may turn about their line as they like, since only two joints hold them.
 

@@ -233,6 +233,10 @@ def _advice(value: Any, wanted: list[str]) -> str:
         (wanted == ["a Line"], "write Line(point, direction) or Line(point, point)"),
         (wanted == ["a Point"], "write Point(name, place, meaning)"),
         (wanted == ["a Direction"], "write Direction(name, components, meaning)"),
+        (
+            wanted == ["a Parameter"],
+            "write Ratio(name, default, meaning), or Lead or TurnPerTravel if one of both slides",
+        ),
         (wanted == ["a Body"], "write Body(name, mass, centre, inertia)"),
         (
             "a ForceElement" in wanted and hasattr(value, "force"),

@@ -72,6 +72,11 @@ class Formulation:
         return (*self.independent, *self.prescribed)
 
     @property
+    def given(self) -> tuple[Joint, ...]:
+        """The driven joints, and those that follow them through gears."""
+        return (*self.driven, *self.mechanism.geared)
+
+    @property
     def motions(self) -> dict[str, Motion]:
         """The motion of each prescribed joint, by the joint's name."""
         return {joint.name: motion for joint, motion in self.prescribed.items()}
@@ -132,6 +137,7 @@ def _driven_problems(formulation: Formulation) -> list[str]:
         if _has_many(j) and not isinstance(j, Free)
     ]
     problems += [_undrivable("prescribed", j) for j in formulation.prescribed if _has_many(j)]
+    problems += _gear_problems(formulation)
     reported = [c.joint for c in formulation.mechanism.coordinates]
     problems += [
         f"independent joint {joint.name!r} has no reported coordinate; add its "
@@ -141,6 +147,22 @@ def _driven_problems(formulation: Formulation) -> list[str]:
         if joint not in reported and not _has_many(joint)
     ]
     return problems
+
+
+def _gear_problems(formulation: Formulation) -> list[str]:
+    """See that whatever follows a joint, or follows what follows it, is moved by that one alone."""
+    problems = [
+        f"joint {joint.name!r} follows {joint.gear.joint.name!r}, and nothing else can move it; "
+        f"make {joint.first_followed.name!r} independent or prescribed instead"
+        for joint in formulation.driven
+        if joint.gear
+    ]
+    return problems + [
+        f"joint {joint.name!r} follows {joint.first_followed.name!r}, which is neither independent "
+        "nor prescribed: make it so, since gears follow a coordinate that is given"
+        for joint in formulation.mechanism.geared
+        if joint.first_followed not in formulation.driven
+    ]
 
 
 def _input_problems(formulation: Formulation) -> list[str]:

@@ -12,7 +12,7 @@ from typing import ClassVar, Literal
 from .bodies import Body
 from .declared import DeclarationError, Name, declared
 from .geometry import FORWARD, UP, Direction, Line, Point
-from .parameters import Distance
+from .parameters import Distance, Parameter
 from .world import WORLD
 
 
@@ -40,14 +40,35 @@ class Joint:
     """Fields that hold axes of rotation."""
 
     def __post_init__(self) -> None:
+        problems = []
         if self.first == self.second:
-            problem = f"it connects {self.first.name!r} with itself; give two bodies"
-            raise DeclarationError(f"{type(self).__name__} {self.name!r}", [problem])
+            problems = [f"it connects {self.first.name!r} with itself; give two bodies"]
+        problems += _gear_problems(self)
+        if problems:
+            raise DeclarationError(f"{type(self).__name__} {self.name!r}", problems)
 
     @property
     def freedoms(self) -> int:
         """Number of freedoms that the joint leaves."""
         return len(self.coordinates)
+
+    @property
+    def shared(self) -> str:
+        """What the two bodies have in common, and what the joint follows, for a table."""
+        if self.gear is None:
+            return self.common
+        own, (kind,) = self.coordinates[0], self.gear.joint.coordinates
+        return f"{self.common}; {own} = {self.gear.ratio.name} x {kind} of {self.gear.joint.name}"
+
+    @property
+    def gear(self) -> Gear | None:
+        """What its coordinate follows, if it is one of a hinge or guide that does."""
+        return getattr(self, "follows", None)
+
+    @property
+    def first_followed(self) -> Joint:
+        """The joint that it follows, through all gears between; itself, if it follows none."""
+        return self if self.gear is None else self.gear.joint.first_followed
 
     @property
     def bodies(self) -> tuple[str, str]:
@@ -70,6 +91,29 @@ class Joint:
 
 @declared
 @dataclass(frozen=True)
+class Gear:
+    """Wheels with teeth, rack and pinion, a thread, a belt: a coordinate in proportion to another.
+
+    A hinge or guide that `follows` it has no freedom of its own. Both coordinates count from the
+    design position, so a hinge at either end may have no ``angle_to``. Nothing slips, nothing has
+    play, and what the teeth carry does no work.
+
+    Parameters
+    ----------
+    joint
+        The hinge or guide that is followed: independent, prescribed, or one that follows another.
+    ratio
+        The coordinate of what follows, for one unit of the other: a `Ratio` between hinges or
+        between guides, a `Lead` [m/rad] of a guide behind a hinge, a `TurnPerTravel` [rad/m] of a
+        hinge behind a guide.
+    """
+
+    joint: Joint
+    ratio: Parameter
+
+
+@declared
+@dataclass(frozen=True)
 class Revolute(Joint):
     """A hinge about a line.
 
@@ -83,11 +127,14 @@ class Revolute(Joint):
         axis as declared would make it negative, the axis is taken the other way round. Without
         ``angle_to`` the angle is zero at the design position, the axis is as declared, and
         ``angle_from`` means nothing.
+    follows
+        A gear that gives its angle.
     """
 
     axis: Line
     angle_from: Direction = UP
     angle_to: Point | None = None
+    follows: Gear | None = None
 
     kind: ClassVar[str] = "revolute"
     common: ClassVar[str] = "an axis"
@@ -107,9 +154,17 @@ class Prismatic(Joint):
     Between two links that are pinned to other bodies in the same plane it makes a telescope, such
     as a hydraulic cylinder. Its direction may be that from pin to pin, `Direction.between`, or pass
     beside them.
+
+    Parameters
+    ----------
+    direction
+        The slide is positive when the second body moves along it.
+    follows
+        A gear that gives its slide.
     """
 
     direction: Direction
+    follows: Gear | None = None
 
     kind: ClassVar[str] = "prismatic"
     common: ClassVar[str] = "a direction, without rotation"
@@ -271,3 +326,36 @@ class RelativeCoordinate:
     def unit(self) -> str:
         """Of its value."""
         return "m" if self.kind in ("slide", "x", "y", "z") else "rad"
+
+
+def _gear_problems(joint: Joint) -> list[str]:
+    """See that a gear leads from a hinge or guide to another one, in units that suit them."""
+    if joint.gear is None:
+        return []
+    followed, ratio = joint.gear.joint, joint.gear.ratio
+    if not isinstance(followed, Revolute | Prismatic):
+        return [
+            f"it follows {followed.name!r}, which is {followed.kind}; a hinge or guide is needed"
+        ]
+    problems = [
+        f"the angle of {hinge.name!r} counts from {hinge.angle_from.name!r} to a point, and gears "
+        "count from the design position; leave its angle_to away"
+        for hinge in (joint, followed)
+        if isinstance(hinge, Revolute) and hinge.angle_to is not None
+    ]
+    wanted, written = _RATIOS[type(joint), type(followed)]
+    if ratio.unit != wanted:
+        problems.append(
+            f"ratio {ratio.name!r} is in {ratio.unit!r}; a {joint.kind} joint that follows a "
+            f"{followed.kind} one needs {wanted!r}: write {written}(name, default, meaning)"
+        )
+    return problems
+
+
+_RATIOS: dict[tuple[type[Joint], type[Joint]], tuple[str, str]] = {
+    (Revolute, Revolute): ("1", "Ratio"),
+    (Prismatic, Prismatic): ("1", "Ratio"),
+    (Prismatic, Revolute): ("m/rad", "Lead"),
+    (Revolute, Prismatic): ("rad/m", "TurnPerTravel"),
+}
+"""Unit and type of a gear's ratio, by what follows and what is followed."""

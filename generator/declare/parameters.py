@@ -290,6 +290,30 @@ class TorsionProgression(Parameter):
 
 @declared
 @dataclass(frozen=True)
+class Ratio(Parameter):
+    """A ratio of two angles, or of two lengths, of any sign."""
+
+    unit: str = field(default="1", init=False)
+
+
+@declared
+@dataclass(frozen=True)
+class Lead(Parameter):
+    """What a thread, a rack or a rope moves for each radian of a turn [m/rad], of any sign."""
+
+    unit: str = field(default="m/rad", init=False)
+
+
+@declared
+@dataclass(frozen=True)
+class TurnPerTravel(Parameter):
+    """By how much something turns for each metre of a slide [rad/m], of any sign."""
+
+    unit: str = field(default="rad/m", init=False)
+
+
+@declared
+@dataclass(frozen=True)
 class Share(Parameter):
     """A number between 0 and 1."""
 

@@ -107,8 +107,8 @@ class RelativeCoordinates:
 
     def _hinge_or_guide(self, joint: Revolute | Prismatic) -> sp.Expr:
         """Return the coordinate of a joint that is driven, solved, or between placed bodies."""
-        if self.kin.coordinates.is_driven(joint):
-            return self.kin.coordinates.symbol(joint)
+        if self.kin.coordinates.is_given(joint):
+            return self.kin.given(joint)
         if isinstance(joint, Prismatic):
             return self.kin.slides[joint.name]
         return angle_of(self.kin, joint)
@@ -338,8 +338,8 @@ class _Closure:
 
         The length of the rod for one that a rod holds, the meeting at the pin for a rod's own.
         """
-        if self.kin.coordinates.is_driven(joint):
-            return given - self.kin.coordinates.symbol(joint)
+        if self.kin.coordinates.is_given(joint):
+            return given - self.kin.given(joint)
         meeting = self.kin.meetings.get(joint.name)
         if meeting is None or (isinstance(joint, Revolute) and joint.angle_to is not None):
             return self._placed_residual(joint, given)
@@ -414,9 +414,8 @@ class _Closure:
         """Return what stands in for the driven coordinates: their given copies."""
         replaced = {}
         for coordinate in self.mechanism.coordinates:
-            if self.kin.coordinates.is_driven(coordinate.joint):
-                symbol = self.kin.coordinates.symbol(coordinate.joint)
-                replaced[symbol] = self._given(coordinate.name)
+            if coordinate.joint in self.kin.coordinates.driven:
+                replaced[self.kin.given(coordinate.joint)] = self._given(coordinate.name)
         return replaced
 
     def _from_driven(self, name: str, work: Vector) -> Vector:

@@ -53,24 +53,32 @@ class Coordinates:
         self._motion_of = {name: motion.name for name, motion in formulation.motions.items()}
         self._held = frozenset(held)
         self.driven = formulation.driven
-        self._driven_names = frozenset(joint.name for joint in self.driven)
+        self.given = formulation.given
+        self._given_names = frozenset(joint.name for joint in self.given)
         self.symbols = {self.of(j): sp.Symbol(self._symbol(j)) for j in self.driven}
         self.moving = [self.of(j) for j in self.driven if j.name not in self._held]
         self.independent = [self.of(j) for j in formulation.independent]
 
     def of(self, joint: Joint) -> str:
-        """Return the name of a driven joint's coordinate."""
+        """Return the name of the coordinate that moves a driven joint, or what follows it."""
+        joint = joint.first_followed
         if joint.name in self._motion_of:
             return self._motion_of[joint.name]
         return next(c.name for c in self._mechanism.coordinates if c.joint.name == joint.name)
 
-    def symbol(self, joint: Joint) -> sp.Symbol:
-        """Return the symbol of a driven joint's coordinate."""
-        return self.symbols[self.of(joint)]
+    def ratio(self, joint: Joint) -> sp.Expr:
+        """Return by how much a joint moves for one unit of the coordinate that moves it."""
+        if joint.gear is None:
+            return sp.Integer(1)
+        return joint.gear.ratio.symbol * self.ratio(joint.gear.joint)
 
-    def is_driven(self, joint: Joint) -> bool:
-        """Tell whether a joint's coordinate is independent or prescribed."""
-        return joint.name in self._driven_names
+    def is_given(self, joint: Joint) -> bool:
+        """Tell whether a joint's coordinate is independent or prescribed, or follows such a one."""
+        return joint.name in self._given_names
+
+    def moves(self, joint: Joint) -> bool:
+        """Tell whether a given joint moves in this variant."""
+        return self.of(joint) in self.moving
 
     def _symbol(self, joint: Joint) -> str:
         name = self.of(joint)
@@ -96,6 +104,14 @@ class Coordinates:
         single = [k for k in placed.motion if k in self.single_coordinate]
         return self.rate_scale(single[0]) if single else sp.Integer(1)
 
+    def speed(self, joint: Joint) -> sp.Expr:
+        """Return the rate of a given joint at which biases are computed; zero where it is held."""
+        return self.ratio(joint) * self.rate(self.of(joint)) if self.moves(joint) else sp.Integer(0)
+
+    def given_acceleration(self, joint: Joint) -> sp.Expr:
+        """Return the part of a given joint's acceleration that an input gives."""
+        return self.ratio(joint) * self.acceleration(self.of(joint))
+
     def acceleration(self, coordinate: str) -> sp.Expr:
         """Return the part of a coordinate's acceleration that is given: that of an input."""
         if coordinate in self._motions and coordinate in self.moving:
@@ -106,11 +122,15 @@ class Coordinates:
 
     @cached_property
     def rotors(self) -> dict[str, Body]:
-        """The bodies of revolution at the end of a chain, by their independent spin coordinate."""
+        """The bodies of revolution at the end of a chain, by their independent spin coordinate.
+
+        What others follow through gears moves more than itself, and is none of them.
+        """
         rotors = {}
+        followed = [joint.first_followed for joint in self._mechanism.geared]
         for joint in self.formulation.independent:
             body = joint.second
-            leaf = len(self._mechanism.joints_of(body.name)) == 1
+            leaf = len(self._mechanism.joints_of(body.name)) == 1 and joint not in followed
             if isinstance(joint, Revolute) and leaf and body.rotor_axis is not None:
                 rotors[self.of(joint)] = body
         return rotors
@@ -118,23 +138,25 @@ class Coordinates:
     @cached_property
     def single_coordinate(self) -> frozenset[str]:
         """The independent coordinates that alone move bodies that hang together."""
-        return frozenset(self._moving_alone())
+        pacing = list(self._pacing())
+        together = {k for several in pacing if len(several) > 1 for k in several}
+        alone = {k for several in pacing for k in several} - together
+        return frozenset(alone.intersection(self.independent))
 
-    def _moving_alone(self) -> Iterator[str]:
+    def _pacing(self) -> Iterator[set[str]]:
+        """Yield the coordinates that move bodies which hang together."""
         graph = nx.Graph([joint.bodies for joint in self._mechanism.joints])
         drives = {
             j.second.name: self.of(j)
-            for j in self.driven
-            if self.of(j) in self.moving and self.of(j) not in self.rotors
+            for j in self.given
+            if self.moves(j) and self.of(j) not in self.rotors
         }
         for bodies in nx.connected_components(graph.subgraph(set(graph) - self._still())):
-            pacing = [k for body, k in drives.items() if body in bodies]
-            if len(pacing) == 1 and pacing[0] in self.independent:
-                yield pacing[0]
+            yield {k for body, k in drives.items() if body in bodies}
 
     def _still(self) -> set[str]:
         """Return the ground, and the bodies that held joints tie to it."""
-        held = [self._mechanism.joint(name) for name in self._held]
+        held = [j for j in self.given if j.first_followed.name in self._held]
         tied = nx.Graph([joint.bodies for joint in held])
         tied.add_node(self._mechanism.ground)
         return set(nx.node_connected_component(tied, self._mechanism.ground))

@@ -14,9 +14,9 @@ if TYPE_CHECKING:
 
 
 def slide_of(kin: Kinematics, joint: Prismatic) -> sp.Expr:
-    """Return the slide of a guide [m]: driven or solved."""
-    if kin.coordinates.is_driven(joint):
-        return kin.coordinates.symbol(joint)
+    """Return the slide of a guide [m]: given or solved."""
+    if kin.coordinates.is_given(joint):
+        return kin.given(joint)
     return kin.program.define(f"slide_{joint.name}", kin.slides[joint.name])
 
 
@@ -26,9 +26,9 @@ def sliding_rates(kin: Kinematics, joint: Prismatic) -> dict[str, sp.Expr]:
     The guide's direction d turns with the first body, and both bodies turn alike: ``d . v`` of the
     second body's origin, less that of what the first has there.
     """
-    if kin.coordinates.is_driven(joint):
-        own = kin.coordinates.of(joint)
-        return {own: sp.Integer(1)} if own in kin.coordinates.moving else {}
+    if kin.coordinates.is_given(joint):
+        own = kin.coordinates.of(joint), kin.coordinates.ratio(joint)
+        return dict([own]) if kin.coordinates.moves(joint) else {}
     first, second = kin.placed[joint.first.name], kin.placed[joint.second.name]
     local = kin.local_direction(first, joint.direction)
     way = to_axes(first.axes, second.origin - first.origin)

@@ -74,9 +74,9 @@ def positive_axis_at_design(kin: Kinematics, joint: Revolute) -> Vector:
 
 
 def angle_of(kin: Kinematics, joint: Revolute) -> sp.Expr:
-    """Return the angle of a hinge [rad]: driven, solved, or from the poses of its two bodies."""
-    if kin.coordinates.is_driven(joint):
-        return kin.coordinates.symbol(joint)
+    """Return the angle of a hinge [rad]: given, solved, or from the poses of its two bodies."""
+    if kin.coordinates.is_given(joint):
+        return kin.given(joint)
     if joint.name in kin.angles and joint.angle_to is None:
         return kin.program.define(f"angle_{joint.name}", kin.angles[joint.name])
     sine, cosine = turn_between(kin, joint)
@@ -104,12 +104,17 @@ def is_first_axis(kin: Kinematics, joint: Revolute) -> bool:
 
 
 def driven_coordinates(kin: Kinematics) -> Iterator[tuple[sp.Symbol, sp.Expr, bool]]:
-    """Yield symbol, value at design, and whether it is an angle, of each driven coordinate."""
-    for joint in (j for j in kin.coordinates.driven if j.second.name in kin.bodies):
+    """Yield symbol, value at design, and whether it is an angle alone, of each driven coordinate.
+
+    A turn of one that others follow through gears leads nowhere back to.
+    """
+    inside = [j for j in kin.coordinates.given if j.second.name in kin.bodies]
+    for joint in dict.fromkeys(j.first_followed for j in inside):
         start = sp.Integer(0)
         if isinstance(joint, Revolute) and joint.angle_to is not None:
             start = HingeDesign.of(kin, joint).angle(kin.program, joint.name)
-        yield kin.coordinates.symbol(joint), start, isinstance(joint, Revolute)
+        alone = all(j == joint or j.first_followed != joint for j in inside)
+        yield kin.given(joint), start, isinstance(joint, Revolute) and alone
 
 
 def _axis_on(kin: Kinematics, joint: Revolute, placed: BodyMotion) -> Vector:

@@ -204,6 +204,16 @@ class Kinematics:
 
     # -- motion ---------------------------------------------------------------------------------
 
+    def given(self, joint: Joint) -> sp.Expr:
+        """Return the coordinate of a joint that is driven, or follows one that is."""
+        symbol = self.coordinates.symbols[self.coordinates.of(joint)]
+        if joint.gear is None:
+            return symbol
+        kind = joint.coordinates[0]
+        return self.program.define(
+            f"{joint.name}_{kind}_geared", self.coordinates.ratio(joint) * symbol
+        )
+
     def position(self, placed: BodyMotion, point: Point) -> Vector:
         """Return where a point of a placed body is, in work axes."""
         offset = from_axes(placed.axes, self.local(placed, point))

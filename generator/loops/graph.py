@@ -91,14 +91,14 @@ class Topology:
 
     @property
     def mobility(self) -> int:
-        """Degrees of freedom by the Grübler-Kutzbach criterion (Eq. 1).
+        """Degrees of freedom by the Grübler-Kutzbach criterion (Eq. 1); every gear takes one.
 
         A planar loop closes with three equations; the spatial count of six would take its mechanism
         for over-constrained.
         """
         moving = len(self.mechanism.moving)
         spatial = 6 * moving - sum(6 - j.freedoms for j in self.mechanism.joints)
-        return spatial + 3 * self.planar_loop_count
+        return spatial + 3 * self.planar_loop_count - len(self.mechanism.geared)
 
     @cached_property
     def planar_loop_count(self) -> int:

@@ -89,6 +89,9 @@ class Mobility:
                 joint = self._topology.joint_between(here, there)
                 sense = 1.0 if here == joint.first.name else -1.0
                 block[joint.name] = sense * screws.of(joint)
+            for joint in mechanism.geared:  # what follows moves with what is followed
+                block[joint.first_followed.name] += screws.ratio(joint) * block[joint.name]
+                block[joint.name] = np.zeros((6, 1))
             rows.append(np.hstack(list(block.values())))
         return np.vstack([np.zeros((0, len(self._coordinates))), *rows])
 
@@ -114,6 +117,14 @@ class _Screws:
         return np.transpose(
             [self._slide(a) if slides else self._turn(a, joint) for slides, a in self._axes(joint)]
         )
+
+    def ratio(self, joint: Joint) -> float:
+        """Return by how much a joint moves for one unit of what it follows, through all gears."""
+        if joint.gear is None:
+            return 1.0
+        sizes = [self._size if isinstance(j, Prismatic) else 1.0 for j in (joint, joint.gear.joint)]
+        own = float(self._value(joint.gear.ratio.symbol)) * sizes[1] / sizes[0]
+        return own * self.ratio(joint.gear.joint)
 
     def _axes(self, joint: Joint) -> list[tuple[bool, Array]]:
         """Return what the coordinates of a joint go along, and whether they slide."""

@@ -158,7 +158,7 @@ class Plan:
 
     @property
     def _driven(self) -> tuple[str, ...]:
-        return tuple(joint.name for joint in self.formulation.driven)
+        return tuple(joint.name for joint in self.formulation.given)
 
     @property
     def _mechanism(self) -> Mechanism:

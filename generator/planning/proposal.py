@@ -121,8 +121,9 @@ class Search:
         self._free = _free(mechanism)
         self.count = self.mobility - sum(j.freedoms for j in self._free) - len(given)
         self.candidates = [j.name for j in _candidates(mechanism) if j.name not in given]
-        pushed = {force.along.name for force in mechanism.forces if force.along is not None}
-        self._pushed = pushed.difference(given)
+        needed = [force.along for force in mechanism.forces if force.along is not None]
+        needed += [joint.first_followed for joint in mechanism.geared]
+        self._needed = {joint.name for joint in needed}.difference(given)
         self._tried = 0
         self._nearest: tuple[tuple[str, ...], NoClosedFormError] | None = None
 
@@ -146,11 +147,12 @@ class Search:
                 f"reports {reported}. Report more of them among the coordinates, or declare a "
                 "Formulation with prescribed joints"
             )
-        if not self._pushed <= set(self.candidates) or len(self._pushed) > self.count:
+        if not self._needed <= set(self.candidates) or len(self._needed) > self.count:
             return (
-                f"{what}: JointForce acts along {', '.join(sorted(self._pushed))}, but "
-                f"{self.count} of {reported} must be independent. Report these joints, or let "
-                "Actuators in ForceElements push between points instead"
+                f"{what}: forces along joints (JointForce) or gears need the coordinates of "
+                f"{', '.join(sorted(self._needed))}, but {self.count} of {reported} must be "
+                "independent. Report these joints, or let Actuators in ForceElements push between "
+                "points instead"
             )
         return ""
 
@@ -191,7 +193,7 @@ class Search:
 
     def summary(self) -> str:
         """Say that nothing was found, and among how many sets."""
-        every = comb(len(self.candidates) - len(self._pushed), self.count - len(self._pushed))
+        every = comb(len(self.candidates) - len(self._needed), self.count - len(self._needed))
         limit = "" if self._tried >= every else f"the first {self._tried} of "
         return (
             f"From no {self.count} of the reported angles and slides "
@@ -206,7 +208,7 @@ class Search:
         sets = [] if self.impossible else combinations(self.candidates, self.count)
         tried = 0
         for independent in sets:
-            if not self._pushed <= set(independent):
+            if not self._needed <= set(independent):
                 continue
             if end is not None and monotonic() > end:
                 return
@@ -249,7 +251,9 @@ def _candidates(mechanism: Mechanism) -> tuple[Joint, ...]:
     """Return the joints with one reported coordinate, those on the ground first."""
     reported = {c.joint.name for c in mechanism.coordinates}
     joints = [
-        j for j in mechanism.joints if isinstance(j, Revolute | Prismatic) and j.name in reported
+        j
+        for j in mechanism.joints
+        if isinstance(j, Revolute | Prismatic) and j.name in reported and not j.follows
     ]
     joints.sort(key=lambda joint: mechanism.ground not in joint.bodies)  # stable
     return tuple(joints)

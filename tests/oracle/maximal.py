@@ -292,10 +292,16 @@ class Oracle:
 
     def closure(self, motion: Motion) -> Jet:
         """Return what all joints hold at zero, in m and rad; shape (equations,)."""
-        return stacked(
-            [jet for joint in self.mechanism.joints for jet in self.equations(motion, joint)],
-            self.size,
-        )
+        joints = self.mechanism.joints
+        held = [jet for joint in joints for jet in self.equations(motion, joint)]
+        geared = [self._slip(motion, joint) for joint in joints if joint.gear]
+        return stacked([*held, *geared], self.size)
+
+    def _slip(self, motion: Motion, joint: Joint) -> Jet:
+        """Return by how much a joint is ahead of what it follows through a gear."""
+        followed = self.driven(motion, joint.gear.joint.name)
+        ratio = self.parameters[joint.gear.ratio.name]
+        return self.driven(motion, joint.name) - followed * ratio
 
     def equations(self, motion: Motion, joint: Joint) -> list[Jet]:
         """Return what one joint holds at zero."""

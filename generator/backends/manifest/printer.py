@@ -73,7 +73,7 @@ def _facts(derivation: Derivation) -> dict[str, Any]:
                 "type": joint.kind,
                 "bodies": joint.bodies,
                 "freedoms": joint.freedoms,
-                "common": joint.common,
+                "common": joint.shared,
             }
             for joint in topology.mechanism.joints
         ],

@@ -39,7 +39,7 @@ def joint_rows(topology: Topology) -> list[tuple[str, ...]]:
             j.kind,
             *(_numbered(mechanism, body) for body in j.bodies),
             str(j.freedoms),
-            j.common,
+            j.shared,
         )
         for j in mechanism.joints
     ]
@@ -60,6 +60,8 @@ def mobility_line(topology: Topology) -> str:
     closed = [str(6 - j.freedoms) for j in topology.mechanism.joints]
     planar = topology.planar_loop_count
     extra = f" + 3 x {planar} planar loops" if planar else ""
+    gears = len(topology.mechanism.geared)
+    extra += f" - {gears} gear{'s' if gears > 1 else ''}" if gears else ""
     return f"f = 6 x {moving} - ({' + '.join(closed)}){extra} = {topology.mobility}"
 
 
