@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import networkx as nx
 
 from .errors import TopologyError
+from .parallel import ENOUGH, families
 from .planes import Planes
 
 if TYPE_CHECKING:
@@ -94,11 +95,22 @@ class Topology:
         """Degrees of freedom by the Grübler-Kutzbach criterion (Eq. 1); every gear takes one.
 
         A planar loop closes with three equations; the spatial count of six would take its mechanism
-        for over-constrained.
+        for over-constrained. Parallel links beyond the second take none.
         """
         moving = len(self.mechanism.moving)
         spatial = 6 * moving - sum(6 - j.freedoms for j in self.mechanism.joints)
-        return spatial + 3 * self.planar_loop_count - len(self.mechanism.geared)
+        planar = 3 * self.planar_loop_count + self.redundant
+        return spatial + planar - len(self.mechanism.geared)
+
+    @property
+    def redundant(self) -> int:
+        """Number of equations that hold by themselves: one for each parallel link too many."""
+        return sum(len(links) - ENOUGH for links in self.parallel_links.values())
+
+    @cached_property
+    def parallel_links(self) -> dict[frozenset[str], tuple[str, ...]]:
+        """The links that hold two bodies together in a plane, where there are too many."""
+        return families(self.mechanism, lambda loop: self.cycle(loop).planar)
 
     @cached_property
     def planar_loop_count(self) -> int:

@@ -60,6 +60,8 @@ def mobility_line(topology: Topology) -> str:
     closed = [str(6 - j.freedoms) for j in topology.mechanism.joints]
     planar = topology.planar_loop_count
     extra = f" + 3 x {planar} planar loops" if planar else ""
+    redundant = topology.redundant
+    extra += f" + {redundant} for parallel links" if redundant else ""
     gears = len(topology.mechanism.geared)
     extra += f" - {gears} gear{'s' if gears > 1 else ''}" if gears else ""
     return f"f = 6 x {moving} - ({' + '.join(closed)}){extra} = {topology.mobility}"

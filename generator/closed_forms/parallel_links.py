@@ -1,0 +1,145 @@
+"""Three links or more that are parallel and equally long, between the same two bodies.
+
+The body that they carry does not turn as the other one sees it, and each link turns as the first
+one does: ``x(B) = x(pin of the first link)`` with the axes of A, and nothing is to be solved. There
+is one equation more than it takes, which is fulfilled if the links are parallel and equally long:
+`prepare` sees to that. Branch: the parallelogram, also behind the position in which all pins lie on
+a line. Singular set: none.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+import sympy as sp
+
+from ..kinematics.motion import BodyMotion, to_axes
+from ..loops.forms import ClosedForm
+from ..loops.parallel import ends_of
+from ..program.conditions import Assumption
+from ..program.vectors import ZERO, Twist
+from .lines import once
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from typing import Self
+
+    from ..declare.geometry import Point
+    from ..declare.joints import Revolute
+    from ..kinematics.kinematics import Kinematics
+    from ..loops.cut import CutLoop
+    from ..loops.forms import Closing
+    from ..loops.known import Coordinate, Known
+    from ..program.vectors import Vector
+
+
+@dataclass(frozen=True)
+class _Link:
+    """A link between two bodies, by its hinges on the carrying and on the carried one."""
+
+    name: str
+    near: Revolute
+    far: Revolute
+
+    @property
+    def design(self) -> Vector:
+        """The way from hinge to hinge at the design position."""
+        return self.far.axis.through.position - self.near.axis.through.position
+
+
+@dataclass(frozen=True)
+class ParallelLinks(ClosedForm):
+    """Links of which one is placed carry a body: neither that nor the others turn by themselves."""
+
+    base: str
+    body: str
+    leader: _Link
+    link: _Link
+
+    rank: ClassVar[int] = 0
+    """Before any other, since these can do without the third link only."""
+
+    @classmethod
+    def match(cls, known: Known, cut: CutLoop) -> Self | None:
+        """Return the link of a loop that follows one of its kind, if that has its place."""
+        loop = {*cut.bodies, *cut.others}
+        for pair, links in known.topology.parallel_links.items():
+            base = next((body for body in sorted(pair) if body in known.placed), None)
+            leader = next((link for link in links if link in known.placed), None)
+            waiting = [link for link in links if link in loop and link not in known.placed]
+            if loop == {*pair, *loop.intersection(links)} and base and leader and waiting:
+                (body,) = pair - {base}
+                ends = [ends_of(known.mechanism, link) for link in (leader, waiting[0])]
+                lines = zip((leader, waiting[0]), ends, strict=True)
+                return cls(base, body, *(_Link(n, e[base], e[body]) for n, e in lines if e))
+        return None
+
+    @property
+    def about(self) -> str:
+        """The link that follows."""
+        return self.link.name
+
+    @property
+    def title(self) -> str:
+        """What the derivation calls this step."""
+        return f"{self.link.name}: parallel to {self.leader.name}"
+
+    def words(self, closing: Closing | None) -> tuple[str, str]:
+        """Return closure equation and solution."""
+        del closing
+        return (
+            f"{self.link.name} = {self.leader.name}, as vectors",
+            f"{self.body} turns with {self.base}, {self.link.name} with {self.leader.name}",
+        )
+
+    def accept(self, known: Known) -> set[Coordinate]:
+        """Record body and link, with the hinges of both."""
+        known.place(self.body)
+        known.place(self.link.name)
+        return known.add_all([self.leader.near, self.leader.far, self.link.near, self.link.far])
+
+    def assumptions(self) -> Iterator[Assumption]:
+        """Yield what makes the links equal."""
+        n, leader = self.leader.near.axis.vector, self.leader.design
+        off = n.cross(self.link.design - leader)
+        yield Assumption(
+            f"{self.link.name}_not_parallel",
+            sp.sqrt(off.dot(off) / n.dot(n)),
+            sp.sqrt(leader.dot(leader)),
+            "m",
+            f"{self.link.name} and {self.leader.name} hold {self.body} on {self.base} with another "
+            "link, and they are not parallel and equally long, so that nothing moves",
+            "make the way from hinge to hinge the same in all of them",
+        )
+
+    def carry_out(self, kin: Kinematics) -> None:
+        """Move the body along, and the link."""
+        if self.body not in kin.placed:
+            _carry(kin, self.body, self.base, self.leader.name, self.leader.far.axis.through)
+        _carry(kin, self.link.name, self.leader.name, self.base, self.link.near.axis.through)
+
+
+def _carry(kin: Kinematics, body: str, like: str, on: str, point: Point) -> None:
+    """Place a body that turns like another one and moves with a point of a third."""
+    turning, moved = kin.placed[like], kin.point_motion(on, point)
+    placed = BodyMotion(
+        body,
+        origin=moved.position,
+        axes=turning.axes,
+        design_origin=kin.design(point),
+        design_axes=turning.design_axes,
+        local={point: ZERO},
+        carrier=(on, kin.local(kin.placed[on], point)),
+    )
+    for k in dict.fromkeys([*turning.motion, *moved.motion]):
+        angular = turning.motion[k].angular if k in turning.motion else ZERO
+        linear = to_axes(turning.axes, moved.motion.get(k, ZERO))
+        placed.motion[k] = kin.define_twist(body, k, Twist(angular, linear))
+
+    def bias() -> Twist:
+        linear = to_axes(turning.axes, moved.bias)
+        return kin.define_bias(body, Twist(turning.bias().angular, linear))
+
+    placed.bias = once(bias)
+    kin.placed[body] = placed
