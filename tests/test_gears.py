@@ -15,15 +15,18 @@ import numpy as np
 import pytest
 from changes import changed
 from kintrafo import generator as g
+from kintrafo.generator.backends.report.markdown import markdown
 from kintrafo.generator.closed_forms.coupled_loops import CoupledLoops
 from kintrafo.generator.closed_forms.elbow import PlaceElbow
 from kintrafo.generator.closed_forms.ups import Strut
 from kintrafo.generator.declare.declared import DeclarationError
 from kintrafo.generator.loops.errors import NoClosedFormError
 from kintrafo.generator.planning.plan import Plan
+from kintrafo.generator.planning.proposal import model_of
 from oracle_check import check_with_the_oracle
 from own_loops import FIVE_BAR, THREE_RRR, planar
 from own_mechanisms import geared, moving_slider_crank, oblique_four_bar, turret
+from own_models import derive
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -56,8 +59,6 @@ def counted_from_design(model: Formulation, joint: str) -> Formulation:
 
 CASES = {
     "strut": (geared(turret("strut", "stroke"), "stroke", "slew", 0.13), Strut),
-    "turn": (geared(turret("boom", "stroke"), "slew", "stroke", 2.5), Strut),
-    "rotor": (geared(oblique_four_bar(), "spinning", "drive", 3.0), None),
     "behind a rotor": (geared(oblique_four_bar(), "drive", "spinning", 0.4), None),
     "behind what is given": (
         geared(moving_slider_crank("given", prescribed=True), "drive", "tilt", -0.7),
@@ -204,6 +205,11 @@ def test_a_thread_swings_on_its_spring_as_a_pendulum_of_torsion() -> None:
 def test_what_follows_is_no_candidate_and_what_is_followed_must_be() -> None:
     press = screw_press()
     assert [p.independent for p in kintrafo.proposals(press)] == [("turning",)]
+
+
+def test_tables_say_what_follows_what() -> None:
+    report = markdown(derive(model_of(screw_press()), derivatives=False))
+    assert report.count("slide = lead x angle of turning") == 2, "joints and coordinates"
 
 
 def test_a_mirror_image_turns_with_its_original() -> None:

@@ -55,10 +55,14 @@ class Joint:
     @property
     def shared(self) -> str:
         """What the two bodies have in common, and what the joint follows, for a table."""
-        if self.gear is None:
-            return self.common
+        return f"{self.common}; {self.gear_words}" if self.gear else self.common
+
+    @property
+    def gear_words(self) -> str:
+        """What its coordinate is through its gear."""
+        assert self.gear is not None
         own, (kind,) = self.coordinates[0], self.gear.joint.coordinates
-        return f"{self.common}; {own} = {self.gear.ratio.name} x {kind} of {self.gear.joint.name}"
+        return f"{own} = {self.gear.ratio.name} x {kind} of {self.gear.joint.name}"
 
     @property
     def gear(self) -> Gear | None:

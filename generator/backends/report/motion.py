@@ -99,6 +99,8 @@ class Motion:
             return f"independent, {inline(f'q_{{{place}}}')}"
         if joint in self.formulation.prescribed:
             return f"prescribed by `{self.formulation.prescribed[joint].inputs[0].name}`"
+        if joint.gear is not None:
+            return f"gear, {joint.gear_words}"
         name = f"{joint.name}.{coordinate.kind}"
         for transformer in self.derivation.plan.transformers:
             if name in transformer.outputs:
