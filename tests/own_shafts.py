@@ -93,3 +93,50 @@ def column(
         ("swing", "steer") if swinging else ("steer",),
         spring=("ground_seat", "column_seat"),
     )
+
+
+CENTERS = {"first_center": (0.3, 0.1, 0.5), "second_center": (0.6, 0.2, 0.3)}
+BEARINGS = {"swing_bearing": (0.0, 0.1, 0.4), "shake_bearing": (0.4, -0.2, 0.1)}
+SEATS = {"ground_seat": (0.3, 0.3, 0.4), "last_seat": (0.8, 0.1, 0.2)}
+LINES = {
+    "swing_line": (0.2, 1.0, -0.3),
+    "shake_line": (0.4, -0.3, 0.9),
+    "column_line": (0.9, 0.1, -0.2),
+    "middle_line": (0.9, 0.3, -0.6),
+    "last_line": (0.7, 0.4, -0.1),
+    "fork_1": (0.1, 0.2, 1.0),
+    "fork_2": (0.3, 1.0, 0.2),
+}
+
+
+def crosses_in_a_row() -> Formulation:
+    """Return three shafts with two crosses between them, on a bracket and a lever that move.
+
+    A last shaft has a bearing in a body that turns about the centre of its cross by itself.
+    """
+    return declare(
+        "crosses_in_a_row",
+        {
+            "bracket": (0.1, 0.0, 0.6),
+            "column": (0.2, 0.02, 0.5),
+            "middle": (0.45, 0.15, 0.4),
+            "lever": (0.5, 0.25, 0.3),
+            "last": (0.7, 0.2, 0.25),
+        },
+        (
+            hinge("swing", "ground", "bracket", "swing_bearing", "swing_line"),
+            hinge("steer", "bracket", "column", "first_center", "column_line"),
+            cross("cross_1", "column", "middle", "first_center", "second_center", "fork_1"),
+            hinge(
+                "bearing", "bracket", "middle", "second_center", ("first_center", "second_center")
+            ),
+            hinge("shake", "bracket", "lever", "second_center", "shake_line"),
+            cross("cross_2", "last", "middle", "second_center", "first_center", "fork_2"),
+            hinge("rolling", "last", "lever", "second_center", "last_line"),
+        ),
+        {**CENTERS, "swing_bearing": BEARINGS["swing_bearing"], **SEATS},
+        {name: way for name, way in LINES.items() if name != "middle_line"},
+        ("swing", "steer", "shake"),
+        spring=("ground_seat", "last_seat"),
+        crosses=True,
+    )

@@ -260,13 +260,3 @@ def test_a_rod_with_two_crosses_holds_no_carrier_by_iteration() -> None:
     Plan.of(model)
     with pytest.raises(NoClosedFormError, match=BETWEEN.format("toe_link", "As a rod")):
         Plan.of(changed(model, (ball, crossed)))
-
-
-def test_one_cross_between_two_hinges_is_solved_by_iteration(tmp_path: Path) -> None:
-    model = replace(column("one_cross", 0.3, 0.0, 0.0, links="one"), allow_iteration=True)
-    built = check_with_the_oracle(model, tmp_path, pi)
-    row = list(built.module.RELATIVE_COORDINATES).index("rolling_angle")
-    for turn in TURNS:
-        found = built("relative_coordinates", np.array([turn, 0.0]))[row]
-        # Newton's method ends at 1e-12 of what it began with
-        assert off(found, atan2(cos(0.3) * sin(turn), cos(turn))) < 1e-11

@@ -14,6 +14,8 @@ import numpy as np
 import own_forces
 import own_loops
 import own_mechanisms
+import own_shafts
+import own_wheels
 import own_yokes
 import pytest
 import sympy as sp
@@ -67,6 +69,8 @@ EVERY = {
         own_loops.DRIVEN_GUIDE,
         own_loops.FOUR_BAR_AT_ITS_KNEE,
         own_yokes.SCOTCH_YOKE,
+        own_shafts.crosses_in_a_row(),
+        own_wheels.locomotive(),
         own_forces.loaded_crank(),
         own_forces.loaded_bar(),
     )
@@ -89,6 +93,8 @@ SAMPLE = (
     "knee_bar",
     "scotch_yoke",
     "steering_shaft",
+    "crosses_in_a_row",
+    "locomotive",
     "loaded_crank",
 )
 """Mechanisms with every step of the catalogue; all of them are tried by the fuzzer."""

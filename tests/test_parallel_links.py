@@ -15,48 +15,11 @@ from kintrafo.equations.errors import ParameterError
 from kintrafo.generator.closed_forms.parallel_links import ParallelLinks
 from kintrafo.generator.planning.plan import Plan
 from oracle_check import check_with_the_oracle
-from own_mechanisms import askew, declare, hinge
 from own_models import derive, own
+from own_wheels import locomotive
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-    from kintrafo.generator import Formulation
-
-NORMAL = tuple(np.array(askew(0.0, 0.0, 2.0)) - np.array(askew(0.0, 0.0)))
-
-
-def locomotive(
-    name: str = "locomotive", bearings: tuple[float, ...] = (0.0, 0.9, 1.7)
-) -> Formulation:
-    """Return a frame that swings, with wheels on it whose pins a rod joins."""
-    level = [0.0, 0.25, -0.1, 0.0]  # the bearings are not on a line
-    places = {f"bearing_{i}": askew(x, level[i]) for i, x in enumerate(bearings)}
-    pins = {f"pin_{i}": askew(x + 0.1, level[i] + 0.28, 0.03 * i) for i, x in enumerate(bearings)}
-    count = range(len(bearings))
-    return declare(
-        name,
-        {
-            "frame": askew(0.5, -0.3, 0.1),
-            **{f"wheel{i}": askew(bearings[i] + 0.03, level[i] + 0.02, 0.01) for i in count},
-            "rod": askew(0.8, 0.4, 0.05),
-        },
-        (
-            hinge("swing", "ground", "frame", "frame_bearing", "swing_line"),
-            *(hinge(f"axle_{i}", "frame", f"wheel{i}", f"bearing_{i}", "normal") for i in count),
-            *(hinge(f"crank_{i}", f"wheel{i}", "rod", f"pin_{i}", "normal") for i in count),
-        ),
-        {
-            **places,
-            **pins,
-            "frame_bearing": (0.0, 0.1, 0.4),
-            "ground_seat": (0.5, 0.3, 0.9),
-            "rod_seat": askew(1.2, 0.5, 0.02),
-        },
-        {"normal": NORMAL, "swing_line": (0.3, 1.0, -0.2)},
-        ("swing", "axle_0"),
-        spring=("ground_seat", "rod_seat"),
-    )
 
 
 @pytest.mark.parametrize("count", [3, 4])

@@ -5,21 +5,8 @@ Two links on a guide along their common line are held by a cross each: one on a 
 both centres are known, and with them the line n and the length. The cross on the driving body turns
 the shaft about its line (`cross`), and both links alike, since the guide does not turn.
 
-Let e be the axis of the hinge and f the first axis of the cross on the driven body, fixed in that,
-``f = h e + r t`` with t across e; and b the second one, fixed in the shaft, across n. The cross
-keeps ``b . f = 0``, which is ``a cos + b sin = c`` for the turn of t about e. With beta the part of
-b across e,
-
-    t = (k beta - w e x beta) / |beta|^2,    k = -(h / r) b . e,    w = s sqrt(|beta|^2 - k^2).
-
-Branch: s is the sign of b . (e x t), which is w, at the design position. The first axis of a common
-yoke is across its bearing: h = k = 0, and this is Hooke's ``tan x = cos(bend) tan y``. Valid while
-``|beta|^2 > k^2``, which at h = 0 is lost only where shaft and hinge are at right angles; the other
-singular set is the shaft along the first axis of the driving cross.
-
-With c = f x b, ``(omega_driven - omega_shaft) . c = 0`` gives the rate of the turn, whose factor is
-``e . c = r w``. The second derivative adds ``(omega_driven - omega_shaft) . c'``, where
-``c' = (omega_driven x f) x b + f x (omega_shaft x b)``.
+The driven body turns on its hinge until its cross fits (`yoke`). Beside what is singular there, the
+shaft must not lie along the first axis of the driving cross.
 
 The phase of the two yokes is the angle between the second axes of both crosses about n, a constant
 that follows from the two first axes at the design position.
@@ -33,16 +20,15 @@ from typing import TYPE_CHECKING, ClassVar
 import sympy as sp
 
 from ..declare.joints import Revolute, Universal
-from ..kinematics.extent import require
-from ..kinematics.motion import Axes, BodyMotion, PointMotion, from_axes, to_axes
+from ..kinematics.motion import Axes, BodyMotion, PointMotion
 from ..loops.forms import ClosedForm
 from ..program.conditions import Assumption
-from ..program.floors import BRANCH, DIRECTION, LENGTH
 from ..program.functions import SignOf
-from ..program.vectors import NO_TWIST, UNIT_X, ZERO, Twist, Vector
+from ..program.vectors import NO_TWIST, ZERO, Twist, Vector
 from .cross import turn_on_cross
 from .guided_pair import GuidedPair
 from .lines import line_of_ends, once, projector
+from .yoke import DrivenYoke, GivenAxis, norm, second_axis, through_center, turn_through_cross
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -127,30 +113,20 @@ class CardanShaft(ClosedForm):
 
     def assumptions(self) -> Iterator[Assumption]:
         """Yield what keeps the guide on the line of the crosses, and a cross on its hinge."""
-        shaft, center, axis = self.shaft, self.driven.at, self.hinge.axis
+        shaft = self.shaft
         span = shaft.end.position - shaft.anchor.position
         way = shaft.joint.direction.components
         if not shaft.along_ends:
             yield Assumption(
                 f"{shaft.joint.name}_askew",
-                _norm(span.cross(way)) / (_norm(span) * _norm(way)),
+                norm(span.cross(way)) / (norm(span) * norm(way)),
                 sp.Integer(1),
                 "1",
                 f"the guide {shaft.joint.name} of {shaft.links} must be along the line of the "
                 "crosses at their ends",
                 f"give it Direction.between {shaft.anchor.name} and {shaft.end.name}",
             )
-        if not axis.contains(center):
-            beside = (center.position - axis.through.position).cross(axis.vector)
-            yield Assumption(
-                f"{self.hinge.name}_beside_{center.name}",
-                _norm(beside) / _norm(axis.vector),
-                _norm(span),
-                "m",
-                f"the axis of hinge {self.hinge.name} must go through the centre {center.name} of "
-                f"universal joint {self.driven.name}",
-                f"declare that axis through {center.name}",
-            )
+        yield from through_center(self.hinge, self.driven, norm(span))
 
     def words(self, closing: Closing | None) -> tuple[str, str]:
         """Return the closure equation and its solution."""
@@ -178,7 +154,15 @@ class CardanShaft(ClosedForm):
             f"{self.driving.name}",
         )
         self._place_far(kin, line.end_motion)
-        _Yoke.of(kin, self).place(kin, self, line.end_motion)
+        far = kin.placed[shaft.far]
+        own = kin.design_direction(self.driven.first_axis)
+        given = GivenAxis(far.axes[1], far.design_axes[1])
+        turn_through_cross(kin, self, self._yoke, own, given, line.end_motion)
+
+    @property
+    def _yoke(self) -> DrivenYoke:
+        named = f"the shaft of {self.shaft.links}"
+        return DrivenYoke(self.driven, self.hinge, self.parent, self.shaft.far, named)
 
     def _slide(self, kin: Kinematics, line: OnLine) -> None:
         """Record how far the shaft has been drawn out since the design position."""
@@ -198,7 +182,7 @@ class CardanShaft(ClosedForm):
         """Place the link at the driven body; the second of its axes is that of its own cross."""
         near, far, program = kin.placed[self.shaft.near], self.shaft.far, kin.program
         n, second, third = near.design_axes
-        b = _second_axis(kin, self, -n)
+        b = second_axis(kin, self.driven, -n)
         c = program.define(f"{far}_phase_cosine", b.dot(second))
         s = program.define(f"{far}_phase_sine", b.dot(third))
 
@@ -230,168 +214,3 @@ class CardanShaft(ClosedForm):
 
         placed.bias = once(bias)
         kin.placed[far] = placed
-
-
-@dataclass(frozen=True)
-class _Yoke:
-    """The driven body's side of its cross.
-
-    Attributes
-    ----------
-    axes, design_axes
-        Hinge e, t and e x t: now, and at the design position (work axes).
-    first, second
-        First and second axis of the cross in these axes, f and b.
-    """
-
-    axes: Axes
-    design_axes: Axes
-    first: Vector
-    second: Vector
-
-    @classmethod
-    def of(cls, kin: Kinematics, step: CardanShaft) -> _Yoke:
-        """Turn the driven body about its hinge until both axes are at right angles."""
-        program, body = kin.program, step.about
-        shaft, parent = kin.placed[step.shaft.far], kin.placed[step.parent]
-        design_axes, first = _first_axis(kin, step)
-        b = shaft.axes[1]
-        hinge = program.vector(
-            f"{body}_hinge_on_parent", to_axes(parent.design_axes, design_axes[0])
-        )
-        e = program.vector(f"{body}_hinge", from_axes(parent.axes, hinge))
-        along = program.define(f"{body}_second_along", b.dot(e))
-        beta = program.vector(f"{body}_second_across", b - e * along)
-        slope = program.define(f"{body}_first_slope", first.x / first.y)
-        k = program.define(f"{body}_second_needed", -slope * along)
-        squared = program.define(f"{body}_second_across_squared", beta.dot(beta))
-        room = program.guarded(
-            f"{body}_closure",
-            squared - k**2,
-            f"{kin.loop_of(step)}: the shaft of {step.shaft.links} is bent too far at universal "
-            f"joint {step.driven.name}, towards a right angle to hinge {step.hinge.name}: it no "
-            f"longer turns {body}",
-            "1",
-            DIRECTION,
-        )
-        branch = _branch(kin, step, shaft.design_axes[1], design_axes)
-        height = program.define(f"{body}_second_height", branch * sp.sqrt(room))
-        inverse = program.define(f"{body}_second_inverse", 1 / (room + k**2))
-        cosine = program.define(f"{body}_turn_cosine", k * inverse)
-        sine = program.define(f"{body}_turn_sine", height * inverse)
-        normal = program.vector(f"{body}_second_normal", e.cross(beta))
-        axes = (
-            e,
-            program.vector(f"{body}_first_across", beta * cosine - normal * sine),
-            program.vector(f"{body}_third_axis", normal * cosine + beta * sine),
-        )
-        return cls(axes, design_axes, first, Vector(along, k, height))
-
-    def place(self, kin: Kinematics, step: CardanShaft, center: PointMotion) -> None:
-        """Record pose, velocities and bias of the driven body."""
-        program, body = kin.program, step.about
-        shaft, parent = kin.placed[step.shaft.far], kin.placed[step.parent]
-        first_axis = step.hinge.second.name == body and step.hinge.angle_to is None
-        placed = BodyMotion(
-            body,
-            origin=center.position,
-            axes=self.axes,
-            design_origin=kin.design(step.driven.at),
-            design_axes=self.design_axes,
-            local={step.driven.at: ZERO},
-            carrier=(step.parent, kin.local(parent, step.driven.at)),
-            hinge=step.hinge.name if first_axis else None,
-        )
-        to_body = projector(kin, placed)
-
-        def carried(label: str, other: BodyMotion, v: Vector) -> Vector:
-            return to_body(label, from_axes(other.axes, v))
-
-        c = program.vector(f"{body}_grip", self.first.cross(self.second), "123")
-        inverse = program.define(f"{body}_grip_inverse", 1 / c.x)
-        for k in dict.fromkeys([*center.motion, *parent.motion, *shaft.motion]):
-            base = to_body(f"velocity_{k}", center.motion.get(k, ZERO))
-            own = carried(f"carried_{k}", parent, parent.motion.get(k, NO_TWIST).angular)
-            turned = carried(f"shaft_{k}", shaft, shaft.motion.get(k, NO_TWIST).angular)
-            turn = program.define(f"{body}_turn_{k}", (turned - own).dot(c) * inverse)
-            placed.motion[k] = kin.define_twist(body, k, Twist(own + UNIT_X * turn, base))
-
-        def bias() -> Twist:
-            omega = kin.total(placed).angular
-            own = carried("carried_now", parent, kin.total(parent).angular)
-            turned = carried("shaft_now", shaft, kin.total(shaft).angular)
-            spin = Vector(omega.x - own.x, ZERO.y, ZERO.z)
-            alpha = carried("carried_bias", parent, parent.bias().angular) + own.cross(spin)
-            alpha = program.vector(f"{body}_alpha_carried", alpha, "123")
-            left = carried("shaft_bias", shaft, shaft.bias().angular) - alpha
-            rate = omega.cross(self.first).cross(self.second)
-            rate += self.first.cross(turned.cross(self.second))
-            rate = program.vector(f"{body}_grip_rate", rate, "123")
-            fitted = left.dot(c) - (omega - turned).dot(rate)
-            turn = program.define(f"{body}_turn_bias", fitted * inverse)
-            base = to_body("acceleration", center.bias)
-            return kin.define_bias(body, Twist(alpha + UNIT_X * turn, base))
-
-        placed.bias = once(bias)
-        kin.placed[body] = placed
-
-
-def _first_axis(kin: Kinematics, step: CardanShaft) -> tuple[Axes, Vector]:
-    """Return the axes of the driven body at the design position, and f in them (constants)."""
-    program, body, joint = kin.program, step.about, step.driven
-    e = kin.unit(f"{body}_hinge_design", kin.to_work(step.hinge.axis.vector))
-    f = kin.design_direction(joint.first_axis)
-    along = program.define(f"{body}_first_along", f.dot(e))
-    across = program.vector(f"{body}_first_across_design", f - e * along)
-    radius = program.define(f"{body}_first_radius", sp.sqrt(across.dot(across)))
-    require(
-        kin,
-        f"{body}_first_radius",
-        radius,
-        LENGTH,
-        "1",
-        f"the first axis of universal joint {joint.name} is along hinge {step.hinge.name}, about "
-        f"which {body} turns",
-        "give the cross an axis across that hinge",
-    )
-    t = program.vector(f"{body}_first_unit", across * (1 / radius))
-    normal = program.vector(f"{body}_normal_design", e.cross(t))
-    return (e, t, normal), Vector(along, radius, ZERO.z)
-
-
-def _second_axis(kin: Kinematics, step: CardanShaft, line: Vector) -> Vector:
-    """Return b at the design position, across the line of the shaft."""
-    joint, far = step.driven, step.shaft.far
-    across = kin.design_direction(joint.first_axis).cross(line)
-    across = kin.program.vector(f"{far}_cross_design", across)
-    require(
-        kin,
-        f"{far}_cross_design",
-        sp.sqrt(across.dot(across)),
-        LENGTH,
-        "1",
-        f"at the design position, the shaft {far} lies along the first axis of universal joint "
-        f"{joint.name}",
-        "turn that axis, or move an end of the shaft",
-    )
-    return kin.unit(f"{far}_second_design", across)
-
-
-def _branch(kin: Kinematics, step: CardanShaft, b: Vector, design_axes: Axes) -> sp.Expr:
-    """Return on which side of the driven yoke the second axis is at the design position."""
-    height = kin.program.define(f"{step.about}_second_height_design", b.dot(design_axes[2]))
-    require(
-        kin,
-        f"{step.about}_second_height_design",
-        height,
-        BRANCH,
-        "1",
-        f"at the design position the shaft of {step.shaft.links} does not turn {step.about}: it is "
-        f"at a right angle to hinge {step.hinge.name}",
-        "choose a design position where the shaft is bent less",
-    )
-    return kin.program.define(f"{step.about}_branch", SignOf(height))
-
-
-def _norm(v: Vector) -> sp.Expr:
-    return sp.sqrt(v.dot(v))

@@ -140,9 +140,19 @@ class RelativeCoordinates:
 
     def shaft_direction(self, joint: Universal) -> Vector:
         """Return the unit vector of a shaft along the ground axes that the first body carries."""
-        direction = self.kin.on_line[joint.second.name].direction
-        seen = self._in_first_body(self.kin.placed[joint.first.name], direction)
+        seen = self._in_first_body(self.kin.placed[joint.first.name], self._line(joint))
         return self.program.vector(f"shaft_{joint.name}", seen)
+
+    def _line(self, joint: Universal) -> Vector:
+        """Return the unit vector along a shaft: that of its ends, or what its body carries."""
+        body = joint.second.name
+        if body in self.kin.on_line:
+            return self.kin.on_line[body].direction
+        placed = self.kin.placed[body]
+        design = self.kin.unit(f"{joint.name}_line", self.kin.to_work(joint.shaft.vector))
+        local = to_axes(placed.design_axes, design)
+        carried = from_axes(placed.axes, self.program.vector(f"{joint.name}_line_on", local, "123"))
+        return self.program.vector(f"{joint.name}_line_now", carried)
 
     def _in_first_body(self, parent: BodyMotion, work: Vector) -> Vector:
         """Return components along the ground axes as the first body carries them with it."""

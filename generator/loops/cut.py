@@ -23,8 +23,9 @@ class PairCandidate:
     eliminated
         Number of unknown coordinates of the two joints.
     equations
-        Number of closure equations that remain, of the six of a spatial loop or the three of a
-        planar one. The turn of a link about the line through two ball joints takes part in none.
+        Number of closure equations that remain, of the six of a spatial loop or the three of one in
+        a plane or about a point. The turn of a link about the line through two ball joints takes
+        part in none.
     """
 
     joints: tuple[Joint, Joint]
@@ -51,6 +52,8 @@ def _common_point(joint: Joint, cycle: Cycle) -> Point | None:
     """Return the point that a joint keeps common; in a plane, a hinge has one too."""
     if cycle.planar and isinstance(joint, Revolute):
         return joint.axis.through
+    if cycle.center is not None:
+        return cycle.center
     return joint.center
 
 
@@ -81,11 +84,13 @@ def pair_candidates(known: Known, cycle: Cycle) -> list[PairCandidate]:
         for a, b in combinations(cycle.joints, 2)
         if _common_point(a, cycle) is not None and _common_point(b, cycle) is not None
     ]
+    if cycle.center is not None:  # all ends of arcs are one point: forms for two would take them
+        pairs = [pair for pair in pairs if pair.equations == 0]
     return sorted(pairs, key=lambda p: -p.eliminated)
 
 
 def _pair(known: Known, cycle: Cycle, a: Joint, b: Joint) -> PairCandidate:
     eliminated = known.unknowns_of(a) + known.unknowns_of(b)
     idle = isinstance(a, Spherical) and isinstance(b, Spherical)
-    dimension = 3 if cycle.planar else 6
+    dimension = 3 if cycle.planar or cycle.center is not None else 6
     return PairCandidate((a, b), eliminated, dimension - eliminated + idle)

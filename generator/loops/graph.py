@@ -13,14 +13,16 @@ from typing import TYPE_CHECKING
 
 import networkx as nx
 
+from ..declare.evaluation import AtDefaults
 from .errors import TopologyError
 from .parallel import ENOUGH, families
 from .planes import Planes
+from .points import common_center
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from ..declare.geometry import Direction
+    from ..declare.geometry import Direction, Point
     from ..declare.joints import Joint
     from ..declare.mechanism import Mechanism
 
@@ -39,12 +41,15 @@ class Cycle:
         Sum of the freedoms of the joints.
     normal
         The direction of the hinges of a loop that moves in a plane; of others, none.
+    center
+        The point about which a loop of a cross and hinges turns; of others, none.
     """
 
     joints: tuple[Joint, ...]
     bodies: tuple[str, ...]
     length: int
     normal: Direction | None
+    center: Point | None
 
     @property
     def planar(self) -> bool:
@@ -94,13 +99,14 @@ class Topology:
     def mobility(self) -> int:
         """Degrees of freedom by the Grübler-Kutzbach criterion (Eq. 1); every gear takes one.
 
-        A planar loop closes with three equations; the spatial count of six would take its mechanism
-        for over-constrained. Parallel links beyond the second take none.
+        A planar loop closes with three equations, and so does one about a point; the spatial count
+        of six would take its mechanism for over-constrained. Parallel links beyond the second take
+        none.
         """
         moving = len(self.mechanism.moving)
         spatial = 6 * moving - sum(6 - j.freedoms for j in self.mechanism.joints)
-        planar = 3 * self.planar_loop_count + self.redundant
-        return spatial + planar - len(self.mechanism.geared)
+        special = 3 * (self.planar_loop_count + self.central_loop_count) + self.redundant
+        return spatial + special - len(self.mechanism.geared)
 
     @property
     def redundant(self) -> int:
@@ -112,14 +118,23 @@ class Topology:
         """The links that hold two bodies together in a plane, where there are too many."""
         return families(self.mechanism, lambda loop: self.cycle(loop).planar)
 
-    @cached_property
+    @property
     def planar_loop_count(self) -> int:
         """Number of loops of a minimal basis that move in a plane."""
-        basis, count = MinimalBasis(self), 0
+        return sum(cycle.planar for cycle in self._basis)
+
+    @property
+    def central_loop_count(self) -> int:
+        """Number of loops of a minimal basis that turn about a point."""
+        return sum(cycle.center is not None for cycle in self._basis)
+
+    @cached_property
+    def _basis(self) -> tuple[Cycle, ...]:
+        basis, chosen = MinimalBasis(self), []
         while options := basis.options():
             basis.choose(options[0])
-            count += options[0].planar
-        return count
+            chosen.append(options[0])
+        return tuple(chosen)
 
     @property
     def loop_count(self) -> int:
@@ -229,7 +244,9 @@ class Topology:
         turned = [*bodies[start:], *bodies[:start]]
         joints = tuple(self.joint_between(a, b) for a, b in pairwise([*turned, turned[0]]))
         length = sum(j.freedoms for j in joints)
-        return Cycle(joints, tuple(turned), length, self._planes.normal(joints))
+        normal = self._planes.normal(joints)
+        center = common_center(joints, AtDefaults(self.mechanism))
+        return Cycle(joints, tuple(turned), length, normal, center)
 
     @cached_property
     def _planes(self) -> Planes:

@@ -60,6 +60,8 @@ def mobility_line(topology: Topology) -> str:
     closed = [str(6 - j.freedoms) for j in topology.mechanism.joints]
     planar = topology.planar_loop_count
     extra = f" + 3 x {planar} planar loops" if planar else ""
+    central = topology.central_loop_count
+    extra += f" + 3 x {central} loops about a point" if central else ""
     redundant = topology.redundant
     extra += f" + {redundant} for parallel links" if redundant else ""
     gears = len(topology.mechanism.geared)

@@ -1,0 +1,74 @@
+"""A single cross between two hinges whose axes meet in it, against Hooke's formula by hand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import atan2, cos, pi, radians, sin
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+from changes import changed
+from kintrafo import System
+from kintrafo.equations.errors import ClosureError, ParameterError
+from kintrafo.generator import Line, Point
+from kintrafo.generator.closed_forms.single_cross import SingleCross
+from kintrafo.generator.loops.errors import NoClosedFormError
+from kintrafo.generator.planning.plan import Plan
+from oracle_check import check_with_the_oracle
+from own_models import Built, own
+from own_shafts import column, crosses_in_a_row
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+TURNS = np.linspace(-pi, pi, 25)
+
+
+@pytest.mark.parametrize("bend", [35, -50])
+def test_it_turns_as_hooke_says(bend: float) -> None:
+    model = column("one_cross", radians(bend), 0.0, 0.0, links="one")
+    module = own(model, derivatives=False)
+    built, row = Built.of(model, module), list(module.RELATIVE_COORDINATES).index("rolling_angle")
+    for turn in TURNS:
+        found = built("relative_coordinates", np.array([turn, 0.0]))[row]
+        angle = atan2(cos(radians(bend)) * sin(turn), cos(turn))
+        # some thirty roundings, times 1 / cos(50 degrees)
+        assert abs((found - angle + pi) % (2 * pi) - pi) < 1e-14
+
+
+def test_crosses_in_a_row_on_bodies_that_move(tmp_path: Path) -> None:
+    model = crosses_in_a_row()
+    plan = Plan.of(model)
+    assert [type(t.step) for t in plan.transformers] == [SingleCross, SingleCross]
+    assert plan.topology.mobility == len(model.independent)
+    check_with_the_oracle(model, tmp_path, 0.4)
+
+
+def test_beyond_a_right_angle_it_is_refused() -> None:
+    model = crosses_in_a_row()
+    built = Built.of(model, own(model, derivatives=False))
+    with pytest.raises(ClosureError, match="middle is bent too far at universal joint cross_2"):
+        built("rhs", np.array([0.0, 1.0, 1.5, 0.0, 0.0, 0.0]))
+
+
+def test_a_hinge_that_misses_the_center_is_refused() -> None:
+    """Two axes that do not meet leave nothing to move."""
+    model = crosses_in_a_row()
+    rolling = model.mechanism.joint("rolling")
+    beside = Point("beside", (0.6, 0.21, 0.3))
+    moved = replace(rolling, axis=Line(beside, rolling.axis.towards))
+    with pytest.raises(NoClosedFormError):
+        Plan.of(changed(model, (rolling, moved)))
+
+
+def test_numbers_that_take_a_hinge_off_the_center_are_refused() -> None:
+    """The point of the hinge is one of its own, at the same place."""
+    model = crosses_in_a_row()
+    rolling = model.mechanism.joint("rolling")
+    own_point = Point("own_point", (0.6, 0.2, 0.3))
+    meeting = replace(rolling, axis=Line(own_point, rolling.axis.towards))
+    same = replace(changed(model, (rolling, meeting)), name="meeting_by_numbers")
+    built = own(same, arrays=True, derivatives=False)
+    with pytest.raises(ParameterError, match="rolling must go through the centre second_center"):
+        System(built, {"own_point_y": 0.22})
