@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import replace
 from math import atan2, cos, degrees, pi, radians, sin
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,9 +23,10 @@ from own_shafts import column
 from scipy.optimize import brentq
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from kintrafo.generator import Formulation
 
-PAGE = Path(__file__).parent.parent / "docs/own-mechanism.md"
 TURNS = np.linspace(-pi, pi, 25)
 
 
@@ -118,19 +117,6 @@ def test_a_pinion_across_its_shaft_is_refused_at_the_design_position() -> None:
     built, _ = answers(column("stopped", 0.2, radians(90), 0.0))
     with pytest.raises(ParameterError, match="does not turn pinion"):
         built("relative_coordinates", np.zeros(2))
-
-
-def test_the_page_prints_what_it_says(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setenv("KINTRAFO_CACHE", str(tmp_path))
-    page = PAGE.read_text(encoding="utf-8").partition("## A steering shaft\n")[2]
-    examples = re.findall(r"```py\n(.*?)```\n\n```none\n(.*?)```", page, re.DOTALL)
-    assert len(examples) == 2, "the shaft, and the rack behind it"
-    names: dict[str, object] = {}
-    for code, printed in examples:
-        exec(compile(code, PAGE.name, "exec"), names)
-        assert capsys.readouterr().out == printed
 
 
 def test_a_bearing_that_moves_as_given_moves_the_pinion(tmp_path: Path) -> None:

@@ -34,6 +34,7 @@ from typer.testing import CliRunner
 
 ROOT = Path(__file__).parent.parent
 EXAMPLE = ROOT / "examples/pushrod_suspension.py"
+STEERING = ROOT / "examples/steering_gear.py"
 PAGE = (ROOT / "docs/own-mechanism.md").read_text(encoding="utf-8")
 
 needs_compiler = pytest.mark.skipif(find_compiler() is None, reason="no C compiler")
@@ -67,11 +68,12 @@ def blocks(language):
 
 
 class TestPage:
-    def test_the_declaration_is_that_of_the_example(self):
-        text = EXAMPLE.read_text(encoding="utf-8")
+    def test_declarations_are_those_of_the_examples(self):
+        pushrod, steering = (path.read_text(encoding="utf-8") for path in (EXAMPLE, STEERING))
         shown = [block for block in blocks("python") if "import kintrafo" not in block]
-        assert len(shown) == 5
-        assert all(block in text for block in shown)
+        assert len(shown) == 7
+        assert all(block in pushrod for block in shown[:5])
+        assert all(block in steering for block in shown[5:])
 
     def test_the_use_of_it_prints_what_it_says(self, tmp_path, monkeypatch, capsys):
         shutil.copy(EXAMPLE, tmp_path)
@@ -81,6 +83,12 @@ class TestPage:
         for block, printed in zip(used, blocks("text"), strict=False):
             exec(compile(block, "own-mechanism.md", "exec"), {})
             assert capsys.readouterr().out == printed
+
+    def test_the_steering_gear_prints_what_it_says(self, monkeypatch, capsys):
+        monkeypatch.chdir(ROOT)
+        (used,) = (block for block in blocks("py") if "import kintrafo" in block)
+        exec(compile(used, "own-mechanism.md", "exec"), {})
+        assert capsys.readouterr().out in blocks("none")
 
     def test_the_error_is_the_one_printed(self, pushrod):
         system = kintrafo.System(pushrod)
