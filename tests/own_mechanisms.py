@@ -40,6 +40,7 @@ from kintrafo.generator import (
     TurnPerTravel,
     Universal,
     Weight,
+    Weld,
 )
 
 if TYPE_CHECKING:
@@ -238,6 +239,19 @@ def geared(model: Formulation, follower: str, followed: str, ratio: float) -> Fo
         held={"still": tuple(given)} if given else {},
     )
     return changed(alone, (behind, replace(behind, follows=gear)))
+
+
+def welded(model: Formulation, body: str) -> Formulation:
+    """Return a model with a burden on one of its bodies."""
+    center = Point("burden_com", (0.5, 0.15, 0.2))
+    burden = Body("burden", 1.3, center, tuple(0.4 * value for value in INERTIA))
+    weld = Weld("weld", model.mechanism.body(body), burden)
+    return replace(
+        model,
+        name=f"{model.name}_with_a_burden",
+        mechanism=replace(model.mechanism, joints=(*model.mechanism.joints, weld)),
+        massive=(*model.massive, burden),
+    )
 
 
 def _parts(
@@ -764,7 +778,7 @@ MODELS = (
     chain(),
     steering_shaft("steering_shaft"),
     steering_shaft("turned_shaft", turned=True),
-    geared(steering_shaft("shaft"), "shake", "tilt", -1.7),
+    welded(geared(steering_shaft("shaft"), "shake", "tilt", -1.7), "box"),
     geared(given_telescope(), "bore", "swing", 0.13),
 )
 """All of them, each as one model."""
@@ -776,7 +790,7 @@ DIFFERENTIATED = (
     "pushed_slider",
     "lifted_turret",
     "pulled_carriage",
-    "steering_shaft",
+    "shaft_shake_behind_tilt_with_a_burden",
     "given_telescope_bore_behind_swing",
 )
 """Those whose derivatives are looked at; no other such model has what they have of the catalogue.

@@ -92,7 +92,7 @@ SAMPLE = (
     "plate_on_a_pin",
     "knee_bar",
     "scotch_yoke",
-    "steering_shaft",
+    "shaft_shake_behind_tilt_with_a_burden",
     "crosses_in_a_row",
     "locomotive",
     "loaded_crank",

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from changes import changed
+from changes import changed, with_default
 from kintrafo import System
 from kintrafo.equations.errors import ClosureError, ParameterError
 from kintrafo.generator import Line, Point
@@ -16,11 +16,15 @@ from kintrafo.generator.closed_forms.single_cross import SingleCross
 from kintrafo.generator.loops.errors import NoClosedFormError
 from kintrafo.generator.planning.plan import Plan
 from oracle_check import check_with_the_oracle
+from own_loops import CROSSED_RING
+from own_mechanisms import shaft_angles
 from own_models import Built, own
 from own_shafts import column, crosses_in_a_row
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from kintrafo.generator import Formulation
 
 TURNS = np.linspace(-pi, pi, 25)
 
@@ -72,3 +76,35 @@ def test_numbers_that_take_a_hinge_off_the_center_are_refused() -> None:
     built = own(same, arrays=True, derivatives=False)
     with pytest.raises(ParameterError, match="rolling must go through the centre second_center"):
         System(built, {"own_point_y": 0.22})
+
+
+def with_crosses(model: Formulation, name: str) -> Formulation:
+    """Report the angles of the shafts as well, and give every body mass."""
+    mechanism = model.mechanism
+    coordinates = (*mechanism.coordinates, *shaft_angles(mechanism.joints))
+    whole = replace(mechanism, coordinates=coordinates)
+    return replace(model, name=name, mechanism=whole, massive=whole.moving)
+
+
+def through_its_cross() -> Formulation:
+    """Return two shafts whose second one is reached through the cross alone, which is oblique."""
+    model = with_default(column("reached", 0.6, 0.0, 0.0, links="one"), plane_x=0.4, plane_z=0.2)
+    rolling = model.mechanism.joint("rolling")
+    turned = replace(rolling, first=rolling.second, second=rolling.first)
+    return with_crosses(changed(model, (rolling, turned)), "reached")
+
+
+@pytest.mark.parametrize(
+    "model",
+    [through_its_cross(), with_crosses(CROSSED_RING, "reported_ring")],
+    ids=["closed", "iterated"],
+)
+def test_what_turns_with_a_reported_cross(model: Formulation) -> None:
+    """The absolute Jacobian along the chain of reported angles, times the relative one (Eq. 16)."""
+    built = Built.of(model, own(model, derivatives=False))
+    random = np.random.default_rng(3)
+    for _ in range(5):
+        away = random.uniform(-0.2, 0.2, built.size)
+        state = np.concatenate((built.design + away, np.zeros(built.size)))
+        product = built("absolute_jacobian", state) @ built("relative_jacobian", state)
+        np.testing.assert_allclose(product, built("global_jacobian", state), atol=1e-11)

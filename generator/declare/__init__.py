@@ -24,6 +24,7 @@ from .joints import (
     Revolute,
     Spherical,
     Universal,
+    Weld,
 )
 from .laws import Actuator, DamperTable, Friction, LinearDamper, LinearSpring, Stop
 from .mechanism import Mechanism
@@ -135,6 +136,7 @@ __all__ = [
     "Universal",
     "VelocityOf",
     "Weight",
+    "Weld",
     "Wheel",
     "WheelLoads",
     "combined",

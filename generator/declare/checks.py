@@ -9,7 +9,7 @@ from .bodies import Body, Ground
 from .declared import DeclarationError
 from .default_values import value_problems
 from .inputs import input_problems
-from .joints import Free, Joint
+from .joints import Free, Joint, Weld
 from .known import repeated
 from .names import name_problems, text_problems
 from .world import WORLD
@@ -26,6 +26,7 @@ def check_mechanism(mechanism: Assembly) -> None:
         *_ground_problems(mechanism),
         *_repeated_problems(mechanism),
         *_stranger_problems(mechanism),
+        *_weld_problems(mechanism),
         *input_problems(mechanism.inputs),
         *name_problems(mechanism),
         *text_problems(mechanism),
@@ -107,6 +108,24 @@ def _stranger_problems(mechanism: Assembly) -> list[str]:
         if body not in joined
     ]
     return problems
+
+
+def _weld_problems(mechanism: Assembly) -> list[str]:
+    """See that nothing else is joined to what is welded: it is one with the first body."""
+    welds = [joint for joint in mechanism.joints if isinstance(joint, Weld)]
+    problems = [
+        f"{joint.name!r} welds {joint.second.name!r} to the ground, so that it never moves; leave "
+        "both out"
+        for joint in welds
+        if joint.first.name == mechanism.ground
+    ]
+    return problems + [
+        f"{other.name!r} joins {joint.second.name!r}, which {joint.name!r} welds to "
+        f"{joint.first.name!r}; declare it at {joint.first.name!r}"
+        for joint in welds
+        for other in mechanism.joints_of(joint.second.name)
+        if other is not joint
+    ]
 
 
 def check_symbols(name: str, used: Iterable[str], declared: Collection[str]) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 from .bodies import Body, Ground
 from .declared import DeclarationError, Name, declared
 from .inputs import Input, Motion, input_problems
-from .joints import Cylindrical, Free, Joint, Prismatic, Revolute, Spherical, Universal
+from .joints import Cylindrical, Free, Joint, Prismatic, Revolute, Spherical, Universal, Weld
 from .known import repeated, strangers
 from .mechanism import Mechanism
 from .names import input_name_problems, unwritable
@@ -24,6 +24,7 @@ DRIVABLE: dict[type[Joint], str] = {
     Universal: "two hinges along the axes of the cross, with a link between them",
     Spherical: "three hinges through its centre, with two links between them",
     Free: "three guides and three hinges, with links between them",
+    Weld: "a hinge or a guide instead",
 }
 """What has the freedoms of a joint that cannot be driven, and can be."""
 

@@ -259,6 +259,20 @@ class Universal(Joint):
 
 @declared
 @dataclass(frozen=True)
+class Weld(Joint):
+    """No freedom: the second body moves with the first, such as a caliper with its knuckle.
+
+    It has mass and points of its own, for forces and outputs. Whatever else is joined to it is
+    declared at the first body, which is the same one to all joints.
+    """
+
+    kind: ClassVar[str] = "weld"
+    common: ClassVar[str] = "everything"
+    coordinates: ClassVar[tuple[str, ...]] = ()
+
+
+@declared
+@dataclass(frozen=True)
 class Free(Joint):
     """No hold at all: the second body moves in the world, which is the first, with six freedoms.
 

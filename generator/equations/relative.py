@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import sympy as sp
 
 from ..declare.geometry import Point
-from ..declare.joints import Cylindrical, Joint, Prismatic, Revolute, Universal
+from ..declare.joints import Cylindrical, Joint, Prismatic, Revolute, Universal, Weld
 from ..kinematics.chain import before_telescope, chain_to, reported
 from ..kinematics.hinge_angles import angle_of, is_first_axis, positive_axis_at_design, turn_between
 from ..kinematics.motion import (
@@ -255,6 +255,8 @@ class RelativeCoordinates:
 
     def _screws(self, joint: Joint) -> list[_Screw]:
         names = {c: self.reported(joint.name, c) or "" for c in joint.coordinates}
+        if isinstance(joint, Weld):
+            return []
         if isinstance(joint, Revolute):
             return [self._screw_of_hinge(joint, names["angle"])]
         if isinstance(joint, Prismatic):
@@ -288,13 +290,30 @@ class RelativeCoordinates:
 
     def _on_cross(self, joint: Universal, screw: _Screw) -> _Screw:
         """Let a shaft turn about itself as its cross demands, not as the z-x sequence does."""
-        n, second, third = self.kin.placed[joint.second.name].axes
+        n, second, third = self._cross_axes(joint)
         parent = self.kin.placed[joint.first.name]
         axis = from_axes(parent.axes, self.kin.local_direction(parent, joint.first_axis))
         hinge = second.cross(axis)
         across = screw.angular - n * screw.angular.dot(n)
         turn = -across.dot(hinge) / axis.dot(third)
         return _Screw(screw.coordinate, across + n * turn, screw.through, screw.linear)
+
+    def _cross_axes(self, joint: Universal) -> Axes:
+        """Return line and second axis of a shaft, and what is across both."""
+        body = joint.second.name
+        placed = self.kin.placed[body]
+        if body in self.kin.on_line:  # its axes are these
+            return placed.axes
+        line = self._line(joint)
+        design = self.kin.unit(f"{joint.name}_line", self.kin.to_work(joint.shaft.vector))
+        second = self.kin.unit(
+            f"{joint.name}_second", self.kin.design_direction(joint.first_axis).cross(design)
+        )
+        local = self.program.vector(
+            f"{joint.name}_second_on", to_axes(placed.design_axes, second), "123"
+        )
+        now = self.program.vector(f"{joint.name}_second_now", from_axes(placed.axes, local))
+        return line, now, line.cross(now)
 
     # -- residuals --------------------------------------------------------------------------------
 

@@ -85,7 +85,8 @@ class Topology:
                 first, second = joint.bodies
                 message = f"bodies {first!r} and {second!r} have two joints between them"
                 raise TopologyError(message)
-            graph.add_edge(*joint.bodies, joint=joint, length=joint.freedoms)
+            # a weld is in no loop; with a length of zero the way back would be as short
+            graph.add_edge(*joint.bodies, joint=joint, length=joint.freedoms or 1)
         return graph
 
     def joint_between(self, first: str, second: str) -> Joint:

@@ -46,6 +46,7 @@ from kintrafo.generator import (
     Stop,
     Universal,
     Weight,
+    Weld,
 )
 
 from oracle.constraints import Array, perpendiculars, skew, unit
@@ -327,6 +328,10 @@ class Oracle:
                 *(self._perpendicular(motion, joint, *pair) for pair in ((x, y), (y, z), (z, x))),
                 *self._level(motion, joint, along, place, place),
             ]
+        if isinstance(joint, Weld):
+            x, y, z = np.eye(3)
+            turns = [self._perpendicular(motion, joint, *pair) for pair in ((x, y), (y, z), (z, x))]
+            return [self._gap(motion, joint, joint.second.center), *turns]
         assert isinstance(joint, Cylindrical)
         along = self.axis(joint.axis)
         ends = self.place(joint.axis.towards), self.place(joint.axis.through)

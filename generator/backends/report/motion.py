@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from ...declare.bodies import Rotor
 from ...declare.geometry import Point
-from ...declare.joints import Cylindrical, Prismatic, Revolute, Universal
+from ...declare.joints import Cylindrical, Prismatic, Revolute, Universal, Weld
 from ...kinematics.chain import before_telescope, chain_to, reported
 from ...program.steps import ancestors
 from ...program.symbols import symbols_of
@@ -209,20 +209,18 @@ class Motion:
         """Return orientation and position of a body from its last joint; a cross gives no angle."""
         joint = (chain_to(self.mechanism, body) or [])[-1]
         b, f = (self.mechanism.numbers[name] for name in (body, joint.first.name))
-        k = self.numbers[reported(self.mechanism, joint.name, joint.coordinates[-1]) or ""]
         frame = self._frame(joint.first.name)
-        if isinstance(joint, Prismatic):
-            resting = not frame
+        if isinstance(joint, Prismatic | Weld):
             start = rf"\mathbf{{s}}^0_{{{b}}}"
-            if not resting:
+            if frame:
                 offset = rf"(\mathbf{{s}}^0_{{{b}}}-\mathbf{{s}}^0_{{{f}}})"
                 start = rf"\mathbf{{s}}_{{{f}}} + {frame}{offset}"
             turn = rotation(f) if frame else r"\mathbf{1}"
-            moved = rf"{beta(k)}\,\mathbf{{a}}_{{{k}}}"
             return [
                 rf"{rotation(b)} = {turn}",
-                rf"\mathbf{{s}}_{{{b}}} = {start} + {moved}",
+                rf"\mathbf{{s}}_{{{b}}} = {start}{self._slid(joint)}",
             ]
+        k = self.numbers[reported(self.mechanism, joint.name, joint.coordinates[-1]) or ""]
         at, mark, turned = rf"\mathbf{{p}}_{{{k}}}", rf"\mathbf{{p}}^0_{{{k}}}", []
         if isinstance(joint, Revolute):
             angle = rf"{beta(k)}-\beta^0_{{{k}}}"
@@ -240,6 +238,13 @@ class Motion:
             ]
         arm = rf"{rotation(b)}\,(\mathbf{{s}}^0_{{{b}}}-{mark})"
         return [*turned, rf"\mathbf{{s}}_{{{b}}} = {at} + {arm}"]
+
+    def _slid(self, joint: Prismatic | Weld) -> str:
+        """Return how far a body is from where its joint has it at the design position."""
+        if isinstance(joint, Weld):
+            return ""
+        k = self.numbers[reported(self.mechanism, joint.name, "slide") or ""]
+        return rf" + {beta(k)}\,\mathbf{{a}}_{{{k}}}"
 
     def _crosses(self, body: str) -> list[Universal]:
         """Return the crosses in a chain whose shafts turn about themselves as they demand."""
