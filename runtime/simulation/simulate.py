@@ -12,7 +12,7 @@ from ..core.errors import InputError
 from ..equations.errors import ModelError
 from ..systems.state import inputs_of
 from ..systems.system import System
-from .accuracy import accuracy_of, outputs_of, span_of
+from .accuracy import Accuracy, accuracy_of, outputs_of, span_of
 from .courses import Signal
 from .dead_points import refuse
 from .events import Event, Events, events_of
@@ -168,6 +168,38 @@ def simulate(
     watched = events_of(model, events)
     solve = _choose_backend(model, backend, options)
     return _Run(model, given, options, watched, times, solve).over(state)
+
+
+def simulate_inputs(
+    model: System,
+    inputs: TimeInputs,
+    state: Array,
+    times: Array,
+    accuracy: Accuracy,
+    *,
+    method: Method,
+    stopped: Callable[[], bool],
+) -> Simulation:
+    """Integrate where everything has been checked already, as one of many.
+
+    Parameters
+    ----------
+    model : System
+    inputs : TimeInputs
+    state : ndarray
+        At the start.
+    times : ndarray
+        Of the outputs [s].
+    accuracy : Accuracy
+    method : str
+    stopped : callable
+        Asked now and then whether the caller wants an end, for which KeyboardInterrupt is raised.
+    """
+    options = Options(
+        **vars(accuracy), method=method, dense_output=False, stop_at_outputs=False, stopped=stopped
+    )
+    solve = _choose_backend(model, "auto", options)
+    return _Run(model, inputs, options, events_of(model, None), times, solve).over(state)
 
 
 # -- arguments ----------------------------------------------------------------------------------

@@ -54,6 +54,7 @@ class Options(Accuracy):
     method: str
     dense_output: bool
     stop_at_outputs: bool
+    stopped: Callable[[], bool] | None = None
 
 
 @dataclass
@@ -193,6 +194,7 @@ def solve_native(
         terminal=np.array([*events.terminal, 0], dtype=np.int32),
         guards=np.append(meanings(model.equations), np.int32(0)),
         usual_margins=model.usual_margins,
+        stopped=options.stopped,
     )
     counts = ("nfev", "njev", "nlu", "steps", "error_test_failures", "order")
     output = raw["output"] if len(raw["output"]) else np.array([[segment.start, *state]])

@@ -103,10 +103,12 @@ cdef class _Roots:
 
     cdef list functions
     cdef int state_count
+    cdef object stopped
     cdef object error
 
-    def __init__(self, functions, state_count):
+    def __init__(self, functions, state_count, stopped):
         self.functions = list(functions)
+        self.stopped = stopped
         self.state_count = state_count
         self.error = None
 
@@ -130,6 +132,8 @@ cdef int _interrupted(void *data) noexcept with gil:
     cdef _Roots roots = <_Roots> data
     try:
         PyErr_CheckSignals()
+        if roots.stopped is not None and roots.stopped(): # in a thread, which sees no signals
+            raise KeyboardInterrupt
     except BaseException as error:
         roots.error = error
         return 1
@@ -151,7 +155,7 @@ def integrate(
     const double[::1] atol, double first_step, double max_step, long max_steps,
     bint every_step, bint stop_at_outputs, bint dense, int signal_count, events, roots,
     const int[::1] directions, const int[::1] terminal, const int[::1] guards,
-    const double[::1] usual_margins,
+    const double[::1] usual_margins, stopped=None,
 ):
     """Integrate; ``integrate.h`` explains the arguments, `kintrafo.simulation.solvers` uses the result."""
     cdef kt_problem problem
@@ -159,7 +163,7 @@ def integrate(
     cdef kt_result result
     cdef int outcome
     cdef int n = state.shape[0]
-    cdef _Roots caller = _Roots(roots, n)
+    cdef _Roots caller = _Roots(roots, n, stopped)
     cdef const double[::1] breaks
     cdef const double[:, ::1] coefficients
     cdef kt_spline *spline_array = <kt_spline *> calloc(len(splines) + 1, sizeof(kt_spline))
