@@ -402,25 +402,27 @@ def test_series_do_not_fill_the_memory(car: Model, start: Any, monkeypatch: Any)
 
 
 def sticking(friction: list[float]) -> tuple[Model, dict[str, Any], Any]:
-    """Return a car whose strut sticks, at rest in a bump of the road, and frictions of others."""
-    changes = {"strut.friction_N": 100.0, "strut.friction_velocity_m_per_s": 1e-6}
+    """Return a car whose strut comes to stick soon, frictions of some, and a start."""
+    changes = {"strut.friction_N": 600.0, "strut.friction_velocity_m_per_s": 1e-5}
     model = Model(kintrafo.Suspension.load("reference_car").with_changes(changes))
     return model, {"strut_friction": friction}, state_at_height(model, 0.305)
 
 
 def test_what_is_stiff_is_done_by_bdf(monkeypatch: Any) -> None:
     monkeypatch.setattr(ensembles, "_STIFF_AFTER", 500)
-    model, cars, start = sticking([0.0, 100.0, 50.0])
-    cars |= {"road_height": ["bump", "bump", "step"]}
-    roads = {"road_height": {"step": STEP, "bump": BUMP}}
+    model, cars, start = sticking([0.0, 600.0, 500.0])
+    cars |= {"road_height": ["flat", "flat", "step"]}
+    courses = {"flat": 0.0, "step": STEP}
     options = {"t_eval": TIMES, "rtol": 1e-8, "atol": 1e-10}
     reductions = {"tyre_force": ["max", "min", "mean", "rms", ("above", 3000.0)],
                   "wheel_center_z": [("psd", 16), ("percentile", 75.0)]}  # fmt: skip
-    found = ensemble(model, cars, SPAN, start, inputs=roads, signals=["wheel_center_z"],
-                     reductions=reductions, **options)  # fmt: skip
+    found = ensemble(
+        model, cars, SPAN, start, inputs={"road_height": courses}, signals=["wheel_center_z"],
+        reductions=reductions, **options,
+    )  # fmt: skip
     assert found["success"].all(), found["reason"].values
     assert found["solver"].values.tolist() == ["DormandPrince", "BDF", "BDF"]
-    for place, road in enumerate([BUMP, BUMP, STEP]):
+    for place, road in enumerate([0.0, 0.0, STEP]):
         own = model.parameters | {"strut_friction": float(cars["strut_friction"][place])}
         exact = simulate(System(model.equations, own), SPAN, start, method="Radau",
                          inputs={"road_height": road}, **options)  # fmt: skip
@@ -449,8 +451,8 @@ def test_what_is_stiff_is_done_by_bdf(monkeypatch: Any) -> None:
 
 def test_stiff_ones_end_with_a_reason_where_that_is_wanted(monkeypatch: Any) -> None:
     monkeypatch.setattr(ensembles, "_STIFF_AFTER", 500)
-    model, cars, start = sticking([0.0, 100.0])
-    options = {"inputs": {"road_height": BUMP}, "t_eval": TIMES, "max_steps": 2000}
+    model, cars, start = sticking([0.0, 600.0])
+    options = {"t_eval": TIMES, "max_steps": 2000}
     found = ensemble(model, cars, SPAN, start, stiff=None, **options)
     assert found["success"].values.tolist() == [True, False]
     assert "more than 2000 steps" in found["reason"].item(1)
@@ -458,12 +460,12 @@ def test_stiff_ones_end_with_a_reason_where_that_is_wanted(monkeypatch: Any) -> 
 
 
 def test_what_both_methods_cannot_do_tells_both_reasons() -> None:
-    model, cars, start = sticking([0.0, 100.0])
-    options = {"inputs": {"road_height": BUMP}, "t_eval": TIMES, "max_steps": 130}
+    model, cars, start = sticking([0.0, 600.0])
+    options = {"t_eval": TIMES, "max_steps": 80}
     found = ensemble(model, cars, SPAN, start, **options, rtol=1e-5, atol=1e-6)
     assert found["success"].values.tolist() == [True, False]
     words = found["reason"].item(1)
-    assert "more than 130 steps" in words
+    assert "more than 80 steps" in words
     assert "Nor can BDF do it: at t = " in words
     assert found["solver"].item(1) == "DormandPrince"
 
@@ -564,6 +566,18 @@ def test_an_interruption_ends_it(car: Model, start: Any) -> None:
     timer.join()
 
 
+@pytest.mark.usefixtures("interruptible")
+def test_an_interruption_ends_what_bdf_does(monkeypatch: Any) -> None:
+    """Of a hundred million steps, in a thread, which no signal reaches."""
+    monkeypatch.setattr(ensembles, "_STIFF_AFTER", 100)
+    model, cars, start = sticking([600.0])
+    timer = threading.Timer(0.5, _thread.interrupt_main)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        ensemble(model, cars, (0.0, 1e4), start, t_eval=[1e4], max_step=1e-4, max_steps=10**9)
+    timer.join()
+
+
 # -- arguments ----------------------------------------------------------------------------------
 
 
@@ -607,7 +621,7 @@ WRONG: list[tuple[dict[str, Any], str]] = [
         {"reductions": {"camber": ("psd", 16)}, "t_eval": np.linspace(0.0, 1.0, 20) ** 2},
         "times at equal distances",
     ),
-    ({"stiff": "Radau"}, "There are BDF"),
+    ({"stiff": "Radau"}, "Known are: BDF"),
     ({"variants": xr.Dataset({"spring_rate": ("frequency", [2e4])})}, "coordinate 'frequency'"),
     ({"reductions": {"camber": "max"}, "t_eval": [0.5]}, "two times"),
     ({"rtol": 0.0}, "rtol"),

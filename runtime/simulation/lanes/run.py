@@ -16,7 +16,7 @@ Finish = Callable[[int, int, NDArray[np.float64], Callable[[], bool]], None]
 # Systems that a thread takes at a time: so many that lanes which have nothing left to do at their
 # end are little beside them, and so few that all threads end together.
 _FEWEST, _MOST, _PARTS = 64, 2048, 8
-# Samples that a thread holds at a time; they are what many systems would fill the memory with [bytes].
+# Samples that a thread holds at a time, with which many systems would fill the memory [bytes].
 _SAMPLES = 2**25
 # How long the main thread waits before it looks at signals and tells how far it is [s].
 _PATIENCE = 0.1

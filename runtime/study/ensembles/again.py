@@ -56,7 +56,13 @@ class Again:
             end, times = inputs.segments[-1].end, problem.wanted.times
             with_end = times if times[-1] == end else np.append(times, end)
             found = simulate_inputs(
-                model, inputs, state, with_end, problem.accuracy, method=self.method, stopped=stopped
+                model,
+                inputs,
+                state,
+                with_end,
+                problem.accuracy,
+                method=self.method,
+                stopped=stopped,
             )
             values = np.array([*found.signals.values(), *found.y])[:, : times.size]
         except KintrafoError as error:

@@ -1,4 +1,4 @@
-"""What is gathered of systems as soon as they are done, some at a time, so that series need not stay."""
+"""What is gathered of systems as soon as they are done, so that series need not stay."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -44,9 +44,7 @@ class Collected:
         self.of_series = {r: np.full((count, *_shape(r, asked)), np.nan) for r in asked.of_series}
         self.solvers = np.full(count, "", dtype=object)
 
-    def __call__(
-        self, first: int, last: int, samples: Array, stopped: Callable[[], bool]
-    ) -> None:
+    def __call__(self, first: int, last: int, samples: Array, stopped: Callable[[], bool]) -> None:
         """Gather what came of some systems.
 
         Parameters
@@ -70,7 +68,6 @@ class Collected:
         for reduced, found in self.of_series.items():
             series = samples[done, self.asked.sampled.index(reduced.signal)]
             found[first + done] = _reduced(reduced, series, self.asked)
-
 
 
 BEYOND_IT = (End.MANY_STEPS, End.SMALL_STEP, End.STIFF)

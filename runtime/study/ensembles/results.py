@@ -94,9 +94,7 @@ def _message(done: NDArray[np.bool_], passed: NDArray[np.bool_]) -> str:
 # -- reasons --------------------------------------------------------------------------------------
 
 
-def _reasons(
-    model: System, variants: Variants, collected: Collected
-) -> NDArray[np.object_]:
+def _reasons(model: System, variants: Variants, collected: Collected) -> NDArray[np.object_]:
     """Say why systems did not reach the end: nothing for those that did."""
     outcome = collected.problem.outcome
     max_steps = collected.problem.accuracy.max_steps

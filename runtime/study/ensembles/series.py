@@ -1,7 +1,7 @@
 """What is found of whole series of outputs: percentiles, and spectra by Welch's method.
 
-Each series is reckoned by itself, by the same operations in the same order: the bits do not depend on
-the series beside it.
+Each series is reckoned by itself, by the same operations in the same order: the bits do not
+depend on the series beside it.
 """
 
 import numpy as np
