@@ -1,8 +1,8 @@
 """When a system of an ensemble goes to BDF, and what percentiles and spectra of many cost.
 
 ``make benchmark-stiff`` measures cars whose struts come to stick, by the velocity of
-regularisation: in lanes alone, by BDF alone, and as `ensemble` does it, which tries the lanes first;
-and the memory and time of what is kept of 10,000 cars.
+regularisation: in lanes alone, by BDF alone, and as `ensemble` does it, which tries the lanes
+first; and the memory and time of what is kept of 10,000 cars.
 """
 
 import resource

@@ -79,6 +79,7 @@ cdef extern from "integrate.h" nogil:
         int refused_guard
         double refused_time
         double *refused_state
+        double longest_step
         int code
     int kt_integrate(const kt_problem *, const kt_options *, const double *, const double *, long,
                      int, kt_result *)
@@ -86,11 +87,11 @@ cdef extern from "integrate.h" nogil:
     const char *kt_version()
 
 OUTCOMES = (
-    "done", "event", "state", "too_many_steps", "too_accurate", "caller", "bad_table", "memory",
+    "done", "event", "state", "too_many_steps", "too_accurate", "caller", "unstable", "bad_table", "memory",
     "failed",
 )
-METHODS = {"BDF": 0, "Adams": 1, "DormandPrince": 2}
-RUNGE_KUTTA = 3
+METHODS = {"BDF": 0, "Adams": 1, "DormandPrince": 2, "RK4": 3}
+RUNGE_KUTTA = 4
 
 
 def version():
@@ -240,6 +241,7 @@ def integrate(
                 "refused_time": result.refused_time,
                 "refused_state": [result.refused_state[i] for i in range(n)]
                 if result.refused_state != NULL else [],
+                "longest_step": result.longest_step,
                 "code": result.code,
             }
         finally:
