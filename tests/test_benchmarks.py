@@ -167,3 +167,13 @@ def test_what_is_kept_of_stiff_cars_is_measured(tmp_path):
     subprocess.run(page_of, cwd=ROOT, check=True, capture_output=True)
     assert "DormandPrince" in page.read_text()
     assert keep in page.read_text()
+
+
+@NEEDS_SUNDIALS
+def test_steps_of_one_length_are_measured(tmp_path):
+    page = tmp_path / "real-time.md"
+    page.write_text("<!-- begin steps -->\n<!-- end steps -->\n")
+    command = [sys.executable, "-m", "benchmarks.real_time", "--quick", "--page", page]
+    subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
+    assert "ms at most" in page.read_text()
+    assert "| 20 " in page.read_text()

@@ -1,8 +1,12 @@
 """Steps of one length: their order, cubics and events, and that none is too long in silence."""
 
+import ctypes
+import re
+import shutil
 from importlib import import_module
 from itertools import pairwise
 
+import lanes
 import numpy as np
 import pytest
 from kintrafo import (
@@ -54,27 +58,36 @@ def test_a_step_is_four_evaluations_and_one_length() -> None:
     assert many.y[:, -1].tolist() == found.y[:, -1].tolist()
 
 
-def rk4_by_hand(state, inputs, step, count):
-    """Return the state after some steps, as a loop in a controller would find it."""
-
-    def rates(y):
-        return MODEL.evaluate("rhs", y, inputs)
-
-    for _ in range(count):
-        a = rates(state)
-        b = rates(state + step / 2.0 * a)
-        c = rates(state + step / 2.0 * b)
-        d = rates(state + step * c)
-        state = state + step / 6.0 * (a + 2.0 * b + 2.0 * c + d)
-    return state
+def loops_of_the_page(language):
+    """Return the code of the page that is in a language."""
+    page = (lanes.ROOT / "docs/real-time.md").read_text(encoding="utf-8")
+    return re.findall(rf"```{language}\n(.*?)```", page, flags=re.DOTALL)
 
 
-def test_a_loop_of_ones_own_does_the_same() -> None:
+def test_the_loops_of_the_page_do_the_same(tmp_path) -> None:
     found = run(1e-3, span=(0.0, 0.1))
-    inputs = np.zeros(len(MODEL.input_names))
-    expected = rk4_by_hand(np.array(START), inputs, 1e-3, 100)
+    inputs, said = np.zeros(len(MODEL.input_names)), {}
+    for code in loops_of_the_page("python"):
+        exec(code, said)
+    assert (said["found"].steps, said["found"].nfev) == (1000, 4001)
+    assert np.isfinite(said["state"]).all()
+    state = np.array(START)
+    for _ in range(100):
+        state = said["step"](MODEL, state, inputs, 1e-3)
     # sums in another order, over a hundred steps
-    np.testing.assert_allclose(found.y[:, -1], expected, rtol=1e-12, atol=1e-13)
+    np.testing.assert_allclose(found.y[:, -1], state, rtol=1e-12, atol=1e-13)
+    if shutil.which("gcc") is None:
+        pytest.skip("no gcc")
+    folder, source = lanes.ROOT / "generated/c", tmp_path / "loop.c"
+    source.write_text(loops_of_the_page("c")[0], encoding="utf-8")
+    built = lanes.compiled(
+        tmp_path, source, str(folder / "macpherson.c"), f"-I{folder}", name="loop"
+    )
+    state, (constants, given) = np.array(START), (np.array(MODEL.constants), inputs)
+    for _ in range(100):
+        pointers = (ctypes.c_void_p(a.ctypes.data) for a in (constants, state, given))
+        assert built.step(*pointers, ctypes.c_double(1e-3)) == 0
+    np.testing.assert_allclose(found.y[:, -1], state, rtol=1e-12, atol=1e-13)
 
 
 def test_inputs_that_jump_and_turn_keep_the_order() -> None:

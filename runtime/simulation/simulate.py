@@ -249,8 +249,8 @@ def _fixed_step(
     """Return the length of all steps, or refuse what says otherwise."""
     if method != "RK4":
         given.refuse(
-            f"step is for method 'RK4', and {method!r} chooses its steps: give max_step, or the other "
-            "method."
+            f"step is for method 'RK4', and {method!r} chooses its steps: give max_step, or the "
+            "other method."
         )
         return 1.0
     told = [name for name, value in others.items() if value is not None]

@@ -57,18 +57,27 @@ class Collected:
         """
         outcome = self.problem.outcome
         began = outcome.ends[first:last] != End.PARAMETERS
-        self.solvers[first:last][began] = "DormandPrince"
-        beyond_it = np.isin(outcome.ends[first:last], BEYOND_IT)
-        for place in np.flatnonzero(beyond_it).tolist() if self.again else ():
-            reason = self.again.do(first + place, samples[place], stopped)
-            self.solvers[first + place] = "DormandPrince" if reason else self.again.method
-            self.reasons[first + place] = reason
+        self.solvers[first:last][began] = EXPLICIT
+        if self.again:
+            self._do_again(self.again, first, samples, stopped)
         self.samples[first:last] = samples[:, : len(self.asked.signals)]
         done = np.flatnonzero(outcome.ends[first:last] == End.DONE)
         for reduced, found in self.of_series.items():
             series = samples[done, self.asked.sampled.index(reduced.signal)]
             found[first + done] = _reduced(reduced, series, self.asked)
 
+    def _do_again(
+        self, again: Again, first: int, samples: Array, stopped: Callable[[], bool]
+    ) -> None:
+        beyond_it = np.isin(self.problem.outcome.ends[first : first + len(samples)], BEYOND_IT)
+        for place in np.flatnonzero(beyond_it).tolist():
+            reason = again.do(first + place, samples[place], stopped)
+            self.solvers[first + place] = EXPLICIT if reason else again.method
+            self.reasons[first + place] = reason
+
+
+EXPLICIT = "DormandPrince"
+"""The method in lanes, as `kintrafo.simulate` calls it."""
 
 BEYOND_IT = (End.MANY_STEPS, End.SMALL_STEP, End.STIFF)
 """How systems end that an implicit method may do."""

@@ -30,8 +30,7 @@ def frequencies(times: Array, segment: int) -> Array:
     """Return the frequencies of a spectrum, from zero to half of the rate of the outputs [Hz]."""
     step = uniform_step(times)
     assert step is not None  # the arguments have been checked
-    found: Array = np.fft.rfftfreq(segment, step)
-    return found
+    return np.arange(segment // 2 + 1) / (segment * step)
 
 
 def spectra(series: Array, times: Array, segment: int) -> Array:

@@ -96,8 +96,8 @@ CALLS = {
         {
             "model": _CAR, "t_span": _SPAN, "y0": _REST, "inputs": {"road_height": 0.01},
             "method": "BDF", "step": None, "t_eval": None, "rtol": 1e-6, "atol": 1e-9,
-            "max_step": np.inf, "first_step": None, "max_steps": 10_000, "dense_output": False, "events": None,
-            "stop_at_outputs": False, "backend": "auto",
+            "max_step": np.inf, "first_step": None, "max_steps": 10_000, "dense_output": False,
+            "events": None, "stop_at_outputs": False, "backend": "auto",
         },
     ),
     "ensemble": (
