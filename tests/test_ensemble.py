@@ -28,6 +28,7 @@ from kintrafo import (
 from kintrafo.core.physical import impossible, inertia_of_no_body, out_of_range
 from kintrafo.simulation.lanes import library, run
 from kintrafo.simulation.lanes.problem import Problem
+from kintrafo.study import export
 from kintrafo.study.recording import statistics
 
 ensembles = import_module("kintrafo.study.ensembles.ensemble")
@@ -396,6 +397,34 @@ def test_series_do_not_fill_the_memory(car: Model, start: Any, monkeypatch: Any)
     )
     same(ensemble(car, some_cars(100), SPAN, start, **options), expected)
     assert max(held) <= max(5, *WIDTHS)
+
+
+def test_what_is_kept_is_written_and_goes_on_in_pieces(
+    car: Model, start: Any, tmp_path: Path
+) -> None:
+    """An ensemble in pieces, each written to a file, is the whole, to the last bit."""
+    cars = some_cars(9)
+    options: dict[str, Any] = {
+        "t_eval": TIMES,
+        "reductions": {"camber": [("psd", 16), ("percentile", 95.0), ("above", 0.0)]},
+    }
+    whole = ensemble(car, cars, SPAN, start, **options)
+    pieces = []
+    for first, last in ((0, 4), (4, 9)):
+        part = {name: values[first:last] for name, values in cars.items()}
+        found = ensemble(car, part, SPAN, start, **options)
+        export.write(found, tmp_path / f"{first}.nc")
+        pieces.append(xr.load_dataset(tmp_path / f"{first}.nc", engine="scipy"))
+    together = xr.concat(pieces, "car")
+    for name in ("camber_psd", "camber_percentile_95", "camber_above_0", "final_state"):
+        assert together[name].values.tobytes() == whole[name].values.tobytes(), name
+        assert together[name].dims == whole[name].dims
+    assert together["solver"].values.tolist() == whole["solver"].values.tolist()
+    spectra = whole[["camber_psd", "camber_percentile_95"]]
+    for name in ("spectra.csv", "spectra.parquet"):
+        export.write(spectra, tmp_path / name)
+    rows = (tmp_path / "spectra.csv").read_text(encoding="utf-8").splitlines()
+    assert len(rows) == 1 + 9 * 9
 
 
 # -- what the explicit method cannot do -----------------------------------------------------------
