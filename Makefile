@@ -1,7 +1,7 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
 .PHONY: docs drawings help setup sundials generate build run test test-elsewhere fuzz package wheel lint tree types format baseline clean \
-	benchmark benchmark-andrews benchmark-axles benchmark-bits benchmark-bushes benchmark-derivatives benchmark-ensemble benchmark-growth benchmark-loads benchmark-loops benchmark-page benchmark-peers benchmark-speed benchmark-studies format-page front-axle-page report-assets
+	benchmark benchmark-andrews benchmark-axles benchmark-bits benchmark-bushes benchmark-derivatives benchmark-ensemble benchmark-growth benchmark-loads benchmark-loops benchmark-page benchmark-peers benchmark-real-time benchmark-speed benchmark-stiff benchmark-studies format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
 EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/equations/*.pyx runtime/simulation/native/*.pyx runtime/simulation/*/*.[ch])
@@ -86,6 +86,12 @@ benchmark-growth: build ## A chain of 1 to 40 loops: derivation, code and run ti
 
 benchmark-ensemble: build ## Many cars at once, in lanes and on all cores, and its page in docs/
 	@PYTHONPATH=tests $(PYTHON) -m benchmarks.ensemble --out out/benchmark --page docs/ensembles.md
+
+benchmark-real-time: build ## Steps of one length: errors, and what one takes
+	@$(PYTHON) -m benchmarks.real_time --page docs/real-time.md
+
+benchmark-stiff: build ## Which cars of an ensemble go to BDF, and what percentiles and spectra cost
+	@$(PYTHON) -m benchmarks.ensemble_stiff --page docs/ensembles.md
 
 docs: build .venv/.docs ## The documentation as a site: build/docs/index.html
 	@rm -rf build/docs

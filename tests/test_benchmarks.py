@@ -156,3 +156,24 @@ def test_ensemble_writes_everything(tmp_path):
     assert all(rate["error"] <= 1e-6 for rate in found["rates"])
     assert (page.parent / "images/ensemble.png").stat().st_size > 1000
     assert "µs of a core for a second of motion" in page.read_text()
+
+
+@pytest.mark.skipif(not widths(), reason="built without lanes")
+def test_what_is_kept_of_stiff_cars_is_measured(tmp_path):
+    page = tmp_path / "ensembles.md"
+    page.write_text("".join(f"<!-- begin {n} -->\n<!-- end {n} -->\n" for n in ("stiff", "kept")))
+    keep = "('percentile', 95)"
+    page_of = [sys.executable, "-m", "benchmarks.ensemble_stiff", "--quick", "--page", page]
+    subprocess.run(page_of, cwd=ROOT, check=True, capture_output=True)
+    assert "DormandPrince" in page.read_text()
+    assert keep in page.read_text()
+
+
+@NEEDS_SUNDIALS
+def test_steps_of_one_length_are_measured(tmp_path):
+    page = tmp_path / "real-time.md"
+    page.write_text("<!-- begin steps -->\n<!-- end steps -->\n")
+    command = [sys.executable, "-m", "benchmarks.real_time", "--quick", "--page", page]
+    subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
+    assert "ms at most" in page.read_text()
+    assert "| 20 " in page.read_text()

@@ -35,6 +35,7 @@ from .simulation_options import (
     Rtol,
     Speed,
     Spin,
+    Step,
     Wheels,
 )
 
@@ -88,6 +89,7 @@ def command(
     duration: Duration = None,
     output_step: OutputStep = 1.0,
     method: Method = "BDF",
+    step: Step = None,
     rtol: Rtol = None,
     atol: Atol = None,
     max_step: MaxStep = None,
@@ -147,6 +149,7 @@ def command(
         _tell_of_the_free_rack(file, scenario.inputs)
     options = {
         "method": method,
+        "step": None if step is None else step / 1e3,
         "rtol": rtol,
         "atol": atol,
         "max_step": math.inf if max_step is None else max_step / 1e3,

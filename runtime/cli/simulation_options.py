@@ -76,9 +76,13 @@ OutputStep = Annotated[
 Method = Annotated[
     str,
     typer.Option(
-        help="BDF, Adams, Verner, DormandPrince, Tsitouras, Radau, LSODA, RK45, DOP853.",
+        help="BDF, Adams, Verner, DormandPrince, RK4, Tsitouras, Radau, LSODA, RK45, DOP853.",
         rich_help_panel="Solver",
     ),
+]
+Step = Annotated[
+    float | None,
+    typer.Option(metavar="MS", help="Length of all steps of RK4.", rich_help_panel="Solver"),
 ]
 Rtol = Annotated[
     float | None,

@@ -61,8 +61,8 @@ def command(
         list[str] | None,
         typer.Option(
             metavar="SIGNAL:KIND",
-            help="Kept of each motion: max, min, mean, rms, above:LEVEL. May be repeated. "
-            f"Default: {', '.join(_USUAL)}.",
+            help="Kept of each motion: max, min, mean, rms, above:LEVEL, percentile:NUMBER. May be "
+            f"repeated. Default: {', '.join(_USUAL)}.",
         ),
     ] = None,
     height: Height = None,
@@ -153,7 +153,7 @@ def _numbers(text: str) -> tuple[str, list[float]]:
 
 
 def _reductions(model: "Model", kept: tuple[str, ...] | list[str]) -> dict[str, list[Any]]:
-    """Read what is kept of each motion; levels are in the units for people."""
+    """Read what is kept of each motion; levels are in units for people."""
     from ..core.quantities import attributes, display_of
 
     found: dict[str, list[Any]] = {}
@@ -161,10 +161,15 @@ def _reductions(model: "Model", kept: tuple[str, ...] | list[str]) -> dict[str, 
         signal, _, kind = text.partition(":")
         word, mark, level = kind.partition(":")
         entry: Any = word
+        if word == "psd":
+            raise typer.BadParameter(
+                f"{text!r}: a spectrum is no number for a table; kintrafo.ensemble keeps spectra"
+            )
         if mark and signal in model.signal_names:
             unit = model.equations.SIGNALS[signal]["unit"]
             try:
-                entry = word, float(level) / display_of(attributes("", unit)).factor
+                factor = display_of(attributes("", unit)).factor if word == "above" else 1.0
+                entry = word, float(level) / factor
             except ValueError:
                 raise typer.BadParameter(f"{text!r}: {level!r} is no number") from None
         found.setdefault(signal, []).append(entry)

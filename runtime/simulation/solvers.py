@@ -31,9 +31,11 @@ NATIVE_METHODS = {
     "Adams": "Adams",
     "Verner": "ARKODE_VERNER_8_5_6",
     "DormandPrince": "DormandPrince",
+    "RK4": "RK4",
     "Tsitouras": "ARKODE_TSITOURAS_7_4_5",
 }
-_OF_OUR_OWN = ("DormandPrince",)
+_OF_OUR_OWN = ("DormandPrince", "RK4")
+_OF_FIXED_STEP = ("RK4",)
 _FIRST_WITH_TSITOURAS = (7, 3)
 # What stands in for them without SUNDIALS; those without an equivalent need it.
 SCIPY_METHODS = {
@@ -54,6 +56,7 @@ class Options(Accuracy):
     method: str
     dense_output: bool
     stop_at_outputs: bool
+    stopped: Callable[[], bool] | None = None
 
 
 @dataclass
@@ -79,6 +82,8 @@ class Piece:
     refused_guard
         The guard at whose dead point the motion ends; none if a state was refused for another
         reason.
+    longest_step
+        Of steps of one length that are not stable: the longest one that is [s].
     """
 
     t: Array
@@ -92,6 +97,7 @@ class Piece:
     refused_time: float = 0.0
     refused_state: Array | None = None
     refused_guard: int | None = None
+    longest_step: float = 0.0
     detail: str = ""
 
 
@@ -134,12 +140,20 @@ def native_name(method: str) -> str:
     return "kintrafo" if method in _OF_OUR_OWN else f"SUNDIALS {native_version()}"
 
 
-def native_methods() -> tuple[str, ...]:
-    """Return the methods that there are in C, with the SUNDIALS that is linked."""
+def native_methods(*, fixed_step: bool = False) -> tuple[str, ...]:
+    """Return the methods that there are in C, with the SUNDIALS that is linked.
+
+    Parameters
+    ----------
+    fixed_step : bool, optional
+        Whether also those whose steps have one length.
+    """
     if not native_available():
         return ()
     release = tuple(int(part) for part in native_version().split(".")[:2])
-    return tuple(m for m in NATIVE_METHODS if m != "Tsitouras" or release >= _FIRST_WITH_TSITOURAS)
+    missing = set() if release >= _FIRST_WITH_TSITOURAS else {"Tsitouras"}
+    missing |= set() if fixed_step else {*_OF_FIXED_STEP}
+    return tuple(method for method in NATIVE_METHODS if method not in missing)
 
 
 # What solvers in C return, the arguments being checked, when an event's function stays at zero.
@@ -193,6 +207,7 @@ def solve_native(
         terminal=np.array([*events.terminal, 0], dtype=np.int32),
         guards=np.append(meanings(model.equations), np.int32(0)),
         usual_margins=model.usual_margins,
+        stopped=options.stopped,
     )
     counts = ("nfev", "njev", "nlu", "steps", "error_test_failures", "order")
     output = raw["output"] if len(raw["output"]) else np.array([[segment.start, *state]])
@@ -208,6 +223,7 @@ def solve_native(
         refused_time=raw["refused_time"],
         refused_state=np.array(raw["refused_state"]),
         refused_guard=raw["refused_guard"] if raw["refused_guard"] >= 0 else None,
+        longest_step=raw["longest_step"],
         detail=_WHY.get(raw["code"], f"{native_name(options.method)} returned {raw['code']}"),
     )
 

@@ -43,6 +43,7 @@ typedef struct {
     real error;      /* logarithm of that of the step before */
     bits again;      /* a step is tried again: the one after it is not to be longer */
     bits tried, taken, stuck;
+    bits stiff, calm; /* how often stability has limited the step, and how often in a row it has not */
     int segment[WIDTH];
     long milestone[WIDTH], output[WIDTH];
     real due; /* time of the next output, infinite behind the last */

@@ -29,14 +29,15 @@ typedef struct {
 
 /*
  * What is kept of a signal on its way. Each output stands for a time, its weight. Sums are those of how
- * much it differs from its first value, so that little is lost where it changes little.
+ * much it differs from its first value, so that little is lost where it changes little. The time above a
+ * level is that of straight lines between the outputs.
  */
-enum kt_reduction_kind { KT_GREATEST, KT_LEAST, KT_FIRST, KT_SUM, KT_SQUARES, KT_ABOVE };
+enum kt_reduction_kind { KT_GREATEST, KT_LEAST, KT_FIRST, KT_SUM, KT_SQUARES, KT_ABOVE, KT_LAST };
 
 typedef struct {
     int item; /* of the items */
     int kind;
-    int origin;   /* of a sum: the reduction that keeps the first value, which comes before */
+    int origin;   /* of a sum: what keeps the first value, before it; of KT_ABOVE: KT_LAST, behind it */
     double level; /* of KT_ABOVE */
 } kt_reduction;
 
@@ -48,7 +49,8 @@ enum kt_end {
     KT_REFUSED,      /* the model refuses a state: its status word */
     KT_DEAD_POINT,   /* the motion comes to the dead point of a guard: its place */
     KT_SMALL_STEP,   /* the error stays too large for any step */
-    KT_MANY_STEPS
+    KT_MANY_STEPS,
+    KT_STIFF         /* stability limits its steps, and has done so for long */
 };
 
 typedef struct {
@@ -80,11 +82,13 @@ typedef struct {
     double first_step; /* 0: chosen here */
     double max_step;   /* infinite: none */
     long max_steps;
+    long stiff_after; /* steps after which one that is stiff ends; 0: none does */
 
     /* what is wanted: signals, and behind the last of them elements of the state */
     const int *items;
     int sample_count; /* so many of the items are kept at all times */
-    double *samples;  /* systems x sample_count x times */
+    double *samples;  /* systems x sample_count x times, from one of the systems on */
+    long first_sampled;
     int reduction_count;
     const kt_reduction *reductions;
     const double *weights; /* of the times */

@@ -120,6 +120,7 @@ static void begin_system(crew *w, int lane)
     w->step[lane] = p->first_step;
     w->longest[lane] = w->error[lane] = 0.0;
     w->again[lane] = w->tried[lane] = w->taken[lane] = w->stuck[lane] = 0;
+    w->stiff[lane] = w->calm[lane] = 0;
     w->segment[lane] = 0;
     begin_outputs(w, lane);
     open_segment(w, lane);
@@ -202,6 +203,32 @@ static real error_of(crew *w, real step)
         w->stage[i] = step * sum;
     }
     return mean_square(w, w->stage);
+}
+
+/*
+ * See in which lanes stability, not accuracy, limits the step: Hairer and Wanner, Solving Ordinary
+ * Differential Equations II, IV.2. The last two stages are at one time, and what their rates differ by tells
+ * how fast the fastest motion is; beyond 3.25 the method is not stable.
+ */
+static void see_stiff(crew *w, bits good, real step)
+{
+    const kt_problem *p = w->p;
+    int n = p->state_count;
+    bits asked = good & (w->tried >= p->stiff_after);
+    if (!p->stiff_after || !any(asked)) {
+        return;
+    }
+    real rates = {0.0}, states = {0.0};
+    for (int i = 0; i < n; ++i) {
+        real rate = w->rates[(STAGES - 1) * n + i] - w->rates[(STAGES - 2) * n + i];
+        real state = w->end_state[i] - w->stage[i];
+        rates += rate * rate;
+        states += state * state;
+    }
+    bits limited = step * step * rates > STABLE * STABLE * states;
+    w->calm = choose_bits(asked, choose_bits(limited, (bits){0}, w->calm + 1), w->calm);
+    w->stiff = choose_bits(asked & limited, w->stiff + 1, w->stiff);
+    w->stiff &= ~(asked & (w->calm >= OFTEN_CALM));
 }
 
 /* Return a logarithm that is one also of zero, of infinity, and of what is no number. */
@@ -306,8 +333,8 @@ static void settle(crew *w, bits good, bits lands, bits refused, real step)
     bits over = good & (w->guard != NO_GUARD), passed = good & lands & ~over;
     bits stuck = w->running & ~good
         & (~(w->step >= rounding) | (refused & ~(w->step >= smallest_step(w))));
-    bits many = w->running & (w->tried >= p->max_steps);
-    if (!any(over | passed | stuck | many)) {
+    bits many = w->running & (w->tried >= p->max_steps), stiff = w->running & (w->stiff >= OFTEN_STIFF);
+    if (!any(over | passed | stuck | many | stiff)) {
         return;
     }
     for (int l = 0; l < WIDTH; ++l) {
@@ -320,6 +347,8 @@ static void settle(crew *w, bits good, bits lands, bits refused, real step)
         }
         if (many[l] && w->running[l]) {
             end_system(w, l, KT_MANY_STEPS, 0, w->time[l]);
+        } else if (stiff[l] && w->running[l]) {
+            end_system(w, l, KT_STIFF, 0, w->time[l]);
         }
     }
 }
@@ -333,6 +362,7 @@ static void sweep(crew *w)
     real step = planned(w, &lands), lapse;
     real reached = choose(lands, w->goal, w->time + step);
     bits refused = attempt(w, step);
+    see_stiff(w, w->running & ~refused & ~fresh, step);
     real error = error_of(w, step);
     bits good = w->running & ~refused & (fresh | (error <= 1.0));
     real next = next_step(w, step, error, good);

@@ -15,7 +15,7 @@ static void begin_outputs(crew *w, int lane)
 {
     static const double nothing[] = {
         [KT_GREATEST] = -INFINITY, [KT_LEAST] = INFINITY, [KT_FIRST] = NAN, [KT_SUM] = 0.0,
-        [KT_SQUARES] = 0.0, [KT_ABOVE] = 0.0,
+        [KT_SQUARES] = 0.0, [KT_ABOVE] = 0.0, [KT_LAST] = NAN,
     };
     const kt_problem *p = w->p;
     w->output[lane] = 0;
@@ -65,21 +65,36 @@ static bits show(crew *w, real part, real time)
     return w->signals(w->constants, state, w->inputs, w->shown);
 }
 
-static real weights_now(const crew *w, bits lanes)
+/* Find how long the outputs stand for the motion, and how long after the ones before they come. */
+static real weights_now(const crew *w, bits lanes, real *lapse)
 {
     real weight = {0.0};
+    *lapse = weight;
     for (int i = 0; i < WIDTH; ++i) {
+        long output = w->output[i];
         if (lanes[i]) {
-            weight[i] = w->p->weights[w->output[i]];
+            weight[i] = w->p->weights[output];
+            (*lapse)[i] = output ? w->p->times[output] - w->p->times[output - 1] : 0.0;
         }
     }
     return weight;
 }
 
+/* Return which part of a straight line is above zero; none where it has no begin. */
+static real part_above(real from, real to)
+{
+    real nothing = {0.0}, part = (greater(from, nothing) + greater(to, nothing))
+        / (magnitude(from) + magnitude(to));
+    return choose(part > 0.0, part, nothing); /* nor a NaN */
+}
+
 static void reduce(crew *w, bits lanes)
 {
     const kt_problem *p = w->p;
-    real weight = p->reduction_count ? weights_now(w, lanes) : (real){0.0};
+    if (!p->reduction_count) {
+        return;
+    }
+    real lapse, weight = weights_now(w, lanes, &lapse);
     for (int i = 0; i < p->reduction_count; ++i) {
         const kt_reduction *r = &p->reductions[i];
         real value = w->shown[p->items[r->item]], kept = w->kept[i], next;
@@ -90,7 +105,8 @@ static void reduce(crew *w, bits lanes)
         case KT_FIRST: next = choose(kept == kept, kept, value); break;
         case KT_SUM: next = kept + weight * moved; break;
         case KT_SQUARES: next = kept + weight * (moved * moved); break;
-        default: next = choose(value > r->level, kept + weight, kept);
+        case KT_LAST: next = value; break;
+        default: next = kept + lapse * part_above(w->kept[r->origin] - r->level, value - r->level);
         }
         w->kept[i] = choose(lanes, next, kept);
     }
@@ -117,7 +133,7 @@ static void keep(crew *w, bits lanes)
             continue;
         }
         for (int i = 0; i < p->sample_count; ++i) {
-            long row = w->system[l] * p->sample_count + i;
+            long row = (w->system[l] - p->first_sampled) * p->sample_count + i;
             p->samples[row * p->time_count + w->output[l]] = w->shown[p->items[i]][l];
         }
         w->due[l] = due_time(p, ++w->output[l]);

@@ -29,6 +29,7 @@ class End(IntEnum):
     DEAD_POINT = 4
     SMALL_STEP = 5
     MANY_STEPS = 6
+    STIFF = 7
 
 
 class Kind(IntEnum):
@@ -40,6 +41,7 @@ class Kind(IntEnum):
     SUM = 3
     SQUARES = 4
     ABOVE = 5
+    LAST = 6
 
 
 class Reduction(NamedTuple):
@@ -51,7 +53,8 @@ class Reduction(NamedTuple):
         Place among the items.
     kind : Kind
     origin : int
-        Of a sum: place of the reduction that keeps the first value, which comes before.
+        Of a sum: place of the reduction that keeps the first value, which comes before; of
+        `Kind.ABOVE`: that which keeps the last value, which comes behind.
     level : float
         Of `Kind.ABOVE`.
     """
@@ -143,8 +146,6 @@ class Outcome:
     finals : ndarray, shape (count, number of state elements)
         The state that was reached.
     steps : ndarray
-    samples : ndarray, shape (count, sample_count, times)
-        NaN behind the end of what did not come to an end.
     reduced : ndarray, shape (count, reductions)
     beyond : ndarray, shape (count, bounds)
         The value furthest beyond a bound; NaN where there is none.
@@ -157,7 +158,6 @@ class Outcome:
         self.ended = np.full(count, np.nan)
         self.finals = np.full((count, state_count), np.nan)
         self.steps = np.zeros(count, dtype=np.dtype(ctypes.c_long))
-        self.samples = np.full((count, wanted.sample_count, wanted.times.size), np.nan)
         self.reduced = np.full((count, len(wanted.reductions)), np.nan)
         self.beyond = np.full((count, bounds), np.nan)
 
@@ -220,9 +220,11 @@ class _Problem(ctypes.Structure):
         ("first_step", ctypes.c_double),
         ("max_step", ctypes.c_double),
         ("max_steps", ctypes.c_long),
+        ("stiff_after", ctypes.c_long),
         ("items", _INTS),
         ("sample_count", ctypes.c_int),
         ("samples", _DOUBLES),
+        ("first_sampled", ctypes.c_long),
         ("reduction_count", ctypes.c_int),
         ("reductions", ctypes.POINTER(_Reduction)),
         ("weights", _DOUBLES),
@@ -253,6 +255,8 @@ class Problem:
     accuracy : Accuracy
     width : int
         How many lanes.
+    stiff_after : int
+        So many steps are tried before a system that is stiff ends; 0: none ends for that.
     """
 
     model: System
@@ -260,6 +264,7 @@ class Problem:
     wanted: Wanted
     accuracy: Accuracy
     width: int
+    stiff_after: int = 0
     outcome: Outcome = field(init=False)
     _kept: list[Any] = field(init=False, default_factory=list)
     _c: _Problem = field(init=False)
@@ -273,16 +278,28 @@ class Problem:
             **self._of_accuracy(),
             **self._of_wanted(),
             **self._of_outcome(),
+            # the samples of some systems come with their integration
         )
         self._call = library.solver(self.width)
 
-    def integrate(self, first: int, last: int, stop: "ctypes.c_int") -> None:
-        """Integrate some of the systems; as soon as `stop` is not zero, no further."""
+    def integrate(self, first: int, last: int, stop: "ctypes.c_int") -> Array:
+        """Integrate some of the systems; as soon as `stop` is not zero, no further.
+
+        Returns
+        -------
+        ndarray, shape (last - first, sample_count, number of times)
+            The samples; NaN behind where a system ends.
+        """
+        wanted = self.wanted
+        samples = np.full((last - first, wanted.sample_count, wanted.times.size), np.nan)
+        own = _Problem.from_buffer_copy(self._c)
+        own.samples, own.first_sampled = samples.ctypes.data_as(_DOUBLES), first
         failed = self._call(
-            ctypes.byref(self._c), ctypes.c_long(first), ctypes.c_long(last), ctypes.byref(stop)
+            ctypes.byref(own), ctypes.c_long(first), ctypes.c_long(last), ctypes.byref(stop)
         )
         if failed:
             raise MemoryError
+        return samples
 
     # -- arrays of C ------------------------------------------------------------------------------
 
@@ -370,6 +387,7 @@ class Problem:
             "first_step": accuracy.first_step or 0.0,
             "max_step": accuracy.max_step,
             "max_steps": accuracy.max_steps,
+            "stiff_after": self.stiff_after,
         }
 
     def _of_wanted(self) -> dict[str, Any]:
@@ -393,7 +411,6 @@ class Problem:
     def _of_outcome(self) -> dict[str, Any]:
         outcome = self.outcome
         return {
-            "samples": self._doubles(outcome.samples),
             "reduced": self._doubles(outcome.reduced),
             "beyond": self._doubles(outcome.beyond),
             "ends": self._ints(outcome.ends),

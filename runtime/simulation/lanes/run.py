@@ -5,13 +5,19 @@ import os
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 
+import numpy as np
+from numpy.typing import NDArray
+
 from .problem import Problem
 
 Report = Callable[[int], None]
+Finish = Callable[[int, int, NDArray[np.float64], Callable[[], bool]], None]
 
 # Systems that a thread takes at a time: so many that lanes which have nothing left to do at their
 # end are little beside them, and so few that all threads end together.
 _FEWEST, _MOST, _PARTS = 64, 2048, 8
+# Samples that a thread holds at a time, with which many systems would fill the memory [bytes].
+_SAMPLES = 2**23
 # How long the main thread waits before it looks at signals and tells how far it is [s].
 _PATIENCE = 0.1
 
@@ -23,7 +29,7 @@ def usual_threads() -> int:
     return os.cpu_count() or 1
 
 
-def run(problem: Problem, threads: int, report: Report | None = None) -> None:
+def run(problem: Problem, threads: int, finish: Finish, report: Report | None = None) -> None:
     """Integrate all systems of a problem; an interruption ends all threads at once.
 
     Parameters
@@ -31,15 +37,25 @@ def run(problem: Problem, threads: int, report: Report | None = None) -> None:
     problem : Problem
         Its outcome is filled.
     threads : int
+    finish : callable
+        Called with the first of some systems and the one behind the last, their samples, and what
+        tells whether the caller wants an end; from several threads at a time, with systems of their
+        own.
     report : callable, optional
         Called with how many systems have been integrated, now and then.
     """
     stop = ctypes.c_int(0)
+
+    def part(first: int, last: int) -> None:
+        samples = problem.integrate(first, last, stop)
+        if not stop.value:
+            finish(first, last, samples, lambda: bool(stop.value))
+
     with ThreadPoolExecutor(threads) as pool:
         try:
             waiting = {
-                pool.submit(problem.integrate, first, last, stop): last - first
-                for first, last in _chunks(problem.systems.count, threads)
+                pool.submit(part, first, last): last - first
+                for first, last in _chunks(problem, threads)
             }
             _wait_for(waiting, report)
         except BaseException:
@@ -58,7 +74,10 @@ def _wait_for(waiting: dict[Future[None], int], report: Report | None) -> None:
             report(done)
 
 
-def _chunks(count: int, threads: int) -> Iterator[tuple[int, int]]:
+def _chunks(problem: Problem, threads: int) -> Iterator[tuple[int, int]]:
+    count, wanted = problem.systems.count, problem.wanted
     size = min(max(count // (threads * _PARTS), _FEWEST), _MOST)
+    of_one = 8 * wanted.sample_count * wanted.times.size
+    size = min(size, max(_SAMPLES // max(of_one, 1), problem.width))
     for first in range(0, count, size):
         yield first, min(first + size, count)

@@ -32,4 +32,5 @@ def integrate(
     terminal: NDArray[np.int32],
     guards: NDArray[np.int32],
     usual_margins: Array,
+    stopped: Callable[[], bool] | None = None,
 ) -> dict[str, Any]: ...

@@ -79,6 +79,7 @@ cdef extern from "integrate.h" nogil:
         int refused_guard
         double refused_time
         double *refused_state
+        double longest_step
         int code
     int kt_integrate(const kt_problem *, const kt_options *, const double *, const double *, long,
                      int, kt_result *)
@@ -86,11 +87,11 @@ cdef extern from "integrate.h" nogil:
     const char *kt_version()
 
 OUTCOMES = (
-    "done", "event", "state", "too_many_steps", "too_accurate", "caller", "bad_table", "memory",
+    "done", "event", "state", "too_many_steps", "too_accurate", "caller", "unstable", "bad_table", "memory",
     "failed",
 )
-METHODS = {"BDF": 0, "Adams": 1, "DormandPrince": 2}
-RUNGE_KUTTA = 3
+METHODS = {"BDF": 0, "Adams": 1, "DormandPrince": 2, "RK4": 3}
+RUNGE_KUTTA = 4
 
 
 def version():
@@ -103,10 +104,12 @@ cdef class _Roots:
 
     cdef list functions
     cdef int state_count
+    cdef object stopped
     cdef object error
 
-    def __init__(self, functions, state_count):
+    def __init__(self, functions, state_count, stopped):
         self.functions = list(functions)
+        self.stopped = stopped
         self.state_count = state_count
         self.error = None
 
@@ -130,6 +133,8 @@ cdef int _interrupted(void *data) noexcept with gil:
     cdef _Roots roots = <_Roots> data
     try:
         PyErr_CheckSignals()
+        if roots.stopped is not None and roots.stopped(): # in a thread, which sees no signals
+            raise KeyboardInterrupt
     except BaseException as error:
         roots.error = error
         return 1
@@ -151,7 +156,7 @@ def integrate(
     const double[::1] atol, double first_step, double max_step, long max_steps,
     bint every_step, bint stop_at_outputs, bint dense, int signal_count, events, roots,
     const int[::1] directions, const int[::1] terminal, const int[::1] guards,
-    const double[::1] usual_margins,
+    const double[::1] usual_margins, stopped=None,
 ):
     """Integrate; ``integrate.h`` explains the arguments, `kintrafo.simulation.solvers` uses the result."""
     cdef kt_problem problem
@@ -159,7 +164,7 @@ def integrate(
     cdef kt_result result
     cdef int outcome
     cdef int n = state.shape[0]
-    cdef _Roots caller = _Roots(roots, n)
+    cdef _Roots caller = _Roots(roots, n, stopped)
     cdef const double[::1] breaks
     cdef const double[:, ::1] coefficients
     cdef kt_spline *spline_array = <kt_spline *> calloc(len(splines) + 1, sizeof(kt_spline))
@@ -236,6 +241,7 @@ def integrate(
                 "refused_time": result.refused_time,
                 "refused_state": [result.refused_state[i] for i in range(n)]
                 if result.refused_state != NULL else [],
+                "longest_step": result.longest_step,
                 "code": result.code,
             }
         finally:

@@ -3,6 +3,7 @@
  * finds events without an evaluation more.
  */
 #include "dormand_prince.h"
+#include "polynomial.h"
 #include "worker.h"
 
 #include <math.h>
@@ -254,17 +255,7 @@ static int interpolate(worker *w, double time, int derivative, double *out)
     if (!m->fitted) {
         fit(w);
     }
-    for (int i = 0; i < n; ++i) {
-        double value = 0.0;
-        for (int k = TERMS - 1; k >= derivative; --k) {
-            double factor = 1.0;
-            for (int j = 0; j < derivative; ++j) {
-                factor *= (k - j) / step;
-            }
-            value = value * part + factor * m->terms[k * n + i];
-        }
-        out[i] = value;
-    }
+    kt_interpolate(m->terms, TERMS, n, part, step, derivative, out);
     return 0;
 }
 

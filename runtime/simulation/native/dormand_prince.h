@@ -19,6 +19,11 @@
 #define LOG2_LEAST_SQUARE (-26.5754248)
 /* of 1e-2, what the first step would err by if the error grew with the rates; in parts of the tolerance. */
 #define LOG2_FIRST (-6.6438562)
+/* How long a step is stable, times the rate of the fastest motion; it is stiff when so many steps are at that */
+/* limit, and so many in a row that are not begin the count anew. */
+#define STABLE 3.25
+#define OFTEN_STIFF 15
+#define OFTEN_CALM 6
 /* Part of the time below which a step is one of rounding. */
 #define ROUNDING 4.0e-16
 

@@ -114,7 +114,7 @@ int kt_roots(worker *w, double time, const double *state, double *out)
 
 static const kt_solver *const SOLVERS[] = {
     [KT_BDF] = &kt_cvode, [KT_ADAMS] = &kt_cvode, [KT_DORMAND_PRINCE] = &kt_dormand_prince,
-    [KT_RUNGE_KUTTA] = &kt_erk,
+    [KT_RK4] = &kt_rk4, [KT_RUNGE_KUTTA] = &kt_erk,
 };
 
 static int set_up(worker *w, const double *state, double start)
@@ -181,6 +181,9 @@ static int explain(worker *w, int code)
     r->code = code;
     if (w->caller_failed) {
         return KT_CALLER;
+    }
+    if (code == KT_UNSTABLE_STEP) {
+        return KT_UNSTABLE;
     }
     if (code == w->solver->too_accurate) {
         return KT_TOO_ACCURATE;

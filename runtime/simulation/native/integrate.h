@@ -56,7 +56,7 @@ typedef struct {
     void *interrupted_data;
 } kt_problem;
 
-enum kt_method { KT_BDF, KT_ADAMS, KT_DORMAND_PRINCE, KT_RUNGE_KUTTA };
+enum kt_method { KT_BDF, KT_ADAMS, KT_DORMAND_PRINCE, KT_RK4, KT_RUNGE_KUTTA };
 
 typedef struct {
     int method;
@@ -64,7 +64,7 @@ typedef struct {
     double rtol;
     const double *atol;
     double first_step; /* 0: chosen by the solver */
-    double max_step;   /* 0: unlimited */
+    double max_step;   /* 0: unlimited; of KT_RK4 that of all steps */
     long max_steps;
     int stop_at_outputs; /* step onto every output instead of interpolating */
     int dense;           /* keep the polynomial of every step */
@@ -89,6 +89,7 @@ enum kt_outcome {
     KT_TOO_MANY_STEPS,
     KT_TOO_ACCURATE,    /* the tolerances are below what the arithmetic can do */
     KT_CALLER,          /* a root function gave up, or the caller wants an end */
+    KT_UNSTABLE,        /* steps of one length are too long: see longest_step */
     KT_BAD_TABLE,       /* the installed SUNDIALS has no such Runge-Kutta table */
     KT_MEMORY,
     KT_FAILED           /* anything else: see code */
@@ -105,6 +106,7 @@ typedef struct {
     int refused_guard; /* the guard at whose dead point the motion ends; -1: none */
     double refused_time;
     double *refused_state;
+    double longest_step; /* the longest that is stable, where one is not */
     int code;          /* of the solver, as SUNDIALS has them */
 } kt_result;
 

@@ -11,8 +11,8 @@
 
 #include <time.h>
 
-/* What solvers return where they give up: what SUNDIALS returns in the same cases. */
-enum { KT_TOO_SMALL = -3, KT_REFUSED = -8, KT_NO_ROOTS = -12, KT_FLAT = -22 };
+/* What solvers return where they give up: what SUNDIALS returns in the same cases, if it knows them. */
+enum { KT_TOO_SMALL = -3, KT_REFUSED = -8, KT_NO_ROOTS = -12, KT_FLAT = -22, KT_UNSTABLE_STEP = -1000 };
 
 /*
  * A solver; w->own is its memory, and w->y the state at the time that it has returned last. Lengths of
@@ -34,7 +34,7 @@ typedef struct {
     int too_accurate; /* the code that says that tolerances are below what the arithmetic can do */
 } kt_solver;
 
-extern const kt_solver kt_cvode, kt_erk, kt_dormand_prince;
+extern const kt_solver kt_cvode, kt_erk, kt_dormand_prince, kt_rk4;
 
 struct worker {
     const kt_problem *problem;

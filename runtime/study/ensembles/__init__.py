@@ -4,6 +4,9 @@
 `variants`    what each system has of its own
 `drives`      what inputs do over time
 `wanted`      signals and reductions that are kept, and the bounds that are watched
+`series`      percentiles and spectra of whole series
+`again`       systems that an explicit method cannot do
+`collected`   what stays of systems as soon as they are done
 `results`     a labelled dataset of what came of it
 """
 

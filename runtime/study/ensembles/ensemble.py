@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from contextlib import nullcontext
 from dataclasses import replace
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import xarray as xr
@@ -18,6 +18,8 @@ from ...simulation.lanes.run import run, usual_threads
 from ...simulation.validity import bounds_of
 from ...systems.state import inputs_of
 from ...systems.system import System
+from .again import Again
+from .collected import Collected
 from .drives import Drives, drives_of
 from .results import dataset_of
 from .variants import Variants, impossible_sets, variants_of
@@ -26,6 +28,9 @@ from .wanted import Asked, asked_of
 Array = NDArray[np.float64]
 
 _OUTPUTS = 201
+# Steps in lanes that cost about what BDF does for a system: what is stiff is tried for so long.
+# ``make benchmark-stiff`` measures both.
+_STIFF_AFTER = 10_000
 _MOST_THREADS = 1024
 
 
@@ -44,6 +49,7 @@ def ensemble(
     max_step: float = np.inf,
     first_step: float | None = None,
     max_steps: int = 1_000_000,
+    stiff: Literal["BDF"] | None = "BDF",
     threads: int | None = None,
     lanes: int | None = None,
     progress: bool = False,
@@ -71,9 +77,11 @@ def ensemble(
     signals : sequence of str, optional
         Signals, or elements of the state, that are kept at the times ``t_eval``.
     reductions : mapping, optional
-        What is kept of signals in one number, over the times ``t_eval``: 'max', 'min', 'mean',
-        'rms' (about the mean), or ('above', level) for the time above a level; one or a list of
-        them for each signal.
+        What is kept of signals, over the times ``t_eval``: 'max', 'min', 'mean', 'rms' (about the
+        mean); ('above', level), the time for which the straight lines between the outputs are
+        above a level; ('percentile', percent) of the outputs, between two of them by the straight
+        line; or the power spectral density by Welch's method, 'psd' or ('psd', outputs in a
+        segment), over ``frequency``. One or a list of them for each signal.
     t_eval : array_like, optional
         Times of the outputs, by default 201 from the first to the last.
     rtol, atol : float, array_like, optional
@@ -81,7 +89,11 @@ def ensemble(
     max_step, first_step : float, optional
         [s]
     max_steps : int, optional
-        A system that takes more ends with a reason.
+        A system that takes more ends with a reason, or is done again, see `stiff`.
+    stiff : str or None, optional
+        By default, what the explicit method cannot do within its steps, and what is stiff after
+        10,000 of them, is done again by 'BDF' of `kintrafo.simulate`. With None it ends with a
+        reason, and stability is not asked for.
     threads : int, optional
         By default as many as there are cores.
     lanes : int, optional
@@ -93,7 +105,8 @@ def ensemble(
     -------
     xarray.Dataset
         Over the dimensions of the variants: the signals over ``time``, the reductions,
-        ``final_state``, ``end_time``, ``steps``; ``success``, and ``reason`` where that is false;
+        ``final_state``, ``end_time``, ``steps``, and by which ``solver`` they were found;
+        ``success``, and ``reason`` where that is false;
         ``valid`` where besides no output passes a bound of what the model describes, and what was
         passed in ``beyond``. What did not reach the end has NaN from there on, and in its
         reductions.
@@ -106,7 +119,9 @@ def ensemble(
 
     Notes
     -----
-    The method is an explicit one. Friction and stops, which are stiff, take it many steps.
+    The method is an explicit one. Friction and stops, which are stiff, take it many steps: such
+    systems go to BDF, by the same tolerances, inputs and times. ``rtol`` and ``atol`` are those of
+    an explicit method by default; BDF damps what swings by a part of its error.
 
     Examples
     --------
@@ -142,16 +157,20 @@ def ensemble(
             cores = given.whole("threads", cores, most=_MOST_THREADS)
             width = _width(given, model, lanes)
             given.flag("progress", progress)
+            if stiff is not None:
+                given.among("stiff", stiff, ["BDF"])
     own = variants_of(model, variants, courses, None if len(state) == 1 else len(state))
     _check_together(model, y0, courses, own, asked)
     held = inputs_of(y0, model.names_of_states)
     drives = drives_of(model, courses, own, span, held=held, max_step=accuracy.max_step)
     asked = replace(asked, bounds=tuple(bounds_of(model, own.parameters)))
     systems = _systems(model, own, state, drives)
-    problem = Problem(model, systems, asked.for_c(model), accuracy, width)
+    stiff_after = _STIFF_AFTER if stiff else 0
+    problem = Problem(model, systems, asked.for_c(model), accuracy, width, stiff_after)
+    collected = Collected(problem, asked, Again(problem) if stiff else None)
     with _shown_progress(own.count, wanted=progress) as report:
-        run(problem, cores, report)
-    return dataset_of(model, own, asked, problem.outcome, accuracy.max_steps)
+        run(problem, cores, collected, report)
+    return dataset_of(model, own, collected)
 
 
 # -- arguments ------------------------------------------------------------------------------------

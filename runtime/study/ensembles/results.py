@@ -10,19 +10,19 @@ from numpy.typing import NDArray
 from ...core.quantities import variable
 from ...equations.errors import ModelError
 from ...equations.status import NOT_FINITE, bit_of
-from ...simulation.lanes.problem import End, Outcome
+from ...simulation.lanes.problem import End
 from ...systems.system import System
-from .variants import BOUND, STATE, TIME, Variants
-from .wanted import Asked
+from .collected import Collected
+from .series import frequencies
+from .variants import BOUND, FREQUENCY, STATE, TIME, Variants
 
 Data = dict[Hashable, Any]
 
 
-def dataset_of(
-    model: System, variants: Variants, asked: Asked, outcome: Outcome, max_steps: int
-) -> xr.Dataset:
+def dataset_of(model: System, variants: Variants, collected: Collected) -> xr.Dataset:
     """Return everything by name, over the dimensions of the variants."""
-    reasons = _reasons(model, variants, outcome, max_steps)
+    asked, outcome = collected.asked, collected.problem.outcome
+    reasons = _reasons(model, variants, collected)
     done = outcome.ends == End.DONE
     passed = np.isfinite(outcome.beyond).any(axis=1)
     shape = tuple(variants.shape.values())
@@ -38,17 +38,22 @@ def dataset_of(
         "reason": wide(reasons, "why the end of the time was not reached", "1"),
         "end_time": wide(outcome.ended, "time that was reached", "s"),
         "steps": wide(outcome.steps, "steps that were taken", "1"),
+        "solver": wide(collected.solvers, "method by which this was found", "1"),
         "final_state": wide(outcome.finals, "state that was reached", "SI", STATE),
         "beyond": wide(outcome.beyond, "value furthest beyond a bound, if passed", "SI", BOUND),
     }
     described = {**model.equations.SIGNALS, **model.equations.STATE}
     for place, name in enumerate(asked.signals):
         entry = described[name]
-        values = outcome.samples[:, place]
+        values = collected.samples[:, place]
         data[name] = wide(values, entry["meaning"], entry["unit"], TIME)
-    for reduced, values in asked.reductions(outcome):
-        unit = "s" if reduced.kind == "above" else described[reduced.signal]["unit"]
-        data[reduced.name] = wide(values, reduced.words, unit)
+    for reduced, values in [*asked.on_the_way(outcome), *collected.of_series.items()]:
+        unit = reduced.unit(described[reduced.signal]["unit"])
+        more = (FREQUENCY,) if reduced.kind == "psd" else ()
+        data[reduced.name] = wide(values, reduced.words, unit, *more)
+        if more:
+            known = frequencies(asked.times, int(reduced.level))
+            data[FREQUENCY] = variable(FREQUENCY, known, "frequency", "Hz")
     coordinates = {
         **variants.coordinates,
         TIME: variable(TIME, asked.times, "time", "s"),
@@ -56,6 +61,7 @@ def dataset_of(
         BOUND: np.array([f"{b.signal}: {b.words}" for b in asked.bounds], dtype=str),
         **_varied(model, variants, wide),
     }
+    coordinates |= {FREQUENCY: data.pop(FREQUENCY)} if FREQUENCY in data else {}
     attributes = {"title": "ensemble of simulations", "message": _message(done, passed)}
     return xr.Dataset(data, coordinates, attributes)
 
@@ -88,10 +94,10 @@ def _message(done: NDArray[np.bool_], passed: NDArray[np.bool_]) -> str:
 # -- reasons --------------------------------------------------------------------------------------
 
 
-def _reasons(
-    model: System, variants: Variants, outcome: Outcome, max_steps: int
-) -> NDArray[np.object_]:
+def _reasons(model: System, variants: Variants, collected: Collected) -> NDArray[np.object_]:
     """Say why systems did not reach the end: nothing for those that did."""
+    outcome = collected.problem.outcome
+    max_steps = collected.problem.accuracy.max_steps
     reasons = np.full(outcome.ends.size, "", dtype=object)
     told: dict[tuple[int, int], str] = {}
     for place in np.flatnonzero(outcome.ends != End.DONE).tolist():
@@ -102,6 +108,8 @@ def _reasons(
         if (end, code) not in told:
             told[end, code] = _told(model, end, code, max_steps)
         reasons[place] = f"at t = {outcome.ended[place]:.6g} s: {told[end, code]}"
+        if collected.reasons.get(place):
+            reasons[place] += f" Nor can BDF do it: {collected.reasons[place]}"
     return reasons
 
 
@@ -123,6 +131,8 @@ def _told(model: System, end: End, code: int, max_steps: int) -> str:
         return f"{'; '.join(found)}. Try another initial state, or smaller forces."
     if end is End.SMALL_STEP:
         return "steps became too small, since the error stays too large. Loosen rtol and atol."
+    if end is End.STIFF:
+        return "it is stiff: stability, not accuracy, limits the steps of an explicit method."
     return f"more than {max_steps} steps. Raise max_steps, or loosen rtol."
 
 

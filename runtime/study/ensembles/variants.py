@@ -19,10 +19,10 @@ Array = NDArray[np.float64]
 CAR = "car"
 """Name of the dimension of what is given as plain rows of numbers."""
 
-TIME, STATE, BOUND = "time", "state_element", "bound"
+TIME, STATE, BOUND, FREQUENCY = "time", "state_element", "bound", "frequency"
 """Dimensions of what is kept of each."""
 
-RESULTS = ("success", "valid", "reason", "end_time", "steps", "final_state", "beyond")
+RESULTS = ("success", "valid", "reason", "end_time", "steps", "solver", "final_state", "beyond")
 """What is said of each, whatever is asked for."""
 
 # What the parameters of a body's mass are called, behind its name.
@@ -203,7 +203,7 @@ def _check_coordinates(
     """Refuse dimensions and coordinates that are called as results are."""
     arrays = [given] if isinstance(given, xr.Dataset) else [*(given or {}).values()]
     labelled = [a for a in arrays if isinstance(a, xr.Dataset | xr.DataArray)]
-    taken = {TIME, STATE, BOUND, *RESULTS, *model.signal_names}
+    taken = {TIME, STATE, BOUND, FREQUENCY, *RESULTS, *model.signal_names}
     if isinstance(given, xr.Dataset):
         _check_dimensions(arguments, model, given, columns)
     for name in {str(n) for a in labelled for n in (*a.dims, *a.coords)} & taken:

@@ -11,15 +11,18 @@ from ...core.arguments import Arguments, shown
 from ...simulation.lanes.problem import Kind, Outcome, Reduction, Wanted
 from ...simulation.validity import Bound
 from ...systems.system import System
+from .series import LEAST_SEGMENT, USUAL_SEGMENT, uniform_step
 
 Array = NDArray[np.float64]
 
-REDUCTIONS = ("max", "min", "mean", "rms", "above")
+ON_THE_WAY = ("max", "min", "mean", "rms", "above")
+OF_SERIES = ("percentile", "psd")
+REDUCTIONS = (*ON_THE_WAY, *OF_SERIES)
 
 
 @dataclass(frozen=True)
 class Reduced:
-    """A number that is kept of a signal.
+    """What is kept of a signal: a number, or of 'psd' one for each frequency.
 
     Attributes
     ----------
@@ -27,7 +30,7 @@ class Reduced:
     kind : str
         One of `REDUCTIONS`.
     level : float
-        Of 'above'.
+        Of 'above'; which percentile; or how many outputs a segment of 'psd' has.
     """
 
     signal: str
@@ -37,11 +40,11 @@ class Reduced:
     @property
     def name(self) -> str:
         """What the variable of the dataset is called."""
-        if self.kind != "above":
+        if self.kind not in ("above", "percentile"):
             return f"{self.signal}_{self.kind}"
         short = f"{self.level:g}"
         exact = short if float(short) == self.level else repr(self.level)
-        return f"{self.signal}_above_{exact}"
+        return f"{self.signal}_{self.kind}_{exact}"
 
     @property
     def words(self) -> str:
@@ -52,8 +55,18 @@ class Reduced:
             "mean": "mean of {} over time",
             "rms": "root of the mean square of {}, about its mean",
             "above": "time for which {} is above {:g}",
+            "percentile": "value of {} that {:g} % of the outputs are below",
+            "psd": "power spectral density of {}, one-sided",
         }
         return texts[self.kind].format(self.signal, self.level)
+
+    def unit(self, unit: str) -> str:
+        """Return its unit, by that of the signal."""
+        if self.kind == "psd":
+            plain = {"1": "1/Hz"}
+            alone = f"({unit})" if set(unit) & set(" /^*") else unit
+            return plain.get(unit, f"{alone}^2/Hz")
+        return "s" if self.kind == "above" else unit
 
 
 @dataclass(frozen=True)
@@ -78,8 +91,18 @@ class Asked:
 
     @property
     def items(self) -> tuple[str, ...]:
-        """All signals that are looked at, those that are kept at all times first."""
-        return tuple(dict.fromkeys([*self.signals, *(r.signal for r in self.reduced)]))
+        """All signals that are looked at, those first of which whole series are needed."""
+        return tuple(dict.fromkeys([*self.sampled, *(r.signal for r in self.reduced)]))
+
+    @property
+    def of_series(self) -> tuple[Reduced, ...]:
+        """What is found of whole series, when a motion is done."""
+        return tuple(r for r in self.reduced if r.kind in OF_SERIES)
+
+    @property
+    def sampled(self) -> tuple[str, ...]:
+        """Signals of which whole series are needed, those that are kept first."""
+        return tuple(dict.fromkeys([*self.signals, *(r.signal for r in self.of_series)]))
 
     @property
     def weights(self) -> Array:
@@ -92,7 +115,7 @@ class Asked:
         """Return what is kept on the way, each once, in the order in which C keeps it."""
         found: dict[tuple[str, Kind, float], int] = {}
         for reduced in self.reduced:
-            for kind in _KEPT[reduced.kind]:
+            for kind in _KEPT.get(reduced.kind, ()):
                 found.setdefault((reduced.signal, kind, reduced.level), len(found))
         return found
 
@@ -104,9 +127,9 @@ class Asked:
         return Wanted(
             times=self.times,
             items=np.array([names.index(item) for item in items], dtype=np.int32),
-            sample_count=len(self.signals),
+            sample_count=len(self.sampled),
             reductions=[
-                Reduction(items.index(s), kind, places.get((s, Kind.FIRST, level), 0), level)
+                Reduction(items.index(s), kind, places.get((s, _ORIGIN[kind], level), 0), level)
                 for s, kind, level in places
             ],
             weights=self.weights,
@@ -115,8 +138,8 @@ class Asked:
             limits=np.stack(np.broadcast_arrays(*limits), axis=-1) if limits else np.zeros((1, 0)),
         )
 
-    def reductions(self, outcome: Outcome) -> Iterator[tuple[Reduced, Array]]:
-        """Yield what was asked for, from what C has kept."""
+    def on_the_way(self, outcome: Outcome) -> Iterator[tuple[Reduced, Array]]:
+        """Yield what was asked for and found on the way, from what C has kept."""
         places, total = self.places(), float(self.times[-1] - self.times[0])
 
         def kept(reduced: Reduced, kind: Kind) -> Array:
@@ -124,6 +147,8 @@ class Asked:
             return column
 
         for reduced in self.reduced:
+            if reduced.kind in OF_SERIES:
+                continue
             if reduced.kind in ("mean", "rms"):
                 moved = kept(reduced, Kind.SUM) / total
                 if reduced.kind == "mean":
@@ -141,33 +166,87 @@ _KEPT = {
     "min": (Kind.LEAST,),
     "mean": (Kind.FIRST, Kind.SUM),
     "rms": (Kind.FIRST, Kind.SUM, Kind.SQUARES),
-    "above": (Kind.ABOVE,),
+    "above": (Kind.ABOVE, Kind.LAST),
 }
+# What each of them is reckoned from.
+_ORIGIN = dict.fromkeys(Kind, Kind.FIRST) | {Kind.ABOVE: Kind.LAST}
 
 
 def asked_of(given: Arguments, model: System, times: Array, signals: Any, reductions: Any) -> Asked:
     """Check what was asked for; the bounds are not known yet."""
     known = (*model.signal_names, *model.state_names)
+    described = {**model.equations.SIGNALS, **model.equations.STATE}
     names = given.names("signals", signals, known)
     reduced = []
     for signal, kinds in given.mapping("reductions", reductions, "signals, kinds").items():
         given.among("signal in reductions", signal, known)
         listed = kinds if isinstance(kinds, list) else [kinds]
-        reduced += [_reduced(given, str(signal), kind) for kind in listed]
+        unit = described.get(signal, {}).get("unit", "")
+        reduced += [_reduced(given, str(signal), kind, unit) for kind in listed]
+    _check_spectra(given, times, {r.level for r in reduced if r.kind == "psd"})
     if reduced and times.size < 2:
         given.refuse("reductions are over time: t_eval needs two times or more.")
     return Asked(times, tuple(dict.fromkeys(names)), tuple(dict.fromkeys(reduced)), ())
 
 
-def _reduced(given: Arguments, signal: str, kind: Any) -> Reduced:
-    if isinstance(kind, tuple) and len(kind) == 2 and shown(kind[0]) == "'above'":
-        return Reduced(signal, "above", given.number(f"level of {signal!r}", kind[1]))
+def _check_spectra(given: Arguments, times: Array, segments: set[float]) -> None:
+    """Refuse times of which there are no spectra, and segments that do not fit them."""
+    if not segments or given.refused:
+        return
+    if len(segments) > 1:
+        lengths = ", ".join(f"{length:g}" for length in sorted(segments))
+        given.refuse(
+            f"reductions: segments of 'psd' have {lengths} outputs; they need one length, "
+            "since the results have one row of frequencies."
+        )
+    if times.size < max(segments):
+        given.refuse(
+            f"reductions: a segment of 'psd' has {max(segments):g} outputs, and t_eval has "
+            f"{times.size}: ask for more times, or for shorter segments, ('psd', {times.size})."
+        )
+    elif uniform_step(times) is None:
+        steps = np.diff(times)
+        given.refuse(
+            f"t_eval: 'psd' needs times at equal distances, and these are {steps.min():g} s to "
+            f"{steps.max():g} s. numpy.linspace has such times."
+        )
+
+
+def _reduced(given: Arguments, signal: str, kind: Any, unit: str) -> Reduced:
+    if isinstance(kind, tuple) and len(kind) == 2 and isinstance(kind[0], str):
+        return _with_value(given, signal, *kind, unit)
     if not isinstance(kind, str):
         given.refuse(
             f"reductions {signal!r}: {shown(kind)} is none; there are {', '.join(REDUCTIONS)}."
         )
         return Reduced(signal, "max")
+    if kind in _EXAMPLES:
+        given.refuse(f"reductions {signal!r}: {kind!r} needs {_EXAMPLES[kind]}.")
+        return Reduced(signal, "max")
+    found = given.among(f"reduction of {signal!r}", kind, REDUCTIONS)
+    return Reduced(signal, found, USUAL_SEGMENT if found == "psd" else 0.0)
+
+
+_EXAMPLES = {
+    "above": "a level, ('above', 0.0)",
+    "percentile": "a number of 0 to 100, ('percentile', 95.0)",
+}
+
+
+def _with_value(given: Arguments, signal: str, kind: str, value: Any, unit: str) -> Reduced:
+    """Check a kind that has a level, or another number."""
+    told = getattr(value, "attrs", {}).get("units")
+    number, wanted = f"{kind!r} of {signal!r}", {"above": unit, "percentile": "%"}.get(kind, "1")
+    if told is not None and told != wanted:
+        given.refuse(f"{number} is in {shown(told)}: it is needed in {wanted!r}.")
     if kind == "above":
-        given.refuse(f"reductions {signal!r}: 'above' needs a level, ('above', 0.0).")
-        return Reduced(signal, "above")
-    return Reduced(signal, given.among(f"reduction of {signal!r}", kind, REDUCTIONS))
+        return Reduced(signal, kind, given.number(number, value, unit))
+    if kind == "percentile":
+        percent = given.number(number, value, "%", least=0.0)
+        if percent > 100.0:
+            given.refuse(f"{number} = {percent:g} %: a number from 0 % to 100 % is needed.")
+        return Reduced(signal, kind, percent)
+    if kind == "psd":
+        return Reduced(signal, kind, float(given.whole(number, value, least=LEAST_SEGMENT)))
+    given.refuse(f"reductions {signal!r}: {kind!r} takes no number, or is not known.")
+    return Reduced(signal, "max")

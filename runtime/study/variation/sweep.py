@@ -199,7 +199,9 @@ class _Cars:
     def over_the_grid(self, found: xr.Dataset) -> xr.Dataset:
         """Bring what came of the suspensions that can be onto the grid."""
         found = found.drop_vars([*self.variants()])
-        nothing: dict[Any, Any] = {"success": False, "valid": False, "reason": "", "steps": 0}
+        nothing: dict[Any, Any] = {
+            "success": False, "valid": False, "reason": "", "solver": "", "steps": 0
+        }  # fmt: skip
         filled = found.assign_coords({_CAR: [*self._starts]}).reindex(
             {_CAR: np.arange(self.count)}, fill_value=nothing | dict.fromkeys(
                 set(found.data_vars) - set(nothing), np.nan

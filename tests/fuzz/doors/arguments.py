@@ -95,9 +95,9 @@ CALLS = {
         kintrafo.simulate,
         {
             "model": _CAR, "t_span": _SPAN, "y0": _REST, "inputs": {"road_height": 0.01},
-            "method": "BDF", "t_eval": None, "rtol": 1e-6, "atol": 1e-9, "max_step": np.inf,
-            "first_step": None, "max_steps": 10_000, "dense_output": False, "events": None,
-            "stop_at_outputs": False, "backend": "auto",
+            "method": "BDF", "step": None, "t_eval": None, "rtol": 1e-6, "atol": 1e-9,
+            "max_step": np.inf, "first_step": None, "max_steps": 10_000, "dense_output": False,
+            "events": None, "stop_at_outputs": False, "backend": "auto",
         },
     ),
     "ensemble": (
@@ -106,8 +106,8 @@ CALLS = {
             "model": _CAR, "variants": {"damper_rate": [1000.0, 2000.0]}, "t_span": _SPAN,
             "y0": _REST, "inputs": {"road_height": 0.01}, "signals": ["camber"],
             "reductions": {"camber": "max"}, "t_eval": None, "rtol": 1e-6, "atol": 1e-9,
-            "max_step": np.inf, "first_step": None, "max_steps": 1000, "threads": 1,
-            "lanes": None, "progress": False,
+            "max_step": np.inf, "first_step": None, "max_steps": 1000, "stiff": "BDF",
+            "threads": 1, "lanes": None, "progress": False,
         },
     ),
     "variants": (

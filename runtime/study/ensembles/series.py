@@ -1,0 +1,77 @@
+"""What is found of whole series of outputs: percentiles, and spectra by Welch's method.
+
+Each series is reckoned by itself, by the same operations in the same order: the bits do not
+depend on the series beside it.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import welch
+
+Array = NDArray[np.float64]
+
+USUAL_SEGMENT, LEAST_SEGMENT = 256, 8
+"""Outputs in a segment of a spectrum: as SciPy has them, and the fewest that tell anything."""
+
+# Parts of a step by which times may be off; a spectrum is off by less than that part.
+_OFF = 1e-6
+# Series that a transform takes together: always as many, since how it groups them depends on that.
+_TOGETHER = 64
+
+
+def uniform_step(times: Array) -> float | None:
+    """Return the distance of times that are at equal distances [s]; None for others."""
+    step = (times[-1] - times[0]) / (times.size - 1)
+    off = np.abs(times - (times[0] + step * np.arange(times.size))).max()
+    return float(step) if off <= _OFF * step else None
+
+
+def frequencies(times: Array, segment: int) -> Array:
+    """Return the frequencies of a spectrum, from zero to half of the rate of the outputs [Hz]."""
+    step = uniform_step(times)
+    assert step is not None  # the arguments have been checked
+    return np.arange(segment // 2 + 1) / (segment * step)
+
+
+def spectra(series: Array, times: Array, segment: int) -> Array:
+    """Return one-sided power spectral densities by Welch's method.
+
+    Segments overlap by half, each without its mean and under Hann's window; their periodograms are
+    averaged: Welch, The use of fast Fourier transform for the estimation of power spectra, IEEE
+    Transactions on Audio and Electroacoustics 15 (1967).
+
+    Parameters
+    ----------
+    series : ndarray, shape (count, number of times)
+    times : ndarray
+        At equal distances [s].
+    segment : int
+        Outputs in one.
+
+    Returns
+    -------
+    ndarray, shape (count, segment // 2 + 1)
+        The square of the unit of the series over Hz. Its integral over the frequencies is the
+        variance within the segments.
+    """
+    rate = 1.0 / (uniform_step(times) or np.nan)
+    found = np.empty((len(series), segment // 2 + 1))
+    together = np.zeros((_TOGETHER, times.size))
+    for first in range(0, len(series), _TOGETHER):
+        some = series[first : first + _TOGETHER]
+        together[: len(some)] = some
+        density = welch(
+            together, rate, window="hann", nperseg=segment, noverlap=segment // 2,
+            detrend="constant", scaling="density", return_onesided=True, axis=-1,
+        )[1]  # fmt: skip
+        found[first : first + len(some)] = density[: len(some)]
+    return found
+
+
+def percentile(series: Array, percent: float) -> Array:
+    """Return a percentile of each series, between two outputs by the straight line.
+
+    The series are in another order then, which saves a copy of them.
+    """
+    values: Array = np.percentile(series, percent, axis=-1, overwrite_input=True)
+    return values
