@@ -66,6 +66,13 @@ MISTAKES = [
         "bodies.wheel",
         "kg mm^2",
     ),
+    (REFERENCE, {"vehicle.wheelbase_mm": 2.6}, "[vehicle] wheelbase_mm", "in metres"),
+    (
+        REFERENCE,
+        {"vehicle.center_of_gravity_height_mm": 0.55},
+        "[vehicle] center_of_gravity_height_mm",
+        "in metres",
+    ),
     (WISHBONE, with_sign(WISHBONE, "y", "tie_rod_inner"), "tie_rod_inner", "sign of y"),
     (WISHBONE, with_sign(WISHBONE, "y", "spring_top"), "spring_top", "sign of y"),
     (WISHBONE, swapped(WISHBONE, "tie_rod_inner", "tie_rod_outer"), "tie_rod", "swapped"),
@@ -95,6 +102,11 @@ def test_metres_among_millimetres():
 def test_the_caster_of_a_sign_is_unusual():
     leaning = changed(REFERENCE, {"hardpoints.strut_top.x": 228.0})
     assert any("caster" in text and "sign of x" in text for text in plausibility(leaning).notes)
+
+
+def test_a_wheel_that_leans_as_on_no_car_is_unusual():
+    leaning = changed(REFERENCE, {"wheel.camber_deg": 40.0})
+    assert any("camber_deg = 40 deg" in text for text in plausibility(leaning).notes)
 
 
 def test_a_checkup_tells_it():

@@ -644,12 +644,39 @@ def test_commands_that_have_nothing_for_it_say_so(kintrafo: Any, line: str) -> N
             {"rods.upper_link": {"chassis": [-20.0, 60.0, 525.0], "axle": [500.0, 60.0, 480.0]}},
             r"\[rods.upper_link\]: the end on the axle is 514 mm",
         ),
+        (
+            {"rods.upper_link.chassis": [0.5, -0.06, 0.525]},
+            r"\[rods.upper_link\] chassis .* metres",
+        ),
+        ({"hardpoints.spring_seat": [0.0, -0.5, 0.35]}, "spring_seat .* Is it in metres"),
+        ({"vehicle.wheelbase_mm": 3.0}, "wheelbase_mm = 3 mm: .* Is it in metres"),
+        (
+            {f"bodies.beam.inertia_{axis}_kg_m2": 2e7 for axis in ("xx", "yy", "zz")},
+            r"\[bodies.beam\] .* Is the inertia in kg mm\^2",
+        ),
+        (
+            {"bodies.wheel.inertia_spin_kg_m2": 2e6, "bodies.wheel.inertia_diametral_kg_m2": 1e6},
+            "no wheel has more",
+        ),
     ],
 )
 def test_mistakes_that_can_move_are_told(changes: dict[str, Any], words: str) -> None:
     assert rigid_axles.checkup(AXLE).problems == ()
     problems = rigid_axles.checkup(AXLE.with_changes(changes)).problems
     assert any(re.search(words, problem) for problem in problems), problems
+
+
+def test_an_unusual_camber_is_noted() -> None:
+    notes = rigid_axles.checkup(AXLE.with_changes({"wheel.camber_deg": 40.0})).notes
+    assert any("camber_deg = 40 deg" in note for note in notes), notes
+
+
+@pytest.mark.parametrize("name", ["", "a.b", "upper link", "1st"])
+def test_rods_have_names_that_files_and_tables_can_hold(name: str) -> None:
+    data = AXLE.to_dict()
+    data["rods"][name] = data["rods"].pop("upper_link")
+    with pytest.raises(InputError, match=rf"\[rods\] '{re.escape(name)}' is no name"):
+        RigidAxle.from_dict(data)
 
 
 def test_positions_beyond_reach_are_refused() -> None:

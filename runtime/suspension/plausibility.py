@@ -8,12 +8,18 @@ are mistaken differ by 1,000 or more.
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..core.vectors import angle_between_lines
+from .input.bodies import RigidBody, WheelBody
+from .input.vehicle import Wheel
 from .kinds import Suspension
 from .typical import typical_ranges
+
+Array = NDArray[np.float64]
 
 # Where passenger cars have their wheel hop [Hz]: TRL Report SR12 UC, vehicles over discontinuities
 # of the road.
@@ -45,6 +51,23 @@ _DAMPING = (0.005, 20.0)
 # Nothing that rolls has more inertia than a hoop. In kg mm^2 an inertia is 1,000,000 times as much;
 # half way, by factors, leaves room for what is counted with a wheel.
 _HOOPS = 1e3
+# The wheelbase of a car is 1.5 to 4 m, and its centre of gravity 0.25 to 1 m high; one that was
+# given in metres makes 1,000 times less of it in millimetres [m].
+_SHORTEST_WHEELBASE, _LOWEST_CENTER = 0.05, 0.01
+# Wheels of cars stand within some degrees of upright and straight ahead [deg].
+_MOST_ALIGNMENT = 10.0
+
+
+class WholeVehicle(Protocol):
+    """What a file says of the whole vehicle; None where it says nothing."""
+
+    @property
+    def wheelbase_mm(self) -> float | None:
+        """Distance of the axles."""
+
+    @property
+    def center_of_gravity_height_mm(self) -> float | None:
+        """Height above the ground."""
 
 
 @dataclass(frozen=True)
@@ -89,9 +112,15 @@ def plausibility(suspension: Suspension) -> Plausibility:
         *_rack(suspension),
         *_rates(suspension),
         *_inertia(suspension),
-        *_hoop(suspension),
+        *unlikely_wheel(suspension.bodies.wheel, suspension.tyre_radius()),
+        *unlikely_vehicle(suspension.vehicle),
     )
-    return Plausibility(problems, (*_wheel_place(suspension), *_steering_axis(suspension)))
+    notes = (
+        *_wheel_place(suspension),
+        *_steering_axis(suspension),
+        *unusual_alignment(suspension.wheel),
+    )
+    return Plausibility(problems, notes)
 
 
 def _outboard(suspension: Suspension, name: str) -> float:
@@ -143,12 +172,26 @@ def _swapped(suspension: Suspension) -> Iterator[str]:
 
 def _stray(suspension: Suspension) -> Iterator[str]:
     points = suspension.hardpoints
-    for name in points.given():
-        distance = float(np.linalg.norm(points.metres(name)))
-        if distance < _NEAR_ORIGIN and name != "wheel_center" and points.unit == "mm":
+    given = {points.text(n): points.metres(n) for n in points.given() if n != "wheel_center"}
+    yield from stray_points(given, points.unit)
+
+
+def stray_points(points: Mapping[str, Array], unit: str) -> Iterator[str]:
+    """Find points that were given in metres in a file in millimetres.
+
+    Parameters
+    ----------
+    points : mapping of str to ndarray
+        By what stands in the file: their places [m].
+    unit : str
+        Of the file.
+    """
+    for text, place in points.items():
+        distance = float(np.linalg.norm(place))
+        if distance < _NEAR_ORIGIN and unit == "mm":
             yield (
-                f"{points.text(name)} is {1e3 * distance:.3g} mm from the origin. Is it in metres? "
-                'The unit of all points is "mm".'
+                f"{text} is {1e3 * distance:.3g} mm from the origin. Is it in metres? The unit of "
+                'all points is "mm".'
             )
 
 
@@ -213,9 +256,14 @@ def unlikely_rates(
 
 
 def _inertia(suspension: Suspension) -> Iterator[str]:
-    bodies, points = suspension.bodies, suspension.hardpoints
+    points = suspension.hardpoints
     size = max(points.distance(name, "wheel_center") for name in points.given())
-    for name, body in bodies.rigid().items():
+    yield from unlikely_inertia(suspension.bodies.rigid(), size)
+
+
+def unlikely_inertia(bodies: Mapping[str, RigidBody], size: float) -> Iterator[str]:
+    """Compare the radius of gyration of bodies with the size of what they are part of [m]."""
+    for name, body in bodies.items():
         elements = body.elements()
         if body.mass_kg > 0.0:
             # the trace of the tensor is twice the polar moment about the centre of mass
@@ -229,8 +277,27 @@ def _inertia(suspension: Suspension) -> Iterator[str]:
                 )
 
 
-def _hoop(suspension: Suspension) -> Iterator[str]:
-    wheel, radius = suspension.bodies.wheel, suspension.tyre_radius()
+def unlikely_vehicle(vehicle: WholeVehicle) -> Iterator[str]:
+    """Find lengths of the whole vehicle that were given in metres."""
+    for name, least, usual in (
+        ("wheelbase_mm", _SHORTEST_WHEELBASE, "1500 to 4000"),
+        ("center_of_gravity_height_mm", _LOWEST_CENTER, "250 to 1000"),
+    ):
+        value = getattr(vehicle, name)
+        if value is not None and value < 1e3 * least:
+            yield f"[vehicle] {name} = {value:g} mm: cars have {usual} mm. Is it in metres?"
+
+
+def unusual_alignment(wheel: Wheel) -> Iterator[str]:
+    """Find wheels that stand as on no car."""
+    for name in ("camber_deg", "toe_deg"):
+        value = getattr(wheel, name)
+        if abs(value) > _MOST_ALIGNMENT:
+            yield f"[wheel] {name} = {value:g} deg: cars have some degrees. Is it right?"
+
+
+def unlikely_wheel(wheel: WheelBody, radius: float | None) -> Iterator[str]:
+    """Compare the inertia of a wheel about its axis with that of a hoop."""
     hoop = wheel.mass_kg * (radius or np.inf) ** 2
     if wheel.inertia_spin_kg_m2 > _HOOPS * hoop:
         yield (

@@ -8,9 +8,17 @@ import numpy as np
 
 from ...core.arguments import Arguments
 from ...core.quantities import display_of
-from ...suspension.plausibility import unlikely_rates
+from ...suspension.plausibility import (
+    stray_points,
+    unlikely_inertia,
+    unlikely_rates,
+    unlikely_vehicle,
+    unlikely_wheel,
+    unusual_alignment,
+)
 from ...suspension.reach import PositionError
 from ...suspension.rigid.axle import RigidAxle
+from ...suspension.rigid.file import Rod
 from ...suspension.rigid.model import HEAVE, ROLL, RigidAxleModel, equilibrium
 from ...systems.linearisation import linearise
 from ..sweep import USUAL_TRAVEL
@@ -87,7 +95,7 @@ def checkup(axle: RigidAxle) -> RigidAxleCheckup:
     model = RigidAxleModel(axle)
     values, rows = _reach(model)
     problems = [*_unlikely(axle)]
-    notes: list[str] = []
+    notes = [*unusual_alignment(axle.wheel)]
     try:
         at_rest, told = _rest(model)
         values |= at_rest
@@ -122,7 +130,18 @@ def as_dict(found: RigidAxleCheckup) -> dict[str, Any]:
 
 
 def _unlikely(axle: RigidAxle) -> Iterator[str]:
-    """Say what is almost surely a mistake: units of rates and masses, rods that are swapped."""
+    """Say what is almost surely a mistake: units, and rods that are swapped."""
+    points, unit = axle.hardpoints, axle.hardpoints.unit
+    given = {points.text(n): points.metres(n) for n in points.given() if n != "wheel_center"}
+    for name, ends in axle.ends().items():
+        given |= {
+            f"[rods.{name}] {end}": at for end, at in zip(Rod.model_fields, ends, strict=True)
+        }
+    yield from stray_points(given, unit)
+    yield from unlikely_vehicle(axle.vehicle)
+    size = axle.half_track + max(float(np.linalg.norm(at - axle.center)) for at in given.values())
+    yield from unlikely_inertia({"beam": axle.bodies.beam}, size)
+    yield from unlikely_wheel(axle.bodies.wheel, axle.tyre_radius())
     half = 0.5 * axle.bodies.beam.mass_kg + axle.bodies.wheel.mass_kg
     yield from unlikely_rates(axle.parameters(), half, _RATES.__getitem__)
     for name, ends in axle.ends().items():

@@ -1,5 +1,6 @@
 """A rigid axle: what the sections of its file make together."""
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, ClassVar, Self
@@ -318,6 +319,12 @@ class RigidAxle(Section):
 
     def _problems_of_rods(self) -> list[str]:
         problems, ends = [], self.ends()
+        problems += [
+            f"[rods] {name!r} is no name; letters, digits, _ and - are needed, a letter first. "
+            "Rename the rod."
+            for name in ends
+            if not re.fullmatch("[A-Za-z][A-Za-z0-9_-]*", name)
+        ]
         for name, (chassis, axle) in ends.items():
             length = float(np.linalg.norm(axle - chassis))
             across = float(np.hypot(*(axle - chassis)[:2]))
