@@ -357,11 +357,12 @@ def _checked_outputs(piece: Piece, approach: Approach) -> Piece:
 
 
 def _scipy_events(function: _RightHandSide, events: Events, start: float) -> list[Any]:
-    given = [function.event(event.signal, event.level) for event in events.signal]
+    given: list[Callable[[float, Array], float]] = [
+        *(function.event(event.signal, event.level) for event in events.signal),
+        *events.functions,
+    ]
     made: list[Any] = []
-    for event, direction, terminal in zip(
-        (*given, *events.functions), events.directions, events.terminal, strict=True
-    ):
+    for event, direction, terminal in zip(given, events.directions, events.terminal, strict=True):
         # a copy, since SciPy reads direction and terminal as attributes of the function
         made.append(partial(_leaving, event, start))
         made[-1].direction = direction
