@@ -1,11 +1,42 @@
 """Lengths that a strut or a damper cannot have end the travel; no position is beyond them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from kintrafo import Model, PositionError, Suspension, state_at_height, travel_range
+from kintrafo import (
+    Axle,
+    AxleModel,
+    Model,
+    PositionError,
+    RigidAxle,
+    RigidAxleModel,
+    Suspension,
+    ensemble,
+    equilibrium,
+    roads,
+    simulate,
+    state_at_height,
+    travel_range,
+)
 from kintrafo.core.errors import InputError
+from kintrafo.study import variation
+from kintrafo.study.axles.ride import equilibrium as rest_of_axle
+from kintrafo.study.scenario import Scenario
 from kintrafo.suspension.reach import at_rest
+from kintrafo.suspension.rigid.model import equilibrium as rest_of_rigid
 from kintrafo.suspension.starter import write_starter
+
+KINDS = (
+    "reference_car",
+    "offset_strut_car",
+    "double_wishbone_car",
+    "multi_link_car",
+    "push_rod_car",
+    "pull_rod_car",
+    "trailing_arm_car",
+)
+STEP = {"road_height": roads.step(0.04, at=0.02, end=0.3)}
 
 
 def lengths(model, signal):
@@ -69,3 +100,77 @@ def test_a_first_file_keeps_motions_within_what_there_is(template, tmp_path):
     assert car.bump_stop.rate_N_per_m > 0.0
     assert car.rebound_stop.rate_N_per_m > 0.0
     assert Suspension.load(template).allowed_lengths() == ()
+
+
+def limited(name, end, by):
+    """Return a packaged car with an end so far from its length at rest, the key and the signal."""
+    car = Suspension.load(name)
+    section = "strut" if hasattr(car, "strut") else "damper"
+    plain = Model(car)
+    signal = f"{car.STOPPED}_length"
+    length = float(plain.signal(signal, equilibrium(plain)))
+    key = f"{section}.length_{end}_mm"
+    return Model(car.with_changes({key: 1e3 * (length + by)})), key.partition(".")[2], signal
+
+
+@pytest.mark.parametrize(
+    ("name", "end", "by"),
+    [
+        *((name, "min", -0.002) for name in KINDS),
+        # a strut that is drawn out ends nothing
+        *((name, "max", 0.002) for name in KINDS if "strut" not in Suspension.load(name).to_dict()),
+    ],
+)
+def test_a_motion_beyond_a_length_says_so(name, end, by):
+    """Of every kind, by the lengths at its outputs; and nothing is said of a motion within."""
+    model, key, signal = limited(name, end, by)
+    road = roads.step(0.04 if end == "min" else -0.04, at=0.02, end=0.3)
+    found = simulate(model, (0.0, 0.3), equilibrium(model), inputs={"road_height": road})
+    least, most = found.signals[signal].min(), found.signals[signal].max()
+    (beyond,) = [one for one in found.validity if key in one.bound.words]
+    assert beyond.worst == (least if end == "min" else most)
+    assert not beyond.bound.possible
+    rest = simulate(model, (0.0, 0.05), equilibrium(model))
+    assert not any(key in one.bound.words for one in rest.validity)
+
+
+def test_many_cars_say_so_each():
+    model, _, signal = limited("double_wishbone_car", "min", -0.030)
+    rates = [200.0, 20000.0]
+    found = ensemble(
+        model, {"damper_rate": rates}, (0.0, 0.3), equilibrium(model), inputs=STEP,
+        reductions={signal: "min"},
+    )  # fmt: skip
+    limit = model.allowed_lengths()[0].limit
+    np.testing.assert_array_equal(found["valid"], found[f"{signal}_min"] >= limit)
+    assert found["valid"].values.tolist() == [False, True]
+
+
+def test_ends_are_not_swept():
+    """All cars of a sweep have the ends of one."""
+    car = Suspension.load("double_wishbone_car").with_changes({"damper.length_min_mm": 380.0})
+    values = {"damper.length_min_mm": [370.0, 380.0]}
+    with pytest.raises(InputError, match="length_min_mm and length_max_mm end motions"):
+        variation.sweep(car, values, Scenario(inputs=STEP))
+
+
+def test_an_axle_says_so_of_the_side():
+    car = limited("reference_car", "min", -0.002)[0].suspension
+    model = AxleModel(replace(Axle.load("reference_axle"), right=car.mirrored(), left=car))
+    raised = {"left_road_height": STEP["road_height"]}
+    found = simulate(model, (0.0, 0.3), rest_of_axle(model), inputs=raised)
+    # the bar also lifts the other wheel from its road
+    told = [str(one) for one in found.validity if "length_min_mm" in one.bound.words]
+    assert told[0].startswith("the left strut is beyond its least length, [strut] length_min_mm")
+
+
+def test_a_rigid_axle_says_so_and_does_not_rest_beyond():
+    axle = RigidAxle.load("rigid_axle")
+    plain = RigidAxleModel(axle)
+    length = float(plain.signal("left_damper_length", rest_of_rigid(plain)))
+    model = RigidAxleModel(axle.with_changes({"damper.length_min_mm": 1e3 * (length - 0.002)}))
+    raised = {"left_road_height": STEP["road_height"]}
+    found = simulate(model, (0.0, 0.3), rest_of_rigid(model), inputs=raised)
+    assert "left_damper_length" in [one.bound.signal for one in found.validity]
+    with pytest.raises(PositionError, match="the left damper is beyond its least length"):
+        rest_of_rigid(model, road_height={"left": 0.04, "right": 0.04})

@@ -4,7 +4,17 @@ import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
-from kintrafo import InputError, Model, Samples, SimulationError, simulate, state_at_height
+from kintrafo import (
+    InputError,
+    Model,
+    Samples,
+    SignalEvent,
+    SimulationError,
+    Suspension,
+    equilibrium,
+    simulate,
+    state_at_height,
+)
 from kintrafo.simulation.solvers import native_methods
 
 MODEL = Model("reference_car")
@@ -70,6 +80,67 @@ def test_the_third_crossing_ends_the_motion(method):
     np.testing.assert_array_equal(found.y[:, -1], found.y_events[0][-1])
 
 
+BROKEN = Samples([0.0, 0.1, 0.1, 0.2, 0.2, 1.0], [0.0, 0.0, 0.01, 0.01, 0.0, 0.0], "linear")
+
+
+@each_method
+def test_crossings_are_counted_over_all_segments(method):
+    """A road that jumps at 0.1 s and 0.2 s does not make the counting begin anew."""
+    event = sine(20.0, 0.5, terminal=5)
+    found = simulate(
+        MODEL, (0.0, 0.4), START, method=method, events=event, max_step=0.02,
+        inputs={"road_height": BROKEN},
+    )  # fmt: skip
+    expected = [0.025, 0.075, 0.125, 0.175, 0.225]
+    np.testing.assert_allclose(found.t_events[0], expected, rtol=0.0, atol=RESOLVED)
+    assert found.t[-1] == found.t_events[0][-1]
+
+
+@each_method
+@pytest.mark.parametrize("count", [1, 2])
+def test_what_jumps_across_a_level_counts_once(method, count):
+    """A road that falls by 10 mm takes the tyre from where it rests over 5 mm less."""
+    rest = equilibrium(MODEL)
+    level = float(MODEL.signals(rest)["tyre_force"]) - 0.005 * MODEL.parameters["tyre_rate"]
+    fall = Samples(BROKEN.times, -np.array(BROKEN.values), "linear")
+    found = simulate(
+        MODEL, (0.0, 0.3), rest, method=method, inputs={"road_height": fall},
+        events=SignalEvent("tyre_force", level, terminal=count),
+    )  # fmt: skip
+    assert found.status == 1
+    assert found.t_events[0].size == count
+    assert found.t_events[0][0] == 0.1
+
+
+@pytest.mark.parametrize("method", native_methods())
+def test_what_jumps_onto_a_level_has_reached_it(method):
+    """A tyre that lifts off has a force of exactly nothing."""
+    car = Model(Suspension.load("reference_car").with_changes({"tyre.lifts_off": True}))
+    fall = Samples([0.0, 0.1, 0.1, 1.0], [0.0, 0.0, -0.1, -0.1], "linear")
+    found = simulate(
+        car, (0.0, 0.11), equilibrium(car), method=method, inputs={"road_height": fall},
+        events=SignalEvent("tyre_force", 0.0),
+    )  # fmt: skip
+    assert found.t_events[0].tolist() == [0.1]
+
+
+@each_method
+def test_steps_are_counted_over_all_segments(method):
+    options = {"method": method, "inputs": {"road_height": BROKEN}}
+    steps = simulate(MODEL, (0.0, 0.4), START, **options).steps
+    if method in native_methods():
+        with pytest.raises(SimulationError, match=f"more than {steps - 1} steps"):
+            simulate(MODEL, (0.0, 0.4), START, max_steps=steps - 1, **options)
+
+
+@each_method
+def test_the_first_step_may_be_longer_than_a_segment(method):
+    found = simulate(
+        MODEL, (0.0, 0.4), START, method=method, first_step=0.3, inputs={"road_height": BROKEN}
+    )
+    assert found.t[-1] == 0.4
+
+
 @each_method
 def test_the_state_of_an_event_is_on_the_way(method):
     event = sine(20.0, 0.5)
@@ -79,7 +150,7 @@ def test_the_state_of_an_event_is_on_the_way(method):
     np.testing.assert_allclose(found.y_events[0].T, found.sol(found.t_events[0]), rtol=1e-12)
 
 
-@pytest.mark.parametrize("method", native_methods())
+@each_method
 def test_a_zero_next_to_a_border_is_not_lost(method):
     """0.1 + 0.2 is 6e-17 more than the 0.3 at which the road, and so a segment, breaks off."""
     road = Samples([0.0, 0.3, 0.3, 1.0], [0.0, 0.0, 0.01, 0.01], "linear")

@@ -134,6 +134,13 @@ def test_a_signal_that_stays_has_no_slope_of_its_rms() -> None:
     assert not any(found.by.values())
 
 
+def test_rounding_of_what_stays_has_no_slope_either(system: kintrafo.System) -> None:
+    rest = kintrafo.equilibrium(CAR, rack_position=0.01)
+    found = kintrafo.motion_gradient(system, SPAN, rest, {"wheel_center_z": "rms"})
+    assert 0.0 < found.value < 1e-14
+    assert not any(found.by.values())
+
+
 @pytest.mark.parametrize(
     ("changes", "words"),
     [

@@ -33,6 +33,8 @@ _ROWS = 4096
 # Steps whose Jacobian is looked at, and by how much they may be longer than it allows.
 _LOOKS = 32
 _MORE = 1.2
+# Part of a signal that is rounding of the sums that it is made of.
+_STAYS = 64.0 * np.finfo(float).eps
 
 # Dormand and Prince's method: nodes, stages, and weights of a step and of its polynomial
 # (../native/dormand_prince.h has the same, Hairer, Norsett and Wanner II.5 and II.6).
@@ -116,9 +118,12 @@ def motion_gradient(
     -----
     The lengths of steps are taken as they are. They change with parameters, too, which changes
     the result by no more than the integration errs. No step is so long that what is at rest, and a
-    parameter would move, is not followed as accurately: ``h |l|`` is at most (3600 rtol)^(1/6) for
-    all eigenvalues l of the Jacobian, so that stiff members make it slow. Where a stop or a curve
-    has a kink, the derivative is that of one side.
+    parameter would move, is not followed as accurately: its length times the size of any eigenvalue
+    of the Jacobian is at most (3600 rtol)^(1/6), so that stiff members make it slow.
+
+    Where a stop or a curve has a kink, the derivative is that of one side; a step over it has
+    stages on both, and the gradient errs there in proportion to the length of the step, by much
+    more than the motion: compare with that of a smaller `max_step`.
 
     Examples
     --------
@@ -225,7 +230,9 @@ def _judged(
         else:
             moved = own - share @ own
             number = float(np.sqrt(share @ moved**2))
-            by = share * moved / number if number > 0.0 else 0.0 * share
+            # what stays but for rounding has no slope
+            stays = number <= _STAYS * float(np.abs(own).max())
+            by = 0.0 * share if stays else share * moved / number
         value, weights[name] = value + number, by
     return value, weights
 

@@ -1,7 +1,7 @@
 """Events during a simulation: by physical name, by signal and level, or by a function."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, cast
 
 from ..core.arguments import Arguments, shown
@@ -73,6 +73,15 @@ class Events:
 
     def __len__(self) -> int:
         return len(self.order)
+
+    def after(self, passed: Sequence[int]) -> "Events":
+        """Return the events as they are to be watched after each has been passed so often."""
+        left = [
+            replace(event, terminal=int(event.terminal) - times if event.terminal else 0)
+            for event, times in zip(self._all, passed, strict=True)
+        ]
+        count = len(self.signal)
+        return Events(tuple(left[:count]), tuple(left[count:]), self.order)  # type: ignore[arg-type]
 
 
 def named_event(model: System, name: str) -> SignalEvent:

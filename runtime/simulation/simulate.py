@@ -2,6 +2,7 @@
 
 import warnings
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
@@ -339,6 +340,7 @@ class _Run:
         self._model, self._inputs, self._options = model, inputs, options
         self._events, self._times, self._solve = events, times, solve
         self._pieces: list[tuple[Segment, Piece]] = []
+        self._taken, self._passed = 0, [0] * len(events)  # steps, and times of each event, so far
 
     def over(self, state: Array) -> Simulation:
         """Integrate over all segments."""
@@ -352,10 +354,13 @@ class _Run:
                 state,
                 self._asked(segment),
                 every_step=self._times is None,
-                options=self._options,
-                events=self._events,
+                options=replace(self._options, max_steps=self._options.max_steps - self._taken),
+                events=self._events.after(self._passed),
             )
             self._pieces.append((segment, piece))
+            self._taken += piece.counts.get("steps", 0)
+            for index, _, _ in piece.events:
+                self._passed[index] += 1
             if piece.outcome not in ("done", "event"):
                 self._fail(segment, piece)
             state = piece.y[-1].copy()
@@ -371,11 +376,13 @@ class _Run:
             for part in (before, segment)
         ]
         terminal = False
-        for index, event in enumerate(self._events.signal):
+        for index, event in enumerate(self._events.after(self._passed).signal):
             low, high = (float(found[event.signal]) - event.level for found in signals)
-            if low * high < 0.0 and event.direction * (high - low) >= 0.0:
+            passes = low != 0.0 and np.sign(low) != np.sign(high)
+            if passes and event.direction * (high - low) >= 0.0:
                 piece.events.append((index, segment.start, state))
-                terminal = terminal or bool(event.terminal)
+                self._passed[index] += 1
+                terminal = terminal or event.terminal == 1
         if terminal:
             piece.outcome = "event"
         return terminal

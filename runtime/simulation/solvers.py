@@ -331,9 +331,9 @@ def solve_scipy(
             rtol=options.rtol,
             atol=options.atol,
             max_step=options.max_step,
-            first_step=options.first_step,
+            first_step=_within(options.first_step, segment),
             dense_output=options.dense_output,
-            events=[*_scipy_events(function, events), _recorder(steps)],
+            events=[*_scipy_events(function, events, segment.start), _recorder(steps)],
             **extra,
         )
     except (DeadPoint, ModelError, _TooManySteps) as error:
@@ -355,6 +355,11 @@ def solve_scipy(
     return _checked_outputs(piece, approach)
 
 
+def _within(step: float | None, segment: Segment) -> float | None:
+    """Return a first step that is no longer than the time, which SciPy refuses."""
+    return None if step is None else min(step, abs(segment.end - segment.start))
+
+
 def _checked_outputs(piece: Piece, approach: Approach) -> Piece:
     """End a piece before the first output at which the model could not be evaluated."""
     for place, (time, state) in enumerate(zip(piece.t, piece.y, strict=True)):
@@ -367,18 +372,26 @@ def _checked_outputs(piece: Piece, approach: Approach) -> Piece:
     return piece
 
 
-def _scipy_events(function: _RightHandSide, events: Events) -> list[Any]:
+def _scipy_events(function: _RightHandSide, events: Events, start: float) -> list[Any]:
+    given: list[Callable[[float, Array], float]] = [
+        *(function.event(event.signal, event.level) for event in events.signal),
+        *events.functions,
+    ]
     made: list[Any] = []
-    for index, direction in enumerate(events.directions):
-        if index < len(events.signal):
-            event = events.signal[index]
-            made.append(function.event(event.signal, event.level))
-        else:
-            # a copy, since SciPy reads direction and terminal as attributes of the function
-            made.append(partial(events.functions[index - len(events.signal)]))
+    for event, direction, terminal in zip(given, events.directions, events.terminal, strict=True):
+        # a copy, since SciPy reads direction and terminal as attributes of the function
+        made.append(partial(_leaving, event, start))
         made[-1].direction = direction
-        made[-1].terminal = events.terminal[index]
+        made[-1].terminal = terminal
     return made
+
+
+def _leaving(
+    event: Callable[[float, Array], float], start: float, time: float, state: Array
+) -> float:
+    """Return the value of an event; NaN for a zero at the start, which is told or is none."""
+    value = event(time, state)
+    return np.nan if value == 0.0 and time == start else value
 
 
 def _recorder(steps: list[tuple[float, Array]]) -> Callable[[float, Array], float]:

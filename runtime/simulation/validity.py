@@ -42,7 +42,7 @@ class Bound:
 
 
 def bounds_of(model: System, varied: Mapping[str, Array] | None = None) -> Iterator[Bound]:
-    """Yield what the signals of a model must not pass, as its forces were declared.
+    """Yield what the signals of a model must not pass: as its forces were declared, and its file.
 
     Parameters
     ----------
@@ -56,6 +56,10 @@ def bounds_of(model: System, varied: Mapping[str, Array] | None = None) -> Itera
             for bound in _ends(signal, entry, parameters):
                 if np.isfinite(bound.limit).any():
                     yield bound
+    for one in model.allowed_lengths():
+        yield Bound(
+            one.signal, abs(one.limit), above=one.limit < 0.0, words=one.beyond, possible=False
+        )
 
 
 def _ends(

@@ -21,11 +21,12 @@ from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..core.suggestions import suggestion
 from ..core.vectors import components, unit_vector
+from ..systems.allowed import Allowed
 from .bushes import Bush, Bushings, bushes_of, mirrored_bushings, softness_of_rack
 from .corner import Array, Motion, Plane, Spring, Stroke
 from .data import data_sets, find
 from .drawing import Drawing
-from .facts import Allowed, Extended, Names
+from .facts import Extended, Names
 from .geometry import geometry_problems
 from .input.bodies import Bodies
 from .input.damper import NO_CURVE, Damper

@@ -8,10 +8,10 @@ from typing import Any, ClassVar, Self
 
 from pydantic import Field
 
+from ..systems.allowed import Allowed
 from .base import Suspension
 from .corner import Spring as SpringStroke
 from .corner import Stroke
-from .facts import Allowed
 from .input.damper import Damper, Numbers, curve_problems
 from .input.hardpoints import Pair
 from .input.section import NonNegative, Number, Positive, Section
@@ -158,6 +158,21 @@ class CoilDamper(Section):
             if end is not None and sense * (length - end) < 0.0
         ]
 
+    def allowed_lengths(self, signal: str) -> tuple[Allowed, ...]:
+        """Return the least and the greatest length, where they are given, of a signal."""
+        ends = (("min", 1.0, "least"), ("max", -1.0, "greatest"))
+        given = ((getattr(self, f"length_{end}_mm"), end, sign, name) for end, sign, name in ends)
+        return tuple(
+            Allowed(
+                signal,
+                sign * in_metres(value, "mm"),
+                "damper",
+                f"{name} length, [damper] length_{end}_mm = {value:g} mm",
+            )
+            for value, end, sign, name in given
+            if value is not None
+        )
+
 
 class CoilSprung(Suspension):
     """A suspension with a coil spring and a damper, each between two hardpoints."""
@@ -221,17 +236,7 @@ class CoilSprung(Suspension):
 
     def allowed_lengths(self) -> tuple[Allowed, ...]:
         """Return the least and the greatest length of the damper, where they are given."""
-        ends = (("min", 1.0, "least"), ("max", -1.0, "greatest"))
-        given = ((getattr(self.damper, f"length_{end}_mm"), end, sign, n) for end, sign, n in ends)
-        return tuple(
-            Allowed(
-                f"{self.STOPPED}_length",
-                sign * in_metres(value, "mm"),
-                f"the damper is at its {name} length, [damper] length_{end}_mm = {value:g} mm",
-            )
-            for value, end, sign, name in given
-            if value is not None
-        )
+        return self.damper.allowed_lengths(f"{self.STOPPED}_length")
 
     # -- what its characteristics are computed from ---------------------------------------------
 

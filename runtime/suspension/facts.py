@@ -1,4 +1,4 @@
-"""What a kind of suspension says of its equations: names, and lengths that have an end."""
+"""What a kind of suspension says of its equations: names, and what a wheel hangs on."""
 
 from typing import NamedTuple
 
@@ -40,21 +40,3 @@ class Extended(NamedTuple):
     length: float
     name: str
     key: str
-
-
-class Allowed(NamedTuple):
-    """What a length may be, as the file says.
-
-    Attributes
-    ----------
-    signal : str
-        The signal of the equations that is the length.
-    limit : float
-        The least length; the greatest, with a minus sign [m].
-    meaning : str
-        What it means that the length is there.
-    """
-
-    signal: str
-    limit: float
-    meaning: str

@@ -6,6 +6,7 @@ from typing import Any
 
 from ..core.arguments import Arguments, shown
 from ..core.errors import InputError
+from ..systems.allowed import Allowed
 from ..systems.system import System
 from .kinds import Suspension
 from .wheel_loads import with_wheel_loads
@@ -83,6 +84,10 @@ class Model(System):
     def of_another(self, suspension: Suspension) -> "Model":
         """Return the model of another suspension, with the same choices as this."""
         return Model(suspension, free_rack=self.free_rack, wheel_loads=self.wheel_loads)
+
+    def allowed_lengths(self) -> tuple[Allowed, ...]:
+        """Return the lengths that the file allows."""
+        return self.suspension.allowed_lengths()
 
     @cached_property
     def mirror_image(self) -> "Model":

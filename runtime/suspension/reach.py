@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..core.arguments import Arguments
 from ..core.errors import KintrafoError
+from ..systems.system import System
 from .model import Model
 from .swing import GOAL, UNRESOLVED, Seen, march, margins_stay, resolved
 
@@ -25,6 +26,8 @@ _STEPS = 45
 # By how much the reach ends before that [rad]. What has to be positive is then some 1e-13 m^2,
 # clear of its rounding, and the wheel is less than a nanometre from its last position.
 _CLEARANCE = 1e-12
+# Lengths are read from the same numbers [m].
+_LENGTH = 1e-12
 _CHUNK = 500  # racks that are looked at together, to bound the memory
 _KEPT = 8  # tables, of so many racks each, that are remembered
 _PROBES = 9  # racks that show how much of the reach is of interest
@@ -295,6 +298,23 @@ def _ends(model: Model, racks: Array, direction: float) -> tuple[Array, list[int
     return np.where(clear & (limits != GOAL), ends - direction * _CLEARANCE, ends), limits.tolist()
 
 
+def refuse_beyond(model: System, state: Array, inputs: Array) -> None:
+    """Refuse a state of rest at which a length is beyond what the file allows.
+
+    Raises
+    ------
+    PositionError
+    """
+    signals = model.signals(state, inputs)
+    passed = [one for one in model.allowed_lengths() if float(one.left(signals)) < -_LENGTH]
+    if passed:
+        message = (
+            f"it would come to rest where {' and '.join(one.beyond for one in passed)}: give it "
+            "stops that hold it before, or correct loads, springs or that length."
+        )
+        raise PositionError(message)
+
+
 def _look(model: Model, angles: Array, racks: Array) -> Seen:
     """Return whether the loops close and the wheel rises as the arm does.
 
@@ -308,10 +328,10 @@ def _look(model: Model, angles: Array, racks: Array) -> Seen:
     heights, slopes = np.zeros(closes.shape), np.zeros(closes.shape)
     signals = model.signals(states[closes], inputs[closes])
     heights[closes], slopes[closes] = signals["wheel_center_z"], signals["wheel_velocity"]
-    allowed = model.suspension.allowed_lengths()
+    allowed = model.allowed_lengths()
     left = np.ones((*closes.shape, len(allowed)))
-    for column, (name, limit, _) in enumerate(allowed):
-        left[closes, column] = np.sign(limit) * signals[name] - limit
+    for column, one in enumerate(allowed):
+        left[closes, column] = one.left(signals)
     margins = np.concatenate([margins, left], axis=-1)
     failed = ~(margins > 0.0)
     fine = ~failed.any(axis=-1)
@@ -333,7 +353,7 @@ def _in_words(model: Model, limit: int) -> str:
     if limit < 0:
         return _REASONS[limit]
     closing: list[str] = [meaning for _, meaning in model.equations.GUARDS]
-    return [*closing, *(one.meaning for one in model.suspension.allowed_lengths())][limit]
+    return [*closing, *(one.meaning for one in model.allowed_lengths())][limit]
 
 
 def _refuse_racks(model: Model, racks: Array, seen: Seen, column: int) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..core.arguments import Arguments, shown
+from .allowed import Allowed
 from .compile.loader import find
 from .modes import eigenvalues_of
 from .state import StateNames, inputs_of
@@ -193,6 +194,10 @@ class System:
         with Arguments("signals") as given:
             given.among("signal", name, self.signal_names)
         return self.signals(state, inputs)[name]
+
+    def allowed_lengths(self) -> tuple[Allowed, ...]:
+        """Return lengths that have an end of which the equations know nothing."""
+        return ()
 
     def eigenvalues(
         self, state: ArrayLike, inputs: ArrayLike | None = None

@@ -18,6 +18,7 @@ from ...suspension.axle.axle import LEFT, RIGHT
 from ...suspension.axle.equations import AxleModel
 from ...suspension.positions import PositionError
 from ...suspension.positions import equilibrium as of_one_side
+from ...suspension.reach import refuse_beyond
 from ...suspension.wheel_loads import UNITS
 from ...systems.state import State
 from ..recording import dataset_of
@@ -116,6 +117,7 @@ def equilibrium(
         )
         raise PositionError(message)
     state = at(found.x)
+    refuse_beyond(model, state, held)
     for side, corner in corners.items():
         if model.wheel_loads and f"{side}_hub_torque" not in further:
             place = model.state_names.index(f"{side}_{corner.names.spin}")

@@ -181,6 +181,12 @@ class _Cars:
                 "little of what is zero in it."
             )
             raise _OtherEquationsError(message)
+        if model.allowed_lengths() != self.model.allowed_lengths():
+            message = (
+                "values: length_min_mm and length_max_mm end motions and move nothing. Sweep "
+                "another value, and simulate the cars with other lengths one by one."
+            )
+            raise _OtherEquationsError(message)
 
     def variants(self) -> dict[str, Array]:
         """Return the parameters in which the suspensions differ."""

@@ -7,6 +7,7 @@ from typing import Any
 from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...core.vectors import components
+from ...systems.allowed import Allowed
 from ...systems.compile.build import compile_mechanism, require_generator
 from ...systems.system import System
 from ..model import Model
@@ -75,6 +76,14 @@ class AxleModel(System):
         if not self.wheel_loads:
             return self.axle.models
         return {side: Model(own, wheel_loads=True) for side, own in self.axle.sides.items()}
+
+    def allowed_lengths(self) -> tuple[Allowed, ...]:
+        """Return the lengths that the file of each side allows."""
+        return tuple(
+            one._replace(signal=f"{side}_{one.signal}", part=f"{side} {one.part}")
+            for side, own in self.axle.sides.items()
+            for one in own.allowed_lengths()
+        )
 
     def __reduce__(self) -> tuple[Any, ...]:
         return partial(AxleModel, wheel_loads=self.wheel_loads), (self.axle,)

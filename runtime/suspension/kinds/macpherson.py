@@ -15,11 +15,12 @@ from pydantic import Field
 
 from ...core.vectors import Vector, cross, unit_vector
 from ...generated import macpherson, macpherson_free_rack, macpherson_general
+from ...systems.allowed import Allowed
 from ...systems.compile.build import compile_mechanism, require_generator
 from ..base import Suspension
 from ..corner import Array, Motion, Plane, Spring, Stroke
 from ..drawing import Axis, Drawing
-from ..facts import Allowed, Extended, Names
+from ..facts import Extended, Names
 from ..input.bodies import Bodies, Rack, RigidBody, TieRod
 from ..input.damper import Damper
 from ..input.hardpoints import SMALLEST_DISTANCE, Hardpoints, Pair
@@ -307,8 +308,8 @@ the strut extended (`spring_preload_N`), or by its force at the design position
         least = self.strut.length_min_mm
         if least is None:
             return ()
-        key = f"the strut is at its least length, [strut] length_min_mm = {least:g} mm"
-        return (Allowed("strut_length", in_metres(least, "mm"), key),)
+        end = f"least length, [strut] length_min_mm = {least:g} mm"
+        return (Allowed("strut_length", in_metres(least, "mm"), "strut", end),)
 
     def rate_key(self, part: str) -> str:
         """Return where the rate of the spring or the damper stands: with the strut."""

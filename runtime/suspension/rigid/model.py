@@ -12,12 +12,12 @@ from ...core.arguments import Arguments, shown
 from ...core.errors import InputError
 from ...equations.errors import ModelError
 from ...generated import rigid_axle as equations
+from ...systems.allowed import Allowed
 from ...systems.state import State
 from ...systems.system import System
 from ..axle.axle import LEFT, RIGHT
 from ..corner import Array
-from ..input.units import in_metres
-from ..reach import PositionError
+from ..reach import PositionError, refuse_beyond
 from .axle import SIDES, RigidAxle
 
 Booleans = NDArray[np.bool_]
@@ -69,6 +69,14 @@ class RigidAxleModel(System):
 
     def __repr__(self) -> str:
         return f"<RigidAxleModel of a {self.axle.heading()}>"
+
+    def allowed_lengths(self) -> tuple[Allowed, ...]:
+        """Return the lengths of the dampers that the file allows."""
+        return tuple(
+            one._replace(part=f"{side} {one.part}")
+            for side in SIDES
+            for one in self.axle.damper.allowed_lengths(f"{side}_damper_length")
+        )
 
     # -- positions ------------------------------------------------------------------------------
 
@@ -154,13 +162,8 @@ class RigidAxleModel(System):
         fine[fine] = (self.evaluate("margins", rows[fine]) > 0.0).all(axis=-1)
         signals = self.signals(rows[fine])
         allowed = np.ones(int(fine.sum()), dtype=bool)
-        damper = self.axle.damper
-        for side in SIDES:
-            length = signals[f"{side}_damper_length"]
-            if damper.length_min_mm is not None:
-                allowed &= length >= in_metres(damper.length_min_mm, "mm") - _ROUNDING
-            if damper.length_max_mm is not None:
-                allowed &= length <= in_metres(damper.length_max_mm, "mm") + _ROUNDING
+        for one in self.allowed_lengths():
+            allowed &= one.left(signals) >= -_ROUNDING
         fine[fine] = allowed
         return fine
 
@@ -255,6 +258,7 @@ def equilibrium(
     if not np.abs(left).max() <= small or not (np.linalg.eigvals(slopes).real < 0.0).all():
         raise PositionError(message)
     state = at(found)
+    refuse_beyond(model, state, held)
     for side in (LEFT, RIGHT):
         state[model.state_names.index(f"{side}_spin_angle_rate")] = spin
     return State.of(state, held, model.names_of_states)
