@@ -323,7 +323,8 @@ def _refuse_out_of_reach(
     message = (
         f"wheel height {1e3 * height:.6g} mm is out of reach: from {ends[0]:.2f} mm "
         f"({reach.lower_limit}) to {ends[1]:.2f} mm ({reach.upper_limit}){held}; that is "
-        f"{travels[0]:+.2f} mm to {travels[1]:+.2f} mm of wheel travel from design. Choose a height within this range."
+        f"{travels[0]:+.2f} mm to {travels[1]:+.2f} mm of wheel travel from design. "
+        "Choose a height within this range."
     )
     raise PositionError(message)
 
