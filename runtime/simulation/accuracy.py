@@ -80,7 +80,8 @@ def span_of(given: Arguments, t_span: Any) -> tuple[float, float]:
     if apart > _TOLD_APART and farthest > _FAR * length:
         given.refuse(
             f"t_span = {shown(t_span)}: so far from zero only times {apart:.1g} s apart "
-            "differ, and every step would err by as much. Count all times from the first one, which is zero."
+            "differ, and every step would err by as much. Count all times from the first one, "
+            "which is zero."
         )
     return float(span[0]), float(span[1])
 
