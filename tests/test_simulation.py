@@ -153,6 +153,7 @@ def test_dense_output_and_events_are_those_of_scipy():
         ({"y0": [1.0, 2.0]}, "beta5_rate"),
         ({"t_span": (0.0, 0.0)}, "two different"),
         ({"t_span": (0.0, np.inf)}, "finite"),
+        ({"t_span": (1.7e9, 1.7e9 + 1.0)}, "2e-07 s apart.*from the first one"),
         ({"inputs": {"rod_height": 1.0}}, "Did you mean road_height"),
         ({"inputs": {"road_height": np.nan}}, "road_height.*finite"),
         ({"inputs": {"rack_velocity": 1.0}}, "follows from 'rack_position'"),
@@ -183,6 +184,16 @@ def test_bad_arguments_are_refused(arguments, words):
     given = {"t_span": (0.0, 1.0), "y0": START} | arguments
     with pytest.raises(InputError, match=words):
         simulate(MODEL, **given)
+
+
+@pytest.mark.parametrize("method", ["DormandPrince", "BDF", "DOP853"])
+def test_time_may_begin_far_from_zero(method):
+    """Ten days: what is left of 1e-10 s of rounding in each of a thousand steps, at 93 rad/s."""
+    near, far = (
+        simulate(MODEL, (start, start + 0.5), START, method=method).y[:, -1]
+        for start in (0.0, 864000.0)
+    )
+    np.testing.assert_allclose(far, near, rtol=0.0, atol=1e-6)
 
 
 def test_loop_that_cannot_close_says_when_where_and_which():

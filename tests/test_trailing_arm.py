@@ -15,12 +15,14 @@ from kintrafo import (
     AxleModel,
     InputError,
     Model,
+    PositionError,
     Suspension,
     arm_angles,
     axles,
     characteristics,
     equilibrium,
     loads,
+    state_at_height,
     travel_range,
 )
 from kintrafo.study.compare import compare
@@ -151,6 +153,9 @@ def test_reach_ends_where_the_wheel_turns_back() -> None:
     highest = (start + along)[2] + np.hypot((arm - along)[2], np.cross(axis, arm)[2])
     # 1e-12 rad before it, of a parabola
     assert travel_range(Model(CAR)).height[1] == pytest.approx(highest, abs=1e-13)
+    with pytest.raises(PositionError, match="out of reach") as refused:
+        state_at_height(Model(CAR), highest + 0.001)
+    assert "rack" not in str(refused.value)
 
 
 def test_angle_of_the_arm_falls_as_the_wheel_rises() -> None:

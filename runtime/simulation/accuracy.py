@@ -11,6 +11,9 @@ from ..core.arguments import Arguments, shown
 Array = NDArray[np.float64]
 
 _MOST_STEPS = 2**62
+# What steps may err by for the rounding of time [s], where all of it is so many spans from zero.
+# On the clock of a computer, which counts from 1970, times are 2e-7 s apart.
+_TOLD_APART, _FAR = 1e-9, 1e3
 _SMALLEST_RTOL = 100.0 * np.finfo(float).eps  # what double precision can do
 
 
@@ -69,10 +72,18 @@ def accuracy_of(
 def span_of(given: Arguments, t_span: Any) -> tuple[float, float]:
     """Check first and last time [s]; the last may be the earlier one."""
     span = given.array("t_span", t_span, "s", finite=False)
-    if span.shape == (2,) and np.isfinite(span).all() and span[0] != span[1]:
-        return float(span[0]), float(span[1])
-    given.refuse(f"t_span = {shown(t_span)}: two different finite times are needed.")
-    return 0.0, 1.0
+    if not (span.shape == (2,) and np.isfinite(span).all() and span[0] != span[1]):
+        given.refuse(f"t_span = {shown(t_span)}: two different finite times are needed.")
+        return 0.0, 1.0
+    farthest, length = float(np.abs(span).max()), abs(float(span[1]) - float(span[0]))
+    apart = float(np.spacing(farthest))
+    if apart > _TOLD_APART and farthest > _FAR * length:
+        given.refuse(
+            f"t_span = {shown(t_span)}: so far from zero only times {apart:.1g} s apart "
+            "differ, and every step would err by as much. Count all times from the first one, "
+            "which is zero."
+        )
+    return float(span[0]), float(span[1])
 
 
 def outputs_of(given: Arguments, t_eval: Any, span: tuple[float, float]) -> Array:

@@ -319,11 +319,12 @@ def _refuse_out_of_reach(
     reach = travel_range(model, rack)
     ends = _rounded_inward(reach.height)
     travels = _rounded_inward([end - design_height(model) for end in reach.height])
+    held = f" with the rack at {rack * 1e3:g} mm" if model.suspension.steered() else ""
     message = (
         f"wheel height {1e3 * height:.6g} mm is out of reach: from {ends[0]:.2f} mm "
-        f"({reach.lower_limit}) to {ends[1]:.2f} mm ({reach.upper_limit}) with the rack at "
-        f"{rack * 1e3:g} mm; that is {travels[0]:+.2f} mm to {travels[1]:+.2f} mm of wheel travel "
-        "from design. Choose a height within this range."
+        f"({reach.lower_limit}) to {ends[1]:.2f} mm ({reach.upper_limit}){held}; that is "
+        f"{travels[0]:+.2f} mm to {travels[1]:+.2f} mm of wheel travel from design. "
+        "Choose a height within this range."
     )
     raise PositionError(message)
 
