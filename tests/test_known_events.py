@@ -165,7 +165,7 @@ def test_a_zero_next_to_a_border_is_not_lost(method):
         np.testing.assert_allclose(found.t_events[0], [0.3], rtol=0.0, atol=RESOLVED)
 
 
-@pytest.mark.parametrize("method", native_methods())
+@each_method
 def test_a_function_that_is_zero_at_first_waits(method):
     def event(time, _):
         return max(0.0, time - 0.1) if time < 0.15 else 0.2 - time
@@ -185,7 +185,7 @@ def test_a_function_of_few_digits_is_zero_for_a_while(method):
     np.testing.assert_allclose(found.t_events[0], [0.1], rtol=0.0, atol=1e-12)
 
 
-@pytest.mark.parametrize("method", native_methods())
+@each_method
 def test_a_function_that_stays_zero_is_an_error(method):
     with pytest.raises(SimulationError, match="event stays at zero"):
         simulate(

@@ -5,8 +5,8 @@ Both integrate one segment of time, in which the inputs are smooth, and return t
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import partial
 from importlib import import_module
+from itertools import pairwise
 from math import factorial
 from typing import Any
 
@@ -320,6 +320,7 @@ def solve_scipy(
         lambda time: inputs.at(time, segment),
         1.0 if segment.end > segment.start else -1.0,
     )
+    watched_events = _scipy_events(function, events)
     method = watched(name, approach, lambda: function.time, segment.milestones)
     try:
         result = solve_ivp(
@@ -333,7 +334,7 @@ def solve_scipy(
             max_step=options.max_step,
             first_step=_within(options.first_step, segment),
             dense_output=options.dense_output,
-            events=[*_scipy_events(function, events, segment.start), _recorder(steps)],
+            events=[*watched_events, _recorder(steps)],
             **extra,
         )
     except (DeadPoint, ModelError, _TooManySteps) as error:
@@ -352,6 +353,9 @@ def solve_scipy(
             refused_guard=dead.guard if dead else None,
         )
     piece = _piece_of(result, steps, events, options)
+    crossed = zip(watched_events, result.t_events or (), strict=False)  # and that of the recorder
+    if any(event.stays(steps) for event, times in crossed if times.size > 1):
+        piece.outcome = "flat_event"
     return _checked_outputs(piece, approach)
 
 
@@ -372,26 +376,37 @@ def _checked_outputs(piece: Piece, approach: Approach) -> Piece:
     return piece
 
 
-def _scipy_events(function: _RightHandSide, events: Events, start: float) -> list[Any]:
+def _scipy_events(function: _RightHandSide, events: Events) -> list["_Waiting"]:
     given: list[Callable[[float, Array], float]] = [
         *(function.event(event.signal, event.level) for event in events.signal),
         *events.functions,
     ]
-    made: list[Any] = []
-    for event, direction, terminal in zip(given, events.directions, events.terminal, strict=True):
-        # a copy, since SciPy reads direction and terminal as attributes of the function
-        made.append(partial(_leaving, event, start))
-        made[-1].direction = direction
-        made[-1].terminal = terminal
-    return made
+    return [_Waiting(*each) for each in zip(given, events.directions, events.terminal, strict=True)]
 
 
-def _leaving(
-    event: Callable[[float, Array], float], start: float, time: float, state: Array
-) -> float:
-    """Return the value of an event; NaN for a zero at the start, which is told or is none."""
-    value = event(time, state)
-    return np.nan if value == 0.0 and time == start else value
+@dataclass
+class _Waiting:
+    """An event as SciPy reads it, which is called at the ends of steps until it may pass zero.
+
+    What is zero at first has been told in the segment before, or passes nothing: it waits. For
+    SciPy each step from zero to zero is a crossing; NaN is none.
+    """
+
+    event: Callable[[float, Array], float]
+    direction: float
+    terminal: int
+    waits: bool = True
+
+    def __call__(self, time: float, state: Array) -> float:
+        value = self.event(time, state)
+        self.waits = self.waits and value == 0.0
+        return np.nan if self.waits else value
+
+    def stays(self, steps: list[tuple[float, Array]]) -> bool:
+        """Tell whether it is zero at both ends of a step, after it was not."""
+        zero = [self.event(*step) == 0.0 for step in steps]
+        first = zero.index(False) if False in zero else len(zero)
+        return any(a and b for a, b in pairwise(zero[first:]))
 
 
 def _recorder(steps: list[tuple[float, Array]]) -> Callable[[float, Array], float]:
