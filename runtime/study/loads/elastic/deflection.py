@@ -113,7 +113,7 @@ def deflection(
     load = _BY_NAME[under]
     suspension, there = suspension_on(model, np.array([travel]), rack_position, soft)
     base = at_height(suspension, np.array([travel]))
-    states = _under(suspension, base, _unit(load, suspension.poses, there), held, load, wanted)
+    states = _under(suspension, base, _unit(load, suspension.poses[0], there)[:, None], held, load, wanted)
     linear = None
     if gives_way(soft):
         linear = compliance(model, bushings, [travel], rack_position=rack_position, held=held)
@@ -124,7 +124,7 @@ def deflection(
 
 
 def _unit(load: RigLoad, poses: Poses, there: Corner) -> Array:
-    """Return a load of 1 N or 1 N m as an equilibrium takes it, (1, 9)."""
+    """Return a load of 1 N or 1 N m as an equilibrium takes it, (n, 9)."""
     at_contact = load_at_contact(load, poses, there)
     force, still = at_contact[:, :3], np.zeros((len(at_contact), 3))
     if load.at == CENTER:
@@ -186,7 +186,7 @@ def _over_load(
         there, center=suspension.center(base.places), axis=suspension.axis(base.places)
     )
     point = suspension.contact(base.places) if load.at == CONTACT else before.center
-    along = sense_of(load, suspension.poses, there)
+    along = sense_of(load, suspension.poses[0], there)
     found: dict[str, list[Array]] = {"toe": [], "camber": [], "displacement": []}
     for state in states:
         after = replace(before, axis=suspension.axis(state.places))
@@ -202,7 +202,7 @@ def _over_load(
             both = np.stack([np.concatenate(values), straight])
             key = name if name == "displacement" else f"{name}_change"
             data[key] = variable((DATA_SET, LOAD), both, *_MEANINGS[name])
-    road = np.concatenate([state.road for state in states])
+    road = np.concatenate([state.road[:, 0] for state in states])
     data["wheel_load"] = variable(LOAD, road, "wheel load", "N")
     words = load.words.partition(" ")[2]
     shown = {"display_units": "kN", "display_factor": 1e-3} if load.unit == "N" else {}

@@ -114,12 +114,12 @@ def _over_travel(suspension: Equilibrium, there: Corner, base: State, travels: A
         for name, formula in _CURVES.items()
     }
     # the same parts with nothing soft
-    suspensions = Equilibrium(suspension.poses, Soft({}, 0.0, {})), suspension
+    suspensions = Equilibrium([(suspension.poses[0], Soft({}, 0.0, {}))]), suspension
     both = at_height(suspensions[0], travels), base
-    nothing = np.zeros((len(travels), LOADS))
-    loads = np.stack([state.road for state in both])
+    nothing = np.zeros((len(travels), 1, LOADS))
+    loads = np.stack([state.road[:, 0] for state in both])
     rates = np.stack(
-        [one.rate(state, nothing) for one, state in zip(suspensions, both, strict=True)]
+        [one.rate(state, nothing)[:, 0, 0] for one, state in zip(suspensions, both, strict=True)]
     )
     data["wheel_load"] = variable(dims, loads, "wheel load", "N")
     data["wheel_rate"] = variable(dims, rates, "wheel rate at the contact", "N/m")

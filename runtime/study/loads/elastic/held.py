@@ -75,12 +75,13 @@ def suspension_on(
     """Return a suspension on its bushes at some travels, and its corner with rigid joints."""
     angles = arm_angles(model, design_height(model) + travels, rack)
     poses = Poses.of(model, *at_rest(model, angles, rack))
-    return Equilibrium(poses, soft), corner(model, angles, rack)
+    return Equilibrium([(poses, soft)]), corner(model, angles, rack)
 
 
 def at_height(suspension: Equilibrium, travels: Array) -> State:
     """Return the equilibria on the road without another load."""
-    base = suspension.under(np.zeros((travels.size, LOADS)), "height", suspension.start)
+    nothing = np.zeros((*suspension.start.road.shape, LOADS))
+    base = suspension.under(nothing, "height", suspension.start)
     if not base.found.all():
         at = ", ".join(f"{1e3 * t:.4g} mm" for t in travels[~base.found][:3])
         problem = (
