@@ -62,7 +62,8 @@ def _turned(foot: Foot, places: Places) -> tuple[Array, Array, Array]:
     at = places.centers[:, foot.body] + arm
     turn = foot.half.turn(at)
     slope, bend = _by_foot(foot.half, at, turn)
-    moving = np.concatenate([np.broadcast_to(np.eye(3), (*turn.shape, 3, 3)), -cross_matrix(arm)], -1)
+    turning = -cross_matrix(arm)
+    moving = np.concatenate([np.broadcast_to(np.eye(3), turning.shape), turning], axis=-1)
     by = np.einsum("nij,ni->nj", moving, slope)
     second = moving.mT @ bend @ moving
     second[:, 3:, 3:] += second_by_rotation(arm, slope)

@@ -27,6 +27,8 @@ Carried = Mapping[tuple[str, str, str], Array]
 """Force and moment on a joint's second part, by both of its parts and the point, each (6,)."""
 
 GROUND = "chassis"
+GUIDE = GROUND, RACK, "tie_rod_inner"
+"""The joint that holds a rack that gives way, of those that carry."""
 
 # The pairs of directions of a wheel bearing that have its axis: what tilts.
 _TILTING = 2
@@ -91,6 +93,8 @@ class Connections:
         What each measure has of a force; None for a condition.
     springs : list of int
         Which measures are the lengths of the springs, by side.
+    bar : int or None
+        Which measure is the twist of the bar.
     wheels : list of int
         Which bodies are the wheels, by side.
     """
@@ -125,6 +129,7 @@ class Connections:
         # the lines are the last; the first one of each side is its spring
         counts = [len(side.lines) for side in self._sides]
         self.springs = [len(self.laws) - sum(counts[i:]) for i in range(len(counts))]
+        self.bar = None if bar is None else len(self.laws)
         if bar is not None:
             feet = (side.foot(half) for side, half in zip(self._sides, bar.halves, strict=True))
             self._groups.append(Bars(*feet))
@@ -306,7 +311,7 @@ class _Side:
         return self.index(first), self.index(second)
 
 
-_RACK_IN_ITS_GUIDE = Fixed(GROUND, RACK, ("tie_rod_inner",))
+_RACK_IN_ITS_GUIDE = Fixed(GROUND, RACK, GUIDE[2:])
 # What is measured, and which method of a side has it.
 _KINDS: tuple[tuple[Any, str], ...] = (
     (Distances, "distances"), (Angles, "angles"), (Angles, "tilts"), (Twists, "twists"),

@@ -196,6 +196,15 @@ class Equilibrium:
             columns.append(_solution(matrix, higher)[:, -wheels:] * _FORCE)
         return np.stack(columns, axis=-1)
 
+    def torque_of_bar(self, state: State) -> Array:
+        """Return the torque of the bar, positive with the first half turned the farther [N m]."""
+        which = self._connections.bar
+        if which is None:
+            return np.zeros(len(state.road))
+        law = self._connections.laws[which]
+        assert law is not None
+        return law(self._connections.at(state.places).value[:, which])[0]
+
     def _moved(self, state: State, step: Array, held: Held) -> tuple[State, Array]:
         """Return the state after a step, and how far that went."""
         size = 6 * (self._count - 1)
