@@ -90,8 +90,8 @@ def pushed(car: Suspension, bushes: Any, travel: float, force: list[float]) -> t
 class Energy(Stiffness):
     """The potential of a suspension whose parts are anywhere."""
 
-    def __init__(self, car: Suspension, bushes: Any) -> None:
-        super().__init__(car, 0.0, 0.0)
+    def __init__(self, car: Suspension, bushes: Any, like: Suspension | None = None) -> None:
+        super().__init__(car, 0.0, 0.0, like)
         self.bushes = bushes
         self.soft, _, *self.lines = self.parts(bushes)
         self.free = [self.length(line) for line in self.lines]
@@ -111,7 +111,7 @@ class Energy(Stiffness):
             self.length(line) - free for line, free in zip(self.lines, self.free, strict=True)
         )
         car = self.car
-        rate = car.strut.spring_rate_N_per_m if car is STRUT else car.spring.rate_N_per_m
+        rate = car.strut.spring_rate_N_per_m if self.like is STRUT else car.spring.rate_N_per_m
         pressed = max(-stop, 0.0)
         total += 0.5 * 5e4 * pressed**2 + 0.25 * 0.05e9 * pressed**4
         return float(total + 0.5 * rate * spring**2)

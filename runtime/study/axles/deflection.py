@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike
 from ...core.arguments import Arguments
 from ...core.quantities import variable
 from ...suspension.axle import Axle
-from ...suspension.corner import Array
 from ..loads.compliance import RigLoad
 from ..loads.elastic.deflection import (
     BY_NAME,
@@ -105,7 +104,7 @@ def deflection(
     ...     found = deflection(axle, bushes, "lateral", [5000.0], wheels=wheels)
     ...     toe = np.rad2deg(float(found["toe_change_right"].sel(data_set="equilibrium")[0]))
     ...     print(abs(round(toe, 3)))
-    0.19
+    0.188
     0.0
     """
     with Arguments("deflection") as given:
@@ -179,6 +178,6 @@ def _slope(
     if linear is None:
         return 0.0
     ways = LOADINGS[load.name]
-    shares: Array = np.linalg.solve(np.transpose([how.parts for how in ways]), parts)
+    shares = np.linalg.solve(np.transpose([how.parts for how in ways]), parts)
     each = [float(linear[f"{kind}_by_{load.name}_{how.name}_{side}"][0]) for how in ways]
     return float(shares @ each)

@@ -96,8 +96,8 @@ def elastokinematics(
     >>> bushes = {"arm_rear": {"axial_N_per_mm": 500.0, "radial_N_per_mm": 2000.0}}
     >>> axle = Axle.load("reference_axle")
     >>> found = elastokinematics(axle, bushes, "roll", np.deg2rad([0.0, 2.0]))
-    >>> (found["roll_stiffness"].values * np.pi / 180.0).round(0).tolist()  # N m/deg
-    [[609.0, 619.0], [600.0, 609.0]]
+    >>> (found["roll_stiffness"].values * np.pi / 180.0).round(1).tolist()  # N m/deg
+    [[851.2, 856.2], [850.8, 856.0]]
     """
     with Arguments("elastokinematics") as given:
         given.kind("axle", axle, Axle, Axle.NEEDED)
@@ -110,6 +110,10 @@ def elastokinematics(
             along = given.array("along", along, _UNITS.get(motion, "m"), dimensions=[1])
         if motion == "steer" and not given.refused:
             axle.right.refuse_without_rack("the motion 'steer'")
+        if motion == "steer" and rack_position:
+            given.refuse("rack_position: the motion 'steer' moves the rack. Leave it out.")
+        if motion != "steer" and travel:
+            given.refuse("travel: it is for the motion 'steer'; others move the wheels by along.")
         softs = softs_of(given, axle, bushings, hardpoints)
     over, usual = _usual(axle, motion, far)
     values = usual if along is None else np.asarray(along)
@@ -207,10 +211,12 @@ def _forces(
     for which, side in enumerate(SIDES):
         loads = np.stack([state.road[:, which] for state in states])
         data[f"wheel_load_{side}"] = variable(dims, loads, f"wheel load, {side}", "N")
+    for which, side in enumerate(SIDES):
         own = np.stack([rate[:, which] for rate in rates])
         words = f"wheel rate at the contact, {side}"
         data[f"wheel_rate_{side}"] = variable(dims, own, words, "N/m")
-    roll = variable(dims, np.stack(stiffness), "roll stiffness, positive resists", "N m/rad")
+    words = "roll stiffness, positive when it resists roll"
+    roll = variable(dims, np.stack(stiffness), words, "N m/rad")
     shown = {"display_units": "N m/deg", "display_factor": np.pi / 180.0}
     data["roll_stiffness"] = xr.Variable(dims, roll.values, roll.attrs | shown)
     return data

@@ -173,21 +173,23 @@ def _towards(
     load: RigLoad,
 ) -> State:
     """Return the equilibrium under a load from that under another one, by steps if need be."""
-    begin, end = amounts
-    while True:
-        step = end
-        while not (there := suspension.under(step * unit, held, state)).found.all():
-            if abs(step - begin) <= _LEAST_STEP * abs(end):
-                problem = (
-                    f"no equilibrium that lasts was found under {load.words} of more than "
-                    f"{begin:.4g} {load.unit}: the bushes do not hold the linkage. Leave greater "
-                    "ones out, or make the bushes stiffer."
-                )
-                raise InputError([problem], "deflection")
-            step = 0.5 * (begin + step)
-        state, begin = there, step
-        if step == end:
-            return state
+    at, end = amounts
+    step = end - at
+    while at != end:
+        to = end if abs(step) >= abs(end - at) else at + step
+        there = suspension.under(to * unit, held, state)
+        if there.found.all():
+            state, at, step = there, to, 2.0 * step
+            continue
+        step *= 0.5
+        if abs(step) <= _LEAST_STEP * abs(end):
+            problem = (
+                f"no equilibrium that lasts was found under {load.words} of more than "
+                f"{at:.4g} {load.unit}: the bushes do not hold the linkage. Leave greater "
+                "ones out, or make the bushes stiffer."
+            )
+            raise InputError([problem], "deflection")
+    return state
 
 
 # -- results --------------------------------------------------------------------------------------
