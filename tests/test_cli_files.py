@@ -48,8 +48,15 @@ WRITING = {
     "compliance": (["compliance", CAR, str(STUDIES / "bushes.toml"), "--plot", "a.svg"], "a.svg"),
     "deflection": (["deflection", CAR, str(STUDIES / "bushes.toml"), "--plot", "a.svg"], "a.svg"),
     "deflection of an axle": (
-        ["deflection", "reference_axle", str(STUDIES / "bushes.toml"), "--motion", "roll"]
-        + ["--plot", "a.svg"],
+        [
+            "deflection",
+            "reference_axle",
+            str(STUDIES / "bushes.toml"),
+            "--motion",
+            "roll",
+            "--plot",
+            "a.svg",
+        ],
         "a.svg",
     ),
     "compare": (["compare", CAR, CAR, "--plot", "a.pdf"], "a.pdf"),

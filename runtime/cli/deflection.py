@@ -172,7 +172,7 @@ def _under(
     if not 0.0 < most < np.inf:
         raise InputError([f"--most {most}: a load of more than 0 is needed."], "deflection")
     amounts = np.linspace(-most, most, _STEPS)
-    where_it_is = {"travel": at / 1e3, "rack_position": rack / 1e3}
+    where_it_is: Any = {"travel": at / 1e3, "rack_position": rack / 1e3}
     if is_axle(file):
         from ..suspension.axle import Axle
 

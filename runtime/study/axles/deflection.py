@@ -128,7 +128,7 @@ def deflection(
     linear = None
     if any(gives_way(soft) for soft in softs.values()):
         linear = compliance(axle, bushings, at, rack_position=rack_position, held=held)
-    data = {}
+    data: dict[str, xr.Variable] = {}
     for which, side in enumerate(SIDES):
         changed = changes(suspension, pair.corners[side], base, states, load, which)
         straight = {k: _slope(linear, load, k, side, parts) * wanted for k in changed}

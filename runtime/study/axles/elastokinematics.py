@@ -1,6 +1,6 @@
 """How both wheels of an axle move over the motions of a rig on their bushes, and without any."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,7 @@ from ...core.arguments import Arguments
 from ...core.quantities import variable
 from ...suspension.axle import Axle
 from ...suspension.axle.axle import LEFT, RIGHT
-from ...suspension.corner import Array
+from ...suspension.corner import Array, Corner
 from ..characteristics.catalogue import Quantity
 from ..characteristics.datasets import KNOWN, RACK, TRAVEL
 from ..compare import DATA_SET
@@ -173,6 +173,7 @@ def _over(
     both = [axle_on(pair, racks, each) for each in (dict.fromkeys(SIDES, RIGID), softs)]
     states = [at_height(suspension, values, over) for suspension in both]
     data: dict[str, xr.Variable] = {}
+    curves: dict[Quantity, Callable[[Corner], Array]]
     curves = {KNOWN["travel"][name]: formula for name, formula in CURVES.items()}
     if motion == "steer":
         steered = KNOWN["rack"]["steer"]

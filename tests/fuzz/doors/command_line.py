@@ -83,10 +83,8 @@ OPTIONS = {
                  "--rtol", "--atol", "--road-step-at", "--wheels"),
     "loads": ("-o", "--plot", "--cases", "--case", "--part"),
     "compliance": ("-o", "--plot", "--held", "--at", "--rack", "--bump"),
-    "deflection": (
-        "-o", "--plot", "--under", "--most", "--held", "--at", "--rack", "--bump", "--wheels",
-        "--motion",
-    ),  # fmt: skip
+    "deflection": ("-o", "--plot", "--under", "--most", "--held", "--at", "--rack", "--bump",
+                   "--wheels", "--motion"),
     "compare": ("-o", "--over", "--of"),
     "sensitivity": ("-o", "--plot", "--place", "--of", "--over", "--at"),
     "tolerance": ("-o", "--plot", "--of", "--over", "--at", "--seed"),
