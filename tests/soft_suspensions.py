@@ -83,12 +83,14 @@ X, Z = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
 class Stiffness:
     """A suspension as bodies on springs, held where its joints do not give way."""
 
-    def __init__(self, car: Suspension, travel: float, rack: float) -> None:
-        self.car, self.model = car, Model(car)
+    def __init__(
+        self, car: Suspension, travel: float, rack: float, like: Suspension | None = None
+    ) -> None:
+        self.car, self.model, self.like = car, Model(car), like or car
         state = at_rest(
             self.model, arm_angles(self.model, design_height(self.model) + travel, rack), rack
         )
-        self.carrier = "trailing_arm" if car is TRAILING else "knuckle"
+        self.carrier = "trailing_arm" if self.like is TRAILING else "knuckle"
         self.bodies = ("chassis", *self.model.equations.BODIES)
         self.pose = Pose(
             self.model.evaluate("positions", *state), self.model.evaluate("orientations", *state)
@@ -160,8 +162,8 @@ class Stiffness:
         if held == "locked":
             rigid.append(self.along(*spring)[None])
         else:
-            rate = getattr(self.car, "strut" if self.car is STRUT else "spring")
-            rate = getattr(rate, "spring_rate_N_per_m" if self.car is STRUT else "rate_N_per_m")
+            rate = getattr(self.car, "strut" if self.like is STRUT else "spring")
+            rate = getattr(rate, "spring_rate_N_per_m" if self.like is STRUT else "rate_N_per_m")
             stiff += rate * np.outer(self.along(*spring), self.along(*spring))
             stiff += 5e4 * np.outer(self.along(*stop), self.along(*stop))
         if held == "height":
@@ -180,7 +182,7 @@ class Stiffness:
         )
 
     def bearing(self) -> tuple[int, int, np.ndarray, np.ndarray, np.ndarray]:
-        spin = self.car.wheel.spin_axis(-1.0)
+        spin = self.car.wheel.spin_axis(self.car.vehicle.sign)
         across, other = np.linalg.svd(spin[None])[2][1:]
         return self.index(self.carrier), self.index("wheel"), spin, across, other
 
@@ -189,15 +191,15 @@ class Stiffness:
         rigid = []
         knuckle, wheel, _, across, other = self.bearing()
         joints = [
-            *POINTS[self.car],
+            *POINTS[self.like],
             ("wheel_center", self.carrier, "wheel"),
         ]
-        if self.car is not TRAILING:
+        if self.like is not TRAILING:
             joints.append(("tie_rod_outer", "knuckle", "tie_rod"))
             joints.append(("tie_rod_inner", "rack", "tie_rod"))
             rigid.append(np.eye(self.size)[6 * self.index("rack") - 6 :][:6])
             rigid.append(self.cross("rack", "tie_rod"))
-        if self.car is STRUT:
+        if self.like is STRUT:
             strut = self.index("upper_strut")
             axis = self.at["strut_top"] - self.at["strut_lower"]
             joints.append(("strut_top", 0, "upper_strut"))
@@ -206,11 +208,11 @@ class Stiffness:
             rigid.append(self.rows(lambda a: a.perpendicular(0, strut, X, np.cross(X, axis))))
             spring = (0, "spring_top", "knuckle", "spring_seat")
             stop = ("upper_strut", "strut_top", "knuckle", "strut_lower")
-        elif self.car is LINKED:
+        elif self.like is LINKED:
             rigid += [self.cross(0, link) for link in LINKS]
             spring = (0, "spring_top", "rear_lower_link", "spring_seat")
             stop = (0, "damper_top", "knuckle", "damper_seat")
-        elif self.car is TRAILING:
+        elif self.like is TRAILING:
             spring = (0, "spring_top", "trailing_arm", "spring_seat")
             stop = (0, "damper_top", "trailing_arm", "damper_seat")
         else:
@@ -242,11 +244,11 @@ class Stiffness:
         if "axis" in bush:
             axis = np.array(bush["axis"])
         elif name == "wheel_center":
-            axis = self.car.wheel.spin_axis(-1.0)
+            axis = self.car.wheel.spin_axis(self.car.vehicle.sign)
         else:
             rod = name.rpartition("_")[0]
             arm = name.replace("front", "").replace("rear", "")
-            along = "link" in rod or self.car is TRAILING
+            along = "link" in rod or self.like is TRAILING
             usual = (f"{rod}_inner", f"{rod}_outer") if along else (f"{arm}front", f"{arm}rear")
             start, end = ends.get(name, usual)
             axis = self.at[end] - self.at[start]
@@ -260,7 +262,8 @@ class Stiffness:
         return rows.T @ np.diag(rates) @ rows
 
     def contact(self) -> np.ndarray:
-        axis = self.pose.rotation[self.index("wheel") - 1] @ self.car.wheel.spin_axis(-1.0)
+        spin = self.car.wheel.spin_axis(self.car.vehicle.sign)
+        axis = self.pose.rotation[self.index("wheel") - 1] @ spin
         upward = Z - axis[2] * axis
         radius = self.car.tyre_radius()
         assert radius is not None

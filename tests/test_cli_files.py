@@ -47,6 +47,18 @@ WRITING = {
     "loads --plot": (["loads", CAR, "--case", "brake", "--plot", "a.png"], "a_brake.png"),
     "compliance": (["compliance", CAR, str(STUDIES / "bushes.toml"), "--plot", "a.svg"], "a.svg"),
     "deflection": (["deflection", CAR, str(STUDIES / "bushes.toml"), "--plot", "a.svg"], "a.svg"),
+    "deflection of an axle": (
+        [
+            "deflection",
+            "reference_axle",
+            str(STUDIES / "bushes.toml"),
+            "--motion",
+            "roll",
+            "--plot",
+            "a.svg",
+        ],
+        "a.svg",
+    ),
     "compare": (["compare", CAR, CAR, "--plot", "a.pdf"], "a.pdf"),
     "sensitivity": (
         ["sensitivity", CAR, "--place", "hardpoints.ball_joint.z", "-o", "a.nc"],

@@ -81,8 +81,8 @@ def pushed(car: Suspension, bushes: Any, travel: float, force: list[float]) -> t
         read = model.suspension.bushes(given, bushes)
     angles = arm_angles(model, [design_height(model) + travel])
     poses = Poses.of(model, *at_rest(model, angles))
-    suspension = Equilibrium(poses, Soft({bush.point: bush for bush in read}, 0.0, {}))
-    load = np.array([[0.0] * 6 + force])
+    suspension = Equilibrium([(poses, Soft({bush.point: bush for bush in read}, 0.0, {}))])
+    load = np.array([[[0.0] * 6 + force]])
     base = suspension.under(0.0 * load, "height", suspension.start)
     return suspension, suspension.under(load, "height", base)
 
@@ -90,8 +90,8 @@ def pushed(car: Suspension, bushes: Any, travel: float, force: list[float]) -> t
 class Energy(Stiffness):
     """The potential of a suspension whose parts are anywhere."""
 
-    def __init__(self, car: Suspension, bushes: Any) -> None:
-        super().__init__(car, 0.0, 0.0)
+    def __init__(self, car: Suspension, bushes: Any, like: Suspension | None = None) -> None:
+        super().__init__(car, 0.0, 0.0, like)
         self.bushes = bushes
         self.soft, _, *self.lines = self.parts(bushes)
         self.free = [self.length(line) for line in self.lines]
@@ -111,7 +111,7 @@ class Energy(Stiffness):
             self.length(line) - free for line, free in zip(self.lines, self.free, strict=True)
         )
         car = self.car
-        rate = car.strut.spring_rate_N_per_m if car is STRUT else car.spring.rate_N_per_m
+        rate = car.strut.spring_rate_N_per_m if self.like is STRUT else car.spring.rate_N_per_m
         pressed = max(-stop, 0.0)
         total += 0.5 * 5e4 * pressed**2 + 0.25 * 0.05e9 * pressed**4
         return float(total + 0.5 * rate * spring**2)
@@ -153,14 +153,14 @@ def test_nothing_is_left_of_the_potential(
     assert state.found.all()
     energy = Energy(car, SOFTER[car])
     bodies = energy.bodies[1:]
-    order = [suspension._connections.index(body) for body in bodies]
+    order = [suspension._connections.index(0, body) for body in bodies]
     position, rotation = energy.pose.position.copy(), energy.pose.rotation.copy()
     for which, (body, place) in enumerate(zip(bodies, order, strict=True)):
         if place:  # the rack stays
             position[which] = state.places.centers[0, place]
-            rotation[which] = state.places.turned[0, place] @ suspension.poses.turned[body][0]
+            rotation[which] = state.places.turned[0, place] @ suspension.poses[0].turned[body][0]
     energy.pose = Pose(position, rotation)
-    left = energy.slopes(np.array(force), float(state.road[0]))
+    left = energy.slopes(np.array(force), float(state.road[0, 0]))
     _, held, *_ = energy.parts(energy.bushes)
     for name, first, second in energy.soft:
         gap = energy.placed(name, second) - energy.placed(name, first)

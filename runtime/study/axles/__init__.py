@@ -8,6 +8,9 @@
     `datasets`   the labelled arrays
     `compare`    several axles over one motion
     `compliance` how both wheels give way together
+    `deflection` the same by equilibrium, under loads of any size
+    `elastokinematics` what bushes do over the motions of a rig
+    `on_bushes`  both sides on their bushes
     `loads`      what every part carries in load cases
     `along`      the same along a motion
     `cases`      load cases of both wheels
@@ -24,6 +27,8 @@ from .cases import standard_cases
 from .compare import compare, over
 from .compliance import compliance
 from .datasets import bump, by_side, roll, single, steer
+from .deflection import deflection
+from .elastokinematics import elastokinematics
 from .loads import static_loads
 from .motions import MOTIONS, Extent
 
@@ -34,6 +39,8 @@ __all__ = [
     "by_side",
     "compare",
     "compliance",
+    "deflection",
+    "elastokinematics",
     "loads_along",
     "over",
     "roll",

@@ -56,7 +56,7 @@ _FORE_AND_AFT = (
     Together("parallel", _IMAGES, "both rearward"),
     Together("opposed", (1.0, -1.0), "left rearward and right forward"),
 )
-_LOADINGS = {
+LOADINGS = {
     "lateral": (
         Together("parallel", (-1.0, 1.0), "both to the left"),
         Together("opposed", _IMAGES, "both inward"),
@@ -68,7 +68,7 @@ _LOADINGS = {
         Together("opposed", _IMAGES, "both towards toe-out"),
     ),
 }
-_WORDS = {
+WORDS = {
     "lateral": "lateral forces",
     "braking": "longitudinal forces",
     "recession": "forces at the wheel centres",
@@ -139,7 +139,7 @@ def compliance(
         if travel is not None:
             travel = given.array("travel", travel, "m", dimensions=[1])
         if not given.refused:
-            described = _described(given, axle, bushings)
+            described = described_of(given, axle, bushings)
             bushes = {s: side.bushes(given, described[s]) for s, side in axle.sides.items()}
             rack = softness_of_rack(given, described[axle.bar_side])
             refuse_rigid(given, [*bushes[LEFT], *bushes[RIGHT]], rack)
@@ -152,7 +152,7 @@ def compliance(
     return found.assign_attrs(left_out=left_out([*bushes[LEFT], *bushes[RIGHT]]))
 
 
-def _described(given: Arguments, axle: Axle, bushings: Any) -> dict[str, dict[str, Any]]:
+def described_of(given: Arguments, axle: Axle, bushings: Any) -> dict[str, dict[str, Any]]:
     """Return what is said of the bushes of both sides: the files', or what is given and its image.
 
     What is wrong of the latter is told of the side that it is given for.
@@ -184,7 +184,7 @@ def _dataset(wheels: list[Wheel], flexible: Array, travels: Array, held: Held) -
         test.name: [load_at_contact(test, w.poses, w.there) for w in wheels] for test in RIG_LOADS
     }
     for test in RIG_LOADS:
-        for how in _LOADINGS[test.name]:
+        for how in LOADINGS[test.name]:
             parts = zip(how.parts, loads[test.name], strict=True)
             load = np.concatenate([part * one for part, one in parts], axis=-1)
             moved = np.split(np.einsum("nab,nb->na", flexible, load), 2, axis=-1)
@@ -210,7 +210,7 @@ def _variables(
     test: RigLoad, how: Together, side: str, one: Wheel, moved: Array
 ) -> dict[str, xr.Variable]:
     """Return what a wheel does under loads on both."""
-    named = replace(test, name=f"{test.name}_{how.name}", words=_WORDS[test.name])
+    named = replace(test, name=f"{test.name}_{how.name}", words=WORDS[test.name])
     words = f"{how.words}, {side}"
     return {
         f"{quantity.name}_{side}": xr.Variable(TRAVEL.name, values, quantity.attributes())

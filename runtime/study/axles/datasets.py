@@ -203,7 +203,7 @@ def steer(
         found = Pair.at(axle, travel, travel, racks)
         dataset = _dataset(found, OVER_STEERING, RACK, racks, {TRAVEL: travel}, title)
         return dataset.assign(_variables(_of_both(found, None), RACK))
-    positions, per_turn = _rack_of(axle, angles)
+    positions, per_turn = rack_of(axle, angles)
     found = Pair.at(axle, travel, travel, positions)
     held = {TRAVEL: travel}
     dataset = _dataset(found, OVER_STEERING, STEERING_WHEEL, angles, held, title)
@@ -286,7 +286,7 @@ def _refuse_angles(given: Arguments, axle: Axle, angles: Array) -> None:
             )
 
 
-def _rack_of(axle: Axle, angles: Array) -> tuple[Array, Array]:
+def rack_of(axle: Axle, angles: Array) -> tuple[Array, Array]:
     """Return rack displacements at angles, and the travel for a turn there, with its sign [m]."""
     if axle.steering is not None:
         rises = axle.steering.rack_mm[-1] > axle.steering.rack_mm[0]

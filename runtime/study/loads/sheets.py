@@ -9,7 +9,10 @@ from ...core.quantities import bracketed, display_of, displayed, long_name
 from ...core.tabulated import Tabulated, significant, whole
 
 # What stands in tables of deflections, and what the other curve is called there.
-_IN_TABLES = ("toe", "toe_change", "camber", "camber_change", "displacement", "wheel_rate")
+_IN_TABLES = (
+    "toe", "toe_change", "camber", "camber_change", "displacement", "wheel_rate", "roll_stiffness",
+    "bar_torque",
+)  # fmt: skip
 _BESIDE = {"elastokinematic": "on bushes", "linear": "linear"}
 
 _ACTING = ("spring", "damper", "road", "drive", "steering")
@@ -127,11 +130,30 @@ def deflections(found: xr.Dataset, title: str, most: int = 11) -> Tabulated:
     _, other = map(str, here["data_set"].values)
     columns = [_heading(over.replace("_", " "), here[over])]
     cells = [[f"{value:g}" for value in displayed(here[over])]]
-    for name in (name for name in _IN_TABLES if name in here):
+    for name in (name for name in _IN_TABLES if name in here and here[name].ndim > 1):
         word = name.removesuffix("_change").replace("_", " ")
         columns += [_heading(word, here[name]), _BESIDE[other]]
         cells += [[_number(value) for value in row] for row in displayed(here[name])]
     return Tabulated(title, tuple(columns), tuple(zip(*cells, strict=True)), frozenset())
+
+
+def deflections_of_axle(found: xr.Dataset, title: str) -> list[Tabulated]:
+    """Return those of each wheel of an axle, and of what both have together.
+
+    Parameters
+    ----------
+    found : xarray.Dataset
+        From `kintrafo.axles.elastokinematics` or `kintrafo.axles.deflection`.
+    title : str
+    """
+    sheets = []
+    for side in ("left", "right"):
+        end = f"_{side}"
+        own = {name: name.removesuffix(end) for name in map(str, found) if name.endswith(end)}
+        sheets.append(deflections(found[list(own)].rename(own), f"{title}, {side} wheel"))
+    both = [name for name in map(str, found) if without_side(name) == name]
+    shared = [name for name in both if name in _IN_TABLES and found[name].ndim > 1]
+    return [*sheets, deflections(found[shared], f"{title}, both")] if shared else sheets
 
 
 def _heading(words: str, data: xr.DataArray) -> str:

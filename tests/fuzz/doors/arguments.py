@@ -162,6 +162,22 @@ CALLS = {
             "hardpoints": "loaded",
         },
     ),
+    "axles.elastokinematics": (
+        axles.elastokinematics,
+        {
+            "axle": _AXLE, "bushings": {"arm_rear": {"radial_N_per_mm": 1e3}}, "motion": "roll",
+            "along": [0.01], "extent": None, "travel": 0.0, "rack_position": 0.0,
+            "hardpoints": "loaded",
+        },
+    ),
+    "axles.deflection": (
+        axles.deflection,
+        {
+            "axle": _AXLE, "bushings": {"arm_rear": {"radial_N_per_mm": 1e3}}, "under": "lateral",
+            "amounts": [100.0], "wheels": [1.0, -0.5], "travel": 0.0, "rack_position": 0.0,
+            "held": "height", "hardpoints": "loaded",
+        },
+    ),
     "curve of a bush": (
         lambda **given: loads.elastokinematics(_CAR, {"arm_rear": {"axial_curve": given}}, [0.0]),
         {"mm": [-1.0, 0.0, 1.0], "N": [-100.0, 0.0, 300.0]},

@@ -3,7 +3,7 @@
 What a joint keeps is a condition; what a bush gives way to has a force over the displacement.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,10 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.vectors import cross, unit_vector
+from ....suspension.axle.bar import HalfBar
 from ....suspension.bushes import RACK, Bush
+from ....suspension.points import carried as placed
 from ....suspension.structure import Fixed, Joint, Line, frame
 from ...characteristics.from_model import design_axis
 from ..poses import Poses
+from .bars import Bars, Foot
 from .laws import Bent, Coil, Law, Stops, Straight
 from .places import Angles, Distances, Lengths, Measured, Places, Radii, Twists
 
@@ -24,6 +27,8 @@ Carried = Mapping[tuple[str, str, str], Array]
 """Force and moment on a joint's second part, by both of its parts and the point, each (6,)."""
 
 GROUND = "chassis"
+GUIDE = GROUND, RACK, "tie_rod_inner"
+"""The joint that holds a rack that gives way, of those that carry."""
 
 # The pairs of directions of a wheel bearing that have its axis: what tilts.
 _TILTING = 2
@@ -50,67 +55,135 @@ class Soft:
     carried: Carried
 
 
-class Connections:
-    """Everything that is measured between the bodies of a suspension in many positions.
-
-    Parameters
-    ----------
-    poses : Poses
-        With rigid joints.
-    soft : Soft
+@dataclass(frozen=True)
+class Bar:
+    """An anti-roll bar between two sides.
 
     Attributes
     ----------
-    bodies : tuple of str
-        The ground first.
-    start : Places
-        Where the bodies are with rigid joints.
-    laws : list of Law or None
-        What each measure has of a force; None for a condition.
-    spring : int
-        Which measure is the length of the spring.
+    halves : tuple of HalfBar
+        By side.
+    rate : float
+        Torque by the twist, the first half less the second one [N m/rad].
+    free_twist : float
+        The twist without a torque [rad].
     """
 
-    def __init__(self, poses: Poses, soft: Soft) -> None:
-        self._poses, self._soft = poses, soft
-        structure = poses.model.suspension.structure()
-        joints = list(structure.joints)
-        self.bodies: tuple[str, ...] = (GROUND, *structure.parts)
-        if soft.rack:
-            self.bodies += (RACK,)
-            joints.append(_RACK_IN_ITS_GUIDE)
-        self.start = Places.at(np.stack([self._center(body) for body in self.bodies], axis=1))
-        distances = [found for joint in joints for found in self._distances(joint)]
-        angles = [found for joint in joints for found in self._angles(joint)]
-        angles += [found for joint in joints for found in self._tilts(joint)]
-        twists = [found for joint in joints for found in self._twists(joint)]
-        radii = [found for joint in joints for found in self._radii(joint)]
-        lengths = [self._length(line) for line in structure.lines]
-        groups: tuple[tuple[Any, list[Any]], ...] = (
-            (Distances, distances), (Angles, angles), (Twists, twists), (Radii, radii),
-            (Lengths, lengths),
-        )  # fmt: skip
-        self._groups: list[Distances | Angles | Twists | Radii | Lengths] = []
-        for kind, found in groups:
+    halves: tuple[HalfBar, HalfBar]
+    rate: float
+    free_twist: float
+
+
+class Connections:
+    """Everything that is measured between the bodies of a suspension, or of both of an axle.
+
+    Parameters
+    ----------
+    sides : sequence of tuple of Poses and Soft
+        Each in as many positions, with rigid joints. They have one rack: what it gives way and
+        carries is that of the first.
+    bar : Bar, optional
+        Between the two sides.
+
+    Attributes
+    ----------
+    start : Places
+        Where the bodies are with rigid joints; the ground is the first.
+    laws : list of Law or None
+        What each measure has of a force; None for a condition.
+    springs : list of int
+        Which measures are the lengths of the springs, by side.
+    bar : int or None
+        Which measure is the twist of the bar.
+    wheels : list of int
+        Which bodies are the wheels, by side.
+    """
+
+    def __init__(self, sides: Sequence[tuple[Poses, Soft]], bar: Bar | None = None) -> None:
+        self._sides: list[_Side] = []
+        centers = [np.zeros_like(sides[0][0].axis)]
+        for poses, soft in sides:
+            begin = len(centers)
+            parts = poses.model.suspension.structure().parts
+            self._sides.append(_Side(poses, soft, {p: begin + i for i, p in enumerate(parts)}))
+            centers += [poses.centers[part] for part in parts]
+        if sides[0][1].rack:
+            for side in self._sides:
+                side.bodies[RACK] = len(centers)
+            centers.append(sides[0][0].points["tie_rod_inner"])
+            self._sides[0].joints.append(_RACK_IN_ITS_GUIDE)
+        self.start = Places.at(np.stack(centers, axis=1))
+        for side in self._sides:
+            side.centers = self.start.centers
+        self.wheels = [side.bodies["wheel"] for side in self._sides]
+        self._groups: list[Any] = []
+        self.laws: list[Law | None] = []
+        for kind, name in _KINDS:
+            found = [each for side in self._sides for each in side.measures(name)]
             if not found:
                 continue
-            bodies, vectors, _ = zip(*found, strict=True)
+            bodies, vectors, laws = zip(*found, strict=True)
             of_each = (np.stack(same, axis=1) for same in zip(*vectors, strict=True))
             self._groups.append(kind(np.array(bodies), *of_each))
-        self.laws: list[Law | None] = [law for _, found in groups for _, _, law in found]
-        self.spring = len(self.laws) - len(lengths)
+            self.laws += laws
+        # the lines are the last; the first one of each side is its spring
+        counts = [len(side.lines) for side in self._sides]
+        self.springs = [len(self.laws) - sum(counts[i:]) for i in range(len(counts))]
+        self.bar = None if bar is None else len(self.laws)
+        if bar is not None:
+            feet = (side.foot(half) for side, half in zip(self._sides, bar.halves, strict=True))
+            self._groups.append(Bars(*feet))
+            self.laws.append(Straight(bar.rate, -bar.rate * bar.free_twist))
+
+    def index(self, side: int, body: str) -> int:
+        """Return which body it is; what does not move is the ground."""
+        return self._sides[side].index(body)
 
     def at(self, places: Places) -> Measured:
         """Return all that is measured somewhere."""
         return Measured.together([group.at(places) for group in self._groups])
 
+
+class _Side:
+    """What is measured between the bodies of one suspension.
+
+    Attributes
+    ----------
+    bodies : dict of str to int
+        Those that move.
+    joints : list of Joint
+    lines : sequence of Line
+    centers : ndarray, shape (n, bodies, 3)
+        Of all bodies, with rigid joints [m].
+    """
+
+    centers: Array
+
+    def __init__(self, poses: Poses, soft: Soft, bodies: dict[str, int]) -> None:
+        self._poses, self._soft, self.bodies = poses, soft, bodies
+        structure = poses.model.suspension.structure()
+        self.joints, self.lines = list(structure.joints), structure.lines
+
     def index(self, body: str) -> int:
         """Return which body it is; what does not move is the ground."""
-        return self.bodies.index(body) if body in self.bodies else 0
+        return self.bodies.get(body, 0)
+
+    def measures(self, name: str) -> Iterator[tuple[Pair, tuple[Array, ...], Law | None]]:
+        """Yield all of a kind: what the method of that name has of joints, or of lines."""
+        for each in self.lines if name == "lengths" else self.joints:
+            yield from getattr(self, name)(each)
+
+    def foot(self, half: HalfBar) -> Foot:
+        """Return where the drop link of half a bar is joined to its part."""
+        poses = self._poses
+        places = {"foot": (half.body, half.foot)}
+        at = placed(poses.model, places, poses.states, poses.inputs)["foot"]
+        which = self.index(half.body)
+        return Foot(half, which, at - self.centers[:, which])
 
     # -- what is measured: bodies, vectors, and the law ------------------------------------------
 
-    def _distances(
+    def distances(
         self, joint: Joint
     ) -> Iterator[tuple[Pair, tuple[Array, Array, Array], Law | None]]:
         parts = joint.first, joint.second
@@ -127,7 +200,7 @@ class Connections:
                 if not isinstance(law, Bent) or which < len(laws) - _ACROSS:
                     yield self._indices(*parts), (rows[:, which], start, end), law
 
-    def _radii(self, joint: Joint) -> Iterator[tuple[Pair, tuple[Array, ...], Law | None]]:
+    def radii(self, joint: Joint) -> Iterator[tuple[Pair, tuple[Array, ...], Law | None]]:
         """Yield what bushes measure across their axes that are curved there."""
         for bush in self._bushes(joint):
             curve = bush.curves[-1]
@@ -143,7 +216,7 @@ class Connections:
             parts = self._indices(joint.first, joint.second)
             yield parts, (rows[:, 1], rows[:, 2], *arms, before), Bent(curve)
 
-    def _angles(self, joint: Joint) -> Iterator[tuple[Pair, tuple[Array, Array], Law | None]]:
+    def angles(self, joint: Joint) -> Iterator[tuple[Pair, tuple[Array, Array], Law | None]]:
         poses = self._poses
         spin = design_axis(poses.model.suspension)
         pairs = joint.right_angles(poses.points, poses.turned, poses.design, spin)
@@ -158,7 +231,7 @@ class Connections:
                 law = Straight(1.0 / bush.tilt, -float(moment))
             yield self._indices(joint.first, joint.second), (first, second), law
 
-    def _tilts(self, joint: Joint) -> Iterator[tuple[Pair, tuple[Array, Array], Law | None]]:
+    def tilts(self, joint: Joint) -> Iterator[tuple[Pair, tuple[Array, Array], Law | None]]:
         """Yield what of its axis leaves that of a bush which resists tilting."""
         for bush in self._bushes(joint):
             if stiffness := bush.turning[1]:
@@ -170,7 +243,7 @@ class Connections:
                         Straight(stiffness),
                     )
 
-    def _twists(self, joint: Joint) -> Iterator[tuple[Pair, tuple[Array, ...], Law | None]]:
+    def twists(self, joint: Joint) -> Iterator[tuple[Pair, tuple[Array, ...], Law | None]]:
         """Yield the torsion of bushes that resist it."""
         for bush in self._bushes(joint):
             if stiffness := bush.turning[0]:
@@ -181,7 +254,8 @@ class Connections:
                     Straight(stiffness),
                 )
 
-    def _length(self, line: Line) -> tuple[Pair, tuple[Array, Array], Law]:
+    def lengths(self, line: Line) -> Iterator[tuple[Pair, tuple[Array, Array], Law]]:
+        """Yield the length of a spring, or of what is beside it."""
         poses, model = self._poses, self._poses.model
         first, second = (poses.points[point] for point in line.at)
         length = np.linalg.norm(second - first, axis=-1)
@@ -192,7 +266,7 @@ class Connections:
             stroke = model.signals(poses.states, poses.inputs)[name]
             law = Stops(length, force, stroke, model.parameters)
         ends = self._arm(line.first, line.at[0]), self._arm(line.second, line.at[1])
-        return self._indices(line.first, line.second), ends, law
+        yield self._indices(line.first, line.second), ends, law
 
     # -- bushes -----------------------------------------------------------------------------------
 
@@ -228,19 +302,18 @@ class Connections:
 
     # -- bodies -----------------------------------------------------------------------------------
 
-    def _center(self, body: str) -> Array:
-        points = self._poses.points
-        if body == GROUND:
-            return np.zeros_like(points["wheel_center"])
-        return points["tie_rod_inner"] if body == RACK else self._poses.centers[body]
-
     def _arm(self, body: str, point: str) -> Array:
         """Return a hardpoint from the centre of a body, (n, 3) [m]."""
-        arm: Array = self._poses.points[point] - self.start.centers[:, self.index(body)]
+        arm: Array = self._poses.points[point] - self.centers[:, self.index(body)]
         return arm
 
     def _indices(self, first: str, second: str) -> Pair:
         return self.index(first), self.index(second)
 
 
-_RACK_IN_ITS_GUIDE = Fixed(GROUND, RACK, ("tie_rod_inner",))
+_RACK_IN_ITS_GUIDE = Fixed(GROUND, RACK, GUIDE[2:])
+# What is measured, and which method of a side has it.
+_KINDS: tuple[tuple[Any, str], ...] = (
+    (Distances, "distances"), (Angles, "angles"), (Angles, "tilts"), (Twists, "twists"),
+    (Radii, "radii"), (Lengths, "lengths"),
+)  # fmt: skip

@@ -19,7 +19,15 @@ from ..compliance import RIG_LOADS, RigLoad, compliance, load_at_contact, sense_
 from ..flexibility import HELD, Held
 from ..poses import CENTER, CONTACT, Poses
 from .equilibrium import Equilibrium, State
-from .held import HARDPOINTS, Hardpoints, at_height, gives_way, soft_of, suspension_on
+from .held import (
+    HARDPOINTS,
+    Hardpoints,
+    at_height,
+    gives_way,
+    on_bushes,
+    soft_of,
+    suspension_on,
+)
 
 Array = NDArray[np.float64]
 
@@ -31,7 +39,7 @@ _MEANINGS = {
     "camber": ("change of camber, positive with the top outboard", "rad"),
     "displacement": ("displacement in the direction of the force", "m"),
 }
-_BY_NAME = {load.name: load for load in RIG_LOADS}
+BY_NAME = {load.name: load for load in RIG_LOADS}
 _GREATEST = 1e6
 # A part of a load that is a step too small to go on with.
 _LEAST_STEP = 1e-3
@@ -101,30 +109,41 @@ def deflection(
     """
     with Arguments("deflection") as given:
         given.kind("model", model, Model, Model.NEEDED)
-        given.among("under", under, _BY_NAME)
+        given.among("under", under, BY_NAME)
         given.among("held", held, HELD)
         given.among("hardpoints", hardpoints, HARDPOINTS)
         travel = given.number("travel", travel, "m")
         rack_position = given.number("rack_position", rack_position, "m")
-        wanted = given.array("amounts", amounts, "N or N m", dimensions=[1])
-        if not (np.abs(wanted) <= _GREATEST).all():
-            given.refuse(f"amounts: numbers of {_GREATEST:g} N or N m or less are needed.")
+        wanted = amounts_of(given, amounts)
         soft = soft_of(given, model, bushings, hardpoints)
-    load = _BY_NAME[under]
+    load = BY_NAME[under]
     suspension, there = suspension_on(model, np.array([travel]), rack_position, soft)
     base = at_height(suspension, np.array([travel]))
-    states = _under(suspension, base, _unit(load, suspension.poses, there), held, load, wanted)
-    linear = None
+    unit = unit_load(load, suspension.poses[0], there)[:, None]
+    states = under_amounts(suspension, base, unit, held, load, wanted)
+    changed = changes(suspension, there, base, states, load)
+    straight = {kind: np.zeros_like(wanted) for kind in changed}
     if gives_way(soft):
         linear = compliance(model, bushings, [travel], rack_position=rack_position, held=held)
-    found = _over_load(suspension, there, base, states, (load, wanted, linear))
-    return found.assign_attrs(
-        title=f"deflection under {load.words}", held=HELD[held], hardpoints=HARDPOINTS[hardpoints]
-    )
+        straight = {k: float(linear[f"{k}_by_{load.name}"][0]) * wanted for k in changed}
+    data = beside(changed, straight)
+    road = np.concatenate([state.road[:, 0] for state in states])
+    data["wheel_load"] = variable(LOAD, road, "wheel load", "N")
+    how = {"held": HELD[held], "hardpoints": HARDPOINTS[hardpoints]}
+    title = f"deflection under {load.words}"
+    return xr.Dataset(data, coordinates_of(load, wanted), {"title": title} | how)
 
 
-def _unit(load: RigLoad, poses: Poses, there: Corner) -> Array:
-    """Return a load of 1 N or 1 N m as an equilibrium takes it, (1, 9)."""
+def amounts_of(given: Arguments, amounts: ArrayLike) -> Array:
+    """Read how great a load is."""
+    wanted = given.array("amounts", amounts, "N or N m", dimensions=[1])
+    if not (np.abs(wanted) <= _GREATEST).all():
+        given.refuse(f"amounts: numbers of {_GREATEST:g} N or N m or less are needed.")
+    return wanted
+
+
+def unit_load(load: RigLoad, poses: Poses, there: Corner) -> Array:
+    """Return a load of 1 N or 1 N m as an equilibrium takes it, (n, 9)."""
     at_contact = load_at_contact(load, poses, there)
     force, still = at_contact[:, :3], np.zeros((len(at_contact), 3))
     if load.at == CENTER:
@@ -132,7 +151,7 @@ def _unit(load: RigLoad, poses: Poses, there: Corner) -> Array:
     return np.concatenate([at_contact, still], axis=1)
 
 
-def _under(
+def under_amounts(
     suspension: Equilibrium, base: State, unit: Array, held: Held, load: RigLoad, wanted: Array
 ) -> list[State]:
     """Return the equilibria under some amounts of a load, each found from a smaller one."""
@@ -154,60 +173,92 @@ def _towards(
     load: RigLoad,
 ) -> State:
     """Return the equilibrium under a load from that under another one, by steps if need be."""
-    begin, end = amounts
-    while True:
-        step = end
-        while not (there := suspension.under(step * unit, held, state)).found.all():
-            if abs(step - begin) <= _LEAST_STEP * abs(end):
-                problem = (
-                    f"no equilibrium that lasts was found under {load.words} of more than "
-                    f"{begin:.4g} {load.unit}: the bushes do not hold the linkage. Leave greater "
-                    "ones out, or make the bushes stiffer."
-                )
-                raise InputError([problem], "deflection")
-            step = 0.5 * (begin + step)
-        state, begin = there, step
-        if step == end:
-            return state
+    at, end = amounts
+    step = end - at
+    while at != end:
+        to = end if abs(step) >= abs(end - at) else at + step
+        there = suspension.under(to * unit, held, state)
+        if there.found.all():
+            state, at, step = there, to, 2.0 * step
+            continue
+        step *= 0.5
+        if abs(step) <= _LEAST_STEP * abs(end):
+            problem = (
+                f"no equilibrium that lasts was found under {load.words} of more than "
+                f"{at:.4g} {load.unit}: the bushes do not hold the linkage. Leave greater "
+                "ones out, or make the bushes stiffer."
+            )
+            raise InputError([problem], "deflection")
+    return state
 
 
 # -- results --------------------------------------------------------------------------------------
 
 
-def _over_load(
+def changes(
     suspension: Equilibrium,
     there: Corner,
     base: State,
     states: list[State],
-    beside: tuple[RigLoad, Array, xr.Dataset | None],
-) -> xr.Dataset:
-    load, amounts, linear = beside
-    before = replace(
-        there, center=suspension.center(base.places), axis=suspension.axis(base.places)
-    )
-    point = suspension.contact(base.places) if load.at == CONTACT else before.center
-    along = sense_of(load, suspension.poses, there)
+    load: RigLoad,
+    side: int = 0,
+) -> dict[str, Array]:
+    """Return what a wheel does under some amounts of a load, by the kind of it.
+
+    Parameters
+    ----------
+    suspension : Equilibrium
+    there : Corner
+        With rigid joints.
+    base : State
+        Without the load.
+    states : list of State
+        Under each amount.
+    load : RigLoad
+    side : int, optional
+        Which wheel.
+    """
+    before = on_bushes(suspension, there, base, side)
+    point = suspension.contact(base.places, side) if load.at == CONTACT else before.center
+    along = sense_of(load, suspension.poses[side], there)
     found: dict[str, list[Array]] = {"toe": [], "camber": [], "displacement": []}
     for state in states:
-        after = replace(before, axis=suspension.axis(state.places))
+        after = replace(before, axis=suspension.axis(state.places, side))
         found["toe"].append(wheel.toe(after) - wheel.toe(before))
         found["camber"].append(wheel.camber(after) - wheel.camber(before))
-        shift = suspension.moved(point, base.places, state.places)
+        shift = suspension.moved(point, base.places, state.places, side)
         found["displacement"].append((along * shift).sum(axis=-1))
-    data = {}
-    for name, values in found.items():
-        by_one = f"{name}_by_{load.name}"
-        if name != "displacement" or load.where:
-            straight = (0.0 if linear is None else float(linear[by_one][0])) * amounts
-            both = np.stack([np.concatenate(values), straight])
-            key = name if name == "displacement" else f"{name}_change"
-            data[key] = variable((DATA_SET, LOAD), both, *_MEANINGS[name])
-    road = np.concatenate([state.road for state in states])
-    data["wheel_load"] = variable(LOAD, road, "wheel load", "N")
+    if not load.where:
+        del found["displacement"]
+    return {kind: np.concatenate(values) for kind, values in found.items()}
+
+
+def beside(changed: dict[str, Array], straight: dict[str, Array], side: str = "") -> dict[str, Any]:
+    """Return what equilibrium tells of a wheel beside what is linear, as variables.
+
+    Parameters
+    ----------
+    changed, straight : dict of str to ndarray
+        By the kind.
+    side : str, optional
+        Of an axle.
+    """
+    found = {}
+    for kind, values in changed.items():
+        words, unit = _MEANINGS[kind]
+        name, mark, sign = words.partition(", positive")
+        key = kind if kind == "displacement" else f"{kind}_change"
+        both = np.stack([values, straight[kind]])
+        of_it = f"{name}{side and f', {side}'}{mark}{sign}"
+        found[f"{key}{side and f'_{side}'}"] = variable((DATA_SET, LOAD), both, of_it, unit)
+    return found
+
+
+def coordinates_of(load: RigLoad, amounts: Array) -> dict[str, Any]:
+    """Return the coordinates of results over a load."""
     words = load.words.partition(" ")[2]
     shown = {"display_units": "kN", "display_factor": 1e-3} if load.unit == "N" else {}
-    coordinates = {
+    return {
         DATA_SET: ["equilibrium", "linear"],
         LOAD: xr.Variable(LOAD, amounts, attributes(words, load.unit) | shown),
     }
-    return xr.Dataset(data, coordinates)

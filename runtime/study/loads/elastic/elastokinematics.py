@@ -1,7 +1,6 @@
 """How a wheel moves over its travel on its bushes, beside how it does with rigid joints."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -18,13 +17,13 @@ from ...compare import DATA_SET
 from ...sweep import usual_travel
 from .connections import Soft
 from .equilibrium import LOADS, Equilibrium, State
-from .held import HARDPOINTS, Hardpoints, at_height, soft_of, suspension_on
+from .held import HARDPOINTS, Hardpoints, at_height, on_bushes, soft_of, suspension_on
 
 Array = NDArray[np.float64]
 
 # So many positions at a time: their matrices take 50 MB.
 _TOGETHER = 200
-_CURVES = {
+CURVES = {
     "toe": wheel.toe,
     "camber": wheel.camber,
     "half_track_change": wheel.half_track_change,
@@ -103,7 +102,7 @@ def elastokinematics(
 
 
 def _over_travel(suspension: Equilibrium, there: Corner, base: State, travels: Array) -> xr.Dataset:
-    moved = replace(there, center=suspension.center(base.places), axis=suspension.axis(base.places))
+    moved = on_bushes(suspension, there, base)
     dims = (DATA_SET, TRAVEL.name)
     data = {
         name: xr.Variable(
@@ -111,15 +110,15 @@ def _over_travel(suspension: Equilibrium, there: Corner, base: State, travels: A
             np.stack([formula(there), formula(moved)]),
             KNOWN["travel"][name].attributes(),
         )
-        for name, formula in _CURVES.items()
+        for name, formula in CURVES.items()
     }
     # the same parts with nothing soft
-    suspensions = Equilibrium(suspension.poses, Soft({}, 0.0, {})), suspension
+    suspensions = Equilibrium([(suspension.poses[0], Soft({}, 0.0, {}))]), suspension
     both = at_height(suspensions[0], travels), base
-    nothing = np.zeros((len(travels), LOADS))
-    loads = np.stack([state.road for state in both])
+    nothing = np.zeros((len(travels), 1, LOADS))
+    loads = np.stack([state.road[:, 0] for state in both])
     rates = np.stack(
-        [one.rate(state, nothing) for one, state in zip(suspensions, both, strict=True)]
+        [one.rate(state, nothing)[:, 0, 0] for one, state in zip(suspensions, both, strict=True)]
     )
     data["wheel_load"] = variable(dims, loads, "wheel load", "N")
     data["wheel_rate"] = variable(dims, rates, "wheel rate at the contact", "N/m")

@@ -1,7 +1,7 @@
-"""The equilibrium of a suspension whose joints give way, however far: Newton's method.
+"""The equilibrium of a suspension or an axle whose joints give way, however far: Newton's method.
 
 Unknown are displacements and rotations of all parts, what holds them together, and what holds the
-wheel. The matrix is exact; steps are those of all positions at once.
+wheels. The matrix is exact; steps are those of all positions at once.
 """
 
 from collections.abc import Sequence
@@ -15,7 +15,7 @@ from ....suspension.corner import UP
 from ...characteristics.wheel import lowest_point
 from ..flexibility import Held
 from ..poses import CENTER, Poses
-from .connections import Connections, Soft
+from .connections import Bar, Connections, Soft
 from .places import Measured, Places, cross_matrix
 
 Array = NDArray[np.float64]
@@ -38,17 +38,17 @@ _UPWARD = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
 
 @dataclass(frozen=True)
 class State:
-    """Where the parts of a suspension are, and what holds them there; n positions.
+    """Where the parts of a suspension or an axle are, and what holds them there; n positions.
 
     Attributes
     ----------
     places : Places
     forces : ndarray, shape (n, conditions)
         Of the conditions [N], [N m].
-    road : ndarray, shape (n,)
-        Vertical force of the road at the contact [N].
-    lock : ndarray, shape (n,)
-        What locks the spring [N].
+    road : ndarray, shape (n, wheels)
+        Vertical force of the road at each contact [N].
+    lock : ndarray, shape (n, wheels)
+        What locks each spring [N].
     found : ndarray of bool, shape (n,)
         Whether this is an equilibrium that lasts.
     """
@@ -61,59 +61,69 @@ class State:
 
 
 class Equilibrium:
-    """A suspension on bushes in many positions, under loads at the contact of its wheel.
+    """A suspension on bushes in many positions, under loads at the contacts of its wheel.
 
     Parameters
     ----------
-    poses : Poses
-        With rigid joints.
-    soft : Soft
-        What gives way.
+    sides : sequence of tuple of Poses and Soft
+        With rigid joints, and what gives way: of a suspension, or of both of an axle.
+    bar : Bar, optional
+        An anti-roll bar between both.
 
     Attributes
     ----------
-    poses : Poses
+    poses : list of Poses
+        By side.
     start : State
         With rigid joints: no equilibrium.
     """
 
-    def __init__(self, poses: Poses, soft: Soft) -> None:
-        self.poses, self._connections = poses, Connections(poses, soft)
+    def __init__(self, sides: Sequence[tuple[Poses, Soft]], bar: Bar | None = None) -> None:
+        self.poses, self._connections = [poses for poses, _ in sides], Connections(sides, bar)
         connections = self._connections
-        self._count, self._wheel = len(connections.bodies), connections.index("wheel")
+        self._count = connections.start.centers.shape[1]
         measured = connections.at(connections.start)
         self._rigid = _independent(
             measured.slopes(self._count)[0, :, 1:].reshape(len(connections.laws), -1),
             [which for which, law in enumerate(connections.laws) if law is None],
         )
         self._soft = [which for which, law in enumerate(connections.laws) if law is not None]
-        n = len(poses.axis)
-        nothing = np.zeros(n)
+        n, wheels = len(self.poses[0].axis), len(sides)
+        nothing = np.zeros((n, wheels))
         forces = np.zeros((n, len(self._rigid)))
         never = np.zeros(n, dtype=bool)
         self.start = State(connections.start, forces, nothing, nothing, never)
-        self._weights = poses.weights()
-        self._spoke = poses.points[CENTER] - connections.start.centers[:, self._wheel]
-        self._height = self.contact(connections.start)[:, 2]
+        self._weights = {
+            connections.index(side, body): weight
+            for side, poses in enumerate(self.poses)
+            for body, weight in poses.weights().items()
+        }
+        self._spokes = [
+            poses.points[CENTER] - connections.start.centers[:, wheel]
+            for poses, wheel in zip(self.poses, connections.wheels, strict=True)
+        ]
+        self._heights = self._contact_heights(connections.start)
 
-    # -- where the wheel is -----------------------------------------------------------------------
+    # -- where a wheel is -------------------------------------------------------------------------
 
-    def axis(self, places: Places) -> Array:
-        """Return the spin axis of the wheel, pointing outboard, (n, 3)."""
-        return places.of(np.array([self._wheel]), self.poses.axis[:, None])[:, 0]
+    def axis(self, places: Places, side: int = 0) -> Array:
+        """Return the spin axis of a wheel, pointing outboard, (n, 3)."""
+        wheel = np.array([self._connections.wheels[side]])
+        return places.of(wheel, self.poses[side].axis[:, None])[:, 0]
 
-    def center(self, places: Places) -> Array:
-        """Return the wheel centre, (n, 3) [m]."""
-        spoke = places.of(np.array([self._wheel]), self._spoke[:, None])[:, 0]
-        center: Array = places.centers[:, self._wheel] + spoke
+    def center(self, places: Places, side: int = 0) -> Array:
+        """Return the centre of a wheel, (n, 3) [m]."""
+        wheel = self._connections.wheels[side]
+        spoke = places.of(np.array([wheel]), self._spokes[side][:, None])[:, 0]
+        center: Array = places.centers[:, wheel] + spoke
         return center
 
-    def contact(self, places: Places) -> Array:
-        """Return the lowest point of the wheel, (n, 3) [m]."""
-        return lowest_point(self.center(places), self.axis(places), self._radius)
+    def contact(self, places: Places, side: int = 0) -> Array:
+        """Return the lowest point of a wheel, (n, 3) [m]."""
+        return lowest_point(self.center(places, side), self.axis(places, side), self._radius(side))
 
-    def moved(self, point: Array, since: Places, places: Places) -> Array:
-        """Return how far the wheel took a point with it, (n, 3) [m].
+    def moved(self, point: Array, since: Places, places: Places, side: int = 0) -> Array:
+        """Return how far a wheel took a point with it, (n, 3) [m].
 
         Parameters
         ----------
@@ -121,18 +131,22 @@ class Equilibrium:
             Where it was [m].
         since, places : Places
             Before and after.
+        side : int, optional
         """
-        wheel = self._wheel
+        wheel = self._connections.wheels[side]
         turned = places.turned[:, wheel] @ since.turned[:, wheel].mT
         arm = np.einsum("nij,nj->ni", turned, point - since.centers[:, wheel])
         shift: Array = places.centers[:, wheel] + arm - point
         return shift
 
-    @property
-    def _radius(self) -> float:
-        radius = self.poses.model.suspension.tyre_radius()
+    def _radius(self, side: int) -> float:
+        radius = self.poses[side].model.suspension.tyre_radius()
         assert radius is not None  # callers have seen to it
         return radius
+
+    def _contact_heights(self, places: Places) -> Array:
+        heights = [self.contact(places, side)[:, 2] for side in range(len(self.poses))]
+        return np.stack(heights, axis=1)
 
     # -- equilibrium ------------------------------------------------------------------------------
 
@@ -141,17 +155,17 @@ class Equilibrium:
 
         Parameters
         ----------
-        load : ndarray, shape (n, 9)
-            Force and moment on the wheel at its lowest point, and force at its centre, chassis
+        load : ndarray, shape (n, wheels, 9)
+            Force and moment on each wheel at its lowest point, and force at its centre, chassis
             axes [N], [N m].
         held : {'height', 'spring', 'locked'}
-            What holds the wheel: the road at the height where the contact was with rigid joints, or
+            What holds a wheel: the road at the height where the contact was with rigid joints, or
             a force of the road as in `near`, the spring as it is or as long as it is there.
         near : State
             Where to begin; it need not be an equilibrium.
         """
         state = near
-        length = self._connections.at(near.places).value[:, self._connections.spring]
+        length = self._connections.at(near.places).value[:, self._connections.springs]
         found = np.zeros(len(load), dtype=bool)
         for _ in range(_MOST_STEPS):
             matrix, left = self._linear(state, load, held, length)
@@ -165,18 +179,31 @@ class Equilibrium:
         return replace(state, found=found & self._lasts(matrix))
 
     def rate(self, state: State, load: Array) -> Array:
-        """Return how the force of the road rises with its height, (n,) [N/m].
+        """Return how the forces of the road rise with the heights, (n, wheels, wheels) [N/m].
 
         Parameters
         ----------
         state : State
-            An equilibrium under a load, the wheel held by the road.
-        load : ndarray, shape (n, 9)
+            An equilibrium under a load, the wheels held by the road.
+        load : ndarray, shape (n, wheels, 9)
         """
-        matrix, left = self._linear(state, load, "height", np.zeros(len(load)))
-        higher = np.zeros_like(left)
-        higher[:, -1] = -1.0
-        return _solution(matrix, higher)[:, -1] * _FORCE
+        wheels = state.road.shape[1]
+        matrix, left = self._linear(state, load, "height", np.zeros_like(state.road))
+        columns = []
+        for wheel in range(wheels):
+            higher = np.zeros_like(left)
+            higher[:, wheel - wheels] = -1.0
+            columns.append(_solution(matrix, higher)[:, -wheels:] * _FORCE)
+        return np.stack(columns, axis=-1)
+
+    def torque_of_bar(self, state: State) -> Array:
+        """Return the torque of the bar, positive with the first half turned the farther [N m]."""
+        which = self._connections.bar
+        if which is None:
+            return np.zeros(len(state.road))
+        law = self._connections.laws[which]
+        assert law is not None
+        return law(self._connections.at(state.places).value[:, which])[0]
 
     def _moved(self, state: State, step: Array, held: Held) -> tuple[State, Array]:
         """Return the state after a step, and how far that went."""
@@ -190,7 +217,8 @@ class Equilibrium:
         state = replace(state, places=state.places.moved(np.nan_to_num(by)), forces=forces)
         if held != "spring":
             name = "road" if held == "height" else "lock"
-            more = getattr(state, name) + part * step[:, -1] * _FORCE
+            own = step[:, -state.road.shape[1] :]
+            more = getattr(state, name) + part[:, None] * own * _FORCE
             state = replace(state, **{name: more})
         return state, far
 
@@ -200,21 +228,20 @@ class Equilibrium:
         n, size = len(load), 6 * (self._count - 1)
         slopes = measured.slopes(self._count)[:, :, 1:].reshape(n, len(self._connections.laws), -1)
         inner, stiffness = self._inner(state, measured, slopes)
-        outer, outer_by = self._outer(state.places, load + state.road[:, None] * _UPWARD)
+        outer, outer_by = self._outer(state.places, load + state.road[..., None] * _UPWARD)
         conditions, values = slopes[:, self._rigid], measured.value[:, self._rigid]
         direction = -conditions.mT
         if held != "spring":
-            row = slopes[:, self._connections.spring, None]
-            off = measured.value[:, self._connections.spring] - length
-            column = -row.mT
+            rows = slopes[:, self._connections.springs]
+            off = measured.value[:, self._connections.springs] - length
+            columns = -rows.mT
             if held == "height":
-                upward, _ = self._outer(state.places, np.broadcast_to(_UPWARD, load.shape))
-                upward -= self._gravity(n)
-                row, column = upward[:, None], upward[..., None]
-                off = self.contact(state.places)[:, 2] - self._height
-            conditions = np.concatenate([conditions, row], axis=1)
-            direction = np.concatenate([direction, column], axis=2)
-            values = np.concatenate([values, off[:, None]], axis=1)
+                rows = self._upward(state.places, load)
+                columns = rows.mT
+                off = self._contact_heights(state.places) - self._heights
+            conditions = np.concatenate([conditions, rows], axis=1)
+            direction = np.concatenate([direction, columns], axis=2)
+            values = np.concatenate([values, off], axis=1)
         matrix = np.zeros((n, size + values.shape[1], size + values.shape[1]))
         matrix[:, :size, :size] = (outer_by - stiffness) / _FORCE
         matrix[:, :size, size:] = direction
@@ -230,7 +257,7 @@ class Equilibrium:
             assert law is not None
             forces[:, which], rates[:, which] = law(measured.value[:, which])
         forces[:, self._rigid] = state.forces
-        forces[:, self._connections.spring] += state.lock
+        forces[:, self._connections.springs] += state.lock
         n, size = slopes.shape[0], slopes.shape[-1]
         bent = measured.bent(forces, self._count)[:, 1:, :, 1:].reshape(n, size, size)
         stiffness = bent + slopes.mT @ (rates[..., None] * slopes)
@@ -241,35 +268,50 @@ class Equilibrium:
             stiffness[:, rows, rows] -= 0.5 * cross_matrix(total[:, rows])
         return total, stiffness
 
+    def _upward(self, places: Places, load: Array) -> Array:
+        """Return what a unit of the road's force at each wheel does, (n, wheels, unknowns)."""
+        found = []
+        for side in range(load.shape[1]):
+            one = np.zeros_like(load)
+            one[:, side] = _UPWARD
+            found.append(self._outer(places, one)[0] - self._gravity(len(load)))
+        return np.stack(found, axis=1)
+
     def _outer(self, places: Places, load: Array) -> tuple[Array, Array]:
         """Return what pushes and turns the parts from outside, and its derivative."""
-        n, wheel = len(load), 6 * (self._wheel - 1)
+        n = len(load)
         total, by = self._gravity(n), np.zeros((n, *2 * (6 * (self._count - 1),)))
-        force, moment, pushed = load[:, :3], load[:, 3:6], load[:, 6:]
-        rows = slice(wheel + 3, wheel + 6)
-        axis, center = self.axis(places), places.centers[:, self._wheel]
-        arm, spoke = self.contact(places) - center, self.center(places) - center
-        total[:, wheel : wheel + 3] += force + pushed
-        total[:, rows] += moment + cross(arm, force) + cross(spoke, pushed)
-        # how the lowest point moves as the wheel turns
+        for side, wheel in enumerate(self._connections.wheels):
+            begin = 6 * (wheel - 1)
+            rows = slice(begin + 3, begin + 6)
+            force, moment, pushed = np.split(load[:, side], 3, axis=1)
+            center = places.centers[:, wheel]
+            arm = self.contact(places, side) - center
+            spoke = self.center(places, side) - center
+            total[:, begin : begin + 3] += force + pushed
+            total[:, rows] += moment + cross(arm, force) + cross(spoke, pushed)
+            by[:, rows, rows] += cross_matrix(pushed) @ cross_matrix(spoke)
+            by[:, rows, rows] -= cross_matrix(force) @ self._contact_by_turn(places, side, spoke)
+        return total, by
+
+    def _contact_by_turn(self, places: Places, side: int, spoke: Array) -> Array:
+        """Return how the lowest point moves as the wheel turns, (n, 3, 3)."""
+        axis = self.axis(places, side)
         turning = -cross_matrix(axis)
         rise = axis[:, 2, None]
         across = np.sqrt(1.0 - rise**2)
         upward = UP - rise * axis
         by_rise = -(axis[..., None] * turning[:, None, 2] + rise[..., None] * turning)
         shrink = (upward * rise / across**3)[..., None] * turning[:, None, 2]
-        moved = -cross_matrix(spoke) - self._radius * (by_rise / across[..., None] + shrink)
-        by[:, rows, rows] += cross_matrix(pushed) @ cross_matrix(spoke)
-        by[:, rows, rows] -= cross_matrix(force) @ moved
-        return total, by
+        moved: Array = -cross_matrix(spoke)
+        moved -= self._radius(side) * (by_rise / across[..., None] + shrink)
+        return moved
 
     def _gravity(self, n: int) -> Array:
-        total = np.zeros((n, self._count - 1, 6))
-        for body, weight in self._weights.items():
-            which = self._connections.index(body)
-            if which:
-                total[:, which - 1, :3] = weight
-        return total.reshape(n, -1)
+        total = np.zeros((n, self._count, 6))
+        for which, weight in self._weights.items():
+            total[:, which, :3] = weight
+        return total[:, 1:].reshape(n, -1)
 
     def _lasts(self, matrix: Array) -> NDArray[np.bool_]:
         """Tell where all that the conditions leave free is resisted."""

@@ -1,5 +1,7 @@
 """A suspension on its bushes, as a caller describes them, held by the road at some heights."""
 
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
@@ -7,15 +9,18 @@ from numpy.typing import NDArray
 
 from ....core.arguments import Arguments
 from ....core.errors import InputError
+from ....core.quantities import display_of
 from ....suspension.bushes import RACK, described_bushings, softness_of_rack
 from ....suspension.corner import Corner
 from ....suspension.model import Model
 from ....suspension.positions import arm_angles, design_height
 from ....suspension.reach import at_rest
+from ...characteristics.catalogue import Quantity
+from ...characteristics.datasets import TRAVEL
 from ...characteristics.from_model import corner
 from ..poses import Poses
-from ..reactions import Equations, known
-from .connections import GROUND, Soft
+from ..reactions import Equations, Load, known
+from .connections import GUIDE, Carried, Soft
 from .equilibrium import LOADS, Equilibrium, State
 
 Array = NDArray[np.float64]
@@ -40,7 +45,7 @@ def soft_of(given: Arguments, model: Model, bushings: Any, hardpoints: Hardpoint
     if model.suspension.tyre_radius() is None:
         given.refuse("[tyre] radius_mm is needed: where the road touches the wheel.")
     loaded = hardpoints == "loaded" and not given.refused
-    carried = _carried_at_design(model) if loaded else {}
+    carried = carried_at(at_design(model)) if loaded else {}
     return Soft({bush.point: bush for bush in bushes}, rack, carried)
 
 
@@ -49,12 +54,22 @@ def gives_way(soft: Soft) -> bool:
     return bool(soft.rack or any(bush.gives_way for bush in soft.bushes.values()))
 
 
-def _carried_at_design(model: Model) -> dict[tuple[str, str, str], Array]:
-    """Return what the joints carry at design with the wheel held by the road."""
-    angles = arm_angles(model, [design_height(model)])
-    poses = Poses.of(model, *at_rest(model, angles))
+def at_design(model: Model) -> Poses:
+    """Return where the joints are at design."""
+    return Poses.of(model, *at_rest(model, arm_angles(model, [design_height(model)])))
+
+
+def carried_at(poses: Poses, pulled: Sequence[Load] = ()) -> Carried:
+    """Return what the joints carry in the first position, the wheel held by the road.
+
+    Parameters
+    ----------
+    poses : Poses
+    pulled : sequence of Load, optional
+        What else acts on the parts.
+    """
     equations = Equations(poses)
-    unknowns = equations.solve(equations.applied(known(poses)))
+    unknowns = equations.solve(equations.applied([*known(poses), *pulled]))
     found = {
         (joint.first, joint.second, point): at_points[0, which, :, 0]
         for joint, at_points in zip(
@@ -62,11 +77,10 @@ def _carried_at_design(model: Model) -> dict[tuple[str, str, str], Array]:
         )
         for which, point in enumerate(joint.at)
     }
-    if not model.suspension.steered():
+    if not poses.model.suspension.steered():
         return found
     # the guide of the rack holds what the tie rod does to it
-    on_tie_rod = found[RACK, "tie_rod", "tie_rod_inner"]
-    return found | {(GROUND, RACK, "tie_rod_inner"): on_tie_rod}
+    return found | {GUIDE: found[RACK, "tie_rod", "tie_rod_inner"]}
 
 
 def suspension_on(
@@ -75,16 +89,35 @@ def suspension_on(
     """Return a suspension on its bushes at some travels, and its corner with rigid joints."""
     angles = arm_angles(model, design_height(model) + travels, rack)
     poses = Poses.of(model, *at_rest(model, angles, rack))
-    return Equilibrium(poses, soft), corner(model, angles, rack)
+    return Equilibrium([(poses, soft)]), corner(model, angles, rack)
 
 
-def at_height(suspension: Equilibrium, travels: Array) -> State:
-    """Return the equilibria on the road without another load."""
-    base = suspension.under(np.zeros((travels.size, LOADS)), "height", suspension.start)
+def on_bushes(suspension: Equilibrium, there: Corner, state: State, side: int = 0) -> Corner:
+    """Return a corner with rigid joints with its wheel where it is on the bushes."""
+    places = state.places
+    return replace(
+        there, center=suspension.center(places, side), axis=suspension.axis(places, side)
+    )
+
+
+def at_height(suspension: Equilibrium, along: Array, over: Quantity = TRAVEL) -> State:
+    """Return the equilibria on the road without another load.
+
+    Parameters
+    ----------
+    suspension : Equilibrium
+    along : ndarray, shape (n,)
+        Where that is, for messages.
+    over : Quantity, optional
+        What that counts.
+    """
+    nothing = np.zeros((*suspension.start.road.shape, LOADS))
+    base = suspension.under(nothing, "height", suspension.start)
     if not base.found.all():
-        at = ", ".join(f"{1e3 * t:.4g} mm" for t in travels[~base.found][:3])
+        shown = display_of(over.attributes())
+        at = ", ".join(f"{shown.factor * a:.4g} {shown.units}" for a in along[~base.found][:3])
         problem = (
-            f"no equilibrium that lasts was found at a wheel travel of {at}: the bushes do not "
+            f"no equilibrium that lasts was found at a {over.long_name} of {at}: the bushes do not "
             "hold the linkage there. Make them stiffer, or leave that out."
         )
         raise InputError([problem], "bushings")

@@ -127,8 +127,8 @@ class Distances:
         turning, parting = _turning(along, 0), _parting(start, end)
         bend = turning.mT @ parting
         bend += bend.mT
-        bend[..., _ROTATED[0], _ROTATED[0]] += _second(apart - start, along)
-        bend[..., _ROTATED[1], _ROTATED[1]] += _second(end, along)
+        bend[..., _ROTATED[0], _ROTATED[0]] += second_by_rotation(apart - start, along)
+        bend[..., _ROTATED[1], _ROTATED[1]] += second_by_rotation(end, along)
         return Measured(
             self.bodies,
             np.einsum("nfi,nfi->nf", along, apart),
@@ -206,7 +206,7 @@ class Angles:
         bend = by_first.mT @ by_second
         bend += bend.mT
         for part in _ROTATED:
-            bend[..., part, part] += _second(one, other)
+            bend[..., part, part] += second_by_rotation(one, other)
         return Measured(
             self.bodies,
             np.einsum("nfi,nfi->nf", one, other),
@@ -289,8 +289,8 @@ class Lengths:
         slope = _times(parting, along)
         across = parting.mT @ parting - slope[..., None] * slope[..., None, :]
         bend = across / length[..., None, None]
-        bend[..., _ROTATED[0], _ROTATED[0]] -= _second(start, along)
-        bend[..., _ROTATED[1], _ROTATED[1]] += _second(end, along)
+        bend[..., _ROTATED[0], _ROTATED[0]] -= second_by_rotation(start, along)
+        bend[..., _ROTATED[1], _ROTATED[1]] += second_by_rotation(end, along)
         return Measured(self.bodies, length, slope, bend)
 
 
@@ -300,6 +300,14 @@ def cross_matrix(vectors: Array) -> Array:
     nothing = np.zeros_like(x)
     rows = [[nothing, -z, y], [z, nothing, -x], [-y, x, nothing]]
     return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+
+
+def second_by_rotation(turning: Array, other: Array) -> Array:
+    """Return the second derivative, by its rotation, of a turning vector times another one."""
+    outer = turning[..., :, None] * other[..., None, :]
+    product = np.einsum("...i,...i->...", turning, other)[..., None, None]
+    result: Array = 0.5 * (outer + outer.mT) - product * np.eye(3)
+    return result
 
 
 def _turning(direction: Array, end: int) -> Array:
@@ -314,14 +322,6 @@ def _parting(start: Array, end: Array) -> Array:
     found = _turning(end, 1) - _turning(start, 0)
     found[..., _DISPLACED[0]], found[..., _DISPLACED[1]] = -np.eye(3), np.eye(3)
     return found
-
-
-def _second(turning: Array, other: Array) -> Array:
-    """Return the second derivative, by its rotation, of a turning vector times another one."""
-    outer = turning[..., :, None] * other[..., None, :]
-    product = np.einsum("...i,...i->...", turning, other)[..., None, None]
-    result: Array = 0.5 * (outer + outer.mT) - product * np.eye(3)
-    return result
 
 
 def _squared(slope: Array) -> Array:

@@ -1,0 +1,223 @@
+"""How both wheels of an axle move over the motions of a rig on their bushes, and without any."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike
+
+from ...core.arguments import Arguments
+from ...core.quantities import variable
+from ...suspension.axle import Axle
+from ...suspension.axle.axle import LEFT, RIGHT
+from ...suspension.corner import Array, Corner
+from ..characteristics.catalogue import Quantity
+from ..characteristics.datasets import KNOWN, RACK, TRAVEL
+from ..compare import DATA_SET
+from ..loads.elastic.connections import Soft
+from ..loads.elastic.elastokinematics import CURVES
+from ..loads.elastic.equilibrium import LOADS, Equilibrium, State
+from ..loads.elastic.held import HARDPOINTS, Hardpoints, at_height, on_bushes
+from . import motions
+from .between import SIDES
+from .catalogue import of_side
+from .datasets import ROLL, STEERING_WHEEL, rack_of
+from .motions import MOTIONS, Extent
+from .on_bushes import RIGID, axle_on, levers, softs_of
+from .pair import Pair
+
+# So many positions at a time: their matrices take 50 MB.
+_TOGETHER = 50
+_KINDS = ("kinematic", "elastokinematic")
+_UNITS = {"bump": "m", "roll": "rad", "left": "m", "right": "m", "steer": "rad or m"}
+
+
+def elastokinematics(
+    axle: Axle,
+    bushings: Mapping[str, Any] | None = None,
+    motion: str = "bump",
+    along: ArrayLike | None = None,
+    *,
+    extent: Extent | None = None,
+    travel: float = 0.0,
+    rack_position: float = 0.0,
+    hardpoints: Hardpoints = "loaded",
+) -> xr.Dataset:
+    """Return how both wheels move over a motion with rigid joints, and on their bushes.
+
+    Parameters
+    ----------
+    axle : Axle
+    bushings : mapping, optional
+        As of `compliance`, with curves as of `kintrafo.loads.elastokinematics`.
+    motion : str, optional
+        Of `MOTIONS`.
+    along : array_like, shape (n,), optional
+        Wheel travels [m] or roll angles [rad]; for 'steer' angles of the steering wheel [rad], or
+        displacements of the rack [m] where nothing says how the steering wheel moves it. By default
+        the usual range. All are those with rigid joints: the road holds the contacts at the
+        heights where they then are.
+    extent : Extent, optional
+        How far the usual range goes.
+    travel : float, optional
+        Height of both wheel centres above design, for 'steer' [m].
+    rack_position : float, optional
+        Displacement of the rack, but for 'steer' [m].
+    hardpoints : {'loaded', 'relaxed'}, optional
+        As of `kintrafo.loads.elastokinematics`; the anti-roll bar loads the bushes at design, too,
+        if it is twisted there.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``data_set`` ('kinematic', 'elastokinematic') and ``wheel_travel``, ``roll_angle``,
+        ``steering_wheel_angle`` or ``rack_position``: what
+        `kintrafo.loads.elastokinematics` tells of a wheel, with ``_left`` and ``_right`` at the
+        end, the wheel rate with the other wheel held; ``steer`` of both for 'steer';
+        ``roll_stiffness`` [N m/rad], the derivative of the moment of the wheel loads by roll,
+        levers held; and ``bar_torque`` [N m].
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used, or there is no equilibrium.
+    PositionError
+        If a position is out of reach.
+
+    Notes
+    -----
+    As of `deflection`, without a load. The roll stiffness is y' K y as of `roll`, with the
+    stiffness K of bushes, springs, stops and bar at the contacts, and with unsprung weights.
+
+    Examples
+    --------
+    >>> from kintrafo import Axle
+    >>> bushes = {"arm_rear": {"axial_N_per_mm": 500.0, "radial_N_per_mm": 2000.0}}
+    >>> axle = Axle.load("reference_axle")
+    >>> found = elastokinematics(axle, bushes, "roll", np.deg2rad([0.0, 2.0]))
+    >>> (found["roll_stiffness"].values * np.pi / 180.0).round(1).tolist()  # N m/deg
+    [[851.2, 856.2], [850.8, 856.0]]
+    """
+    with Arguments("elastokinematics") as given:
+        given.kind("axle", axle, Axle, Axle.NEEDED)
+        given.among("motion", motion, MOTIONS)
+        given.among("hardpoints", hardpoints, HARDPOINTS)
+        far = Extent() if extent is None else given.kind("extent", extent, Extent, "an Extent")
+        travel = given.number("travel", travel, "m")
+        rack_position = given.number("rack_position", rack_position, "m")
+        if along is not None:
+            along = given.array("along", along, _UNITS.get(motion, "m"), dimensions=[1])
+        if motion == "steer" and not given.refused:
+            axle.right.refuse_without_rack("the motion 'steer'")
+        if motion == "steer" and rack_position:
+            given.refuse("rack_position: the motion 'steer' moves the rack. Leave it out.")
+        if motion != "steer" and travel:
+            given.refuse("travel: it is for the motion 'steer'; others move the wheels by along.")
+        softs = softs_of(given, axle, bushings, hardpoints)
+    over, usual = _usual(axle, motion, far)
+    values = usual if along is None else np.asarray(along)
+    held = {TRAVEL: travel} if motion == "steer" else {RACK: rack_position}
+    left, right, racks = _where(axle, motion, over, values, *held.values())
+    found = []
+    for begin in range(0, values.size, _TOGETHER):
+        some = slice(begin, begin + _TOGETHER)
+        pair = Pair.at(axle, left[some], right[some], racks[some])
+        found.append(_over(pair, racks[some], softs, over, values[some], motion))
+    whole = xr.concat(found, over.name, join="override", combine_attrs="override")
+    if axle.steered():
+        whole = whole.assign_coords(
+            {q.name: xr.Variable((), value, q.attributes()) for q, value in held.items()}
+        )
+    title = f"elastokinematics: {MOTIONS[motion]}"
+    return whole.assign_attrs(title=title, hardpoints=HARDPOINTS[hardpoints])
+
+
+def _usual(axle: Axle, motion: str, extent: Extent) -> tuple[Quantity, Array]:
+    """Return what varies over a motion, and its usual positions."""
+    if motion == "roll":
+        return ROLL, motions.rolls(axle, extent)
+    if motion == "steer":
+        angles = motions.steering_angles(axle, extent)
+        return (RACK, motions.racks(axle, extent)) if angles is None else (STEERING_WHEEL, angles)
+    sides = (motion,) if motion in SIDES else SIDES
+    return TRAVEL, motions.travels(axle, extent, sides)
+
+
+def _where(
+    axle: Axle, motion: str, over: Quantity, values: Array, held: float
+) -> tuple[Array, Array, Array]:
+    """Return the travels of the left and the right wheel, and displacements of the rack [m]."""
+    still = np.full_like(values, held)
+    if motion == "steer":
+        racks = rack_of(axle, values)[0] if over is STEERING_WHEEL else values
+        return still, still, racks
+    if motion == "roll":
+        return (*motions.opposite(axle, values), still)
+    nothing = np.zeros_like(values)
+    left = nothing if motion == RIGHT else values
+    right = nothing if motion == LEFT else values
+    return left, right, still
+
+
+def _over(
+    pair: Pair,
+    racks: Array,
+    softs: dict[str, Soft],
+    over: Quantity,
+    values: Array,
+    motion: str,
+) -> xr.Dataset:
+    """Return what both wheels do with rigid joints and on bushes, over some positions."""
+    dims = (DATA_SET, over.name)
+    both = [axle_on(pair, racks, each) for each in (dict.fromkeys(SIDES, RIGID), softs)]
+    states = [at_height(suspension, values, over) for suspension in both]
+    data: dict[str, xr.Variable] = {}
+    curves: dict[Quantity, Callable[[Corner], Array]]
+    curves = {KNOWN["travel"][name]: formula for name, formula in CURVES.items()}
+    if motion == "steer":
+        steered = KNOWN["rack"]["steer"]
+        assert steered.formula is not None
+        curves |= {steered: steered.formula}
+    for quantity, formula in curves.items():
+        for which, side in enumerate(SIDES):
+            there = pair.corners[side]
+            moved = on_bushes(both[1], there, states[1], which)
+            told = np.stack([formula(there), formula(moved)])
+            named = of_side(quantity, side)
+            data[named.name] = xr.Variable(dims, told, named.attributes())
+    data |= _forces(both, states, dims)
+    if pair.axle.halves:
+        torque = [one.torque_of_bar(state) for one, state in zip(both, states, strict=True)]
+        words = "torque of the anti-roll bar, positive with the left half turned the farther"
+        data["bar_torque"] = variable(dims, np.stack(torque), words, "N m")
+    coordinates = {
+        DATA_SET: list(_KINDS),
+        over.name: xr.Variable(over.name, values, over.attributes()),
+    }
+    return xr.Dataset(data, coordinates)
+
+
+def _forces(
+    both: list[Equilibrium], states: list[State], dims: tuple[str, str]
+) -> dict[str, xr.Variable]:
+    """Return what the wheels carry, and how stiff the axle is, of two equilibria."""
+    rates, stiffness = [], []
+    for one, state in zip(both, states, strict=True):
+        rate = one.rate(state, np.zeros((*state.road.shape, LOADS)))
+        y = levers(one, state)
+        rates.append(np.diagonal(rate, axis1=1, axis2=2))
+        stiffness.append(np.einsum("ni,nij,nj->n", y, rate, y))
+    data = {}
+    for which, side in enumerate(SIDES):
+        loads = np.stack([state.road[:, which] for state in states])
+        data[f"wheel_load_{side}"] = variable(dims, loads, f"wheel load, {side}", "N")
+    for which, side in enumerate(SIDES):
+        own = np.stack([rate[:, which] for rate in rates])
+        words = f"wheel rate at the contact, {side}"
+        data[f"wheel_rate_{side}"] = variable(dims, own, words, "N/m")
+    words = "roll stiffness, positive when it resists roll"
+    roll = variable(dims, np.stack(stiffness), words, "N m/rad")
+    shown = {"display_units": "N m/deg", "display_factor": np.pi / 180.0}
+    data["roll_stiffness"] = xr.Variable(dims, roll.values, roll.attrs | shown)
+    return data
