@@ -104,6 +104,15 @@ class Connections:
         """Return all that is measured somewhere."""
         return Measured.together([group.at(places) for group in self._groups])
 
+    def stroke(self, places: Places) -> Array:
+        """Return what the stops count by somewhere, the length of damper or strut, (n,) [m]."""
+        value = self.at(places).value
+        for which, law in enumerate(self.laws):
+            if isinstance(law, Stops):
+                stroke: Array = law.stroke + value[:, which] - law.length
+                return stroke
+        raise AssertionError("every suspension has a damper")
+
     def index(self, body: str) -> int:
         """Return which body it is; what does not move is the ground."""
         return self.bodies.index(body) if body in self.bodies else 0

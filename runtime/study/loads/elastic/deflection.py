@@ -78,7 +78,8 @@ def deflection(
     Raises
     ------
     InputError
-        If an argument cannot be used, or there is no equilibrium.
+        If an argument cannot be used, or there is no equilibrium, or one only with damper or strut
+        beyond a length that the file allows.
     PositionError
         If the travel is out of reach.
 
@@ -114,6 +115,7 @@ def deflection(
     suspension, there = suspension_on(model, np.array([travel]), rack_position, soft)
     base = at_height(suspension, np.array([travel]))
     states = _under(suspension, base, _unit(load, suspension.poses, there), held, load, wanted)
+    _refuse_beyond(suspension, states, load, wanted)
     linear = None
     if gives_way(soft):
         linear = compliance(model, bushings, [travel], rack_position=rack_position, held=held)
@@ -169,6 +171,19 @@ def _towards(
         state, begin = there, step
         if step == end:
             return state
+
+
+def _refuse_beyond(
+    suspension: Equilibrium, states: list[State], load: RigLoad, wanted: Array
+) -> None:
+    """Refuse loads that bring damper or strut beyond a length that the file allows."""
+    for which in np.argsort(np.abs(wanted), kind="stable"):
+        if words := suspension.beyond(states[which]):
+            problem = (
+                f"under {load.words} of {wanted[which]:.4g} {load.unit} {words[0]}. Leave greater "
+                "ones out, or give the file stops that hold it before."
+            )
+            raise InputError([problem], "deflection")
 
 
 # -- results --------------------------------------------------------------------------------------

@@ -128,6 +128,13 @@ class Equilibrium:
         shift: Array = places.centers[:, wheel] + arm - point
         return shift
 
+    def beyond(self, state: State) -> list[str]:
+        """Return which lengths are beyond what the file allows."""
+        suspension = self.poses.model.suspension
+        length = {f"{suspension.STOPPED}_length": self._connections.stroke(state.places)}
+        allowed = suspension.allowed_lengths()
+        return [one.beyond for one in allowed if (one.left(length) < 0.0).any()]
+
     @property
     def _radius(self) -> float:
         radius = self.poses.model.suspension.tyre_radius()
