@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import InputError, Model, Suspension, arm_angles, loads
+from kintrafo import InputError, Model, Suspension, arm_angles, characteristics, loads
 from kintrafo.core.arguments import Arguments
 from kintrafo.study.loads.elastic.connections import Soft
 from kintrafo.study.loads.elastic.equilibrium import Equilibrium, State
@@ -394,6 +394,33 @@ def test_every_kind_is_told(name: str) -> None:
 
 
 # -- refusals -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("side", ["right", "left"])
+def test_no_load_presses_a_damper_in_farther_than_it_goes(side: str) -> None:
+    """By hand: a brake lifts the contact of a trailing arm as the hinge is high over how far.
+
+    The spring takes that over the wheel rate, and the damper its ratio of the travel. Rates and
+    ratios change by some per cent on the way, and stiff bushes give a little.
+    """
+    car = without_stops(Suspension.load("trailing_arm_car"))
+    car = car if side == "right" else car.mirrored()
+    design = characteristics.travel(Model(car), [0.0])
+    slope = np.tan(abs(float(design["side_view_swing_arm_angle"][0])))
+    ratio = float(design["damper_motion_ratio"][0])
+    length = float(Model(car).signal("damper_length", Model(car).design_state))
+    model = Model(car.with_changes({"damper.length_min_mm": 1e3 * (length - 0.005)}))
+    most = 0.005 / ratio * float(design["wheel_rate"][0]) / slope
+    stiff = {"arm_inner": {"axial_N_per_mm": 1e6, "radial_N_per_mm": 1e6}}
+
+    def under(amounts: list[float]) -> Any:
+        return loads.deflection(model, stiff, "braking", amounts, held="spring")
+
+    assert under([-2.0 * most, 0.93 * most])["displacement"].shape == (2, 2)
+    with pytest.raises(InputError, match="the damper is beyond its least length"):
+        under([0.0, 1.07 * most])
+    # held at its height, the wheel does not press it in
+    loads.deflection(model, stiff, "braking", [2.0 * most])
 
 
 def test_what_cannot_be_is_refused() -> None:

@@ -142,6 +142,19 @@ def test_the_first_step_may_be_longer_than_a_segment(method):
 
 
 @each_method
+def test_what_an_event_does_to_its_state_moves_nothing(method):
+    def event(_, state):
+        state[:] = 99.0
+        return 1.0
+
+    found, plain = (
+        simulate(MODEL, (0.0, 0.1), START, method=method, events=one)
+        for one in (event, lambda *_: 1.0)
+    )
+    np.testing.assert_array_equal(found.y, plain.y)
+
+
+@each_method
 def test_the_state_of_an_event_is_on_the_way(method):
     event = sine(20.0, 0.5)
     found = simulate(

@@ -398,7 +398,7 @@ class _Waiting:
     waits: bool = True
 
     def __call__(self, time: float, state: Array) -> float:
-        value = self.event(time, state)
+        value = self.event(time, state.copy())  # what a caller does to it moves nothing
         self.waits = self.waits and value == 0.0
         return np.nan if self.waits else value
 

@@ -143,6 +143,15 @@ class Connections:
         """Return all that is measured somewhere."""
         return Measured.together([group.at(places) for group in self._groups])
 
+    def strokes(self, places: Places) -> list[Array]:
+        """Return what the stops count by somewhere, the length of damper or strut, by side [m]."""
+        value = self.at(places).value
+        return [
+            law.stroke + value[:, which] - law.length
+            for which, law in enumerate(self.laws)
+            if isinstance(law, Stops)
+        ]
+
 
 class _Side:
     """What is measured between the bodies of one suspension.

@@ -86,7 +86,8 @@ def deflection(
     Raises
     ------
     InputError
-        If an argument cannot be used, or there is no equilibrium.
+        If an argument cannot be used, or there is no equilibrium, or one only with damper or strut
+        beyond a length that the file allows.
     PositionError
         If the travel is out of reach.
 
@@ -161,7 +162,9 @@ def under_amounts(
         for amount in sorted({a for a in wanted.tolist() if sense * a >= 0.0}, key=abs):
             state = _towards(suspension, state, (at, amount), unit, held, load)
             at, found[amount] = amount, state
-    return [found[amount] for amount in wanted.tolist()]
+    states = [found[amount] for amount in wanted.tolist()]
+    _refuse_beyond(suspension, states, load, wanted)
+    return states
 
 
 def _towards(
@@ -190,6 +193,19 @@ def _towards(
             )
             raise InputError([problem], "deflection")
     return state
+
+
+def _refuse_beyond(
+    suspension: Equilibrium, states: list[State], load: RigLoad, wanted: Array
+) -> None:
+    """Refuse loads that bring damper or strut beyond a length that the file allows."""
+    for which in np.argsort(np.abs(wanted), kind="stable"):
+        if words := suspension.beyond(states[which]):
+            problem = (
+                f"under {load.words} of {wanted[which]:.4g} {load.unit} {words[0]}. Leave greater "
+                "ones out, or give the file stops that hold it before."
+            )
+            raise InputError([problem], "deflection")
 
 
 # -- results --------------------------------------------------------------------------------------

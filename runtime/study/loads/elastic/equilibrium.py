@@ -139,6 +139,17 @@ class Equilibrium:
         shift: Array = places.centers[:, wheel] + arm - point
         return shift
 
+    def beyond(self, state: State) -> list[str]:
+        """Return which lengths are beyond what the files allow."""
+        strokes = self._connections.strokes(state.places)
+        return [
+            allowed.beyond
+            for poses, stroke in zip(self.poses, strokes, strict=True)
+            for suspension in [poses.model.suspension]
+            for allowed in suspension.allowed_lengths()
+            if (allowed.left({f"{suspension.STOPPED}_length": stroke}) < 0.0).any()
+        ]
+
     def _radius(self, side: int) -> float:
         radius = self.poses[side].model.suspension.tyre_radius()
         assert radius is not None  # callers have seen to it
