@@ -116,9 +116,9 @@ def motion_gradient(
     -----
     The lengths of steps are taken as they are. They change with parameters, too, which changes
     the result by no more than the integration errs. No step is so long that what is at rest, and a
-    parameter would move, is not followed as accurately: h abs(l) is at most (3600 rtol)^(1/6) for all
-    eigenvalues l of the Jacobian, so that stiff members make it slow. Where a stop or a curve has
-    a kink, the derivative is that of one side.
+    parameter would move, is not followed as accurately: h abs(l) is at most (3600 rtol)^(1/6) for
+    all eigenvalues l of the Jacobian, so that stiff members make it slow. Where a stop or a curve
+    has a kink, the derivative is that of one side.
 
     Examples
     --------
