@@ -1,12 +1,14 @@
 """Whole axles on their bushes by any amount: maximal coordinates, one side, limits, images."""
 
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from kintrafo import Axle, InputError, Model, Suspension, axles, loads
 from kintrafo.core.arguments import Arguments
+from kintrafo.report import elastokinematics_chapter
 from kintrafo.study.axles.on_bushes import axle_on, softs_of
 from kintrafo.study.axles.pair import Pair
 from kintrafo.study.loads.elastic.bars import Bars, Foot
@@ -17,6 +19,7 @@ from oracle.constraints import Pose
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 from soft_suspensions import BUSHES_OF, STRUT, TRAILING, WISHBONES
+from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 from test_deflection import SOFTER, UNDER, Energy
 
 SIDES = ("left", "right")
@@ -445,3 +448,44 @@ def test_loads_that_nothing_holds_are_refused(monkeypatch: pytest.MonkeyPatch) -
     weak = {"arm_rear": {"axial_N_per_mm": 1.0, "radial_N_per_mm": 1.0}}
     with pytest.raises(InputError, match="no equilibrium that lasts was found under longitudinal"):
         axles.deflection(axle_of(STRUT), weak, "braking", [9e5])
+
+
+# -- what is told ---------------------------------------------------------------------------------
+
+
+def test_tables_have_each_wheel_and_both() -> None:
+    found = axles.elastokinematics(axle_of(STRUT), RACK, "roll", [0.0, 0.02])
+    chapter = elastokinematics_chapter(found)
+    left, right, both = chapter.tables
+    assert [table.title for table in (left, right, both)] == [
+        "Over roll angle, left wheel", "Over roll angle, right wheel", "Over roll angle, both",
+    ]  # fmt: skip
+    toe = np.rad2deg(found["toe_right"].values[1, 1])
+    assert right.rows[1][2] == f"{toe:.4f}"
+    stiffness = found["roll_stiffness"].values[0, 1] * np.pi / 180.0
+    assert both.rows[1][1] == f"{stiffness:.4f}"
+    assert len(chapter.pictures) == 1
+    with pytest.raises(InputError, match="one or more are needed"):
+        elastokinematics_chapter()
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("reference_car --motion roll", "--motion is only for the file of an axle"),
+        ("reference_axle --wheels left", "--wheels go with --under"),
+        ("reference_axle --motion roll --bump 10", "--bump is only for curves over wheel travel"),
+        ("reference_axle --under braking --motion bump", "are for curves over a motion"),
+        ("reference_axle --motion roll --at 5", "it is for the motion 'steer'"),
+    ],
+)
+def test_options_that_do_not_go_together_are_refused(
+    kintrafo: Any,  # noqa: F811
+    line: str,
+    words: str,
+) -> None:
+    bushes = str(Path(__file__).parent / "data/studies/bushes.toml")
+    file, *options = line.split()
+    code, _, err = kintrafo("deflection", file, bushes, *options)
+    assert code == 2
+    assert words in " ".join(err.replace("│", " ").split())

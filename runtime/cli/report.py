@@ -134,7 +134,11 @@ def _of_bushes(model: "Model", bushes: Path | None, axle: "Axle | None") -> "lis
         return []
     described = None if bushes is None else study.read_bushes(bushes)
     if axle is not None:
-        return [compliance_chapter(axles.compliance(axle, described))]
+        soft = (axles.elastokinematics(axle, described, motion) for motion in ("bump", "roll"))
+        return [
+            compliance_chapter(axles.compliance(axle, described)),
+            elastokinematics_chapter(*soft),
+        ]
     return [
         compliance_chapter(study.compliance(model, described)),
         elastokinematics_chapter(study.elastokinematics(model, described)),

@@ -1,4 +1,4 @@
-"""The chapter about what bushes do to the curves over wheel travel."""
+"""The chapter about what bushes do to the curves over wheel travel, and over roll."""
 
 import xarray as xr
 from matplotlib import rc_context
@@ -6,31 +6,46 @@ from matplotlib import rc_context
 from ...core.arguments import Arguments
 from ...plots.curves import figure
 from ...plots.figures import STYLE
-from ...study.loads.sheets import deflections
+from ...study.compare import DATA_SET
+from ...study.loads.sheets import deflections, deflections_of_axle
 from .chapter import Chapter, Picture
 
 
-def elastokinematics_chapter(found: xr.Dataset) -> Chapter:
-    """Return how a wheel moves over its travel on its bushes, beside rigid joints.
+def elastokinematics_chapter(*found: xr.Dataset) -> Chapter:
+    """Return how wheels move on their bushes, beside rigid joints.
 
     Parameters
     ----------
-    found : xarray.Dataset
-        From `kintrafo.loads.elastokinematics`.
+    *found : xarray.Dataset
+        From `kintrafo.loads.elastokinematics`, or those of some motions from
+        `kintrafo.axles.elastokinematics`.
 
     Returns
     -------
     Chapter
     """
     with Arguments("elastokinematics_chapter") as given:
-        given.dataset(found, over="wheel_travel")
-    with rc_context(STYLE):
-        drawn = figure(
-            found, list(map(str, found)), title="Kinematic and elastokinematic", alone=False
-        )
-        picture = Picture.of(drawn, "Curves over wheel travel with rigid joints and on the bushes")
-    words = (
-        f"By equilibrium of all parts, however far bushes give way: {found.attrs['hardpoints']}."
-    )
-    sheet = deflections(found, "Over wheel travel")
-    return Chapter("Elastokinematics", (words,), (sheet,), (picture,))
+        if not found:
+            given.refuse("dataset: one or more are needed.")
+        for dataset in found:
+            given.dataset(dataset, over=DATA_SET)
+    sheets, pictures = [], []
+    for dataset in found:
+        over = _over(dataset)
+        with rc_context(STYLE):
+            title = f"Kinematic and elastokinematic, over {over}"
+            drawn = figure(dataset, list(map(str, dataset)), title=title, alone=False)
+            words = f"Curves over {over} with rigid joints and on the bushes"
+            pictures.append(Picture.of(drawn, words))
+        if "toe_left" in dataset:
+            sheets += deflections_of_axle(dataset, f"Over {over}")
+        else:
+            sheets.append(deflections(dataset, f"Over {over}"))
+    hardpoints = found[0].attrs["hardpoints"]
+    words = f"By equilibrium of all parts, however far bushes give way: {hardpoints}."
+    return Chapter("Elastokinematics", (words,), tuple(sheets), tuple(pictures))
+
+
+def _over(dataset: xr.Dataset) -> str:
+    (name,) = (str(name) for name in dataset.sizes if name != DATA_SET)
+    return str(dataset[name].attrs["long_name"])
