@@ -24,6 +24,7 @@ from .declared_outputs import signals_of
 from .design import design_state
 from .dynamics import Dynamics
 from .in_motion import InMotion
+from .kinks import kinks_of
 from .parameter_derivatives import ParameterDerivatives, derivatives_by_parameters
 from .relative import RelativeCoordinates
 
@@ -174,11 +175,13 @@ def _with_parameter_derivatives(derivation: Derivation) -> Derivation:
             "inputs": [entry.name for entry in derivation.inputs],
         },
     )
-    functions = {function.name: function for function in found.functions}
+    kinks = kinks_of(derivation.functions["rhs"], [entry.name for entry in derivation.state])
+    more = (*found.functions, *([kinks] if kinks else []))
+    functions = {function.name: function for function in more}
     stages = [s for s in derivation.emitted.values() if isinstance(s, Stage)]
     together = list(found.stages(stages))
     taken = {member.name for stage in together for member in stage.members}
-    alone = (function for function in found.functions if function.name not in taken)
+    alone = (function for function in more if function.name not in taken)
     emitted: tuple[Function | Stage, ...] = (*alone, *together)
     return replace(
         derivation,

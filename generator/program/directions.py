@@ -54,7 +54,7 @@ def tangent(function: Function, direction: Mapping[sp.Symbol, sp.Symbol], doc: s
             along[step.symbol] = known.free(f"d_{step.symbol}")
             steps.append(Step(along[step.symbol], derivative, step.section))
     results = tuple(chain_rule(result, along) for result in function.results)
-    return _written(replace(function, name=f"{function.name}_{TANGENT}", doc=doc), steps, results)
+    return written(replace(function, name=f"{function.name}_{TANGENT}", doc=doc), steps, results)
 
 
 def adjoint(
@@ -99,7 +99,7 @@ def adjoint(
         labels=tuple(map(str, by)),
         shape=(len(results),),
     )
-    return _written(changed, steps, results)
+    return written(changed, steps, results)
 
 
 class _Names:
@@ -116,8 +116,8 @@ class _Names:
         return symbol
 
 
-def _written(function: Function, steps: list[Step], results: tuple[sp.Expr, ...]) -> Function:
-    """Return a function of some steps that guards what its original guards."""
+def written(function: Function, steps: list[Step], results: tuple[sp.Expr, ...]) -> Function:
+    """Return a function of those of some steps that it needs, which guards what it did before."""
     kept = (*results, *(guard.quantity for guard in function.guards))
     alive, _ = drop_dead(steps, list(kept))
     called = {s.expression.args[0].name for s in alive if isinstance(s.expression, Iterated)}

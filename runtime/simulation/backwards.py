@@ -8,7 +8,7 @@ takes a few times as long as the motion.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -18,16 +18,19 @@ from ..core.arguments import Arguments, shown
 from ..systems.derivatives import checked_directions
 from ..systems.state import inputs_of
 from ..systems.system import System
-from .accuracy import outputs_of, span_of
+from .accuracy import Accuracy, accuracy_of, outputs_of, span_of
 from .courses import Signal
+from .kinks import ended_at_kinks
 from .result import Simulation
+from .retraced import NODES, STAGES, Steps, weights_within
 from .signals import TimeInputs, time_inputs
-from .simulate import simulate
+from .simulate import simulate_inputs
 
 Array = NDArray[np.float64]
 Measure = Literal["mean", "rms"]
 
 _OUTPUTS = 201
+_MOST_STEPS = 10_000_000
 # Rows that are differentiated at a time: some MB.
 _ROWS = 4096
 # Steps whose Jacobian is looked at, and by how much they may be longer than it allows.
@@ -35,24 +38,6 @@ _LOOKS = 32
 _MORE = 1.2
 # Part of a signal that is rounding of the sums that it is made of.
 _STAYS = 64.0 * np.finfo(float).eps
-
-# Dormand and Prince's method: nodes, stages, and weights of a step and of its polynomial
-# (../native/dormand_prince.h has the same, Hairer, Norsett and Wanner II.5 and II.6).
-_NODES = np.array([0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0])
-_STAGES = np.zeros((7, 7))
-_STAGES[1, :1] = 0.2
-_STAGES[2, :2] = 3.0 / 40.0, 9.0 / 40.0
-_STAGES[3, :3] = 44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0
-_STAGES[4, :4] = 19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0
-_STAGES[5, :5] = 9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0
-_STAGES[6, :6] = 35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0
-_LAST = np.array(
-    [
-        -12715105075.0 / 11282082432.0, 0.0, 87487479700.0 / 32700410799.0,
-        -10690763975.0 / 1880347072.0, 701980252875.0 / 199316789632.0,
-        -1453857185.0 / 822651844.0, 69997945.0 / 29380423.0,
-    ]
-)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -110,7 +95,7 @@ def motion_gradient(
     Raises
     ------
     InputError
-        If an argument cannot be used.
+        If an argument cannot be used, or the rates jump on the way.
     SimulationError
         As of `simulate`.
 
@@ -121,9 +106,10 @@ def motion_gradient(
     parameter would move, is not followed as accurately: its length times the size of any eigenvalue
     of the Jacobian is at most (3600 rtol)^(1/6), so that stiff members make it slow.
 
-    Where a stop or a curve has a kink, the derivative is that of one side; a step over it has
-    stages on both, and the gradient errs there in proportion to the length of the step, by much
-    more than the motion: compare with that of a smaller `max_step`.
+    Where a stop is touched, or a curve has a kink, the derivatives change at once; steps grow
+    shorter towards such a moment, so that only one of some root of `rtol` of the longest passes
+    over it. What rests on a kink has the derivative of one side. Where rates jump, as where a tyre with
+    damping meets the road, there is no gradient and an error says so.
 
     Examples
     --------
@@ -146,22 +132,35 @@ def motion_gradient(
             )
             asked = _asked(given, system, of, times)
             given.array("y0", y0, dimensions=[1], last=len(system.state_names), empty=True)
+            accuracy = accuracy_of(
+                given, len(system.state_names), rtol=rtol, atol=atol, max_step=max_step,
+                first_step=None, max_steps=_MOST_STEPS,
+            )  # fmt: skip
     held = inputs_of(y0, system.names_of_states)
     courses = time_inputs(system, inputs, span, held=held, max_step=max_step)
-    longest = min(max_step, _longest(system, courses, rtol, np.array([span[0]]), np.atleast_2d(y0)))
-    while True:
-        motion = simulate(
-            system, span, y0, inputs=inputs, method="DormandPrince", rtol=rtol, atol=atol,
-            max_step=longest,
-        )  # fmt: skip
-        allowed = _longest(system, courses, rtol, *_looked_at(motion))
-        if np.diff(motion.t).max() <= _MORE * allowed:
-            break
-        longest = min(longest, allowed)
-    steps = _Steps(system, motion, courses)
-    value, weights = _judged(system, asked, times, *steps.at(times))
+    motion, steps = _followed(system, courses, np.array(y0, dtype=float), accuracy)
+    value, weights = _judged(system, asked, times, *steps.point(*steps.places(times)))
     swept = _Sweep(system, directions, steps).backwards(times, weights)
     return MotionGradient(value, _named(system, directions, courses, *swept), motion)
+
+
+def _followed(
+    system: System, courses: TimeInputs, state: Array, accuracy: Accuracy
+) -> tuple[Simulation, Steps]:
+    """Return a motion whose steps are fit for derivatives, and the steps."""
+    begin = np.array([courses.segments[0].start])
+    longest = min(accuracy.max_step, _longest(system, courses, accuracy.rtol, begin, state[None]))
+
+    def again(inputs: TimeInputs) -> Simulation:
+        shorter = replace(accuracy, max_step=longest)
+        return simulate_inputs(system, inputs, state, None, shorter, method="DormandPrince")
+
+    while True:
+        motion = again(courses)
+        allowed = _longest(system, courses, accuracy.rtol, *_looked_at(motion))
+        if np.diff(motion.t).max() <= _MORE * allowed:
+            return ended_at_kinks(system, motion, courses, again, accuracy.rtol)
+        longest = min(longest, allowed)
 
 
 def _looked_at(motion: Simulation) -> tuple[Array, Array]:
@@ -260,66 +259,6 @@ def _named(
     return {name: float(value) for name, value in found.items()}
 
 
-class _Steps:
-    """The steps of a motion, and what its stages were, evaluated again for all of them at once."""
-
-    def __init__(self, system: System, motion: Simulation, courses: TimeInputs) -> None:
-        self.begin, self.length = motion.t[:-1], np.diff(motion.t)
-        self._courses = courses
-        self._of_segment = [
-            slice(*np.searchsorted(self.begin, (part.start, part.end))) for part in courses.segments
-        ]
-        self.states = np.repeat(motion.y.T[:-1, None], _NODES.size, axis=1)
-        self.inputs = np.empty((*self.states.shape[:2], len(system.input_names)))
-        for node, part in enumerate(_NODES):
-            self.inputs[:, node] = self._inputs_at(self.begin + part * self.length)
-        self.rates = np.empty_like(self.states)
-        for stage, row in enumerate(_STAGES):
-            moved = np.tensordot(self.rates[:, :stage], row[:stage], (1, 0))
-            self.states[:, stage] += self.length[:, None] * moved
-            at = self.states[:, stage], self.inputs[:, stage]
-            self.rates[:, stage] = system.evaluate("rhs", *at)
-
-    def _inputs_at(self, times: Array) -> Array:
-        """Return the inputs at a time within each step."""
-        rows = [
-            self._courses.table(times[own], part)
-            for own, part in zip(self._of_segment, self._courses.segments, strict=True)
-        ]
-        return np.concatenate(rows)
-
-    def places(self, times: Array) -> tuple[NDArray[np.int_], Array]:
-        """Return in which step each time is, and the weights of the stages there, of one second.
-
-        A time between two steps is the end of the one before, as `simulate` has it where inputs
-        jump.
-        """
-        step = np.maximum(np.searchsorted(self.begin, times) - 1, 0)
-        part = (times - self.begin[step]) / self.length[step]
-        return step, _weights_within(part)
-
-    def at(self, times: Array) -> tuple[Array, Array]:
-        """Return states and inputs at times, by the polynomials of the steps."""
-        step, weights = self.places(times)
-        moved = np.einsum("ts,tsn->tn", weights, self.rates[step])
-        states = self.states[step, 0] + self.length[step, None] * moved
-        inputs = np.empty((times.size, self.inputs.shape[-1]))
-        for own, part in zip(self._of_segment, self._courses.segments, strict=True):
-            rows = (step >= own.start) & (step < own.stop)
-            inputs[rows] = self._courses.table(times[rows], part)
-        return states, inputs
-
-
-def _weights_within(part: Array) -> Array:
-    """Return the weights of the stages in the interpolated state, shape (times, stages)."""
-    rest = 1.0 - part
-    bent, back, last = part * rest, part**2 * rest, part**2 * rest**2
-    weights = np.outer(part - bent + 2.0 * back, _STAGES[-1]) + np.outer(last, _LAST)
-    weights[:, 0] += bent - back
-    weights[:, -1] -= back
-    return weights
-
-
 class _Sweep:
     """The way back through the steps.
 
@@ -329,7 +268,7 @@ class _Sweep:
     push at y and at the stages is added to these.
     """
 
-    def __init__(self, system: System, directions: Any, steps: _Steps) -> None:
+    def __init__(self, system: System, directions: Any, steps: Steps) -> None:
         self._system, self._directions, self._steps = system, directions, steps
         jacobians = system.evaluate("rhs_jacobian", steps.states, steps.inputs)
         self._back = jacobians.swapaxes(-1, -2)
@@ -337,7 +276,7 @@ class _Sweep:
     def backwards(self, times: Array, weights: Mapping[str, Array]) -> tuple[Array, Array, Array]:
         """Return the derivatives of a weighted sum by constants, the start, and inputs."""
         system, steps = self._system, self._steps
-        states, inputs = steps.at(times)
+        states, inputs = steps.point(*steps.places(times))
         of_signals = np.zeros((times.size, len(system.signal_names)))
         pushed = np.zeros_like(states)
         for name, row in weights.items():
@@ -355,7 +294,8 @@ class _Sweep:
         self, function: str, states: Array, inputs: Array, weights: Array
     ) -> tuple[Array, Array, Array]:
         """Return derivatives of a weighted sum: by constants, by each state, and by inputs."""
-        rows = [array.reshape(-1, array.shape[-1]) for array in (states, inputs, weights)]
+        count = states[..., 0].size  # inputs may have no elements, whose rows cannot be counted
+        rows = [array.reshape(count, array.shape[-1]) for array in (states, inputs, weights)]
         constants, found = np.zeros(self._system.constants.size), np.empty_like(rows[0])
         held = np.zeros(rows[1].shape[-1])
         for first in range(0, len(rows[0]), _ROWS):
@@ -369,9 +309,10 @@ class _Sweep:
 
     def _within(self, times: Array, pushed: Array) -> tuple[Array, Array]:
         """Return what states at times push at the begin of their steps, and at the stages."""
-        step, weights = self._steps.places(times)
+        step, part = self._steps.places(times)
+        weights = weights_within(part)
         count, size = self._steps.length.size, pushed.shape[-1]
-        at_begin, at_stages = np.zeros((count, size)), np.zeros((count, _NODES.size, size))
+        at_begin, at_stages = np.zeros((count, size)), np.zeros((count, NODES.size, size))
         np.add.at(at_begin, step, pushed)
         lengths = self._steps.length[step, None, None]
         np.add.at(at_stages, step, lengths * weights[:, :, None] * pushed[:, None])
@@ -397,8 +338,8 @@ class _Sweep:
         """Return K of each stage, and l before each step, for columns of l behind it."""
         length = self._steps.length[:, None, None]
         stages, back = np.empty(at_stages.shape), np.zeros(at_stages.shape)
-        for i in reversed(range(_NODES.size)):
-            later = np.tensordot(_STAGES[i + 1 :, i], back[:, i + 1 :], (0, 1))
-            stages[:, i] = length * (_STAGES[-1, i] * counts + later) + at_stages[:, i]
+        for i in reversed(range(NODES.size)):
+            later = np.tensordot(STAGES[i + 1 :, i], back[:, i + 1 :], (0, 1))
+            stages[:, i] = length * (STAGES[-1, i] * counts + later) + at_stages[:, i]
             back[:, i] = self._back[:, i] @ stages[:, i]
         return stages, counts + back.sum(1)

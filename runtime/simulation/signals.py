@@ -9,7 +9,7 @@ a rack). Two things keep an integrator from missing what happens:
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 import numpy as np
@@ -105,6 +105,24 @@ class TimeInputs:
                     values[:, target] = spline.curve(times, order)
         return values
 
+    def with_milestones(self, times: Array) -> "TimeInputs":
+        """Return the same with more times that no step passes over, in any order [s]."""
+        segments = (
+            replace(part, milestones=_within(part, np.concatenate([part.milestones, times])))
+            for part in self.segments
+        )
+        return replace(self, segments=tuple(segments))
+
+
+def _within(part: Segment, times: Array) -> Array:
+    """Return the times within a segment that differ, in its order."""
+    first, last = min(part.start, part.end), max(part.start, part.end)
+    near = _RESOLVED * max(abs(first), abs(last))
+    times = np.unique(times)
+    within = times[(times > first + near) & (times < last - near)]
+    within = within[np.diff(within, prepend=-np.inf) > near]
+    return within[::-1].copy() if part.end < part.start else within
+
 
 @dataclass
 class _Collected:
@@ -195,7 +213,7 @@ def _segments(
     backward = last < first
     inside = (t for t in collected.borders if min(t_span) < t < max(t_span))
     borders = [first, *sorted(inside, reverse=backward), last]
-    milestones = np.unique(np.concatenate([*collected.milestones, np.empty(0)]))
+    milestones = np.concatenate([*collected.milestones, np.empty(0)])
     segments = []
     for start, end in pairwise(borders):
         middle = (start + end) / 2
@@ -203,14 +221,8 @@ def _segments(
             Spline(_covering(curves, middle), _targets(name, inputs))
             for name, curves in collected.curves.items()
         ]
-        near = _RESOLVED * max(abs(start), abs(end))
-        within = milestones[
-            (milestones > min(start, end) + near) & (milestones < max(start, end) - near)
-        ]
-        within = within[np.diff(within, prepend=-np.inf) > near]
-        segments.append(
-            Segment(start, end, tuple(splines), within[::-1].copy() if backward else within)
-        )
+        part = Segment(start, end, tuple(splines), milestones)
+        segments.append(replace(part, milestones=_within(part, milestones)))
     return tuple(segments)
 
 

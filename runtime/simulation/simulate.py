@@ -199,11 +199,11 @@ def simulate_inputs(
     model: System,
     inputs: TimeInputs,
     state: Array,
-    times: Array,
+    times: Array | None,
     accuracy: Accuracy,
     *,
     method: Method,
-    stopped: Callable[[], bool],
+    stopped: Callable[[], bool] | None = None,
 ) -> Simulation:
     """Integrate where everything has been checked already, as one of many.
 
@@ -213,11 +213,11 @@ def simulate_inputs(
     inputs : TimeInputs
     state : ndarray
         At the start.
-    times : ndarray
-        Of the outputs [s].
+    times : ndarray, optional
+        Of the outputs [s]; every step by default.
     accuracy : Accuracy
     method : str
-    stopped : callable
+    stopped : callable, optional
         Asked now and then whether the caller wants an end, for which KeyboardInterrupt is raised.
     """
     options = Options(

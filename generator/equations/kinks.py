@@ -1,0 +1,67 @@
+"""Where the right-hand side has a kink, or jumps: a function that is emitted with its derivatives.
+
+A stop that is touched, a tyre that leaves the road, a knot of a curve: each is where the argument
+of a `Positive` or an `IsPositive` passes zero. What follows derivatives along a motion ends its
+steps there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import chain
+from typing import TYPE_CHECKING
+
+import sympy as sp
+
+from ..program.directions import written
+from ..program.functions import IsPositive, Positive
+from ..program.symbols import symbols_of
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from ..program.function import Function
+
+KINKS = "kinks"
+
+
+def kinks_of(rhs: Function, moving: Collection[str]) -> Function | None:
+    """Return what passes zero where the right-hand side has a kink; None where it has none.
+
+    Parameters
+    ----------
+    rhs
+        The right-hand side.
+    moving
+        Names of the elements of the state: what depends on none of them passes nothing.
+    """
+    expressions = [*(step.expression for step in rhs.steps), *rhs.results]
+    found = dict.fromkeys(chain.from_iterable(_arguments(e) for e in expressions))
+    moved = _moved(rhs, moving)
+    passed = [e for e in found if not moved.isdisjoint(symbols_of(e))]
+    if not passed:
+        return None
+    unguarded = replace(
+        rhs,
+        name=KINKS,
+        doc="What passes zero where the right-hand side has a kink, or jumps.",
+        labels=tuple(f"{KINKS}_{i}" for i in range(len(passed))),
+        shape=(len(passed),),
+        guards=(),
+    )
+    return written(unguarded, list(rhs.steps), tuple(passed))
+
+
+def _arguments(expression: sp.Expr) -> list[sp.Expr]:
+    """Return what is compared with zero, in an order that is the same everywhere."""
+    functions = expression.atoms(Positive, IsPositive)
+    return sorted((function.args[0] for function in functions), key=sp.default_sort_key)
+
+
+def _moved(rhs: Function, moving: Collection[str]) -> set[sp.Symbol]:
+    """Return all that depends on the state."""
+    moved = set(map(sp.Symbol, moving))
+    for step in rhs.steps:
+        if not moved.isdisjoint(symbols_of(step.expression)):
+            moved.add(step.symbol)
+    return moved

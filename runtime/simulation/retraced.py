@@ -1,0 +1,105 @@
+"""The steps of a motion by Dormand and Prince's method, gone through again all at once.
+
+The states at the stages, which the integration does not keep, follow from the steps it took.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..systems.system import System
+from .result import Simulation
+from .signals import TimeInputs
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+# Dormand and Prince's method: nodes, stages, and weights of a step and of its polynomial
+# (../native/dormand_prince.h has the same, Hairer, Norsett and Wanner II.5 and II.6).
+NODES = np.array([0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0])
+STAGES = np.zeros((7, 7))
+STAGES[1, :1] = 0.2
+STAGES[2, :2] = 3.0 / 40.0, 9.0 / 40.0
+STAGES[3, :3] = 44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0
+STAGES[4, :4] = 19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0
+STAGES[5, :5] = 9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0
+STAGES[6, :6] = 35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0
+_LAST = np.array(
+    [
+        -12715105075.0 / 11282082432.0, 0.0, 87487479700.0 / 32700410799.0,
+        -10690763975.0 / 1880347072.0, 701980252875.0 / 199316789632.0,
+        -1453857185.0 / 822651844.0, 69997945.0 / 29380423.0,
+    ]
+)  # fmt: skip
+
+
+class Steps:
+    """The steps of a motion, and what its stages were, evaluated again for all of them at once."""
+
+    def __init__(self, system: System, motion: Simulation, courses: TimeInputs) -> None:
+        self.begin, self.length = motion.t[:-1], np.diff(motion.t)
+        self._courses = courses
+        self._of_segment = [
+            slice(*np.searchsorted(self.begin, (part.start, part.end))) for part in courses.segments
+        ]
+        self.states = np.repeat(motion.y.T[:-1, None], NODES.size, axis=1)
+        self.inputs = np.empty((*self.states.shape[:2], len(system.input_names)))
+        for node, part in enumerate(NODES):
+            self.inputs[:, node] = self._inputs_at(self.begin + part * self.length)
+        self.rates = np.empty_like(self.states)
+        for stage, row in enumerate(STAGES):
+            moved = np.tensordot(self.rates[:, :stage], row[:stage], (1, 0))
+            self.states[:, stage] += self.length[:, None] * moved
+            at = self.states[:, stage], self.inputs[:, stage]
+            self.rates[:, stage] = system.evaluate("rhs", *at)
+
+    def _inputs_at(self, times: Array) -> Array:
+        """Return the inputs at a time within each step."""
+        rows = [
+            self._courses.table(times[own], part)
+            for own, part in zip(self._of_segment, self._courses.segments, strict=True)
+        ]
+        return np.concatenate(rows)
+
+    def time(self, step: Indices, part: Array) -> Array:
+        """Return times by their place: a step, and a part of it from 0 to 1."""
+        return self.begin[step] + part * self.length[step]
+
+    def places(self, times: Array) -> tuple[Indices, Array]:
+        """Return in which step each time is, and in which part of it.
+
+        A time between two steps is the end of the one before, as `simulate` has it where inputs
+        jump.
+        """
+        step = np.maximum(np.searchsorted(self.begin, times) - 1, 0)
+        return step, (times - self.begin[step]) / self.length[step]
+
+    def point(self, step: Indices, part: Array) -> tuple[Array, Array]:
+        """Return states and inputs at places, by the polynomials of the steps."""
+        moved = np.einsum("ts,tsn->tn", weights_within(part), self.rates[step])
+        states = self.states[step, 0] + self.length[step, None] * moved
+        times = self.time(step, part)
+        inputs = np.empty((times.size, self.inputs.shape[-1]))
+        for own, course in zip(self._of_segment, self._courses.segments, strict=True):
+            rows = (step >= own.start) & (step < own.stop)
+            inputs[rows] = self._courses.table(times[rows], course)
+        return states, inputs
+
+    def within(self, parts: Array) -> tuple[Array, Array]:
+        """Return states and inputs of all steps at some parts, shape (steps, parts, size)."""
+        count = self.begin.size
+        step, part = np.repeat(np.arange(count), parts.size), np.tile(parts, count)
+        states, inputs = self.point(step, part)
+        return (
+            states.reshape(count, parts.size, states.shape[-1]),
+            inputs.reshape(count, parts.size, inputs.shape[-1]),
+        )
+
+
+def weights_within(part: Array) -> Array:
+    """Return the weights of the stages in the interpolated state, shape (times, stages)."""
+    rest = 1.0 - part
+    bent, back, last = part * rest, part**2 * rest, part**2 * rest**2
+    weights = np.outer(part - bent + 2.0 * back, STAGES[-1]) + np.outer(last, _LAST)
+    weights[:, 0] += bent - back
+    weights[:, -1] -= back
+    return weights
