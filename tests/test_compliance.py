@@ -143,6 +143,7 @@ WRONG: list[tuple[Any, dict[str, Any], str]] = [
     ({"arm_rear": {"radial": 1.0}}, {}, "Did you mean radial_"),
     ({"arm_rear": {"radial_N_per_mm": 0.0}}, {}, "of 0.001 N/mm or more"),
     ({"arm_rear": {"radial_N_per_mm": [1.0, 2.0, 3.0]}}, {}, "a number is needed, or two"),
+    ({"arm_rear": {"radial_N_per_mm": [[1.0, 2.0], [3.0]]}}, {}, "a finite number"),
     ({"arm_rear": {"axis": [1.0, 0.0, 0.0]}}, {}, "is needed, or it is rigid"),
     ({"arm_rear": {"axial_N_per_mm": 1.0, "axis": [0.0, 0.0, 0.0]}}, {}, "three numbers"),
     ({"arm_rear": {"axial_N_per_mm": 1.0, "axis": [1e300, 0.0, 0.0]}}, {}, "three numbers"),

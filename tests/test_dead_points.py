@@ -174,3 +174,35 @@ def test_steps_that_gain_nothing_before_a_dead_point_end():
         simulate(model, (0.0, 100.0), start, method="Radau", rtol=8e-10, atol=8e-13)
     other = ended(model, start, 100.0, method="DOP853", rtol=1e-10)
     assert caught.value.time == pytest.approx(other.time, abs=1e-5)
+
+
+@pytest.mark.parametrize("method", ["BDF", "LSODA", "DOP853"])
+def test_what_scipy_found_until_then_stays(method):
+    """Outputs between its steps, events and polynomials, as far as it came."""
+    system, start = crank(-20.0)
+    span, times = (0.0, 0.5), np.linspace(0.0, 0.5, 2001)
+
+    def watched(_, state):
+        return state[0] + 1.0
+
+    options = {"t_eval": times, "events": watched, "dense_output": True, "backend": "scipy"}
+    with pytest.raises(SimulationError, match="dead point") as caught:
+        simulate(system, span, start, method=method, **options)
+    partial, reached = caught.value.partial, caught.value.time
+    assert partial.t.size == np.searchsorted(times, reached) > 20
+    np.testing.assert_array_equal(partial.t, times[: partial.t.size])
+    # interpolated to the tolerance of the steps, 1e-6
+    np.testing.assert_allclose(partial.sol(partial.t), partial.y, rtol=1e-9, atol=1e-12)
+    ((passed,), (state,)) = *partial.t_events, *partial.y_events
+    assert state[0][0] == pytest.approx(-1.0, abs=1e-6)
+    assert 0.0 < passed < reached
+
+
+def test_scipy_ends_where_steps_are_used_up_with_what_it_has():
+    system = System(slider_crank)
+    start, times = system.state(crank_angle_rate=30.0), np.linspace(0.0, 10.0, 4001)
+    with pytest.raises(SimulationError, match="more than 50 steps") as caught:
+        simulate(system, (0.0, 10.0), start, method="DOP853", max_steps=50, t_eval=times)
+    partial = caught.value.partial
+    assert 1 < partial.t.size < times.size
+    np.testing.assert_array_equal(partial.t, times[: partial.t.size])

@@ -215,6 +215,7 @@ WRONG = [
     ({"step": np.inf}, "a finite number above 0 s"),
     ({"step": 1e-9}, "makes 1e\\+09 steps, and max_steps is 10000000"),
     ({"rtol": 1e-6, "max_step": 0.1}, "leave out rtol, max_step"),
+    ({"max_step": [[1.0, 2.0], [3.0]]}, "leave out max_step"),
     ({"atol": 1e-6}, "leave out atol"),
     ({"first_step": 1e-6}, "leave out first_step"),
     ({"method": "BDF"}, "'BDF' chooses its steps"),

@@ -108,8 +108,8 @@ def motion_gradient(
 
     Where a stop is touched, or a curve has a kink, the derivatives change at once; steps grow
     shorter towards such a moment, so that only one of some root of `rtol` of the longest passes
-    over it. What rests on a kink has the derivative of one side. Where rates jump, as where a tyre with
-    damping meets the road, there is no gradient and an error says so.
+    over it. What rests on a kink has the derivative of one side. Where rates jump, as where a tyre
+    with damping meets the road, there is no gradient and an error says so.
 
     Examples
     --------

@@ -255,7 +255,7 @@ def _fixed_step(
         )
         return 1.0
     told = [name for name, value in others.items() if value is not None]
-    told += [] if np.ndim(max_step) == 0 and max_step == np.inf else ["max_step"]
+    told += [] if isinstance(max_step, float) and max_step == np.inf else ["max_step"]
     if told:
         given.refuse(f"method 'RK4' has steps of one length: leave out {', '.join(told)}.")
     if step is None:

@@ -4,7 +4,7 @@ Both integrate one segment of time, in which the inputs are smooth, and return t
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from importlib import import_module
 from itertools import pairwise
 from math import factorial
@@ -20,7 +20,7 @@ from .accuracy import Accuracy
 from .dead_points import Approach, DeadPoint, meanings
 from .events import Events
 from .signals import Segment, TimeInputs
-from .watched import watched
+from .watched import TooManySteps, watched
 
 Array = NDArray[np.float64]
 
@@ -255,10 +255,6 @@ def _taylor(row: Array, size: int) -> tuple[float, float, Callable[[Array], Arra
 # -- SciPy --------------------------------------------------------------------------------------
 
 
-class _TooManySteps(Exception):  # noqa: N818 (never leaves this module)
-    pass
-
-
 class _RightHandSide:
     """The compiled functions as SciPy calls them."""
 
@@ -276,7 +272,7 @@ class _RightHandSide:
         self.time, self.state = time, state.copy()
         self.evaluations += 1
         if self.evaluations > self._most:
-            raise _TooManySteps
+            raise TooManySteps
         given = self._inputs.at(time, self._segment)
         result: Array = self._function(state, given, self._model.constants)
         return result
@@ -321,7 +317,8 @@ def solve_scipy(
         1.0 if segment.end > segment.start else -1.0,
     )
     watched_events = _scipy_events(function, events)
-    method = watched(name, approach, lambda: function.time, segment.milestones)
+    failures: list[Exception] = []
+    method = watched(name, approach, lambda: function.time, segment.milestones, failures.append)
     try:
         result = solve_ivp(
             function,
@@ -337,26 +334,36 @@ def solve_scipy(
             events=[*watched_events, _recorder(steps)],
             **extra,
         )
-    except (DeadPoint, ModelError, _TooManySteps) as error:
-        outcome = "too_many_steps" if isinstance(error, _TooManySteps) else "state"
-        dead = error if isinstance(error, DeadPoint) else None
-        steps = steps or [(segment.start, state)]
-        return Piece(
-            t=np.array([time for time, _ in steps]),
-            y=np.array([y for _, y in steps]),
-            outcome=outcome,
+    except (DeadPoint, ModelError, TooManySteps) as error:  # at the first state, or of an event
+        started = steps or [(segment.start, state)]
+        piece = Piece(
+            t=np.array([time for time, _ in started]),
+            y=np.array([y for _, y in started]),
+            outcome="failed",
             counts={"nfev": function.evaluations},
-            reached_time=steps[-1][0],
-            reached_state=steps[-1][1],
-            refused_time=dead.time if dead else function.time,
-            refused_state=dead.state if dead else function.state,
-            refused_guard=dead.guard if dead else None,
+            reached_time=started[-1][0],
+            reached_state=started[-1][1],
         )
+        return _failed(piece, error, function)
     piece = _piece_of(result, steps, events, options)
+    if failures:
+        return _failed(piece, failures[0], function)
     crossed = zip(watched_events, result.t_events or (), strict=False)  # and that of the recorder
     if any(event.stays(steps) for event, times in crossed if times.size > 1):
         piece.outcome = "flat_event"
     return _checked_outputs(piece, approach)
+
+
+def _failed(piece: Piece, error: Exception, function: _RightHandSide) -> Piece:
+    """Return a piece with the reason why it ends early."""
+    dead = error if isinstance(error, DeadPoint) else None
+    return replace(
+        piece,
+        outcome="too_many_steps" if isinstance(error, TooManySteps) else "state",
+        refused_time=dead.time if dead else function.time,
+        refused_state=dead.state if dead else function.state,
+        refused_guard=dead.guard if dead else None,
+    )
 
 
 def _within(step: float | None, segment: Segment) -> float | None:
@@ -437,14 +444,15 @@ def _piece_of(
                 result.sol.ts[:-1], result.sol.ts[1:], result.sol.interpolants, strict=True
             )
         ]
+    found = np.size(result.t) > 0  # SciPy has no array of outputs where the first step fails
     return Piece(
-        t=result.t,
-        y=result.y.T,
+        t=result.t if found else np.array([steps[0][0]]),
+        y=result.y.T if found else steps[0][1][None],
         outcome=outcomes[result.status],
         counts=counts | {"steps": len(steps) - 1},
         reached_time=steps[-1][0],
         reached_state=steps[-1][1],
-        events=sorted(crossings, key=lambda c: c[1], reverse=bool(result.t[-1] < result.t[0])),
+        events=sorted(crossings, key=lambda c: c[1], reverse=bool(steps[-1][0] < steps[0][0])),
         interpolants=interpolants,
         detail=str(result.message),
     )

@@ -38,10 +38,19 @@ class _Watch:
     approach: Approach
     last_tried: Callable[[], float]
     milestones: Array
+    failed: Callable[[Exception], None]
+
+
+class TooManySteps(Exception):  # noqa: N818 (never leaves the solver)
+    """More evaluations than are allowed."""
 
 
 def watched(
-    name: str, approach: Approach, last_tried: Callable[[], float], milestones: Array
+    name: str,
+    approach: Approach,
+    last_tried: Callable[[], float],
+    milestones: Array,
+    failed: Callable[[Exception], None],
 ) -> type[OdeSolver]:
     """Return a method of SciPy whose steps are limited, and taken back, as those of SUNDIALS are.
 
@@ -54,15 +63,17 @@ def watched(
         Returns the time at which the right-hand side was evaluated last.
     milestones : ndarray
         Times that no step passes over, in the order of the integration [s].
+    failed : callable
+        Takes why no further step can be taken: `DeadPoint`, `ModelError` where a state is refused
+        however short the step, or `TooManySteps`.
 
     Returns
     -------
     type
-        For ``solve_ivp``; its ``step`` raises `DeadPoint`, or `ModelError` where a state is refused
-        however short the step.
+        For ``solve_ivp``, which keeps all that it found until a step fails.
     """
     base: Any = _METHODS[name]
-    watch = _Watch(approach, last_tried, milestones)
+    watch = _Watch(approach, last_tried, milestones, failed)
     made: type[OdeSolver] = type(f"Watched{name}", (_Steps, base), {"watch": watch})
     return made
 
@@ -81,6 +92,15 @@ class _Steps(OdeSolver):
         self._look(SMALLEST_OF_STEP * self._whole)
 
     def step(self) -> str | None:
+        try:
+            return self._trusted_step()
+        except (DeadPoint, ModelError, TooManySteps) as error:
+            self.watch.failed(error)
+            self.status = "failed"
+            return str(error)
+
+    def _trusted_step(self) -> str | None:
+        """Take a step, shorter ones until it can be trusted."""
         while True:
             time, state = self.t, self.y
             try:

@@ -295,7 +295,7 @@ def _translations(given: Arguments, title: str, table: Mapping[str, Any]) -> lis
     """Return the compliances along the axis and in both directions across it [m/N]."""
     axial = _stiffness(given, title, table, "axial_N_per_mm")
     radial = table.get("radial_N_per_mm", np.inf)
-    if isinstance(radial, list | tuple | np.ndarray) and np.ndim(radial):
+    if isinstance(radial, list | tuple) or (isinstance(radial, np.ndarray) and radial.ndim):
         if len(radial) != 2:
             given.refuse(f"{title} radial_N_per_mm: a number is needed, or two.")
             return [0.0, 0.0, 0.0]
