@@ -347,7 +347,7 @@ def solve_scipy(
         return _failed(piece, error, function)
     piece = _piece_of(result, steps, events, options)
     if failures:
-        return _failed(piece, failures[0], function)
+        return _checked_outputs(_failed(piece, failures[0], function), approach)
     crossed = zip(watched_events, result.t_events or (), strict=False)  # and that of the recorder
     if any(event.stays(steps) for event, times in crossed if times.size > 1):
         piece.outcome = "flat_event"
