@@ -194,7 +194,7 @@ def test_what_scipy_found_until_then_stays(method):
     # interpolated to the tolerance of the steps, 1e-6
     np.testing.assert_allclose(partial.sol(partial.t), partial.y, rtol=1e-9, atol=1e-12)
     ((passed,), (state,)) = *partial.t_events, *partial.y_events
-    assert state[0][0] == pytest.approx(-0.05, abs=1e-6)
+    assert state[0] == pytest.approx(-0.05, abs=1e-6)
     assert 0.0 < passed < reached
 
 
