@@ -356,6 +356,7 @@ WRONG = {
     "not there": ({"side": "nowhere.toml"}, "There is no such file"),
     "a number": ({"side": 3.0}, "name of a hardpoint file is needed"),
     "exchanged": ({"right": CAR.mirrored(), "left": CAR}, "Exchange the two"),
+    "of the other end": ({"side": CAR.with_changes({"vehicle.end": "rear"})}, "the front one"),
     "kinds": ({"right": CAR, "left": WISHBONES.mirrored()}, "of one kind"),
     "racks": (
         {"right": CAR, "left": CAR.mirrored().with_changes({"rack.axis": [0.0, 1.0, 0.1]})},

@@ -103,7 +103,7 @@ def _of_one_side(axle: "Axle | None") -> frozenset[str]:
 
     # what both wheels decide: the page knows but one side, and takes the other for its image
     without = frozenset() if axle.symmetric else frozenset(AXLE)
-    return without if axle.end == "front" else frozenset(AXLE) | {"anti_dive"}
+    return without if axle.end == "front" else frozenset(AXLE) | {"anti_dive", "anti_lift_braked"}
 
 
 def _of_axle(axle: "Axle | None") -> "list[Chapter]":

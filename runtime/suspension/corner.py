@@ -147,6 +147,8 @@ class Vehicle:
         [m].
     front_brake_share : float or None
         Part of the braking force at the front wheels.
+    front, rear : bool or None
+        Which end it is at: True for the one, None for the other.
     travel_per_turn : float or None
         Rack travel for one turn of the steering wheel [m].
     steered : bool or None
@@ -159,6 +161,8 @@ class Vehicle:
     wheelbase: float | None = None
     center_of_gravity_height: float | None = None
     front_brake_share: float | None = None
+    front: bool | None = True
+    rear: bool | None = None
     travel_per_turn: float | None = None
     steered: bool | None = True
 

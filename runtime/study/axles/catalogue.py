@@ -24,7 +24,7 @@ _PERCENT = Display("%", 100.0)
 _NEWTON_METRES = Display("N m", 1.0)
 
 # Of a wheel alone, what an axle has better: by both wheels, and for front and rear.
-_REPLACED = ("roll_center_height_kinematic", "anti_dive", "arm_rotation")
+_REPLACED = ("roll_center_height_kinematic", "anti_dive", "anti_lift_braked", "arm_rotation")
 _GROUND = ("tyre_radius",)
 _PITCH = ("tyre_radius", "wheelbase", "center_of_gravity_height")
 

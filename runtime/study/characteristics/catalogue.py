@@ -317,7 +317,18 @@ TRAVEL = (
         "b (L / h) v_Cx / v_Cz: front brake share b, wheelbase L, height h of the gravity centre",
         "positive when braking lifts the front",
         wheel.anti_dive,
-        _BRAKING,
+        (*_BRAKING, "front"),
+        _PERCENT,
+    ),
+    Quantity(
+        "anti_lift_braked",
+        "1",
+        "anti-lift under braking",
+        "-(1 - b) (L / h) v_Cx / v_Cz: front brake share b, wheelbase L, height h of the gravity "
+        "centre",
+        "positive when braking holds the rear down",
+        wheel.anti_lift_braked,
+        (*_BRAKING, "rear"),
         _PERCENT,
     ),
 )

@@ -92,6 +92,7 @@ def vehicle(suspension: Suspension) -> Vehicle:
     Vehicle
     """
     given, steered = suspension.vehicle, suspension.steered()
+    rear = given.end == "rear"
     return Vehicle(
         side=given.sign,
         tyre_radius=suspension.tyre_radius(),
@@ -99,6 +100,8 @@ def vehicle(suspension: Suspension) -> Vehicle:
         wheelbase=_metres(given.wheelbase_mm),
         center_of_gravity_height=_metres(given.center_of_gravity_height_mm),
         front_brake_share=given.front_brake_share,
+        front=None if rear else True,
+        rear=True if rear else None,
         travel_per_turn=_metres(suspension.rack.travel_per_turn_mm) if steered else None,
         steered=True if steered else None,
     )

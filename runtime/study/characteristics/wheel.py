@@ -157,13 +157,28 @@ def side_view_hub_angle(corner: Corner) -> Array:
 
 def anti_dive(corner: Corner) -> Array:
     """Return the part of the braking pitch that the front suspension takes up [1]."""
-    vehicle = corner.vehicle
-    wheelbase, height = vehicle.wheelbase, vehicle.center_of_gravity_height
-    share = vehicle.front_brake_share
-    if wheelbase is None or height is None or share is None:
-        raise _missing("wheelbase, center_of_gravity_height and front_brake_share")
+    return _front_brake_share(corner) * _braking(corner)
+
+
+def anti_lift_braked(corner: Corner) -> Array:
+    """Return the part of the braking pitch that the rear suspension takes up [1]."""
+    return (_front_brake_share(corner) - 1.0) * _braking(corner)
+
+
+def _front_brake_share(corner: Corner) -> float:
+    share = corner.vehicle.front_brake_share
+    if share is None:
+        raise _missing("front_brake_share")
+    return share
+
+
+def _braking(corner: Corner) -> Array:
+    """Return (L / h) v_Cx / v_Cz."""
+    wheelbase, height = corner.vehicle.wheelbase, corner.vehicle.center_of_gravity_height
+    if wheelbase is None or height is None:
+        raise _missing("wheelbase and center_of_gravity_height")
     velocity = contact_velocity(corner)
-    return _quotient(share * wheelbase / height * velocity[..., 0], velocity[..., 2])
+    return _quotient(wheelbase / height * velocity[..., 0], velocity[..., 2])
 
 
 # -- springs --------------------------------------------------------------------------------------

@@ -264,6 +264,12 @@ def _problems_of_sides(axle: Axle) -> list[str]:
         for side, suspension in axle.sides.items()
         if suspension.vehicle.side != side
     ]
+    problems += [
+        f'{side}: its file says [vehicle] end = "{suspension.vehicle.end}", and the axle is the '
+        f"{axle.end} one. Correct one of the two."
+        for side, suspension in axle.sides.items()
+        if suspension.vehicle.end not in (None, axle.end)
+    ]
     if axle.right.suspension != axle.left.suspension:
         problems.append(
             f"right is a {axle.right.TITLE} and left a {axle.left.TITLE}: both sides of an axle "

@@ -33,6 +33,9 @@ class Vehicle(Section):
     """
 
     side: Literal["left", "right"] = Field(description="the vehicle's side, left or right")
+    end: Literal["front", "rear"] | None = Field(
+        default=None, description="the vehicle's end, front or rear; front where it is not said"
+    )
     wheelbase_mm: Positive | None = Field(
         default=None, description="distance of front and rear wheel centres along x"
     )
