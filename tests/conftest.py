@@ -30,6 +30,9 @@ if TYPE_CHECKING:
 # so. It is bounded, since a process derives dozens of models.
 os.environ.setdefault("SYMPY_CACHE_SIZE", "20000")
 
+# As many processes as cores run tests: threads of theirs would only wait for each other.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 # How long an example takes is the machine's affair, and that of what else it does.
 settings.register_profile("calm", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("calm")

@@ -123,11 +123,10 @@ STRICT = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"]
 
 
 @each_model
-def test_compiles_silently(name: str, tmp_path: Path) -> None:
-    # without optimisation: in a straight line of constants, each defined once from those before it,
+def test_compiles_silently(name: str) -> None:
+    # the front end alone: in a straight line of constants, each defined once from those before it,
     # an analysis of the flow of data has nothing to warn of
-    for source in map(str, sources(name)):
-        run(["gcc", "-std=c99", *STRICT, "-O0", "-c", source, "-o", str(tmp_path / "object.o")])
+    run(["gcc", "-std=c99", *STRICT, "-fsyntax-only", *map(str, sources(name))])
 
 
 def test_headers_are_cpp(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import InputError
+from ...core.threads import in_one_thread
 from ...core.vectors import cross
 from ...suspension.corner import UP
 from ...suspension.structure import GROUND, Joint, Line
@@ -205,6 +206,7 @@ def _probes(size: int) -> Array:
     return np.random.default_rng(0).choice([-1.0, 1.0], (size, _PROBES))
 
 
+@in_one_thread
 def _solution(matrix: Array, right: Array) -> Array:
     """Return solutions; of matrices that are singular to the last bit huge numbers."""
     try:

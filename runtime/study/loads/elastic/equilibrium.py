@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.threads import in_one_thread
 from ....core.vectors import cross
 from ....suspension.corner import UP
 from ...characteristics.wheel import lowest_point
@@ -324,6 +325,7 @@ class Equilibrium:
             total[:, which, :3] = weight
         return total[:, 1:].reshape(n, -1)
 
+    @in_one_thread
     def _lasts(self, matrix: Array) -> NDArray[np.bool_]:
         """Tell where all that the conditions leave free is resisted."""
         size = 6 * (self._count - 1)
@@ -361,6 +363,7 @@ def _independent(slopes: Array, wanted: Sequence[int]) -> list[int]:
     return kept
 
 
+@in_one_thread
 def _solution(matrix: Array, left: Array) -> Array:
     """Return the steps after which nothing is left, to first order; no numbers where none is."""
     try:
