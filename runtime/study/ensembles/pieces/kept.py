@@ -62,6 +62,7 @@ class Kept:
         """Keep what was found of some systems."""
         arrays: dict[str, Any] = {
             "ensemble": np.array(self.ensemble),
+            "systems": np.array([found.first, found.last]),
             "solvers": found.solvers,
             "samples": found.samples,
             "reasons": np.array(json.dumps([*found.reasons.items()])),
@@ -80,7 +81,7 @@ class Kept:
                 raise ValueError(path)
         with np.load(io.BytesIO(content), allow_pickle=False) as archive:
             arrays = {name: archive[name] for name in archive.files}
-        if arrays["ensemble"].item() != self.ensemble:
+        if (arrays["ensemble"].item(), tuple(arrays["systems"])) != (self.ensemble, span):
             raise ValueError(path)
         series = sum(name.startswith("series ") for name in arrays)
         return Found(

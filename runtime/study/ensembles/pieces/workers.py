@@ -113,12 +113,15 @@ def _local(distributed: Any, number: int, threads: int) -> Iterator[Any]:
     """Yield workers of this machine, which end with it."""
     try:
         cluster = distributed.LocalCluster(
-            n_workers=number, threads_per_worker=threads, processes=True, dashboard_address=None
+            n_workers=number,
+            threads_per_worker=threads,
+            processes=True,
+            dashboard_address="127.0.0.1:0",  # any that is free: there may be several ensembles
         )
     except RuntimeError as error:
         problem = (
-            f"cluster = {number}: local workers cannot be started. They read the script that starts "
-            'them: let it call ensemble only below if __name__ == "__main__":'
+            f"cluster = {number}: local workers cannot be started. They read the script that "
+            'starts them: let it call ensemble only below if __name__ == "__main__":'
         )
         raise InputError([problem], "ensemble") from error
     try:
