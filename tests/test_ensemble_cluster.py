@@ -8,6 +8,7 @@ import sys
 import threading
 import time
 from collections.abc import Iterator
+from concurrent.futures import CancelledError
 from dataclasses import replace
 from functools import partial
 from importlib import import_module
@@ -154,14 +155,19 @@ def test_what_a_lost_worker_did_is_done_again(
 
 
 def test_what_loses_one_worker_after_another() -> None:
-    def result() -> None:
-        raise distributed.scheduler.KilledWorker("piece", None, 3)
+    """What the scheduler tells then, and where it is gone itself."""
+    told = {
+        distributed.scheduler.KilledWorker("piece", None, 3): "systems 7 to 14: several workers",
+        CancelledError(): "the scheduler was lost, or",
+        OSError("nobody there"): "the scheduler was lost: nobody there",
+    }
+    for error, words in told.items():
 
-    killed = SimpleNamespace(status="error", result=result)
-    with pytest.raises(queue.ClusterError, match="systems 7 to 14: several workers"):
-        queue._result(killed, (7, 14))
-    with pytest.raises(queue.ClusterError, match="the scheduler was lost"):
-        queue._result(SimpleNamespace(status="cancelled"), (7, 14))
+        def result(error: Exception = error) -> None:
+            raise error
+
+        with pytest.raises(queue.ClusterError, match=words):
+            queue._result(SimpleNamespace(result=result), (7, 14))
 
 
 @pytest.mark.usefixtures("interruptible", "small")
@@ -185,6 +191,31 @@ def test_an_interruption_ends_what_workers_do(
     begun = len([*tmp_path.iterdir()])
     assert client.submit(sum, [1, 2]).result() == 3
     assert begun == len([*tmp_path.iterdir()]) <= 4  # nothing that waited was begun
+
+
+@pytest.mark.usefixtures("small")
+def test_few_pieces_are_held_at_a_time(
+    client: Any, car: Model, start: Any, monkeypatch: Any
+) -> None:
+    """Whatever the number of all: what is cut and sent, and not yet put into the whole."""
+    held, most = 0, 0
+
+    def cut(*given: Any) -> Any:
+        nonlocal held, most
+        held += 1
+        most = max(most, held)
+        return piece.piece_of(*given)
+
+    def put(*given: Any) -> None:
+        nonlocal held
+        held -= 1
+        piece.put(*given)
+
+    monkeypatch.setattr(queue, "piece_of", cut)
+    monkeypatch.setattr(whole, "put", put)
+    ensemble(car, some_cars(210), (0.0, 0.01), start, cluster=client, **KEPT)
+    assert held == 0
+    assert most <= 6  # three for each of two threads
 
 
 def test_progress_is_told(client: Any, car: Model, start: Any, monkeypatch: Any) -> None:
@@ -233,6 +264,16 @@ def test_it_goes_on_from_what_was_kept(
     whole_one = {"kept": str(folder), "cluster": "127.0.0.1:1"}
     same(ensemble(car, cars, SPAN, start, **options, **whole_one), expected)
     assert len(done) == 3
+
+
+def test_what_is_left_between_what_overlaps() -> None:
+    assert cutting.left_of(50, [(30, 40), (5, 12), (7, 20), (35, 38)]) == [
+        (0, 5),
+        (20, 30),
+        (40, 50),
+    ]
+    assert cutting.left_of(20, [(0, 7), (0, 20)]) == []
+    assert cutting.left_of(3, []) == [(0, 3)]
 
 
 OTHERS: list[tuple[dict[str, Any], str]] = [

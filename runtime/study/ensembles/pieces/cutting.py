@@ -1,6 +1,6 @@
 """Which systems go together: thousands, beside which a piece costs little by itself."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 
 from ..collected import Collected
 
@@ -12,14 +12,24 @@ _FEWEST, _MOST, _PARTS = 1000, 4096, 8
 _BYTES = 2**26
 
 
-def spans_of(collected: Collected, done: Iterable[Span], threads: int) -> list[Span]:
+def left_of(count: int, done: Iterable[Span]) -> list[Span]:
+    """Return what is left of some systems when some of them, which may overlap, are done."""
+    behind, left = 0, []
+    for first, last in sorted([*done, (count, count)]):
+        if first > behind:
+            left.append((behind, first))
+        behind = max(behind, last)
+    return left
+
+
+def spans_of(collected: Collected, left: Iterable[Span], threads: int) -> list[Span]:
     """Return what is left to do, in pieces.
 
     Parameters
     ----------
     collected : Collected
-    done : iterable
-        What has been done.
+    left : iterable
+        What is left, in a row.
     threads : int
         How many work at a time.
     """
@@ -28,18 +38,9 @@ def spans_of(collected: Collected, done: Iterable[Span], threads: int) -> list[S
     size = min(size, max(_BYTES // _bytes_of_one(collected), collected.problem.width))
     return [
         (start, min(start + size, last))
-        for first, last in _gaps(done, count)
+        for first, last in left
         for start in range(first, last, size)
     ]
-
-
-def _gaps(done: Iterable[Span], count: int) -> Iterator[Span]:
-    """Yield what lies between some spans."""
-    behind = 0
-    for first, last in sorted([*done, (count, count)]):
-        if first > behind:
-            yield behind, first
-        behind = max(behind, last)
 
 
 def _bytes_of_one(collected: Collected) -> int:

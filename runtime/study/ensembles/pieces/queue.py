@@ -1,6 +1,9 @@
 """Pieces that are handed to workers, and what comes back."""
 
-from collections.abc import Generator
+from collections.abc import Generator, Iterator
+from concurrent.futures import CancelledError
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
 from itertools import islice
 from queue import Empty, SimpleQueue
 from typing import Any
@@ -44,27 +47,77 @@ def by_workers(
     ClusterError
         If the scheduler is lost, or several workers one after another with the same piece.
     """
-    shared = _shared(client, common)
-    left, done = iter(spans), SimpleQueue[Any]()
-    waiting: dict[Any, Span] = {}
+    with _reached():
+        queue = _Queue(client, problem, _shared(client, common), iter(spans))
     try:
-        while True:
-            most = _AHEAD * max(1, sum(client.nthreads().values()))
-            for first, last in islice(left, max(0, most - len(waiting))):
-                piece = piece_of(problem, first, last)
-                future = client.submit(_do, shared, piece, pure=False, key=_key(shared, first))
-                waiting[future] = first, last
-                future.add_done_callback(done.put)
-            if not waiting:
-                return
-            future = _next(done)
-            if future is None:
-                yield None
-                continue
-            span = waiting.pop(future)
-            yield _result(future, span)
+        queue.fill()
+        while queue.waiting:
+            found = queue.next()
+            yield found
+            if found is not None:
+                queue.fill()
     finally:
-        client.cancel([*waiting, shared], force=True)
+        queue.end()
+
+
+@dataclass
+class _Queue:
+    """Pieces that are under way.
+
+    Attributes
+    ----------
+    client : distributed.Client
+    problem : Problem
+    shared : Future
+        Of what all pieces have in common.
+    left : iterator
+        What is still to be handed out.
+    waiting : dict
+        What was handed out, by its future.
+    done : SimpleQueue
+        Futures that have come to an end.
+    """
+
+    client: Any
+    problem: Problem
+    shared: Any
+    left: Iterator[Span]
+    waiting: dict[Any, Span] = field(default_factory=dict)
+    done: SimpleQueue[Any] = field(default_factory=SimpleQueue)
+
+    def fill(self) -> None:
+        """Hand out as many as the threads of all workers, who come and go, have use for."""
+        with _reached():
+            most = _AHEAD * max(1, sum(self.client.nthreads().values()))
+            for first, last in islice(self.left, max(0, most - len(self.waiting))):
+                piece = piece_of(self.problem, first, last)
+                key = f"kintrafo-{self.shared.key}-{first}"
+                future = self.client.submit(_do, self.shared, piece, pure=False, key=key)
+                self.waiting[future] = first, last
+                future.add_done_callback(self.done.put)
+
+    def next(self) -> Found | None:
+        """Return what was found of one; nothing if none is done soon."""
+        try:
+            future = self.done.get(timeout=_PATIENCE)
+        except Empty:
+            return None
+        return _result(future, self.waiting.pop(future))
+
+    def end(self) -> None:
+        """Cancel what is under way."""
+        with suppress(OSError):  # there may be no scheduler any more
+            self.client.cancel([*self.waiting, self.shared], force=True)
+
+
+@contextmanager
+def _reached() -> Iterator[None]:
+    """Say in words that a scheduler does not answer."""
+    try:
+        yield
+    except OSError as error:
+        message = f"the scheduler was lost: {error}"
+        raise ClusterError(message) from error
 
 
 def _shared(client: Any, common: Common) -> Any:
@@ -80,30 +133,21 @@ def _same(common: Common) -> Common:
     return common
 
 
-def _key(shared: Any, first: int) -> str:
-    return f"kintrafo-{shared.key}-{first}"
-
-
-def _next(done: SimpleQueue[Any]) -> Any:
-    try:
-        return done.get(timeout=_PATIENCE)
-    except Empty:
-        return None
-
-
 def _result(future: Any, span: Span) -> Found:
+    """Return what was found; where it was lost on its way here, that takes until it is again."""
     from distributed.scheduler import KilledWorker  # noqa: PLC0415 (of an extra)
 
-    if future.status in ("cancelled", "lost"):
-        message = "the scheduler was lost, or somebody else cancelled what it does."
-        raise ClusterError(message)
     try:
-        found: Found = future.result()
+        with _reached():
+            found: Found = future.result()
     except KilledWorker as error:
         message = (
             f"systems {span[0]} to {span[1]}: several workers in a row were lost with them. See "
             "what they say; they may have had too little memory."
         )
+        raise ClusterError(message) from error
+    except CancelledError as error:
+        message = "the scheduler was lost, or somebody else cancelled what it does."
         raise ClusterError(message) from error
     return found
 

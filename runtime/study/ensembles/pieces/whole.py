@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import closing, contextmanager
 
 from ..collected import Collected
-from .cutting import Span, spans_of
+from .cutting import Span, left_of, spans_of
 from .kept import Kept
 from .piece import Found, Report, common_of, found_of, piece_of, put
 from .queue import by_workers
@@ -38,11 +38,13 @@ def run_in_pieces(
     for found in kept.found() if kept else ():
         put(found, collected)
         done.append((found.first, found.last))
-    count = sum(last - first for first, last in done)
+    count = collected.problem.systems.count
+    left = left_of(count, done)
+    count -= sum(last - first for first, last in left)
     tell(count)
-    if count == collected.problem.systems.count:
+    if not left:
         return
-    with _pieces(collected, workers, threads, done) as pieces:
+    with _pieces(collected, workers, threads, left) as pieces:
         for piece in pieces:
             if piece is not None:
                 put(piece, collected)
@@ -54,15 +56,15 @@ def run_in_pieces(
 
 @contextmanager
 def _pieces(
-    collected: Collected, workers: Workers | None, threads: int, done: list[Span]
+    collected: Collected, workers: Workers | None, threads: int, left: list[Span]
 ) -> Iterator[Iterable[Found | None]]:
     """Yield what yields what was found of what is left; what works for it ends with this."""
     if workers is None:
-        yield _by_threads(collected, threads, spans_of(collected, done, threads))
+        yield _by_threads(collected, threads, spans_of(collected, left, threads))
         return
     with workers.client() as client:
         cores = max(1, sum(client.nthreads().values()))
-        spans = spans_of(collected, done, cores)
+        spans = spans_of(collected, left, cores)
         with closing(by_workers(client, common_of(collected), collected.problem, spans)) as pieces:
             yield pieces
 
