@@ -445,6 +445,14 @@ def test_a_worker_that_cannot_load_it() -> None:
     assert told.startswith("cannot load this version of kintrafo (ModuleNotFoundError: No module")
 
 
+def test_a_folder_where_a_file_should_be(car: Model, tmp_path: Path) -> None:
+    ensemble(car, None, SPAN, kept=tmp_path)
+    (tmp_path / "systems-000000000-000000001.npz").unlink()
+    (tmp_path / "systems-000000000-000000001.npz").mkdir()
+    with pytest.raises(InputError, match="no file, where one is kept"):
+        ensemble(car, None, SPAN, kept=tmp_path)
+
+
 def test_what_is_kept_can_be_read(car: Model, tmp_path: Path) -> None:
     """As any archive of NumPy, and a list of digests."""
     found = ensemble(car, {"damper_rate": [1e3, 2e3]}, SPAN, kept=tmp_path)

@@ -44,11 +44,19 @@ class Kept:
     ensemble: str
 
     def found(self) -> Iterator[Found]:
-        """Yield what is there; what is damaged is told of as a warning, and left out."""
+        """Yield what is there; what is damaged is told of as a warning, and left out.
+
+        Raises
+        ------
+        InputError
+            If something that is no file has the name of one.
+        """
         for path in sorted(self.folder.iterdir()):
             name = _FILE.fullmatch(path.name)
             if name is None:
                 continue
+            if not path.is_file():  # nor could it be replaced by one
+                _refuse(path, "this is no file, where one is kept. Remove it.")
             try:
                 yield self._read(path, (int(name[1]), int(name[2])))
             except _DAMAGED:
@@ -126,7 +134,8 @@ def kept_in(folder: str | Path, identity: Identity) -> Kept:
 def _check(path: Path, identity: Identity) -> None:
     """Refuse the folder of another ensemble."""
     try:
-        known = json.loads((path / _NAME).read_bytes())
+        # a pipe would keep whoever reads it waiting
+        known = json.loads((path / _NAME).read_bytes()) if (path / _NAME).is_file() else None
         other = [name for name, digest in identity.items() if known.get(name) != digest]
     except (ValueError, AttributeError, RecursionError):
         _refuse(path, f"{_NAME} in it is damaged. Name another folder, or remove this one.")
