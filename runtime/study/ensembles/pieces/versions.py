@@ -11,7 +11,7 @@ from ....simulation.solvers import native_version
 
 # What derives nothing and draws nothing: the rest makes no numbers of an ensemble.
 _PACKAGES = ("equations", "generated", "simulation", "study.ensembles", "systems")
-_ENDINGS = (".py", ".pyx", ".c", ".h", ".json")
+_ENDINGS = (".py", ".c", ".h", ".json")
 
 FILES = "files of kintrafo"
 """What stands for the text of all that makes numbers: versions of a project in work are alike."""

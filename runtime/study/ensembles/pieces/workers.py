@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from numbers import Real
 from typing import Any
 
 from ....core.arguments import Arguments, shown
@@ -70,7 +71,7 @@ def workers_of(given: Arguments, cluster: Any, cores: int, *, threads: Any) -> W
     """
     if cluster is None:
         return None
-    if isinstance(cluster, int | float) and not isinstance(cluster, bool):
+    if isinstance(cluster, Real) and not isinstance(cluster, bool):
         return _local_workers(given, cluster, cores)
     if isinstance(cluster, str):
         known = _ADDRESS.fullmatch(cluster) is not None
@@ -88,7 +89,7 @@ def workers_of(given: Arguments, cluster: Any, cores: int, *, threads: Any) -> W
     return Workers(cluster)
 
 
-def _local_workers(given: Arguments, cluster: float, cores: int) -> Workers:
+def _local_workers(given: Arguments, cluster: Real, cores: int) -> Workers:
     number = given.whole("cluster", cluster)
     if number > cores:
         given.refuse(
