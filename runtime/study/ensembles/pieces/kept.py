@@ -135,7 +135,7 @@ def _check(path: Path, identity: Identity) -> None:
     """Refuse the folder of another ensemble."""
     try:
         # a pipe would keep whoever reads it waiting
-        known = json.loads((path / _NAME).read_bytes()) if (path / _NAME).is_file() else None
+        known: Any = json.loads((path / _NAME).read_bytes()) if (path / _NAME).is_file() else None
         other = [name for name, digest in identity.items() if known.get(name) != digest]
     except (ValueError, AttributeError, RecursionError):
         _refuse(path, f"{_NAME} in it is damaged. Name another folder, or remove this one.")

@@ -1,6 +1,7 @@
 """Where the workers are: processes of this machine, or those of a scheduler of Dask."""
 
 import re
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -71,12 +72,12 @@ def workers_of(given: Arguments, cluster: Any, cores: int, *, threads: Any) -> W
     """
     if cluster is None:
         return None
-    if isinstance(cluster, Real) and not isinstance(cluster, bool):
+    if isinstance(cluster, Real) and type(cluster) is not bool:
         return _local_workers(given, cluster, cores)
     if isinstance(cluster, str):
         known = _ADDRESS.fullmatch(cluster) is not None
     else:
-        known = type(cluster).__module__.partition(".")[0] == "distributed" and _usable(cluster)
+        known = _is_usable(cluster)
     if not known:
         given.refuse(f"cluster = {shown(cluster)}: {_NEEDED}.")
         return None
@@ -100,9 +101,11 @@ def _local_workers(given: Arguments, cluster: Real, cores: int) -> Workers:
     return Workers(number, max(1, cores // number))
 
 
-def _usable(client: Any) -> bool:
-    usable = isinstance(client, _package().Client) and not client.asynchronous
-    return usable and client.status == "running"
+def _is_usable(client: Any) -> bool:
+    distributed = sys.modules.get("distributed")  # whoever has a client has imported it
+    if distributed is None or not isinstance(client, distributed.Client):
+        return False
+    return not client.asynchronous and bool(client.status == "running")
 
 
 def _package() -> Any:
