@@ -5,8 +5,9 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from numbers import Real
 from typing import Any
+
+import numpy as np
 
 from ....core.arguments import Arguments, shown
 from ....core.errors import InputError
@@ -72,7 +73,7 @@ def workers_of(given: Arguments, cluster: Any, cores: int, *, threads: Any) -> W
     """
     if cluster is None:
         return None
-    if isinstance(cluster, Real) and type(cluster) is not bool:
+    if isinstance(cluster, int | float | np.number) and not isinstance(cluster, bool):
         return _local_workers(given, cluster, cores)
     if isinstance(cluster, str):
         known = _ADDRESS.fullmatch(cluster) is not None
@@ -90,7 +91,7 @@ def workers_of(given: Arguments, cluster: Any, cores: int, *, threads: Any) -> W
     return Workers(cluster)
 
 
-def _local_workers(given: Arguments, cluster: Real, cores: int) -> Workers:
+def _local_workers(given: Arguments, cluster: Any, cores: int) -> Workers:
     number = given.whole("cluster", cluster)
     if number > cores:
         given.refuse(
