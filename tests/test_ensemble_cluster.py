@@ -444,6 +444,7 @@ def test_a_worker_that_came_later_with_other_versions(car: Model, monkeypatch: A
 def test_a_worker_that_cannot_load_it() -> None:
     told = workers._other(ModuleNotFoundError("No module named 'kintrafo'"))
     assert told.startswith("cannot load this version of kintrafo (ModuleNotFoundError: No module")
+    assert not workers._other(ConnectionResetError("it was lost"))  # what it did is done again
 
 
 def test_a_folder_where_a_file_should_be(car: Model, tmp_path: Path) -> None:

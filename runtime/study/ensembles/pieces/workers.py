@@ -166,7 +166,9 @@ def _check(client: Any) -> None:
 
 
 def _other(found: Any) -> str:
-    """Say what is wrong with a worker; nothing if all is right."""
+    """Say what is wrong with a worker; nothing if all is right, or if it was lost just now."""
+    if isinstance(found, OSError):
+        return ""
     if isinstance(found, Exception):
         return (
             f"cannot load this version of kintrafo ({type(found).__name__}: {found}). Install it "
