@@ -1,7 +1,7 @@
 # `make` or `make help` lists what can be done.
 .DEFAULT_GOAL := help
 .PHONY: docs drawings help setup sundials generate build run test test-elsewhere fuzz package wheel lint tree types format baseline clean \
-	benchmark benchmark-andrews benchmark-axles benchmark-bits benchmark-bushes benchmark-derivatives benchmark-ensemble benchmark-growth benchmark-loads benchmark-loops benchmark-page benchmark-peers benchmark-real-time benchmark-speed benchmark-stiff benchmark-studies format-page front-axle-page report-assets
+	benchmark benchmark-andrews benchmark-axles benchmark-bits benchmark-bushes benchmark-cluster benchmark-derivatives benchmark-ensemble benchmark-growth benchmark-loads benchmark-loops benchmark-page benchmark-peers benchmark-real-time benchmark-speed benchmark-stiff benchmark-studies format-page front-axle-page report-assets
 PYTHON := .venv/bin/python
 
 EMITTED := $(wildcard generated/*.pyx generated/c/* runtime/equations/*.pyx runtime/simulation/native/*.pyx runtime/simulation/*/*.[ch])
@@ -92,6 +92,9 @@ benchmark-real-time: build ## Steps of one length: errors, and what one takes
 
 benchmark-stiff: build ## Which cars of an ensemble go to BDF, and what percentiles and spectra cost
 	@$(PYTHON) -m benchmarks.ensemble_stiff --page docs/ensembles.md
+
+benchmark-cluster: build ## An ensemble by two workers of Dask beside two threads, and its page in docs/
+	@$(PYTHON) -m benchmarks.cluster --page docs/ensembles.md
 
 docs: build .venv/.docs ## The documentation as a site: build/docs/index.html
 	@rm -rf build/docs

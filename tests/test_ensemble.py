@@ -30,19 +30,13 @@ from kintrafo.simulation.lanes import library, run
 from kintrafo.simulation.lanes.problem import Problem
 from kintrafo.study import export
 from kintrafo.study.recording import statistics
+from many_cars import BUMP, RACK, SPAN, STEP, TIMES, of_all_kinds, same, some_cars
 
 ensembles = import_module("kintrafo.study.ensembles.ensemble")
 
 pytestmark = pytest.mark.skipif(not library.widths(), reason="built without lanes")
 
-SPAN = (0.0, 0.5)
-TIMES = np.linspace(*SPAN, 41)
 WIDTHS = library.widths()
-
-# Roads and a rack with jumps and kinks, and one that a function gives.
-STEP = (np.array([0.0, 0.1, 0.1, 0.5]), np.array([0.0, 0.0, 0.02, 0.01]))
-BUMP = (np.linspace(0.0, 0.5, 26), 0.01 * np.sin(np.linspace(0.0, 9.0, 26)) ** 2)
-RACK = Samples(np.linspace(0.0, 0.5, 6), [0.0, 0.001, 0.01, 0.02, 0.015, 0.0], between="spline")
 
 
 @pytest.fixture(scope="module")
@@ -55,15 +49,6 @@ def start(car: Model) -> Any:
     return state_at_height(car, 0.310, spin_rate=93.0)
 
 
-def some_cars(count: int, seed: int = 0) -> dict[str, np.ndarray]:
-    """Return cars whose hardpoints, rates, masses and starts differ."""
-    rng = np.random.default_rng(seed)
-    reference = Model("reference_car").parameters
-    names = ("ball_joint_y", "tie_rod_outer_z", "spring_rate", "damper_rate", "wheel_mass")
-    found = {n: reference[n] * (1.0 + 0.01 * rng.standard_normal(count)) for n in names}
-    return found | {"beta1_rate": 0.2 * rng.standard_normal(count)}
-
-
 def alone(car: Model, cars: dict[str, np.ndarray], place: int, start: Any, **options: Any) -> Any:
     """Simulate one of some cars by itself."""
     own = {n: float(v[place]) for n, v in cars.items() if n in car.parameters}
@@ -71,17 +56,6 @@ def alone(car: Model, cars: dict[str, np.ndarray], place: int, start: Any, **opt
     for name in set(cars) & set(car.state_names):
         state[car.state_names.index(name)] = cars[name][place]
     return simulate(System(car.equations, car.parameters | own), SPAN, state, **options)
-
-
-def same(one: xr.Dataset, other: xr.Dataset) -> None:
-    """Demand the same bits in all results."""
-    assert set(one.data_vars) == set(other.data_vars)
-    for name, found in one.data_vars.items():
-        expected = other[name].values
-        if expected.dtype == object:
-            assert found.values.tolist() == expected.tolist()
-        else:
-            assert found.values.tobytes() == expected.tobytes(), name
 
 
 # -- the motion ---------------------------------------------------------------------------------
@@ -194,36 +168,6 @@ def test_design_position_of_each(car: Model) -> None:
 
 
 # -- the same bits ------------------------------------------------------------------------------
-
-
-def of_all_kinds(car: Model) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
-    """Return systems of which some fail, in every way in which they can."""
-    cars = some_cars(60)
-    rng = np.random.default_rng(7)
-    cars["road_height"] = rng.choice(["step", "bump"], 60)
-    cars["strut_force"] = np.zeros(60)
-    cars["strut_force"][5] = -1e6  # the rod comes to its dead point
-    cars["beta1_rate"][11] = 1e200  # overflows
-    cars["rack_position"] = np.zeros(60)
-    cars["rack_position"][17] = 2.0  # a loop is open from the beginning
-    cars["damper_rate"][23] = 1e9  # so stiff that it takes too many steps
-    for axis in "xyz":  # of no strut
-        own = cars.setdefault(
-            f"ball_joint_{axis}", np.full(60, car.parameters[f"ball_joint_{axis}"])
-        )
-        own[29] = car.parameters[f"strut_top_{axis}"]
-    cars["spring_rate"][31] = -1.0  # out of its range
-    options = {
-        "inputs": {"road_height": {"step": STEP, "bump": BUMP}},
-        "signals": ["camber", "tyre_force"],
-        "reductions": {
-            "tyre_force": ["max", "min", "mean", "rms", ("above", 3000.0), ("percentile", 90.0)],
-            "wheel_center_z": [("psd", 16), ("percentile", 12.5)],
-        },
-        "t_eval": TIMES,
-        "max_steps": 3000,
-    }
-    return cars, options
 
 
 @pytest.fixture(scope="module")

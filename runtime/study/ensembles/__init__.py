@@ -7,6 +7,7 @@
 `series`      percentiles and spectra of whole series
 `again`       systems that an explicit method cannot do
 `collected`   what stays of systems as soon as they are done
+`pieces`      some thousand at a time, by workers elsewhere, and kept
 `results`     a labelled dataset of what came of it
 """
 

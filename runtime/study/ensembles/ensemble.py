@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping
 from contextlib import nullcontext
 from dataclasses import replace
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
@@ -21,6 +22,10 @@ from ...systems.system import System
 from .again import Again
 from .collected import Collected
 from .drives import Drives, drives_of
+from .pieces.identity import identity_of
+from .pieces.kept import kept_in
+from .pieces.whole import run_in_pieces
+from .pieces.workers import workers_of
 from .results import dataset_of
 from .variants import Variants, impossible_sets, variants_of
 from .wanted import Asked, asked_of
@@ -52,13 +57,15 @@ def ensemble(
     stiff: Literal["BDF"] | None = "BDF",
     threads: int | None = None,
     lanes: int | None = None,
+    cluster: Any = None,
+    kept: str | Path | None = None,
     progress: bool = False,
 ) -> xr.Dataset:
     """Simulate many systems of one model, each with parameters, start and inputs of its own.
 
     They are integrated by Dormand and Prince's method of order 5 in the lanes of vectors, each with
     a step size of its own, on all cores. The results are the same to the last bit however many
-    lanes and threads there are, and whatever stands beside a system.
+    lanes, threads and workers there are, and whatever stands beside a system.
 
     Parameters
     ----------
@@ -98,6 +105,13 @@ def ensemble(
         By default as many as there are cores.
     lanes : int, optional
         How many systems a vector holds, 2, 4 or 8; by default as many as the processor can.
+    cluster : int, str or dask.distributed.Client, optional
+        Where it runs: by default in threads of this process; in so many local processes, which
+        share the threads; by the workers of a scheduler of Dask at an address such as
+        'tcp://10.0.0.1:8786', or of a client. They need the same versions as are here.
+    kept : str or Path, optional
+        A folder in which what was found is kept as it comes, some thousand systems a file. After
+        an interruption, a call with the same arguments, wherever it runs, goes on from there.
     progress : bool, optional
         Whether to show how far it is.
 
@@ -114,8 +128,13 @@ def ensemble(
     Raises
     ------
     InputError
-        If an argument cannot be used. Parameters of no mechanism are no such error: they are the
-        reason of their system.
+        If an argument cannot be used, a folder is of another ensemble, or workers have other
+        versions. Parameters of no mechanism are no such error: they are the reason of their system.
+    MissingPackageError
+        If the packages of the extra "cluster" are not installed.
+    ClusterError
+        If a scheduler is lost, or several workers are lost one after another with the same systems.
+        What a lost worker had to do is done by another.
 
     Notes
     -----
@@ -155,6 +174,9 @@ def ensemble(
             courses = given.mapping("inputs", {} if inputs is None else inputs, "names, courses")
             cores = usual_threads() if threads is None else threads
             cores = given.whole("threads", cores, most=_MOST_THREADS)
+            workers = workers_of(given, cluster, cores, threads=threads)
+            if kept is not None:
+                given.path("kept", kept)
             width = _width(given, model, lanes)
             given.flag("progress", progress)
             if stiff is not None:
@@ -168,8 +190,12 @@ def ensemble(
     stiff_after = _STIFF_AFTER if stiff else 0
     problem = Problem(model, systems, asked.for_c(model), accuracy, width, stiff_after)
     collected = Collected(problem, asked, Again(problem) if stiff else None)
+    folder = None if kept is None else kept_in(kept, identity_of(collected))
     with _shown_progress(own.count, wanted=progress) as report:
-        run(problem, cores, collected, report)
+        if workers or folder:
+            run_in_pieces(collected, workers, cores, folder, report)
+        else:
+            run(problem, cores, collected, report)
     return dataset_of(model, own, collected)
 
 

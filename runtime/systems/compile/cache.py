@@ -24,9 +24,9 @@ from ...core.errors import InputError
 from ...core.files import reason
 from ...core.folders import VARIABLE, cache_folder
 
-__all__ = ["appearing", "cache_folder", "damage", "fingerprint", "seal"]
+__all__ = ["MANIFEST", "appearing", "cache_folder", "damage", "fingerprint", "seal"]
 
-_MANIFEST = "manifest.json"
+MANIFEST = "manifest.json"
 # In every folder that is being filled: what has it may be removed, and nothing else.
 _MARK = ".kintrafo-unfinished"
 _MARKED = b"kintrafo fills this folder, or was stopped doing so.\n"
@@ -84,7 +84,7 @@ def seal(folder: Path, name: str) -> None:
     """
     listed = {p.name: _described(p) for p in sorted(folder.iterdir()) if p.name != _MARK}
     text = json.dumps({"folder": name, "files": listed}, indent=1)
-    (folder / _MANIFEST).write_text(text, encoding="utf-8", newline="\n")
+    (folder / MANIFEST).write_text(text, encoding="utf-8", newline="\n")
 
 
 def _described(path: Path) -> list[Any]:
@@ -113,15 +113,15 @@ def damage(folder: Path) -> str:
         Empty if all files are as they were when it was sealed; other files do not matter.
     """
     try:
-        manifest = json.loads(_content(folder / _MANIFEST))
+        manifest = json.loads(_content(folder / MANIFEST))
         listed = [(str(n), int(size), digest) for n, (size, digest) in manifest["files"].items()]
         sealed = manifest["folder"]
         if any("\0" in name or Path(name).name != name for name, *_ in listed):
-            return f"{_MANIFEST} names other folders"
+            return f"{MANIFEST} names other folders"
     except FileNotFoundError:
-        return f"{_MANIFEST} is missing"
+        return f"{MANIFEST} is missing"
     except (OSError, ValueError, TypeError, KeyError, AttributeError, RecursionError):
-        return f"{_MANIFEST} cannot be read"
+        return f"{MANIFEST} cannot be read"
     if sealed != folder.name:
         return f"it is that of {sealed}"
     return next((text for entry in listed if (text := _changed(folder, *entry))), "")
@@ -192,7 +192,7 @@ def _move(temporary: Path, target: Path) -> None:
     if damage(target):
         made = [path for path in temporary.iterdir() if path.name != _MARK]
         # the manifest last: until it is there, the folder counts as damaged
-        for path in sorted(made, key=lambda path: path.name == _MANIFEST):
+        for path in sorted(made, key=lambda path: path.name == MANIFEST):
             path.replace(target / path.name)
 
 

@@ -107,7 +107,7 @@ CALLS = {
             "y0": _REST, "inputs": {"road_height": 0.01}, "signals": ["camber"],
             "reductions": {"camber": "max"}, "t_eval": None, "rtol": 1e-6, "atol": 1e-9,
             "max_step": np.inf, "first_step": None, "max_steps": 1000, "stiff": "BDF",
-            "threads": 1, "lanes": None, "progress": False,
+            "threads": 1, "lanes": None, "cluster": None, "progress": False,
         },
     ),
     "variants": (

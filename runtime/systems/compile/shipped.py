@@ -1,0 +1,73 @@
+"""Equations on their way to another process, which may be on another machine."""
+
+import json
+import sys
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
+
+from .cache import MANIFEST, appearing, cache_folder, damage, seal
+from .loader import load, refuse_damaged
+
+_OF_PROJECT = "kintrafo."
+
+
+@dataclass(frozen=True)
+class Shipped:
+    """What another process finds equations by.
+
+    Attributes
+    ----------
+    name, file : str
+        ``__name__`` and ``__file__`` of the module, as it is here.
+    files : tuple
+        Names and contents of the files of what was compiled on this machine; empty for what comes
+        with the project.
+    """
+
+    name: str
+    file: str
+    files: tuple[tuple[str, bytes], ...] = ()
+
+    def module(self) -> ModuleType:
+        """Return the module, where it was compiled, from the cache of this machine, or unpacked.
+
+        Raises
+        ------
+        InputError
+            If it cannot be kept or loaded.
+        """
+        if self.name.startswith(_OF_PROJECT):
+            return import_module(self.name)
+        home = Path(self.file).parent
+        kept = cache_folder() / home.name
+        for folder in (home, kept):
+            if self.name in sys.modules or not damage(folder):
+                return load(folder)
+        with appearing(kept) as temporary:
+            for name, content in self.files:
+                (temporary / name).write_bytes(content)
+            seal(temporary, kept.name)
+        refuse_damaged(kept)
+        return load(kept)
+
+
+def shipped(equations: ModuleType) -> Shipped:
+    """Return what another process finds equations by."""
+    name, file = equations.__name__, str(equations.__file__)
+    if name.startswith(_OF_PROJECT):
+        return Shipped(name, file)
+    folder = Path(file).parent
+    refuse_damaged(folder)
+    listed = json.loads((folder / MANIFEST).read_bytes())["files"]
+    return Shipped(name, file, tuple((entry, (folder / entry).read_bytes()) for entry in listed))
+
+
+def words_of(equations: ModuleType) -> bytes:
+    """Return what was emitted of equations: the same bytes wherever they are compiled."""
+    name, folder = str(equations.NAME), Path(str(equations.__file__)).parent
+    own = not equations.__name__.startswith(_OF_PROJECT)
+    code = [*folder.glob("*.[ch]")] if own else [*(folder / "c").glob(f"{name}.[ch]")]
+    texts = [folder / f"{name}.json", *sorted(code)]
+    return b"\0".join(text.name.encode() + b"\0" + text.read_bytes() for text in texts)

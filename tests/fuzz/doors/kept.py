@@ -1,0 +1,73 @@
+"""What was kept of an ensemble, damaged: done again or refused, and the numbers are the same."""
+
+from __future__ import annotations
+
+import atexit
+import json
+import shutil
+import tempfile
+import warnings
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import kintrafo
+import numpy as np
+from kintrafo.study.ensembles.pieces import cutting
+
+from ..attempts import WrongError
+from .cache import DAMAGE as OF_FILES
+
+if TYPE_CHECKING:
+    from numpy.random import Generator
+
+SHORT = 20
+
+
+@cache
+def sound() -> tuple[Path, bytes]:
+    """Return the folder of an ensemble, in pieces of few cars, and its numbers."""
+    cutting._FEWEST = cutting._MOST = 4
+    folder = Path(tempfile.mkdtemp()) / "kept"
+    atexit.register(shutil.rmtree, folder.parent, ignore_errors=True)
+    return folder, computed(folder)
+
+
+def computed(folder: Path) -> bytes:
+    """Simulate what is missing, and return the numbers of all."""
+    cars = {"damper_rate": np.linspace(1000.0, 2000.0, 10)}
+    given: dict[str, Any] = {"signals": ["camber"], "t_eval": [0.0, 0.01]}
+    found = kintrafo.ensemble(model(), cars, (0.0, 0.01), kept=folder, **given)
+    return bytes(found["camber"].values.tobytes() + found["final_state"].values.tobytes())
+
+
+@cache
+def model() -> kintrafo.Model:
+    """Return the car."""
+    return kintrafo.Model("reference_car")
+
+
+def attempt(random: Generator) -> None:
+    """Damage a copy once to three times; go on from it, and from what is there then."""
+    target, values = sound()
+    with tempfile.TemporaryDirectory() as name, warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)  # which tells of damage
+        folder = Path(name) / "kept"
+        shutil.copytree(target, folder)
+        for _ in range(random.integers(1, 4)):
+            DAMAGE[random.integers(len(DAMAGE))](random, folder)
+        if computed(folder) != values:
+            raise WrongError("other numbers than those of a sound one")
+        warnings.simplefilter("error", RuntimeWarning)
+        if computed(folder) != values:
+            raise WrongError("not healed")
+
+
+def _of_another(random: Generator, folder: Path) -> None:
+    path = folder / "ensemble.json"
+    if path.is_file():
+        wrong: list[Any] = [[], {}, None, 3, {"equations": 3}, {"equations": []}]
+        path.write_text(json.dumps(wrong[random.integers(len(wrong))]))
+
+
+DAMAGE = (*OF_FILES, *OF_FILES, _of_another)

@@ -1,0 +1,463 @@
+"""Ensembles by workers of Dask, or that go on from what was kept: the same bits as by threads."""
+
+import _thread
+import json
+import os
+import shutil
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from concurrent.futures import CancelledError
+from dataclasses import replace
+from functools import partial
+from importlib import import_module
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import at_workers
+import kintrafo
+import numpy as np
+import pytest
+import xarray as xr
+from kintrafo import InputError, Model, System, ensemble, state_at_height
+from kintrafo.core.optional import MissingPackageError
+from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
+from kintrafo.simulation.lanes import library
+from kintrafo.study.ensembles.pieces import cutting, piece, queue, versions, whole, workers
+from kintrafo.systems.compile.shipped import shipped
+from many_cars import SPAN, of_all_kinds, same, some_cars
+
+distributed = pytest.importorskip("distributed")
+
+ensembles = import_module("kintrafo.study.ensembles.ensemble")
+
+pytestmark = pytest.mark.skipif(not library.widths(), reason="built without lanes")
+
+KEPT = {"reductions": {"camber": "max"}}
+
+
+@pytest.fixture(scope="module")
+def client() -> Iterator[Any]:
+    """Yield a client of two workers."""
+    there = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": "127.0.0.1:0"}
+    with distributed.LocalCluster(**there) as cluster, distributed.Client(cluster) as client:
+        yield client
+
+
+@pytest.fixture(scope="module")
+def car() -> Model:
+    return Model("reference_car")
+
+
+@pytest.fixture(scope="module")
+def start(car: Model) -> Any:
+    return state_at_height(car, 0.310, spin_rate=93.0)
+
+
+@pytest.fixture
+def small(monkeypatch: Any) -> None:
+    """Make pieces of few cars, whose ends fall anywhere."""
+    monkeypatch.setattr(cutting, "_FEWEST", 7)
+    monkeypatch.setattr(cutting, "_MOST", 7)
+
+
+@pytest.fixture
+def done(monkeypatch: Any) -> list[tuple[int, int]]:
+    """Note which pieces are simulated here."""
+    found: list[tuple[int, int]] = []
+
+    def noted(common: Any, some: Any, *given: Any) -> Any:
+        found.append((some.first, some.first + some.systems.count))
+        return piece.found_of(common, some, *given)
+
+    monkeypatch.setattr(whole, "found_of", noted)
+    return found
+
+
+# -- the same bits --------------------------------------------------------------------------------
+
+
+@pytest.mark.usefixtures("small")
+def test_the_same_bits_by_workers(client: Any, car: Model, start: Any) -> None:
+    """Histories, reductions and what fails, by a client and by the address of its scheduler."""
+    cars, options = of_all_kinds(car)
+    expected = ensemble(car, cars, SPAN, start, **options)
+    assert (~expected["success"]).sum() == 5
+    for where in (client, client.scheduler.address):
+        found = ensemble(car, cars, SPAN, start, cluster=where, **options)
+        assert found.identical(expected)
+        same(found, expected)
+
+
+def test_local_workers_share_the_threads(car: Model, start: Any) -> None:
+    """One piece, and one worker with all threads."""
+    cars = some_cars(20)
+    found = ensemble(car, cars, SPAN, start, cluster=1, threads=2, **KEPT)
+    same(found, ensemble(car, cars, SPAN, start, **KEPT))
+    with kintrafo.core.arguments.Arguments("ensemble") as given:
+        for three in (3, np.int64(3)):
+            assert workers.workers_of(given, three, 8, threads=None) == workers.Workers(3, 2)
+
+
+@pytest.mark.usefixtures("small")
+def test_rows_and_grids(client: Any, car: Model, start: Any, tmp_path: Path) -> None:
+    """A row of states for each, and combinations along dimensions; by threads, kept, as well."""
+    states = np.array(start) + 1e-3 * np.arange(20)[:, None]
+    grid = xr.Dataset(coords={"spring_rate": [2e4, 3e4, 4e4], "damper_rate": [1e3, 1.5e3, 2e3]})
+    for number, given in enumerate(((None, SPAN, states), (grid, SPAN, start))):
+        expected = ensemble(car, *given, signals=["camber"], **KEPT)
+        where = {"cluster": client} if number else {"kept": tmp_path / "kept"}
+        assert ensemble(car, *given, signals=["camber"], **KEPT, **where).identical(expected)
+
+
+def test_equations_that_were_compiled_here(client: Any, tmp_path: Path, monkeypatch: Any) -> None:
+    """Where a worker finds neither their folder nor a cache with them, it is sent them."""
+    model = System(kintrafo.compile(FOUR_BAR))
+    crank = {"crank_mass": np.linspace(0.5, 2.0, 5)}
+    options = {"signals": model.signal_names[:1]}
+    home = Path(model.equations.__file__).parent
+    elsewhere = replace(shipped(model.equations), file=f"/missing/{home.name}/four_bar.py")
+    monkeypatch.setattr(piece, "shipped", lambda _: elsewhere)
+    before = os.environ["KINTRAFO_CACHE"]
+    client.run(at_workers.use_cache, str(tmp_path))
+    try:
+        found = ensemble(model, crank, SPAN, cluster=client, **options)
+    finally:
+        client.run(at_workers.use_cache, before)
+    same(found, ensemble(model, crank, SPAN, **options))
+    assert (tmp_path / home.name / "four_bar.json").exists()
+
+
+@pytest.mark.usefixtures("small")
+def test_what_stiff_cars_tell(client: Any, car: Model, start: Any, monkeypatch: Any) -> None:
+    """What both methods cannot do has both reasons, with the right car."""
+    monkeypatch.setattr(ensembles, "_STIFF_AFTER", 50)
+    cars = {"damper_rate": np.where(np.arange(20) == 15, 1e9, 1.5e3)}
+    options = {"max_steps": 60, "rtol": 1e-3, "atol": 1e-5}
+    found = ensemble(car, cars, SPAN, start, cluster=client, **options)
+    assert np.flatnonzero(found["solver"] == "BDF").tolist() in ([15], [])
+    same(found, ensemble(car, cars, SPAN, start, **options))
+
+
+# -- what is lost, and what is stopped ------------------------------------------------------------
+
+
+@pytest.mark.usefixtures("small")
+def test_what_a_lost_worker_did_is_done_again(
+    client: Any, car: Model, start: Any, tmp_path: Path, monkeypatch: Any
+) -> None:
+    lost = partial(at_workers.lost_once, str(tmp_path / "lost"))
+    monkeypatch.setattr(queue, "_do", lost)
+    found = ensemble(car, some_cars(40), SPAN, start, cluster=client, **KEPT)
+    assert (tmp_path / "lost").exists()
+    same(found, ensemble(car, some_cars(40), SPAN, start, **KEPT))
+
+
+def test_what_loses_one_worker_after_another() -> None:
+    """What the scheduler tells then, and where it is gone itself."""
+    told = {
+        distributed.scheduler.KilledWorker("piece", None, 3): "systems 7 to 14: several workers",
+        CancelledError(): "the scheduler was lost, or",
+        OSError("nobody there"): "the scheduler was lost: nobody there",
+    }
+    for error, words in told.items():
+
+        def result(error: Exception = error) -> None:
+            raise error
+
+        with pytest.raises(queue.ClusterError, match=words):
+            queue._result(SimpleNamespace(result=result), (7, 14))
+
+
+@pytest.mark.usefixtures("interruptible", "small")
+def test_an_interruption_ends_what_workers_do(
+    client: Any, car: Model, start: Any, tmp_path: Path, monkeypatch: Any
+) -> None:
+    """Of what would take hours: without an end at once, the workers would not answer any more."""
+    monkeypatch.setattr(queue, "_do", partial(at_workers.noted, str(tmp_path)))
+
+    def interrupt() -> None:
+        while not any(tmp_path.iterdir()):
+            time.sleep(0.01)
+        _thread.interrupt_main()
+
+    thread = threading.Thread(target=interrupt)
+    thread.start()
+    hours = {"t_eval": [1e5], "max_steps": 10**9, "cluster": client}
+    with pytest.raises(KeyboardInterrupt):
+        ensemble(car, some_cars(100), (0.0, 1e5), start, **hours)
+    thread.join()
+    begun = len([*tmp_path.iterdir()])
+    assert client.submit(sum, [1, 2]).result() == 3
+    assert begun == len([*tmp_path.iterdir()]) <= 4  # nothing that waited was begun
+
+
+@pytest.mark.usefixtures("small")
+def test_few_pieces_are_held_at_a_time(
+    client: Any, car: Model, start: Any, monkeypatch: Any
+) -> None:
+    """Whatever the number of all: what is cut and sent, and not yet put into the whole."""
+    held, most = 0, 0
+
+    def cut(*given: Any) -> Any:
+        nonlocal held, most
+        held += 1
+        most = max(most, held)
+        return piece.piece_of(*given)
+
+    def put(*given: Any) -> None:
+        nonlocal held
+        held -= 1
+        piece.put(*given)
+
+    monkeypatch.setattr(queue, "piece_of", cut)
+    monkeypatch.setattr(whole, "put", put)
+    ensemble(car, some_cars(210), (0.0, 0.01), start, cluster=client, **KEPT)
+    assert held == 0
+    assert most <= 6  # three for each of two threads
+
+
+def test_progress_is_told(client: Any, car: Model, start: Any, monkeypatch: Any) -> None:
+    told: list[int] = []
+    real = ensembles.run_in_pieces
+
+    def noted(*given: Any) -> None:
+        *others, report = given
+        real(*others, lambda count: (told.append(count), report(count)))
+
+    monkeypatch.setattr(ensembles, "run_in_pieces", noted)
+    ensemble(car, some_cars(50), SPAN, start, progress=True, cluster=client)
+    assert told == sorted(told)
+    assert told[-1] == 50
+
+
+# -- what is kept ---------------------------------------------------------------------------------
+
+
+@pytest.mark.usefixtures("small")
+def test_it_goes_on_from_what_was_kept(
+    client: Any, car: Model, start: Any, tmp_path: Path, done: Any, monkeypatch: Any
+) -> None:
+    """After an interruption only what is missing is done, in whatever pieces, here or there."""
+    cars, options = of_all_kinds(car)
+    expected = ensemble(car, cars, SPAN, start, **options)
+    folder = tmp_path / "kept"
+
+    def interrupted(common: Any, some: Any, *given: Any) -> Any:
+        if some.first == 14:
+            raise KeyboardInterrupt
+        return piece.found_of(common, some, *given)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(whole, "found_of", interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            ensemble(car, cars, SPAN, start, kept=folder, **options)
+    monkeypatch.setattr(cutting, "_MOST", 20)
+    monkeypatch.setattr(cutting, "_FEWEST", 20)
+    shutil.copytree(folder, tmp_path / "again")
+    assert ensemble(car, cars, SPAN, start, kept=folder, **options).identical(expected)
+    assert done == [(14, 34), (34, 54), (54, 60)]
+    again = {"kept": tmp_path / "again", "cluster": client}
+    same(ensemble(car, cars, SPAN, start, **options, **again), expected)
+    # of a whole one nothing is done, and no cluster is asked
+    whole_one = {"kept": str(folder), "cluster": "127.0.0.1:1"}
+    same(ensemble(car, cars, SPAN, start, **options, **whole_one), expected)
+    assert len(done) == 3
+
+
+def test_what_is_left_between_what_overlaps() -> None:
+    assert cutting.left_of(50, [(30, 40), (5, 12), (7, 20), (35, 38)]) == [
+        (0, 5),
+        (20, 30),
+        (40, 50),
+    ]
+    assert cutting.left_of(20, [(0, 7), (0, 20)]) == []
+    assert cutting.left_of(3, []) == [(0, 3)]
+
+
+OTHERS: list[tuple[dict[str, Any], str]] = [
+    ({"variants": {"damper_rate": [1e3, 3e3]}}, "variants"),
+    ({"variants": {"spring_rate": [1e3, 2e3]}}, "variants"),
+    ({"t_span": (0.0, 0.6)}, "t_span and inputs"),
+    ({"inputs": {"road_height": 0.01}}, "t_span and inputs"),
+    ({"t_eval": [0.0, 0.5]}, "t_eval"),
+    ({"reductions": {"camber": "min"}}, "signals and reductions"),
+    ({"signals": ["camber"]}, "signals and reductions"),
+    ({"rtol": 1e-5}, "tolerances and steps"),
+    ({"max_steps": 99}, "tolerances and steps"),
+    ({"stiff": None}, "stiff"),
+    ({"y0": [0.1, 0.0, 0.0, 0.0]}, "y0"),
+    ({"model": Model("offset_strut_car"), "y0": [1.6, 0.0, 0.0, 93.0]}, "equations"),
+]
+
+
+def test_a_folder_of_another_ensemble_is_refused(car: Model, tmp_path: Path, start: Any) -> None:
+    given: dict[str, Any] = {
+        "model": car, "variants": {"damper_rate": [1e3, 2e3]}, "t_span": SPAN, "y0": start,
+        "kept": tmp_path,
+    }  # fmt: skip
+    ensemble(**given)
+    ensemble(**given, threads=1, lanes=2)  # how it is done does not matter
+    for other, word in OTHERS:
+        with pytest.raises(InputError, match=f"of another ensemble, with other .*{word}") as caught:
+            ensemble(**given | other)
+        assert str(tmp_path) in str(caught.value)
+
+
+def test_versions_are_part_of_what_is_kept(car: Model, tmp_path: Path, monkeypatch: Any) -> None:
+    ensemble(car, None, SPAN, kept=tmp_path)
+    identity = import_module("kintrafo.study.ensembles.pieces.identity")
+    monkeypatch.setattr(identity, "versions", lambda: {"NumPy": "0.1"})
+    with pytest.raises(InputError, match="other the version of kintrafo or its packages"):
+        ensemble(car, None, SPAN, kept=tmp_path)
+
+
+def test_a_folder_of_something_else_is_refused(car: Model, tmp_path: Path) -> None:
+    (tmp_path / "mine").write_text("x", encoding="utf-8")
+    with pytest.raises(InputError, match="other things are in this folder"):
+        ensemble(car, None, SPAN, kept=tmp_path)
+    with pytest.raises(InputError, match="no folder"):
+        ensemble(car, None, SPAN, kept=tmp_path / "mine")
+    assert [entry.name for entry in tmp_path.iterdir()] == ["mine"]
+    for text in ("", "[]", "{}"[:1]):
+        (tmp_path / "ensemble.json").write_text(text, encoding="utf-8")
+        with pytest.raises(InputError, match="damaged"):
+            ensemble(car, None, SPAN, kept=tmp_path)
+
+
+@pytest.mark.usefixtures("small")
+def test_what_is_damaged_is_done_again(car: Model, start: Any, tmp_path: Path, done: Any) -> None:
+    cars = some_cars(28)
+    expected = ensemble(car, cars, SPAN, start, kept=tmp_path, **KEPT)
+    rng = np.random.default_rng(3)
+    files = sorted(tmp_path.glob("*.npz"))
+    assert len(files) == 4
+    files[1].write_bytes(files[1].read_bytes()[:-300])  # cut off
+    done.clear()
+    with pytest.warns(RuntimeWarning, match="Systems 000000007 to 000000014 are simulated again"):
+        same(ensemble(car, cars, SPAN, start, kept=tmp_path, **KEPT), expected)
+    assert done == [(7, 14)]
+    shutil.copy(files[3], files[2])  # of another place
+    with pytest.warns(RuntimeWarning, match="Systems 000000014"):
+        same(ensemble(car, cars, SPAN, start, kept=tmp_path, **KEPT), expected)
+    content = files[0].read_bytes()
+    for place in rng.integers(0, len(content), 30).tolist():
+        changed = bytearray(content)
+        changed[place] ^= 1 << int(rng.integers(8))
+        files[0].write_bytes(changed)
+        with import_module("warnings").catch_warnings():  # bits that say nothing are no damage
+            import_module("warnings").simplefilter("ignore", RuntimeWarning)
+            same(ensemble(car, cars, SPAN, start, kept=tmp_path, **KEPT), expected)
+
+
+# -- arguments ------------------------------------------------------------------------------------
+
+
+WRONG: list[tuple[dict[str, Any], str]] = [
+    ({"cluster": 0}, "cluster = 0: a whole number, 1 or more"),
+    ({"cluster": -1}, "cluster = -1"),
+    ({"cluster": 1.5}, "cluster = 1.5: a whole number"),
+    ({"cluster": np.nan}, "cluster = nan"),
+    ({"cluster": True}, "the address of a scheduler"),
+    ({"cluster": 3, "threads": 2}, "cluster = 3: there are 2 threads for so many workers"),
+    ({"cluster": ""}, "the address of a scheduler"),
+    ({"cluster": "here"}, "the address of a scheduler"),
+    ({"cluster": "tcp://here"}, "the address of a scheduler"),
+    ({"cluster": ["127.0.0.1:8786"]}, "the address of a scheduler"),
+    ({"cluster": Path("x")}, "the address of a scheduler"),
+    ({"cluster": "127.0.0.1:8786", "threads": 2}, "threads = 2: the workers of a scheduler have"),
+    ({"kept": 3}, "kept = 3: the path of a file or folder is needed"),
+    ({"kept": ["x"]}, "kept = "),
+    ({"kept": "x\0y"}, "zero byte"),
+    ({"cluster": "127.0.0.1:1"}, "no scheduler of Dask answers there"),
+]
+
+
+@pytest.mark.parametrize(("given", "words"), WRONG, ids=lambda value: str(value)[:40])
+def test_wrong_arguments(car: Model, given: dict[str, Any], words: str, monkeypatch: Any) -> None:
+    monkeypatch.setattr(workers, "_PATIENCE", 0.1)
+    with pytest.raises(InputError, match=r"ensemble|zero") as caught:
+        ensemble(car, None, SPAN, **given)
+    assert words in str(caught.value)
+
+
+def test_clients_that_cannot_be_used(client: Any, car: Model) -> None:
+    closed = distributed.Client(client.scheduler.address, set_as_default=False)
+    closed.close()
+    for cluster in (closed, distributed.Client, client.cluster):
+        with pytest.raises(InputError, match=r"a running dask\.distributed\.Client"):
+            ensemble(car, None, SPAN, cluster=cluster)
+
+
+def test_a_scheduler_without_workers(car: Model, monkeypatch: Any) -> None:
+    monkeypatch.setattr(workers, "_PATIENCE", 0.3)
+    there = {"n_workers": 0, "processes": False, "dashboard_address": "127.0.0.1:0"}
+    with (
+        distributed.LocalCluster(**there) as cluster,
+        distributed.Client(cluster, set_as_default=False) as client,
+        pytest.raises(InputError, match=r"no worker for 0\.3 s. Start some: dask worker"),
+    ):
+        ensemble(car, None, SPAN, cluster=client)
+
+
+def test_a_script_that_starts_itself(car: Model, monkeypatch: Any) -> None:
+    def refused(**_: Any) -> None:
+        raise RuntimeError
+
+    monkeypatch.setattr(distributed, "LocalCluster", refused)
+    with pytest.raises(InputError, match="only below if __name__"):
+        ensemble(car, None, SPAN, cluster=1)
+
+
+def test_a_missing_package(car: Model, monkeypatch: Any) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    for cluster in (1, "127.0.0.1:8786"):
+        with pytest.raises(MissingPackageError, match=r'pip install "kintrafo\[cluster\]"'):
+            ensemble(car, None, SPAN, cluster=cluster)
+
+
+def test_workers_with_other_versions(client: Any, car: Model, monkeypatch: Any) -> None:
+    real = versions.versions()
+    monkeypatch.setattr(versions, "version", lambda _: "9.9")
+    monkeypatch.setattr(versions, "_digest", lambda: "")
+    versions.versions.cache_clear()
+    words = f"tcp://.* has kintrafo {real['kintrafo']} instead of 9.9, other files of kintrafo"
+    try:
+        with pytest.raises(InputError, match=words):
+            ensemble(car, None, SPAN, cluster=client)
+    finally:
+        versions.versions.cache_clear()
+
+
+def test_a_worker_that_came_later_with_other_versions(car: Model, monkeypatch: Any) -> None:
+    real = piece.common_of
+    monkeypatch.setattr(
+        whole, "common_of", lambda found: replace(real(found), versions={"kintrafo": "9.9"})
+    )
+    monkeypatch.setattr(ensembles, "kept_in", lambda *_: SimpleNamespace(found=list, keep=None))
+    with pytest.raises(InputError, match=r"asked by a process that has kintrafo 9\.9"):
+        ensemble(car, None, SPAN, kept="here")
+
+
+def test_a_worker_that_cannot_load_it() -> None:
+    told = workers._other(ModuleNotFoundError("No module named 'kintrafo'"))
+    assert told.startswith("cannot load this version of kintrafo (ModuleNotFoundError: No module")
+    assert not workers._other(ConnectionResetError("it was lost"))  # what it did is done again
+
+
+def test_a_folder_where_a_file_should_be(car: Model, tmp_path: Path) -> None:
+    ensemble(car, None, SPAN, kept=tmp_path)
+    (tmp_path / "systems-000000000-000000001.npz").unlink()
+    (tmp_path / "systems-000000000-000000001.npz").mkdir()
+    with pytest.raises(InputError, match="no file, where one is kept"):
+        ensemble(car, None, SPAN, kept=tmp_path)
+
+
+def test_what_is_kept_can_be_read(car: Model, tmp_path: Path) -> None:
+    """As any archive of NumPy, and a list of digests."""
+    found = ensemble(car, {"damper_rate": [1e3, 2e3]}, SPAN, kept=tmp_path)
+    with np.load(tmp_path / "systems-000000000-000000002.npz", allow_pickle=False) as kept:
+        assert kept["outcome finals"].tolist() == found["final_state"].values.tolist()
+    assert "equations" in json.loads((tmp_path / "ensemble.json").read_bytes())
