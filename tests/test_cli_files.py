@@ -69,6 +69,8 @@ WRITING = {
         "a.svg",
     ),
     "optimise": (["optimise", CAR, str(STUDIES / "goals.toml"), "-o", "a.toml"], "a.toml"),
+    "pareto": (["pareto", CAR, str(STUDIES / "front.toml"), "--car", "a.toml"], "a.toml"),
+    "pareto --out": (["pareto", CAR, str(STUDIES / "front.toml"), "-o", "a.csv"], "a.csv"),
     "fit": (
         ["fit", CAR, str(STUDIES / "rig.csv"), str(STUDIES / "tolerances.toml"), "-o", "a.toml"],
         "a.toml",

@@ -15,11 +15,13 @@ from .goals import Goal, Target, extremes_of, targets_of
 Array = NDArray[np.float64]
 Kind = Literal["deviation", "greatest", "least"]
 
+# Of several positions, and of one.
 _WORDS = {
     "deviation": "deviation of {} (rms)",
     "greatest": "greatest {}",
     "least": "least {}",
 }
+_WORDS_OF_ONE = {"deviation": "deviation of {}", "greatest": "{}", "least": "{}"}
 
 
 @dataclass(frozen=True)
@@ -55,7 +57,8 @@ class Objective:
     def attributes(self) -> dict[str, Any]:
         """Return the attributes of the variable in a dataset."""
         quantity = KNOWN[self.goal.over][self.goal.name]
-        words = _WORDS[self.kind].format(quantity.long_name)
+        several = self.goal.at.size > 1
+        words = (_WORDS if several else _WORDS_OF_ONE)[self.kind].format(quantity.long_name)
         own = {
             "long_name": f"{words} over the rack" if self.goal.over == "rack" else words,
             "sign": "" if self.kind == "deviation" else quantity.sign,
@@ -78,9 +81,7 @@ def objectives_of(
     }
     found = [(kind, goal) for kind, several in goals.items() for goal in several]
     names = distinct([_name(kind, goal) for kind, goal in found])
-    return [
-        Objective(name, kind, goal) for name, (kind, goal) in zip(names, found, strict=True)
-    ]
+    return [Objective(name, kind, goal) for name, (kind, goal) in zip(names, found, strict=True)]
 
 
 def _name(kind: Kind, goal: Goal) -> str:

@@ -189,9 +189,7 @@ def pareto(
     with Arguments("pareto") as given:
         given.kind("suspension", suspension, Suspension, "a kintrafo.Suspension is needed")
         given.function("progress", progress)
-        population = given.whole(
-            "population", population, least=_LEAST_MEMBERS, most=MOST_MEMBERS
-        )
+        population = given.whole("population", population, least=_LEAST_MEMBERS, most=MOST_MEMBERS)
         generations = given.whole("generations", generations)
         seed = given.whole("seed", seed, least=0, most=2**32 - 1)
         objectives = objectives_of(
@@ -360,18 +358,15 @@ def _message(judge: _Judge, members: Array, nearest: Array, idle: list[str]) -> 
     candidates = judge.candidates
     ends = [set(candidates.at_the_end(member)) for member in members]
     always = set.intersection(*ends) if ends else set()
-    none = [] if len(members) else [*judge.broken(nearest), "nothing could be built"][:1]
-    lost = f"{candidates.impossible} of {candidates.evaluations}"
+    broken = [] if len(members) else judge.broken(nearest)
+    lost = [f"{candidates.impossible} suspensions"] if candidates.impossible else []
     facts = {
-        "no suspension keeps all limits, the nearest not that of": judge.broken(nearest)
-        if not len(members)
-        else [],
-        "could not be built, or does not reach a position": [lost] if candidates.impossible else [],
+        "no suspension keeps all limits, the nearest one not those of": broken,
+        "could not be built, or did not reach a position": lost,
         "at the end of its range all along the front": sorted(always),
         "moves nothing": idle,
     }
-    del none
-    return in_words(facts) or f"{len(members)} suspensions are on the front"
+    return in_words(facts) or "found"
 
 
 def _dataset(judge: _Judge, x: Array, numbers: Array, message: str) -> xr.Dataset:
