@@ -65,7 +65,11 @@ def write_panels(
         }
         if named:
             figure.legend(
-                named.values(), named.keys(), loc="outside lower center", ncols=4, frameon=False
+                named.values(),
+                named.keys(),
+                loc="outside lower center",
+                ncols=2 * columns,
+                frameon=False,
             )
         figure.suptitle(title, fontsize=11)
         return save(written_plainly(figure), path, force=force, inputs=inputs)

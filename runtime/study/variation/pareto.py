@@ -366,7 +366,8 @@ def _message(judge: _Judge, members: Array, nearest: Array, idle: list[str]) -> 
         "at the end of its range all along the front": sorted(always),
         "moves nothing": idle,
     }
-    return in_words(facts) or "found"
+    found = f"{len(members)} suspensions are on the front" if len(members) else ""
+    return "; ".join(part for part in (found, in_words(facts)) if part)
 
 
 def _dataset(judge: _Judge, x: Array, numbers: Array, message: str) -> xr.Dataset:
