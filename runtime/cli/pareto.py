@@ -1,5 +1,6 @@
 """``kintrafo pareto``: values of a file that are as good as can be in several objectives."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -151,7 +152,7 @@ def _print(found: "Front", chosen: int, file: str) -> None:
     if chosen:
         title = f"{file}: values of member {chosen}"
         console.print(moved_table(found.places, found.moved[chosen - 1], title))
-    say(f"{found.message}; {found.evaluations} suspensions were looked at.")
+    say(f"{found.message}; {found.evaluations} were looked at.")
 
 
 def _table(found: "Front", chosen: int, file: str) -> Table:
@@ -163,11 +164,12 @@ def _table(found: "Front", chosen: int, file: str) -> Table:
     table.add_column("member", justify="right")
     described = [objective.attributes() for objective in found.objectives]
     for attrs in described:
-        table.add_column(escape(bracketed(str(attrs["long_name"]), attrs)), justify="right")
+        heading = f"{bracketed(str(attrs['long_name']), attrs)}\nwanted {attrs['wanted']}"
+        table.add_column(escape(heading), justify="right")
     table.add_column("")
     factors = [display_of(attrs).factor for attrs in described]
 
-    def add(member: str, numbers: "list[float]", remark: str) -> None:
+    def add(member: str, numbers: Sequence[float], remark: str) -> None:
         cells = (significant(v * factor) for v, factor in zip(numbers, factors, strict=True))
         table.add_row(member, *cells, remark)
 

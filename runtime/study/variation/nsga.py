@@ -18,7 +18,11 @@ def check_installed() -> None:
 
 
 def evolve(
-    judge: Callable[[Array], tuple[Array, Array]], first: Array, generations: int, seed: int
+    judge: Callable[[Array], tuple[Array, Array]],
+    first: Array,
+    counts: tuple[int, int],
+    generations: int,
+    seed: int,
 ) -> None:
     """Have the candidates of some generations judged.
 
@@ -29,6 +33,8 @@ def evolve(
         how much they exceed each of their limits, where 0 and less is none.
     first : ndarray, shape (population, values)
         The first generation.
+    counts : tuple of int
+        How many costs and limits there are.
     generations : int
     seed : int
         Of the generator of random numbers.
@@ -42,9 +48,9 @@ def evolve(
             "core.evaluator",
         )
     )
-    costs, excess = judge(first)
+    objectives, limits = counts
     problem = problems.Problem(
-        n_var=first.shape[1], n_obj=costs.shape[1], n_ieq_constr=excess.shape[1], xl=-1.0, xu=1.0
+        n_var=first.shape[1], n_obj=objectives, n_ieq_constr=limits, xl=-1.0, xu=1.0
     )
     algorithm = nsga2.NSGA2(pop_size=len(first), sampling=first)
     algorithm.setup(problem, termination=("n_gen", generations), seed=seed, verbose=False)
@@ -53,8 +59,7 @@ def evolve(
         candidates = algorithm.ask()
         if candidates is None:
             return  # pymoo finds no candidate that it has not had
-        if algorithm.n_iter > 1:
-            costs, excess = judge(candidates.get("X"))
+        costs, excess = judge(candidates.get("X"))
         judged = static.StaticProblem(problem, F=costs, G=excess)
         evaluators.Evaluator().eval(judged, candidates)
         algorithm.tell(infills=candidates)

@@ -25,11 +25,9 @@ Array = NDArray[np.float64]
 MEMBER = "member"
 """Dimension of a front."""
 
-MOST_MEMBERS = 10_000
-"""Members of a front, and cars of a generation, at most."""
-
-_LEAST_MEMBERS = 4
-# At 4 ms a car it takes seven minutes.
+# Cars of a generation, and so members of a front: with fewer, NSGA-II has nobody to pair.
+_LEAST_MEMBERS, _MOST_MEMBERS = 4, 10_000
+# They take some minutes.
 _MOST_CARS = 100_000
 # Of more than this hardly a car is beaten in all of them, so that a front tells nothing.
 _MOST_OBJECTIVES = 6
@@ -189,7 +187,7 @@ def pareto(
     with Arguments("pareto") as given:
         given.kind("suspension", suspension, Suspension, "a kintrafo.Suspension is needed")
         given.function("progress", progress)
-        population = given.whole("population", population, least=_LEAST_MEMBERS, most=MOST_MEMBERS)
+        population = given.whole("population", population, least=_LEAST_MEMBERS, most=_MOST_MEMBERS)
         generations = given.whole("generations", generations)
         seed = given.whole("seed", seed, least=0, most=2**32 - 1)
         objectives = objectives_of(
@@ -212,7 +210,8 @@ def pareto(
     idle = judge.idle()
     if len(idle) == len(reach):
         raise InputError([f"free: nothing of {', '.join(idle)} moves an objective."], "pareto")
-    evolve(judge, _first(population, len(reach), seed), generations, seed)
+    first = _first(population, len(reach), seed)
+    evolve(judge, first, judge.counts, generations, seed)
     return _front(judge, idle, population)
 
 
@@ -273,7 +272,8 @@ class _Judge:
         self.seen: list[tuple[Array, Array, Array]] = []
         self._expected, self._progress = expected, progress
         # what cannot be exceeds a limit also where there are none
-        self._limits = 1 + sum(limit.at.size * len(limit.sides) for limit in limits)
+        sides = 1 + sum(limit.at.size * len(limit.sides) for limit in limits)
+        self.counts = len(objectives), sides
 
     def __call__(self, generation: Array) -> tuple[Array, Array]:
         """Return costs, and by how much limits are exceeded, of each candidate."""
@@ -290,7 +290,8 @@ class _Judge:
         """Return the costs of a candidate, and by how much it exceeds its limits."""
         values = self.candidates.values(x)
         if values is None:
-            return np.zeros(len(self.objectives)), np.full(self._limits, _IMPOSSIBLE)
+            objectives, sides = self.counts
+            return np.zeros(objectives), np.full(sides, _IMPOSSIBLE)
         pairs = zip(self.objectives, values, strict=False)
         costs = np.array([objective.sign * objective.of(found) for objective, found in pairs])
         limited = zip(self.limits, values[len(self.objectives) :], strict=True)
