@@ -367,8 +367,13 @@ def _message(judge: _Judge, members: Array, nearest: Array, idle: list[str]) -> 
         "at the end of its range all along the front": sorted(always),
         "moves nothing": idle,
     }
-    found = f"{len(members)} suspensions are on the front" if len(members) else ""
-    return "; ".join(part for part in (found, in_words(facts)) if part)
+    return "; ".join(part for part in (_size(len(members)), in_words(facts)) if part)
+
+
+def _size(members: int) -> str:
+    if members == 1:
+        return "one suspension is the best in every objective"
+    return f"{members} suspensions are on the front" if members else ""
 
 
 def _dataset(judge: _Judge, x: Array, numbers: Array, message: str) -> xr.Dataset:
