@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 from kintrafo import Model, Suspension, characteristics, rig, variation
 from kintrafo.plots import curves
+from kintrafo.plots import pareto as fronts
 from kintrafo.plots import variation as pictures
 
 from .report import fill_page
@@ -23,6 +24,9 @@ TRAVEL = np.linspace(-0.06, 0.06, 13)
 FREE = {"hardpoints.tie_rod_inner": 10.0, "hardpoints.tie_rod_outer": 10.0}
 TOE = {"toe": {"at_mm": (1e3 * TRAVEL).tolist(), "value": 0.0, "within": 0.05}}
 HEIGHT = {"roll_center_height_kinematic": {"at_mm": 0.0, "least": 100.0}}
+BALL_JOINT = {"hardpoints.ball_joint.z": 10.0}
+ROLL_CENTER = {"roll_center_height_kinematic": {"at_mm": 0.0}}
+SCRUB = {"scrub_radius": {"at_mm": 0.0, "most": 21.0}}
 LIMITS = {"bump_steer": {"at_mm": [-20.0, 0.0, 20.0], "least": 0.005, "most": 0.008}}
 CARS = 500
 REPEATED = 5
@@ -35,6 +39,7 @@ def main() -> None:
         ("sensitivity: 21 coordinates, all characteristics at 81 positions", sensitivity),
         (f"tolerance: {CARS} cars, toe at 13 positions", tolerance),
         ("optimise: toe at 13 positions by 6 coordinates", optimise),
+        ("pareto: the same and roll-centre height, by 7 coordinates", pareto),
     ]
     table = ["| study of the reference car | ms | cars | ms a car |", "|---|---:|---:|---:|"]
     for name, run in rows:
@@ -78,6 +83,15 @@ def optimise() -> int:
     return found.evaluations
 
 
+def pareto() -> int:
+    """Bring toe to zero and the roll centre up."""
+    return _front().evaluations
+
+
+def _front() -> variation.Front:
+    return variation.pareto(CAR, FREE | BALL_JOINT, TOE, maximise=ROLL_CENTER, limits=SCRUB)
+
+
 def draw() -> None:
     """Draw the pictures of the page."""
     with tempfile.TemporaryDirectory() as name:
@@ -97,6 +111,7 @@ def draw() -> None:
         )
         found = variation.optimise(CAR, FREE, TOE, HEIGHT)
         pictures.write_optimum(found, folder / "optimise.png", title="reference car")
+        fronts.write_front(_front(), folder / "pareto.png", title="reference car")
         curves.write_overview(_fitted(), folder / "fit.png", title="reference car as built")
         for picture in folder.iterdir():
             shutil.copyfile(picture, IMAGES / picture.name)

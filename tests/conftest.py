@@ -135,6 +135,19 @@ def coarse_report(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture
+def few_generations(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let a search for a front be short, where it does not matter how good it is."""
+    from kintrafo.study import variation
+
+    whole = variation.pareto
+
+    def short(*arguments: object, **given: object) -> variation.Front:
+        return whole(*arguments, **(given | {"population": 12, "generations": 3}))
+
+    monkeypatch.setattr(variation, "pareto", short)
+
+
+@pytest.fixture
 def first_page_of_curves(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let figures show the first group of curves only; drawing all of them takes seconds."""
     _draw_pages(monkeypatch, lambda _: {})

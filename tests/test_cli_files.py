@@ -69,6 +69,8 @@ WRITING = {
         "a.svg",
     ),
     "optimise": (["optimise", CAR, str(STUDIES / "goals.toml"), "-o", "a.toml"], "a.toml"),
+    "pareto": (["pareto", CAR, str(STUDIES / "front.toml"), "--car", "a.toml"], "a.toml"),
+    "pareto --out": (["pareto", CAR, str(STUDIES / "front.toml"), "-o", "a.csv"], "a.csv"),
     "fit": (
         ["fit", CAR, str(STUDIES / "rig.csv"), str(STUDIES / "tolerances.toml"), "-o", "a.toml"],
         "a.toml",
@@ -128,6 +130,7 @@ def test_force_and_again(kintrafo, tmp_path, command):  # noqa: F811
         ["import-chrono", "chrono.toml", "chrono.toml"],
         ["import-adams", "adams.toml", "adams.toml"],
         ["import-adams", "adams.toml", "car.toml", "--from", "car.toml"],
+        ["pareto", "car.toml", "other.toml", "--car", "other.toml"],
         ["simulate", CAR, "--measured", "road.csv", "-o", "road.csv"],
         ["kinematics", "car.csv", "-o", "car.csv"],
         ["compare", CAR, "car.csv", "-o", "./car.csv"],

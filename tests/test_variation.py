@@ -527,7 +527,7 @@ def test_a_neighbour_that_cannot_be_is_named(monkeypatch: pytest.MonkeyPatch) ->
 # -- commands -----------------------------------------------------------------------------------
 
 
-@pytest.mark.usefixtures("first_page_of_curves")
+@pytest.mark.usefixtures("first_page_of_curves", "few_generations")
 def test_the_page_runs(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
     page = (ROOT / "docs/studies.md").read_text(encoding="utf-8")
     for name, text in re.findall(r"```toml\n# (\S+)\n(.*?)```", page, flags=re.DOTALL):
@@ -554,6 +554,7 @@ def test_the_page_runs(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
     assert {path.name for path in tmp_path.iterdir()} >= {
         "bump_steer.png", "heights.nc", "bands.png", "better_car.toml", "before_and_after.png",
         "damping.png", "damping.csv", "as_built.toml", "fitted.png",
+        "front.csv", "front.png", "chosen_car.toml",
     }  # fmt: skip
     better = Suspension.load(tmp_path / "better_car.toml")
     assert abs(curve(better, "toe", [-0.06, 0.06])).max() < abs(curve(CAR, "toe", 0.06)).max() / 5

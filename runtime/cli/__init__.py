@@ -23,6 +23,7 @@ from . import (
     new,
     optimise,
     paper,
+    pareto,
     report,
     schema,
     sensitivity,
@@ -81,7 +82,7 @@ _PANELS = {
         topology,
     ),
     "Compute": (kinematics, characteristics, simulate, loads, compliance, deflection, compare),
-    "Design": (sensitivity, tolerance, optimise, fit, sweep),
+    "Design": (sensitivity, tolerance, optimise, pareto, fit, sweep),
     "Hand over": (report, paper, generate),
 }
 for panel, modules in _PANELS.items():

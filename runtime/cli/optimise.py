@@ -10,6 +10,7 @@ from rich.table import Table
 from ..core.tabulated import significant
 from .console import console, print_json, progress_bar, say
 from .exits import Exit
+from .moved_values import moved_table
 from .options import File, Force, Json
 from .outputs import Outputs, name_files
 from .variation_options import Bars
@@ -93,15 +94,7 @@ def command(
 
 
 def _print(found: "Optimum", file: str) -> None:
-    values = Table(title=escape(f"{file}: values that moved"))
-    values.add_column("value")
-    for column in ("was", "is", "moved by", "unit"):
-        values.add_column(column, justify="left" if column == "unit" else "right")
-    for place in found.places:
-        by = found.moved[place.name]
-        numbers = (f"{value:.3f}" for value in (place.value, place.value + by, by))
-        values.add_row(escape(place.name), *numbers, place.unit or "-")
-    console.print(values)
+    console.print(moved_table(found.places, found.moved, f"{file}: values that moved"))
     console.print(_goals(found))
     say(f"{found.message}; {found.evaluations} suspensions were looked at.")
 

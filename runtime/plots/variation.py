@@ -1,15 +1,13 @@
 """What values of the input file do to the characteristics: bars, bands, before and after."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from textwrap import fill
 from typing import Any, cast
 
 import numpy as np
 import xarray as xr
-from matplotlib import rc_context
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ..core.files import Paths
@@ -21,10 +19,9 @@ from ..study.variation.goals import Limit
 from ..study.variation.optimise import Optimum
 from ..study.variation.sensitivity import PLACE, Effect, effects
 from ..study.variation.tolerance import QUANTILE
-from .curves import check_formats
-from .figures import BLUE, ORANGE, STYLE, save, written_plainly
+from .figures import BLUE, ORANGE
+from .panels import write_panels
 
-_COLUMNS = 2
 # Before and after, told apart in black and white too.
 _PAIR = ((BLUE, "-"), (ORANGE, "--"))
 # More bars than this are no ranking any more.
@@ -72,7 +69,7 @@ def write_bars(
         for name, found in ((name, list(effects(dataset, name, at))) for name in names)
         for unit in dict.fromkeys(effect.unit for effect in found)
     }
-    return _written(
+    return write_panels(
         lambda axes, key: _bars(axes, dataset, *panels[key]),
         [*panels],
         path,
@@ -108,7 +105,7 @@ def write_bands(
     -------
     pathlib.Path
     """
-    return _written(
+    return write_panels(
         lambda axes, name: _bands(axes, dataset, name, limits),
         names,
         path,
@@ -166,41 +163,7 @@ def write_optimum(
         _limits(axes, found.limits, panel.name, panel.over)
         _around(axes, over.attributes() | {"long_name": over.long_name}, quantity.attributes())
 
-    return _written(draw, [*panels], path, height=2.6, title=title, force=force, inputs=inputs)
-
-
-def _written(
-    draw: Callable[[Axes, str], None],
-    names: Sequence[str],
-    path: str | Path,
-    *,
-    height: float,
-    title: str,
-    force: bool,
-    inputs: Paths,
-) -> Path:
-    check_formats([path])
-    columns = min(_COLUMNS, len(names))
-    rows = -(-len(names) // columns)
-    with rc_context(STYLE):
-        figure = Figure(figsize=(4.8 * columns, 0.7 + height * rows), layout="constrained")
-        panels = figure.subplots(rows, columns, squeeze=False).ravel()
-        for axes, name in zip(panels, names, strict=False):
-            draw(axes, name)
-        for axes in panels[len(names) :]:
-            axes.remove()
-        found = [panel.get_legend_handles_labels() for panel in panels[: len(names)]]
-        named = {
-            label: line
-            for lines, labels in found
-            for line, label in zip(lines, labels, strict=True)
-        }
-        if named:
-            figure.legend(
-                named.values(), named.keys(), loc="outside lower center", ncols=4, frameon=False
-            )
-        figure.suptitle(title, fontsize=11)
-        return save(written_plainly(figure), path, force=force, inputs=inputs)
+    return write_panels(draw, [*panels], path, height=2.6, title=title, force=force, inputs=inputs)
 
 
 def _bars(axes: Axes, dataset: xr.Dataset, name: str, found: Sequence[Effect]) -> None:

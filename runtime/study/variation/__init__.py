@@ -3,6 +3,7 @@
 `sensitivity`    by how much each value moves each characteristic
 `tolerance`      bands and yield of many cars that differ as drawings allow
 `optimise`       values that bring characteristics to targets, within limits
+`pareto`         values that no others beat in several objectives
 `fit`            errors of the file that explain curves which were measured
 `sweep`          the motion over a grid of values
 `read`, `limits` a file of tolerances or of targets, and its limits
@@ -11,6 +12,7 @@
 from .fit import Fit, Fitted, fit
 from .goals import limits, read
 from .optimise import Optimum, optimise
+from .pareto import Front, pareto
 from .sensitivity import Effect, effects, sensitivity
 from .sweep import sweep
 from .tolerance import tolerance
@@ -19,11 +21,13 @@ __all__ = [
     "Effect",
     "Fit",
     "Fitted",
+    "Front",
     "Optimum",
     "effects",
     "fit",
     "limits",
     "optimise",
+    "pareto",
     "read",
     "sensitivity",
     "sweep",

@@ -18,7 +18,16 @@ from .curves import Curves, Over, Way, model_of, there
 
 Array = NDArray[np.float64]
 
-_SECTIONS = ("distribution", "tolerances", "free", "targets", "limits", "accuracy")
+_SECTIONS = (
+    "distribution",
+    "tolerances",
+    "free",
+    "targets",
+    "minimise",
+    "maximise",
+    "limits",
+    "accuracy",
+)
 # No characteristic is as great as this in any unit, and no deviation as small matters.
 _GREATEST, _LEAST = 1e9, 1e-9
 
@@ -84,9 +93,23 @@ class Limit(Goal):
         """Tell which of some values are within the limit."""
         return (values >= self.least) & (values <= self.most)
 
+    @property
+    def sides(self) -> list[tuple[float, float]]:
+        """The bounds that there are, with the sign of the room beside them."""
+        return [(s, b) for s, b in ((1.0, self.least), (-1.0, self.most)) if np.isfinite(b)]
+
+    @property
+    def size(self) -> float:
+        """What room is measured by."""
+        return max(abs(bound) for _, bound in self.sides) or 1.0
+
+    def room(self, values: Array) -> Array:
+        """Return how much room there is to every bound, in parts of the size; negative beyond."""
+        return np.concatenate([sign * (values - bound) / self.size for sign, bound in self.sides])
+
 
 def read(path: str | Path) -> dict[str, Any]:
-    """Read a TOML file of tolerances, free values, targets and limits; it may have all of them.
+    """Read a TOML file of tolerances, free values, targets, limits and such; it may have them all.
 
     Parameters
     ----------
@@ -151,6 +174,12 @@ def targets_of(given: Arguments, described: Mapping[str, Any]) -> list[Target]:
     ]
 
 
+def extremes_of(given: Arguments, described: Mapping[str, Any], section: str) -> list[Goal]:
+    """Read which characteristics are to be small or great, and where, as `targets_of`."""
+    found = _tables(given, described, section, set())
+    return [Goal(name, table.over, table.at) for name, table in found]
+
+
 def limits_of(given: Arguments, described: Mapping[str, Any]) -> list[Limit]:
     """Read limits, by the names of characteristics, as `targets_of`."""
     found = []
@@ -212,10 +241,13 @@ def _tables(
     for name, table in _listed(described):
         title = f"[{section}.{name}]"
         if not isinstance(table, Mapping):
-            given.refuse(f"{title} must be a section, with at_mm and {' and '.join(sorted(keys))}.")
+            given.refuse(
+                f"{title} must be a section, with {' and '.join(['at_mm', *sorted(keys)])}."
+            )
             continue
-        for key in table.keys() - keys - {"over", "at_mm"}:
-            given.refuse(f"{title} {key} is not known: there are {', '.join(sorted(keys))}.")
+        known_keys = ["at_mm", "over", *sorted(keys)]
+        for key in table.keys() - {*known_keys}:
+            given.refuse(f"{title} {key} is not known: there are {', '.join(known_keys)}.")
         over = given.among(f"{title} over", table.get("over", "travel"), KNOWN)
         known = KNOWN[over]
         if given.among("characteristic", name, known) != name:

@@ -8,6 +8,7 @@ from fnmatch import fnmatchcase
 from typing import Any
 
 from ...core.arguments import Arguments, shown
+from ...core.quantities import Display, attributes
 from ...core.suggestions import suggestion
 from ...suspension.input.units import unit_of, without_unit
 from ...suspension.kinds import Suspension
@@ -54,6 +55,14 @@ class Place:
     def to_si(self) -> float:
         """What a value in the unit for people is multiplied with for SI units."""
         return _TO_SI.get(self.unit, 1.0)
+
+    def attributes(self) -> dict[str, Any]:
+        """Return the attributes of a variable of such values."""
+        shown = Display(self.unit or "1", 1.0 / self.to_si)
+        return attributes(self.words, self.si_unit) | {
+            "display_units": shown.units,
+            "display_factor": shown.factor,
+        }
 
     def moved(self, by: float) -> dict[str, float]:
         """Return the change of the file that moves the value by an amount in SI units."""

@@ -6,9 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
-from ...core.errors import KintrafoError
 from ...suspension.kinds import Suspension
-from .curves import Together, changed, model_of
+from .candidates import Candidates
 from .goals import Limit, Target
 from .places import Place
 from .sensitivity import step_of
@@ -26,11 +25,9 @@ _IMPOSSIBLE = 1e6
 _MARGIN = 1e-7
 # A value that changes targets by less than this part of what matters, over its range, is idle.
 _IDLE = 1e-6
-# Nearer to the end of its range than this part of it, a value is at the end.
-_AT_THE_END = 1e-6
 
 
-class Search:
+class Search(Candidates):
     """Targets and limits as functions of the free values, each from -1 to 1 over its range.
 
     Parameters
@@ -56,33 +53,10 @@ class Search:
         progress: Callable[[float], None] | None,
         reluctance: float,
     ) -> None:
-        self.suspension = suspension
-        self.places, self.reach = tuple(reach), np.array([*reach.values()])
+        super().__init__(suspension, reach, [*targets, *limits])
         self.targets, self.limits = tuple(targets), tuple(limits)
-        self.goals: tuple[Target | Limit, ...] = (*self.targets, *self.limits)
-        self._look = Together([goal.curves for goal in self.goals])
-        self._values: dict[bytes, list[Array] | None] = {}
         self._progress, self._reluctance = progress, reluctance
         self._begin = self.cost(np.zeros(len(reach))) or 1.0
-
-    def at(self, x: Array) -> Suspension:
-        """Return the suspension with some values."""
-        changes: dict[str, float] = {}
-        for place, by in zip(self.places, x * self.reach, strict=True):
-            changes |= place.moved(float(by))
-        return changed(self.suspension, changes)
-
-    def values(self, x: Array) -> list[Array] | None:
-        """Return the values of each target and each limit; None where there are none."""
-        key = x.tobytes()
-        if key not in self._values:
-            try:
-                found = [values[0] for values in self._look.of(model_of(self.at(x)))]
-            except KintrafoError:
-                found = [np.array(np.nan)]
-            finite = all(np.isfinite(values).all() for values in found)
-            self._values[key] = found if finite else None
-        return self._values[key]
 
     def derivatives(self, x: Array) -> list[Array]:
         """Return the derivatives of what `values` returns; (values, free) for each."""
@@ -110,9 +84,7 @@ class Search:
 
     def _range(self, x: Array, which: int) -> list[Array]:
         """Return by how much everything differs between the ends of the range of a value."""
-        ends = np.array([x, x])
-        ends[:, which] = -1.0, 1.0
-        low, high = (self.values(end) for end in ends)
+        low, high = self.ends(x, which)
         if low is None or high is None:
             return [np.zeros(goal.at.size) for goal in self.goals]
         return [b - a for a, b in zip(low, high, strict=True)]
@@ -121,11 +93,6 @@ class Search:
         """Tell whether changes of the targets are more than rounding."""
         pairs = zip(self.targets, changes, strict=False)
         return any((np.abs(change) > _IDLE * target.within).any() for target, change in pairs)
-
-    @property
-    def evaluations(self) -> int:
-        """How many suspensions were looked at."""
-        return len(self._values)
 
     # -- targets ----------------------------------------------------------------------------------
 
@@ -161,47 +128,20 @@ class Search:
         """Return how much room the limits leave, in parts of their size; negative beyond one."""
         values = self.values(x)
         if values is None:
-            sides = (limit.at.size * len(_sides(limit)) for limit in self.limits)
+            sides = (limit.at.size * len(limit.sides) for limit in self.limits)
             return np.full(sum(sides), -_IMPOSSIBLE)
-        found = values[len(self.targets) :]
-        rooms = [
-            sign * (value - bound) / _size(limit)
-            for limit, value in zip(self.limits, found, strict=True)
-            for sign, bound in _sides(limit)
-        ]
-        return np.concatenate(rooms) - _MARGIN
+        pairs = zip(self.limits, values[len(self.targets) :], strict=True)
+        return np.concatenate([limit.room(value) for limit, value in pairs]) - _MARGIN
 
     def room_slopes(self, x: Array) -> Array:
         """Return the derivatives of the room."""
         found = self.derivatives(x)[len(self.targets) :]
         slopes = [
-            sign * slope / _size(limit)
+            sign * slope / limit.size
             for limit, slope in zip(self.limits, found, strict=True)
-            for sign, _ in _sides(limit)
+            for sign, _ in limit.sides
         ]
         return np.concatenate(slopes)
-
-    # -- words ------------------------------------------------------------------------------------
-
-    def at_the_end(self, x: Array) -> list[str]:
-        """Name the values that are at an end of their range."""
-        pairs = zip(self.places, x, strict=True)
-        return [place.name for place, part in pairs if abs(part) > 1.0 - _AT_THE_END]
-
-    def moved(self, x: Array) -> dict[str, float]:
-        """Return by how much values have moved, in the units for people, by name."""
-        pairs = zip(self.places, x * self.reach, strict=True)
-        return {place.name: float(by / place.to_si) for place, by in pairs}
-
-
-def _sides(limit: Limit) -> list[tuple[float, float]]:
-    """Return the bounds that a limit has, with the sign of the room beside them."""
-    return [(s, b) for s, b in ((1.0, limit.least), (-1.0, limit.most)) if np.isfinite(b)]
-
-
-def _size(limit: Limit) -> float:
-    """Return what a limit is measured by."""
-    return max(abs(bound) for _, bound in _sides(limit)) or 1.0
 
 
 def least(search: Search) -> tuple[Array, str]:

@@ -9,7 +9,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...core.arguments import Arguments
 from ...core.errors import InputError, KintrafoError
-from ...core.quantities import Display, attributes
 from ...suspension.kinds import Suspension
 from ...suspension.model import Model
 from ...suspension.wheel_loads import UNITS
@@ -217,7 +216,7 @@ class _Cars:
         filled["reason"].values = np.where(self._reasons == "", reason, self._reasons)
         names = [place.name for place in self._axes]
         coordinates = {
-            place.name: xr.Variable(place.name, along, _described(place))
+            place.name: xr.Variable(place.name, along, place.attributes())
             for place, along in self._axes.items()
         }
         data = {name: self._shaped(variable.variable, names) for name, variable in filled.items()}
@@ -236,11 +235,3 @@ class _Cars:
 
 class _OtherEquationsError(Exception):
     """A suspension needs other equations than the first."""
-
-
-def _described(place: Place) -> dict[str, Any]:
-    shown = Display(place.unit or "1", 1.0 / place.to_si)
-    return attributes(place.words, place.si_unit) | {
-        "display_units": shown.units,
-        "display_factor": shown.factor,
-    }

@@ -212,6 +212,15 @@ CALLS = {
             "limits": {"toe": {"least": -1.0}},
         },
     ),
+    "pareto": (
+        variation.pareto,
+        {
+            "suspension": _CAR.suspension, "free": {_ROD: 1.0},
+            "targets": {"bump_steer": {"value": 0.0, "within": 1.0}},
+            "minimise": {"camber": {"at_mm": 10.0}}, "maximise": {"toe": {"at_mm": [20.0]}},
+            "limits": {"toe": {"least": -1.0}}, "population": 4, "generations": 2, "seed": 1,
+        },
+    ),
     "fit": (
         variation.fit,
         {
@@ -230,6 +239,13 @@ CALLS = {
     "targets": (
         lambda **given: variation.optimise(_CAR.suspension, {_ROD: 1.0}, {"toe": given}),
         {"value": 0.0, "within": 1.0, "at_mm": [0.0, 1.0], "over": "travel"},
+    ),
+    "minimise": (
+        lambda **given: variation.pareto(
+            _CAR.suspension, {_ROD: 1.0}, minimise={"toe": [given, {"at_mm": 40.0}]},
+            population=4, generations=1,
+        ),
+        {"at_mm": [0.0, 1.0], "over": "travel"},
     ),
     "limits": (
         lambda **given: variation.tolerance(

@@ -58,6 +58,10 @@ NUMBERS = (
 )
 FLAGS = ("--json", "--force", "--force")
 COARSE = ("--step", "40")
+FEW = {
+    "tolerance": ("--cars", "2"),
+    "pareto": ("--population", "4", "--generations", "2"),
+}
 VALUES = (
     "wheel.toe_deg=0,1",
     "wheel.toe_deg=0:1:2",
@@ -89,6 +93,7 @@ OPTIONS = {
     "sensitivity": ("-o", "--plot", "--place", "--of", "--over", "--at"),
     "tolerance": ("-o", "--plot", "--of", "--over", "--at", "--seed"),
     "optimise": ("-o", "--plot"),
+    "pareto": ("-o", "--plot", "--car", "--member", "--seed"),
     "fit": ("-o", "--plot", "--of"),
     "sweep": ("-o", "--plot", "--keep", "--height", "--road-step", "--measured"),
     "report": ("--title",),
@@ -124,7 +129,7 @@ WORDS = {
     "--method": ("BDF", "Adams", "Verner", "Radau", "RK45", "x", ""),
     "--model": ("four_bar", "x"),
 }
-PATHS = ("-o", "--plot", "--cases", "--to", "--data", "--tire", "--measured", "--title")
+PATHS = ("-o", "--plot", "--car", "--cases", "--to", "--data", "--tire", "--measured", "--title")
 CLEAR = (RefusedError,)
 STUDY = b"""
 [bushings.arm_rear]
@@ -136,6 +141,8 @@ radial_N_per_mm = 1000.0
 [targets.toe]
 value = 0.1
 within = 1.0
+[maximise.camber]
+at_mm = 10.0
 [limits.bump_steer]
 least = -1.0
 """
@@ -232,8 +239,7 @@ def _arguments(random: Generator, names: list[str]) -> list[str]:
         arguments += COARSE
     if command == "sensitivity" and "--place" not in arguments:
         arguments += ["--place", "hardpoints.tie_rod_inner.z"]
-    if command == "tolerance":
-        arguments += ["--cars", "2"]
+    arguments += FEW.get(command, ())
     if command == "sweep":
         arguments.append(str(random.choice(VALUES)))
     if command in ("simulate", "sweep"):

@@ -1,0 +1,83 @@
+"""Which of many candidates no other one beats in everything."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+
+def unbeaten(costs: Array) -> Indices:
+    """Return which rows are as good as can be: none is better in a cost and as good in the others.
+
+    Parameters
+    ----------
+    costs : ndarray, shape (candidates, objectives)
+        Less is better.
+
+    Returns
+    -------
+    ndarray
+        Indices, by their first cost; of rows that are alike the first.
+
+    Examples
+    --------
+    >>> unbeaten(np.array([[3.0, 1.0], [1.0, 2.0], [3.0, 2.0], [1.0, 2.0]])).tolist()
+    [1, 0]
+    """
+    rows, left = np.unique(costs, axis=0, return_index=True)
+    found = []
+    while left.size:
+        # none of those that are left comes before it in all costs: the rows are sorted
+        found.append(left[0])
+        better_somewhere = (rows < rows[0]).any(axis=1)
+        rows, left = rows[better_somewhere], left[better_somewhere]
+    return np.array(found, dtype=np.intp)
+
+
+def spread(costs: Array, count: int) -> Indices:
+    """Return which rows represent a front: the best in each cost, then what is farthest from those.
+
+    Parameters
+    ----------
+    costs : ndarray, shape (candidates, objectives)
+    count : int
+        How many at most.
+
+    Returns
+    -------
+    ndarray
+        Indices, ascending.
+
+    Examples
+    --------
+    >>> spread(np.array([[0.0, 4.0], [0.1, 3.9], [2.0, 2.0], [4.0, 0.0]]), 3).tolist()
+    [0, 2, 3]
+    """
+    if len(costs) <= count:
+        return np.arange(len(costs))
+    parts = in_parts(costs)
+    chosen = [*dict.fromkeys(map(int, parts.argmin(axis=0)))][:count]
+    distances = np.min([np.linalg.norm(parts - parts[i], axis=1) for i in chosen], axis=0)
+    while len(chosen) < count:
+        chosen.append(int(distances.argmax()))
+        distances = np.minimum(distances, np.linalg.norm(parts - parts[chosen[-1]], axis=1))
+    return np.array(sorted(chosen))
+
+
+def compromise(costs: Array) -> int:
+    """Return which row is nearest to the best of all costs, each in parts of its range.
+
+    Examples
+    --------
+    >>> compromise(np.array([[0.0, 4.0], [1.0, 1.0], [9.0, 0.0]]))
+    1
+    """
+    return int(np.linalg.norm(in_parts(costs), axis=1).argmin())
+
+
+def in_parts(costs: Array) -> Array:
+    """Return costs from 0, the best of a front, to 1, the worst."""
+    extent = np.ptp(costs, axis=0)
+    parts: Array = (costs - costs.min(axis=0)) / np.where(extent > 0.0, extent, 1.0)
+    return parts

@@ -1,0 +1,65 @@
+"""Candidates of many generations, by the genetic algorithm NSGA-II of pymoo."""
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.optional import require
+
+Array = NDArray[np.float64]
+
+_PURPOSE, _EXTRA = "A Pareto front", "pareto"
+
+
+def check_installed() -> None:
+    """Raise an error with the remedy where pymoo is not installed."""
+    require("pymoo.algorithms.moo.nsga2", purpose=_PURPOSE, extra=_EXTRA)
+
+
+def evolve(
+    judge: Callable[[Array], tuple[Array, Array]],
+    first: Array,
+    counts: tuple[int, int],
+    generations: int,
+    seed: int,
+) -> None:
+    """Have the candidates of some generations judged.
+
+    Parameters
+    ----------
+    judge : callable
+        Takes candidates, of shape (n, values), each value from -1 to 1. Returns their costs and by
+        how much they exceed each of their limits, where 0 and less is none.
+    first : ndarray, shape (population, values)
+        The first generation.
+    counts : tuple of int
+        How many costs and limits there are.
+    generations : int
+    seed : int
+        Of the generator of random numbers.
+    """
+    nsga2, problems, static, evaluators = (
+        require(f"pymoo.{module}", purpose=_PURPOSE, extra=_EXTRA)
+        for module in (
+            "algorithms.moo.nsga2",
+            "core.problem",
+            "problems.static",
+            "core.evaluator",
+        )
+    )
+    objectives, limits = counts
+    problem = problems.Problem(
+        n_var=first.shape[1], n_obj=objectives, n_ieq_constr=limits, xl=-1.0, xu=1.0
+    )
+    algorithm = nsga2.NSGA2(pop_size=len(first), sampling=first)
+    algorithm.setup(problem, termination=("n_gen", generations), seed=seed, verbose=False)
+    # asked and told, so that an interruption ends it at once and is no business of pymoo
+    while algorithm.has_next():
+        candidates = algorithm.ask()
+        if candidates is None:
+            return  # pymoo finds no candidate that it has not had
+        costs, excess = judge(candidates.get("X"))
+        judged = static.StaticProblem(problem, F=costs, G=excess)
+        evaluators.Evaluator().eval(judged, candidates)
+        algorithm.tell(infills=candidates)

@@ -1,0 +1,88 @@
+"""What of a suspension is to be as small, or as great, as can be: one number for each."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.arguments import Arguments
+from ...core.quantities import distinct
+from ..characteristics.datasets import KNOWN
+from .goals import Goal, Target, extremes_of, targets_of
+
+Array = NDArray[np.float64]
+Kind = Literal["deviation", "greatest", "least"]
+
+# Of several positions, and of one.
+_WORDS = {
+    "deviation": "deviation of {} (rms)",
+    "greatest": "greatest {}",
+    "least": "least {}",
+}
+_WORDS_OF_ONE = {"deviation": "deviation of {}", "greatest": "{}", "least": "{}"}
+
+
+@dataclass(frozen=True)
+class Objective:
+    """A number that judges a suspension.
+
+    Attributes
+    ----------
+    name : str
+        Of the variable in a dataset: ``toe_deviation``.
+    kind : str
+        'deviation', the root mean square of what a target is missed by, and 'greatest', the
+        greatest value at some positions, are to be small; 'least', the least value, is to be great.
+    goal : Goal
+        What it is about; of a deviation a `Target`.
+    """
+
+    name: str
+    kind: Kind
+    goal: Goal
+
+    def of(self, values: Array) -> float:
+        """Return the number that some values of the characteristic make; SI units."""
+        if isinstance(self.goal, Target):
+            return float(np.sqrt(np.mean((values - self.goal.value) ** 2)))
+        return float(values.max() if self.kind == "greatest" else values.min())
+
+    @property
+    def sign(self) -> float:
+        """What the number is multiplied with so that less is better."""
+        return -1.0 if self.kind == "least" else 1.0
+
+    def attributes(self) -> dict[str, Any]:
+        """Return the attributes of the variable in a dataset."""
+        quantity = KNOWN[self.goal.over][self.goal.name]
+        several = self.goal.at.size > 1
+        words = (_WORDS if several else _WORDS_OF_ONE)[self.kind].format(quantity.long_name)
+        own = {
+            "long_name": f"{words} over the rack" if self.goal.over == "rack" else words,
+            "sign": "" if self.kind == "deviation" else quantity.sign,
+            "wanted": "great" if self.kind == "least" else "small",
+        }
+        return quantity.attributes() | own
+
+
+def objectives_of(
+    given: Arguments,
+    targets: Mapping[str, Any],
+    minimise: Mapping[str, Any],
+    maximise: Mapping[str, Any],
+) -> list[Objective]:
+    """Read objectives: deviations from targets, greatest and least values."""
+    goals: dict[Kind, Sequence[Goal]] = {
+        "deviation": targets_of(given, targets),
+        "greatest": extremes_of(given, minimise, "minimise"),
+        "least": extremes_of(given, maximise, "maximise"),
+    }
+    found = [(kind, goal) for kind, several in goals.items() for goal in several]
+    names = distinct([_name(kind, goal) for kind, goal in found])
+    return [Objective(name, kind, goal) for name, (kind, goal) in zip(names, found, strict=True)]
+
+
+def _name(kind: Kind, goal: Goal) -> str:
+    return f"{goal.name}{'_over_rack' if goal.over == 'rack' else ''}_{kind}"

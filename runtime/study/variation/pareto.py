@@ -1,0 +1,393 @@
+"""Values of the input file among which no choice is better in every objective."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+from scipy.stats import qmc
+
+from ...core.arguments import Arguments
+from ...core.errors import InputError
+from ...suspension.kinds import Suspension
+from .candidates import Candidates
+from .front import compromise, spread, unbeaten
+from .goals import Limit, check_data, limits_of
+from .nsga import check_installed, evolve
+from .objectives import Objective, objectives_of
+from .places import Place, amounts, refuse_bushes
+from .search import in_words
+
+Array = NDArray[np.float64]
+
+MEMBER = "member"
+"""Dimension of a front."""
+
+# Cars of a generation, and so members of a front: with fewer, NSGA-II has nobody to pair.
+_LEAST_MEMBERS, _MOST_MEMBERS = 4, 10_000
+# They take some minutes.
+_MOST_CARS = 100_000
+# Of more than this hardly a car is beaten in all of them, so that a front tells nothing.
+_MOST_OBJECTIVES = 6
+# What a suspension that cannot be exceeds its limits by, in parts of them.
+_IMPOSSIBLE = 1e6
+# A change by less than this part of a number is rounding.
+_ROUNDING = 1e-9
+
+
+@dataclass(frozen=True)
+class Front:
+    """Suspensions of which none is better than another in every objective.
+
+    Attributes
+    ----------
+    dataset : xarray.Dataset
+        Over ``member``, from 1: each objective by its name, and each free value by its place, in SI
+        units. Sorted by the first objective.
+    start : Suspension
+        The one that was given.
+    before : dict of str to float
+        Its objectives [SI].
+    keeps_limits : bool
+        Whether it keeps the limits.
+    places : tuple of Place
+        The values that were free, as they were.
+    objectives : tuple of Objective
+    limits : tuple of Limit
+    moved : tuple of dict of str to float
+        By how much each value of each member has moved, in the unit for people.
+    compromise : int
+        The member whose objectives are nearest to the best of each, in parts of their ranges over
+        the front; 0 where there is no member.
+    success : bool
+        Whether there is a member: a car that keeps all limits.
+    message : str
+        What there is to say about it.
+    evaluations : int
+        How many suspensions were looked at.
+    """
+
+    dataset: xr.Dataset
+    start: Suspension
+    before: dict[str, float]
+    keeps_limits: bool
+    places: tuple[Place, ...]
+    objectives: tuple[Objective, ...]
+    limits: tuple[Limit, ...]
+    moved: tuple[dict[str, float], ...]
+    compromise: int
+    success: bool
+    message: str
+    evaluations: int
+
+    def suspension(self, member: int) -> Suspension:
+        """Return the suspension of a member.
+
+        Parameters
+        ----------
+        member : int
+            From 1.
+
+        Returns
+        -------
+        Suspension
+
+        Raises
+        ------
+        InputError
+            If there is no such member.
+        """
+        with Arguments("pareto") as given:
+            if not self.moved:
+                given.refuse("member: the front has none.")
+            else:
+                member = given.whole("member", member, most=len(self.moved))
+        moved = self.moved[member - 1]
+        changes: dict[str, float] = {}
+        for place in self.places:
+            changes |= place.moved(moved[place.name] * place.to_si)
+        return self.start.with_changes(changes)
+
+
+def pareto(
+    suspension: Suspension,
+    free: Mapping[str, float],
+    targets: Mapping[str, Any] | None = None,
+    *,
+    minimise: Mapping[str, Any] | None = None,
+    maximise: Mapping[str, Any] | None = None,
+    limits: Mapping[str, Any] | None = None,
+    population: int = 48,
+    generations: int = 40,
+    seed: int = 1,
+    progress: Callable[[float], None] | None = None,
+) -> Front:
+    """Find values of the input file that are as good as can be in several objectives.
+
+    Objectives that contradict each other have no best suspension, but many of which none is better
+    in all of them: their Pareto front, among which an engineer chooses.
+
+    Parameters
+    ----------
+    suspension : Suspension
+    free : mapping of str to float
+        How far values may move to either side, as of `optimise`.
+    targets : mapping, optional
+        As of `optimise`. Each is an objective: the root mean square of the deviations.
+    minimise, maximise : mapping, optional
+        By characteristic: ``at_mm`` and ``over``, or a list of several such. The greatest value at
+        these positions is to be small, or the least value great.
+    limits : mapping, optional
+        As of `optimise`.
+    population : int, optional
+        How many suspensions a generation has, and members a front at most; from 4.
+    generations : int, optional
+        How many there are, the first included.
+    seed : int, optional
+        Of the generator of random numbers: the same front for the same seed.
+    progress : callable, optional
+        Called with the part that is done, up to 1.
+
+    Returns
+    -------
+    Front
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used, or no free value moves an objective.
+    PositionError
+        If the suspension does not reach a position as it is.
+    MissingPackageError
+        If pymoo is not installed.
+
+    Notes
+    -----
+    By the genetic algorithm NSGA-II of pymoo. The first generation is the suspension as it is, and
+    a Latin hypercube over the ranges. What cannot be built, or does not reach a position, counts as
+    far beyond all limits. The front is that of all suspensions that were looked at, thinned out to
+    the size of a generation where it has more.
+
+    Examples
+    --------
+    >>> car = Suspension.load("reference_car")
+    >>> found = pareto(
+    ...     car,
+    ...     free={"hardpoints.tie_rod_inner.z": 20.0},
+    ...     targets={"bump_steer": {"value": 0.0, "within": 0.001}},
+    ...     maximise={"toe": {"at_mm": [30.0]}},
+    ...     population=8,
+    ...     generations=2,
+    ... )
+    >>> [found.success, *found.before]
+    [True, 'bump_steer_deviation', 'toe_least']
+    """
+    with Arguments("pareto") as given:
+        given.kind("suspension", suspension, Suspension, "a kintrafo.Suspension is needed")
+        given.function("progress", progress)
+        population = given.whole("population", population, least=_LEAST_MEMBERS, most=_MOST_MEMBERS)
+        generations = given.whole("generations", generations)
+        seed = given.whole("seed", seed, least=0, most=2**32 - 1)
+        objectives = objectives_of(
+            given,
+            _described(given, "targets", targets),
+            _described(given, "minimise", minimise),
+            _described(given, "maximise", maximise),
+        )
+        bounds = limits_of(given, _described(given, "limits", limits))
+        if not given.refused:
+            _refuse_counts(given, len(objectives), population, generations)
+            check_data(given, suspension, [*(o.goal for o in objectives), *bounds])
+            by_pattern = given.mapping("free", free, "places and numbers")
+            reach = amounts(given, suspension, by_pattern, "range")
+            refuse_bushes(given, reach)
+            if not reach:
+                given.refuse("free: one value or more is needed.")
+    check_installed()
+    judge = _Judge(suspension, reach, objectives, bounds, population * generations, progress)
+    idle = judge.idle()
+    if len(idle) == len(reach):
+        raise InputError([f"free: nothing of {', '.join(idle)} moves an objective."], "pareto")
+    first = _first(population, len(reach), seed)
+    evolve(judge, first, judge.counts, generations, seed)
+    return _front(judge, idle, population)
+
+
+def _described(given: Arguments, name: str, value: Any) -> Mapping[Any, Any]:
+    return given.mapping(name, {} if value is None else value, "names of characteristics")
+
+
+def _refuse_counts(given: Arguments, objectives: int, population: int, generations: int) -> None:
+    if not 2 <= objectives <= _MOST_OBJECTIVES:
+        given.refuse(
+            f"targets, minimise, maximise: they make {objectives} objectives, and 2 to "
+            f"{_MOST_OBJECTIVES} are needed. For one there is `kintrafo optimise`; put what must "
+            "only be kept among the limits."
+        )
+    if population * generations > _MOST_CARS:
+        given.refuse(
+            f"population = {population}, generations = {generations}: they make "
+            f"{population * generations} suspensions, and at most {_MOST_CARS} are looked at."
+        )
+
+
+def _first(population: int, values: int, seed: int) -> Array:
+    """Return the first generation: the suspension as it is, and others all over the ranges."""
+    drawn = qmc.LatinHypercube(values, rng=np.random.default_rng(seed)).random(population)
+    first: Array = 2.0 * drawn - 1.0
+    first[0] = 0.0
+    return first
+
+
+class _Judge:
+    """What candidates are worth, and all that were looked at.
+
+    Parameters
+    ----------
+    suspension : Suspension
+    reach : mapping of Place to float
+        How far values may move to either side [SI].
+    objectives : sequence of Objective
+    limits : sequence of Limit
+    expected : int
+        How many candidates there will be.
+    progress : callable or None
+        Called with the part that is done.
+    """
+
+    def __init__(
+        self,
+        suspension: Suspension,
+        reach: Mapping[Place, float],
+        objectives: list[Objective],
+        limits: list[Limit],
+        expected: int,
+        progress: Callable[[float], None] | None,
+    ) -> None:
+        self.objectives, self.limits = tuple(objectives), tuple(limits)
+        goals = [*(objective.goal for objective in objectives), *limits]
+        self.candidates = Candidates(suspension, reach, goals)
+        self.seen: list[tuple[Array, Array, Array]] = []
+        self._expected, self._progress = expected, progress
+        # what cannot be exceeds a limit also where there are none
+        sides = 1 + sum(limit.at.size * len(limit.sides) for limit in limits)
+        self.counts = len(objectives), sides
+
+    def __call__(self, generation: Array) -> tuple[Array, Array]:
+        """Return costs, and by how much limits are exceeded, of each candidate."""
+        found = []
+        for x in generation:
+            found.append((x, *self.one(x)))
+            self.seen.append(found[-1])
+            if self._progress is not None:
+                self._progress(len(self.seen) / self._expected)
+        _, costs, excess = zip(*found, strict=True)
+        return np.array(costs), np.array(excess)
+
+    def one(self, x: Array) -> tuple[Array, Array]:
+        """Return the costs of a candidate, and by how much it exceeds its limits."""
+        values = self.candidates.values(x)
+        if values is None:
+            objectives, sides = self.counts
+            return np.zeros(objectives), np.full(sides, _IMPOSSIBLE)
+        pairs = zip(self.objectives, values, strict=False)
+        costs = np.array([objective.sign * objective.of(found) for objective, found in pairs])
+        limited = zip(self.limits, values[len(self.objectives) :], strict=True)
+        rooms = [limit.room(found) for limit, found in limited]
+        return costs, -np.concatenate([np.zeros(1), *rooms])
+
+    def idle(self) -> list[str]:
+        """Name the values that move nothing from one end of their ranges to the other."""
+        here = np.zeros(len(self.candidates.places))
+        return [
+            place.name
+            for which, place in enumerate(self.candidates.places)
+            if _alike([*self.candidates.ends(here, which), self.candidates.values(here)])
+        ]
+
+    def broken(self, x: Array) -> list[str]:
+        """Name the limits that a candidate does not keep."""
+        values = self.candidates.values(x)
+        if values is None:
+            return []
+        pairs = zip(self.limits, values[len(self.objectives) :], strict=True)
+        return [limit.name for limit, found in pairs if not limit.kept(found).all()]
+
+
+def _alike(several: list[list[Array] | None]) -> bool:
+    """Tell whether values of several cars differ by rounding at most; not where there are none."""
+    first, *others = several
+    if first is None or any(other is None for other in others):
+        return False
+    return all(
+        np.allclose(a, b, rtol=_ROUNDING, atol=_ROUNDING)
+        for other in others
+        for a, b in zip(first, other or (), strict=True)
+    )
+
+
+def _front(judge: _Judge, idle: list[str], most: int) -> Front:
+    """Return the front of all candidates that were looked at."""
+    x, costs, excess = (np.array(rows) for rows in zip(*judge.seen, strict=True))
+    within = np.flatnonzero((excess <= 0.0).all(axis=1))
+    members = within[unbeaten(costs[within])]
+    members = members[spread(costs[members], most)] if members.size else members
+    candidates = judge.candidates
+    signs = np.array([objective.sign for objective in judge.objectives])
+    before, _ = judge.one(np.zeros(x.shape[1]))
+    nearest = x[int(np.maximum(excess, 0.0).sum(axis=1).argmin())]
+    message = _message(judge, x[members], nearest, idle)
+    return Front(
+        dataset=_dataset(judge, x[members], costs[members] * signs, message),
+        start=candidates.suspension,
+        before=dict(zip(_names(judge), (before * signs).tolist(), strict=True)),
+        keeps_limits=not judge.broken(np.zeros(x.shape[1])),
+        places=candidates.places,
+        objectives=judge.objectives,
+        limits=judge.limits,
+        moved=tuple(candidates.moved(member) for member in x[members]),
+        compromise=compromise(costs[members]) + 1 if members.size else 0,
+        success=bool(members.size),
+        message=message,
+        evaluations=candidates.evaluations,
+    )
+
+
+def _message(judge: _Judge, members: Array, nearest: Array, idle: list[str]) -> str:
+    candidates = judge.candidates
+    ends = [set(candidates.at_the_end(member)) for member in members]
+    always = set.intersection(*ends) if ends else set()
+    broken = [] if len(members) else judge.broken(nearest)
+    lost = [f"{candidates.impossible} suspensions"] if candidates.impossible else []
+    facts = {
+        "no suspension keeps all limits, the nearest one not those of": broken,
+        "could not be built, or did not reach a position": lost,
+        "at the end of its range all along the front": sorted(always),
+        "moves nothing": idle,
+    }
+    return "; ".join(part for part in (_size(len(members)), in_words(facts)) if part)
+
+
+def _size(members: int) -> str:
+    if members == 1:
+        return "one suspension is the best in every objective"
+    return f"{members} suspensions are on the front" if members else ""
+
+
+def _dataset(judge: _Judge, x: Array, numbers: Array, message: str) -> xr.Dataset:
+    data: dict[Any, Any] = {
+        objective.name: xr.Variable(MEMBER, numbers[:, which], objective.attributes())
+        for which, objective in enumerate(judge.objectives)
+    }
+    candidates = judge.candidates
+    for which, place in enumerate(candidates.places):
+        values = place.value * place.to_si + x[:, which] * candidates.reach[which]
+        data[place.name] = xr.Variable(MEMBER, values, place.attributes())
+    members = xr.Variable(MEMBER, np.arange(1, len(x) + 1), {"long_name": "member of the front"})
+    return xr.Dataset(data, {MEMBER: members}, {"title": "Pareto front", "message": message})
+
+
+def _names(judge: _Judge) -> list[str]:
+    return [objective.name for objective in judge.objectives]

@@ -1,0 +1,375 @@
+"""Fronts of several objectives: against grids, optima, and everything that can go wrong."""
+
+import importlib
+import itertools
+import json
+import signal
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from kintrafo import InputError, Model, Suspension, characteristics, variation
+from kintrafo.plots.pareto import write_front
+from kintrafo.study.variation.candidates import Candidates
+from kintrafo.study.variation.front import compromise, spread, unbeaten
+from matplotlib.image import imread
+from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
+
+CAR = Suspension.load("reference_car")
+ROD, JOINT = "hardpoints.tie_rod_inner.z", "hardpoints.ball_joint.z"
+FREE = {ROD: 15.0, JOINT: 10.0}
+TOE = {"toe": {"at_mm": [-50.0, 50.0], "value": 0.0, "within": 0.02}}
+HEIGHT = {"roll_center_height_kinematic": {"at_mm": 0.0}}
+# The ball joint may come down by some seven of its ten millimetres.
+MOST_SCRUB = 21.0
+SCRUB = {"scrub_radius": {"at_mm": 0.0, "most": MOST_SCRUB}}
+SHORT: dict[str, Any] = {"population": 4, "generations": 2}
+STUDY = f"""
+[free]
+"{ROD}" = 15.0
+"{JOINT}" = 10.0
+[targets.toe]
+at_mm = [-50, 50]
+value = 0.0
+within = 0.02
+[maximise.roll_center_height_kinematic]
+[limits.scrub_radius]
+most = {MOST_SCRUB}
+"""
+QUICK = ("--population", 4, "--generations", 2)
+
+
+def numbers_of(suspension: Suspension) -> tuple[float, float, float]:
+    """Return deviation of toe [rad], roll-centre height [m] and scrub radius [m], by the curves."""
+    found = characteristics.travel(Model(suspension), [-0.05, 0.0, 0.05])
+    toe = np.hypot(*found["toe"].values[[0, 2]]) / np.sqrt(2.0)
+    return float(toe), *(float(found[n][1]) for n in (*HEIGHT, "scrub_radius"))
+
+
+@pytest.fixture(scope="module")
+def front() -> variation.Front:
+    return variation.pareto(
+        CAR, FREE, TOE, maximise=HEIGHT, limits=SCRUB, population=20, generations=16
+    )
+
+
+@pytest.fixture(scope="module")
+def costs(front: variation.Front) -> np.ndarray:
+    """Return what is to be small of each member, in parts of its range over the front."""
+    toe, height = (front.dataset[o.name].values for o in front.objectives)
+    return in_parts(front, toe, height)
+
+
+def in_parts(front: variation.Front, toe: Any, height: Any) -> np.ndarray:
+    """Return what is to be small, from 0 to 1 over the front."""
+    found = []
+    for sign, values, objective in zip((1, -1), (toe, height), front.objectives, strict=True):
+        own = sign * front.dataset[objective.name].values
+        found.append((sign * np.asarray(values) - own.min()) / np.ptp(own))
+    return np.stack(found, axis=-1)
+
+
+def beats(one: np.ndarray, other: np.ndarray, by: float = 0.0) -> bool:
+    return bool((one <= other - by).all() and (one < other - by).any())
+
+
+# -- what is on a front ---------------------------------------------------------------------------
+
+
+def test_members_are_what_the_curves_say_and_keep_the_limits(front: variation.Front) -> None:
+    toe, height = (front.dataset[o.name].values for o in front.objectives)
+    for member in range(1, len(front.moved) + 1):
+        car = front.suspension(member)
+        found = numbers_of(car)
+        # the same equations at other positions beside: rounding only
+        np.testing.assert_allclose(found[:2], [toe[member - 1], height[member - 1]], rtol=1e-9)
+        assert found[2] <= 1e-3 * MOST_SCRUB * (1.0 + 1e-12)
+        for place, by in front.moved[member - 1].items():
+            assert abs(by) <= FREE[place]
+            expected = float(front.dataset[place][member - 1]) * 1e3
+            axis = "xyz".index(place[-1])
+            point = car.to_dict()["hardpoints"][place.split(".")[1]]
+            assert point[axis] == pytest.approx(expected, abs=1e-9)
+    assert front.success
+    assert front.keeps_limits
+    assert front.before == pytest.approx(
+        dict(zip((o.name for o in front.objectives), numbers_of(CAR), strict=False)), rel=1e-9
+    )
+
+
+def test_no_member_beats_another(costs: np.ndarray) -> None:
+    assert len(costs) == 20
+    assert not any(beats(a, b) for a, b in itertools.permutations(costs, 2))
+    assert (np.diff(costs[:, 0]) > 0.0).all()
+
+
+def test_a_grid_of_all_values_has_nothing_better(front: variation.Front, costs: np.ndarray) -> None:
+    """Nor is a part of the front missing: each car of the grid has a member that is as good."""
+    steps = np.linspace(-1.0, 1.0, 13)
+    cars = [
+        CAR.with_changes({ROD: 280.0 + 15.0 * a, JOINT: 180.0 + 10.0 * b})
+        for a, b in itertools.product(steps, steps)
+    ]
+    toe, height, scrub = np.transpose([numbers_of(car) for car in cars])
+    allowed = scrub <= 1e-3 * MOST_SCRUB
+    assert 20 < allowed.sum() < len(cars) - 20  # the limit is in the way
+    grid = in_parts(front, toe, height)[allowed]
+    # 20 members are a twentieth of the ranges apart; of five seeds the worst is behind by 0.02
+    assert not any(beats(a, b, 0.05) for a in grid for b in costs)
+    assert all((costs <= car + 0.08).all(axis=1).any() for car in grid)
+
+
+@pytest.mark.parametrize("within", [0.3, 5.0])
+def test_what_weights_find_lies_at_the_front(
+    front: variation.Front, costs: np.ndarray, within: float
+) -> None:
+    """The optimum of a sum is of the true front: near to a member, and hardly better than any."""
+    height = {"roll_center_height_kinematic": {"at_mm": 0.0, "value": 130.0, "within": within}}
+    aims = {"toe": TOE["toe"] | {"within": 0.1}} | height
+    found = variation.optimise(CAR, FREE, aims, SCRUB)
+    assert found.success, found.message
+    toe, high, _ = numbers_of(found.suspension)
+    best = in_parts(front, toe, high)
+    assert not any(beats(best, member, 0.05) for member in costs)
+    assert np.abs(costs - best).max(axis=1).min() < 0.1
+
+
+def test_the_compromise_is_nearest_to_the_best_of_both(
+    front: variation.Front, costs: np.ndarray
+) -> None:
+    distances = [float(np.hypot(*member)) for member in costs]
+    assert front.compromise == 1 + distances.index(min(distances))
+
+
+def test_fronts_of_random_numbers() -> None:
+    random = np.random.default_rng(7)
+    for size, objectives in ((1, 2), (60, 2), (80, 3)):
+        rows = random.integers(0, 9, (size, objectives)).astype(float)
+        found = unbeaten(rows)
+        expected = {tuple(a) for a in rows if not any(beats(b, a) for b in rows)}
+        assert len(found) == len(expected)
+        assert {tuple(row) for row in rows[found]} == expected
+    line = np.stack([np.arange(101.0), -np.arange(101.0)], axis=1)
+    assert spread(line, 5).tolist() == [0, 25, 50, 75, 100]
+    assert spread(line, 200).tolist() == list(range(101))
+    assert compromise(line) == 50
+    assert compromise(np.ones((1, 2))) == 0
+
+
+# -- searches --------------------------------------------------------------------------------------
+
+
+def test_the_seed_decides(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+    (tmp_path / "s.toml").write_text(STUDY, encoding="utf-8")
+    before = np.random.get_state()[1].tolist()  # noqa: NPY002 (the state of everybody)
+    for name, seed in (("a.csv", 5), ("b.csv", 5), ("c.csv", 6)):
+        options = (*QUICK, "--seed", seed, "-o", name)
+        assert kintrafo("pareto", "reference_car", "s.toml", *options)[0] == 0
+    assert np.random.get_state()[1].tolist() == before  # noqa: NPY002
+    texts = [(tmp_path / f"{name}.csv").read_bytes() for name in "abc"]
+    assert texts[0] == texts[1] != texts[2]
+    heading = b"member,toe_deviation [deg],roll_center_height_kinematic_least [mm],"
+    assert texts[0].startswith(heading)
+
+
+def test_what_cannot_be_built_is_beyond_all_limits() -> None:
+    """With half a metre to either side no arm reaches most bearings."""
+    parts: list[float] = []
+    found = variation.pareto(
+        CAR, {"hardpoints.tie_rod_outer.y": 500.0}, TOE, maximise=HEIGHT,
+        population=12, generations=2, progress=parts.append,
+    )  # fmt: skip
+    assert found.success
+    assert "could not be built, or did not reach a position" in found.message
+    for member in range(1, len(found.moved) + 1):
+        toe, *_ = numbers_of(found.suspension(member))  # it can be built
+        assert float(found.dataset["toe_deviation"][member - 1]) == pytest.approx(toe, rel=1e-9)
+    assert parts == sorted(parts)
+    assert parts[-1] == pytest.approx(1.0)
+
+
+def test_limits_that_cannot_be_kept() -> None:
+    far = SCRUB | {"bump_steer": {"most": -1.0}}
+    found = variation.pareto(CAR, FREE, TOE, maximise=HEIGHT, limits=far, **SHORT)
+    assert not found.success
+    assert "the nearest one not those of: bump_steer" in found.message
+    assert not found.keeps_limits
+    assert (found.moved, found.compromise, found.dataset.sizes["member"]) == ((), 0, 0)
+    with pytest.raises(InputError, match="the front has none"):
+        found.suspension(1)
+
+
+def test_values_that_move_nothing_are_named() -> None:
+    idle = "bodies.wheel.mass_kg"
+    found = variation.pareto(CAR, {ROD: 5.0, idle: 1.0}, TOE, maximise=HEIGHT, **SHORT)
+    assert f"moves nothing: {idle}" in found.message
+    with pytest.raises(InputError, match=rf"nothing of {idle} moves an objective"):
+        variation.pareto(CAR, {idle: 1.0}, TOE, maximise=HEIGHT, **SHORT)
+
+
+def test_objectives_that_agree_have_one_best_car() -> None:
+    """Both want the camber of the file at the end of its range."""
+    camber = {"camber": [{"at_mm": [-30.0, 30.0]}, {"over": "rack", "at_mm": 20.0}]}
+    found = variation.pareto(CAR, {"wheel.camber_deg": 1.0}, minimise=camber, **SHORT)
+    names = [objective.name for objective in found.objectives]
+    assert names == ["camber_greatest", "camber_over_rack_greatest"]
+    assert len(found.moved) == found.compromise == 1
+    assert found.message.startswith("one suspension is the best in every objective")
+    assert found.dataset[names[1]].attrs["long_name"] == "camber over the rack"
+    with pytest.raises(InputError, match=r"member = 2: a whole number, 1 to 1"):
+        found.suspension(2)
+
+
+def test_several_objectives_of_one_kind_are_told_apart_and_drawn(tmp_path: Path) -> None:
+    aims = {"toe": [TOE["toe"], TOE["toe"] | {"at_mm": 20.0}]}
+    found = variation.pareto(CAR, FREE, aims, maximise=HEIGHT, limits=SCRUB, **SHORT)
+    assert [o.name for o in found.objectives][:2] == ["toe_deviation", "toe_deviation (2)"]
+    path = write_front(found, tmp_path / "front.png", chosen=1, title="three objectives")
+    picture = imread(path)
+    assert picture.shape[0] > 700  # two rows of panels
+    assert picture.std() > 0.01
+
+
+# -- commands -------------------------------------------------------------------------------------
+
+
+def test_the_chosen_member_is_written(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+    (tmp_path / "s.toml").write_text(STUDY, encoding="utf-8")
+    code, out, err = kintrafo(
+        "pareto", "reference_car", "s.toml", *QUICK, "--member", 2, "--car", "car.toml"
+    )
+    assert code == 0, err
+    for words in ("as it is", "compromise", "chosen", "values of member 2", "on the front"):
+        assert words in " ".join(out.split()), out
+    written = Suspension.load(tmp_path / "car.toml")
+    code, out, _ = kintrafo("pareto", "reference_car", "s.toml", *QUICK, "--json", "--member", 2)
+    told = json.loads(out)
+    values = {name: data["values"][1] for name, data in told["variables"].items()}
+    assert numbers_of(written)[:2] == pytest.approx([*values.values()][:2], rel=1e-9)
+    assert (told["chosen"], told["success"], set(told["before"])) == (2, True, {*values} - {*FREE})
+
+
+@pytest.mark.parametrize("member", [0, 5, 4])
+def test_a_member_that_is_not_there(kintrafo: Any, tmp_path: Path, member: int) -> None:  # noqa: F811
+    """Four cars of a generation have no fifth member, and need not have a fourth."""
+    study = STUDY.replace("[limits.scrub_radius]\nmost = 21.0", "[limits.toe]\nmost = 0.001")
+    (tmp_path / "s.toml").write_text(study, encoding="utf-8")
+    code, out, err = kintrafo(
+        "pareto", "reference_car", "s.toml", *QUICK, "--member", member,
+        "-o", "a.csv", "--plot", "a.svg", "--car", "a.toml",
+    )  # fmt: skip
+    assert (code, out) == (2, "")
+    assert f"member = {member}: a whole number, 1 to " in " ".join(err.split())
+    assert [path.name for path in tmp_path.iterdir()] == ["s.toml"]
+
+
+def test_nothing_is_written_where_no_car_keeps_the_limits(
+    kintrafo: Any,  # noqa: F811
+    tmp_path: Path,
+) -> None:
+    (tmp_path / "s.toml").write_text(STUDY.replace("21.0", "-90.0"), encoding="utf-8")
+    code, out, _ = kintrafo("pareto", "reference_car", "s.toml", *QUICK, "-o", "a.csv")
+    assert code == 1
+    assert "not those of: scrub_radius" in " ".join(out.split())
+    assert [path.name for path in tmp_path.iterdir()] == ["s.toml"]
+
+
+def test_an_interruption_ends_it_at_once(
+    kintrafo: Any,  # noqa: F811
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    (tmp_path / "s.toml").write_text(STUDY, encoding="utf-8")
+    looked_at = []
+    values = Candidates.values
+
+    def interrupted(self: Candidates, x: np.ndarray) -> Any:
+        looked_at.append(x)
+        if len(looked_at) == 30:
+            signal.raise_signal(signal.SIGINT)
+        return values(self, x)
+
+    monkeypatch.setattr(Candidates, "values", interrupted)
+    code, out, _ = kintrafo(
+        "pareto", "reference_car", "s.toml", "--population", 12, "-o", "a.csv", "--car", "a.toml"
+    )
+    assert (code != 0, out, len(looked_at)) == (True, "", 30)
+    assert [path.name for path in tmp_path.iterdir()] == ["s.toml"]
+
+
+def test_without_pymoo_it_is_said_how_to_install_it(
+    kintrafo: Any,  # noqa: F811
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    (tmp_path / "s.toml").write_text(STUDY, encoding="utf-8")
+    monkeypatch.setitem(sys.modules, "pymoo.algorithms.moo.nsga2", None)
+    monkeypatch.setattr(Candidates, "values", None)  # before anything is computed
+    code, out, err = kintrafo("pareto", "reference_car", "s.toml", "-o", "a.csv")
+    assert (code, out) == (3, "")
+    assert "needs pymoo, which is not installed" in " ".join(err.split())
+    assert 'pip install "kintrafo[pareto]"' in err
+    assert [path.name for path in tmp_path.iterdir()] == ["s.toml"]
+
+
+# -- mistakes -------------------------------------------------------------------------------------
+
+
+def call(**given: Any) -> None:
+    right: dict[str, Any] = {"suspension": CAR, "free": FREE, "targets": TOE, "maximise": HEIGHT}
+    variation.pareto(**(right | given))
+
+
+WRONG = [
+    ({"suspension": "reference_car"}, "a kintrafo.Suspension is needed"),
+    ({"progress": 1}, "a function, or None, is needed"),
+    ({"population": 3}, "population = 3: a whole number, 4 to 10000, is needed"),
+    ({"population": 7.5}, "population = 7.5: a whole number"),
+    ({"generations": 0}, "generations = 0: a whole number, 1 or more"),
+    ({"population": 10_000, "generations": 11}, "110000 suspensions, and at most 100000"),
+    ({"seed": -1}, "seed = -1: a whole number, 0 to"),
+    ({"seed": "one"}, "seed = 'one': a whole number"),
+    ({"free": {}}, "free: one value or more is needed"),
+    ({"free": {ROD: 0.0}}, "range of hardpoints.tie_rod_inner.z = 0 mm: .* above 0 mm"),
+    ({"free": {"hardpoint": 1.0}}, "Did you mean hardpoints"),
+    ({"free": [ROD]}, "a dict of places and numbers"),
+    ({"free": {"bushings.arm_rear.axial_N_per_mm": 1.0}}, "nothing here depends on bushes"),
+    ({"targets": {}}, "they make 1 objectives, and 2 to 6 are needed"),
+    ({"maximise": {"toe": [{"at_mm": at} for at in range(6)]}}, "they make 7 objectives"),
+    ({"targets": [1.0]}, "targets = .* a dict of names of characteristics"),
+    ({"targets": {"toe": {"value": 0.0}}}, "within is missing, in deg"),
+    ({"minimise": {"camberr": {}}}, "Did you mean camber"),
+    ({"minimise": {"camber": 1.0}}, r"\[minimise.camber\] must be a section, with at_mm\."),
+    ({"minimise": {"camber": {"value": 1.0}}}, "value is not known: there are at_mm, over"),
+    ({"minimise": {"camber": {"over": "roll"}}}, "over 'roll' is not known"),
+    ({"maximise": {"camber": {"at_mm": [np.nan]}}}, "at_mm = nan mm: a finite number"),
+    (
+        {"minimise": {"turning_circle": {"over": "rack", "at_mm": 0.0}}},
+        "turning_circle over rack: it has no finite value at 0 mm",
+    ),
+    ({"limits": {"toe": {}}}, "least or most is needed, in deg"),
+]
+
+
+@pytest.mark.parametrize(("given", "words"), WRONG, ids=[words for _, words in WRONG])
+def test_what_cannot_be_used(given: dict[str, Any], words: str) -> None:
+    if "bushings" in str(given):
+        bushes = {"bushings": {"arm_rear": {"axial_N_per_mm": 400.0}}}
+        given = given | {"suspension": CAR.with_changes(bushes)}
+    with pytest.raises(InputError, match=words):
+        call(**given)
+
+
+def test_a_position_out_of_reach_is_no_study() -> None:
+    module = importlib.import_module("kintrafo.suspension.positions")
+    with pytest.raises(module.PositionError):
+        call(targets={"toe": TOE["toe"] | {"at_mm": [900.0]}})
+
+
+def test_a_file_with_something_else(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+    (tmp_path / "s.toml").write_text(STUDY.replace("maximise", "maximize"), encoding="utf-8")
+    code, out, err = kintrafo("pareto", "reference_car", "s.toml")
+    assert (code, out) == (2, "")
+    assert "Did you mean maximise" in " ".join(err.split())
