@@ -45,23 +45,24 @@ os.environ.setdefault("CFLAGS", "-O0")
 
 # Each of them takes more than a fiftieth of the whole time.
 _LONGEST = (
-    "test_iteration_loops.py",
-    "test_iteration.py",
-    "test_report_browser.py",
-    "test_fuzz.py",
     "test_mechanisms.py",
+    "test_iteration_loops.py",
+    "test_fuzz.py",
     "test_axles.py",
-    "test_sanitizers.py",
-    "test_stages.py",
-    "test_cli_commands.py",
-    "test_variation.py",
-    "test_emitted_c.py",
-    "test_own_mechanism.py",
-    "test_benchmarks.py",
+    "test_iteration.py",
     "test_copies.py",
+    "test_parameter_derivatives.py",
+    "test_cli_commands.py",
+    "test_own_mechanism.py",
+    "test_emitted_c.py",
+    "test_report_browser.py",
+    "test_wheel_loads.py",
+    "test_benchmarks.py",
+    "test_variation.py",
+    "test_motion_gradient_kinks.py",
+    "test_sanitizers.py",
+    "test_growth.py",
     "test_assumptions.py",
-    "test_double_wishbone_cli.py",
-    "test_conditioning.py",
 )
 
 
