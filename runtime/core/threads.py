@@ -16,7 +16,10 @@ Found = TypeVar("Found")
 
 
 def in_one_thread(function: Callable[Given, Found]) -> Callable[Given, Found]:
-    """Return a function while which libraries of linear algebra start no threads."""
+    """Return a function while which libraries of linear algebra start no threads.
+
+    Of calls that overlap in threads, the first limits them for all.
+    """
 
     @wraps(function)
     def alone(*args: Given.args, **kwargs: Given.kwargs) -> Found:
