@@ -509,6 +509,32 @@ def test_the_damper_ends_the_travel() -> None:
         model.states_at(0.3, 0.3)
 
 
+def test_no_position_is_beyond_a_gap() -> None:
+    """A damper that is shorter than it may be for a part of the way is upside down behind it."""
+    low = AXLE.with_changes(
+        {"hardpoints.damper_top": [-90.0, -560.0, 420.0], "damper.length_min_mm": 60.0}
+    )
+    model = RigidAxleModel(low)
+    end = 0.3 * model.farthest(0.3, 0.3)
+    model.states_at([0.0, end], [0.0, end])
+    for travel in (0.19, 0.25):
+        with pytest.raises(PositionError, match=rf"it comes to \+{1e3 * end:.1f}"):
+            model.states_at(travel, travel)
+        with pytest.raises(PositionError, match="a damper is at the end of its length"):
+            model.states_at([0.0, travel, -0.01], [0.0, travel, 0.01])
+
+
+def test_no_gap_is_too_narrow() -> None:
+    """The shortest that the damper gets on its way, and a micrometre more."""
+    low = AXLE.with_changes({"hardpoints.damper_top": [-90.0, -540.0, 420.0]})
+    travels = np.linspace(0.11, 0.13, 2001)
+    states = RigidAxleModel(low).states_at(travels, travels)
+    least = RigidAxleModel(low).signals(states)["right_damper_length"].min()
+    short = RigidAxleModel(low.with_changes({"damper.length_min_mm": 1e3 * least + 1e-3}))
+    with pytest.raises(PositionError, match="a damper is at the end of its length"):
+        short.states_at(0.2, 0.2)
+
+
 # -- what is refused ------------------------------------------------------------------------------
 
 
