@@ -115,7 +115,7 @@ class RigidAxleModel(System):
         return self.placed(lefts, rights)
 
     def placed(self, left: Array, right: Array) -> Array:
-        """Return the states at rest at some travels of the wheels [m], whether it gets there or not.
+        """Return the states at rest at some travels of the wheels [m], reached or not.
 
         NaN where no beam is as long as the wheels would be apart.
         """
