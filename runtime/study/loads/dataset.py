@@ -60,7 +60,7 @@ def joined(
         By what goes behind the names of a side.
     between : callable, optional
     """
-    every = [_of_side(load, suffix) for suffix, own in loads.items() for load in own]
+    every = [of_side(load, suffix) for suffix, own in loads.items() for load in own]
     places = {
         f"{part}{suffix}": Place(side.centers[part], side.turned[part])
         for suffix, side in poses.items()
@@ -70,7 +70,7 @@ def joined(
     return every, places | shared
 
 
-def _of_side(load: Load, suffix: str) -> Load:
+def of_side(load: Load, suffix: str) -> Load:
     """Return a load whose names say of which side it is; what there is once has none."""
     return replace(
         load,

@@ -104,7 +104,7 @@ class RigidAxleModel(System):
                     f"left has {lefts.size} travels and right {rights.size}: as many are needed."
                 )
         lefts, rights = np.broadcast_arrays(lefts, rights)
-        parts = self._parts(lefts.ravel(), rights.ravel())
+        parts = self.parts_of_ways(lefts.ravel(), rights.ravel())
         missed = parts < 1.0
         if missed.any():
             # the one that somebody asked for is at the end of a range
@@ -160,11 +160,18 @@ class RigidAxleModel(System):
         with Arguments("farthest") as given:
             left, right = given.number("left", left, "m"), given.number("right", right, "m")
 
-        return float(self._parts(np.array([left]), np.array([right]))[0])
+        return float(self.parts_of_ways(np.array([left]), np.array([right]))[0])
 
-    def _parts(self, lefts: Array, rights: Array) -> Array:
-        """Return how much of each way from design the axle can go, stepping over nothing."""
+    def parts_of_ways(self, lefts: Array, rights: Array) -> Array:
+        """Return how much of each way from design the axle can go, see `farthest`.
 
+        Parameters
+        ----------
+        lefts, rights : ndarray, shape (n,)
+            Travels of the wheels at the ends of the ways [m].
+        """
+
+        # one that the file forbids for a moment only is found as well
         def look(parts: Array, which: NDArray[np.int64]) -> Seen:
             ways = lefts[which, None], rights[which, None]
             margins = self.margins(self.placed(parts * ways[0], parts * ways[1]))
