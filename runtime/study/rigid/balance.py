@@ -10,8 +10,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.errors import InputError
 from ...suspension.corner import UP
-from ..loads.balance import balanced
+from ..loads.balance import DEAD_POINT, balanced
 from ..loads.poses import CENTER, CONTACT, wrench_about
 from ..loads.reactions import Load
 from .beam import SIDES
@@ -52,6 +53,19 @@ class Balance:
         found, self.sound = balanced(np.stack(columns, axis=-1), applied)
         self.pulls = dict(zip(rods, found.T[: len(rods)], strict=True))
         self.missing = dict(zip(SIDES, found.T[len(rods) :], strict=True))
+
+    def refuse_dead_points(self) -> None:
+        """Refuse positions in which what is carried has no bound.
+
+        Raises
+        ------
+        InputError
+        """
+        if not self.sound.all():
+            row = int(np.flatnonzero(~self.sound)[0])
+            heights = [1e3 * float(self.parts.points[f"{CENTER}_{s}"][row, 2]) for s in SIDES]
+            where = " and ".join(f"{height:.6g} mm" for height in heights)
+            raise InputError([f"at wheel heights of {where}: {DEAD_POINT}"], "loads")
 
     def upward(self, side: str, force: Array) -> Load:
         """Return a vertical force of the road on a wheel."""

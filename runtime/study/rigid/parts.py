@@ -27,8 +27,9 @@ MIDDLE = "axle_middle"
 PARAMETERS = {BEAM: "beam", "wheel_left": "left_wheel", "wheel_right": "wheel"}
 """What begins the names of the parameters of parts with mass."""
 
-# What they are called in the equations.
-_MASSIVE = {BEAM: "beam", "wheel_left": "left_wheel", "wheel_right": "right_wheel"}
+MASSIVE = {BEAM: "beam", "wheel_left": "left_wheel", "wheel_right": "right_wheel"}
+"""What they are called in the equations."""
+
 _LEFTWARD = np.array([0.0, 1.0, 0.0])
 # The signals and inputs of a side that are the force of a spring or a damper.
 _FORCES = {
@@ -65,7 +66,7 @@ class Parts:
         """Return the parts in some states, by default without any input."""
         if inputs is None:
             inputs = np.zeros((len(states), len(model.input_names)))
-        bodies = {name: f"rod_{i}" for i, name in enumerate(model.axle.rods, 1)} | _MASSIVE
+        bodies = {name: f"rod_{i}" for i, name in enumerate(model.axle.rods, 1)} | MASSIVE
         rows = [model.equations.BODIES.index(body) for body in bodies.values()]
         places = np.moveaxis(model.evaluate("positions", states, inputs)[:, rows], 1, 0)
         turns = np.moveaxis(model.evaluate("orientations", states, inputs)[:, rows], 1, 0)
@@ -105,6 +106,16 @@ class Parts:
         along: Array = way / np.linalg.norm(way, axis=-1, keepdims=True)
         return along
 
+    def upright(self) -> NDArray[np.bool_]:
+        """Tell where springs and dampers have turned by less than a right angle from design."""
+        fine = np.ones(len(self.states), dtype=bool)
+        for side in SIDES:
+            design = self.axle.points(side)
+            for name in _FORCES:
+                way = self.points[f"{name}_top_{side}"] - self.points[f"{name}_seat_{side}"]
+                fine &= way @ (design[f"{name}_top"] - design[f"{name}_seat"]) > 0.0
+        return fine
+
     def push_of_tyre(self, side: str) -> Array:
         """Return the force of a tyre, in the plane of its wheel, (n, 3) [N]."""
         force = self.model.signal(f"{side}_axle_tyre_force", self.states, self.inputs)
@@ -127,7 +138,7 @@ class Parts:
         gravity, still = self.model.parameters["gravity"], np.zeros(3)
         return [
             Load(part, "mass", "gravity", -mass * gravity * UP, still, self.centers[part])
-            for part in _MASSIVE
+            for part in MASSIVE
             if (mass := self.mass(part)) * gravity != 0.0
         ]
 

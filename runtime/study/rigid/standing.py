@@ -148,6 +148,8 @@ class _Search:
             states = self.model.placed(*(aims[:, None] + _AROUND).reshape(-1, 2).T)
             reached = (self.model.margins(states) > 0.0).all(axis=-1)
             there = reached.reshape(-1, len(_AROUND)).all(axis=-1)
+            parts = Parts.of(self.model, self.model.placed(*aims[there].T))
+            there[there] = parts.upright()
             self.travels[rows[which[there]]] = aims[there]
             waiting[which[there]], part = False, 0.5 * part
         return ~waiting
@@ -211,11 +213,12 @@ def _at_the_end(model: RigidAxleModel, travels: Array, missing: Array) -> str:
         if model.axle.bump_stop is None:
             advice = "Give the file its [bump_stop], or the case its travel_mm."
     else:
-        problem = f"it lifts the wheel by {force:.4g} N too much"
+        problem = f"a lift of {force:.4g} N too much"
         if model.axle.rebound_stop is None:
             advice = "Give the file its [rebound_stop], or the case its travel_mm."
     left, right = 1e3 * travels
     return (
-        f"it is not carried: the axle goes no farther than to travels of {left:.1f} mm at the left "
-        f"and {right:.1f} mm at the right wheel, and at the {side} one {problem}. {advice}"
+        f"it is not carried: at travels of {left:.1f} mm at the left and {right:.1f} mm at the "
+        "right wheel a rod or a damper reaches no farther, or a spring or a damper has turned by a "
+        f"right angle, and at the {side} one there is {problem}. {advice}"
     )
