@@ -149,7 +149,7 @@ class Parts:
         loads = []
         for name, forces in _FORCES.items():
             for side in SIDES:
-                force = sum(values[f"{side}_{one}"] for one in forces)
+                force = np.sum([values[f"{side}_{one}"] for one in forces], axis=0)
                 top, seat = (f"{name}_{end}_{side}" for end in ("top", "seat"))
                 way = self.points[seat] - self.points[top]
                 push = force[:, None] * way / np.linalg.norm(way, axis=-1, keepdims=True)

@@ -128,13 +128,13 @@ class _Search:
 
     def _ended(self, rows: Rows, missing: Array, slopes: Array) -> Booleans:
         """Tell which cases go no farther, and why those are not carried that are not."""
-        lost = ~np.isfinite(missing).all(axis=-1)
-        still = (np.abs(missing) < _FOUND).all(axis=-1)
+        lost: Booleans = ~np.isfinite(missing).all(axis=-1)
+        still: Booleans = (np.abs(missing) < _FOUND).all(axis=-1)
         for row in rows[lost]:
             self.reasons[row] = DEAD_POINT
         # less travel needs less force
         rates = np.linalg.eigvals(np.nan_to_num(slopes)).real
-        unstable = still & ~(rates > 0.0).all(axis=-1)
+        unstable: Booleans = still & ~(rates > 0.0).all(axis=-1)
         for row in rows[unstable]:
             self.reasons[row] = _UNSTABLE
         return lost | still
@@ -147,7 +147,7 @@ class _Search:
             aims = self.travels[rows[which]] + part * steps[which]
             states = self.model.placed(*(aims[:, None] + _AROUND).reshape(-1, 2).T)
             reached = (self.model.margins(states) > 0.0).all(axis=-1)
-            there = reached.reshape(-1, len(_AROUND)).all(axis=-1)
+            there: Booleans = reached.reshape(-1, len(_AROUND)).all(axis=-1)
             parts = Parts.of(self.model, self.model.placed(*aims[there].T))
             there[there] = parts.upright()
             self.travels[rows[which[there]]] = aims[there]
@@ -197,10 +197,12 @@ def _steps(missing: Array, slopes: Array) -> Array:
     """Return Newton's steps of both wheels, (n, 2) [m]; where it is not stable, steps downhill."""
     rates, ways = np.linalg.eigh(0.5 * (slopes + slopes.mT))
     downhill = (ways * np.maximum(np.abs(rates), _LEAST_RATE)[:, None]) @ ways.mT
-    followed = np.where((rates > _LEAST_RATE).all(axis=-1)[:, None, None], slopes, downhill)
-    steps: Array = -np.linalg.solve(followed, missing[..., None])[..., 0]
+    stable: Booleans = (rates > _LEAST_RATE).all(axis=-1)
+    followed = np.where(stable[:, None, None], slopes, downhill)
+    steps = np.asarray(-np.linalg.solve(followed, missing[..., None])[..., 0], dtype=float)
     longest = np.abs(steps).max(axis=-1, keepdims=True)
-    return steps * np.minimum(1.0, _LONGEST / np.maximum(longest, _SHORTEST))
+    bounded: Array = steps * np.minimum(1.0, _LONGEST / np.maximum(longest, _SHORTEST))
+    return bounded
 
 
 def _at_the_end(model: RigidAxleModel, travels: Array, missing: Array) -> str:
