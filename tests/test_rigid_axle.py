@@ -628,7 +628,7 @@ def test_other_doors_refuse_it_by_name() -> None:
 @pytest.mark.parametrize(
     "line",
     [
-        "loads rigid_axle",
+        "loads rigid_axle --case parking",
         "compliance rigid_axle",
         "deflection rigid_axle",
         "kinematics rigid_axle",
@@ -638,13 +638,12 @@ def test_other_doors_refuse_it_by_name() -> None:
         "topology rigid_axle",
         "compare rigid_axle reference_car",
         "compare rigid_axle reference_axle",
-        "simulate rigid_axle --loads a.csv",
         "simulate rigid_axle --height 400",
         "simulate rigid_axle --rack 5",
         "characteristics rigid_axle --motion steer",
         "characteristics rigid_axle --rack 5",
         "compare rigid_axle rigid_axle --over travel",
-        "report rigid_axle --loads",
+        "report rigid_axle --bushes a.csv",
         "new a.toml --rigid-axle --axle",
         "new a.toml --rigid-axle --template reference_car",
     ],

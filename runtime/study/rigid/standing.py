@@ -37,6 +37,14 @@ _LEAST_RATE, _LONGEST = 100.0, 0.05
 # halved until they are shorter than this [m].
 _MOST, _SHORTEST = 60, 1e-7
 
+# An axle that locks at the end of its reach carries anything, with forces that break it: where it
+# stands, it could go as many times as far.
+_CLEAR = 1.02
+
+_LOCKED = (
+    "it is not carried: the axle would be in balance only at the end of its reach, where the rods "
+    "lock. Give the file its [bump_stop] and [rebound_stop], or the case its travel_mm."
+)
 _UNSTABLE = (
     "it is not carried: no position was found that is stable. Give a wheel its travel_mm, or "
     "correct the forces."
@@ -95,8 +103,17 @@ class _Search:
         for row in rows:
             self.reasons[row] = _UNSTABLE
 
+    def refuse_ends(self, rows: Rows) -> None:
+        """Refuse cases that are carried only where the axle locks, or behind a gap."""
+        rows = rows[self.free[rows].any(axis=-1)]
+        for row in rows[self.model.parts_of_ways(*(_CLEAR * self.travels[rows]).T) < 1.0]:
+            self.reasons[row] = _LOCKED
+
     def refuse_pulls(self, rows: Rows) -> None:
         """Refuse cases in which the road would have to pull at a wheel that is held."""
+        rows = np.array([row for row in rows if not self.reasons[row]], dtype=int)
+        if rows.size == 0:
+            return
         missing = self._missing(rows, self.travels[rows][:, None])[:, 0]
         for row, forces in zip(rows, np.where(self.free[rows], 0.0, missing), strict=True):
             words = [
@@ -128,13 +145,13 @@ class _Search:
 
     def _ended(self, rows: Rows, missing: Array, slopes: Array) -> Booleans:
         """Tell which cases go no farther, and why those are not carried that are not."""
-        lost: Booleans = ~np.isfinite(missing).all(axis=-1)
-        still: Booleans = (np.abs(missing) < _FOUND).all(axis=-1)
+        lost = np.asarray(~np.isfinite(missing).all(axis=-1))
+        still = np.asarray((np.abs(missing) < _FOUND).all(axis=-1))
         for row in rows[lost]:
             self.reasons[row] = DEAD_POINT
         # less travel needs less force
         rates = np.linalg.eigvals(np.nan_to_num(slopes)).real
-        unstable: Booleans = still & ~(rates > 0.0).all(axis=-1)
+        unstable = still & ~np.asarray((rates > 0.0).all(axis=-1))
         for row in rows[unstable]:
             self.reasons[row] = _UNSTABLE
         return lost | still
@@ -146,8 +163,8 @@ class _Search:
             which = np.flatnonzero(waiting)
             aims = self.travels[rows[which]] + part * steps[which]
             states = self.model.placed(*(aims[:, None] + _AROUND).reshape(-1, 2).T)
-            reached = (self.model.margins(states) > 0.0).all(axis=-1)
-            there: Booleans = reached.reshape(-1, len(_AROUND)).all(axis=-1)
+            reached = np.asarray((self.model.margins(states) > 0.0).all(axis=-1))
+            there = np.asarray(reached.reshape(-1, len(_AROUND)).all(axis=-1))
             parts = Parts.of(self.model, self.model.placed(*aims[there].T))
             there[there] = parts.upright()
             self.travels[rows[which[there]]] = aims[there]
@@ -174,11 +191,8 @@ def standing(model: RigidAxleModel, cases: Mapping[str, Sequence[Case]]) -> tupl
     search = _Search.of(model, [*zip(*(cases[side] for side in SIDES), strict=True)])
     search.go()
     rows = np.flatnonzero([not reason for reason in search.reasons])
-    # a step may lead over a gap
-    beyond = model.parts_of_ways(*search.travels[rows].T) < 1.0
-    for row in rows[beyond]:
-        search.reasons[row] = _UNSTABLE
-    search.refuse_pulls(rows[~beyond])
+    search.refuse_ends(rows)
+    search.refuse_pulls(rows)
     lost = np.array([bool(reason) for reason in search.reasons])
     return np.where(lost[:, None], np.nan, search.travels), search.reasons
 
@@ -186,7 +200,8 @@ def standing(model: RigidAxleModel, cases: Mapping[str, Sequence[Case]]) -> tupl
 def outside_of(parts: Parts, cases: Sequence[tuple[Case, ...]]) -> list[Load]:
     """Return what acts on both wheels in each position."""
     loads = []
-    for side, own in zip(SIDES, zip(*cases, strict=True), strict=True):
+    for i, side in enumerate(SIDES):
+        own = [both[i] for both in cases]
         points = {CONTACT: parts.contact(side), CENTER: parts.points[f"{CENTER}_{side}"]}
         found = outside_loads(own, parts.wheel_axes(side), points)
         loads += [of_side(load, f"_{side}") for load in found]
@@ -197,7 +212,7 @@ def _steps(missing: Array, slopes: Array) -> Array:
     """Return Newton's steps of both wheels, (n, 2) [m]; where it is not stable, steps downhill."""
     rates, ways = np.linalg.eigh(0.5 * (slopes + slopes.mT))
     downhill = (ways * np.maximum(np.abs(rates), _LEAST_RATE)[:, None]) @ ways.mT
-    stable: Booleans = (rates > _LEAST_RATE).all(axis=-1)
+    stable = np.asarray((rates > _LEAST_RATE).all(axis=-1))
     followed = np.where(stable[:, None, None], slopes, downhill)
     steps = np.asarray(-np.linalg.solve(followed, missing[..., None])[..., 0], dtype=float)
     longest = np.abs(steps).max(axis=-1, keepdims=True)

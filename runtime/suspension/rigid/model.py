@@ -175,7 +175,7 @@ class RigidAxleModel(System):
         def look(parts: Array, which: NDArray[np.int64]) -> Seen:
             ways = lefts[which, None], rights[which, None]
             margins = self.margins(self.placed(parts * ways[0], parts * ways[1]))
-            fine: NDArray[np.bool_] = (margins > 0.0).all(axis=-1)
+            fine = np.asarray((margins > 0.0).all(axis=-1))
             return Seen(fine, np.zeros(fine.shape, dtype=int), parts, np.ones(fine.shape), margins)
 
         begin = np.zeros(lefts.size)
