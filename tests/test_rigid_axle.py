@@ -628,7 +628,6 @@ def test_other_doors_refuse_it_by_name() -> None:
 @pytest.mark.parametrize(
     "line",
     [
-        "loads rigid_axle --case parking",
         "compliance rigid_axle",
         "deflection rigid_axle",
         "kinematics rigid_axle",
