@@ -734,8 +734,11 @@ def test_two_axles_are_compared_over_the_same_positions() -> None:
 
 @pytest.mark.usefixtures("first_page_of_curves")
 def test_the_commands_of_the_page_run(kintrafo: Any) -> None:  # noqa: F811
-    commands = commands_of(PAGE.read_text(encoding="utf-8"))
-    assert len(commands) == 7
+    page = PAGE.read_text(encoding="utf-8")
+    commands = commands_of(page)
+    assert len(commands) == 11
+    (cases,) = re.findall(r"```toml\n# rear_cases\.toml\n(.*?)```", page, flags=re.DOTALL)
+    Path("rear_cases.toml").write_text(cases, encoding="utf-8")
     for line in commands:
         program, *arguments = shlex.split(line)
         assert program == "kintrafo"
