@@ -35,7 +35,7 @@ _FOUND = 1e-7
 _LEAST_RATE, _LONGEST = 100.0, 0.05
 # A way of 0.5 m, and what a stop that is hit takes besides; steps that lead out of the reach are
 # halved until they are shorter than this [m].
-_MOST, _SHORTEST = 60, 1e-7
+_MOST, _SHORTEST = 60, 1e-4
 
 # An axle that locks at the end of its reach carries anything, with forces that break it: where it
 # stands, it could go as many times as far.

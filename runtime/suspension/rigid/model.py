@@ -108,16 +108,24 @@ class RigidAxleModel(System):
         missed = parts < 1.0
         if missed.any():
             # the one that somebody asked for is at the end of a range
-            far = np.where(missed, np.abs(lefts).ravel() + np.abs(rights).ravel(), -1.0)
+            far = np.where(missed, np.maximum(np.abs(lefts), np.abs(rights)).ravel(), -1.0)
             worst = int(far.argmax())
             where = float(lefts.ravel()[worst]), float(rights.ravel()[worst])
             _refuse(*where, float(parts[worst]))
         return self.placed(lefts, rights)
 
     def placed(self, left: Array, right: Array) -> Array:
-        """Return the states at rest at some travels of the wheels [m], reached or not.
+        """Return the states at rest with the wheels at some travels, whether it gets there or not.
 
-        NaN where no beam is as long as the wheels would be apart.
+        Parameters
+        ----------
+        left, right : ndarray, shape (...)
+            Heights of the wheel centres above design [m].
+
+        Returns
+        -------
+        ndarray, shape (..., 8)
+            NaN where no beam is as long as the wheels would be apart.
         """
         states = np.broadcast_to(self.design_state, (*left.shape, self.design_state.size)).copy()
         states[..., self.state_names.index(HEAVE)] = 0.5 * (left + right)
@@ -127,10 +135,19 @@ class RigidAxleModel(System):
         return states
 
     def margins(self, states: Array) -> Array:
-        """Return what is positive where the axle can be, (..., margins), NaN behind what is not.
+        """Return what is positive where the axle can be.
 
         The rods reach, the dampers are as long as the file allows, and the axle is not inclined
         too far.
+
+        Parameters
+        ----------
+        states : ndarray, shape (..., 8)
+
+        Returns
+        -------
+        ndarray, shape (..., margins)
+            NaN where one before it is not positive.
         """
         rolls = np.abs(states[..., self.state_names.index(ROLL)])
         level = rolls < _MOST_ROLL
@@ -159,7 +176,6 @@ class RigidAxleModel(System):
         """
         with Arguments("farthest") as given:
             left, right = given.number("left", left, "m"), given.number("right", right, "m")
-
         return float(self.parts_of_ways(np.array([left]), np.array([right]))[0])
 
     def parts_of_ways(self, lefts: Array, rights: Array) -> Array:
@@ -169,19 +185,24 @@ class RigidAxleModel(System):
         ----------
         lefts, rights : ndarray, shape (n,)
             Travels of the wheels at the ends of the ways [m].
+
+        Returns
+        -------
+        ndarray, shape (n,)
         """
+        longest = np.maximum(np.abs(lefts), np.abs(rights))
+        # of a way without length either is none
+        senses = np.stack([lefts, rights]) / np.where(longest > 0.0, longest, 1.0)
 
-        # one that the file forbids for a moment only is found as well
-        def look(parts: Array, which: NDArray[np.int64]) -> Seen:
-            ways = lefts[which, None], rights[which, None]
-            margins = self.margins(self.placed(parts * ways[0], parts * ways[1]))
+        def look(along: Array, which: NDArray[np.int64]) -> Seen:
+            margins = self.margins(self.placed(*(senses[:, which, None] * along)))
             fine = np.asarray((margins > 0.0).all(axis=-1))
-            return Seen(fine, np.zeros(fine.shape, dtype=int), parts, np.ones(fine.shape), margins)
+            return Seen(fine, np.zeros(fine.shape, dtype=int), along, np.ones(fine.shape), margins)
 
-        begin = np.zeros(lefts.size)
-        far = max(float(np.abs([lefts, rights]).max(initial=0.0)), _STEP)
-        found, limits = march(look, begin, np.ones(lefts.size), _STEP / far)
-        return np.where(limits == GOAL, 1.0, np.minimum(found, np.nextafter(1.0, 0.0)))
+        found, limits = march(look, np.zeros(lefts.size), longest, _STEP)
+        with np.errstate(invalid="ignore"):
+            short = np.minimum(found / longest, np.nextafter(1.0, 0.0))
+        return np.where(limits == GOAL, 1.0, short)
 
 
 def _refuse(left: float, right: float, part: float) -> None:
