@@ -251,6 +251,25 @@ def test_a_stop_carries_what_the_spring_does_not() -> None:
     assert push == pytest.approx(-1e5 * (travel - 0.02), rel=1e-3)
 
 
+@pytest.mark.parametrize("pressed", [-1e-7, 0.0, 1e-8, 1e-6, 1e-3])
+@pytest.mark.parametrize("rate", [1e5, 1e8])
+def test_a_stop_that_is_hardly_touched_is_found(pressed: float, rate: float) -> None:
+    """What the road gives where it holds both wheels is a case that ends there."""
+    travel = 0.05
+    model = RigidAxleModel(LEVEL)
+    lengths = [
+        float(model.signal("left_damper_length", model.states_at(way, way)))
+        for way in (0.0, travel)
+    ]
+    clearance = 1e3 * (lengths[0] - lengths[1] - pressed)
+    axle = LEVEL.with_changes({"bump_stop": {"clearance_mm": clearance, "rate_N_per_m": rate}})
+    held = rigid_axles.static_loads(axle, {"a": {"travel_mm": 1e3 * travel}}).sel(case="a")
+    road = {side: {"contact_N": [0.0, 0.0, float(held[f"wheel_load_{side}"])]} for side in SIDES}
+    free = rigid_axles.static_loads(axle, {"a": road}).sel(case="a")
+    for side in SIDES:
+        assert float(free[f"travel_{side}"]) == pytest.approx(travel, abs=1e-10)
+
+
 def test_rest_on_the_road_is_the_static_load() -> None:
     found = rigid_axles.static_loads(AXLE).sel(case="static")
     rest = rigid_axles.equilibrium(MODEL)

@@ -120,7 +120,7 @@ def static_loads(
     ...                    "right": {"contact_N": [0, 6000, 9000]}}}
     >>> found = static_loads(RigidAxle.load("rigid_axle"), turn)
     >>> round(float(found["rod_force"].sel(case="corner", rod="panhard_rod")))
-    0
+    7628
     """
     with Arguments("static_loads") as given:
         given.kind("axle", axle, RigidAxle, RigidAxle.NEEDED)

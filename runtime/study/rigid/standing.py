@@ -26,10 +26,13 @@ Array = NDArray[np.float64]
 Booleans = NDArray[np.bool_]
 Rows = NDArray[np.int64]
 
-# Step for slopes by the travel: its square is their error, and rounding over it [m].
-_STEP = 1e-5
-_AROUND = _STEP * np.array([[0, 0], [-1, 0], [1, 0], [0, -1], [0, 1]])
-# So much missing force is rounding: 1e-13 m of a travel by 1e6 N/m, and as much of all sums [N].
+# Steps for slopes by the travel: a tenth of the way that was made last, so that a stop which is
+# hardly touched is not smeared over the gap beside it, at most and at least [m].
+_WIDEST, _LEAST = 1e-5, 1e-10
+_AROUND = np.array([[0, 0], [-1, 0], [1, 0], [0, -1], [0, 1]])
+# Rounding of a missing force: of a travel [m], by what the rates are there, and of what acts.
+_ROUNDING, _PART = 1e-13, 1e-12
+# So much of it is none in any case [N].
 _FOUND = 1e-7
 # No stiffness that is followed is less [N/m], and no step of a wheel is longer [m].
 _LEAST_RATE, _LONGEST = 100.0, 0.05
@@ -42,8 +45,9 @@ _MOST, _SHORTEST = 60, 1e-4
 _CLEAR = 1.02
 
 _LOCKED = (
-    "it is not carried: the axle would be in balance only at the end of its reach, where the rods "
-    "lock. Give the file its [bump_stop] and [rebound_stop], or the case its travel_mm."
+    "it is not carried: the axle would be in balance only at the end of its reach, where its rods "
+    "lock, or beyond a gap of it. Give the file its [bump_stop] and [rebound_stop], or the case "
+    "its travel_mm."
 )
 _UNSTABLE = (
     "it is not carried: no position was found that is stable. Give a wheel its travel_mm, or "
@@ -64,6 +68,8 @@ class _Search:
         Whether a wheel is not held.
     travels : ndarray, shape (cases, 2)
         Of both wheels [m].
+    widths : ndarray, shape (cases,)
+        Of the differences for slopes [m].
     reasons : list of str
         Why a case is not carried; empty where it is.
     """
@@ -72,6 +78,7 @@ class _Search:
     cases: Sequence[tuple[Case, ...]]
     free: Booleans
     travels: Array
+    widths: Array
     reasons: list[str]
 
     @classmethod
@@ -85,7 +92,7 @@ class _Search:
                 model.states_at(*travels[row])
             except PositionError as error:
                 reasons[row] = str(error)
-        return cls(model, cases, free, travels, reasons)
+        return cls(model, cases, free, travels, np.full(len(cases), _WIDEST), reasons)
 
     def go(self) -> None:
         """Bring cases to where they stand, or say why they do not."""
@@ -96,7 +103,9 @@ class _Search:
             missing, slopes = self.needs(rows)
             going = ~self._ended(rows, missing, slopes)
             rows, missing, slopes = rows[going], missing[going], slopes[going]
-            moved = self._moved(rows, _steps(missing, slopes))
+            steps = _steps(missing, slopes)
+            moved = self._moved(rows, steps)
+            self.widths[rows] = np.clip(0.1 * np.abs(steps).max(axis=-1), _LEAST, _WIDEST)
             for row, force in zip(rows[~moved], missing[~moved], strict=True):
                 self.reasons[row] = _at_the_end(self.model, self.travels[row], force)
             rows = rows[moved]
@@ -106,7 +115,11 @@ class _Search:
     def refuse_ends(self, rows: Rows) -> None:
         """Refuse cases that are carried only where the axle locks, or behind a gap."""
         rows = rows[self.free[rows].any(axis=-1)]
-        for row in rows[self.model.parts_of_ways(*(_CLEAR * self.travels[rows]).T) < 1.0]:
+        beyond = self.model.parts_of_ways(*self.travels[rows].T) < 1.0
+        margins = self.model.margins(self.model.placed(*(_CLEAR * self.travels[rows]).T))
+        # those of the rods; a damper may be near the end of its length
+        locked = ~(margins[:, : len(self.model.equations.GUARDS)] > 0.0).all(axis=-1)
+        for row in rows[beyond | locked]:
             self.reasons[row] = _LOCKED
 
     def refuse_pulls(self, rows: Rows) -> None:
@@ -136,17 +149,21 @@ class _Search:
 
         A wheel that is held misses none, and does not ask for more than a soft spring does.
         """
-        found = self._missing(rows, self.travels[rows][:, None] + _AROUND)
+        widths = self.widths[rows][:, None, None]
+        found = self._missing(rows, self.travels[rows][:, None] + widths * _AROUND)
         slopes = np.stack([found[:, 2] - found[:, 1], found[:, 4] - found[:, 3]], -1)
         free = self.free[rows]
         both = free[:, :, None] & free[:, None]
         missing = np.where(free, found[:, 0], 0.0)
-        return missing, np.where(both, slopes / (2.0 * _STEP), _LEAST_RATE * np.eye(2))
+        return missing, np.where(both, slopes / (2.0 * widths), _LEAST_RATE * np.eye(2))
 
     def _ended(self, rows: Rows, missing: Array, slopes: Array) -> Booleans:
         """Tell which cases go no farther, and why those are not carried that are not."""
         lost = np.asarray(~np.isfinite(missing).all(axis=-1))
-        still = np.asarray((np.abs(missing) < _FOUND).all(axis=-1))
+        acting = np.abs([[case.vector for case in self.cases[row]] for row in rows]).max((-2, -1))
+        stiffest = np.abs(slopes).max(axis=(-2, -1))
+        most = np.maximum(_FOUND, _PART * acting + _ROUNDING * stiffest)[:, None]
+        still = np.asarray((np.abs(missing) < most).all(axis=-1))
         for row in rows[lost]:
             self.reasons[row] = DEAD_POINT
         # less travel needs less force
@@ -162,7 +179,8 @@ class _Search:
         while waiting.any() and part * _LONGEST > _SHORTEST:
             which = np.flatnonzero(waiting)
             aims = self.travels[rows[which]] + part * steps[which]
-            states = self.model.placed(*(aims[:, None] + _AROUND).reshape(-1, 2).T)
+            around = aims[:, None] + _WIDEST * _AROUND
+            states = self.model.placed(*around.reshape(-1, 2).T)
             reached = np.asarray((self.model.margins(states) > 0.0).all(axis=-1))
             there = np.asarray(reached.reshape(-1, len(_AROUND)).all(axis=-1))
             parts = Parts.of(self.model, self.model.placed(*aims[there].T))
