@@ -118,7 +118,8 @@ class _Search:
         beyond = self.model.parts_of_ways(*self.travels[rows].T) < 1.0
         margins = self.model.margins(self.model.placed(*(_CLEAR * self.travels[rows]).T))
         # those of the rods; a damper may be near the end of its length
-        locked = ~(margins[:, : len(self.model.equations.GUARDS)] > 0.0).all(axis=-1)
+        closing = margins[:, : len(self.model.equations.GUARDS)]
+        locked = ~np.asarray((closing > 0.0).all(axis=-1))
         for row in rows[beyond | locked]:
             self.reasons[row] = _LOCKED
 
@@ -171,7 +172,8 @@ class _Search:
         unstable = still & ~np.asarray((rates > 0.0).all(axis=-1))
         for row in rows[unstable]:
             self.reasons[row] = _UNSTABLE
-        return lost | still
+        ended: Booleans = lost | still
+        return ended
 
     def _moved(self, rows: Rows, steps: Array) -> Booleans:
         """Go so far of each step as the axle reaches, and tell which have gone anywhere."""
