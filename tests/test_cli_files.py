@@ -44,6 +44,12 @@ WRITING = {
     "simulate --loads": (["simulate", CAR, "--loads", "a.csv"], "a.csv"),
     "loads": (["loads", CAR, "-o", "a.nc"], "a.nc"),
     "loads of an axle": (["loads", "reference_axle", "-o", "a.csv"], "a.csv"),
+    "loads of a rigid axle": (["loads", "rigid_axle", "-o", "a.nc"], "a.nc"),
+    "loads --plot of a rigid axle": (
+        ["loads", "rigid_axle", "--case", "brake", "--plot", "a.svg"],
+        "a_brake.svg",
+    ),
+    "simulate --loads of a rigid axle": (["simulate", "rigid_axle", "--loads", "a.csv"], "a.csv"),
     "loads --plot": (["loads", CAR, "--case", "brake", "--plot", "a.png"], "a_brake.png"),
     "compliance": (["compliance", CAR, str(STUDIES / "bushes.toml"), "--plot", "a.svg"], "a.svg"),
     "deflection": (["deflection", CAR, str(STUDIES / "bushes.toml"), "--plot", "a.svg"], "a.svg"),
@@ -81,6 +87,7 @@ WRITING = {
     ),
     "report": (["report", CAR], f"{CAR}.html"),
     "report of an axle": (["report", "reference_axle"], "reference_axle.html"),
+    "report of a rigid axle": (["report", "rigid_axle", "--loads"], "rigid_axle.html"),
     "paper": (["paper", "."], "figure_6_wheel_motion.svg"),
 }
 

@@ -302,7 +302,7 @@ def test_what_is_carried_without_bound_is_not_carried(monkeypatch: pytest.Monkey
     model = Model(CAR)
     whole, told = loads.static(model, cases), []
     for worst in np.geomspace(1e1, 1e6, 60):
-        monkeypatch.setattr("kintrafo.study.loads.reactions._WORST_CONDITION", worst)
+        monkeypatch.setattr("kintrafo.study.loads.balance._WORST_CONDITION", worst)
         with suppress(InputError):  # none is carried
             found = loads.static(model, cases)
             carried = np.isfinite(found["force"]).all(dim=("load", "axis")).values

@@ -509,6 +509,32 @@ def test_the_damper_ends_the_travel() -> None:
         model.states_at(0.3, 0.3)
 
 
+def test_no_position_is_beyond_a_gap() -> None:
+    """A damper that is shorter than it may be for a part of the way is upside down behind it."""
+    low = AXLE.with_changes(
+        {"hardpoints.damper_top": [-90.0, -560.0, 420.0], "damper.length_min_mm": 60.0}
+    )
+    model = RigidAxleModel(low)
+    end = 0.3 * model.farthest(0.3, 0.3)
+    model.states_at([0.0, end], [0.0, end])
+    for travel in (0.19, 0.25):
+        with pytest.raises(PositionError, match=rf"it comes to \+{1e3 * end:.1f}"):
+            model.states_at(travel, travel)
+        with pytest.raises(PositionError, match="a damper is at the end of its length"):
+            model.states_at([0.0, travel, -0.01], [0.0, travel, 0.01])
+
+
+def test_no_gap_is_too_narrow() -> None:
+    """The shortest that the damper gets on its way, and a micrometre more."""
+    low = AXLE.with_changes({"hardpoints.damper_top": [-90.0, -540.0, 420.0]})
+    travels = np.linspace(0.11, 0.13, 2001)
+    states = RigidAxleModel(low).states_at(travels, travels)
+    least = RigidAxleModel(low).signals(states)["right_damper_length"].min()
+    short = RigidAxleModel(low.with_changes({"damper.length_min_mm": 1e3 * least + 1e-3}))
+    with pytest.raises(PositionError, match="a damper is at the end of its length"):
+        short.states_at(0.2, 0.2)
+
+
 # -- what is refused ------------------------------------------------------------------------------
 
 
@@ -602,7 +628,6 @@ def test_other_doors_refuse_it_by_name() -> None:
 @pytest.mark.parametrize(
     "line",
     [
-        "loads rigid_axle",
         "compliance rigid_axle",
         "deflection rigid_axle",
         "kinematics rigid_axle",
@@ -612,13 +637,12 @@ def test_other_doors_refuse_it_by_name() -> None:
         "topology rigid_axle",
         "compare rigid_axle reference_car",
         "compare rigid_axle reference_axle",
-        "simulate rigid_axle --loads a.csv",
         "simulate rigid_axle --height 400",
         "simulate rigid_axle --rack 5",
         "characteristics rigid_axle --motion steer",
         "characteristics rigid_axle --rack 5",
         "compare rigid_axle rigid_axle --over travel",
-        "report rigid_axle --loads",
+        "report rigid_axle --bushes a.csv",
         "new a.toml --rigid-axle --axle",
         "new a.toml --rigid-axle --template reference_car",
     ],
@@ -710,8 +734,11 @@ def test_two_axles_are_compared_over_the_same_positions() -> None:
 
 @pytest.mark.usefixtures("first_page_of_curves")
 def test_the_commands_of_the_page_run(kintrafo: Any) -> None:  # noqa: F811
-    commands = commands_of(PAGE.read_text(encoding="utf-8"))
-    assert len(commands) == 7
+    page = PAGE.read_text(encoding="utf-8")
+    commands = commands_of(page)
+    assert len(commands) == 11
+    (cases,) = re.findall(r"```toml\n# rear_cases\.toml\n(.*?)```", page, flags=re.DOTALL)
+    Path("rear_cases.toml").write_text(cases, encoding="utf-8")
     for line in commands:
         program, *arguments = shlex.split(line)
         assert program == "kintrafo"

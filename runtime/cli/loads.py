@@ -14,6 +14,8 @@ from .console import console, print_json, print_table, say
 from .exits import Exit
 from .options import File, Force, Json, among, load
 from .outputs import Out, Outputs, name_files
+from .rigid import is_rigid_axle
+from .rigid import loads as of_rigid_axle
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -25,6 +27,7 @@ EXAMPLES = (
     "kintrafo loads my_car.toml --cases cases.toml -o loads.csv",
     "kintrafo loads my_car.toml --case brake --part knuckle --plot knuckle.pdf",
     "kintrafo loads reference_axle --case corner",
+    "kintrafo loads rigid_axle --case brake --part beam --plot beam.png",
 )
 
 
@@ -43,7 +46,8 @@ def command(
         list[str] | None,
         typer.Option(
             metavar="NAME",
-            help="Show loads on these parts: knuckle, chassis, knuckle_left of an axle. "
+            help="Show loads on these parts: knuckle, chassis, knuckle_left of an axle, "
+            "beam of a rigid one. "
             "May be repeated.",
         ),
     ] = None,
@@ -67,7 +71,8 @@ def command(
 ) -> None:
     """Tell forces and moments on every part at its hardpoints, in load cases at rest.
 
-    Of an axle both sides are told, with the anti-roll bar and the rack between them.
+    Of an axle both sides are told, with the anti-roll bar and the rack between them; of a rigid
+    axle its rods, springs and dampers, and both wheels.
     The table has the size of each force; --case shows components. Data files have everything. The
     exit code is 1 where a case cannot be carried.
     """
@@ -110,10 +115,12 @@ def command(
 
 
 def subject(file: str) -> "tuple[Callable[..., Dataset], Mapping[str, Any]]":
-    """Return what finds the loads of a suspension or an axle, and its usual cases."""
+    """Return what finds the loads of a suspension or an axle of any sort, and its usual cases."""
     from ..study import axles, loads
     from ..suspension.axle import Axle
 
+    if is_rigid_axle(file):
+        return of_rigid_axle(file)
     if is_axle(file):
         return partial(axles.static_loads, Axle.load(file)), axles.standard_cases()
     model = load(file)

@@ -20,7 +20,7 @@ EXAMPLES = (
     'kintrafo report my_car.toml front_axle.html --title "Front axle, stage 2"',
     "kintrafo report my_car.toml --loads --bushes bushes.toml",
     "kintrafo report reference_axle",
-    "kintrafo report rigid_axle",
+    "kintrafo report rigid_axle --loads",
 )
 
 
@@ -60,8 +60,12 @@ def command(
     inputs: list[str | Path] = [file, *(read for read in (cases, bushes) if read is not None)]
     refuse([target], force=force, inputs=inputs, endings=ENDINGS)
     if rigid.is_rigid_axle(file):
-        refused = {"--loads": loads or None, "--cases": cases, "--bushes": bushes}
-        say(f"  {rigid.report(file, target, title, refused, force=force, inputs=inputs)}")
+        with problems.status("report"):
+            further = _of_loads(file, cases, wanted=loads)
+            written = rigid.report(
+                file, target, title, further, {"--bushes": bushes}, force=force, inputs=inputs
+            )
+        say(f"  {written}")
         return
     model, title, axle = _subject(file, title)
     without = _of_one_side(axle)

@@ -15,8 +15,11 @@ from .options import among
 from .outputs import Outputs, name_files, named
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
     from xarray import Dataset
 
+    from ..report import Chapter
     from ..study.axles.motions import Extent
     from ..study.rigid.checkup import RigidAxleCheckup
 
@@ -153,24 +156,32 @@ def ride(file: str, wheels: str, refused: Mapping[str, Any]) -> Ride:
     played = partial(study.run, wheels=wheels)
     model = RigidAxleModel(file)
     curves = (*of_sides, *_OF_AXLE)
-    return Ride(model, played, curves, _no_loads, by_side, wheels=("left_", "right_"))
+    return Ride(model, played, curves, study.loads_along, by_side, wheels=("left_", "right_"))
 
 
-def _no_loads(model: Any, result: Any) -> "Dataset":
-    """Stand where loads of other axles are; `ride` has refused them."""
-    raise NotImplementedError(model, result)
+def loads(file: str) -> "tuple[Callable[..., Dataset], Mapping[str, Any]]":
+    """Return what finds the loads of a rigid axle, and its usual cases."""
+    from ..study import rigid as study
+    from ..suspension.rigid import RigidAxle
+
+    axle = RigidAxle.load(file)
+    return partial(study.static_loads, axle), study.standard_cases(axle)
 
 
 def report(
     file: str,
     target: Path,
     title: str | None,
+    further: "Sequence[Chapter]",
     refused: Mapping[str, Any],
     *,
     force: bool,
     inputs: list[str | Path],
 ) -> Path:
-    """Write the report of a rigid axle: drawings, tables and curves, nothing to be moved."""
+    """Write the report of a rigid axle: drawings, tables, curves, and further chapters.
+
+    There is nothing to be moved.
+    """
     from ..report import rigid_axle_chapters, write_chapters
     from ..suspension.rigid import RigidAxle
 
@@ -178,7 +189,7 @@ def report(
     axle = RigidAxle.load(file)
     heading = axle.heading()
     heading = title or f"{heading[:1].upper()}{heading[1:]}"
-    chapters = rigid_axle_chapters(axle)
+    chapters = [*rigid_axle_chapters(axle), *further]
     return write_chapters(
         target, title=heading, chapters=chapters, data=axle, force=force, inputs=inputs
     )

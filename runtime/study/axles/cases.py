@@ -58,6 +58,13 @@ def _of_side(given: Arguments, name: str, table: Any, side: str) -> Any:
     return both | dict(own)
 
 
+def tables_of(described: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+    """Return all tables that there are in load cases: of both wheels, and of one."""
+    every = [*described.values()]
+    every += [t.get(side) for t in described.values() if isinstance(t, Mapping) for side in SIDES]
+    return [table for table in every if isinstance(table, Mapping)]
+
+
 def standard_cases() -> dict[str, dict[str, Any]]:
     """Return the usual load cases of an axle, in parts of the static load of each wheel.
 

@@ -21,7 +21,7 @@ from ..loads.reactions import Load
 from ..loads.standing import standing
 from ..loads.static import Side, dataset_of_cases, in_parts_of_it
 from .between import RACK, SIDES, STEERING, Between, pull_of_bar, rules_of
-from .cases import cases_of_sides, standard_cases
+from .cases import cases_of_sides, standard_cases, tables_of
 from .standing import Wheel, balanced
 
 
@@ -103,8 +103,7 @@ def _at_rest_on_the_road(
     given: Arguments, axle: Axle, described: Mapping[str, Any]
 ) -> dict[str, float]:
     """Return the vertical forces on both wheels at rest, where a case needs them [N]."""
-    own = [t.get(side) for t in described.values() if isinstance(t, Mapping) for side in SIDES]
-    if not in_parts_of_it([*described.values(), *own]):
+    if not in_parts_of_it(tables_of(described)):
         return dict.fromkeys(SIDES, 0.0)
     try:
         if axle.halves:

@@ -9,23 +9,18 @@ from numpy.typing import NDArray
 
 from ...core.arguments import Arguments
 from ...core.quantities import variable
-from ...core.vectors import cross
 from ...simulation.result import Simulation
 from ...suspension.model import Model
 from ...systems.inputs import rates_of
 from ...systems.system import System
 from ..recording import TIME
 from .dataset import Between, alone, dataset_of, joined
+from .inertia import Twists, tensor_of_part, tensor_of_wheel
 from .poses import CENTER, CONTACT, Poses
 from .reactions import Equations, Load, known
 
 Array = NDArray[np.float64]
 
-# Accelerations of parts are the derivative of their velocities along the motion, by a difference of
-# fourth order over a step in which no state changes by more than this [rad, m, rad/s, m/s]: its
-# error is of the fourth power of that, and rounding 1e-16 over it.
-_STEP = 1e-3
-_WEIGHTS = {-2: 1 / 12, -1: -8 / 12, 1: 8 / 12, 2: -1 / 12}
 # Signals of the same car in the same states agree to that, whatever computed them.
 _SAME = 1e-6
 # So many moments are looked at together, for the memory of it.
@@ -166,54 +161,25 @@ def _on_the_wheel(poses: Poses) -> list[Load]:
 
 def _inertia(poses: Poses, parts: tuple[str, ...], by_time: Array) -> list[Load]:
     """Return what the acceleration of each part takes, as loads."""
-    model = poses.model
-    twists = model.evaluate("velocities", poses.states, poses.inputs)
-    rates = _rates_of_twists(model, poses.states, poses.inputs, by_time)
+    model, values = poses.model, poses.model.parameters
+    rates_of_inputs = _rates_of_inputs(model, poses.inputs)
+    twists = Twists.of(model, poses.states, poses.inputs, by_time, rates_of_inputs)
+    axis = model.suspension.wheel.spin_axis(model.suspension.vehicle.sign)
     loads = []
-    for part in parts:
-        mass = model.parameters[f"{part}_mass"]
-        if mass == 0.0:
-            continue
-        which = model.equations.BODIES.index(part)
-        turning, rate = twists[:, which, :3], rates[:, which]
-        inertia = poses.turned[part] @ _inertia_at_design(poses, part) @ poses.turned[part].mT
-        momentum = np.einsum("nij,nj->ni", inertia, turning)
-        moment = np.einsum("nij,nj->ni", inertia, rate[:, :3]) + cross(turning, momentum)
-        loads.append(
-            Load(part, "mass", "inertia", -mass * rate[:, 3:], -moment, poses.centers[part])
-        )
+    for part in (part for part in parts if values[f"{part}_mass"] != 0.0):
+        wheel = part == "wheel"
+        tensor = tensor_of_wheel(values, part, axis) if wheel else tensor_of_part(values, part)
+        mass, turned, center = values[f"{part}_mass"], poses.turned[part], poses.centers[part]
+        loads.append(twists.load(part, part, mass, tensor, turned, center))
     return loads
 
 
-def _inertia_at_design(poses: Poses, part: str) -> Array:
-    """Return the inertia tensor of a part about its centre of mass at design, (3, 3) [kg m^2]."""
-    values = poses.model.parameters
-    if part == "wheel":
-        axis = poses.model.suspension.wheel.spin_axis(poses.model.suspension.vehicle.sign)
-        spin, across = values["wheel_inertia_spin"], values["wheel_inertia_diametral"]
-        symmetric: Array = across * np.eye(3) + (spin - across) * np.outer(axis, axis)
-        return symmetric
-    xx, yy, zz, xy, xz, yz = (
-        values[f"{part}_inertia_{name}"] for name in ("xx", "yy", "zz", "xy", "xz", "yz")
-    )
-    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-
-
-def _rates_of_twists(model: Model, states: Array, inputs: Array, by_time: Array) -> Array:
-    """Return the rates of the parts' angular and linear velocities along the motion."""
-    inputs_by_time = np.zeros_like(inputs)
+def _rates_of_inputs(model: Model, inputs: Array) -> Array:
+    """Return the rates of the inputs that parts move by: those of a rack that is held."""
+    by_time = np.zeros_like(inputs)
     if model.suspension.steered() and not model.free_rack:
         names = ("rack_position", *rates_of("rack_position", model.equations.INPUTS))
         position, velocity, acceleration = (model.input_names.index(name) for name in names)
-        inputs_by_time[:, position] = inputs[:, velocity]
-        inputs_by_time[:, velocity] = inputs[:, acceleration]
-    fastest = np.maximum(
-        np.abs(by_time).max(axis=1), np.abs(inputs_by_time).max(axis=1, initial=0.0)
-    )
-    step = _STEP / np.maximum(fastest, 1.0)[:, None]
-    total = np.zeros((*states.shape[:1], len(model.equations.BODIES), 6))
-    for by, weight in _WEIGHTS.items():
-        moved = (states + by * step * by_time, inputs + by * step * inputs_by_time)
-        total += weight * model.evaluate("velocities", *moved)
-    rates: Array = total / step[:, :, None]
-    return rates
+        by_time[:, position] = inputs[:, velocity]
+        by_time[:, velocity] = inputs[:, acceleration]
+    return by_time

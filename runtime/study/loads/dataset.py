@@ -8,6 +8,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ...core.arguments import Arguments
+from ...core.errors import InputError
 from ...core.quantities import variable
 from ...core.vectors import cross
 from ...suspension.structure import GROUND
@@ -59,7 +60,7 @@ def joined(
         By what goes behind the names of a side.
     between : callable, optional
     """
-    every = [_of_side(load, suffix) for suffix, own in loads.items() for load in own]
+    every = [of_side(load, suffix) for suffix, own in loads.items() for load in own]
     places = {
         f"{part}{suffix}": Place(side.centers[part], side.turned[part])
         for suffix, side in poses.items()
@@ -69,7 +70,7 @@ def joined(
     return every, places | shared
 
 
-def _of_side(load: Load, suffix: str) -> Load:
+def of_side(load: Load, suffix: str) -> Load:
     """Return a load whose names say of which side it is; what there is once has none."""
     return replace(
         load,
@@ -128,6 +129,40 @@ def dataset_of(over: str, loads: Sequence[Load], places: Mapping[str, Place]) ->
         "moving_part": moving,
     }
     return xr.Dataset(data, coordinates)
+
+
+def over_cases(
+    found: xr.Dataset, names: Sequence[str], carried: Sequence[int], reasons: Sequence[str]
+) -> xr.Dataset:
+    """Return the loads of the cases that are carried as those of all cases.
+
+    Parameters
+    ----------
+    found : xarray.Dataset
+        Over the cases that are carried.
+    names : sequence of str
+        Of all cases.
+    carried : sequence of int
+        Which of them are carried.
+    reasons : sequence of str
+        Why a case is not carried; empty where it is.
+    """
+    found = found.assign_coords({CASE: [names[i] for i in carried]}).reindex({CASE: [*names]})
+    found["reason"] = variable(CASE, np.array(reasons), "why the case cannot be carried", "1")
+    message = f"{len(carried)} of {len(names)} cases are carried"
+    return found.assign_attrs(title="loads in load cases", message=message)
+
+
+def refuse_if_none(names: Sequence[str], carried: Sequence[int], reasons: Sequence[str]) -> None:
+    """Refuse cases of which none can be carried, see `over_cases`.
+
+    Raises
+    ------
+    InputError
+    """
+    if not carried:
+        told = [f"{name}: {reason}" for name, reason in zip(names, reasons, strict=True)]
+        raise InputError(["none of the cases can be carried", *told[:3]], "loads")
 
 
 def _sum(fields: dict[str, Array], rows: list[bool], about: Array) -> tuple[Array, Array]:

@@ -97,10 +97,20 @@ class Poses:
 
         Forward is horizontal in the plane of the wheel, as in the tyre axes of ISO 8855.
         """
-        side = self.model.suspension.vehicle.sign
-        forward = cross(side * self.axis, UP)
-        forward /= np.linalg.norm(forward, axis=-1, keepdims=True)
-        return np.stack([forward, cross(UP, forward), np.broadcast_to(UP, forward.shape)], -2)
+        return road_axes(self.model.suspension.vehicle.sign * self.axis)
+
+
+def road_axes(left: Array) -> Array:
+    """Return the axes of wheels on the road, see `Poses.wheel_axes`.
+
+    Parameters
+    ----------
+    left : ndarray, shape (n, 3)
+        Spin axes that point left.
+    """
+    forward = cross(left, UP)
+    forward /= np.linalg.norm(forward, axis=-1, keepdims=True)
+    return np.stack([forward, cross(UP, forward), np.broadcast_to(UP, forward.shape)], -2)
 
 
 def rotated(matrix: Array, rotation: Array) -> Array:

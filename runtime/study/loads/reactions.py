@@ -2,31 +2,19 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import InputError
-from ...core.threads import in_one_thread
 from ...core.vectors import cross
 from ...suspension.corner import UP
 from ...suspension.structure import GROUND, Joint, Line
+from .balance import DEAD_POINT, balanced
 from .poses import CENTER, CONTACT, Poses, wrench_about
 
 Array = NDArray[np.float64]
-
-# Rounding of loads, 1e-16, that equations so near to singular enlarge to 1e-6 of them; of cars
-# within their travel it is some hundreds.
-_WORST_CONDITION = 1e10
-# Vectors that show how much equations enlarge what is random: of a condition nearly all of it.
-_PROBES = 2
-
-DEAD_POINT = (
-    "the linkage is at a dead point, or what holds it has no leverage: the joints carry anything."
-)
-"""Why there are no loads."""
 
 
 @dataclass(frozen=True)
@@ -124,16 +112,7 @@ class Equations:
 
         Where they do not is a dead point: there they are no numbers.
         """
-        several = applied.ndim == self._matrix.ndim
-        vectors = -applied if several else -applied[..., None]
-        # what enlarges any of these enlarges rounding, too
-        probes = np.broadcast_to(_probes(vectors.shape[-2]), (*vectors.shape[:-1], _PROBES))
-        found = _solution(self._matrix, np.concatenate([vectors, probes], axis=-1))
-        size = np.abs(self._matrix).sum(-2).max(-1)
-        enlarged = size * np.abs(found[..., -_PROBES:]).max((-2, -1))
-        sound: NDArray[np.bool_] = enlarged < _WORST_CONDITION
-        found[~sound] = np.nan
-        return found[..., :-_PROBES] if several else found[..., 0], sound
+        return balanced(self._matrix, applied)
 
     def applied(self, loads: list[Load]) -> Array:
         """Return loads as a vector, (n, 6 parts)."""
@@ -198,23 +177,6 @@ def _along(poses: Poses, line: Line, force: Array) -> list[Load]:
     return [
         Load(part, point, line.name, end, np.zeros(3), points[point]) for part, point, end in ends
     ]
-
-
-@cache
-def _probes(size: int) -> Array:
-    """Return vectors of signs, the same in every run."""
-    return np.random.default_rng(0).choice([-1.0, 1.0], (size, _PROBES))
-
-
-@in_one_thread
-def _solution(matrix: Array, right: Array) -> Array:
-    """Return solutions; of matrices that are singular to the last bit huge numbers."""
-    try:
-        found: Array = np.linalg.solve(matrix, right).astype(float)
-    except np.linalg.LinAlgError:  # one spoils all
-        found = np.linalg.pinv(matrix, rcond=1e-15) @ right
-        found[np.linalg.cond(matrix) >= _WORST_CONDITION] = np.inf
-    return found
 
 
 def _on_both(joint: Joint, point: str, wrench: Array, at: Array) -> list[Load]:

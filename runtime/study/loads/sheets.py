@@ -15,7 +15,7 @@ _IN_TABLES = (
 )  # fmt: skip
 _BESIDE = {"elastokinematic": "on bushes", "linear": "linear"}
 
-_ACTING = ("spring", "damper", "road", "drive", "steering")
+_ACTING = ("spring", "damper", "road", "drive", "steering", "bar")
 
 
 def acts(by: str) -> bool:
@@ -49,11 +49,17 @@ def overview(found: xr.Dataset, title: str, parts: Sequence[str] = ()) -> Tabula
         rows.append((f"wheel {_words(name)} [mm]", *texts))
     if "bar_torque" in found:
         rows.append(("bar torque [N m]", *(whole(float(m)) for m in found["bar_torque"].values)))
+    rods = [] if parts or "rod_force" not in found else [str(name) for name in found["rod"].values]
+    for rod in rods:
+        pulls = found["rod_force"].sel(rod=rod).values
+        rows.append((f"{rod}, pull", *(whole(float(pull)) for pull in pulls)))
     sizes = np.linalg.norm(found["force"].values, axis=-1)
     for i in shown_rows(found, parts):
-        point, by = str(found["point"].values[i]), str(found["by"].values[i])
-        name = by if acts(by) else point
-        rows.append((name, *(whole(float(size)) for size in sizes[:, i])))
+        part, point, by = (str(found[name].values[i]) for name in ("part", "point", "by"))
+        # a rod has its row, and the torque of a bar
+        if part not in rods and by not in rods and np.nan_to_num(sizes[:, i]).any():
+            name = by if acts(by) else point
+            rows.append((name, *(whole(float(size)) for size in sizes[:, i])))
     return Tabulated(title, ("at", *map(str, found["case"].values)), tuple(rows))
 
 

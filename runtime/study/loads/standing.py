@@ -1,4 +1,4 @@
-"""Where a suspension stands under load cases, and what acts on its wheel there."""
+"""Where a suspension stands under load cases."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -10,9 +10,11 @@ from scipy.optimize.elementwise import find_root
 from ...suspension.model import Model
 from ...suspension.positions import PositionError, arm_angles, design_height
 from ...suspension.reach import at_rest, travel_range
+from .balance import DEAD_POINT
 from .cases import Case
+from .outside import outside_loads
 from .poses import CENTER, CONTACT, Poses
-from .reactions import DEAD_POINT, Equations, Load, known
+from .reactions import Equations, known
 from .swing import Swing
 
 Array = NDArray[np.float64]
@@ -131,32 +133,5 @@ def holding_forces(swing: Swing, outside: Array) -> Array:
 
 def _applied(poses: Poses, cases: Sequence[Case]) -> Array:
     """Return what acts on the parts as a vector, see `Equations.applied`."""
-    return Equations(poses).applied([*known(poses), *outside_loads(poses, cases)])
-
-
-def outside_loads(poses: Poses, cases: Sequence[Case]) -> list[Load]:
-    """Return what acts on the wheel in each position."""
-    axes = poses.wheel_axes()
-
-    def turned(vectors: list[Array]) -> Array:
-        rotated: Array = np.einsum("nij,ni->nj", axes, np.array(vectors))
-        return rotated
-
-    return [
-        Load(
-            "wheel",
-            CONTACT,
-            "road",
-            turned([case.contact for case in cases]),
-            turned([case.contact_moment for case in cases]),
-            poses.points[CONTACT],
-        ),
-        Load(
-            "wheel",
-            CENTER,
-            "drive",
-            turned([case.center for case in cases]),
-            turned([case.center_moment for case in cases]),
-            poses.points[CENTER],
-        ),
-    ]
+    outside = outside_loads(cases, poses.wheel_axes(), poses.points)
+    return Equations(poses).applied([*known(poses), *outside])

@@ -9,17 +9,18 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ...core.arguments import Arguments
-from ...core.errors import InputError
 from ...core.quantities import variable
 from ...suspension.corner import UP
 from ...suspension.model import Model
 from ...suspension.positions import PositionError, design_height, equilibrium
 from ...suspension.reach import at_rest
+from .balance import DEAD_POINT
 from .cases import GREATEST, Case, cases_of, standard_cases
-from .dataset import CASE, Between, alone, dataset_of, joined
+from .dataset import CASE, Between, alone, dataset_of, joined, over_cases, refuse_if_none
+from .outside import outside_loads
 from .poses import CENTER, Poses
-from .reactions import DEAD_POINT, Equations, Load, known
-from .standing import outside_loads, standing
+from .reactions import Equations, Load, known
+from .standing import standing
 
 Array = NDArray[np.float64]
 
@@ -150,7 +151,7 @@ class _Stand:
         racks = np.array([case.rack for case in cases])
         poses = Poses.of(side.model, *at_rest(side.model, side.angles[[*rows]], racks))
         equations = Equations(poses)
-        road, drive = outside_loads(poses, cases)
+        road, drive = outside_loads(cases, poses.wheel_axes(), poses.points)
         acting = [*known(poses), *side.pulled(poses, rows)]
         unknowns, sound = equations.solved(equations.applied([*acting, road, drive]))
         # the road has what holds a suspension that is held; nothing has what is left of others
@@ -186,9 +187,8 @@ def dataset_of_cases(
     cases = next(iter(sides.values())).cases
     finite = np.isfinite([side.angles for side in sides.values()]).all(axis=0)
     carried = np.flatnonzero(finite).tolist()
-    if not carried:
-        names = [f"{c.name}: {reason}" for c, reason in zip(cases, reasons, strict=True)]
-        raise InputError(["none of the cases can be carried", *names[:3]], "loads")
+    names = [case.name for case in cases]
+    refuse_if_none(names, carried, reasons)
     stands = {suffix: _Stand.of(side, carried) for suffix, side in sides.items()}
     sound = np.all([stand.sound for stand in stands.values()], axis=0)
     if not sound.all():  # these are not carried either
@@ -210,8 +210,4 @@ def dataset_of_cases(
         for name, (values, words, unit) in stand.told.items()
     }
     found = found.assign({name: variable(CASE, *told) for name, told in described.items()})
-    found = found.assign_coords({CASE: [cases[i].name for i in carried]})
-    found = found.reindex({CASE: [case.name for case in cases]})
-    found["reason"] = variable(CASE, np.array(reasons), "why the case cannot be carried", "1")
-    message = f"{len(carried)} of {len(cases)} cases are carried"
-    return found.assign_attrs(title="loads in load cases", message=message)
+    return over_cases(found, names, carried, reasons)

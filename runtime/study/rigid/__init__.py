@@ -6,13 +6,20 @@
     `datasets`  the labelled arrays over bump, roll and one wheel's travel
     `checkup`   a first look
     `ride`      over a road
+    `parts`     the parts at many positions, and what acts on them by itself
+    `balance`   what rods, bearings and the road carry
+    `standing`  where both wheels stand under load cases
+    `loads`     what every part carries in load cases
+    `along`     the same along a motion
 
 Definitions and signs: docs/rigid-axle.md.
 """
 
 from ...suspension.rigid.model import equilibrium
+from .along import loads_along
 from .checkup import checkup
 from .datasets import MOTIONS, bump, compare, over, roll, single
+from .loads import standard_cases, static_loads
 from .ride import run
 
 __all__ = [
@@ -21,8 +28,11 @@ __all__ = [
     "checkup",
     "compare",
     "equilibrium",
+    "loads_along",
     "over",
     "roll",
     "run",
     "single",
+    "standard_cases",
+    "static_loads",
 ]

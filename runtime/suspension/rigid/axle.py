@@ -44,6 +44,10 @@ _SMALLEST_HALF_TRACK = 0.1
 _SMALLEST_ANGLE = 1.0
 # Two ends of a rod are farther apart than this [m], and no coordinate is larger than that.
 _SHORTEST, _LARGEST = 0.001, 20.0
+# What loads are on, or come from, besides the rods; there are two of most of them.
+_PARTS = (
+    "chassis", "beam", "wheel", "spring", "damper", "bar", "road", "drive", "gravity", "inertia",
+)  # fmt: skip
 # A wheel centre lower than this above z = 0 says that z = 0 is not the ground [m].
 _SMALLEST_WHEEL_RADIUS = 0.1
 
@@ -324,6 +328,13 @@ class RigidAxle(Section):
             "Rename the rod."
             for name in ends
             if not re.fullmatch("[A-Za-z][A-Za-z0-9_-]*", name)
+        ]
+        problems += [
+            f"[rods] {name!r} is the name of another part, which loads could not tell apart from "
+            f"it; {', '.join(_PARTS)} are taken, with _left and _right behind them as well. "
+            "Rename the rod."
+            for name in ends
+            if name.removesuffix("_left").removesuffix("_right") in _PARTS
         ]
         for name, (chassis, axle) in ends.items():
             length = float(np.linalg.norm(axle - chassis))

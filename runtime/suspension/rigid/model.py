@@ -18,9 +18,8 @@ from ...systems.system import System
 from ..axle.axle import LEFT, RIGHT
 from ..corner import Array
 from ..reach import PositionError, refuse_beyond
+from ..swing import GOAL, Seen, march
 from .axle import SIDES, RigidAxle
-
-Booleans = NDArray[np.bool_]
 
 HEAVE, ROLL = "heave", "roll"
 """The coordinates: height of the middle between the wheels above design [m], inclination [rad]."""
@@ -29,8 +28,8 @@ HEAVE, ROLL = "heave", "roll"
 _MOST_ROLL = np.pi / 4.0
 # Lengths at design are read from the same numbers [m].
 _ROUNDING = 1e-12
-# A way is looked at in so many steps, and its end found by so many halvings of one.
-_STEPS, _HALVINGS = 64, 40
+# A way is looked at in steps of this travel at most [m].
+_STEP = 0.02
 # What is left of the forces at rest, over the stiffness times a metre, or a radian.
 _AT_REST = 1e-9
 
@@ -105,14 +104,62 @@ class RigidAxleModel(System):
                     f"left has {lefts.size} travels and right {rights.size}: as many are needed."
                 )
         lefts, rights = np.broadcast_arrays(lefts, rights)
-        states = self._states(lefts, rights)
-        missed = ~self._reached(states)
+        parts = self.parts_of_ways(lefts.ravel(), rights.ravel())
+        missed = parts < 1.0
         if missed.any():
             # the one that somebody asked for is at the end of a range
-            far = np.where(missed, np.abs(lefts).ravel() + np.abs(rights).ravel(), -1.0)
+            far = np.where(missed, np.maximum(np.abs(lefts), np.abs(rights)).ravel(), -1.0)
             worst = int(far.argmax())
-            self._refuse(float(lefts.ravel()[worst]), float(rights.ravel()[worst]))
+            where = float(lefts.ravel()[worst]), float(rights.ravel()[worst])
+            _refuse(*where, float(parts[worst]))
+        return self.placed(lefts, rights)
+
+    def placed(self, left: Array, right: Array) -> Array:
+        """Return the states at rest with the wheels at some travels, whether it gets there or not.
+
+        Parameters
+        ----------
+        left, right : ndarray, shape (...)
+            Heights of the wheel centres above design [m].
+
+        Returns
+        -------
+        ndarray, shape (..., 8)
+            NaN where no beam is as long as the wheels would be apart.
+        """
+        states = np.broadcast_to(self.design_state, (*left.shape, self.design_state.size)).copy()
+        states[..., self.state_names.index(HEAVE)] = 0.5 * (left + right)
+        with np.errstate(invalid="ignore"):
+            rolls = np.arcsin(0.5 * (left - right) / self.axle.half_track)
+        states[..., self.state_names.index(ROLL)] = rolls
         return states
+
+    def margins(self, states: Array) -> Array:
+        """Return what is positive where the axle can be.
+
+        The rods reach, the dampers are as long as the file allows, and the axle is not inclined
+        too far.
+
+        Parameters
+        ----------
+        states : ndarray, shape (..., 8)
+
+        Returns
+        -------
+        ndarray, shape (..., margins)
+            NaN where one before it is not positive.
+        """
+        rolls = np.abs(states[..., self.state_names.index(ROLL)])
+        level = rolls < _MOST_ROLL
+        closing = np.full((*level.shape, len(self.equations.GUARDS)), np.nan)
+        closing[level] = self.evaluate("margins", states[level])
+        closes = (closing > 0.0).all(axis=-1)
+        allowed = self.allowed_lengths()
+        left = np.full((*level.shape, len(allowed)), np.nan)
+        if allowed:
+            signals = self.signals(states[closes])
+            left[closes] = np.stack([one.left(signals) + _ROUNDING for one in allowed], axis=-1)
+        return np.concatenate([closing, left, (_MOST_ROLL - rolls)[..., None]], axis=-1)
 
     def farthest(self, left: float, right: float) -> float:
         """Return how much of a way from design the axle can go, straight in the wheels' travels.
@@ -129,54 +176,45 @@ class RigidAxleModel(System):
         """
         with Arguments("farthest") as given:
             left, right = given.number("left", left, "m"), given.number("right", right, "m")
+        return float(self.parts_of_ways(np.array([left]), np.array([right]))[0])
 
-        def reached(parts: Array) -> Booleans:
-            return self._reached(self._states(parts * left, parts * right))
+    def parts_of_ways(self, lefts: Array, rights: Array) -> Array:
+        """Return how much of each way from design the axle can go, see `farthest`.
 
-        parts = np.linspace(0.0, 1.0, _STEPS + 1)
-        missed = np.flatnonzero(~reached(parts))
-        if missed.size == 0:
-            return 1.0
-        if missed[0] == 0:
-            return 0.0
-        low, high = float(parts[missed[0] - 1]), float(parts[missed[0]])
-        for _ in range(_HALVINGS):
-            middle = 0.5 * (low + high)
-            low, high = (middle, high) if reached(np.array([middle])).all() else (low, middle)
-        return low
+        Parameters
+        ----------
+        lefts, rights : ndarray, shape (n,)
+            Travels of the wheels at the ends of the ways [m].
 
-    def _states(self, left: Array, right: Array) -> Array:
-        """Return states at rest; NaN where no beam is as long as the wheels would be apart."""
-        states = np.broadcast_to(self.design_state, (*left.shape, self.design_state.size)).copy()
-        states[..., self.state_names.index(HEAVE)] = 0.5 * (left + right)
+        Returns
+        -------
+        ndarray, shape (n,)
+        """
+        longest = np.maximum(np.abs(lefts), np.abs(rights))
+        # of a way without length either is none
+        senses = np.stack([lefts, rights]) / np.where(longest > 0.0, longest, 1.0)
+
+        def look(along: Array, which: NDArray[np.int64]) -> Seen:
+            margins = self.margins(self.placed(*(senses[:, which, None] * along)))
+            fine = np.asarray((margins > 0.0).all(axis=-1))
+            return Seen(fine, np.zeros(fine.shape, dtype=int), along, np.ones(fine.shape), margins)
+
+        found, limits = march(look, np.zeros(lefts.size), longest, _STEP)
         with np.errstate(invalid="ignore"):
-            rolls = np.arcsin(0.5 * (left - right) / self.axle.half_track)
-        states[..., self.state_names.index(ROLL)] = rolls
-        return states
+            short = np.minimum(found / longest, np.nextafter(1.0, 0.0))
+        return np.where(limits == GOAL, 1.0, short)
 
-    def _reached(self, states: Array) -> Booleans:
-        """Tell of each state whether the rods reach, and the dampers are long and short enough."""
-        rolls = states[..., self.state_names.index(ROLL)]
-        fine: Booleans = np.atleast_1d(np.abs(rolls) < _MOST_ROLL)
-        rows = np.atleast_2d(states)
-        fine[fine] = (self.evaluate("margins", rows[fine]) > 0.0).all(axis=-1)
-        signals = self.signals(rows[fine])
-        allowed = np.ones(int(fine.sum()), dtype=bool)
-        for one in self.allowed_lengths():
-            allowed &= one.left(signals) >= -_ROUNDING
-        fine[fine] = allowed
-        return fine
 
-    def _refuse(self, left: float, right: float) -> None:
-        part = self.farthest(left, right)
-        ends = np.floor(1e5 * part * np.abs([left, right])) / 1e2 * np.sign([left, right])
-        message = (
-            f"the axle cannot be with its left wheel at {1e3 * left:+g} mm and its right one at "
-            f"{1e3 * right:+g} mm from design: on this way it comes to {ends[0]:+.2f} mm and "
-            f"{ends[1]:+.2f} mm, where a rod reaches no farther, a damper is at the end of its "
-            "length, or the axle is inclined by 45 deg. Choose less."
-        )
-        raise PositionError(message)
+def _refuse(left: float, right: float, part: float) -> None:
+    """Refuse travels of which the axle can go a part."""
+    ends = np.floor(1e5 * part * np.abs([left, right])) / 1e2 * np.sign([left, right])
+    message = (
+        f"the axle cannot be with its left wheel at {1e3 * left:+g} mm and its right one at "
+        f"{1e3 * right:+g} mm from design: on this way it comes to {ends[0]:+.2f} mm and "
+        f"{ends[1]:+.2f} mm, where a rod reaches no farther, a damper is at the end of its "
+        "length, or the axle is inclined by 45 deg. Choose less."
+    )
+    raise PositionError(message)
 
 
 def _axle_of(given: Any) -> RigidAxle:
@@ -259,6 +297,9 @@ def equilibrium(
         raise PositionError(message)
     state = at(found)
     refuse_beyond(model, state, held)
+    rise = model.axle.half_track * np.sin(found[1])
+    if model.farthest(found[0] + rise, found[0] - rise) < 1.0:
+        raise PositionError(message)
     for side in (LEFT, RIGHT):
         state[model.state_names.index(f"{side}_spin_angle_rate")] = spin
     return State.of(state, held, model.names_of_states)

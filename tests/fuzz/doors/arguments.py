@@ -25,6 +25,7 @@ from kintrafo import (
     measurement,
     plots,
     rig,
+    rigid_axles,
     roads,
     scenario,
     sweep,
@@ -53,6 +54,8 @@ _BAR = {
     "link_foot": [30.0, -580.0, 200.0], "link_on": "control_arm", "axis": [0.0, 1.0, 0.0],
     "rate_Nm_per_deg": None, "diameter_mm": 20.0, "length_mm": 800.0, "inner_diameter_mm": 0.0,
 }  # fmt: skip
+_RIGID = kintrafo.RigidAxle.load("rigid_axle")
+_RIDE, _ = rigid_axles.run(kintrafo.RigidAxleModel(_RIGID), scenario.Scenario(duration=0.01))
 _EXTENT = axles.Extent(rebound=0.01, bump=0.01, roll=0.01, rack=0.01, step=0.01)
 _ONE_CURVE = _DATASET[["camber"]]
 _MEASURED = characteristics.travel(_CAR, [-0.02, 0.0, 0.02])[["toe", "camber"]]
@@ -407,6 +410,25 @@ CALLS = {
         },
     ),
     "axles.loads_along": (axles.loads_along, {"model": None, "result": _RESULT}),
+    "rigid_axles.static_loads": (
+        rigid_axles.static_loads,
+        {"axle": _RIGID, "cases": {"a": {"contact_g": [0.0, 0.0, 1.0]}}, "static_load": 3000.0},
+    ),
+    "load case of a rigid axle": (
+        lambda **given: rigid_axles.static_loads(_RIGID, {"a": given}),
+        {
+            "travel_mm": None, "contact_N": [0.0, 100.0, 3000.0], "contact_g": [0.1, 0.0, 0.0],
+            "left": {"contact_Nm": [10.0, 0.0, 0.0]}, "right": {"center_N": [1.0, 0.0, 0.0]},
+        },
+    ),
+    "rigid axle held at a travel": (
+        lambda **given: rigid_axles.static_loads(_RIGID, {"a": given}),
+        {"travel_mm": 10.0, "contact_N": [100.0, 0.0, 0.0], "right": {}},
+    ),
+    "rigid_axles.standard_cases": (rigid_axles.standard_cases, {"axle": _RIGID}),
+    "rigid_axles.loads_along": (
+        rigid_axles.loads_along, {"model": kintrafo.RigidAxleModel(_RIGID), "result": _RIDE}
+    ),
     "axles.compliance": (
         axles.compliance,
         {

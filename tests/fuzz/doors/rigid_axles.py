@@ -2,6 +2,7 @@
 
 Every position that comes back is measured: the lengths of the rods between the chassis and the
 beam where the equations put it, axes that are orthonormal, and the heights that were asked for.
+Loads that come back balance each other, and where they do not there is a reason.
 """
 
 from __future__ import annotations
@@ -38,6 +39,7 @@ def attempt(random):
     if not np.isfinite(curves["axle_steer"]).all():
         raise WrongError(f"axle steer {curves['axle_steer'].values} at design")
     rigid_axles.equilibrium(model)
+    _check_loads(axle, random)
 
 
 def _changes(random):
@@ -90,3 +92,31 @@ def _check(model, left, right):
         height = (middle + axes @ (hub - com))[2]
         if not abs(height - axle.center[2] - travel) <= PROMISED:
             raise WrongError(f"{travel} m asked for, {height - axle.center[2]} m found")
+
+
+def _check_loads(axle, random):
+    cases = {f"case_{i}": {s: _forces(random) for s in ("left", "right")} for i in range(3)}
+    found = rigid_axles.static_loads(axle, cases, static_load=6000.0)
+    for name in cases:
+        here = found.sel(case=name)
+        if str(here["reason"].values):
+            if np.isfinite(here["force"]).any():
+                raise WrongError(f"forces in {name}, which is not carried")
+            continue
+        largest = float(abs(here["force"]).max())
+        for left in ("residual", "residual_moment", "holding_force_left", "holding_force_right"):
+            # a missing force of 1e-7 N is looked for, whatever there is to carry
+            if not float(abs(here[left]).max()) <= 1e-6 + PROMISED * largest:
+                raise WrongError(f"{left} of {name}: {here[left].values}, of {largest} N")
+
+
+def _forces(random):
+    """Return what a case says of a wheel."""
+    size = 10.0 ** random.uniform(-2.0, 1.0)
+    case = {"contact_g": [*random.normal(size=2) * size, float(random.uniform(0.0, 2.0) * size)]}
+    if random.random() < 0.2:
+        case["contact_g"][2] = 0.0
+        case["travel_mm"] = float(random.normal() * 100.0)
+    if random.random() < 0.3:
+        case["center_N"] = (random.normal(size=3) * 1e3 * size).tolist()
+    return case

@@ -1,0 +1,16 @@
+"""Draw docs/images/rigid_axle_loads.png: ``python docs/images/rigid_axle_loads.py``."""  # noqa: INP001 (a script beside its picture)
+
+from pathlib import Path
+
+from kintrafo import RigidAxle, rigid_axles
+from kintrafo.plots.figures import STYLE, save
+from kintrafo.plots.loads import free_bodies
+from matplotlib import rc_context
+
+if __name__ == "__main__":
+    axle = RigidAxle.load("rigid_axle")
+    corner = {"corner": rigid_axles.standard_cases(axle)["corner"]}
+    with rc_context(STYLE):
+        found = rigid_axles.static_loads(axle, corner)
+        drawn = free_bodies(found, "corner", ["beam"], title="Forces on the axle in a corner")
+        save(drawn, Path(__file__).with_suffix(".png"), force=True)

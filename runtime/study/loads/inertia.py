@@ -1,0 +1,100 @@
+"""What the acceleration of a part takes, as a load on it: Euler's equations in chassis axes."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.vectors import cross
+from ...systems.system import System
+from .reactions import Load
+
+Array = NDArray[np.float64]
+
+# Accelerations of parts are the derivative of their velocities along the motion, by a difference of
+# fourth order over a step in which no state changes by more than this [rad, m, rad/s, m/s]: its
+# error is of the fourth power of that, and rounding 1e-16 over it.
+_STEP = 1e-3
+_WEIGHTS = {-2: 1 / 12, -1: -8 / 12, 1: 8 / 12, 2: -1 / 12}
+
+
+@dataclass(frozen=True)
+class Twists:
+    """How the parts of a system move in many states.
+
+    Attributes
+    ----------
+    bodies : tuple of str
+    twists, rates : ndarray, shape (n, bodies, 6)
+        Angular velocity and velocity of the centre of mass of each, and their derivatives by time.
+    """
+
+    bodies: tuple[str, ...]
+    twists: Array
+    rates: Array
+
+    @classmethod
+    def of(
+        cls, model: System, states: Array, inputs: Array, by_time: Array, inputs_by_time: Array
+    ) -> "Twists":
+        """Return them along a motion.
+
+        Parameters
+        ----------
+        model : System
+        states, inputs : ndarray
+            As in the compiled module.
+        by_time, inputs_by_time : ndarray
+            Their rates.
+        """
+        fastest = np.maximum(
+            np.abs(by_time).max(axis=1), np.abs(inputs_by_time).max(axis=1, initial=0.0)
+        )
+        step = _STEP / np.maximum(fastest, 1.0)[:, None]
+        twists = model.evaluate("velocities", states, inputs)
+        total = np.zeros_like(twists)
+        for by, weight in _WEIGHTS.items():
+            moved = (states + by * step * by_time, inputs + by * step * inputs_by_time)
+            total += weight * model.evaluate("velocities", *moved)
+        return cls(tuple(model.equations.BODIES), twists, total / step[:, :, None])
+
+    def load(
+        self, body: str, part: str, mass: float, tensor: Array, turned: Array, center: Array
+    ) -> Load:
+        """Return what the acceleration of a part takes.
+
+        Parameters
+        ----------
+        body, part : str
+            What it is called in the equations, and among the loads.
+        mass : float
+            [kg]
+        tensor : ndarray, shape (3, 3)
+            Its inertia about its centre of mass at design, chassis axes [kg m^2].
+        turned : ndarray, shape (n, 3, 3)
+            Its rotation from design.
+        center : ndarray, shape (n, 3)
+            Its centre of mass [m].
+        """
+        which = self.bodies.index(body)
+        turning, rate = self.twists[:, which, :3], self.rates[:, which]
+        inertia = turned @ tensor @ turned.mT
+        momentum = np.einsum("nij,nj->ni", inertia, turning)
+        moment = np.einsum("nij,nj->ni", inertia, rate[:, :3]) + cross(turning, momentum)
+        return Load(part, "mass", "inertia", -mass * rate[:, 3:], -moment, center)
+
+
+def tensor_of_part(parameters: Mapping[str, float], part: str) -> Array:
+    """Return the inertia tensor of a part about its centre of mass at design [kg m^2]."""
+    xx, yy, zz, xy, xz, yz = (
+        parameters[f"{part}_inertia_{name}"] for name in ("xx", "yy", "zz", "xy", "xz", "yz")
+    )
+    return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+
+
+def tensor_of_wheel(parameters: Mapping[str, float], wheel: str, axis: Array) -> Array:
+    """Return the inertia tensor of a wheel with a spin axis at design [kg m^2]."""
+    spin, across = (parameters[f"{wheel}_inertia_{name}"] for name in ("spin", "diametral"))
+    tensor: Array = across * np.eye(3) + (spin - across) * np.outer(axis, axis)
+    return tensor

@@ -1,0 +1,199 @@
+"""The parts of a rigid axle at many positions, and what acts on them by itself.
+
+The parts are the beam, both wheels and the rods; names of points and of what there is twice end in
+``_left`` and ``_right``, as those of other axles do.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...suspension.corner import UP
+from ...suspension.rigid.axle import RigidAxle
+from ...suspension.rigid.model import RigidAxleModel
+from ...suspension.structure import FORCES_OF_A_DAMPER
+from ..characteristics.wheel import lowest_point, upward_across
+from ..loads.poses import CENTER, CONTACT, road_axes
+from ..loads.reactions import Load
+from .beam import SENSE, SIDES
+
+Array = NDArray[np.float64]
+
+BEAM, BAR, CHASSIS = "beam", "bar", "chassis"
+MIDDLE = "axle_middle"
+"""The point between the wheel centres."""
+
+PARAMETERS = {BEAM: "beam", "wheel_left": "left_wheel", "wheel_right": "wheel"}
+"""What begins the names of the parameters of parts with mass."""
+
+MASSIVE = {BEAM: "beam", "wheel_left": "left_wheel", "wheel_right": "right_wheel"}
+"""What they are called in the equations."""
+
+_LEFTWARD = np.array([0.0, 1.0, 0.0])
+# The signals and inputs of a side that are the force of a spring or a damper.
+_FORCES = {
+    "spring": ("spring_spring_force", "spring_actuator"),
+    "damper": tuple(f"damper_{name}" for name in FORCES_OF_A_DAMPER),
+}
+
+
+@dataclass(frozen=True)
+class Parts:
+    """A rigid axle in n positions.
+
+    Attributes
+    ----------
+    model : RigidAxleModel
+    states, inputs : ndarray
+        As in the compiled module.
+    centers, turned : dict of str to ndarray
+        Of each part a point, (n, 3) [m]: the centre of mass, of rods their middle; and the rotation
+        from design, (n, 3, 3).
+    points : dict of str to ndarray
+        By name, (n, 3) [m].
+    """
+
+    model: RigidAxleModel
+    states: Array
+    inputs: Array
+    centers: dict[str, Array]
+    turned: dict[str, Array]
+    points: dict[str, Array]
+
+    @classmethod
+    def of(cls, model: RigidAxleModel, states: Array, inputs: Array | None = None) -> "Parts":
+        """Return the parts in some states, by default without any input."""
+        if inputs is None:
+            inputs = np.zeros((len(states), len(model.input_names)))
+        bodies = {name: f"rod_{i}" for i, name in enumerate(model.axle.rods, 1)} | MASSIVE
+        rows = [model.equations.BODIES.index(body) for body in bodies.values()]
+        places = np.moveaxis(model.evaluate("positions", states, inputs)[:, rows], 1, 0)
+        turns = np.moveaxis(model.evaluate("orientations", states, inputs)[:, rows], 1, 0)
+        centers, turned = (dict(zip(bodies, found, strict=True)) for found in (places, turns))
+        points = _points(model.axle, centers[BEAM], turned[BEAM])
+        # rods have no mass, and so none of their own
+        for name in model.axle.rods:
+            centers[name] = 0.5 * (points[f"{name}_{CHASSIS}"] + points[f"{name}_axle"])
+        return cls(model, states, inputs, centers, turned, points)
+
+    @property
+    def axle(self) -> RigidAxle:
+        """The axle."""
+        return self.model.axle
+
+    def mass(self, part: str) -> float:
+        """Return the mass of a part [kg]."""
+        return self.model.parameters[f"{PARAMETERS[part]}_mass"]
+
+    def wheel_axis(self, side: str) -> Array:
+        """Return the spin axis of a wheel, which points left, (n, 3)."""
+        axis: Array = self.turned[BEAM] @ self.axle.wheel.spin_axis(SENSE[side])
+        return axis
+
+    def wheel_axes(self, side: str) -> Array:
+        """Return the axes of a wheel on the road as rows, (n, 3, 3): forward, left, up."""
+        return road_axes(self.wheel_axis(side))
+
+    def contact(self, side: str) -> Array:
+        """Return the lowest point of a wheel; its centre, where its radius is not known."""
+        point = self.points.get(f"{CONTACT}_{side}")
+        return self.points[f"{CENTER}_{side}"] if point is None else point
+
+    def rod(self, name: str) -> Array:
+        """Return the unit vector along a rod from the axle to the chassis, (n, 3)."""
+        way = self.points[f"{name}_{CHASSIS}"] - self.points[f"{name}_axle"]
+        along: Array = way / np.linalg.norm(way, axis=-1, keepdims=True)
+        return along
+
+    def upright(self) -> NDArray[np.bool_]:
+        """Tell where springs and dampers have turned by less than a right angle from design."""
+        fine = np.ones(len(self.states), dtype=bool)
+        for side in SIDES:
+            design = self.axle.points(side)
+            for name in _FORCES:
+                way = self.points[f"{name}_top_{side}"] - self.points[f"{name}_seat_{side}"]
+                fine &= way @ (design[f"{name}_top"] - design[f"{name}_seat"]) > 0.0
+        return fine
+
+    def push_of_tyre(self, side: str) -> Array:
+        """Return the force of a tyre, in the plane of its wheel, (n, 3) [N]."""
+        force = self.model.signal(f"{side}_axle_tyre_force", self.states, self.inputs)
+        push: Array = force[:, None] * upward_across(self.wheel_axis(side))
+        return push
+
+    def torque_of_bar(self) -> Array:
+        """Return that of the anti-roll bar, positive with the left wheel up, (n,) [N m]."""
+        rolls = self.states[:, self.model.state_names.index("roll")]
+        torque: Array = self.model.parameters["bar_rate"] * rolls
+        return torque
+
+    # -- what acts ------------------------------------------------------------------------------
+
+    def acting(self) -> list[Load]:
+        """Return what acts without anybody's doing: weights, springs, dampers, stops, the bar."""
+        return [*self._weights(), *self._along_lines(), *self._of_bar()]
+
+    def _weights(self) -> list[Load]:
+        gravity, still = self.model.parameters["gravity"], np.zeros(3)
+        return [
+            Load(part, "mass", "gravity", -mass * gravity * UP, still, self.centers[part])
+            for part in MASSIVE
+            if (mass := self.mass(part)) * gravity != 0.0
+        ]
+
+    def _along_lines(self) -> list[Load]:
+        """Return what springs and dampers with their stops do, at both of their ends."""
+        values = self.model.signals(self.states, self.inputs)
+        values |= dict(zip(self.model.input_names, self.inputs.T, strict=True))
+        loads = []
+        for name, forces in _FORCES.items():
+            for side in SIDES:
+                force = np.sum([values[f"{side}_{one}"] for one in forces], axis=0)
+                top, seat = (f"{name}_{end}_{side}" for end in ("top", "seat"))
+                way = self.points[seat] - self.points[top]
+                push = force[:, None] * way / np.linalg.norm(way, axis=-1, keepdims=True)
+                loads += [
+                    Load(part, point, f"{name}_{side}", end, np.zeros(3), self.points[point])
+                    for part, point, end in ((CHASSIS, top, -push), (BEAM, seat, push))
+                ]
+        return loads
+
+    def _of_bar(self) -> list[Load]:
+        """Return the couple of the anti-roll bar, about the axle's axis forward."""
+        if self.axle.anti_roll_bar is None:
+            return []
+        # the line through the wheels points left, and what is forward of it is level
+        forward = road_axes(self.turned[BEAM][:, :, 1])[:, 0]
+        couple, at = -self.torque_of_bar()[:, None] * forward, self.points[MIDDLE]
+        return [
+            Load(part, MIDDLE, BAR, np.zeros(3), sign * couple, at)
+            for part, sign in ((BEAM, 1.0), (CHASSIS, -1.0))
+        ]
+
+
+def _points(axle: RigidAxle, center: Array, turned: Array) -> dict[str, Array]:
+    """Return all points where the centre of mass of the beam is at some place, and how it turned.
+
+    Parameters
+    ----------
+    axle : RigidAxle
+    center : ndarray, shape (n, 3)
+    turned : ndarray, shape (n, 3, 3)
+    """
+    still, moved = {}, {MIDDLE: axle.center}
+    for name, (inner, outer) in axle.ends().items():
+        still[f"{name}_{CHASSIS}"], moved[f"{name}_axle"] = inner, outer
+    for side in SIDES:
+        for name, point in axle.points(side).items():
+            (still if name.endswith("_top") else moved)[f"{name}_{side}"] = point
+        moved[f"{CENTER}_{side}"] = axle.center + SENSE[side] * axle.half_track * _LEFTWARD
+    begin = axle.bodies.beam.centre_of_mass(axle.hardpoints)
+    points = {name: np.broadcast_to(point, center.shape) for name, point in still.items()}
+    points |= {name: center + turned @ (point - begin) for name, point in moved.items()}
+    radius = axle.tyre_radius()
+    if radius is not None:
+        for side in SIDES:
+            axis = turned @ axle.wheel.spin_axis(SENSE[side])
+            points[f"{CONTACT}_{side}"] = lowest_point(points[f"{CENTER}_{side}"], axis, radius)
+    return points
