@@ -19,7 +19,7 @@ import sympy as sp
 from ..program.functions import Component, Frozen, Guarded, IsPositive, Iterated, Positive, SignOf
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from ..program.function import Function
 
@@ -43,6 +43,11 @@ _LATENCY = {
 }
 
 
+# Compilers take 256 brackets within each other or more, and Python some 300 calls. A sum of which
+# each term waits for the one before is as deep as it is long.
+_DEEPEST = 64
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Operation:
     """An operation and its operands.
@@ -60,21 +65,32 @@ class Operation:
         the block, the place of the component.
     ready
         When the result is there, in cycles from the start of the function.
+    depth
+        How many operations stand within each other.
     """
 
     kind: str
     operands: tuple[Operation, ...] = ()
     of: Any = None
     ready: int = 0
+    depth: int = 0
 
 
 @dataclass(frozen=True, slots=True)
 class Assignment:
-    """A value with a name, and the part of the derivation that it belongs to."""
+    """A value with a name, and the part of the derivation that it belongs to.
+
+    Attributes
+    ----------
+    name, value, section
+    within
+        The step whose value this is a part of; empty for a step itself.
+    """
 
     name: str
     value: Operation
     section: str
+    within: str = ""
 
 
 @dataclass(frozen=True)
@@ -97,12 +113,28 @@ def ordered(function: Function) -> Schedule:
 
 def _ordered(function: Function) -> Schedule:
     ready: dict[sp.Symbol, int] = {}
-    steps = []
+    steps: list[Assignment] = []
+    taken = {s.name for s in (*function.free_symbols, *(step.symbol for step in function.steps))}
+
+    def value_of(expression: sp.Expr, name: str, section: str) -> Operation:
+        """Return a value; what would stand too deep in it becomes a step before it."""
+        names = (n for i in count(1) if (n := f"{name}_part_{i}") not in taken)
+        scheduler = _Scheduler(ready, names)
+        value = scheduler.operation(expression)
+        taken.update(part for part, _ in scheduler.parts)
+        steps.extend(Assignment(part, of, section, name) for part, of in scheduler.parts)
+        return value
+
     for step in function.steps:
-        value = schedule(step.expression, ready)
-        steps.append(Assignment(step.symbol.name, value, step.section))
+        name = step.symbol.name
+        value = value_of(step.expression, name, step.section)
+        steps.append(Assignment(name, value, step.section))
         ready[step.symbol] = value.ready
-    return Schedule(tuple(steps), tuple(schedule(result, ready) for result in function.results))
+    results = [
+        value_of(result, f"result_{place}", "results")
+        for place, result in enumerate(function.results)
+    ]
+    return Schedule(tuple(steps), tuple(results))
 
 
 def schedule(expression: sp.Expr, ready: Mapping[sp.Symbol, int] | None = None) -> Operation:
@@ -125,9 +157,20 @@ def schedule(expression: sp.Expr, ready: Mapping[sp.Symbol, int] | None = None) 
 
 @dataclass(frozen=True)
 class _Scheduler:
-    """Puts expressions in order, given when their symbols are there."""
+    """Puts expressions in order, given when their symbols are there.
+
+    Attributes
+    ----------
+    ready
+    names
+        What parts may be called that would stand too deep; none: they stand as deep as they do.
+    parts
+        Those, by name.
+    """
 
     ready: Mapping[sp.Symbol, int] = field(default_factory=dict)
+    names: Iterator[str] | None = None
+    parts: list[tuple[str, Operation]] = field(default_factory=list)
 
     def operation(self, expression: sp.Expr) -> Operation:
         if expression.is_Symbol:
@@ -166,8 +209,25 @@ class _Scheduler:
         if all(negative for _, negative in terms):  # the sign goes to what waits anyway
             first = min(range(len(terms)), key=lambda i: terms[i][0].ready)
             terms[first] = _after("negate", terms[first][0]), False
-        total, _ = _join(terms, _add)
+        total, _ = _join(terms, self._added)
         return total
+
+    def _added(
+        self, one: tuple[Operation, bool], two: tuple[Operation, bool]
+    ) -> tuple[Operation, bool]:
+        total, negative = _add(one, two)
+        return self._shallow(total), negative
+
+    def _multiplied(self, one: Operation, two: Operation) -> Operation:
+        return self._shallow(_after("multiply", one, two))
+
+    def _shallow(self, operation: Operation) -> Operation:
+        """Return an operation, or the name of it where it is too deep."""
+        if self.names is None or operation.depth < _DEEPEST:
+            return operation
+        name = next(self.names)
+        self.parts.append((name, operation))
+        return Operation("symbol", of=sp.Symbol(name), ready=operation.ready)
 
     def _product(self, expression: sp.Expr) -> Operation:
         negative, magnitude = _signed(expression)
@@ -179,8 +239,9 @@ class _Scheduler:
         if coefficient != 1:
             above.insert(0, self.operation(coefficient))
         if not below:
-            return _join(above, _multiply)
-        return _after("divide", _join(above, _multiply) if above else _ONE, _join(below, _multiply))
+            return _join(above, self._multiplied)
+        dividend = _join(above, self._multiplied) if above else _ONE
+        return _after("divide", dividend, _join(below, self._multiplied))
 
     def _power(self, expression: sp.Expr) -> Operation:
         base, exponent = expression.base, expression.exp
@@ -194,7 +255,7 @@ class _Scheduler:
         factors = [factor] * int(whole)
         if half:
             factors.append(_after("root", factor))
-        return _join(factors, _multiply)
+        return _join(factors, self._multiplied)
 
 
 _ONE = Operation("number", of=sp.Integer(1))
@@ -203,7 +264,8 @@ _ONE = Operation("number", of=sp.Integer(1))
 def _after(kind: str, *operands: Operation, of: Any = None) -> Operation:
     """Return an operation that starts when its operands are there."""
     start = max((operand.ready for operand in operands), default=0)
-    return Operation(kind, operands, of, start + _LATENCY[kind])
+    depth = max((operand.depth for operand in operands), default=0)
+    return Operation(kind, operands, of, start + _LATENCY[kind], depth + 1)
 
 
 def _join(parts: Sequence[T], together: Callable[[T, T], T]) -> T:
@@ -220,10 +282,6 @@ def _join(parts: Sequence[T], together: Callable[[T, T], T]) -> T:
 
 def _ready(part: Operation | tuple[Operation, bool]) -> int:
     return part.ready if isinstance(part, Operation) else part[0].ready
-
-
-def _multiply(one: Operation, two: Operation) -> Operation:
-    return _after("multiply", one, two)
 
 
 def _add(one: tuple[Operation, bool], two: tuple[Operation, bool]) -> tuple[Operation, bool]:

@@ -187,7 +187,7 @@ class _Values:
         for member in members:
             values._add(member, steps, results)
         if order:
-            steps.sort(key=lambda step: order.get(step[1].name, len(order)))
+            steps.sort(key=lambda step: order.get(step[1].within or step[1].name, len(order)))
         values.schedule = values._written(steps, results)
         return values
 

@@ -246,8 +246,12 @@ class Topology:
         joints = tuple(self.joint_between(a, b) for a, b in pairwise([*turned, turned[0]]))
         length = sum(j.freedoms for j in joints)
         normal = self._planes.normal(joints)
-        center = common_center(joints, AtDefaults(self.mechanism))
+        center = common_center(joints, self._at_defaults)
         return Cycle(joints, tuple(turned), length, normal, center)
+
+    @cached_property
+    def _at_defaults(self) -> AtDefaults:
+        return AtDefaults(self.mechanism)
 
     @cached_property
     def _planes(self) -> Planes:
