@@ -1,4 +1,4 @@
-"""How everything grows with the number of loops: a chain of four-bar linkages, N = 1 to 40.
+"""How everything grows with the number of loops: a chain of four-bar linkages, N = 1 to 100.
 
 ``python -m benchmarks.growth`` derives, emits, compiles and runs the chain of
 `kintrafo.generator.mechanisms.n_four_bar` (benchmark A02 of the IFToMM library is N = 2), and
@@ -54,7 +54,7 @@ from .report import (
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
-SIZES = (1, 2, 5, 10, 20, 40)
+SIZES = (1, 2, 5, 10, 20, 40, 100)
 RATE = 2.0  # of the rockers at the start, hanging [rad/s]
 DURATION = 1.0  # [s]
 TOLERANCE = 1e-9

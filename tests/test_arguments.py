@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from kintrafo.core.arguments import Arguments, shown
 from kintrafo.generated import four_bar
+from kintrafo.study.scenario import Scenario
 
 CAR = kintrafo.Model("reference_car")
 SYSTEM = kintrafo.System(four_bar)
@@ -24,6 +25,24 @@ SPAN = (0.0, 0.01)
         (lambda: kintrafo.simulate(CAR, SPAN, "x"), "y0 = 'x': numbers"),
         (lambda: kintrafo.simulate(CAR, 1.0, REST), "t_span = 1.0: two different"),
         (lambda: kintrafo.simulate(CAR, SPAN, REST, inputs=[1]), r"inputs = \[1\]: a dict"),
+        (
+            lambda: kintrafo.simulate(CAR, SPAN, REST, inputs=np.arange(3.0)),
+            r"inputs = array\(\[0., 1., 2.\]\): a dict",
+        ),
+        (
+            lambda: Scenario(inputs=None).start(CAR),
+            "inputs = None: a dict of input names",
+        ),
+        (
+            lambda: kintrafo.simulate(
+                CAR, SPAN, REST, inputs={"road_height": ([0.0, 10**400], [0.0, 0.0])}
+            ),
+            "two rows of numbers",
+        ),
+        (
+            lambda: kintrafo.simulate(CAR, SPAN, REST, inputs={"road_height": lambda _: 10**400}),
+            r"at t = 0 s is 10{59}\.\.\.: a finite number",
+        ),
         (
             lambda: kintrafo.simulate(CAR, SPAN, REST, inputs={"road_height": "0.01"}),
             "'road_height' = '0.01'",
@@ -54,6 +73,12 @@ SPAN = (0.0, 0.01)
 def test_a_mistake_is_told(call, words):
     with pytest.raises(kintrafo.InputError, match=words):
         call()
+
+
+def test_an_error_of_an_event_says_where_it_was():
+    with pytest.raises(TypeError) as caught:
+        kintrafo.simulate(CAR, SPAN, REST, events=lambda: 0.0)
+    assert caught.value.__notes__ == ["This was raised by the event <lambda>, at t = 0 s."]
 
 
 def test_all_that_is_wrong_is_told_at_once():

@@ -141,3 +141,25 @@ def test_status_bits() -> None:
     assert [bit_of(guard) for guard in (0, 28, 29, 30, 90)] == [0, 28, 29, 29, 29]
     assert mask_of([]) == NOT_FINITE
     assert mask_of([0, 3, 40]) == NOT_FINITE | 0b1001 | 1 << LAST_GUARD_BIT
+
+
+def test_a_sum_of_which_each_term_waits_for_the_one_before_is_cut_into_steps() -> None:
+    """A compiler takes some hundred brackets within each other, and a long chain makes more."""
+    names = [sp.Symbol(f"term_{i}") for i in range(600)]
+    start, factor = sp.symbols("start factor")
+    pairs = zip(names, [start, *names[:-1]], strict=True)
+    made = function("long", {name.name: before * factor for name, before in pairs}, sp.Add(*names))
+    order = scheduled(made)
+    texts = [text_of(value, NUMPY) for value in (*(s.value for s in order.steps), *order.results)]
+    assert max(_brackets(text) for text in texts) < 100
+    values = {"start": np.float64(0.3), "factor": np.float64(1.01)}
+    # as long a sum one after the other, which rounds a little each time
+    expected = 0.3 * sum(1.01 ** (i + 1) for i in range(600))
+    np.testing.assert_allclose(evaluated(order, values), [expected], rtol=600 * 2.3e-16)
+    assert operations_of(made).total() == 2 * 600 - 1
+
+
+def _brackets(text: str) -> int:
+    """Return how many brackets are open at a time."""
+    depths = np.cumsum([{"(": 1, ")": -1}.get(letter, 0) for letter in text])
+    return int(depths.max(initial=0))

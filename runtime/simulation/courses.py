@@ -97,7 +97,7 @@ def _sampled(name: str, samples: Samples, t_span: tuple[float, float], rates: in
         raise InputError([problem], "inputs")
     try:
         times, values = (np.asarray(s, dtype=np.float64) for s in (samples.times, samples.values))
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         problem = f"{name!r}: samples are two rows of numbers, times and values."
         raise InputError([problem], "inputs") from None
     _check_samples(name, times, values, t_span)

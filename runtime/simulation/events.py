@@ -184,6 +184,10 @@ class _CheckedFunction:
         return cls(function, name, float(direction), terminal)
 
     def __call__(self, time: float, state: Any) -> float:
-        value = self.function(time, state)
+        try:
+            value = self.function(time, state)
+        except Exception as error:
+            error.add_note(f"This was raised by the event {self.name}, at t = {time:.6g} s.")
+            raise
         with Arguments("events") as given:
             return given.number(f"{self.name} at {time:.6g} s", value)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from ..core.arguments import shown
 from ..core.errors import InputError
 
 Array = NDArray[np.float64]
@@ -150,10 +151,10 @@ def _value(name: str, function: Callable[[float], Any], time: float) -> float:
         raise
     try:
         value = float(given)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         value = math.nan
     if not math.isfinite(value):
-        _refuse(f"{name!r} at t = {time:.6g} s is {given!r}: a finite number is needed.")
+        _refuse(f"{name!r} at t = {time:.6g} s is {shown(given)}: a finite number is needed.")
     return value
 
 

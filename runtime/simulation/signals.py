@@ -164,11 +164,13 @@ def time_inputs(
     TimeInputs
     """
     names, inputs = model.input_names, model.equations.INPUTS
-    derived = derived_inputs(inputs) if signals else {}
     with Arguments("inputs") as given:
-        given.mapping("inputs", {} if signals is None else signals, "input names, what they do")
+        courses = given.mapping(
+            "inputs", {} if signals is None else signals, "input names, what they do"
+        )
+    derived = derived_inputs(inputs) if courses else {}
     collected = _Collected(np.zeros(len(names)) if held is None else held.copy())
-    for name, signal in (signals or {}).items():
+    for name, signal in courses.items():
         if name not in names or name in derived:
             raise InputError([_refusal(name, names, derived)], "inputs")
         rates = len(rates_of(name, inputs))

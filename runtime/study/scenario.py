@@ -67,6 +67,8 @@ class Scenario:
 
     def start(self, model: Model) -> Array:
         """Return the state at the start, with road and rack as they are then."""
+        with Arguments("simulation") as checked:
+            checked.mapping("inputs", self.inputs, "input names, what they do")
         given = time_inputs(model, self.inputs, (0.0, self.duration))
         at_start = given.at(0.0, given.segments[0])
         known = dict(zip(model.input_names, map(float, at_start), strict=True))

@@ -149,7 +149,7 @@ def _row(values: Any) -> NDArray[Any] | None:
         return None
     try:
         array = np.asarray(values)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         return None
     # numbers, or labels of any kinds
     plain = array.dtype != object or all(isinstance(v, str | float | int) for v in array.flat)
