@@ -81,7 +81,7 @@ benchmark-andrews: build ## Andrews' squeezer here and as a differential-algebra
 benchmark-loops: build ## Loops without a closed form against paths in maximal coordinates
 	@PYTHONPATH=tests $(PYTHON) -m benchmarks.loops --page docs/own-mechanism.md $(ARGS)
 
-benchmark-growth: build ## A chain of 1 to 40 loops: derivation, code and run time against its length
+benchmark-growth: build ## A chain of 1 to 100 loops: derivation, code and run time against its length
 	@$(PYTHON) -m benchmarks.growth --out out/benchmark --page docs/growth.md
 
 benchmark-ensemble: build ## Many cars at once, in lanes and on all cores, and its page in docs/
