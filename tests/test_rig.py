@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from kintrafo import InputError, Model, PositionError, characteristics, compare, export, rig
+from kintrafo import InputError, Model, PositionError, characteristics, compare, export, loads, rig
 from kintrafo.plots.curves import _alone
 from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
 
@@ -157,3 +157,61 @@ def test_units_may_have_brackets_of_their_own(tmp_path):
     assert rig.measured_curves(file)["toe_by_aligning"].values == pytest.approx(
         [0.1, 0.2], rel=1e-15
     )
+
+
+SOFT = MODEL.suspension.with_changes({"bushings": {"arm_rear": {"axial_N_per_mm": 400.0}}})
+
+
+def test_compliance_of_several_is_compared() -> None:
+    """That of each is what `loads.compliance` gives; what holds the wheel matters."""
+    softer = SOFT.with_changes({"bushings.arm_rear.axial_N_per_mm": 200.0})
+    models = {"a": Model(SOFT), "b": Model(softer)}
+    travels = np.array([-0.02, 0.0, 0.02])
+    for held in ("height", "spring"):
+        found = compare.compare(models, travels, held=held)
+        for name, model in models.items():
+            expected = loads.compliance(model, None, travels, held=held)
+            for quantity in ("toe_by_lateral", "displacement_by_recession"):
+                np.testing.assert_array_equal(
+                    found[quantity].sel(data_set=name), expected[quantity]
+                )
+    locked = compare.differences(compare.compare(models, travels, held="locked"))
+    toe = next(d for d in locked if d.name == "toe_by_lateral")
+    assert toe.other == pytest.approx(2.0 * toe.first, rel=1e-9)  # nothing else gives way
+    assert "toe_by_lateral" not in compare.compare(models, travels)
+
+
+@pytest.mark.parametrize(
+    ("models", "changes", "words"),
+    [
+        ({"a": Model(SOFT), "b": MODEL}, {"held": "height"}, r"held: b has no \[bushings\]"),
+        ({"a": Model(SOFT)} | {"b": Model(SOFT)}, {"held": "body"}, "height, spring, locked"),
+        (
+            {"a": Model(SOFT), "b": Model(SOFT)},
+            {"held": "height", "over": "rack"},
+            "compliance is over wheel travel",
+        ),
+    ],
+)
+def test_compliance_that_there_is_not(models: Any, changes: Any, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        compare.compare(models, **changes)
+
+
+def test_compliance_by_the_command(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
+    for name, stiffness in (("a.toml", 400.0), ("b.toml", 200.0)):
+        SOFT.with_changes({"bushings.arm_rear.axial_N_per_mm": stiffness}).save(tmp_path / name)
+    (tmp_path / "rig.csv").write_text(
+        "wheel_travel [mm],toe_by_lateral [deg/kN]\n-10,0.05\n10,0.06\n", encoding="utf-8"
+    )
+    told = {}
+    for files in ("a.toml b.toml", "rig.csv a.toml"):
+        for held in ("height", "locked"):
+            line = f"compare {files} --of toe_by_lateral --held {held}"
+            code, told[files, held], err = kintrafo(*line.split())
+            assert code == 0, err
+        assert told[files, "height"] != told[files, "locked"]
+    code, _, err = kintrafo("compare", "reference_car", "a.toml", "--held", "height")
+    assert (code, "has no [bushings]" in err) == (2, True)
+    code, _, err = kintrafo("compare", "reference_axle", "reference_axle", "--held", "height")
+    assert (code, "not for the files of axles" in " ".join(err.split())) == (2, True)

@@ -8,6 +8,7 @@ from rich.table import Table
 
 from ..core.tabulated import significant
 from . import axles, rigid
+from .compliance import Held
 from .console import console, print_json, progress_bar, say
 from .options import Files, Force, Json, Of, among, load
 from .outputs import Figures, Formats, Out, Outputs, Plot, name_files
@@ -23,6 +24,7 @@ EXAMPLES = (
     "kintrafo compare before.toml after.toml --over rack --plot difference.png -o both.csv",
     "kintrafo compare rig.csv my_car.toml --plot measured.png",
     "kintrafo compare before.toml after.toml --of toe --of bump_steer --plot steer.png",
+    "kintrafo compare before.toml after.toml --held height --plot compliance.png",
 )
 
 
@@ -37,6 +39,13 @@ def command(
         ),
     ] = None,
     of: Of = None,
+    held: Annotated[
+        Held | None,
+        typer.Option(
+            help="Compare compliance, too, on the bushes of the files: what holds the wheel, or "
+            "held it on the rig, where it is height by default."
+        ),
+    ] = None,
     out: Out = None,
     plot: Plot = None,
     figures: Figures = None,
@@ -54,6 +63,8 @@ def command(
 
     outputs = Outputs.of(out, plot, figures, formats, force=force, inputs=files)
     measured = [file for file in files if file.lower().endswith(".csv")]
+    if held is not None and (rigid.all_rigid(files) or axles.all_axles(files)):
+        raise typer.BadParameter("--held is not for the files of axles")
     if rigid.all_rigid(files):
         dataset = rigid.compared(files, over)
     elif axles.all_axles(files):
@@ -61,12 +72,12 @@ def command(
     elif over not in (None, "travel", "rack"):
         raise typer.BadParameter(f"--over {over} is only for the files of axles")
     elif measured:
-        dataset = _beside(files, measured, over)
+        dataset = _beside(files, measured, over, held or "height")
     else:
         models = _models(files)
         with progress_bar("characteristics") as progress:
             along: Any = over or "travel"
-            dataset = compare.compare(models, over=along, progress=progress)
+            dataset = compare.compare(models, over=along, held=held, progress=progress)
     both = [f"{name}_{side}" for name in of or () for side in ("left", "right")]
     of = [n for n in of or () if n in dataset or f"{n}_left" not in dataset] + [
         name for name in both if name in dataset
@@ -95,7 +106,7 @@ def _models(files: list[str]) -> "dict[str, Model]":
     return dict(zip(distinct(files), map(load, files), strict=True))
 
 
-def _beside(files: list[str], measured: list[str], over: str | None) -> "Dataset":
+def _beside(files: list[str], measured: list[str], over: str | None, held: Held) -> "Dataset":
     """Return the curves of suspensions beside those of a measurement."""
     from ..study import rig
     from ..study.characteristics.datasets import ALONG
@@ -108,7 +119,7 @@ def _beside(files: list[str], measured: list[str], over: str | None) -> "Dataset
     models = _models([file for file in files if file not in measured])
     if not models:
         raise typer.BadParameter("a hardpoint file is needed besides the measured curves")
-    return rig.beside(curves, models, measured[0])
+    return rig.beside(curves, models, measured[0], held=held)
 
 
 def _units(dataset: "Dataset", difference: "Difference") -> str:

@@ -12,12 +12,13 @@ from ..core.arguments import Arguments
 from ..core.errors import InputError
 from ..suspension.model import Model
 from . import characteristics
+from .characteristics.datasets import DATA_SET
+from .loads.compliance import COMPLIANCES, compliance
+from .loads.flexibility import HELD, Held
 from .sweep import RACK, usual_rack, usual_travel
 
 Array = NDArray[np.float64]
 Over = Literal["travel", "rack"]
-
-DATA_SET = "data_set"
 
 # A position so near to zero is that of design, of a rig as well [m].
 _AT_DESIGN = 5e-4
@@ -28,6 +29,7 @@ def compare(
     positions: Array | None = None,
     *,
     over: Over = "travel",
+    held: Held | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
     """Return the characteristics of several suspensions over the same positions.
@@ -41,6 +43,9 @@ def compare(
         the suspensions reach it.
     over : {'travel', 'rack'}, optional
         What varies.
+    held : {'height', 'spring', 'locked'}, optional
+        With it, their compliance on the bushes of their files comes too, over wheel travel: what
+        holds the wheel under loads, see `kintrafo.loads.compliance`.
     progress : callable, optional
         Called with the part that is done, up to 1.
 
@@ -57,6 +62,9 @@ def compare(
         given.function("progress", progress)
         if positions is not None:
             positions = given.array("positions", positions, "m", dimensions=[1])
+        if held is not None and not given.refused:
+            given.among("held", held, HELD)
+            _refuse_rigid(given, models, over)
     if len(models) < 2:
         problem = f"{len(models)} data set; two or more are needed for a comparison."
         raise InputError([problem], "compare")
@@ -65,7 +73,8 @@ def compare(
     curves = characteristics.travel if over == "travel" else characteristics.steering
     datasets = []
     for index, model in enumerate(models.values()):
-        datasets.append(curves(model, positions))
+        found = curves(model, positions)
+        datasets.append(found if held is None else on_bushes(found, model, positions, held))
         if progress is not None:
             progress((index + 1) / len(models))
     # what belongs to steering, a suspension that nothing steers has not: no gaps in the others
@@ -76,6 +85,37 @@ def compare(
         datasets = [dataset.drop_vars(RACK, errors="ignore") for dataset in datasets]
     names = xr.Variable(DATA_SET, list(models), {"long_name": "data set"})
     return xr.concat(datasets, names, coords="minimal", compat="override", combine_attrs="override")
+
+
+def _refuse_rigid(given: Arguments, models: Mapping[str, Model], over: Over) -> None:
+    """Refuse compliance over the rack, and that of suspensions on rigid joints."""
+    if over != "travel":
+        given.refuse("held: compliance is over wheel travel. Leave it out over the rack.")
+    for name, model in models.items():
+        if not model.suspension.bushings:
+            given.refuse(f"held: {name} has no [bushings], and nothing in it gives way.")
+
+
+def on_bushes(
+    found: xr.Dataset, model: Model, travels: Array, held: Held, rack_position: float = 0.0
+) -> xr.Dataset:
+    """Return characteristics over wheel travel with compliance beside them.
+
+    Parameters
+    ----------
+    found : xarray.Dataset
+        Characteristics at the same travels.
+    model : Model
+        Its file has bushes.
+    travels : ndarray
+        Wheel travel [m].
+    held : {'height', 'spring', 'locked'}
+        What holds the wheel under loads.
+    rack_position : float, optional
+        [m]
+    """
+    soft = compliance(model, None, travels, rack_position=rack_position, held=held)
+    return found.assign({name: soft[name].variable for name in COMPLIANCES})
 
 
 def common_positions(models: Mapping[str, Model], *, over: Over = "travel") -> Array:

@@ -15,10 +15,10 @@ from ..core.suggestions import nearest
 from ..suspension.model import Model
 from . import characteristics
 from .characteristics.catalogue import Quantity
-from .characteristics.datasets import ALONG, KNOWN, RACK, TRAVEL
-from .compare import DATA_SET
+from .characteristics.datasets import ALONG, DATA_SET, KNOWN, RACK, TRAVEL
+from .compare import on_bushes
 from .csv_columns import Sheet
-from .loads.compliance import COMPLIANCES, compliance
+from .loads.compliance import COMPLIANCES
 from .loads.flexibility import HELD, Held
 
 Array = NDArray[np.float64]
@@ -189,8 +189,7 @@ def _curves(model: Model, measured: xr.Dataset, held_by: Held) -> xr.Dataset:
         found = characteristics.travel(model, travels, rack_position=rack)
         if not (model.suspension.bushings and {*map(str, measured)} & {*COMPLIANCES}):
             return found
-        soft = compliance(model, None, travels, rack_position=rack, held=held_by)
-        return found.assign({name: soft[name].variable for name in COMPLIANCES})
+        return on_bushes(found, model, travels, held_by, rack)
     return characteristics.steering(model, measured[RACK.name].values, travel=held(TRAVEL.name))
 
 

@@ -41,6 +41,7 @@ from .places import put, reverse
 from .starter import DEFAULT, NOT_A_RIGID_AXLE, RIGID_AXLE, RIGID_AXLES, packaged_axles
 from .strokes import Strokes
 from .structure import Structure
+from .toml_writer import write_toml
 
 # The top-level key that says which suspension a file describes.
 KIND = "suspension"
@@ -205,6 +206,30 @@ class Suspension(Section):
             A copy of all values, with the keys and units of the input file; points are lists.
         """
         return self.model_dump(mode="json", exclude_none=True)
+
+    def save(self, path: str | Path, *, force: bool = False) -> Path:
+        """Write the input file that gives exactly this suspension.
+
+        Parameters
+        ----------
+        path : str or Path
+            A name that ends in ``.toml``.
+        force : bool, optional
+            Whether a file that somebody else wrote or changed is replaced.
+
+        Returns
+        -------
+        Path
+
+        Raises
+        ------
+        InputError
+            If there is a file already, or the name cannot be used.
+        """
+        with Arguments(type(self).__name__) as given:
+            given.path("path", path)
+            given.flag("force", force)
+        return write_toml(self, path, force=force)
 
     def with_changes(self, changes: Mapping[str, Any]) -> Self:
         """Return a suspension that differs in some values; all checks are made again.

@@ -5,15 +5,15 @@ from pathlib import Path
 from typing import Any
 
 import tomlkit
+from pydantic import BaseModel
 
 from ..core.files import Paths, refuse, replacing
 from ..core.legible import legible
-from .kinds import Suspension
 
 _ENDING = ".toml"
 
 
-def toml_text(suspension: Suspension, head: Sequence[str] = ()) -> str:
+def toml_text(suspension: BaseModel, head: Sequence[str] = ()) -> str:
     """Return the text of an input file that gives exactly this suspension.
 
     Parameters
@@ -29,6 +29,7 @@ def toml_text(suspension: Suspension, head: Sequence[str] = ()) -> str:
 
     Examples
     --------
+    >>> from kintrafo import Suspension
     >>> car = Suspension.load("reference_car")
     >>> print(toml_text(car, ["My car."]).splitlines()[0])
     # My car.
@@ -45,7 +46,7 @@ def toml_text(suspension: Suspension, head: Sequence[str] = ()) -> str:
 
 
 def write_toml(
-    suspension: Suspension,
+    suspension: BaseModel,
     path: str | Path,
     *,
     head: Sequence[str] = (),

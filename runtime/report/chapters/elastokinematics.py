@@ -6,7 +6,7 @@ from matplotlib import rc_context
 from ...core.arguments import Arguments
 from ...plots.curves import figure
 from ...plots.figures import STYLE
-from ...study.compare import DATA_SET
+from ...study.characteristics.datasets import DATA_SET
 from ...study.loads.sheets import deflections, deflections_of_axle
 from .chapter import Chapter, Picture
 

@@ -9,7 +9,7 @@ from ...core.arguments import Arguments
 from ...core.errors import InputError
 from ...suspension.axle import Axle
 from ...suspension.corner import Array
-from ..compare import DATA_SET
+from ..characteristics.datasets import DATA_SET
 from . import motions
 from .datasets import bump, roll, single, steer
 from .motions import MOTIONS, Extent

@@ -13,8 +13,7 @@ from ...suspension.axle import Axle
 from ...suspension.axle.axle import LEFT, RIGHT
 from ...suspension.corner import Array, Corner
 from ..characteristics.catalogue import Quantity
-from ..characteristics.datasets import KNOWN, RACK, TRAVEL
-from ..compare import DATA_SET
+from ..characteristics.datasets import DATA_SET, KNOWN, RACK, TRAVEL
 from ..loads.elastic.connections import Soft
 from ..loads.elastic.elastokinematics import CURVES
 from ..loads.elastic.equilibrium import LOADS, Equilibrium, State

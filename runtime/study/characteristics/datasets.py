@@ -31,6 +31,9 @@ RACK = Quantity(
     "positive along the rack's axis",
 )
 
+DATA_SET = "data_set"
+"""The dimension of several sets of curves beside each other."""
+
 ALONG = {"travel": TRAVEL, "rack": RACK}
 """What varies along the curves."""
 

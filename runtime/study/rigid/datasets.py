@@ -17,8 +17,7 @@ from ..axles.datasets import ROLL
 from ..axles.motions import MOTIONS as OF_ALL_AXLES
 from ..axles.motions import USUAL_ROLL, USUAL_ROLL_STEP, Extent
 from ..characteristics.catalogue import Quantity
-from ..characteristics.datasets import TRAVEL
-from ..compare import DATA_SET
+from ..characteristics.datasets import DATA_SET, TRAVEL
 from ..sweep import USUAL_TRAVEL, grid
 from .beam import Beam
 from .catalogue import MEASURES

@@ -14,7 +14,7 @@ from ....core.quantities import attributes, variable
 from ....suspension.corner import Corner
 from ....suspension.model import Model
 from ...characteristics import wheel
-from ...compare import DATA_SET
+from ...characteristics.datasets import DATA_SET
 from ..compliance import RIG_LOADS, RigLoad, compliance, load_at_contact, sense_of
 from ..flexibility import HELD, Held
 from ..poses import CENTER, CONTACT, Poses

@@ -12,8 +12,7 @@ from ....core.quantities import variable
 from ....suspension.corner import Corner
 from ....suspension.model import Model
 from ...characteristics import wheel
-from ...characteristics.datasets import KNOWN, TRAVEL
-from ...compare import DATA_SET
+from ...characteristics.datasets import DATA_SET, KNOWN, TRAVEL
 from ...sweep import usual_travel
 from .connections import Soft
 from .equilibrium import LOADS, Equilibrium, State
