@@ -207,7 +207,7 @@ def test_compliance_by_the_command(kintrafo: Any, tmp_path: Path) -> None:  # no
     told = {}
     for files in ("a.toml b.toml", "rig.csv a.toml"):
         for held in ("height", "locked"):
-            line = f"compare {files} --of toe_by_lateral --held {held}"
+            line = f"compare {files} --of toe_by_lateral --held {held} --json"
             code, told[files, held], err = kintrafo(*line.split())
             assert code == 0, err
         assert told[files, "height"] != told[files, "locked"]
