@@ -167,3 +167,6 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return sorted({*globals(), *__all__, *_INTERFACES})
+
+
+import_module(".notebook", __name__).register()

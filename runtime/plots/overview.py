@@ -1,5 +1,6 @@
 """One picture of a suspension: how it moves, and what that does to the wheel."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -49,13 +50,39 @@ def write_overview(model: Model, path: Path, travel: float = 0.08, *, force: boo
         design = float(model.signal("wheel_center_z", model.design_state))
         for offset, colour in ((-travel, GREY), (travel, GREY), (0.0, "black")):
             _draw_front(front, model, state_at_height(model, design + offset), colour)
-        _finish_front(front, travel)
+        _finish_front(front)
+        front.set_title(f"from behind, at design and \u00b1{travel * 1e3:.0f} mm")
         figure.legend(loc="outside lower left", ncols=4, frameon=False, fontsize=9)
         _draw_angles(camber, toe, model, design, travel)
         figure.suptitle(
             f"{model.suspension.heading()}, {model.suspension.vehicle.side} side: kinematics"
         )
         save(figure, path, force=force)
+
+
+def from_behind(models: Sequence[Model]) -> Figure:
+    """Draw one suspension at design, or both of an axle, seen from behind.
+
+    Parameters
+    ----------
+    models : sequence of Model
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    with rc_context(STYLE):
+        figure = Figure(figsize=(3.4 * (1 + len(models)), 4.6), layout="constrained")
+        axes = figure.subplots()
+        for model in models:
+            _draw_front(axes, model, model.design_state, "black")
+        _finish_front(axes)
+        labels = dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
+        figure.legend(
+            labels.values(), labels.keys(), loc="outside lower left", ncols=3, frameon=False,
+            fontsize=9,
+        )  # fmt: skip
+    return figure
 
 
 def _draw_front(axes: Axes, model: Model, state: Array, colour: str) -> None:
@@ -95,13 +122,12 @@ def _draw_tyre(axes: Axes, model: Model, state: Array, center: Array, *, strong:
         axes.fill(*(center + corners).T, color="#f0f0f0", zorder=1)
 
 
-def _finish_front(axes: Axes, travel: float) -> None:
+def _finish_front(axes: Axes) -> None:
     axes.axhline(0.0, color="#888888", linewidth=1.0)
     axes.set_aspect("equal")
     axes.invert_xaxis()  # seen from behind, left is at the left
     axes.set_xlabel("y [mm], positive left")
     axes.set_ylabel("z [mm]")
-    axes.set_title(f"from behind, at design and \u00b1{travel * 1e3:.0f} mm")
 
 
 def _draw_angles(camber: Axes, toe: Axes, model: Model, design: float, travel: float) -> None:
