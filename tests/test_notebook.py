@@ -116,3 +116,23 @@ def test_importing_kintrafo_loads_none_of_it():
     program = f"import re; PATTERN = {pattern!r}; {told}"
     found = subprocess.run([sys.executable, "-c", program], capture_output=True, check=True)
     assert re.fullmatch(rb"\[\]\s*", found.stdout)
+
+
+@pytest.mark.parametrize(
+    "shown",
+    [CAR.suspension, CAR.suspension.hardpoints, RigidAxle.load("rigid_axle")],
+    ids=["suspension", "hardpoints", "rigid axle"],
+)
+def test_completion_proposes_what_is_ours(shown):
+    proposed = {name for name in dir(shown) if not name.startswith("_")}
+    assert not {name for name in proposed if name.startswith("model_")} | (
+        proposed & {"copy", "dict", "json", "parse_obj", "validate", "construct"}
+    )
+    assert {*type(shown).model_fields} <= proposed
+    assert "wheel_center" in dir(CAR.suspension.hardpoints)
+    assert {"with_changes", "save", "to_dict"} <= {*dir(CAR.suspension)}
+
+
+def test_completion_proposes_signals():
+    motion = kintrafo.simulate(CRANK, (0.0, 0.01), CRANK.design_state)
+    assert motion.signals._ipython_key_completions_() == list(CRANK.signal_names)

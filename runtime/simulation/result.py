@@ -153,6 +153,10 @@ class Signals(Mapping[str, Array]):
     def __repr__(self) -> str:
         return f"<Signals {', '.join(self)}>"
 
+    def _ipython_key_completions_(self) -> list[str]:
+        """Return what a notebook proposes between the brackets."""
+        return list(self)
+
     @cached_property
     def _values(self) -> dict[str, Array]:
         if not self._failed:

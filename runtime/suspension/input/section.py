@@ -61,10 +61,17 @@ Positive = Annotated[
 Triple = Annotated[tuple[Number, Number, Number], BeforeValidator(_three_numbers)]
 
 
+_THEIRS = frozenset(dir(BaseModel))
+
+
 class Section(BaseModel):
     """A section of an input file: immutable, and without keys that it does not know."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
+
+    def __dir__(self) -> list[str]:
+        """Return what completion proposes: what is ours, and nothing of pydantic."""
+        return [name for name in super().__dir__() if name.startswith("_") or name not in _THEIRS]
 
     @classmethod
     def unit_of_key(cls, key: str, table: Mapping[str, Any]) -> str:
