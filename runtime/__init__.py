@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     from .systems.derivatives import derivative, design_derivative, gradient
     from .systems.linearisation import Linearisation, linearise
     from .systems.modes import Mode
+    from .systems.rest import rest
     from .systems.state import State
     from .systems.system import System
 
@@ -84,6 +85,7 @@ __all__ = [
     "linearise",
     "motion_gradient",
     "proposals",
+    "rest",
     "road_under_load",
     "simulate",
     "state_at_height",
@@ -103,6 +105,7 @@ _MODULES = {
     ".simulation.backwards": ("MotionGradient", "motion_gradient"),
     ".systems.derivatives": ("derivative", "design_derivative", "gradient"),
     ".systems.linearisation": ("Linearisation", "linearise"),
+    ".systems.rest": ("rest",),
     ".suspension.model": ("Model",),
     ".systems.modes": ("Mode",),
     ".systems.compile": ("CompilerError", "MechanismError", "compile_mechanism", "proposals"),

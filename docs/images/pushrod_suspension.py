@@ -109,7 +109,7 @@ def heights(axes: Axes, system: kintrafo.System) -> None:
 def step(axes: Axes, system: kintrafo.System) -> None:
     """Draw the motion after a step of the road."""
     times = np.linspace(0.0, 0.6, 601)
-    rest = kintrafo.simulate(system, (0.0, 3.0), system.state()).y[:, -1]
+    rest = kintrafo.rest(system)
     road = ([0.0, 0.1, 0.1, 0.6], [0.0, 0.0, 0.02, 0.02])
     result = kintrafo.simulate(
         system, (0.0, 0.6), rest, inputs={"road_height": road}, t_eval=times, rtol=1e-8

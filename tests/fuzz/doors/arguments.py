@@ -280,6 +280,7 @@ CALLS = {
         kintrafo.road_under_load, {"model": _CAR, "wheel_load": 3e3, "state": _REST, "inputs": None}
     ),
     "hardpoints": (hardpoints, {"model": _CAR, "state": _REST, "inputs": None}),
+    "rest": (kintrafo.rest, {"system": _CAR, "near": _REST, "inputs": {"strut_force": 1.0}}),
     "linearise": (
         kintrafo.linearise, {"model": _CAR, "state": _REST, "inputs": None, "outputs": ["camber"]}
     ),

@@ -1,0 +1,135 @@
+"""Where a mechanism rests: no coordinate is accelerated."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..core.arguments import Arguments
+from ..core.errors import InputError
+from ..equations.errors import ModelError
+from .state import State, inputs_of
+from .system import System
+
+Array = NDArray[np.float64]
+
+_MOST_STEPS, _HALVINGS = 100, 30
+# A step so small, beside a radian or a metre, changes nothing more but rounding.
+_LAST_STEP = 1e-12
+# Part of the greatest slope: what a direction adds less than this to, nothing moves, as the angle
+# of a rotor; so much is also left at most, over a step of a radian or a metre.
+_NOTHING = 1e-9
+
+
+def rest(
+    system: System, near: ArrayLike | None = None, inputs: Mapping[str, float] | None = None
+) -> State:
+    """Return a position of rest of any mechanism, found from a position near it.
+
+    Parameters
+    ----------
+    system : System or Model
+        Of a suspension on its road, `kintrafo.equilibrium` knows more.
+    near : array_like, optional
+        State from which it is looked for; its rates do not matter. By default that at design.
+    inputs : mapping of str to float, optional
+        Forces and so on that act, by name, SI units. Others are those of `near` where it knows
+        them, see `State`, and zero else.
+
+    Returns
+    -------
+    State
+        With the rates zero, and the inputs.
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used, or no rest is found.
+    ClosureError
+        If a loop cannot close in the position to start from.
+
+    Notes
+    -----
+    By Newton's method with the exact Jacobian of the accelerations; steps that bring loops to where
+    they cannot close, or no nearer, are halved. Whether it would return to rest or leave it,
+    `kintrafo.linearise` tells: a pendulum rests upside down, too. A coordinate that nothing drives
+    to anywhere, such as the angle of a rotor, stays where it is.
+
+    Examples
+    --------
+    >>> import kintrafo
+    >>> from kintrafo.generated import four_bar
+    >>> system = kintrafo.System(four_bar)
+    >>> found = rest(system, inputs={"crank_torque": 1.0})
+    >>> bool(abs(system.evaluate("rhs", found)).max() < 1e-9)
+    True
+    """
+    with Arguments("rest") as given:
+        given.kind("system", system, System, System.NEEDED)
+        if not given.refused:
+            size = len(system.state_names)
+            start = system.design_state if near is None else near
+            state = given.array("near", start, dimensions=[1], last=size, empty=True)
+            acting = given.mapping("inputs", {} if inputs is None else inputs, "names and numbers")
+    held = inputs_of(start, system.names_of_states)
+    known = {} if held is None else dict(zip(system.input_names, held.tolist(), strict=True))
+    own = system.inputs({**known, **acting})
+    position = _Search(system, own).from_position(np.array(state[: size // 2]))
+    elements = np.concatenate([position, np.zeros(size - size // 2)])
+    return State.of(elements, own, system.names_of_states)
+
+
+class _Search:
+    """Newton's method on the accelerations of a system under some inputs, at rest."""
+
+    def __init__(self, system: System, inputs: Array) -> None:
+        self._system, self._inputs = system, inputs
+
+    def from_position(self, position: Array) -> Array:
+        left = self._accelerations(position)
+        for _ in range(_MOST_STEPS):
+            slopes = self._slopes(position)
+            step = np.asarray(-np.linalg.pinv(slopes, rcond=_NOTHING) @ left)
+            position, left, part = self._shortened(position, left, step)
+            if np.abs(part * step).max(initial=0.0) <= _LAST_STEP:
+                break
+        # what no step can take away is no rounding
+        if np.abs(left).max(initial=0.0) > _NOTHING * max(1.0, np.abs(slopes).max(initial=0.0)):
+            self._refuse(position, left)
+        return position
+
+    def _shortened(self, position: Array, left: Array, step: Array) -> tuple[Array, Array, float]:
+        """Return where a step leads, halved until it leads nearer; or nowhere."""
+        part = 1.0
+        for _ in range(_HALVINGS):
+            try:
+                after = self._accelerations(position + part * step)
+            except ModelError:
+                part *= 0.5
+                continue
+            if np.linalg.norm(after) < np.linalg.norm(left):
+                return position + part * step, after, part
+            part *= 0.5
+        return position, left, 0.0
+
+    def _state(self, position: Array) -> Array:
+        return np.concatenate([position, np.zeros(position.size)])
+
+    def _accelerations(self, position: Array) -> Array:
+        rates = self._system.evaluate("rhs", self._state(position), self._inputs)
+        return rates[position.size :]
+
+    def _slopes(self, position: Array) -> Array:
+        slopes = self._system.evaluate("rhs_jacobian", self._state(position), self._inputs)
+        return slopes[position.size :, : position.size]
+
+    def _refuse(self, position: Array, left: Array) -> None:
+        names = self._system.state_names
+        worst = int(np.abs(left).argmax())
+        where = ", ".join(f"{n} = {v:.6g}" for n, v in zip(names, position, strict=False))
+        words = (
+            f"no rest was found: at {where}, {names[worst]} is still accelerated by "
+            f"{left[worst]:.3g} rad/s^2 or m/s^2. Begin nearer to it, with other inputs, or see "
+            "whether there is one."
+        )
+        raise InputError([words], "rest")
