@@ -76,6 +76,8 @@ class Events:
 
     def after(self, passed: Sequence[int]) -> "Events":
         """Return the events as they are to be watched after each has been passed so often."""
+        if not any(passed):
+            return self
         left = [
             replace(event, terminal=int(event.terminal) - times if event.terminal else 0)
             for event, times in zip(self._all, passed, strict=True)

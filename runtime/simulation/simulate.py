@@ -347,6 +347,7 @@ class _Run:
         for segment in self._inputs.segments:
             if self._pieces and self._jumped_over(segment, state):
                 break
+            options, taken = self._options, self._taken
             piece = self._solve(
                 self._model,
                 self._inputs,
@@ -354,7 +355,7 @@ class _Run:
                 state,
                 self._asked(segment),
                 every_step=self._times is None,
-                options=replace(self._options, max_steps=self._options.max_steps - self._taken),
+                options=replace(options, max_steps=options.max_steps - taken) if taken else options,
                 events=self._events.after(self._passed),
             )
             self._pieces.append((segment, piece))
@@ -391,6 +392,8 @@ class _Run:
         """Return the output times of a segment; its own two ends come first and last."""
         if self._times is None:
             return np.array([segment.start, segment.end])
+        if self._times[0] == segment.start and self._times[-1] == segment.end:
+            return self._times
         low, high = min(segment.start, segment.end), max(segment.start, segment.end)
         inside = self._times[(self._times > low) & (self._times < high)]
         return np.concatenate(([segment.start], inside, [segment.end]))
@@ -443,9 +446,7 @@ class _Run:
 
     def _assembled(self, failure: str = "") -> Simulation:
         rows = [self._rows(segment, piece) for segment, piece in self._pieces]
-        t = np.concatenate([r[0] for r in rows])
-        y = np.concatenate([r[1] for r in rows])
-        inputs = np.concatenate([r[2] for r in rows])
+        t, y, inputs = rows[0] if len(rows) == 1 else map(np.concatenate, zip(*rows, strict=True))
         ended = self._pieces[-1][1].outcome == "event"
         status = -1 if failure else int(ended)
         message = failure or (
@@ -476,12 +477,12 @@ class _Run:
 
     def _rows(self, segment: Segment, piece: Piece) -> tuple[Array, Array, Array]:
         """Return times, states and inputs that belong to the output."""
-        keep = np.ones(piece.t.size, dtype=bool)
-        if self._times is not None:
-            keep = _among(piece.t, self._times)
-        if self._pieces[0][0] is not segment:
-            keep[0] = False  # the border is the end of the segment before
-        t, y = piece.t[keep], piece.y[keep]
+        t, y = piece.t, piece.y
+        if len(self._pieces) > 1 or not (self._times is None or np.array_equal(t, self._times)):
+            keep = np.ones(t.size, dtype=bool) if self._times is None else _among(t, self._times)
+            if self._pieces[0][0] is not segment:
+                keep[0] = False  # the border is the end of the segment before
+            t, y = t[keep], y[keep]
         return t, y, self._inputs.table(t, segment)
 
     def _dense(self) -> DenseOutput | None:
@@ -503,8 +504,9 @@ class _Run:
         }
 
     def _counts(self) -> dict[str, Any]:
-        names = dict.fromkeys(name for _, piece in self._pieces for name in piece.counts)
-        total = {n: sum(p.counts.get(n, 0) for _, p in self._pieces) for n in names}
+        total: dict[str, Any] = {"nfev": 0, "njev": 0, "nlu": 0}
+        for _, piece in self._pieces:
+            total |= {name: total.get(name, 0) + count for name, count in piece.counts.items()}
         if "order" in total:
             total["order"] = self._pieces[-1][1].counts["order"]
-        return {"nfev": 0, "njev": 0, "nlu": 0} | total
+        return total

@@ -5,6 +5,7 @@ Both integrate one segment of time, in which the inputs are smooth, and return t
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import cache
 from importlib import import_module
 from itertools import pairwise
 from math import factorial
@@ -150,7 +151,12 @@ def native_methods(*, fixed_step: bool = False) -> tuple[str, ...]:
     """
     if not native_available():
         return ()
-    release = tuple(int(part) for part in native_version().split(".")[:2])
+    return _methods_of(native_version(), fixed_step)
+
+
+@cache
+def _methods_of(version: str, fixed_step: bool) -> tuple[str, ...]:  # noqa: FBT001 (a key)
+    release = tuple(int(part) for part in version.split(".")[:2])
     missing = set() if release >= _FIRST_WITH_TSITOURAS else {"Tsitouras"}
     missing |= set() if fixed_step else {*_OF_FIXED_STEP}
     return tuple(method for method in NATIVE_METHODS if method not in missing)
@@ -203,17 +209,17 @@ def solve_native(
         signal_count=len(signals),
         events=[(signals.index(e.signal), e.level) for e in events.signal],
         roots=events.functions,
-        directions=np.array([*events.directions, 0], dtype=np.int32),
-        terminal=np.array([*events.terminal, 0], dtype=np.int32),
-        guards=np.append(meanings(model.equations), np.int32(0)),
+        directions=np.array(events.directions, dtype=np.int32),
+        terminal=np.array(events.terminal, dtype=np.int32),
+        guards=meanings(model.equations),
         usual_margins=model.usual_margins,
         stopped=options.stopped,
     )
     counts = ("nfev", "njev", "nlu", "steps", "error_test_failures", "order")
     output = raw["output"] if len(raw["output"]) else np.array([[segment.start, *state]])
     return Piece(
-        t=output[:, 0],
-        y=output[:, 1:],
+        t=output[:, 0].copy(),
+        y=output[:, 1:].copy(),
         outcome="flat_event" if raw["code"] == _ILL_INPUT and len(events) else raw["outcome"],
         counts={name: raw[name] for name in counts},
         reached_time=raw["time"],

@@ -201,11 +201,11 @@ def integrate(
         problem.root_count = len(caller.functions)
         problem.roots = _call_roots
         problem.root_data = <void *> caller
-        problem.directions = &directions[0]
-        problem.terminal = &terminal[0]
+        problem.directions = &directions[0] if directions.shape[0] else NULL
+        problem.terminal = &terminal[0] if terminal.shape[0] else NULL
         problem.guard_count = usual_margins.shape[0]
-        problem.guards = &guards[0]
-        problem.usual_margins = &usual_margins[0]
+        problem.guards = &guards[0] if guards.shape[0] else NULL
+        problem.usual_margins = &usual_margins[0] if usual_margins.shape[0] else NULL
         problem.interrupted = _interrupted
         problem.interrupted_data = <void *> caller
         options.method = METHODS.get(method, RUNGE_KUTTA)
