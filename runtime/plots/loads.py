@@ -99,7 +99,8 @@ def free_bodies(
                 crowded[axes] = labels
         row += len(_VIEWS) if _crowded(loads) else 1
     figure.suptitle(title, fontsize=11)
-    figure.draw_without_rendering()
+    if crowded:  # labels stand where they are drawn
+        figure.draw_without_rendering()
     for axes, labels in crowded.items():
         in_columns(axes, labels)
     return written_plainly(figure)
