@@ -276,6 +276,7 @@ def test_nothing_is_written_where_no_car_keeps_the_limits(
     assert [path.name for path in tmp_path.iterdir()] == ["s.toml"]
 
 
+@pytest.mark.usefixtures("interruptible")
 def test_an_interruption_ends_it_at_once(
     kintrafo: Any,  # noqa: F811
     tmp_path: Path,
