@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _LONGEST = 60
+# What `float` would take for a number.
+_NOT_A_NUMBER = bool, np.bool_, str, bytes
 
 
 def shown(value: Any) -> str:
@@ -240,7 +242,7 @@ class Arguments:
 
 def _as_float(value: Any) -> float:
     """Return a number; NaN for what is none."""
-    if isinstance(value, bool | np.bool_ | str | bytes):
+    if isinstance(value, _NOT_A_NUMBER):
         return math.nan
     try:
         return float(value)

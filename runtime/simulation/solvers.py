@@ -155,7 +155,7 @@ def native_methods(*, fixed_step: bool = False) -> tuple[str, ...]:
 
 
 @cache
-def _methods_of(version: str, fixed_step: bool) -> tuple[str, ...]:  # noqa: FBT001 (a key)
+def _methods_of(version: str, fixed_step: bool) -> tuple[str, ...]:
     release = tuple(int(part) for part in version.split(".")[:2])
     missing = set() if release >= _FIRST_WITH_TSITOURAS else {"Tsitouras"}
     missing |= set() if fixed_step else {*_OF_FIXED_STEP}
