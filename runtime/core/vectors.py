@@ -1,10 +1,11 @@
 """Small helpers for vectors in space."""
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from .columns import atan2, degrees, hypot, number
 
 Vector = NDArray[np.float64]
 
@@ -28,10 +29,29 @@ def cross(first: ArrayLike, second: ArrayLike) -> Vector:
     one, other = np.asarray(first), np.asarray(second)
     x, y, z = one[..., 0], one[..., 1], one[..., 2]
     u, v, w = other[..., 0], other[..., 1], other[..., 2]
-    found = np.empty(np.broadcast_shapes(one.shape, other.shape))
+    shape = np.broadcast_shapes(one.shape, other.shape)
+    found = np.empty(shape, np.result_type(one, other, np.float64))
     found[..., 0] = y * w - z * v
     found[..., 1] = z * u - x * w
     found[..., 2] = x * v - y * u
+    return found
+
+
+def turned(rotations: Vector, vector: Vector) -> Vector:
+    """Return a vector, or one for each of many rotations, turned by them.
+
+    Parameters
+    ----------
+    rotations : ndarray, shape (..., 3, 3)
+    vector : ndarray, shape (3,) or (..., 3)
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+    """
+    if vector.ndim == 1:
+        return rotations @ vector
+    found: Vector = (rotations @ vector[..., None])[..., 0]
     return found
 
 
@@ -54,7 +74,11 @@ def unit_vector(vector: Sequence[float] | Vector) -> Vector:
     [0.0, 0.6, 0.8]
     """
     # hypot neither overflows nor underflows, and is exact along a coordinate axis.
-    return np.asarray(vector, dtype=np.float64) / math.hypot(*vector)
+    array = np.asarray(vector)
+    if array.dtype != object:  # unless columns stand in it
+        array = array.astype(np.float64, copy=False)
+    unit: Vector = array / hypot(*vector)
+    return unit
 
 
 def angle_between_lines(first: Vector, second: Vector) -> float:
@@ -76,9 +100,10 @@ def angle_between_lines(first: Vector, second: Vector) -> float:
     45.0
     """
     # The arc tangent keeps its accuracy near 0 degrees, where the arc cosine loses it.
-    across = math.hypot(*cross(first, second))
-    along = abs(float(first @ second))
-    return math.degrees(math.atan2(across, along))
+    across = hypot(*cross(first, second))
+    along = abs(number(first @ second))
+    angle: float = degrees(atan2(across, along))
+    return angle
 
 
 def distance_from_line(point: Vector, start: Vector, end: Vector) -> float:
@@ -101,7 +126,8 @@ def distance_from_line(point: Vector, start: Vector, end: Vector) -> float:
     >>> distance_from_line(np.array([3.0, 4.0, 5.0]), np.zeros(3), np.array([0.0, 0.0, 2.0]))
     5.0
     """
-    return math.hypot(*cross(point - start, unit_vector(end - start)))
+    distance: float = hypot(*cross(point - start, unit_vector(end - start)))
+    return distance
 
 
 def components(name: str, vector: Vector) -> dict[str, float]:
@@ -124,4 +150,4 @@ def components(name: str, vector: Vector) -> dict[str, float]:
     >>> components("strut_top", np.array([-0.028, -0.585, 0.82]))
     {'strut_top_x': -0.028, 'strut_top_y': -0.585, 'strut_top_z': 0.82}
     """
-    return {f"{name}_{axis}": float(vector[i]) for i, axis in enumerate("xyz")}
+    return {f"{name}_{axis}": number(vector[i]) for i, axis in enumerate("xyz")}

@@ -1,4 +1,4 @@
-# cython: language_level=3, boundscheck=False
+# cython: language_level=3, boundscheck=False, cdivision=True
 """Calls the compiled functions of a model for one state or for arrays of states."""
 
 import numpy as np
@@ -92,10 +92,14 @@ cdef class Function:
 
     cdef _fill(self, list arrays, tuple lead, result):
         cdef Py_ssize_t steps[3]
+        cdef Py_ssize_t runs[3]  # how many calls in a row take the same
         flat = []
         for i, array in enumerate(arrays):
             steps[i] = self._widths[i] if array.ndim > 1 else 0
-            if array.ndim > 1:
+            runs[i] = 1
+            if array.shape[:-1] == lead[:-1] + (1,):
+                runs[i] = lead[-1]
+            elif array.ndim > 1:
                 array = np.broadcast_to(array, lead + (self._widths[i],))
             flat.append(np.ascontiguousarray(array).reshape(-1))
         cdef const double[::1] c = flat[0]
@@ -113,11 +117,13 @@ cdef class Function:
             while k < size:
                 with nogil:
                     while k < size and status == 0:
-                        status = self._one(&c[k * steps[0]], &y[k * steps[1]], &u[k * steps[2]],
+                        status = self._one(&c[k // runs[0] * steps[0]],
+                                           &y[k // runs[1] * steps[1]],
+                                           &u[k // runs[2] * steps[2]],
                                            whole, &out[k * self._out])
                         k += 1
                 if status != 0:
-                    self._refuse(flat, steps, k - 1, status, lead)
+                    self._refuse(flat, steps, runs, k - 1, status, lead)
                     status = 0
         finally:
             free(whole)
@@ -138,8 +144,10 @@ cdef class Function:
             status &= ~self._not_finite
         return status
 
-    cdef _refuse(self, list flat, Py_ssize_t *steps, Py_ssize_t k, int status, tuple lead):
-        one = [flat[i][k * steps[i]:k * steps[i] + self._widths[i]] for i in range(3)]
+    cdef _refuse(self, list flat, Py_ssize_t *steps, Py_ssize_t *runs, Py_ssize_t k, int status,
+                 tuple lead):
+        starts = [k // runs[i] * steps[i] for i in range(3)]
+        one = [flat[i][starts[i]:starts[i] + self._widths[i]] for i in range(3)]
         index = tuple(int(v) for v in np.unravel_index(k, lead)) if lead else ()
         self._model.refuse(self.name, status, one[0], one[1], one[2], index)
 

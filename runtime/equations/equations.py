@@ -143,6 +143,7 @@ class Equations:
             "ModelError": ModelError,
             "ParameterError": ParameterError,
             "prepare": self.prepare,
+            "prepare_many": self.prepare_many,
             "design_state": self.design_state,
             **self.functions,
             "DIRECTIONS": self.directions,
@@ -282,6 +283,31 @@ class Equations:
             raise ParameterError(f"{self.name}: {self._unusable(failed, constants)}")
         constants.flags.writeable = False
         return constants
+
+    def prepare_many(self, parameters: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
+        """Return constants and design states of many parameter sets.
+
+        Parameters
+        ----------
+        parameters : ndarray, shape (count, parameters)
+            In the order of ``PARAMETERS``, finite and in their ranges, SI units.
+
+        Returns
+        -------
+        constants, states : ndarray, shape (count, ...)
+        failed : ndarray of bool, shape (count,)
+            Of what `prepare` would refuse; their constants mean nothing.
+        """
+        count = len(parameters)
+        constants = np.empty((count, len(self.constant_names)))
+        states = np.empty((count, len(self.state_names)))
+        failed = np.zeros(count, dtype=bool)
+        prepare, at_design = self._code["prepare"], self._code["design_state"]
+        call = self._calls.call_prepare
+        for k, given in enumerate(np.ascontiguousarray(parameters)):
+            failed[k] = call(prepare, given, constants[k]) != 0
+            call(at_design, given, states[k])
+        return constants, states, failed
 
     def _ordered(self, parameters: Mapping[str, float]) -> list[float]:
         unknown = sorted(set(parameters) - set(self.parameter_names))

@@ -18,6 +18,7 @@ from typing import Any, ClassVar, Self, TypeVar, get_args
 from pydantic import Field, ValidationError
 
 from ..core.arguments import Arguments
+from ..core.columns import number
 from ..core.errors import InputError
 from ..core.suggestions import suggestion
 from ..core.vectors import components, unit_vector
@@ -312,7 +313,7 @@ class Suspension(Section):
         """
         if self.tyre.radius_mm is not None:
             return in_metres(self.tyre.radius_mm, "mm")
-        height = float(self.hardpoints.metres("wheel_center")[2])
+        height: float = number(self.hardpoints.metres("wheel_center")[2])
         return height if height >= _SMALLEST_WHEEL_RADIUS else None
 
     def wheel_load_parameters(self) -> dict[str, float]:

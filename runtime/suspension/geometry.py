@@ -55,7 +55,25 @@ def geometry_problems(
     -------
     list of str
     """
-    sections = _valid(kind, data)
+    return problems_of_sections(_valid(kind, data), further)
+
+
+def problems_of_sections(
+    sections: Mapping[str, Any], further: Callable[[Mapping[str, Any]], list[str]]
+) -> list[str]:
+    """Say what is wrong with the geometry that some sections define.
+
+    Parameters
+    ----------
+    sections : mapping
+        Those that are right, by name; None for one that is left out.
+    further : callable
+        What the kind checks besides, of these.
+
+    Returns
+    -------
+    list of str
+    """
     hardpoints = sections.get("hardpoints")
     if hardpoints is None:
         return []

@@ -6,6 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..core.arguments import Arguments
+from ..core.columns import spread
+from ..core.vectors import turned
 from .model import Model
 
 Array = NDArray[np.float64]
@@ -39,8 +41,8 @@ def hardpoints(model: Model, state: ArrayLike, inputs: ArrayLike | None = None) 
         model, {p: (body, points.metres(p)) for p, body in points.CARRIERS.items()}, state, inputs
     )
     fixed = [p for p in (*points.names(), *points.STAND_INS) if p not in points.CARRIERS]
-    shape = next(iter(moved.values())).shape[:-1]
-    return moved | {point: np.broadcast_to(points.metres(point), (*shape, 3)) for point in fixed}
+    shape = (*next(iter(moved.values())).shape[:-1], 3)
+    return moved | {p: np.broadcast_to(spread(points.metres(p)), shape) for p in fixed}
 
 
 def carried(
@@ -68,7 +70,8 @@ def carried(
     centers = model.evaluate("positions", state, inputs)
     rotations = model.evaluate("orientations", state, inputs)
     return {
-        name: centers[..., index, :] + rotations[..., index, :, :] @ (place - at_design[body])
+        name: centers[..., index, :]
+        + turned(rotations[..., index, :, :], spread(place - at_design[body]))
         for name, (body, place) in points.items()
         for index in [bodies.index(body)]
     }

@@ -21,8 +21,8 @@ from .swing import GOAL, UNRESOLVED, Seen, march, margins_stay, resolved
 Array = NDArray[np.float64]
 
 # Arm angles are looked at in steps of this size [rad], up to a right angle from design.
-_STEP = np.deg2rad(2.0)
-_STEPS = 45
+ARM_STEP = np.deg2rad(2.0)
+ARM_STEPS = 45
 # By how much the reach ends before that [rad]. What has to be positive is then some 1e-13 m^2,
 # clear of its rounding, and the wheel is less than a nanometre from its last position.
 _CLEARANCE = 1e-12
@@ -161,7 +161,7 @@ def branch(
         If the rack cannot be there with the arm in its design position.
     """
     racks = np.asarray(rack_positions, dtype=np.float64)
-    steps = _STEPS, _STEPS
+    steps = ARM_STEPS, ARM_STEPS
     if covering is not None and racks.size > _CHUNK:
         steps = _steps_to(model, racks, covering)
     chunks = [
@@ -177,10 +177,10 @@ def branch(
 def _steps_to(model: Model, racks: Array, covering: tuple[float, float]) -> tuple[int, int]:
     """Return how many steps from design, down and up, some of the racks need, and one more."""
     some = np.quantile(racks, np.linspace(0.0, 1.0, _PROBES), method="nearest")
-    heights = _tabulate(model, some, (_STEPS, _STEPS), to_the_end=False).height
-    below = (heights[:, _STEPS::-1] > covering[0]).sum(axis=1).max()
-    above = (heights[:, _STEPS:] < covering[1]).sum(axis=1).max()
-    return min(int(below) + 1, _STEPS), min(int(above) + 1, _STEPS)
+    heights = _tabulate(model, some, (ARM_STEPS, ARM_STEPS), to_the_end=False).height
+    below = (heights[:, ARM_STEPS::-1] > covering[0]).sum(axis=1).max()
+    above = (heights[:, ARM_STEPS:] < covering[1]).sum(axis=1).max()
+    return min(int(below) + 1, ARM_STEPS), min(int(above) + 1, ARM_STEPS)
 
 
 @lru_cache(maxsize=_KEPT)
@@ -192,7 +192,7 @@ def _tabulated(model: Model, racks: bytes, steps: tuple[int, int], *, to_the_end
 def _tabulate(model: Model, racks: Array, steps: tuple[int, int], *, to_the_end: bool) -> Branch:
     """Look at so many steps down and up from design."""
     design = steps[0]
-    grid = model.design_state[0] - _STEP * np.arange(-steps[0], steps[1] + 1)
+    grid = model.design_state[0] - ARM_STEP * np.arange(-steps[0], steps[1] + 1)
     seen = _look(model, grid, racks[:, None])
     _refuse_racks(model, racks, seen, design)
     columns = np.arange(grid.size)
@@ -206,7 +206,7 @@ def _tabulate(model: Model, racks: Array, steps: tuple[int, int], *, to_the_end:
             height_and_slope(model, high, racks)[0][:, None],
         )
         return Branch(angles, np.where(inside, seen.height, heights))
-    fine = resolved(np.array(-_STEP), seen)
+    fine = resolved(np.array(-ARM_STEP), seen)
     down = np.logical_and.accumulate(fine[:, :design][:, ::-1], axis=1).sum(axis=1)
     up = np.logical_and.accumulate(fine[:, design:], axis=1).sum(axis=1)
     inner = np.clip(columns, design - down[:, None], design + up[:, None])
@@ -279,19 +279,19 @@ def _ends(model: Model, racks: Array, direction: float) -> tuple[Array, list[int
     limits : list of int
         What ends the reach, as in `_look`.
     """
-    angles = model.design_state[0] + direction * _STEP * np.arange(_STEPS + 1)
+    angles = model.design_state[0] + direction * ARM_STEP * np.arange(ARM_STEPS + 1)
     seen = _look(model, angles, racks[:, None])
     _refuse_racks(model, racks, seen, 0)
-    fine = np.logical_and.accumulate(resolved(np.array(direction * _STEP), seen), axis=1)
+    fine = np.logical_and.accumulate(resolved(np.array(direction * ARM_STEP), seen), axis=1)
     last = fine.sum(axis=1)
     ends, limits = angles[last], np.where(seen.usable[:, 0], GOAL, seen.limit[:, 0])
-    rows = np.flatnonzero((last < _STEPS) & seen.usable[:, 0])
+    rows = np.flatnonzero((last < ARM_STEPS) & seen.usable[:, 0])
     goals = np.full(rows.size, angles[-1])
     ends[rows], limits[rows] = march(
         lambda places, which: _look(model, places, racks[rows[which], None]),
         ends[rows],
         goals,
-        _STEP,
+        ARM_STEP,
     )
     # not past the design position, where a wheel that turns back at once has its end
     clear = direction * (ends - angles[0]) > _CLEARANCE
@@ -322,7 +322,7 @@ def _look(model: Model, angles: Array, racks: Array) -> Seen:
     of the equations stand those of the lengths that the file allows.
     """
     states, inputs = at_rest(model, angles, racks, arm_rate=1.0)
-    margins = _margins(model, states, inputs)
+    margins = margins_at(model, states, inputs)
     # a NaN behind a failed guard must not pass
     closes = (margins > 0.0).all(axis=-1)
     heights, slopes = np.zeros(closes.shape), np.zeros(closes.shape)
@@ -340,7 +340,7 @@ def _look(model: Model, angles: Array, racks: Array) -> Seen:
     return Seen(fine & (slopes < 0.0), limits, heights, slopes, margins)
 
 
-def _margins(model: Model, states: Array, inputs: Array) -> Array:
+def margins_at(model: Model, states: Array, inputs: Array) -> Array:
     """Return what must be positive at a position."""
     margins = model.evaluate("margins", states, inputs)
     # what guards an angle that no position depends on, as the azimuth of a vertical shaft
@@ -365,8 +365,8 @@ def _refuse_racks(model: Model, racks: Array, seen: Seen, column: int) -> None:
         limit = int(seen.limit[first, column])
     else:
         for side in (racks.argmin(), racks.argmax()):
-            way = _way(float(racks[side]))
-            margins = _margins(model, *at_rest(model, model.design_state[0], way))
+            way = way_of_rack(float(racks[side]))
+            margins = margins_at(model, *at_rest(model, model.design_state[0], way))
             blocked = ~margins_stay(margins)
             if blocked.any():
                 place = int(blocked.argmax())
@@ -380,7 +380,7 @@ def _refuse_racks(model: Model, racks: Array, seen: Seen, column: int) -> None:
     raise PositionError(message)
 
 
-def _way(rack: float) -> Array:
+def way_of_rack(rack: float) -> Array:
     """Return places from the middle of the rack to where it is wanted."""
     count = min(2 + int(abs(rack) / _RACK_STEP), _MOST_RACK_STEPS)
     return np.linspace(0.0, rack, 1 + count)

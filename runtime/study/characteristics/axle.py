@@ -12,7 +12,7 @@ from ...suspension.corner import Array
 _STRAIGHT = 1e-9
 
 
-def ackermann_error(left: Array, right: Array, wheelbase: float, track: float) -> Array:
+def ackermann_error(left: Array, right: Array, wheelbase: float, track: float | Array) -> Array:
     """Return how much more the outer wheel is steered than for rolling without slip [rad].
 
     With the angles counted towards the inside of the turn, the outer wheel would have to stand at
@@ -22,8 +22,10 @@ def ackermann_error(left: Array, right: Array, wheelbase: float, track: float) -
     ----------
     left, right : ndarray
         Steer angles [rad].
-    wheelbase, track : float
-        L and t [m].
+    wheelbase : float
+        L [m].
+    track : float or ndarray
+        t [m].
 
     Returns
     -------
@@ -34,7 +36,7 @@ def ackermann_error(left: Array, right: Array, wheelbase: float, track: float) -
     return outer - _ideal_outer(inner, wheelbase, track)
 
 
-def ackermann(left: Array, right: Array, wheelbase: float, track: float) -> Array:
+def ackermann(left: Array, right: Array, wheelbase: float, track: float | Array) -> Array:
     """Return the Ackermann percentage as a part of one [1].
 
     One for wheels that roll without slip, zero for parallel ones: the difference of the two steer
@@ -86,10 +88,11 @@ def _inner_and_outer(left: Array, right: Array) -> tuple[Array, Array]:
     return np.where(to_left, left, -right), np.where(to_left, right, -left)
 
 
-def _ideal_outer(inner: Array, wheelbase: float, track: float) -> Array:
+def _ideal_outer(inner: Array, wheelbase: float, track: float | Array) -> Array:
     # atan(L / (L / tan d + t)) without its pole straight ahead
     across, along = np.sin(inner), np.cos(inner)
-    return np.arctan2(wheelbase * across, wheelbase * along + track * across)
+    outer: Array = np.arctan2(wheelbase * across, wheelbase * along + track * across)
+    return outer
 
 
 def _turning(left: Array, right: Array) -> NDArray[np.bool_]:

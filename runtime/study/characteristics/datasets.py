@@ -166,8 +166,7 @@ def over_travel(
 ) -> dict[Quantity, Array]:
     """Return characteristics over wheel travel without labels, all or some; see `travel`."""
     angles = arm_angles(model, design_height(model) + travels, rack_position)
-    quantities = _chosen(catalogue.CORNER + catalogue.TRAVEL, names)
-    return _evaluated(quantities, corner(model, angles, rack_position))
+    return of_corner_over_travel(corner(model, angles, rack_position), names)
 
 
 def over_rack(
@@ -176,10 +175,29 @@ def over_rack(
     """Return characteristics over rack travel without labels, all or some; see `steering`."""
     model.suspension.refuse_without_rack("characteristics over the rack")
     own = _at_height(model, travel, racks)
-    found = _evaluated(_chosen(catalogue.CORNER + catalogue.STEERING, names), own)
-    if _chosen(catalogue.AXLE.values(), names):
-        found |= _both_sides(own, _at_height(model.mirror_image, travel, racks))
+    found = of_corner_over_rack(own, names)
+    if needs_both_sides(names):
+        found |= of_both_sides(own, _at_height(model.mirror_image, travel, racks))
     return found
+
+
+def of_corner_over_travel(
+    found: Corner, names: Container[str] | None = None
+) -> dict[Quantity, Array]:
+    """Return characteristics over wheel travel of a corner, all or some."""
+    return _evaluated(_chosen(catalogue.CORNER + catalogue.TRAVEL, names), found)
+
+
+def of_corner_over_rack(
+    found: Corner, names: Container[str] | None = None
+) -> dict[Quantity, Array]:
+    """Return characteristics over the rack of a corner by itself, all or some."""
+    return _evaluated(_chosen(catalogue.CORNER + catalogue.STEERING, names), found)
+
+
+def needs_both_sides(names: Container[str] | None) -> bool:
+    """Tell whether some characteristics are about both wheels of an axle."""
+    return bool(_chosen(catalogue.AXLE.values(), names))
 
 
 def _chosen(quantities: Iterable[Quantity], names: Container[str] | None) -> tuple[Quantity, ...]:
@@ -198,14 +216,14 @@ def _evaluated(quantities: Iterable[Quantity], found: Corner) -> dict[Quantity, 
     }
 
 
-def _both_sides(own: Corner, other: Corner) -> dict[Quantity, Array]:
+def of_both_sides(own: Corner, other: Corner) -> dict[Quantity, Array]:
     """Return what both wheels decide, as far as the vehicle is known."""
     left, right = (own, other) if own.vehicle.side > 0.0 else (other, own)
     angles = steer(left), steer(right)
     values = {"steer_left": angles[0], "steer_right": angles[1]}
     wheelbase, per_turn = own.vehicle.wheelbase, own.vehicle.travel_per_turn
     if wheelbase is not None:
-        track = 2.0 * abs(float(own.design_center[1]))
+        track = 2.0 * abs(own.design_center[..., 1])
         values["ackermann_error"] = axle.ackermann_error(*angles, wheelbase, track)
         values["ackermann"] = axle.ackermann(*angles, wheelbase, track)
         values["turning_circle"] = axle.turning_circle(*angles, wheelbase)

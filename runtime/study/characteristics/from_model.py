@@ -4,11 +4,13 @@ It is exact: nothing is differenced but, where a steering axis is that of the mo
 """
 
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...core.vectors import cross
+from ...core.columns import Column, spread
+from ...core.vectors import cross, turned
 from ...suspension.corner import Array, Corner, Motion, SteeringAxis, Vehicle
 from ...suspension.input.units import in_metres
 from ...suspension.kinds import Suspension
@@ -41,14 +43,14 @@ def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -
     states, inputs = at_rest(model, arm_angle, rack_position)
     pose = _Pose(model, states, inputs)
     points, travel = pose.points, pose.travel
-    turned = model.evaluate("orientations", states, inputs)[..., pose.carrier, :, :]
-    at_design = design_axis(model.suspension)
+    rotation = model.evaluate("orientations", states, inputs)[..., pose.carrier, :, :]
+    at_design = spread(design_axis(model.suspension))
     strokes = _strokes(model, states, inputs)
     return Corner(
         vehicle=vehicle(model.suspension),
         center=points["wheel_center"],
-        design_center=model.suspension.hardpoints.metres("wheel_center"),
-        axis=turned @ at_design,
+        design_center=spread(model.suspension.hardpoints.metres("wheel_center")),
+        axis=turned(rotation, at_design),
         design_axis=at_design,
         steering_axis=_steering_axis(pose) if kind.steered() else None,
         travel=travel,
@@ -57,7 +59,7 @@ def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -
         spring=kind.spring_at(strokes),
         stops=kind.stops_at(strokes),
         damper=kind.damper_at(strokes),
-        arm_rotation=model.design_state[0] - np.broadcast_to(arm_angle, states.shape[:-1]),
+        arm_rotation=model.design_state[..., 0] - np.broadcast_to(arm_angle, states.shape[:-1]),
     )
 
 
@@ -95,11 +97,11 @@ def vehicle(suspension: Suspension) -> Vehicle:
     rear = given.end == "rear"
     return Vehicle(
         side=given.sign,
-        tyre_radius=suspension.tyre_radius(),
-        tyre_rate=suspension.tyre.rate_N_per_m,
+        tyre_radius=_spread(suspension.tyre_radius()),
+        tyre_rate=_spread(suspension.tyre.rate_N_per_m),
         wheelbase=_metres(given.wheelbase_mm),
         center_of_gravity_height=_metres(given.center_of_gravity_height_mm),
-        front_brake_share=given.front_brake_share,
+        front_brake_share=_spread(given.front_brake_share),
         front=None if rear else True,
         rear=True if rear else None,
         travel_per_turn=_metres(suspension.rack.travel_per_turn_mm) if steered else None,
@@ -112,7 +114,12 @@ def _strokes(model: Model, states: Array, inputs: Array) -> Strokes:
 
 
 def _metres(length: float | None) -> float | None:
-    return None if length is None else in_metres(length, "mm")
+    return None if length is None else _spread(in_metres(length, "mm"))
+
+
+def _spread(value: Any) -> Any:
+    """Return a number as it is, and those of many over their positions."""
+    return spread(value) if isinstance(value, Column) else value
 
 
 def design_axis(suspension: Suspension) -> Array:

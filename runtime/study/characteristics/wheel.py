@@ -104,13 +104,13 @@ def contact(corner: Corner) -> Array:
 def half_track_change(corner: Corner) -> Array:
     """Return how much farther outboard the contact is than at design [m]."""
     design = lowest_point(corner.design_center, corner.design_axis, _radius(corner))
-    change: Array = corner.vehicle.side * (contact(corner)[..., 1] - design[1])
+    change: Array = corner.vehicle.side * (contact(corner)[..., 1] - design[..., 1])
     return change
 
 
 def wheelbase_change(corner: Corner) -> Array:
     """Return how much farther forward the wheel centre is than at design [m]."""
-    change: Array = corner.center[..., 0] - corner.design_center[0]
+    change: Array = corner.center[..., 0] - corner.design_center[..., 0]
     return change
 
 
@@ -257,7 +257,7 @@ def _turned_axis(corner: Corner, motion: Motion) -> Array:
 
 def lowest_point(center: Array, axis: Array, radius: float) -> Array:
     """Return the lowest point of a thin disc about an axis [m]."""
-    return center - radius * upward_across(axis)
+    return center - np.asarray(radius)[..., None] * upward_across(axis)
 
 
 def upward_across(axis: Array) -> Array:

@@ -1,5 +1,6 @@
 """What happens to the characteristics where values of the input file change.
 
+`cars`           the curves of many cars, each with values of its own
 `sensitivity`    by how much each value moves each characteristic
 `tolerance`      bands and yield of many cars that differ as drawings allow
 `optimise`       values that bring characteristics to targets, within limits
@@ -9,6 +10,7 @@
 `read`, `limits` a file of tolerances or of targets, and its limits
 """
 
+from .cars import cars
 from .fit import Fit, Fitted, fit
 from .goals import limits, read
 from .optimise import Optimum, optimise
@@ -23,6 +25,7 @@ __all__ = [
     "Fitted",
     "Front",
     "Optimum",
+    "cars",
     "effects",
     "fit",
     "limits",

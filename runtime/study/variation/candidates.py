@@ -1,12 +1,13 @@
 """Suspensions of which some values are free, and what they do where there are goals."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import KintrafoError
 from ...suspension.kinds import Suspension
+from .batch import curves_of_many, moved_by
 from .curves import Together, changed, model_of
 from .goals import Goal
 from .places import Place
@@ -55,6 +56,23 @@ class Candidates:
             finite = all(np.isfinite(values).all() for values in found)
             self._values[key] = found if finite else None
         return self._values[key]
+
+    def look_at(self, several: Iterable[Array]) -> None:
+        """Look at several suspensions together, so that `values` has them."""
+        new = {x.tobytes(): x for x in several if x.tobytes() not in self._values}
+        if not new:
+            return
+        off = np.array([*new.values()]) * self.reach
+        keys = [*new]
+
+        def seen(some: slice, found: list[Array], reasons: list[str]) -> None:
+            for row, (key, reason) in enumerate(zip(keys[some], reasons, strict=True)):
+                values = [curves[row, 0] for curves in found]
+                finite = not reason and all(np.isfinite(one).all() for one in values)
+                self._values[key] = values if finite else None
+
+        looks = [goal.curves for goal in self.goals]
+        curves_of_many(self.suspension, moved_by(self.places, off), looks, seen)
 
     def ends(self, x: Array, which: int) -> tuple[list[Array] | None, list[Array] | None]:
         """Return what `values` returns at the two ends of the range of one value."""

@@ -278,6 +278,7 @@ class _Judge:
     def __call__(self, generation: Array) -> tuple[Array, Array]:
         """Return costs, and by how much limits are exceeded, of each candidate."""
         found = []
+        self.candidates.look_at(generation)
         for x in generation:
             found.append((x, *self.one(x)))
             self.seen.append(found[-1])

@@ -7,6 +7,9 @@ from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ...core.arguments import Arguments, shown
 from ...core.quantities import Display, attributes
 from ...core.suggestions import suggestion
@@ -66,6 +69,10 @@ class Place:
 
     def moved(self, by: float) -> dict[str, float]:
         """Return the change of the file that moves the value by an amount in SI units."""
+        return {self.name: (self.value + by / self.to_si) * self.in_file}
+
+    def moved_all(self, by: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+        """Return the changes of many files, as `moved` of each."""
         return {self.name: (self.value + by / self.to_si) * self.in_file}
 
 

@@ -60,22 +60,28 @@ class Search(Candidates):
 
     def derivatives(self, x: Array) -> list[Array]:
         """Return the derivatives of what `values` returns; (values, free) for each."""
+        self.look_at(at for which in range(x.size) for at in self._beside(x, which))
         columns = [self._difference(x, which) for which in range(x.size)]
         return [np.stack(parts, axis=1) for parts in zip(*columns, strict=True)]
 
     def _difference(self, x: Array, which: int) -> list[Array]:
         """Return the derivatives by one value, one-sided beside what cannot be."""
-        by = np.zeros(x.size)
-        by[which] = step_of(self.places[which]) / self.reach[which]
-        beside = [(at[which], self.values(at)) for at in (x - by, x, x + by)]
+        beside = [(at[which], self.values(at)) for at in self._beside(x, which)]
         possible = [(at, values) for at, values in beside if values is not None]
         if len(possible) < 2:
             return [np.zeros(goal.at.size) for goal in self.goals]
         (first, low), (last, high) = possible[0], possible[-1]
         return [(b - a) / (last - first) for a, b in zip(low, high, strict=True)]
 
+    def _beside(self, x: Array, which: int) -> tuple[Array, Array, Array]:
+        """Return a place and its neighbours to either side, along one value."""
+        by = np.zeros(x.size)
+        by[which] = step_of(self.places[which]) / self.reach[which]
+        return x - by, x, x + by
+
     def idle(self, x: Array) -> list[str]:
         """Name the values that move no target, neither here nor from one end to the other."""
+        self.look_at(at for which in range(x.size) for at in self._beside(x, which))
         return [
             place.name
             for which, place in enumerate(self.places)

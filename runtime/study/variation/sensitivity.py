@@ -12,6 +12,7 @@ from ...core.errors import InputError, KintrafoError
 from ...core.quantities import Display, display_of
 from ...suspension.kinds import Suspension
 from ..characteristics.datasets import ALONG, KNOWN
+from .batch import curves_of_many, moved_by
 from .curves import Curves, Over, changed, curves_of, model_of
 from .places import Place, matching, refuse_bushes
 
@@ -104,17 +105,66 @@ def sensitivity(
             curves = curves_of(given, suspension, over, positions, names)
             chosen = [*matching(given, suspension, places).values()]
             refuse_bushes(given, chosen)
-    found = []
-    for count, place in enumerate(chosen, 1):
-        found.append(derivative(suspension, place, curves))
-        if progress is not None:
-            progress(count / len(chosen))
-    return _dataset(curves, chosen, np.array(found))
+    return _dataset(curves, chosen, derivatives(suspension, chosen, curves, progress))
+
+
+def derivatives(
+    suspension: Suspension,
+    places: Sequence[Place],
+    curves: Curves,
+    progress: Callable[[float], None] | None = None,
+    otherwise: Callable[[Suspension, Place, Curves], Array] | None = None,
+) -> Array:
+    """Return the derivatives of some curves by values; (places, names, positions), SI units.
+
+    The neighbours to both sides are looked at together; whoever lacks one goes by itself.
+    """
+    steps = [*_BOTH_SIDES[0]]
+    off = np.zeros((len(places) * len(steps), len(places)))
+    for which, place in enumerate(places):
+        rows = slice(which * len(steps), (which + 1) * len(steps))
+        off[rows, which] = step_of(place) * np.array(steps)
+    beside = np.full((len(off), len(curves.names), curves.positions.size), np.nan)
+    there = np.zeros(len(off), dtype=bool)
+
+    def seen(some: slice, found: list[Array], reasons: list[str]) -> None:
+        beside[some], there[some] = found[0], [not reason for reason in reasons]
+
+    curves_of_many(suspension, moved_by(places, off), [curves], seen, progress=progress)
+    shape = len(places), len(steps)
+    pairs = zip(beside.reshape(*shape, *beside.shape[1:]), there.reshape(shape), strict=True)
+    alone = otherwise or derivative
+    return np.array(
+        [
+            _difference(_BOTH_SIDES, step_of(place), dict(zip(steps, at, strict=True)))
+            if possible.all()
+            else alone(suspension, place, curves)
+            for place, (at, possible) in zip(places, pairs, strict=True)
+        ]
+    )
+
+
+def slopes(suspension: Suspension, places: Sequence[Place], curves: Curves) -> Array:
+    """Return what `derivatives` does; NaN for a value whose neighbours cannot be."""
+    return derivatives(suspension, places, curves, otherwise=_derivative_or_nan)
+
+
+def _derivative_or_nan(suspension: Suspension, place: Place, curves: Curves) -> Array:
+    try:
+        return derivative(suspension, place, curves)
+    except InputError:
+        return np.full((len(curves.names), curves.positions.size), np.nan)
 
 
 def derivative(suspension: Suspension, place: Place, curves: Curves) -> Array:
     """Return the derivative of some curves by a value; of shape (names, positions), SI units."""
-    orders, step, at = _neighbours(suspension, place, curves)
+    return _difference(*_neighbours(suspension, place, curves))
+
+
+def _difference(
+    orders: Sequence[Mapping[int, float]], step: float, at: Mapping[int, Array]
+) -> Array:
+    """Return the derivative from the curves so many steps off, NaN at a kink."""
     with np.errstate(invalid="ignore"):  # a turning circle is infinite straight ahead
         fourth, second = (
             np.sum([weight * at[by] for by, weight in order.items()], axis=0) / step

@@ -8,14 +8,14 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from ...core.arguments import Arguments
-from ...core.errors import InputError, KintrafoError
 from ...core.quantities import variable
 from ...suspension.kinds import Suspension
 from ..characteristics.datasets import ALONG, KNOWN
-from .curves import Curves, Over, Together, changed, curves_of, model_of
+from .batch import curves_of_many, moved_by
+from .curves import Curves, Over, curves_of, model_of
 from .goals import Limit, check_data, limits_of
 from .places import Place, amounts, refuse_bushes
-from .sensitivity import PLACE, ROUNDING, derivative
+from .sensitivity import PLACE, ROUNDING, slopes
 
 Array = NDArray[np.float64]
 Distribution = Literal["normal", "uniform"]
@@ -132,10 +132,7 @@ def tolerance(
     off = _drawn(distribution, root, count, seed) * np.array([*spread.values()])
     cars = _Cars(suspension, [*spread], off, curves, bounds)
     parts = _parts(suspension, spread, root, distribution, curves)
-    for car in range(count):
-        cars.see(car)
-        if progress is not None:
-            progress((car + 1) / count)
+    cars.see(progress)
     return _dataset(cars, parts)
 
 
@@ -172,7 +169,7 @@ def _drawn(distribution: str, root: Array, count: int, seed: int) -> Array:
 
 
 class _Cars:
-    """Cars that are looked at one after the other.
+    """Cars that are looked at.
 
     Parameters
     ----------
@@ -195,24 +192,24 @@ class _Cars:
     ) -> None:
         self.suspension, self.places, self.off = suspension, places, off
         self.curves, self.limits = curves, limits
-        self._look = Together([curves, *(limit.curves for limit in limits)])
         self.nominal = curves.of(model_of(suspension))
         self.values = np.full((len(off), *self.nominal.shape), np.nan)
         self.reasons = np.full(len(off), "", dtype=object)
         self.within = np.zeros(len(off), dtype=bool)
 
-    def see(self, car: int) -> None:
-        """Look at one car."""
-        changes: dict[str, float] = {}
-        for place, by in zip(self.places, self.off[car], strict=True):
-            changes |= place.moved(float(by))
-        try:
-            model = model_of(changed(self.suspension, changes))
-            self.values[car], *limited = self._look.of(model)
-            pairs = zip(self.limits, limited, strict=True)
-            self.within[car] = all(limit.kept(values).all() for limit, values in pairs)
-        except KintrafoError as error:
-            self.reasons[car] = str(error)
+    def see(self, progress: Callable[[float], None] | None) -> None:
+        """Look at all of them."""
+        looks = [self.curves, *(limit.curves for limit in self.limits)]
+        moved = moved_by(self.places, self.off)
+        curves_of_many(self.suspension, moved, looks, self._seen, progress=progress)
+
+    def _seen(self, some: slice, found: list[Array], reasons: list[str]) -> None:
+        self.values[some], *limited = found
+        self.reasons[some] = reasons
+        within = np.array([not reason for reason in reasons])
+        for limit, values in zip(self.limits, limited, strict=True):
+            within &= limit.kept(values[:, 0]).all(axis=1)
+        self.within[some] = within
 
 
 # -- results --------------------------------------------------------------------------------------
@@ -230,17 +227,9 @@ def _parts(
     Of correlated values it is that of their sum in which they have a part: it may be negative.
     """
     sigma = np.array([*spread.values()]) / (np.sqrt(3.0) if distribution == "uniform" else SIGMAS)
-    moved = sigma[:, None, None] * np.array([_slope(suspension, p, curves) for p in spread])
+    moved = sigma[:, None, None] * slopes(suspension, [*spread], curves)
     parts: Array = moved * np.einsum("ij,jnp->inp", root @ root.T, moved)
     return parts
-
-
-def _slope(suspension: Suspension, place: Place, curves: Curves) -> Array:
-    """Return the derivative by a value; NaN where no neighbour can be."""
-    try:
-        return derivative(suspension, place, curves)
-    except InputError:
-        return np.full((len(curves.names), curves.positions.size), np.nan)
 
 
 def _dataset(cars: _Cars, parts: Array) -> xr.Dataset:

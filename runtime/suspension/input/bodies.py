@@ -6,6 +6,7 @@ from typing import ClassVar
 import numpy as np
 from pydantic import Field
 
+from ...core.columns import greatest, sorted_moments
 from ...core.vectors import Vector, components
 from .hardpoints import Hardpoints
 from .section import NonNegative, Number, Positive, Section, Triple
@@ -64,7 +65,7 @@ class RigidBody(Section):
     def problems(self) -> list[str]:
         """Say why no body can have this inertia."""
         elements = self.elements()
-        scale = max(abs(value) for value in elements.values())
+        scale = greatest(abs(value) for value in elements.values())
         if scale == 0.0:
             return []
         names = ", ".join(f"inertia_{name}_kg_m2 = {value}" for name, value in elements.items())
@@ -173,9 +174,9 @@ class Bodies(Section):
 def _why_impossible(elements: dict[str, float], scale: float) -> str:
     """Return why a tensor is no body's inertia; empty if it may be one."""
     xx, yy, zz, xy, xz, yz = (elements[name] / scale for name in _ELEMENTS)
-    moments = np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    small, middle, large = (float(moment) for moment in moments)
-    listed = ", ".join(f"{scale * moment:.4g}" for moment in (small, middle, large))
+    moments = sorted_moments([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    small, middle, large = moments
+    listed = ", ".join(f"{scale * moment:.4g}" for moment in moments)
     remedy = (
         "Check the diagonal, and the signs of xy, xz and yz (elements of the tensor: minus the "
         "products of inertia); all zero make a point mass."

@@ -8,6 +8,7 @@ from typing import Any, ClassVar, get_args
 import numpy as np
 from pydantic import Field
 
+from ...core.columns import greatest, length, number
 from ...core.vectors import (
     Vector,
     angle_between_lines,
@@ -116,7 +117,8 @@ class Hardpoints(Section):
 
     def distance(self, first: str, second: str) -> float:
         """Return the distance of two hardpoints, given by their keys, in m."""
-        return float(np.linalg.norm(self.metres(second) - self.metres(first)))
+        distance: float = length(self.metres(second) - self.metres(first))
+        return distance
 
     def text(self, *names: str) -> str:
         """Return hardpoints as they stand in the file, with their unit, for error messages."""
@@ -142,12 +144,12 @@ class Hardpoints(Section):
             One text for each problem.
         """
         points = {name: self.metres(name) for name in self.given()}
-        far = [name for name, point in points.items() if np.abs(point).max() > _LARGEST_COORDINATE]
+        far = [n for n, point in points.items() if greatest(map(abs, point)) > _LARGEST_COORDINATE]
         remedy = f'Correct the coordinates or `unit = "{self.unit}"`.'
         if far:
             limit = f"allowed is -{_LARGEST_COORDINATE:g} m to {_LARGEST_COORDINATE:g} m"
             return [f"{self.text(*far)}: out of range, {limit}. {remedy}"]
-        size = max(self.distance(*pair) for pair in combinations(points, 2))
+        size = greatest(self.distance(*pair) for pair in combinations(points, 2))
         if size < _SMALLEST_SUSPENSION:
             problem = (
                 f"[hardpoints] unit = {self.unit!r}: all points lie within {1000 * size:.3f} mm; a "
@@ -257,7 +259,7 @@ class Hardpoints(Section):
             )
             return [problem]
         rod = unit_vector(inner - outer)
-        lever = abs(float(cross(outer - foot, rod) @ direction))
+        lever = abs(number(cross(outer - foot, rod) @ direction))
         if lever < SMALLEST_DISTANCE:
             problem = (
                 f"{self.text('tie_rod_outer', 'tie_rod_inner')}: the tie rod pulls with a lever of "

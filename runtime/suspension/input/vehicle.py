@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from ...core.columns import hypot, radians, tan
 from ...core.vectors import Vector, unit_vector
 from .section import Flag, NonNegative, Number, Positive, Range, Section, Triple
 from .units import in_metres
@@ -76,8 +77,8 @@ class Wheel(Section):
         """
         # The unit vector n that points outboard has camber = atan2(-n_z, s n_y) and
         # toe = atan2(n_x, s n_y), hence n ~ (tan toe, s, -tan camber); the spin axis is s n.
-        toe, camber = math.radians(self.toe_deg), math.radians(self.camber_deg)
-        return unit_vector([side_sign * math.tan(toe), 1.0, -side_sign * math.tan(camber)]) + 0.0
+        toe, camber = radians(self.toe_deg), radians(self.camber_deg)
+        return unit_vector([side_sign * tan(toe), 1.0, -side_sign * tan(camber)]) + 0.0
 
 
 class Tyre(Section):
@@ -118,7 +119,7 @@ class Steering(Section):
 
     def problems(self) -> list[str]:
         """Refuse an axis that points nowhere."""
-        length = math.hypot(*self.axis)
+        length = hypot(*self.axis)
         if 1e-6 < length < math.inf:
             return []
         problem = (

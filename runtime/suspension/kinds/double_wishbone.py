@@ -11,6 +11,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
+from ...core.columns import number
 from ...core.errors import InputError
 from ...core.vectors import Vector, cross, distance_from_line, unit_vector
 from ...generated import double_wishbone, double_wishbone_general
@@ -107,7 +108,7 @@ class DoubleWishboneHardpoints(Hardpoints):
     def _upside_down(self) -> list[str]:
         """Check that the upper ball joint is above the lower one."""
         low, high = map(self.metres, self.STEERING_AXIS)
-        rise = float(high[2] - low[2])
+        rise = number(high[2] - low[2])
         if rise >= SMALLEST_DISTANCE:
             return []
         problem = (
@@ -121,7 +122,7 @@ class DoubleWishboneHardpoints(Hardpoints):
         """Check that the knuckle can turn the upper arm, as it has to when the wheel moves."""
         hinge = self.metres("upper_arm_front") - self.metres("upper_arm_rear")
         arm = self.metres("upper_ball_joint") - self.metres("upper_arm_rear")
-        lever = abs(float(cross(arm, axis) @ unit_vector(hinge)))
+        lever = abs(number(cross(arm, axis) @ unit_vector(hinge)))
         if lever >= SMALLEST_DISTANCE:
             return []
         problem = (

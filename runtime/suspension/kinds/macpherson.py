@@ -13,6 +13,7 @@ from typing import Any, ClassVar, Literal, Self
 import numpy as np
 from pydantic import Field
 
+from ...core.columns import number
 from ...core.vectors import Vector, cross, unit_vector
 from ...generated import macpherson, macpherson_free_rack, macpherson_general
 from ...systems.allowed import Allowed
@@ -154,7 +155,7 @@ class MacPhersonHardpoints(Hardpoints):
     def _offset(self) -> list[str]:
         """Check that the ball joint is below the strut top, seen along the strut."""
         span = self.metres("strut_top") - self.metres("ball_joint")
-        reach = float(span @ self.strut_axis())
+        reach = number(span @ self.strut_axis())
         if reach >= SMALLEST_DISTANCE:
             return []
         problem = (

@@ -11,6 +11,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
+from ...core.columns import least_singular_value, stacked
 from ...core.errors import InputError
 from ...core.vectors import Vector, components, cross, unit_vector
 from ...generated import multi_link
@@ -117,9 +118,10 @@ class MultiLinkHardpoints(Hardpoints):
             [*along, *(cross(self.metres(f"{link}_outer") - center, along) / _RADIUS)]
             for link, along in self.directions().items()
         ]
-        _, firm, free = np.linalg.svd(np.array([*held, [0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]))
-        if firm[-1] * _LOOSEST >= 1.0:
+        rows = [*held, [0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]
+        if least_singular_value(rows) * _LOOSEST >= 1.0:
             return []
+        _, firm, free = np.linalg.svd(stacked(rows))
         shift, turn = free[-1, :3], free[-1, 3:]
         most = np.abs(free[-1]).argmax()
         words = f"turns about {'xyz'[most - 3]}" if most > 2 else f"moves along {'xyz'[most]}"

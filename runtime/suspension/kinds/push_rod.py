@@ -10,6 +10,7 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
+from ...core.columns import number
 from ...core.errors import InputError
 from ...core.vectors import Vector, cross, distance_from_line, unit_vector
 from ...generated import push_rod
@@ -80,7 +81,8 @@ class RockerHardpoints(DoubleWishboneHardpoints):
         if self.distance(place, end) < SMALLEST_DISTANCE:
             return 0.0
         arm = at - self.metres("rocker_rear")
-        return abs(float(cross(arm, unit_vector(to - at)) @ axis))
+        lever: float = abs(number(cross(arm, unit_vector(to - at)) @ axis))
+        return lever
 
 
 class PushRodHardpoints(RockerHardpoints):

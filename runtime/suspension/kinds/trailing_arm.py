@@ -11,6 +11,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
+from ...core.columns import length, number
 from ...core.errors import InputError
 from ...core.vectors import Vector, angle_between_lines, cross, distance_from_line
 from ...generated import trailing_arm
@@ -91,7 +92,7 @@ class TrailingArmHardpoints(Hardpoints):
             )
             return [problem]
         # the velocity of the wheel centre about the axis; by the lever, its part upward
-        rise = float(cross(outer - inner, center - inner)[2]) / float(np.linalg.norm(outer - inner))
+        rise = number(cross(outer - inner, center - inner)[2]) / length(outer - inner)
         if abs(rise) >= SMALLEST_DISTANCE:
             return []
         problem = (

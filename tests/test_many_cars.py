@@ -1,0 +1,145 @@
+"""Characteristics of many cars at once, against each car by itself."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from kintrafo import InputError, Model, Suspension, characteristics, variation
+from kintrafo.core.errors import KintrafoError
+from kintrafo.study.variation import batch
+from kintrafo.study.variation.curves import Curves, changed, model_of, there
+from kintrafo.study.variation.places import places_of
+
+ALL = [
+    "reference_car",
+    "double_wishbone_car",
+    "push_rod_car",
+    "pull_rod_car",
+    "trailing_arm_car",
+    "offset_strut_car",
+    "multi_link_car",
+    "chrono_generic",
+]
+
+
+def drawn(car: Suspension, count: int) -> dict[str, np.ndarray]:
+    """Return cars of which every number is off: points by a third of a mm, others by 1 %."""
+    rng = np.random.default_rng(3)
+    found = {}
+    for name, place in places_of(car).items():
+        if name.startswith("bushings"):
+            continue
+        size = 1.0 / 3.0 if name.startswith("hardpoints") else 0.01 * place.value
+        found[name] = (place.value + size * rng.standard_normal(count)) * place.in_file
+    return found
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_each_car_has_the_curves_that_it_has_alone(name: str) -> None:
+    car, count = Suspension.load(name), 12
+    values = drawn(car, count)
+    model = model_of(car)
+    looks = [Curves("travel", np.linspace(-0.04, 0.04, 5), there(model, "travel"))]
+    if car.steered():
+        looks.append(Curves("rack", np.array([-0.03, 0.01, 0.03]), there(model, "rack")))
+    found = [np.full((count, len(c.names), c.positions.size), np.nan) for c in looks]
+    together = batch._together(car, values, looks, found)
+    # bodies whose inertia is off by chance may be none, and then go by themselves
+    assert together.sum() >= count // 4
+    for one in np.flatnonzero(together):
+        itself = changed(car, {place: float(column[one]) for place, column in values.items()})
+        for look, rows in zip(looks, found, strict=True):
+            wanted = look.of(model_of(itself))
+            greatest = np.nanmax(np.where(np.isfinite(wanted), np.abs(wanted), 0.0), axis=1)
+            # the arm's angle is found to its last digits, by other steps; a rate of the axis of a
+            # screw is a difference over a step of 1e-3
+            limit = 1e-10 * np.maximum(greatest, 1e-3)[:, None]
+            np.testing.assert_array_equal(np.isnan(rows[one]), np.isnan(wanted))
+            assert (np.nan_to_num(np.abs(rows[one] - wanted)) <= limit).all()
+
+
+def alone(car: Suspension, changes: dict[str, float], at: list[float], name: str) -> object:
+    """Return the curve of one car by itself, or why it has none."""
+    try:
+        return characteristics.travel(Model(car.with_changes(changes)), at)[name].values
+    except KintrafoError as error:
+        return str(error)
+
+
+def held_against_each(
+    car: Suspension, values: dict[str, np.ndarray], at: list[float], name: str
+) -> list[bool]:
+    """Hold many cars against each by itself; return who has no curve."""
+    found = variation.cars(car, values, positions=at, names=[name])
+    for one, reason in enumerate(found["reason"].values.tolist()):
+        wanted = alone(car, {p: float(column[one]) for p, column in values.items()}, at, name)
+        if isinstance(wanted, str):
+            assert reason == wanted
+            assert np.isnan(found[name].values[one]).all()
+        else:
+            assert not reason
+            np.testing.assert_allclose(found[name].values[one], wanted, rtol=0, atol=1e-14)
+    return [bool(reason) for reason in found["reason"].values]
+
+
+def test_cars_that_cannot_be_say_why_and_the_others_go_on() -> None:
+    values = {
+        "hardpoints.tie_rod_inner.z": np.array([280.0, 281.0, 1e9, 279.0, 280.0]),
+        "strut.spring_rate_N_per_m": np.array([25e3, 24e3, 25e3, -1.0, 25e3]),
+    }
+    car = Suspension.load("reference_car")
+    gone = held_against_each(car, values, [0.0, 0.02], "toe")
+    assert gone == [False, False, True, True, False]
+
+
+def test_a_position_beyond_the_reach_of_some_is_theirs_alone() -> None:
+    car = Suspension.load("reference_car")
+    values = {"hardpoints.strut_top.z": 820.0 + np.array([0.0, -4.0, 4.0, 1.0, -0.2, 0.2])}
+    gone = held_against_each(car, values, [-0.3652, 0.0], "camber")
+    assert any(gone)
+    assert not all(gone)
+
+
+def test_another_branch_is_not_taken_for_somebody() -> None:
+    """With friction the equations are others: such cars go by themselves."""
+    car = Suspension.load("reference_car")
+    found = variation.cars(
+        car, {"strut.friction_N": [0.0, 0.0, 50.0, 0.0]}, positions=[0.01], names=["wheel_rate"]
+    )
+    np.testing.assert_allclose(found["wheel_rate"].values[2], found["wheel_rate"].values[0])
+    assert not found["reason"].values.any()
+
+
+def test_grids_reductions_and_threads() -> None:
+    car = Suspension.load("reference_car")
+    grid = xr.Dataset(
+        coords={
+            "hardpoints.tie_rod_inner.z": [278.0, 280.0, 282.0],
+            "strut.spring_rate_N_per_m": [20e3, 25e3],
+        }
+    )
+    whole = variation.cars(car, grid, positions=[-0.03, 0.0, 0.03], names=["toe", "wheel_rate"])
+    assert whole["toe"].dims[:2] == ("hardpoints.tie_rod_inner.z", "strut.spring_rate_N_per_m")
+    picked = whole["wheel_rate"].sel({"strut.spring_rate_N_per_m": 25e3})
+    assert (picked.values > whole["wheel_rate"].values[:, 0]).all()
+    rows = {"hardpoints.tie_rod_inner.z": np.linspace(278.0, 282.0, 1100)}
+    asked = {"positions": [-0.03, 0.0, 0.03], "names": ["toe"]}
+    curves = variation.cars(car, rows, **asked, threads=2)
+    kept = variation.cars(car, rows, **asked, threads=1, reductions=["min", "max", "mean", "range"])
+    for name, reduced in (("min", np.min), ("max", np.max), ("mean", np.mean), ("range", np.ptp)):
+        wanted = reduced(curves["toe"].values, axis=1)
+        np.testing.assert_array_equal(kept[f"toe_{name}"].values, wanted)
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({}, "one place or more"),
+        ({"hardpoints.ball_joint.w": [1.0]}, "no number of the file"),
+        ({"hardpoints.ball_joint.z": [1.0, np.nan]}, "finite"),
+        ({"hardpoints.ball_joint.z": [1.0, 2.0], "wheel.toe_deg": [0.0] * 3}, "lengths"),
+        (3.0, "places and rows"),
+    ],
+)
+def test_what_cannot_be_used_is_refused_by_name(values: object, words: str) -> None:
+    with pytest.raises(InputError, match=words):
+        variation.cars(Suspension.load("reference_car"), values, names=["toe"])  # type: ignore[arg-type]
