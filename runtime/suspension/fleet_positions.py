@@ -87,7 +87,7 @@ def _steps(wanted: Array, height: Array) -> tuple[int, int]:
 def _look(fleet: Fleet, angles: Array, rack: float) -> Seen:
     """Return what there is at some angles of each; see `reach`."""
     margins = margins_at(fleet, *rest_of(fleet, angles, rack))
-    closes: Flags = (margins > 0.0).all(axis=-1)
+    closes = np.asarray((margins > 0.0).all(axis=-1))
     signals = _signals_where(fleet, closes, angles, rack)
     allowed = fleet.allowed_lengths()
     left = np.ones((*angles.shape, len(allowed)))
@@ -160,8 +160,7 @@ def _newton(
         moving = np.abs(step) > 4.0 * _EPSILON * np.abs(angles[rows])
         rows = rows[(moving & (excess != 0.0)).any(axis=1)]
     most = _ROUNDING + _ROUNDINGS * np.spacing(np.abs(found)) * np.abs(slopes)
-    met: Flags = (error <= most).all(axis=1)
-    return found, met
+    return found, np.asarray((error <= most).all(axis=1))
 
 
 def _racks_get_there(fleet: Fleet, rack: Array) -> Flags:

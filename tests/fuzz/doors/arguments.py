@@ -199,6 +199,14 @@ CALLS = {
             "positions": [0.0, 0.01], "names": ["camber"],
         },
     ),
+    "cars": (
+        variation.cars,
+        {
+            "suspension": _CAR.suspension, "values": {_ROD: [279.0, 281.0, 282.0]},
+            "over": "travel", "positions": [0.0, 0.01], "names": ["camber"],
+            "reductions": ["min"], "threads": 1,
+        },
+    ),
     "tolerance": (
         variation.tolerance,
         {
