@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from .equations.errors import ClosureError, ModelError, ParameterError
     from .simulation.backwards import MotionGradient, motion_gradient
     from .simulation.events import SignalEvent
+    from .simulation.forwards import MotionSensitivity, motion_sensitivity
     from .simulation.interpolation import Samples
     from .simulation.result import Simulation, SimulationError
     from .simulation.simulate import simulate
@@ -63,6 +64,7 @@ __all__ = [
     "Model",
     "ModelError",
     "MotionGradient",
+    "MotionSensitivity",
     "ParameterError",
     "PositionError",
     "Range",
@@ -84,6 +86,7 @@ __all__ = [
     "gradient",
     "linearise",
     "motion_gradient",
+    "motion_sensitivity",
     "proposals",
     "rest",
     "road_under_load",
@@ -103,6 +106,7 @@ _MODULES = {
     ".suspension.kinds": ("Suspension",),
     ".simulation.interpolation": ("Samples",),
     ".simulation.backwards": ("MotionGradient", "motion_gradient"),
+    ".simulation.forwards": ("MotionSensitivity", "motion_sensitivity"),
     ".systems.derivatives": ("derivative", "design_derivative", "gradient"),
     ".systems.linearisation": ("Linearisation", "linearise"),
     ".systems.rest": ("rest",),

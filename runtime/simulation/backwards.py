@@ -29,8 +29,8 @@ from .simulate import simulate_inputs
 Array = NDArray[np.float64]
 Measure = Literal["mean", "rms"]
 
-_OUTPUTS = 201
-_MOST_STEPS = 10_000_000
+OUTPUTS = 201
+MOST_STEPS = 10_000_000
 # Rows that are differentiated at a time: some MB.
 _ROWS = 4096
 # Steps whose Jacobian is looked at, and by how much they may be longer than it allows.
@@ -128,23 +128,23 @@ def motion_gradient(
             given.refuse(f"t_span = {shown(t_span)}: the last time must be the later one.")
         if not given.refused:
             times = outputs_of(
-                given, np.linspace(*span, _OUTPUTS) if t_eval is None else t_eval, span
+                given, np.linspace(*span, OUTPUTS) if t_eval is None else t_eval, span
             )
             asked = _asked(given, system, of, times)
             given.array("y0", y0, dimensions=[1], last=len(system.state_names), empty=True)
             accuracy = accuracy_of(
                 given, len(system.state_names), rtol=rtol, atol=atol, max_step=max_step,
-                first_step=None, max_steps=_MOST_STEPS,
+                first_step=None, max_steps=MOST_STEPS,
             )  # fmt: skip
     held = inputs_of(y0, system.names_of_states)
     courses = time_inputs(system, inputs, span, held=held, max_step=max_step)
-    motion, steps = _followed(system, courses, np.array(y0, dtype=float), accuracy)
+    motion, steps = followed(system, courses, np.array(y0, dtype=float), accuracy)
     value, weights = _judged(system, asked, times, *steps.point(*steps.places(times)))
     swept = _Sweep(system, directions, steps).backwards(times, weights)
     return MotionGradient(value, _named(system, directions, courses, *swept), motion)
 
 
-def _followed(
+def followed(
     system: System, courses: TimeInputs, state: Array, accuracy: Accuracy
 ) -> tuple[Simulation, Steps]:
     """Return a motion whose steps are fit for derivatives, and the steps."""

@@ -130,7 +130,10 @@ def _is_reversed(place: str) -> bool:
 
 def _allowed(one: Allowed) -> Allowed:
     limit: Any = one.limit
-    return one._replace(limit=limit.values[:, None]) if isinstance(limit, Column) else one
+    if not isinstance(limit, Column):
+        return one
+    limits: Any = limit.values[:, None]
+    return one._replace(limit=limits)
 
 
 def _with_columns(section: Any, columns: Mapping[str, Column]) -> Any:

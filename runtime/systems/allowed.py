@@ -16,14 +16,14 @@ class Allowed(NamedTuple):
     ----------
     signal : str
         The signal of the equations that is the length.
-    limit : float or ndarray
-        The least length; the greatest, with a minus sign [m]. Of many, shape (count, 1).
+    limit : float
+        The least length; the greatest, with a minus sign [m].
     part, end : str
         What is as long, and which end of its length that is, where it was given.
     """
 
     signal: str
-    limit: float | Array
+    limit: float
     part: str
     end: str
 

@@ -74,7 +74,7 @@ def derivative(
             values = _values(given, system, state, inputs)
             _broadcast(given, "along, state and inputs", [*changes, *values])
     direction, of_state, of_inputs = changes
-    parameters = _kept(system, directions, direction)
+    parameters = kept_together(system, directions, direction)
     of_constants = directions.of_parameters(
         "prepare_tangent", parameters, direction, system.constants.size
     )
@@ -185,7 +185,7 @@ def design_derivative(system: System, along: Mapping[str, ArrayLike]) -> dict[st
                 given.among("parameter", name, system.parameters)
         if not given.refused:
             direction, *_ = _changes(given, system, named)
-    parameters = _kept(system, directions, direction)
+    parameters = kept_together(system, directions, direction)
     count = len(system.state_names)
     found = directions.of_parameters("design_state_tangent", parameters, direction, count)
     return {name: found[..., i] for i, name in enumerate(system.state_names)}
@@ -229,6 +229,11 @@ def _changes(given: Arguments, system: System, along: Mapping[str, Any]) -> list
     return found
 
 
+def direction_of(system: System, along: Mapping[str, float]) -> list[Array]:
+    """Return a checked direction as arrays of parameters, state and inputs."""
+    return [np.array([along.get(name, 0.0) for name in names]) for names in _names(system)]
+
+
 def _values(given: Arguments, system: System, state: Any, inputs: Any) -> list[Array]:
     rows = given.array("state", state, last=len(system.state_names), empty=True, finite=False)
     held = inputs_of(state, system.names_of_states) if inputs is None else inputs
@@ -261,7 +266,7 @@ def _go_together(given: Arguments, what: str, shapes: list[tuple[int, ...]]) -> 
     return True
 
 
-def _kept(system: System, directions: Directions, direction: Array) -> Array:
+def kept_together(system: System, directions: Directions, direction: Array) -> Array:
     """Return the parameters of a system; refuse directions that leave its equations."""
     parameters = np.array([*system.parameters.values()])
     of_bound = np.where(directions.bound(parameters), direction, 0.0)

@@ -1,0 +1,251 @@
+"""How a motion changes with parameters, its start and inputs: forward along its steps.
+
+The motion is integrated by Dormand and Prince's method as by `simulate`, with steps that are fit
+for derivatives (see `backwards`). What a small change does is followed beside it through the same
+steps, stage by stage: the tangent of the method, for any number of directions at once. So it is
+exact for the numbers which the integration gives, and the transpose of what `motion_gradient` does.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..core.arguments import Arguments, shown
+from ..systems.derivatives import checked_directions, direction_of, kept_together
+from ..systems.state import inputs_of
+from ..systems.system import System
+from .accuracy import accuracy_of, outputs_of, span_of
+from .backwards import MOST_STEPS, OUTPUTS, followed
+from .courses import Signal
+from .result import Simulation
+from .retraced import NODES, STAGES, Steps, weights_within
+from .signals import time_inputs
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class MotionSensitivity:
+    """A motion, and how it changes.
+
+    Attributes
+    ----------
+    t : ndarray, shape (n,)
+        Times [s].
+    values : dict of str to ndarray, shape (n,)
+        Elements of the state and signals at these times, by name, SI units.
+    by : dict of str to dict of str to ndarray, shape (n,)
+        Their derivatives: by direction, then by name.
+    motion : Simulation
+        With every step.
+    """
+
+    t: Array
+    values: dict[str, Array]
+    by: dict[str, dict[str, Array]]
+    motion: Simulation
+
+
+def motion_sensitivity(
+    system: System,
+    t_span: tuple[float, float],
+    y0: ArrayLike,
+    by: Sequence[str] | Mapping[str, Mapping[str, float]],
+    *,
+    signals: Sequence[str] | None = None,
+    inputs: Mapping[str, Signal] | None = None,
+    t_eval: ArrayLike | None = None,
+    rtol: float = 1e-6,
+    atol: ArrayLike = 1e-9,
+    max_step: float = np.inf,
+) -> MotionSensitivity:
+    """Return the exact derivatives of a motion over time.
+
+    Parameters
+    ----------
+    system : System
+        With equations that were compiled with ``parameter_derivatives=True``.
+    t_span, y0, inputs, rtol, atol, max_step
+        As for `simulate`, by the method 'DormandPrince'; time goes forward.
+    by : sequence of str, or mapping
+        Parameters, elements of the state at the start, and inputs that do not vary, by name. Or
+        directions by names of your choice: how much each of such changes, SI units. Parameters move
+        by themselves: the start stays.
+    signals : sequence of str, optional
+        Which signals; by default all.
+    t_eval : array_like, optional
+        Times at which they are told, by default 201 from the first to the last [s].
+
+    Returns
+    -------
+    MotionSensitivity
+
+    Raises
+    ------
+    InputError
+        If an argument cannot be used, a direction leaves what the equations take to be zero, or the
+        rates jump on the way.
+    SimulationError
+        As of `simulate`.
+
+    Notes
+    -----
+    Steps are no longer than what the directions need to be followed as accurately as the motion,
+    and shorter towards kinks, as of `motion_gradient`. That is for few directions and many results; for
+    one number by everything there is `motion_gradient`.
+
+    Examples
+    --------
+    >>> import kintrafo
+    >>> from kintrafo.generator.mechanisms.four_bar import FOUR_BAR
+    >>> four_bar = kintrafo.System(kintrafo.compile(FOUR_BAR, parameter_derivatives=True))
+    >>> start = four_bar.state(crank_angle=0.3)
+    >>> found = kintrafo.motion_sensitivity(four_bar, (0.0, 0.5), start, ["crank_mass"])
+    >>> round(found.by["crank_mass"]["crank_angle"].mean(), 4)
+    -0.0005
+    """
+    with Arguments("motion_sensitivity") as given:
+        checked_directions(given, system)
+        span = span_of(given, t_span)
+        if span[1] < span[0]:
+            given.refuse(f"t_span = {shown(t_span)}: the last time must be the later one.")
+        if not given.refused:
+            times = outputs_of(
+                given, np.linspace(*span, OUTPUTS) if t_eval is None else t_eval, span
+            )
+            along = _along(given, system, by)
+            chosen = system.signal_names
+            if signals is not None:
+                chosen = given.names("signals", signals, system.signal_names)
+            given.array("y0", y0, dimensions=[1], last=len(system.state_names), empty=True)
+            accuracy = accuracy_of(
+                given, len(system.state_names), rtol=rtol, atol=atol, max_step=max_step,
+                first_step=None, max_steps=MOST_STEPS,
+            )  # fmt: skip
+    tangents = _Tangents(system, along)
+    held = inputs_of(y0, system.names_of_states)
+    courses = time_inputs(system, inputs, span, held=held, max_step=max_step)
+    vary = {t for part in courses.segments for spline in part.splines for t in spline.targets}
+    _refuse_varying(system, along, {system.input_names[place] for place in vary})
+    motion, steps = followed(system, courses, np.array(y0, dtype=float), accuracy)
+    states, moved = tangents.followed(steps, times)
+    at_inputs = steps.point(*steps.places(times))[1]
+    found = tangents.of_signals(states, at_inputs, moved)
+    values = dict(zip(system.state_names, states.T, strict=True))
+    values |= {name: system.signals(states, at_inputs)[name] for name in chosen}
+    names = (*system.state_names, *system.signal_names)
+    kept = [names.index(name) for name in (*system.state_names, *chosen)]
+    by_direction = {
+        label: {names[i]: np.hstack([moved[which], found[which]])[:, i].copy() for i in kept}
+        for which, label in enumerate(along)
+    }
+    return MotionSensitivity(times, values, by_direction, motion)
+
+
+def _along(given: Arguments, system: System, by: Any) -> dict[str, Mapping[str, float]]:
+    """Return the directions by name."""
+    known = (*system.parameters, *system.state_names, *system.input_names)
+    if not isinstance(by, Mapping):
+        return {name: {name: 1.0} for name in given.names("by", by, known)}
+    found = {}
+    for label, direction in given.mapping("by", by, "names and directions").items():
+        named = given.mapping(f"by {label!r}", direction, "names and numbers")
+        found[str(label)] = {
+            given.among("name", name, known): given.number(f"by {label!r} {name}", value)
+            for name, value in named.items()
+        }
+    if not found:
+        given.refuse("by is empty: one name or direction is needed.")
+    return found
+
+
+def _refuse_varying(
+    system: System, along: Mapping[str, Mapping[str, float]], vary: set[str]
+) -> None:
+    """Refuse directions of inputs that vary with time."""
+    with Arguments("motion_sensitivity") as given:
+        for name in sorted({n for direction in along.values() for n in direction} & vary):
+            given.refuse(
+                f"by {name!r}: this input of {system.equations.NAME} varies with time, so that it "
+                "has no one value to be changed. Name inputs that do not vary."
+            )
+
+
+class _Tangents:
+    """Directions in which a system moves, followed along the steps of a motion.
+
+    Parameters
+    ----------
+    system : System
+    along : mapping
+        Directions by name.
+    """
+
+    def __init__(self, system: System, along: Mapping[str, Mapping[str, float]]) -> None:
+        self._system, self._directions = system, system.equations.DIRECTIONS
+        parts = [direction_of(system, direction) for direction in along.values()]
+        of_parameters, self._start, self._inputs = (np.array(p) for p in zip(*parts, strict=True))
+        parameters = kept_together(system, self._directions, of_parameters)
+        self._constants = self._directions.of_parameters(
+            "prepare_tangent", parameters, of_parameters, system.constants.size
+        )
+
+    def _each(self) -> Iterator[tuple[Array, Array]]:
+        return zip(self._constants, self._inputs, strict=True)
+
+    def followed(self, steps: Steps, times: Array) -> tuple[Array, Array]:
+        """Return the states at some times, and their directions, (directions, times, elements)."""
+        stages, after = self._through(steps)
+        count, size = steps.length.size, self._start.shape[1]
+        before = np.empty((count, size, len(self._start)))
+        moved = self._start.T.copy()
+        for step in range(count):
+            before[step] = moved
+            moved = after[step, :, :size] @ moved + after[step, :, size:]
+        rates = stages[..., :size] @ before[:, None] + stages[..., size:]
+        step, part = steps.places(times)
+        states, _ = steps.point(step, part)
+        within = np.einsum("ts,tsnd->tnd", weights_within(part), rates[step])
+        found = before[step] + steps.length[step, None, None] * within
+        return states, np.moveaxis(found, -1, 0)
+
+    def _through(self, steps: Steps) -> tuple[Array, Array]:
+        """Return how rates at the stages, and states after steps, depend on what was before.
+
+        The first columns are by the elements of the state before a step, one more for each
+        direction has what parameters and inputs do within it.
+        """
+        system = self._system
+        jacobians = system.evaluate("rhs_jacobian", steps.states, steps.inputs)
+        still = np.zeros_like(steps.states)
+        values = (system.constants, steps.states, steps.inputs)
+        own = [
+            self._directions.tangent("rhs", values, (constants, still, inputs))
+            for constants, inputs in self._each()
+        ]
+        size = still.shape[-1]
+        columns = np.eye(size, size + len(own))
+        pushed = np.zeros((*still.shape, size + len(own)))
+        pushed[..., size:] = np.stack(own, axis=-1)
+        length, rates = steps.length[:, None, None], np.zeros_like(pushed)
+        for stage in range(NODES.size):
+            earlier = np.tensordot(rates[:, :stage], STAGES[stage, :stage], (1, 0))
+            moved = columns + length * earlier
+            rates[:, stage] = jacobians[:, stage] @ moved + pushed[:, stage]
+        return rates, columns + length * np.tensordot(rates, STAGES[-1], (1, 0))
+
+    def of_signals(self, states: Array, inputs: Array, moved: Array) -> Array:
+        """Return the derivatives of all signals at some times, (directions, times, signals)."""
+        if not self._system.signal_names:
+            return np.zeros((*moved.shape[:2], 0))
+        values = (self._system.constants, states, inputs)
+        pairs = zip(self._each(), moved, strict=True)
+        return np.array(
+            [
+                self._directions.tangent("signals", values, (constants, own, by_input))
+                for (constants, by_input), own in pairs
+            ]
+        )
