@@ -9,6 +9,7 @@ from rich.table import Table
 
 from ..core.tabulated import significant
 from . import axles, rigid
+from . import goals as wanted
 from .console import console, print_json
 from .options import Bump, File, Force, Json, Of, RackExtent, Rebound, Step, among, load, metres
 from .outputs import Figures, Formats, Out, Outputs, Plot, name_files, named
@@ -20,6 +21,7 @@ EXAMPLES = (
     "kintrafo characteristics reference_car",
     "kintrafo characteristics my_car.toml -o curves.csv --plot curves.pdf",
     "kintrafo characteristics my_car.toml --figures figures --format svg",
+    "kintrafo characteristics my_car.toml --goals goals.toml --plot curves.png",
     "kintrafo characteristics reference_axle --motion bump --motion roll -o axle.csv",
 )
 
@@ -52,6 +54,7 @@ def command(
         float, typer.Option(metavar="MM", help="Rack displacement, where the travel varies.")
     ] = 0.0,
     of: Of = None,
+    goals: wanted.Goals = None,
     out: Out = None,
     plot: Plot = None,
     figures: Figures = None,
@@ -84,10 +87,11 @@ def command(
         figures,
         formats,
         force=force,
-        inputs=[file],
+        inputs=[file, *([goals] if goals else [])],
         suffixes=[f"_{name}" for name in (chosen if of_axle or of_rigid_axle else ways)],
     )
     if of_axle or of_rigid_axle:
+        axles.refuse_options("the file of one suspension", {"--goals": goals})
         extent = Extent(
             rebound=metres(rebound),
             bump=metres(bump),
@@ -104,6 +108,9 @@ def command(
         axles.characteristics(file, chosen, extent, held, outputs, of=of, json=json)
         return
     axles.refuse_options("the file of an axle", {"--motion": motion, "--roll": roll})
+    if goals and (travel or rack):
+        raise typer.BadParameter("--goals are about the rack in its middle and the wheel at design")
+    aims = wanted.read(goals, ways)
     model = load(file)
     ends: dict[str, Any] = {"rebound": metres(rebound), "bump": metres(bump)}
     at_travel, at_rack, spacing = travel / 1e3, rack / 1e3, step / 1e3
@@ -117,13 +124,19 @@ def command(
     written = [
         path
         for over, dataset in curves.items()
-        for path in outputs.write(dataset, title=file, suffix=f"_{over}", names=drawn[over])
+        for path in outputs.write(
+            dataset, title=file, suffix=f"_{over}", names=drawn[over], goals=aims
+        )
     ]
+    judged = wanted.judged({file: model}, aims)
     if json:
-        print_json({f"over_{over}": export.as_dict(curves[over]) for over in curves})
+        found = {f"over_{over}": export.as_dict(curves[over]) for over in curves}
+        print_json(found | ({"goals": judged} if aims else {}))
         return
     for over, dataset in curves.items():
         console.print(_at_design(dataset, f"{file}: characteristics over {over}, at design"))
+    if aims:
+        console.print(wanted.table(judged, f"{file}: targets and limits of {goals}"))
     name_files(written)
 
 

@@ -1,5 +1,6 @@
 """``kintrafo compare``: curves of several suspensions over each other, and what differs."""
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
@@ -8,6 +9,7 @@ from rich.table import Table
 
 from ..core.tabulated import significant
 from . import axles, rigid
+from . import goals as wanted
 from .compliance import Held
 from .console import console, print_json, progress_bar, say
 from .options import Files, Force, Json, Of, among, load
@@ -22,6 +24,7 @@ if TYPE_CHECKING:
 EXAMPLES = (
     "kintrafo compare reference_car my_car.toml",
     "kintrafo compare before.toml after.toml --over rack --plot difference.png -o both.csv",
+    "kintrafo compare before.toml after.toml --goals goals.toml --plot goals.png",
     "kintrafo compare rig.csv my_car.toml --plot measured.png",
     "kintrafo compare before.toml after.toml --of toe --of bump_steer --plot steer.png",
     "kintrafo compare before.toml after.toml --held height --plot compliance.png",
@@ -46,6 +49,7 @@ def command(
             "held it on the rig, where it is height by default."
         ),
     ] = None,
+    goals: wanted.Goals = None,
     out: Out = None,
     plot: Plot = None,
     figures: Figures = None,
@@ -61,23 +65,12 @@ def command(
     """
     from ..study import compare
 
-    outputs = Outputs.of(out, plot, figures, formats, force=force, inputs=files)
-    measured = [file for file in files if file.lower().endswith(".csv")]
-    if held is not None and (rigid.all_rigid(files) or axles.all_axles(files)):
-        raise typer.BadParameter("--held is not for the files of axles")
-    if rigid.all_rigid(files):
-        dataset = rigid.compared(files, over)
-    elif axles.all_axles(files):
-        dataset = axles.compared(files, over)
-    elif over not in (None, "travel", "rack"):
-        raise typer.BadParameter(f"--over {over} is only for the files of axles")
-    elif measured:
-        dataset = _beside(files, measured, over, held or "height")
-    else:
-        models = _models(files)
-        with progress_bar("characteristics") as progress:
-            along: Any = over or "travel"
-            dataset = compare.compare(models, over=along, held=held, progress=progress)
+    outputs = Outputs.of(
+        out, plot, figures, formats, force=force, inputs=[*files, *([goals] if goals else [])]
+    )
+    dataset, models = _compared(files, over, held, goals)
+    aims = wanted.read(goals, [over or "travel"])
+    judged = wanted.judged(models, aims)
     both = [f"{name}_{side}" for name in of or () for side in ("left", "right")]
     of = [n for n in of or () if n in dataset or f"{n}_left" not in dataset] + [
         name for name in both if name in dataset
@@ -86,18 +79,45 @@ def command(
     found = [difference for difference in compare.differences(dataset) if difference.name in shown]
     first, *others = (str(name) for name in dataset["data_set"].values)
     title = " and ".join([first, *others])
-    written = outputs.write(dataset, title=title, names=shown if of else ())
+    written = outputs.write(dataset, title=title, names=shown if of else (), goals=aims)
     if json:
-        print_json(
-            [vars(difference) | {"units": _units(dataset, difference)} for difference in found]
-        )
+        told = [vars(difference) | {"units": _units(dataset, difference)} for difference in found]
+        print_json({"differences": told, "goals": judged} if aims else told)
         return
     for name in others:
         chosen = [difference for difference in found if difference.data_set == name]
         console.print(_table(dataset, chosen, first, name))
+    if aims:
+        console.print(wanted.table(judged, f"targets and limits of {goals}"))
     if dataset.attrs.get("left_out"):
         say(f"columns that were not read: {dataset.attrs['left_out']}.")
     name_files(written)
+
+
+def _compared(
+    files: list[str], over: str | None, held: Held | None, goals: Path | None
+) -> "tuple[Dataset, dict[str, Model]]":
+    """Return the curves beside each other, and the models of what are suspensions."""
+    from ..study import compare
+
+    measured = [file for file in files if file.lower().endswith(".csv")]
+    of_rigid, of_axles = rigid.all_rigid(files), axles.all_axles(files)
+    if held is not None and (of_rigid or of_axles):
+        raise typer.BadParameter("--held is not for the files of axles")
+    if goals is not None and (measured or of_rigid or of_axles):
+        raise typer.BadParameter("--goals is for the files of suspensions, without a measurement")
+    if of_rigid:
+        return rigid.compared(files, over), {}
+    if of_axles:
+        return axles.compared(files, over), {}
+    if over not in (None, "travel", "rack"):
+        raise typer.BadParameter(f"--over {over} is only for the files of axles")
+    if measured:
+        return _beside(files, measured, over, held or "height"), {}
+    models = _models(files)
+    with progress_bar("characteristics") as progress:
+        along: Any = over or "travel"
+        return compare.compare(models, over=along, held=held, progress=progress), models
 
 
 def _models(files: list[str]) -> "dict[str, Model]":

@@ -13,6 +13,8 @@ from .options import among
 if TYPE_CHECKING:
     from xarray import Dataset
 
+    from ..study.variation.goals import Goal
+
 Out = Annotated[
     list[Path] | None,
     typer.Option(
@@ -115,6 +117,7 @@ class Outputs:
         names: Sequence[str] = (),
         suffix: str = "",
         drawn: "Dataset | None" = None,
+        goals: "Sequence[Goal]" = (),
     ) -> list[Path]:
         """Write the files and return them; nothing has been printed that could go wrong before.
 
@@ -129,12 +132,14 @@ class Outputs:
             Goes behind the name of each file, where a command has several datasets.
         drawn : xarray.Dataset, optional
             The data as they are drawn, where that is another form of them.
+        goals : sequence of Goal, optional
+            Targets and limits that are drawn into the curves.
         """
         written = self.write_data(dataset, suffix)
         if self.pages or self.figures:
             rule: _Rule = {"force": self.force, "inputs": self.inputs}
             curves = dataset if drawn is None else drawn
-            written += self._drawn(curves, title, names, suffix, rule)
+            written += self._drawn(curves, title, names, suffix, goals, rule)
         return written
 
     def write_data(
@@ -153,12 +158,18 @@ class Outputs:
         ]
 
     def _drawn(
-        self, dataset: "Dataset", title: str, names: Sequence[str], suffix: str, rule: "_Rule"
+        self,
+        dataset: "Dataset",
+        title: str,
+        names: Sequence[str],
+        suffix: str,
+        goals: "Sequence[Goal]",
+        rule: "_Rule",
     ) -> list[Path]:
         from ..plots import curves as plots
 
         written = [
-            plots.write_overview(dataset, _named(path, suffix), names, title, **rule)
+            plots.write_overview(dataset, _named(path, suffix), names, title, goals=goals, **rule)
             for path in self.pages
         ]
         if self.figures is not None:
@@ -169,6 +180,7 @@ class Outputs:
                     formats=self.formats,
                     title=title,
                     suffix=suffix,
+                    goals=goals,
                     progress=progress,
                     **rule,
                 )

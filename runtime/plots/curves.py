@@ -25,7 +25,9 @@ from ..core.errors import InputError
 from ..core.files import Paths, refuse, replacing
 from ..core.quantities import bracketed, display_of, displayed, long_name
 from ..study.characteristics.groups import ORDER, group_of
+from ..study.variation.goals import Goal
 from .figures import BLUE, GREEN, METADATA, ORANGE, STYLE, lay_out, save, written_plainly
+from .goals import mark, over_of
 
 Array = NDArray[np.float64]
 
@@ -55,6 +57,7 @@ def write(
     formats: Sequence[str] = ("png",),
     title: str = "",
     suffix: str = "",
+    goals: Sequence[Goal] = (),
     progress: Callable[[float], None] | None = None,
     force: bool = False,
     inputs: Paths = (),
@@ -73,6 +76,8 @@ def write(
         Stands above each figure, usually the name of the data.
     suffix : str, optional
         Ends the name of each file, before its ending.
+    goals : sequence of Goal, optional
+        Targets and limits, drawn into the curves that they are about.
     progress : callable, optional
         Called with the part that is done, up to 1.
     force : bool, optional
@@ -106,7 +111,7 @@ def write(
     refuse([path for paths in files.values() for path in paths], force=force, inputs=inputs)
     for index, (name, variables) in enumerate(drawn.items()):
         with rc_context(STYLE):
-            one = figure(dataset, variables, title=title, alone=name in single)
+            one = figure(dataset, variables, title=title, alone=name in single, goals=goals)
             for path in files[name]:
                 save(one, path, force=force, inputs=inputs)
         if progress is not None:
@@ -120,6 +125,7 @@ def write_overview(
     names: Sequence[Hashable] = (),
     title: str = "",
     *,
+    goals: Sequence[Goal] = (),
     force: bool = False,
     inputs: Paths = (),
 ) -> Path:
@@ -133,6 +139,8 @@ def write_overview(
     names : sequence of str, optional
         By default all that vary.
     title : str, optional
+    goals : sequence of Goal, optional
+        Targets and limits, drawn into the curves that they are about.
     force : bool, optional
         Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
     inputs : iterable of str or pathlib.Path, optional
@@ -159,13 +167,14 @@ def write_overview(
     with rc_context(STYLE):
         if Path(path).suffix.lower() != ".pdf":
             chosen = tuple(name for page in pages.values() for name in page)
-            one = figure(dataset, chosen, title=title, alone=False)
+            one = figure(dataset, chosen, title=title, alone=False, goals=goals)
             return save(one, path, force=force, inputs=inputs)
         drawn = BytesIO()
         with PdfPages(drawn, metadata=METADATA["pdf"]) as document:
             for group, variables in pages.items():
                 heading = ": ".join(text for text in (title, group) if text)
-                document.savefig(lay_out(figure(dataset, variables, title=heading, alone=False)))
+                page = figure(dataset, variables, title=heading, alone=False, goals=goals)
+                document.savefig(lay_out(page))
     with replacing(path, force=force, inputs=inputs) as temporary:
         temporary.write_bytes(drawn.getvalue())
     return Path(path)
@@ -222,7 +231,12 @@ def _slug(text: str) -> str:
 
 
 def figure(
-    dataset: xr.Dataset, names: Sequence[Hashable], *, title: str = "", alone: bool = True
+    dataset: xr.Dataset,
+    names: Sequence[Hashable],
+    *,
+    title: str = "",
+    alone: bool = True,
+    goals: Sequence[Goal] = (),
 ) -> Figure:
     """Draw curves of some variables, each in its own axes.
 
@@ -234,6 +248,8 @@ def figure(
     title : str, optional
     alone : bool, optional
         Whether this is the figure of one curve, with its definition where there is one.
+    goals : sequence of Goal, optional
+        Targets and limits, drawn into the curves that they are about.
 
     Returns
     -------
@@ -253,7 +269,7 @@ def figure(
     result = Figure(figsize=size, layout="constrained")
     panels = result.subplots(rows, columns, squeeze=False).ravel()
     for index, (axes, name) in enumerate(zip(panels, names, strict=False)):
-        along = _draw(axes, dataset[name])
+        along = _draw(axes, dataset[name], goals)
         (_describe_alone if alone else _describe_panel)(axes, dataset[name])
         if index + columns >= len(names):
             axes.set_xlabel(_with_sign(dataset[along]), fontsize=10 if alone else 9)
@@ -263,6 +279,9 @@ def figure(
         if dataset[name].ndim > 1:
             _legend(result, axes, dataset[name], alone=alone)
             break
+    for axes in panels[: len(names)]:
+        if axes.get_legend() is None:
+            _legend_of_goals(axes)
     result.suptitle("\n".join(line for line in (title, _held(dataset)) if line), fontsize=11)
     return written_plainly(result)
 
@@ -272,7 +291,7 @@ def _curves(dataset: xr.Dataset) -> tuple[Hashable, ...]:
     return tuple(n for n, data in dataset.items() if data.ndim in (1, 2) and data.dtype.kind == "f")
 
 
-def _draw(axes: Axes, data: xr.DataArray) -> str:
+def _draw(axes: Axes, data: xr.DataArray, goals: Sequence[Goal] = ()) -> str:
     """Draw one variable with its zero lines and its design position; return what it is over."""
     along, lines = _lines(data)
     position = displayed(data[along])
@@ -290,8 +309,11 @@ def _draw(axes: Axes, data: xr.DataArray) -> str:
             at_design = values[position == 0.0]
             dot = "black" if len(lines) == 1 else colour
             axes.plot(np.zeros(at_design.size), at_design, "o", color=dot, markersize=4)
+    over = over_of(along)
+    marked = mark(axes, goals, str(data.name), over) if over else np.empty(0)
     axes.margins(x=0.02)
-    _limit(axes, np.concatenate([v for _, v in lines]), may_have_pole=along in _WITH_DESIGN)
+    whole = np.concatenate([marked, *(v for _, v in lines)])
+    _limit(axes, whole, may_have_pole=along in _WITH_DESIGN)
     low, high = axes.get_ylim()
     for curve, (_, values) in zip(curves, lines, strict=True):
         curve.set_ydata(_without_leaps(values, low, high))
@@ -401,6 +423,8 @@ def _legend(result: Figure, axes: Axes, data: xr.DataArray, *, alone: bool) -> N
     handles = [line for line in axes.get_lines() if line.get_linestyle() != "None"][: len(lines)]
     labels = [label for label, _ in lines]
     title = None if across == _FAMILY else long_name(data[across])
+    marks = _marks_of_goals(axes)
+    handles, labels = [*handles, *marks.values()], [*labels, *marks]
     if alone:
         result.legend(
             handles,
@@ -413,6 +437,18 @@ def _legend(result: Figure, axes: Axes, data: xr.DataArray, *, alone: bool) -> N
         )
     else:
         axes.legend(handles, labels, title=title, loc="best", fontsize=8, title_fontsize=8)
+
+
+def _legend_of_goals(axes: Axes) -> None:
+    """Name the marks of targets and limits, where there are some."""
+    named = _marks_of_goals(axes)
+    if named:
+        axes.legend([*named.values()], [*named], loc="best", fontsize=8)
+
+
+def _marks_of_goals(axes: Axes) -> dict[str, Any]:
+    """Return what stands for targets and for limits, by what it is called; curves have no label."""
+    return {label: mark for mark, label in zip(*axes.get_legend_handles_labels(), strict=True)}
 
 
 def _held(dataset: xr.Dataset) -> str:

@@ -20,6 +20,7 @@ from ..study.variation.optimise import Optimum
 from ..study.variation.sensitivity import PLACE, Effect, effects
 from ..study.variation.tolerance import QUANTILE
 from .figures import BLUE, ORANGE
+from .goals import mark
 from .panels import write_panels
 
 # Before and after, told apart in black and white too.
@@ -155,12 +156,7 @@ def write_optimum(
         for (label, model), (colour, dashes) in zip(models.items(), _PAIR, strict=True):
             values = Curves(panel.over, along, (panel.name,)).of(model)[0]
             axes.plot(step * along, factor * values, dashes, color=colour, label=label)
-        for target in (t for t in found.targets if (t.name, t.over) == (panel.name, panel.over)):
-            axes.errorbar(
-                step * target.at, factor * target.value, factor * target.within,
-                fmt="o", color="black", markersize=3, linewidth=1.0, capsize=2, label="target",
-            )  # fmt: skip
-        _limits(axes, found.limits, panel.name, panel.over)
+        mark(axes, goals, panel.name, panel.over)
         _around(axes, over.attributes() | {"long_name": over.long_name}, quantity.attributes())
 
     return write_panels(draw, [*panels], path, height=2.6, title=title, force=force, inputs=inputs)
@@ -196,22 +192,8 @@ def _bands(axes: Axes, dataset: xr.Dataset, name: str, limits: Sequence[Limit]) 
     nominal = displayed(dataset[f"{name}_nominal"])
     axes.plot(position, nominal, color="black", linewidth=1.4, label="as drawn")
     over = next(over for over, quantity in ALONG.items() if quantity.name == along)
-    _limits(axes, limits, name, over)
+    mark(axes, limits, name, over)
     _around(axes, dataset[along].attrs, data.attrs)
-
-
-def _limits(axes: Axes, limits: Sequence[Limit], name: str, over: str) -> None:
-    """Mark the least and the greatest value that a characteristic may have: arrows stand beyond."""
-    factor = display_of(KNOWN[over][name].attributes()).factor
-    step = display_of(ALONG[over].attributes()).factor
-    for limit in (found for found in limits if (found.name, found.over) == (name, over)):
-        for bound, marker in ((limit.least, 6), (limit.most, 7)):  # carets up and down
-            if np.isfinite(bound):
-                at = np.full(limit.at.size, factor * bound)
-                axes.plot(
-                    step * limit.at, at, ":", marker=marker, color="#aa0000", linewidth=1.2,
-                    label="limit",
-                )  # fmt: skip
 
 
 def _around(axes: Axes, along: Mapping[str, Any], values: Mapping[str, Any]) -> None:

@@ -94,8 +94,8 @@ def motion_sensitivity(
     Notes
     -----
     Steps are no longer than what the directions need to be followed as accurately as the motion,
-    and shorter towards kinks, as of `motion_gradient`. That is for few directions and many results; for
-    one number by everything there is `motion_gradient`.
+    and shorter towards kinks, as of `motion_gradient`. This is for few directions and many results;
+    for one number by everything there is `motion_gradient`.
 
     Examples
     --------

@@ -8,11 +8,12 @@
 `fit`            errors of the file that explain curves which were measured
 `sweep`          the motion over a grid of values
 `read`, `limits` a file of tolerances or of targets, and its limits
+`goals`, `judge` its targets and limits, and which of them a suspension meets
 """
 
 from .cars import cars
 from .fit import Fit, Fitted, fit
-from .goals import limits, read
+from .goals import Verdict, goals, judge, limits, read
 from .optimise import Optimum, optimise
 from .pareto import Front, pareto
 from .sensitivity import Effect, effects, sensitivity
@@ -25,9 +26,12 @@ __all__ = [
     "Fitted",
     "Front",
     "Optimum",
+    "Verdict",
     "cars",
     "effects",
     "fit",
+    "goals",
+    "judge",
     "limits",
     "optimise",
     "pareto",

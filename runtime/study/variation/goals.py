@@ -1,6 +1,6 @@
 """Targets and limits of characteristics, as a file or a caller gives them."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -14,7 +14,7 @@ from ...suspension.input.toml_file import read_sections
 from ...suspension.kinds import Suspension
 from ..characteristics.datasets import KNOWN, refuse_of_steering
 from ..loads.flexibility import HELD
-from .curves import Curves, Over, Way, model_of, there
+from .curves import Curves, Over, Together, Way, model_of, there
 
 Array = NDArray[np.float64]
 
@@ -132,6 +132,105 @@ def limits(described: Mapping[str, Any]) -> list[Limit]:
     """Read limits by themselves, for a picture: as those of `tolerance` and `optimise`."""
     with Arguments("limits") as given:
         return limits_of(given, given.mapping("limits", described, "names and limits"))
+
+
+def goals(described: Mapping[str, Any]) -> list[Goal]:
+    """Return the targets and limits of a file that was read, to be drawn and judged.
+
+    Parameters
+    ----------
+    described : mapping
+        From `read`; other sections are left to others.
+
+    Returns
+    -------
+    list of Target and Limit
+    """
+    with Arguments("goals") as given:
+        sections = given.mapping("described", described, "sections and tables")
+        return [
+            *targets_of(given, given.mapping("targets", sections.get("targets", {}), "tables")),
+            *limits_of(given, given.mapping("limits", sections.get("limits", {}), "tables")),
+        ]
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What comes of a goal.
+
+    Attributes
+    ----------
+    name, over : str
+        The characteristic, and what it is over.
+    kind : str
+        'target' or 'limit'.
+    met : bool
+        Whether all of its positions are within the limit, or off by no more than what matters.
+    beyond : float
+        By how much the worst position is beyond that, SI units; negative where there is room.
+    at : float
+        That position [m].
+    """
+
+    name: str
+    over: str
+    kind: str
+    met: bool
+    beyond: float
+    at: float
+
+
+def judge(suspension: Suspension, wanted: Sequence[Goal]) -> list[Verdict]:
+    """Tell which targets and limits a suspension meets.
+
+    Parameters
+    ----------
+    suspension : Suspension
+    wanted : sequence of Target and Limit
+        From `goals`.
+
+    Returns
+    -------
+    list of Verdict
+        In this order.
+
+    Raises
+    ------
+    InputError
+        If the file has not the data that one of them needs.
+    PositionError
+        If the suspension does not reach a position.
+
+    Examples
+    --------
+    >>> car = Suspension.load("reference_car")
+    >>> toe = goals({"limits": {"toe": {"at_mm": [-50.0, 50.0], "least": -0.2, "most": 0.2}}})
+    >>> [(verdict.name, verdict.met, verdict.at) for verdict in judge(car, toe)]
+    [('toe', False, -0.05)]
+    """
+    with Arguments("judge") as given:
+        given.kind("suspension", suspension, Suspension, "a kintrafo.Suspension is needed")
+        if not isinstance(wanted, list | tuple) or not all(
+            isinstance(one, Target | Limit) for one in wanted
+        ):
+            given.refuse("wanted: a list of targets and limits, from `goals`, is needed.")
+        if not given.refused:
+            check_data(given, suspension, wanted)
+    looks = Together([goal.curves for goal in wanted])
+    found = looks.of(model_of(suspension)) if wanted else []
+    return [_verdict(goal, values[0]) for goal, values in zip(wanted, found, strict=True)]
+
+
+def _verdict(goal: Goal, values: Array) -> Verdict:
+    if isinstance(goal, Target):
+        kind, beyond = "target", np.abs(values - goal.value) - goal.within
+        met = bool((np.abs(values - goal.value) <= goal.within).all())
+    else:
+        assert isinstance(goal, Limit)
+        kind, beyond = "limit", np.maximum(goal.least - values, values - goal.most)
+        met = bool(goal.kept(values).all())
+    worst = int(beyond.argmax())
+    return Verdict(goal.name, goal.over, kind, met, float(beyond[worst]), float(goal.at[worst]))
 
 
 def check_data(given: Arguments, suspension: Suspension, goals: Iterable[Goal]) -> None:
