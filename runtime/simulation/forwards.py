@@ -150,7 +150,7 @@ def _along(given: Arguments, system: System, by: Any) -> dict[str, Mapping[str, 
     known = (*system.parameters, *system.state_names, *system.input_names)
     if not isinstance(by, Mapping):
         return {name: {name: 1.0} for name in given.names("by", by, known)}
-    found = {}
+    found: dict[str, Mapping[str, float]] = {}
     for label, direction in given.mapping("by", by, "names and directions").items():
         named = given.mapping(f"by {label!r}", direction, "names and numbers")
         found[str(label)] = {
@@ -202,9 +202,9 @@ class _Tangents:
         count, size = steps.length.size, self._start.shape[1]
         before = np.empty((count, size, len(self._start)))
         moved = self._start.T.copy()
-        for step in range(count):
-            before[step] = moved
-            moved = after[step, :, :size] @ moved + after[step, :, size:]
+        for which in range(count):
+            before[which] = moved
+            moved = after[which, :, :size] @ moved + after[which, :, size:]
         rates = stages[..., :size] @ before[:, None] + stages[..., size:]
         step, part = steps.places(times)
         states, _ = steps.point(step, part)
