@@ -544,9 +544,9 @@ def test_the_page_runs(kintrafo: Any, tmp_path: Path) -> None:  # noqa: F811
     softer = Model(soft.with_changes({"bushings.strut_top.radial_N_per_mm": 600.0}))
     found_by_load = loads.compliance(softer)[["toe_by_lateral", "camber_by_lateral"]]
     export.write(found_by_load, tmp_path / "soft_rig.csv")
-    (block,) = re.findall(r"```python\n(.*?)```", page, flags=re.DOTALL)
     found: dict[str, Any] = {}
-    exec(block, found)
+    for block in re.findall(r"```python\n(.*?)```", page, flags=re.DOTALL):
+        exec(block, found)
     np.testing.assert_allclose(found["found"]["bump_steer_share"].sum("place"), 1.0, rtol=1e-12)
     for line in commands_of(page):
         code, out, err = kintrafo(*shlex.split(line)[1:])
