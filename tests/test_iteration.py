@@ -85,8 +85,8 @@ def states(built: Built, count: int, seed: int = 0) -> tuple[Array, Array]:
 
 MODEL_NAMES = pytest.mark.parametrize("name", [ARM.name, FIVE.name])
 WITH_STRUT = pytest.mark.parametrize("name", [ARM.name, FIVE.name, STRUT.name])
-# the strut is one of six rods, as the push rod is of the other
-DIFFERENTIATED = [ARM.name, STRUT.name]
+# those of a carrier on more rods are held against 50 digits with the models that are shipped
+DIFFERENTIATED = [ARM.name]
 WITH_DERIVATIVES = pytest.mark.parametrize("name", DIFFERENTIATED)
 
 
