@@ -104,8 +104,8 @@ def motion_sensitivity(
     >>> four_bar = kintrafo.System(kintrafo.compile(FOUR_BAR, parameter_derivatives=True))
     >>> start = four_bar.state(crank_angle=0.3)
     >>> found = kintrafo.motion_sensitivity(four_bar, (0.0, 0.5), start, ["crank_mass"])
-    >>> round(found.by["crank_mass"]["crank_angle"].mean(), 4)
-    -0.0005
+    >>> round(float(found.by["crank_mass"]["crank_angle"][-1]), 4)  # rad/kg, at the end
+    -0.5398
     """
     with Arguments("motion_sensitivity") as given:
         checked_directions(given, system)

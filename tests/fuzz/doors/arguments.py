@@ -207,6 +207,11 @@ CALLS = {
             "reductions": ["min"], "threads": 1,
         },
     ),
+    "goals": (
+        lambda **given: variation.judge(_CAR.suspension, variation.goals({"targets": given})),
+        {"toe": {"value": 0.0, "within": 1.0, "at_mm": [0.0, 1.0], "over": "travel"}},
+    ),
+    "judge": (variation.judge, {"suspension": _CAR.suspension, "wanted": []}),
     "tolerance": (
         variation.tolerance,
         {
@@ -301,6 +306,11 @@ CALLS = {
         kintrafo.gradient,
         {"system": _DIFFERENTIABLE, "function": "rhs", "weights": [0.0, 1.0], "state": _BAR_AT,
          "inputs": None},
+    ),
+    "motion_sensitivity": (
+        kintrafo.motion_sensitivity,
+        {"system": _DIFFERENTIABLE, "t_span": (0.0, 0.05), "y0": _BAR_AT, "by": ["crank_mass"],
+         "signals": [], "t_eval": [0.01, 0.05], "rtol": 1e-6, "atol": 1e-9},
     ),
     "design_derivative": (
         kintrafo.design_derivative, {"system": _DIFFERENTIABLE, "along": {"crank_mass": 1.0}}
