@@ -178,13 +178,21 @@ def motion() -> list[str]:
         asked = {"wheel_acceleration": "rms"}
         return kintrafo.motion_gradient(system, (0.0, 1.0), start, asked, t_eval=times)
 
+    def over_time(count: int) -> Any:
+        by = [*system.parameters][:count]
+        return kintrafo.motion_sensitivity(
+            system, (0.0, 1.0), start, by, signals=["wheel_acceleration"], t_eval=times
+        )
+
     forward, backward = quickest(simulated), quickest(differentiated)
+    one, many = (milliseconds(quickest(lambda n=n: over_time(n))) for n in (1, 20))
     times_longer = f"{milliseconds(backward)}, {backward / forward:.0f} times"
     return [
         "| a second of the reference car, ms | |",
         "|---|---:|",
         f"| simulated, with a signal at 201 times | {milliseconds(forward)} |",
         f"| with the gradient of its RMS by {len(differentiated().by)} | {times_longer} |",
+        f"| with derivatives over time by 1, by 20 | {one}, {many} |",
     ]
 
 

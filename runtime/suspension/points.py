@@ -13,7 +13,13 @@ from .model import Model
 Array = NDArray[np.float64]
 
 
-def hardpoints(model: Model, state: ArrayLike, inputs: ArrayLike | None = None) -> dict[str, Array]:
+def hardpoints(
+    model: Model,
+    state: ArrayLike,
+    inputs: ArrayLike | None = None,
+    *,
+    poses: tuple[Array, Array] | None = None,
+) -> dict[str, Array]:
     """Return the hardpoints in chassis axes.
 
     Parameters
@@ -21,6 +27,8 @@ def hardpoints(model: Model, state: ArrayLike, inputs: ArrayLike | None = None) 
     model : Model
     state, inputs : array_like
         One state or many, as in the compiled module.
+    poses : tuple of ndarray, optional
+        Positions and orientations there, if they have been evaluated.
 
     Returns
     -------
@@ -38,7 +46,11 @@ def hardpoints(model: Model, state: ArrayLike, inputs: ArrayLike | None = None) 
         given.kind("model", model, Model, Model.NEEDED)
     points = model.suspension.hardpoints
     moved = carried(
-        model, {p: (body, points.metres(p)) for p, body in points.CARRIERS.items()}, state, inputs
+        model,
+        {p: (body, points.metres(p)) for p, body in points.CARRIERS.items()},
+        state,
+        inputs,
+        poses=poses,
     )
     fixed = [p for p in (*points.names(), *points.STAND_INS) if p not in points.CARRIERS]
     shape = (*next(iter(moved.values())).shape[:-1], 3)
@@ -50,6 +62,8 @@ def carried(
     points: Mapping[str, tuple[str, Array]],
     state: ArrayLike,
     inputs: ArrayLike | None = None,
+    *,
+    poses: tuple[Array, Array] | None = None,
 ) -> dict[str, Array]:
     """Return where points of moving bodies are.
 
@@ -60,6 +74,8 @@ def carried(
         By names of any choice, the body and the place at design, chassis axes [m].
     state, inputs : array_like
         One state or many, as in the compiled module.
+    poses : tuple of ndarray, optional
+        Positions and orientations there, if they have been evaluated.
 
     Returns
     -------
@@ -67,8 +83,12 @@ def carried(
         Position of each [m], shape (..., 3).
     """
     bodies, at_design = model.equations.BODIES, _centers_of_mass(model)
-    centers = model.evaluate("positions", state, inputs)
-    rotations = model.evaluate("orientations", state, inputs)
+    if poses is None:
+        poses = (
+            model.evaluate("positions", state, inputs),
+            model.evaluate("orientations", state, inputs),
+        )
+    centers, rotations = poses
     return {
         name: centers[..., index, :]
         + turned(rotations[..., index, :, :], spread(place - at_design[body]))

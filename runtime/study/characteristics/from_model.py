@@ -43,7 +43,7 @@ def corner(model: Model, arm_angle: ArrayLike, rack_position: ArrayLike = 0.0) -
     states, inputs = at_rest(model, arm_angle, rack_position)
     pose = _Pose(model, states, inputs)
     points, travel = pose.points, pose.travel
-    rotation = model.evaluate("orientations", states, inputs)[..., pose.carrier, :, :]
+    rotation = pose.rotations[..., pose.carrier, :, :]
     at_design = spread(design_axis(model.suspension))
     strokes = _strokes(model, states, inputs)
     return Corner(
@@ -133,7 +133,10 @@ class _Pose:
 
     def __init__(self, model: Model, states: Array, inputs: Array) -> None:
         self.model, self.states, self.inputs = model, states, inputs
-        self.points = hardpoints(model, states, inputs)
+        self.centers = model.evaluate("positions", states, inputs)
+        self.rotations = model.evaluate("orientations", states, inputs)
+        poses = self.centers, self.rotations
+        self.points = hardpoints(model, states, inputs, poses=poses)
         self.carrier: int = model.equations.BODIES.index(model.suspension.carrier)
         self.by_arm = self._motion("arm")
         self.travel = self.by_arm.per(self.by_arm.velocity[..., 2])
@@ -167,8 +170,7 @@ class _Pose:
         states, inputs = self._at_unit_rate(what)
         twist = model.evaluate("velocities", states, inputs)[..., self.carrier, :]
         turning, velocity = twist[..., :3], twist[..., 3:]
-        origin = model.evaluate("positions", states, inputs)[..., self.carrier, :]
-        arm = self.points["wheel_center"] - origin
+        arm = self.points["wheel_center"] - self.centers[..., self.carrier, :]
         return Motion(velocity + cross(turning, arm), turning)
 
     def _at_unit_rate(self, what: str) -> tuple[Array, Array]:

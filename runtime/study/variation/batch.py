@@ -31,7 +31,7 @@ Array = NDArray[np.float64]
 
 # Cars of a batch: so many that what is done once for them does not count, and so few that what is
 # computed of them stays in the cache.
-_TOGETHER = 512
+_TOGETHER = 256
 # Fewer cars are quicker one by one.
 _FEWEST = 3
 # How often those who are in the way are left out before all go one by one.
