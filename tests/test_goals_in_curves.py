@@ -9,6 +9,7 @@ import pytest
 from kintrafo import InputError, Model, Suspension, characteristics, variation
 from kintrafo.cli import app
 from kintrafo.plots import curves
+from kintrafo.report import goals_chapter
 from typer.testing import CliRunner
 
 GOALS = """
@@ -68,6 +69,18 @@ def test_characteristics_and_compare_tell_and_draw(goals: Path, tmp_path: Path) 
         "reference_car",
         "offset_strut_car",
     ]
+
+
+def test_a_chapter_of_the_report_has_them(goals: Path) -> None:
+    wanted = variation.goals(variation.read(goals))
+    chapter = goals_chapter(Model("reference_car"), wanted)
+    assert [row[3] for row in chapter.tables[0].rows] == ["missed", "missed"]
+    assert [picture.words for picture in chapter.pictures] == [
+        "Curves over wheel travel with targets and limits",
+        "Curves over the rack with targets and limits",
+    ]
+    with pytest.raises(InputError, match="goals is empty"):
+        goals_chapter(Model("reference_car"), [])
 
 
 def test_marks_are_at_their_values(goals: Path) -> None:

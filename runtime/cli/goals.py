@@ -20,7 +20,7 @@ Goals = Annotated[
         "--goals",
         metavar="FILE",
         help="TOML with [targets] and [limits] of characteristics, as of kintrafo optimise: they "
-        "are drawn into the curves, and a table says which are met.",
+        "are drawn into curves, and a table says which are met.",
     ),
 ]
 

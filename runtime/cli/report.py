@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from . import axles, rigid
+from . import goals as wanted
 from .console import problems, say
 from .loads import subject
 from .options import File, Force, load
@@ -19,6 +20,7 @@ EXAMPLES = (
     "kintrafo report reference_car",
     'kintrafo report my_car.toml front_axle.html --title "Front axle, stage 2"',
     "kintrafo report my_car.toml --loads --bushes bushes.toml",
+    "kintrafo report my_car.toml --goals goals.toml",
     "kintrafo report reference_axle",
     "kintrafo report rigid_axle --loads",
 )
@@ -46,6 +48,7 @@ def command(
             help="With the compliance on the bushes of this file (TOML), not those of FILE.",
         ),
     ] = None,
+    goals: wanted.Goals = None,
     force: Force = False,
 ) -> None:
     """Write a report that opens in any browser: the mechanism to move by hand, curves, data.
@@ -57,8 +60,13 @@ def command(
     from ..report import ENDINGS
 
     target = path or Path(f"{Path(file).stem}.html")
-    inputs: list[str | Path] = [file, *(read for read in (cases, bushes) if read is not None)]
+    inputs: list[str | Path] = [
+        file,
+        *(read for read in (cases, bushes, goals) if read is not None),
+    ]
     refuse([target], force=force, inputs=inputs, endings=ENDINGS)
+    if rigid.is_rigid_axle(file) or axles.is_axle(file):
+        axles.refuse_options("the file of one suspension", {"--goals": goals})
     if rigid.is_rigid_axle(file):
         with problems.status("report"):
             further = _of_loads(file, cases, wanted=loads)
@@ -74,6 +82,7 @@ def command(
 
         chapters = [*_of_axle(axle), *_of_loads(file, cases, wanted=loads)]
         chapters += _of_bushes(model, bushes, axle)
+        chapters += _of_goals(model, goals)
         written = write(
             model,
             target,
@@ -126,6 +135,15 @@ def _of_loads(file: str, cases: Path | None, *, wanted: bool) -> "list[Chapter]"
     carried, usual = subject(file)
     load_at_rest = described.get("static_load_N")
     return [loads_chapter(carried(described.get("cases", usual), static_load=load_at_rest))]
+
+
+def _of_goals(model: "Model", goals: Path | None) -> "list[Chapter]":
+    if goals is None:
+        return []
+    from ..report import goals_chapter
+
+    ways = ["travel", "rack"] if model.suspension.steered() else ["travel"]
+    return [goals_chapter(model, wanted.read(goals, ways))]
 
 
 def _of_bushes(model: "Model", bushes: Path | None, axle: "Axle | None") -> "list[Chapter]":

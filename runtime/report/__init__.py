@@ -5,6 +5,7 @@ from .chapters import (
     axle_chapter,
     compliance_chapter,
     elastokinematics_chapter,
+    goals_chapter,
     loads_chapter,
     rigid_axle_chapters,
 )
@@ -16,6 +17,7 @@ __all__ = [
     "axle_chapter",
     "compliance_chapter",
     "elastokinematics_chapter",
+    "goals_chapter",
     "loads_chapter",
     "rigid_axle_chapters",
     "write",

@@ -5,6 +5,7 @@
 `rigid_axle`  a rigid axle, drawn and over the motions of a rig
 `loads`       load cases, with the free bodies
 `compliance`  how the wheel gives way on its bushes
+`goals`       targets and limits of characteristics
 `elastokinematics`  what bushes do to the curves over wheel travel
 """
 
@@ -12,6 +13,7 @@ from .axle import axle_chapter
 from .chapter import Chapter
 from .compliance import compliance_chapter
 from .elastokinematics import elastokinematics_chapter
+from .goals import goals_chapter
 from .loads import loads_chapter
 from .rigid_axle import rigid_axle_chapters
 
@@ -20,6 +22,7 @@ __all__ = [
     "axle_chapter",
     "compliance_chapter",
     "elastokinematics_chapter",
+    "goals_chapter",
     "loads_chapter",
     "rigid_axle_chapters",
 ]
