@@ -60,12 +60,11 @@ def _drawn(model: Model, goals: Sequence[Goal], over: str) -> list[Picture]:
     own = [goal for goal in goals if goal.over == over]
     if not own:
         return []
-    of, usual = {
-        "travel": (characteristics.travel, usual_travel),
-        "rack": (characteristics.steering, usual_rack),
-    }[over]
-    along = np.unique(np.concatenate([usual(model), *(goal.at for goal in own)]))
-    dataset = of(model, along)
+    at = np.concatenate([goal.at for goal in own])
+    if over == "travel":
+        dataset = characteristics.travel(model, np.union1d(usual_travel(model), at))
+    else:
+        dataset = characteristics.steering(model, np.union1d(usual_rack(model), at))
     names = list(dict.fromkeys(goal.name for goal in own))
     with rc_context(STYLE):
         figure = curves.figure(dataset, names, alone=False, goals=goals)
