@@ -34,9 +34,40 @@ def drawn(car: Suspension, count: int) -> dict[str, np.ndarray]:
     return found
 
 
-@pytest.mark.parametrize("name", ALL)
+STOPS = {
+    f"{side}_stop": {"clearance_mm": 30.0, "rate_N_per_m": 5e4, "progression_N_per_mm3": 0.1}
+    for side in ("bump", "rebound")
+}
+TYRE = {"tyre.radius_mm": 310.0, "tyre.damper_rate_N_s_per_m": 50.0, "tyre.lifts_off": True}
+KNUCKLE = {
+    "bodies.knuckle.com_mm": [5.0, -690.0, 250.0],
+    **{f"bodies.knuckle.inertia_{ii}_kg_m2": 0.3 for ii in ("xx", "yy", "zz")},
+    **{f"bodies.knuckle.inertia_{ij}_kg_m2": 0.01 for ij in ("xy", "xz", "yz")},
+}
+EXTRAS = {
+    "reference_car": STOPS
+    | TYRE
+    | KNUCKLE
+    | {
+        "hardpoints.strut_lower": [0.0, -700.0, 250.0],
+        "hardpoints.spring_top": [-20.0, -590.0, 800.0],
+        "hardpoints.spring_seat": [-5.0, -640.0, 560.0],
+        "bodies.knuckle.com_along_strut_mm": None,
+        "strut.friction_N": 40.0,
+        "strut.length_min_mm": 300.0,
+        "strut.spring_free_slide_mm": None,
+        "strut.spring_free_length_mm": 400.0,
+    },
+    "double_wishbone_car": STOPS | TYRE | KNUCKLE | {"damper.friction_N": 30.0},
+}
+"""What packaged files leave out."""
+
+
+@pytest.mark.parametrize("name", [*ALL, *(f"{name}, with extras" for name in EXTRAS)])
 def test_each_car_has_the_curves_that_it_has_alone(name: str) -> None:
-    car, count = Suspension.load(name), 12
+    packaged, _, extras = name.partition(",")
+    car, count = Suspension.load(packaged), 12
+    car = car.with_changes(EXTRAS[packaged]) if extras else car
     values = drawn(car, count)
     model = model_of(car)
     looks = [Curves("travel", np.linspace(-0.04, 0.04, 5), there(model, "travel"))]
