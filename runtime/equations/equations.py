@@ -138,6 +138,7 @@ class Equations:
             },
             "HELD_VARIANTS": {k: tuple(v) for k, v in manifest["held_variants"].items()},
             "MOBILITY": manifest["mobility"],
+            "DRAWING": manifest["drawing"],
             "LOOPS": tuple(tuple(t["bodies"]) for t in manifest["transformers"]),
             "ClosureError": ClosureError,
             "ModelError": ModelError,

@@ -12,6 +12,7 @@ from ...declare.ranges import described as parameters_of
 from ..counting import OPERATIONS, operations_of
 from ..text import formula
 from ..words import FORMULA, GENERATOR_VERSION, iteration_note, mechanism_hash
+from .drawing import drawing
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -77,6 +78,7 @@ def _facts(derivation: Derivation) -> dict[str, Any]:
             }
             for joint in topology.mechanism.joints
         ],
+        "drawing": drawing(topology.mechanism),
         "paths": topology.path_table(),
         "candidates": {
             "pairs": topology.pair_count,

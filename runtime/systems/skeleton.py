@@ -1,0 +1,119 @@
+"""Where the points are that the bodies of a mechanism carry: what pictures of it are drawn from."""
+
+from collections.abc import Mapping
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..core.arguments import Arguments
+from .system import System
+
+Array = NDArray[np.float64]
+End = tuple[str, str]
+# A body that is held in one place only is drawn to its centre of mass, too.
+CENTER = "centre of mass"
+
+
+class Skeleton:
+    """The bodies of a mechanism as the points that they carry.
+
+    Parameters
+    ----------
+    system : System
+        The equations, with the values of the hardpoints.
+
+    Attributes
+    ----------
+    system : System
+    ground : str
+        The body that rests.
+    bodies : dict
+        Names of the points of each body, the ground first; those without any are left out.
+    joints : dict
+        Names of the points of each joint that has some.
+    guides, springs : list of tuple
+        The two ends of each, body and point.
+    wheels : list of tuple
+        Body and point of the centre of each wheel.
+
+    Examples
+    --------
+    >>> from kintrafo.generated import four_bar
+    >>> skeleton = Skeleton(System(four_bar))
+    >>> skeleton.bodies["coupler"]
+    ('crank_pin', 'rocker_pin')
+    >>> places = skeleton.places(skeleton.system.design_state)
+    >>> places["coupler"].shape
+    (2, 3)
+    """
+
+    def __init__(self, system: System) -> None:
+        with Arguments("Skeleton") as given:
+            given.kind("system", system, System, System.NEEDED)
+        self.system = system
+        drawing = system.equations.DRAWING
+        self.ground = next(iter(drawing["points"]))
+        self._design = self._at_design(drawing["points"])
+        self.bodies = {body: tuple(points) for body, points in self._design.items()}
+        self.joints = {name: tuple(points) for name, points in drawing["joints"].items() if points}
+        self.guides: list[tuple[End, End]] = [(tuple(a), tuple(b)) for a, b in drawing["guides"]]
+        self.springs: list[tuple[End, End]] = [(tuple(a), tuple(b)) for a, b in drawing["springs"]]
+        self.wheels: list[End] = [(body, point) for body, point in drawing["wheels"]]
+
+    def _at_design(self, described: Mapping[str, Mapping[str, Any]]) -> dict[str, dict[str, Array]]:
+        """Return the places of the points of each body at the design position [m]."""
+        found: dict[str, dict[str, Array]] = {}
+        for body, points in described.items():
+            places = {name: np.array([self._number(c) for c in p]) for name, p in points.items()}
+            alone = len({tuple(p) for p in places.values()}) < 2  # noqa: PLR2004 (two make a line)
+            if alone and body in self.system.equations.MASSIVE_BODIES:
+                places[CENTER] = self._centers[self._place_of(body)]
+            if places:
+                found[body] = places
+        return found
+
+    def _number(self, told: str | float) -> float:
+        if not isinstance(told, str):
+            return told
+        value = self.system.parameters[told.removeprefix("-")]
+        return -value if told.startswith("-") else value
+
+    @cached_property
+    def _centers(self) -> Array:
+        """Centres of mass at the design position, shape (bodies, 3)."""
+        return self.system.evaluate("positions", self.system.design_state)
+
+    def _place_of(self, body: str) -> int:
+        bodies: tuple[str, ...] = self.system.equations.BODIES
+        return bodies.index(body)
+
+    def places(self, states: ArrayLike, inputs: ArrayLike | None = None) -> dict[str, Array]:
+        """Return where the points of each body are.
+
+        Parameters
+        ----------
+        states, inputs : array_like
+            One or many, as for `System.evaluate`.
+
+        Returns
+        -------
+        dict
+            For each body of `bodies` an array of shape (..., points, 3), in the order of their
+            names [m], in the axes of the ground.
+        """
+        centers = self.system.evaluate("positions", states, inputs)
+        turns = self.system.evaluate("orientations", states, inputs)
+        leading = centers.shape[:-2]
+        found = {}
+        for body, points in self._design.items():
+            at_design = np.array([*points.values()])
+            if body == self.ground or body not in self.system.equations.BODIES:
+                found[body] = np.broadcast_to(at_design, (*leading, *at_design.shape))
+                continue
+            place = self._place_of(body)
+            arms = at_design - self._centers[place]
+            turned = np.einsum("...ij,kj->...ki", turns[..., place, :, :], arms)
+            found[body] = centers[..., place, None, :] + turned
+        return found
