@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .core.errors import InputError, KintrafoError
     from .equations.errors import ClosureError, ModelError, ParameterError
+    from .report.animation import animate
     from .simulation.backwards import MotionGradient, motion_gradient
     from .simulation.events import SignalEvent
     from .simulation.forwards import MotionSensitivity, motion_sensitivity
@@ -77,6 +78,7 @@ __all__ = [
     "State",
     "Suspension",
     "System",
+    "animate",
     "arm_angles",
     "compile",
     "derivative",
@@ -125,6 +127,7 @@ _MODULES = {
     ".suspension.rigid": ("RigidAxle",),
     ".suspension.rigid.model": ("RigidAxleModel",),
     ".simulation.result": ("Simulation", "SimulationError"),
+    ".report.animation": ("animate",),
     ".simulation.simulate": ("simulate",),
     ".study.ensembles": ("ensemble",),
     ".systems.state": ("State",),

@@ -7,6 +7,7 @@ from rich.markup import escape
 from typer.core import TyperCommand
 
 from . import (
+    animate,
     characteristics,
     check,
     compare,
@@ -83,7 +84,7 @@ _PANELS = {
     ),
     "Compute": (kinematics, characteristics, simulate, loads, compliance, deflection, compare),
     "Design": (sensitivity, tolerance, optimise, pareto, fit, sweep),
-    "Hand over": (report, paper, generate),
+    "Hand over": (report, animate, paper, generate),
 }
 for panel, modules in _PANELS.items():
     for module in modules:

@@ -10,6 +10,7 @@ from .console import problems
 
 if TYPE_CHECKING:
     from ..suspension.model import Model
+    from ..systems.system import System
 
 
 def complete_file(incomplete: str) -> list[str]:
@@ -100,6 +101,14 @@ def load(file: str, *, wheel_loads: bool = False) -> "Model":
     # these equations may have to be derived first
     with problems.status("preparing the equations"):
         return Model(suspension, free_rack=free_rack, wheel_loads=wheel_loads)
+
+
+def system_of(file: str) -> "System":
+    """Return the equations of a mechanism of one's own, derived when they are first needed."""
+    from ..systems.compile import compile_mechanism
+    from ..systems.system import System
+
+    return System(compile_mechanism(file))
 
 
 def among(wanted: list[str], known: Iterable[str], option: str = "--of") -> list[str]:

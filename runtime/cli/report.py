@@ -9,7 +9,7 @@ from . import axles, rigid
 from . import goals as wanted
 from .console import problems, say
 from .loads import subject
-from .options import File, Force, load
+from .options import File, Force, load, system_of
 
 if TYPE_CHECKING:
     from ..report import Chapter
@@ -23,6 +23,7 @@ EXAMPLES = (
     "kintrafo report my_car.toml --goals goals.toml",
     "kintrafo report reference_axle",
     "kintrafo report rigid_axle --loads",
+    "kintrafo report my_mechanism.py",
 )
 
 
@@ -53,6 +54,8 @@ def command(
 ) -> None:
     """Write a report that opens in any browser: the mechanism to move by hand, curves, data.
 
+    FILE may be the Python file of a mechanism of your own.
+
     Of an axle it has one side to be moved, and what a rig finds of both; of a rigid axle drawings,
     tables and curves.
     """
@@ -65,6 +68,20 @@ def command(
         *(read for read in (cases, bushes, goals) if read is not None),
     ]
     refuse([target], force=force, inputs=inputs, endings=ENDINGS)
+    if file.endswith(".py"):
+        axles.refuse_options(
+            "the file of a suspension",
+            {"--loads": loads or None, "--cases": cases, "--bushes": bushes, "--goals": goals},
+        )
+        from ..report import write as write_report
+
+        with problems.status("report") as status:
+            system = system_of(file)
+            written = write_report(
+                system, target, title=title, progress=status.update, force=force, inputs=inputs
+            )
+        say(f"  {written}")
+        return
     if rigid.is_rigid_axle(file) or axles.is_axle(file):
         axles.refuse_options("the file of one suspension", {"--goals": goals})
     if rigid.is_rigid_axle(file):

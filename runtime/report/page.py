@@ -11,16 +11,20 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 from numpy.typing import NDArray
 
+from ..core.arguments import Arguments
 from ..core.files import Paths, refuse, replacing
 from ..core.legible import legible
+from ..simulation.result import Simulation
 from ..study.characteristics.groups import ORDER
 from ..study.paper import SPIN_RATE
 from ..suspension.input.section import Section
 from ..suspension.model import Model
+from ..systems.system import System
 from .accuracy import Accuracy, measure
 from .chapters.chapter import Chapter
 from .curves import Curve, curves, gaps_on, only_over_rack
 from .grid import Grid
+from .mechanism.page import report_page
 from .motion import DROP, Motion, NoMotion, simulated_second
 from .payload import Look, page_data
 from .plotted import decimals, meaningful, shown_range
@@ -49,24 +53,26 @@ class _Samples:
 
 
 def write(
-    model: Model,
+    model: System,
     path: str | Path,
     *,
     title: str | None = None,
     chapters: Sequence[Chapter] = (),
     without: Container[str] = (),
+    motion: Simulation | None = None,
     progress: Callable[[str], None] | None = None,
     force: bool = False,
     inputs: Paths = (),
 ) -> Path:
-    """Write an HTML report of a suspension.
+    """Write an HTML report of a suspension, or of any mechanism.
 
     The mechanism in three dimensions to be moved by hand, its characteristics, a simulated second
-    and the input data, in one file without references to others.
+    and the input data, in one file without references to others. Of a mechanism of your own: its
+    bodies as lines between their joints, a slider for each coordinate, signals, modes at rest.
 
     Parameters
     ----------
-    model : Model
+    model : Model or System
     path : str or pathlib.Path
         The file to write, whose name ends in ``.html``; it appears when it is complete. Folders
         are made.
@@ -77,6 +83,9 @@ def write(
         `compliance_chapter` and `elastokinematics_chapter`.
     without : container of str, optional
         Characteristics that are left out: of a rear axle those that only a front axle has.
+    motion : Simulation, optional
+        Of a mechanism that is no suspension, the motion to be played; by default a second from the
+        design position at rest, without inputs.
     progress : callable, optional
         Called with a few words on what is being done.
     force : bool, optional
@@ -98,11 +107,33 @@ def write(
     """
     tell = progress or (lambda _: None)
     refuse([path], force=force, inputs=inputs, endings=ENDINGS)
-    text = render(model, title=title, chapters=chapters, without=without, tell=tell)
+    with Arguments("report.write") as given:
+        given.kind("model", model, System, System.NEEDED)
+        if motion is not None:
+            given.kind("motion", motion, Simulation, "what kintrafo.simulate returns is needed")
+            if isinstance(model, Model):
+                given.refuse("motion: the report of a suspension has a simulated second of its own")
+        if not isinstance(model, Model) and (chapters or without):
+            given.refuse("chapters, without: only the report of a suspension has them")
+    text = _text(model, title, chapters, without, motion, tell)
     tell("writing the page")
     with replacing(path, force=force, inputs=inputs) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")
     return Path(path)
+
+
+def _text(
+    model: System,
+    title: str | None,
+    chapters: Sequence[Chapter],
+    without: Container[str],
+    motion: Simulation | None,
+    tell: Callable[[str], None],
+) -> str:
+    if not isinstance(model, Model):
+        tell("positions of the mechanism")
+        return report_page(model, title, motion)
+    return render(model, title=title, chapters=chapters, without=without, tell=tell)
 
 
 def render(

@@ -42,10 +42,9 @@ class Skeleton:
     --------
     >>> from kintrafo.generated import four_bar
     >>> skeleton = Skeleton(System(four_bar))
-    >>> skeleton.bodies["coupler"]
-    ('crank_pin', 'rocker_pin')
-    >>> places = skeleton.places(skeleton.system.design_state)
-    >>> places["coupler"].shape
+    >>> skeleton.bodies["crank"]
+    ('crank_bearing', 'crank_pin')
+    >>> skeleton.places(skeleton.system.design_state)["crank"].shape
     (2, 3)
     """
 
@@ -67,7 +66,7 @@ class Skeleton:
         found: dict[str, dict[str, Array]] = {}
         for body, points in described.items():
             places = {name: np.array([self._number(c) for c in p]) for name, p in points.items()}
-            alone = len({tuple(p) for p in places.values()}) < 2  # noqa: PLR2004 (two make a line)
+            alone = len({tuple(p) for p in places.values()}) < 2
             if alone and body in self.system.equations.MASSIVE_BODIES:
                 places[CENTER] = self._centers[self._place_of(body)]
             if places:

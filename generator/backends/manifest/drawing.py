@@ -51,9 +51,11 @@ def drawing(mechanism: Mechanism) -> dict[str, Any]:
     springs = [[end(*e) for e in line.ends] for line in mechanism.every(AlongLine)]
     wheels = [end(w.carrier.name, w.center) for w in mechanism.every(Wheel)]
     guides = [[end(*e) for e in pair] for pair in _telescopes(mechanism.joints)]
-    for joint in mechanism.joints:
-        if isinstance(joint, Prismatic) and all(points[body] for body in joint.bodies):
-            guides.append([(body, next(iter(points[body]))) for body in joint.bodies])
+    guides += [
+        [(body, next(iter(points[body]))) for body in joint.bodies]
+        for joint in mechanism.joints
+        if isinstance(joint, Prismatic) and all(points[body] for body in joint.bodies)
+    ]
     return {
         "points": points,
         "joints": joints,

@@ -13,6 +13,11 @@ from ...core.files import reason
 from ...core.legible import short
 from ...core.suggestions import suggestion
 
+_PYTHON = (
+    "This is a Python file, and a hardpoint file (TOML) of a suspension is needed. A mechanism of "
+    "your own has: kintrafo generate, topology, report, animate; and in Python kintrafo.compile, "
+    "System, rest, linearise, simulate, ensemble."
+)
 _DEEP = "Tables or lists stand in each other too deeply. No key of a suspension does."
 # A key of a hundred parts, in time linear in the length; tomllib's grows with the square of them.
 _TOO_DEEP = re.compile(r"""(?<![\w"'.-])(?:[\w"'-]++\s*+\.\s*+){100}""")
@@ -36,6 +41,8 @@ def read_toml(file: Path | Traversable) -> dict[str, Any]:
     InputError
         If the file cannot be read, is not UTF-8 or is not valid TOML.
     """
+    if file.name.endswith(".py"):
+        raise InputError([_PYTHON], str(file))
     text = _text_of(file)
     if _TOO_DEEP.search(text):
         raise InputError([_DEEP], str(file))

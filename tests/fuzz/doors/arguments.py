@@ -42,6 +42,7 @@ from ..attempts import RawError, WrongError
 SHORT = 60
 _CAR = kintrafo.Model("reference_car")
 _SYSTEM = kintrafo.System(four_bar)
+_TURNED = kintrafo.simulate(_SYSTEM, (0.0, 0.01), _SYSTEM.state(crank_angle_rate=1.0))
 _DIFFERENTIABLE = kintrafo.System(kintrafo.compile(FOUR_BAR, parameter_derivatives=True))
 _BAR_AT = _DIFFERENTIABLE.state(crank_angle=0.3)
 _REST = kintrafo.equilibrium(_CAR)
@@ -388,6 +389,16 @@ CALLS = {
         {"value": 1.0, "direction": 0.0, "terminal": False},
     ),
     "export.as_dict": (export.as_dict, {"dataset": _DATASET}),
+    "animate": (
+        kintrafo.animate,
+        {"result": _TURNED, "path": "a.html", "fps": 25.0, "slower": 1.0, "title": None,
+         "force": False, "inputs": ()},
+    ),
+    "report.write": (
+        kintrafo.report.write,
+        {"model": _SYSTEM, "path": "a.html", "title": None, "motion": None, "force": False,
+         "inputs": ()},
+    ),
     "export.check_format": (export.check_format, {"path": "a.csv"}),
     "plots.check_formats": (plots.check_formats, {"paths": ["a.png"], "formats": ["svg"]}),
     "plots.grouped": (plots.grouped, {"dataset": _DATASET}),

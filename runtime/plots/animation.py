@@ -1,0 +1,191 @@
+"""A motion of a mechanism as an animated picture."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.animation import FuncAnimation, PillowWriter
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from ..systems.skeleton import Skeleton
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+
+Array = NDArray[np.float64]
+
+COLOURS = (
+    "#0072b2",
+    "#d55e00",
+    "#009e73",
+    "#cc79a7",
+    "#7b5ea7",
+    "#56a0d3",
+    "#a6761d",
+    "#666600",
+)
+_INK, _GREY = "#222222", "#8a8a8a"
+_TURN, _TILT = 35.0, 18.0  # degrees: from the front, above
+
+
+def write_gif(
+    path: Path, skeleton: Skeleton, times: Array, places: dict[str, Array], fps: float
+) -> None:
+    """Write a motion as a GIF.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+    skeleton : Skeleton
+    times : ndarray, shape (n,)
+        Times of the frames [s].
+    places : dict
+        Of each body an array of shape (n, points, 3) [m].
+    fps : float
+        Frames that are shown per second.
+    """
+    drawer = _Drawer(skeleton, places)
+
+    def frame(index: int) -> list["Artist"]:
+        drawer.draw(index, f"t = {times[index]:.3f} s")
+        return []  # all is drawn anew
+
+    made = FuncAnimation(drawer.figure, frame, frames=len(times), init_func=list, blit=False)
+    writer = PillowWriter(fps=fps)  # type: ignore[arg-type]  # a delay is 1/fps, whole or not
+    made.save(str(path), writer=writer, dpi=90)
+
+
+def still(skeleton: Skeleton, places: dict[str, Array], index: int, words: str) -> Figure:
+    """Return one frame as a figure; arguments as of `write_gif`, and what stands in its corner."""
+    drawer = _Drawer(skeleton, places)
+    drawer.draw(index, words)
+    return drawer.figure
+
+
+def projection(points: Array) -> Array:
+    """Return the two directions of a picture, shape (2, 3).
+
+    Along the normal of a plane mechanism, else from the front above.
+
+    Parameters
+    ----------
+    points : ndarray, shape (n, 3)
+    """
+    spans = np.ptp(points, axis=0)
+    for axis, kept in ((1, (0, 2)), (2, (0, 1)), (0, (1, 2))):
+        if spans[axis] < 1e-6 * spans.max():
+            return np.eye(3)[list(kept)]
+    turn, tilt = np.radians(_TURN), np.radians(_TILT)
+    right = [-np.sin(turn), np.cos(turn), 0.0]
+    up = [-np.sin(tilt) * np.cos(turn), -np.sin(tilt) * np.sin(turn), np.cos(tilt)]
+    return np.array([right, up])
+
+
+class _Drawer:
+    """Frames of one motion on one figure: the same view, the same limits."""
+
+    def __init__(self, skeleton: Skeleton, places: dict[str, Array]) -> None:
+        self._skeleton, bodies = skeleton, skeleton.bodies
+        everywhere = np.concatenate([p.reshape(-1, 3) for p in places.values()])
+        self._view = projection(everywhere)
+        self._seen = {body: p @ self._view.T for body, p in places.items()}
+        on = everywhere @ self._view.T
+        low, high = on.min(axis=0), on.max(axis=0)
+        self._size = max(float((high - low).max()), 1e-9)
+        moving = [body for body in bodies if body != skeleton.ground]
+        self._colours = {b: COLOURS[i % len(COLOURS)] for i, b in enumerate(moving)}
+        self.figure = Figure(figsize=(6.4, 6.0), layout="constrained")
+        self._axes: Axes = self.figure.add_subplot()
+        margin = 0.14 * self._size
+        self._limits = (low - margin, high + margin)
+
+    def draw(self, index: int, words: str) -> None:
+        """Draw one frame in the place of what was drawn before."""
+        axes, skeleton = self._axes, self._skeleton
+        axes.clear()
+        axes.set_axis_off()
+        axes.set_aspect("equal")
+        (left, low), (right, high) = self._limits
+        axes.set_xlim(left, right)
+        axes.set_ylim(low, high)
+        at = {body: seen[index] for body, seen in self._seen.items()}
+
+        def end(which: tuple[str, str]) -> Array:
+            body, point = which
+            found: Array = at[body][skeleton.bodies[body].index(point)]
+            return found
+
+        for a, b in skeleton.springs:
+            axes.plot(*_coil(end(a), end(b), 0.012 * self._size).T, color=_GREY, lw=1.2, zorder=1)
+        for pair in skeleton.guides:
+            ends = [end(which) for which in pair]
+            middle = (ends[0] + ends[1]) / 2
+            for (body, _), start, width in zip(pair, ends, (6.0, 2.5), strict=True):
+                colour = self._colours.get(body, _GREY)
+                axes.plot(*zip(start, middle, strict=True), color=colour, lw=width, zorder=2)
+        for body, colour in self._colours.items():
+            label = body.replace("_", " ")
+            _draw_body(axes, np.unique(at[body].round(9), axis=0), colour, label)
+        if skeleton.ground in at:
+            axes.plot(*at[skeleton.ground].T, "^", ms=11, mfc="#e3e3e3", mec=_GREY, zorder=2.5)
+        joints = {p for points in skeleton.joints.values() for p in points}
+        for body, points in skeleton.bodies.items():
+            rows = [row for row, point in enumerate(points) if point in joints]
+            axes.plot(*at[body][rows].T, "o", ms=5, mfc="white", mec=_INK, zorder=4)
+        for wheel in skeleton.wheels:
+            axes.plot(*end(wheel), "o", ms=14, mfc="none", mec=_INK, mew=1.5, zorder=4)
+        axes.text(0.02, 0.98, words, transform=axes.transAxes, va="top", size=12)
+        self._triad()
+        columns = min(4, max(1, len(self._colours)))
+        axes.legend(
+            loc="upper center",
+            bbox_to_anchor=(0.5, -0.01),
+            ncols=columns,
+            frameon=False,
+            fontsize=8.5,
+            handlelength=1.2,
+        )
+
+    def _triad(self) -> None:
+        """Draw the axes in a corner, of a round length that is written beside them."""
+        long = 10.0 ** np.floor(np.log10(self._size / 5))
+        long *= max(m for m in (1, 2, 5) if m * long <= self._size / 5 or m == 1)
+        (left, low), _ = self._limits
+        root = np.array([left, low]) + 0.07 * self._size
+        for name, tip in zip("xyz", long * self._view.T, strict=True):
+            if np.hypot(*tip) < 0.05 * long:
+                continue
+            self._axes.plot(*zip(root, root + tip, strict=True), color=_INK, lw=1)
+            x, y = root + 1.22 * tip
+            self._axes.text(x, y, name, ha="center", va="center", size=9)
+        told = f"{long * 1e3:g} mm" if long < 1.0 else f"{long:g} m"
+        words = f"axes {told} long"
+        self._axes.text(0.02, 0.0, words, transform=self._axes.transAxes, size=8.5, color="#5c5c5c")
+
+
+def _draw_body(axes: "Axes", points: Array, colour: str, label: str) -> None:
+    """Draw a body: a block, a line, a triangle, or a star of lines, by how many points it has."""
+    center = points.mean(axis=0)
+    if len(points) == 1:
+        axes.plot(*center, "s", ms=11, color=colour, label=label, zorder=3)
+    elif len(points) == 2:
+        axes.plot(*points.T, color=colour, lw=4, label=label, zorder=3, solid_capstyle="round")
+    elif len(points) == 3:
+        axes.fill(*points.T, facecolor=f"{colour}40", edgecolor=colour, lw=3, label=label, zorder=3)
+    else:
+        for number, point in enumerate(points):
+            line = zip(center, point, strict=True)
+            axes.plot(*line, color=colour, lw=3.5, label="" if number else label, zorder=3)
+
+
+def _coil(start: Array, end: Array, radius: float) -> Array:
+    """Return the corners of a zigzag between two points, shape (n, 2)."""
+    along = end - start
+    length = max(float(np.hypot(*along)), 1e-12)
+    across = np.array([-along[1], along[0]]) / length * radius
+    shares = 0.15 + 0.7 * (np.arange(14) + 0.5) / 14
+    sides = np.where(np.arange(14) % 2, 1.0, -1.0)
+    turns = start + shares[:, None] * along + sides[:, None] * across
+    return np.vstack([start, turns, end])

@@ -1,0 +1,1 @@
+"""Pages of any mechanism: a report to move by hand, and a motion to play."""

@@ -1,0 +1,167 @@
+"""Pages of a mechanism: self-contained HTML that draws, moves and plays it."""
+
+import json
+from collections.abc import Sequence
+from importlib import resources
+from importlib.metadata import version
+from typing import Any
+
+import numpy as np
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+
+from ...core.errors import KintrafoError
+from ...core.legible import legible
+from ...simulation.result import Simulation, SimulationError
+from ...simulation.simulate import simulate
+from ...systems.linearisation import linearise
+from ...systems.rest import rest
+from ...systems.skeleton import Skeleton
+from ...systems.system import System
+from .scenes import Scene, by_hand, extent, of_motion
+
+SECONDS = 1.0
+"""How long a mechanism is left to itself, where no motion of it is given."""
+
+
+def report_page(system: System, title: str | None, motion: Simulation | None) -> str:
+    """Return the report of a mechanism as text.
+
+    Parameters
+    ----------
+    system : System
+    title : str or None
+        Heading; by default what the mechanism is.
+    motion : Simulation or None
+        What is played; by default a second from the design position at rest, without inputs.
+    """
+    skeleton = Skeleton(system)
+    scenes = [*by_hand(skeleton)]
+    played, words = _motion(skeleton, motion)
+    if played is not None:
+        scenes.append(played)
+    return _page(skeleton, scenes, title, words, chapters=True)
+
+
+def motion_page(result: Simulation, title: str | None) -> str:
+    """Return a page that plays one motion, as text."""
+    skeleton = Skeleton(result.signals.model)
+    return _page(skeleton, [of_motion(skeleton, result)], title, "", chapters=False)
+
+
+def _motion(skeleton: Skeleton, motion: Simulation | None) -> tuple[Scene | None, str]:
+    """Return the motion that is played, and what is to be said of it."""
+    if motion is not None:
+        return of_motion(skeleton, motion), "The motion is one that was given."
+    system = skeleton.system
+    words = f"Left to itself for {SECONDS:g} s from the design position at rest, without inputs."
+    times = np.linspace(0.0, SECONDS, 201)
+    try:
+        found = simulate(system, (0.0, SECONDS), system.design_state, t_eval=times)
+    except SimulationError as error:
+        if error.partial is None or len(error.partial.t) < 2:
+            return None, f"It does not move from the design position: {error}"
+        return of_motion(skeleton, error.partial), f"{words} It ended {error}"
+    except KintrafoError as error:
+        return None, f"It does not move from the design position: {error}"
+    return of_motion(skeleton, found), words
+
+
+def _page(
+    skeleton: Skeleton, scenes: Sequence[Scene], title: str | None, words: str, *, chapters: bool
+) -> str:
+    system = skeleton.system
+    loader = PackageLoader(__package__, ".")
+    environment = Environment(
+        loader=loader, autoescape=True, undefined=StrictUndefined, trim_blocks=True
+    )
+    return environment.get_template("page.html.jinja").render(
+        title=legible(title or system.equations.equations.manifest["title"]),
+        version=version("kintrafo"),
+        scenes=scenes,
+        chapters=chapters,
+        words=words,
+        parameters=_parameters(system) if chapters else [],
+        modes=_modes(system) if chapters else {},
+        data=Markup(_data(skeleton, scenes)),  # noqa: S704 (no end tag is left in it)
+        script=Markup(_asset("page.js")),  # noqa: S704 (our own)
+        style=Markup(_asset("page.css")),  # noqa: S704 (our own)
+    )
+
+
+def _parameters(system: System) -> list[tuple[str, str, str, str]]:
+    """Return the rows of the table of parameters."""
+    told = system.equations.PARAMETERS
+    return [
+        (name, f"{value:.8g}", told[name]["unit"], told[name]["meaning"])
+        for name, value in system.parameters.items()
+    ]
+
+
+def _modes(system: System) -> dict[str, Any]:
+    """Return where it rests near the design position, and its modes there; or why there is none."""
+    try:
+        found = rest(system)
+        modes = linearise(system, found).modes
+    except KintrafoError as error:
+        return {"words": f"None near the design position: {error}", "rest": [], "modes": []}
+    half = len(system.state_names) // 2
+    at = zip(system.state_names[:half], np.asarray(found)[:half], strict=True)
+    units = system.equations.STATE
+    return {
+        "words": "Found by Newton's method from the design position, without inputs.",
+        "rest": [(name, f"{value:.6g}", units[name]["unit"]) for name, value in at],
+        "modes": [(m.text, m.eigenvalues_text) for m in modes],
+    }
+
+
+def _data(skeleton: Skeleton, scenes: Sequence[Scene]) -> str:
+    system = skeleton.system
+    size = extent(skeleton.places(system.design_state))
+    told = {**system.equations.STATE, **system.equations.SIGNALS}
+    data = {
+        "bodies": list(skeleton.bodies),
+        "ground": skeleton.ground,
+        "points": {body: list(points) for body, points in skeleton.bodies.items()},
+        "joints": sorted({p for points in skeleton.joints.values() for p in points}),
+        "guides": skeleton.guides,
+        "springs": skeleton.springs,
+        "wheels": skeleton.wheels,
+        "states": system.state_names,
+        "units": {name: entry["unit"] for name, entry in told.items()},
+        "meanings": {name: legible(entry["meaning"]) for name, entry in told.items()},
+        "scenes": [
+            {
+                "name": s.name,
+                "unit": s.unit,
+                "meaning": s.meaning,
+                "values": _short(s.values),
+                # to a 100,000th of the extent: no screen shows less
+                "places": {
+                    body: np.round(p.reshape(len(s.values), -1), _digits(size)).tolist()
+                    for body, p in s.places.items()
+                    if body != skeleton.ground
+                },
+                "still": np.round(s.places[skeleton.ground][0], _digits(size)).tolist()
+                if skeleton.ground in s.places
+                else [],
+                "states": [_short(row) for row in s.states.T],
+                "signals": {name: _short(v) for name, v in s.signals.items()},
+            }
+            for s in scenes
+        ],
+    }
+    return json.dumps(data, ensure_ascii=False, allow_nan=False).replace("</", "<\\/")
+
+
+def _digits(size: float) -> int:
+    return max(0, 5 - int(np.floor(np.log10(size))))
+
+
+def _short(values: Any) -> list[float | None]:
+    """Return numbers of six digits, and nothing for what is none."""
+    return [float(f"{v:.6g}") if np.isfinite(v) else None for v in np.asarray(values)]
+
+
+def _asset(name: str) -> str:
+    return resources.files(__package__).joinpath(name).read_text(encoding="utf-8")

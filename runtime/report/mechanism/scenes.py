@@ -1,0 +1,200 @@
+"""What a page of a mechanism moves through: each coordinate by itself, inputs, time."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...core.legible import legible
+from ...equations.errors import ModelError
+from ...simulation.result import Simulation
+from ...systems.skeleton import Skeleton
+
+Array = NDArray[np.float64]
+
+# Positions on each side of the design position, and frames of a motion at most.
+_TO_EACH_SIDE, MOST_FRAMES = 60, 400
+# How far a coordinate is tried: half a turn, or half of the extent of the mechanism.
+_MOST_TURN, _MOST_SLIDE = np.pi, 0.5
+# What an input changes less than this, relative to the extent, does not move anything.
+_MOVES = 1e-9
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Positions in a row, over a coordinate, an input or time.
+
+    Attributes
+    ----------
+    name, unit, meaning : str
+        Of what it is over: the unit is that of SI.
+    values : ndarray, shape (n,)
+        What it is over.
+    places : dict
+        Of each body an array of shape (n, points, 3) [m].
+    states : ndarray, shape (n, elements)
+    signals : dict
+        Arrays of shape (n,), SI units; NaN where there is none.
+    remark : str
+        What is to be said of it.
+    """
+
+    name: str
+    unit: str
+    meaning: str
+    values: Array
+    places: dict[str, Array]
+    states: Array
+    signals: dict[str, Array] = field(default_factory=dict)
+    remark: str = ""
+
+
+def of_motion(skeleton: Skeleton, result: Simulation, remark: str = "") -> Scene:
+    """Return the scene of a simulation, at no more than `MOST_FRAMES` of its outputs.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+    result : Simulation
+    remark : str, optional
+        What is to be said of it.
+    """
+    count = len(result.t)
+    even = np.linspace(result.t[0], result.t[-1], min(count, MOST_FRAMES))
+    kept = np.unique([int(np.abs(result.t - time).argmin()) for time in even])
+    states, inputs = result.y.T[kept], result.inputs[kept]
+    return Scene(
+        "time",
+        "s",
+        "time",
+        result.t[kept],
+        skeleton.places(states, inputs),
+        states,
+        {name: np.asarray(values)[kept] for name, values in result.signals.items()},
+        remark,
+    )
+
+
+def by_hand(skeleton: Skeleton) -> Iterator[Scene]:
+    """Yield a scene for each coordinate, and for each input that moves the mechanism.
+
+    The others stay where they are at the design position.
+    """
+    system = skeleton.system
+    start, none = system.design_state, np.zeros(len(system.input_names))
+    for place, name in enumerate(system.state_names[: start.size // 2]):
+        yield from _scene(skeleton, name, system.equations.STATE[name], _moving(start, place, none))
+    for place, name in enumerate(system.input_names):
+        told = system.equations.INPUTS[name]
+        if told["unit"] in ("m", "rad") and _moves(skeleton, place):
+            yield from _scene(skeleton, name, told, _given(start, none, place))
+
+
+Position = Callable[[float], tuple[Array, Array]]
+
+
+def _moving(start: Array, place: int, none: Array) -> tuple[float, Position]:
+    def at(value: float) -> tuple[Array, Array]:
+        state = start.copy()
+        state[place] = value
+        return state, none
+
+    return float(start[place]), at
+
+
+def _given(start: Array, none: Array, place: int) -> tuple[float, Position]:
+    def at(value: float) -> tuple[Array, Array]:
+        inputs = none.copy()
+        inputs[place] = value
+        return start, inputs
+
+    return 0.0, at
+
+
+def _moves(skeleton: Skeleton, place: int) -> bool:
+    """Return whether an input moves any point."""
+    system = skeleton.system
+    inputs = np.zeros(len(system.input_names))
+    inputs[place] = 1e-3
+    try:
+        after = skeleton.places(system.design_state, inputs)
+    except ModelError:
+        return False
+    before = skeleton.places(system.design_state)
+    far = max(np.abs(after[b] - before[b]).max(initial=0.0) for b in before)
+    return bool(far > _MOVES * extent(before))
+
+
+def extent(places: dict[str, Array]) -> float:
+    """Return the largest distance along an axis between any two of the points [m]."""
+    points = np.concatenate([p.reshape(-1, 3) for p in places.values()])
+    return max(float(np.ptp(points, axis=0).max()), 1e-9)
+
+
+def _scene(
+    skeleton: Skeleton, name: str, told: dict[str, Any], moved: tuple[float, Position]
+) -> Iterator[Scene]:
+    middle, at = moved
+    size = extent(skeleton.places(skeleton.system.design_state))
+    most = _MOST_TURN if told["unit"] == "rad" else _MOST_SLIDE * size
+    down, up = (_reach(skeleton, at, middle, sign * most) for sign in (-1, 1))
+    if up - down < 1e-6 * most:
+        return
+    sides = [np.linspace(middle, end, _TO_EACH_SIDE + 1) for end in (down, up)]
+    values = np.concatenate([sides[0][:0:-1], sides[1]])
+    states, inputs = map(np.array, zip(*(at(float(v)) for v in values), strict=True))
+    ends = [
+        word
+        for word, end, sign in (("below", down, -1), ("above", up, 1))
+        if abs(end - middle) < 0.999 * most and sign
+    ]
+    remark = f"It cannot go further {' or '.join(ends)}: a loop does not close." if ends else ""
+    yield Scene(
+        name,
+        told["unit"],
+        legible(told["meaning"]),
+        values,
+        skeleton.places(states, inputs),
+        states,
+        _signals(skeleton, states, inputs),
+        remark,
+    )
+
+
+def _reach(skeleton: Skeleton, at: Position, middle: float, most: float) -> float:
+    """Return how far a coordinate goes before a loop no longer closes: by steps, then halving."""
+
+    def closes(value: float) -> bool:
+        try:
+            skeleton.places(*at(value))
+        except ModelError:
+            return False
+        return True
+
+    reached = middle
+    for value in np.linspace(middle, middle + most, _TO_EACH_SIDE + 1)[1:]:
+        if not closes(float(value)):
+            beyond = float(value)
+            for _ in range(20):
+                half = 0.5 * (reached + beyond)
+                reached, beyond = (half, beyond) if closes(half) else (reached, half)
+            return reached
+        reached = float(value)
+    return reached
+
+
+def _signals(skeleton: Skeleton, states: Array, inputs: Array) -> dict[str, Array]:
+    """Return the signals of each position; NaN where the model refuses them."""
+    system = skeleton.system
+    try:
+        return system.signals(states, inputs)
+    except ModelError:
+        rows = []
+        for state, given in zip(states, inputs, strict=True):
+            try:
+                rows.append({n: float(v) for n, v in system.signals(state, given).items()})
+            except ModelError:
+                rows.append({})
+        return {n: np.array([r.get(n, np.nan) for r in rows]) for n in system.signal_names}
