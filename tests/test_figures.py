@@ -4,6 +4,7 @@ import re
 from collections import Counter
 from pathlib import Path
 
+import numpy as np
 import pytest
 from kintrafo.generator.backends.report.figures import ELEMENTS, draw_figures
 from kintrafo.generator.mechanisms import MODELS
@@ -79,3 +80,11 @@ def test_figures_are_the_same_bytes_again(
     assert len(again) == 6
     for path in again:
         assert path.read_bytes() == (folder / path.name).read_bytes(), path.name
+
+
+def test_what_goes_up_and_down_often_is_a_thin_line():
+    from kintrafo.plots.curves import _width
+
+    x = np.linspace(0.0, 1.0, 1001)
+    assert _width(np.sin(2 * np.pi * 100 * x)) < 1.0 < _width(np.sin(2 * np.pi * x))
+    assert _width(np.array([0.0, np.nan, 1.0])) > 1.0

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib import colormaps, rc_context
+from matplotlib import colormaps, rc_context, rcParams
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_pdf import PdfPages
 from matplotlib.figure import Figure
@@ -48,6 +48,9 @@ _TICK_STEPS = [1, 2, 2.5, 5, 10]
 _CONSTANT = 1e-6
 # A curve whose extremes are so many times farther apart than nine tenths of it passes a pole.
 _POLE = 10.0
+
+# A curve with more ups and downs than this, such as a rough road, is a thin line.
+_MANY_TURNS, _THIN = 40, 0.7
 
 
 def write(
@@ -297,7 +300,7 @@ def _draw(axes: Axes, data: xr.DataArray, goals: Sequence[Goal] = ()) -> str:
     position = displayed(data[along])
     styles = _styles(data, len(lines))
     curves = [
-        axes.plot(position, values, dashes, color=colour)[0]
+        axes.plot(position, values, dashes, color=colour, linewidth=_width(values))[0]
         for (_, values), (colour, dashes) in zip(lines, styles, strict=True)
     ]
     for (_, values), (colour, _) in zip(lines, styles, strict=True):
@@ -460,3 +463,11 @@ def _held(dataset: xr.Dataset) -> str:
         if data.dtype.kind == "f"
     ]
     return ", ".join(texts)
+
+
+def _width(values: Array) -> float:
+    """Return how wide a curve is: thin, where it goes up and down so often that it fills."""
+    steps = np.diff(values[np.isfinite(values)])
+    turns = np.count_nonzero(steps[1:] * steps[:-1] < 0.0)
+    width: float = _THIN if turns > _MANY_TURNS else rcParams["lines.linewidth"]
+    return width
