@@ -158,6 +158,7 @@ _INTERFACES = {
     "roads": ".simulation.roads",
     "scenario": ".study.scenario",
     "schema": ".suspension.schema",
+    "sheet": ".study.sheet",
     "starter": ".suspension.starter",
     "sweep": ".study.sweep",
     "topology": ".systems.topology",

@@ -10,6 +10,7 @@ from . import goals as wanted
 from .console import problems, say
 from .loads import subject
 from .options import File, Force, load, system_of
+from .sheet import described_by
 
 if TYPE_CHECKING:
     from ..report import Chapter
@@ -86,7 +87,7 @@ def command(
         axles.refuse_options("the file of one suspension", {"--goals": goals})
     if rigid.is_rigid_axle(file):
         with problems.status("report"):
-            further = _of_loads(file, cases, wanted=loads)
+            further = [*_of_loads(file, cases, wanted=loads), *_of_sheet(file, None)]
             written = rigid.report(
                 file, target, title, further, {"--bushes": bushes}, force=force, inputs=inputs
             )
@@ -98,8 +99,8 @@ def command(
         from ..report import write
 
         chapters = [*_of_axle(axle), *_of_loads(file, cases, wanted=loads)]
-        chapters += _of_bushes(model, bushes, axle)
-        chapters += _of_goals(model, goals)
+        chapters += [*_of_bushes(model, bushes, axle), *_of_goals(model, goals)]
+        chapters += _of_sheet(file, bushes)
         written = write(
             model,
             target,
@@ -182,3 +183,11 @@ def _of_bushes(model: "Model", bushes: Path | None, axle: "Axle | None") -> "lis
         compliance_chapter(study.compliance(model, described)),
         elastokinematics_chapter(study.elastokinematics(model, described)),
     ]
+
+
+def _of_sheet(file: str, bushes: Path | None) -> "list[Chapter]":
+    from ..report import sheet_chapter
+    from ..study.loads import read_bushes
+    from ..study.sheet import sheet
+
+    return [sheet_chapter(sheet(described_by(file), bushes and read_bushes(bushes)))]

@@ -8,6 +8,7 @@ from .chapters import (
     goals_chapter,
     loads_chapter,
     rigid_axle_chapters,
+    sheet_chapter,
 )
 from .page import ENDINGS, write, write_chapters
 
@@ -20,6 +21,7 @@ __all__ = [
     "goals_chapter",
     "loads_chapter",
     "rigid_axle_chapters",
+    "sheet_chapter",
     "write",
     "write_chapters",
 ]

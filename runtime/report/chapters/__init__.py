@@ -7,6 +7,7 @@
 `compliance`  how the wheel gives way on its bushes
 `goals`       targets and limits of characteristics
 `elastokinematics`  what bushes do to the curves over wheel travel
+`sheet`       kinematic and compliance gradients at design
 """
 
 from .axle import axle_chapter
@@ -16,6 +17,7 @@ from .elastokinematics import elastokinematics_chapter
 from .goals import goals_chapter
 from .loads import loads_chapter
 from .rigid_axle import rigid_axle_chapters
+from .sheet import sheet_chapter
 
 __all__ = [
     "Chapter",
@@ -25,4 +27,5 @@ __all__ = [
     "goals_chapter",
     "loads_chapter",
     "rigid_axle_chapters",
+    "sheet_chapter",
 ]

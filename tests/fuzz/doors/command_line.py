@@ -89,6 +89,7 @@ OPTIONS = {
     "compliance": ("-o", "--plot", "--held", "--at", "--rack", "--bump"),
     "deflection": ("-o", "--plot", "--under", "--most", "--held", "--at", "--rack", "--bump",
                    "--wheels", "--motion"),
+    "sheet": ("-o", "--held", "--json"),
     "compare": ("-o", "--over", "--of"),
     "sensitivity": ("-o", "--plot", "--place", "--of", "--over", "--at"),
     "tolerance": ("-o", "--plot", "--of", "--over", "--at", "--seed"),

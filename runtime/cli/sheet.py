@@ -1,0 +1,66 @@
+"""``kintrafo sheet``: the K&C sheet of a suspension or an axle, at design."""
+
+from pathlib import Path  # noqa: TC003 (typer reads it)
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from . import axles, rigid
+from .compliance import Bushes, Held, described
+from .console import print_json, print_table, say
+from .options import File, Force, Json, load
+from .outputs import Out, Outputs, name_files
+
+if TYPE_CHECKING:
+    from ..suspension.axle import Axle
+    from ..suspension.model import Model
+    from ..suspension.rigid import RigidAxle
+
+EXAMPLES = (
+    "kintrafo sheet my_car.toml bushes.toml",
+    "kintrafo sheet my_axle.toml -o sheet.csv",
+    "kintrafo sheet rigid_axle",
+)
+
+
+def command(
+    file: File,
+    bushes: Bushes = None,
+    *,
+    held: Annotated[Held, typer.Option(help="What holds the wheel: see docs/loads.md.")] = "height",
+    out: Out = None,
+    force: Force = False,
+    json: Json = False,
+) -> None:
+    """Print the K&C sheet: kinematic and compliance gradients at design, as a rig tells them.
+
+    With definitions, and with the signs of ISO 8855 and of SAE J670 (z down). Compliance is there
+    where the file has bushes, or BUSHES are given.
+    """
+    from ..study import export
+    from ..study.sheet import sheet, tabulated
+
+    inputs: list[str | Path] = [file, *([] if bushes is None else [bushes])]
+    outputs = Outputs.of(out, None, force=force, inputs=inputs)
+    found = sheet(described_by(file), described(file, bushes), held=held)
+    written = outputs.write_data(found)
+    if json:
+        print_json(export.as_dict(found))
+        return
+    for table in tabulated(found, f"{file}: "):
+        print_table(table)
+    say("At design. SAE J670 with its z axis down; definitions are in data files (-o).")
+    name_files(written)
+
+
+def described_by(file: str) -> "Model | Axle | RigidAxle":
+    """Return what the file describes."""
+    if rigid.is_rigid_axle(file):
+        from ..suspension.rigid import RigidAxle
+
+        return RigidAxle.load(file)
+    if axles.is_axle(file):
+        from ..suspension.axle import Axle
+
+        return Axle.load(file)
+    return load(file)

@@ -1,0 +1,105 @@
+"""The K&C sheet: what stands in it, and with which sign in which axes."""
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+from kintrafo import Axle, InputError, Model, RigidAxle, axles, loads
+from kintrafo.study.sheet import sheet, tabulated
+from kintrafo.suspension.positions import arm_angles, design_height
+from kintrafo.suspension.reach import at_rest
+from test_cli_commands import kintrafo  # noqa: F401 (a fixture)
+
+BUSHES = {"arm_rear": {"axial_N_per_mm": 400.0, "radial_N_per_mm": 1200.0}}
+# x forward, y right, z down
+TO_SAE = np.diag([1.0, -1.0, -1.0])
+TURNED = {"steer_gradient", "roll_steer", "roll_center_lateral", "heave_steer", "jacking"}
+
+
+def _heading(model: Model, rack: float, axes: np.ndarray) -> float:
+    """Return the direction of the knuckle's forward axis about z in some axes [deg]."""
+    states, inputs = at_rest(model, arm_angles(model, [design_height(model)], rack), rack)
+    turned = model.evaluate("orientations", states, inputs)
+    forward = axes @ turned[0, model.equations.BODIES.index("knuckle")] @ [1.0, 0.0, 0.0]
+    return float(np.degrees(np.arctan2(forward[1], forward[0])))
+
+
+@pytest.mark.parametrize(("name", "axes"), [("iso_8855", np.eye(3)), ("sae_j670", TO_SAE)])
+def test_steering_counts_about_the_z_axis_of_each_system(name, axes):
+    """By the turn of the knuckle, in either system of axes by the right-hand rule."""
+    model, step = Model("reference_car"), 1e-4
+    turn = _heading(model, step, axes) - _heading(model, -step, axes)
+    found = sheet(model).sel(quantity="steer_gradient")
+    assert float(found[name]) == pytest.approx(turn / (2e3 * step), rel=1e-5)
+
+
+def test_only_what_has_a_side_of_the_vehicle_has_another_sign():
+    subjects = [Model("reference_car"), Axle.load("reference_axle"), RigidAxle.load("rigid_axle")]
+    turned = set()
+    for found in map(sheet, subjects):
+        signs = zip(found["iso_8855_sign"].values, found["sae_j670_sign"].values, strict=True)
+        other = np.array([one != two for one, two in signs])
+        iso, sae = found["iso_8855"].values, found["sae_j670"].values
+        np.testing.assert_array_equal(np.where(other, -iso, iso), sae)
+        names = found["quantity"].values[other]
+        turned |= {n.removesuffix("_left").removesuffix("_right") for n in names}
+    assert turned == TURNED
+
+
+def test_the_values_are_those_of_the_curves_at_design_in_the_units_for_people():
+    axle = Axle.load("reference_axle")
+    found = sheet(axle, BUSHES, held="spring")
+    curves = axles.compliance(axle, BUSHES, [0.0], held="spring")
+    here = found["iso_8855"].sel(quantity="toe_by_braking_opposed_left")
+    toe = np.degrees(curves["toe_by_braking_opposed_left"].item()) * 1e3
+    assert here.item() == pytest.approx(toe, rel=1e-12)
+    roll = axles.roll(axle, [0.0])["roll_stiffness"].item() * np.pi / 180.0
+    assert found["iso_8855"].sel(quantity="roll_stiffness").item() == pytest.approx(roll)
+    units = dict(zip(found["quantity"].values, found["unit"].values, strict=True))
+    assert units["toe_by_aligning_opposed_left"] == "deg/100 N m"
+    assert units["motion_ratio_left"] == "-"
+    assert found.attrs["held"] == "spring and stops carry the wheel"
+
+
+def test_compliance_is_there_where_there_are_bushes():
+    model = Model("reference_car")
+    assert "compliance" not in sheet(model)["part"].values
+    soft = Model(model.suspension.with_changes({"bushings": BUSHES}))
+    np.testing.assert_array_equal(sheet(soft)["iso_8855"], sheet(model, BUSHES)["iso_8855"])
+    curves = loads.compliance(model, BUSHES, [0.0])
+    inward = curves["displacement_by_lateral"].item() * 1e6
+    found = sheet(soft)["iso_8855"].sel(quantity="displacement_by_lateral")
+    assert found.item() == pytest.approx(inward, rel=1e-12)
+
+
+def test_a_table_has_both_wheels_side_by_side():
+    tables = tabulated(sheet(Axle.load("reference_axle")), "")
+    assert [table.title for table in tables] == ["at rest", "in bump", "in roll", "steered"]
+    (camber,) = [row for row in tables[2].rows if row[0] == "roll camber"]
+    assert camber[1] == camber[2].removeprefix("-")
+    assert camber[3:5] == ("", "deg/deg")
+    every = [row for table in tables for row in table.rows]
+    assert len({row[0] for row in every}) == len(every)
+
+
+def test_what_cannot_be_is_refused_by_name():
+    with pytest.raises(InputError, match=r"subject = .*kintrafo.Model, kintrafo.Axle"):
+        sheet("reference_car")
+    with pytest.raises(InputError, match="held"):
+        sheet(Model("reference_car"), held="tight")
+    with pytest.raises(InputError, match="rods of a rigid axle are rigid"):
+        sheet(RigidAxle.load("rigid_axle"), BUSHES)
+
+
+def test_the_command_prints_it_and_writes_definitions(kintrafo):  # noqa: F811
+    code, out, err = kintrafo("sheet", "rigid_axle", "-o", "sheet.csv")
+    assert code == 0, err
+    assert "rigid_axle: in roll" in out
+    assert "SAE J670, z down" in out
+    with Path("sheet.csv").open(encoding="utf-8") as file:
+        rows = {row["quantity"]: row for row in csv.DictReader(file)}
+    steer = rows["roll_steer"]
+    assert float(steer["iso_8855"]) == -float(steer["sae_j670"]) != 0.0
+    assert steer["sae_j670_sign"].endswith("steers to the right")
+    assert steer["definition"]
