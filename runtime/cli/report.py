@@ -190,4 +190,5 @@ def _of_sheet(file: str, bushes: Path | None) -> "list[Chapter]":
     from ..study.loads import read_bushes
     from ..study.sheet import sheet
 
-    return [sheet_chapter(sheet(described_by(file), bushes and read_bushes(bushes)))]
+    described = None if bushes is None else read_bushes(bushes)
+    return [sheet_chapter(sheet(described_by(file), described))]
