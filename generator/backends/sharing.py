@@ -107,7 +107,7 @@ def together(
         Names of what not every function has to be read.
     """
     values = _Values.of(functions, order)
-    reading = {step.name: {*_symbols(step.value)} for step in values.schedule.steps}
+    reading = {step.name: {*symbols_in(step.value)} for step in values.schedule.steps}
     needed: dict[str, set[str]] = {}
     for name, read in reading.items():
         needed[name] = {n for n in read if n in own}.union(*(needed.get(n, ()) for n in read))
@@ -117,7 +117,7 @@ def together(
         results = values.schedule.results[start : start + function.size]
         names = values.names_in(function)
         guarded = (names.get(g.quantity.name, g.quantity.name) for g in function.guards)
-        alive = _behind([*chain(*map(_symbols, results)), *guarded], reading)
+        alive = _behind([*chain(*map(symbols_in, results)), *guarded], reading)
         steps = tuple(s for s in values.schedule.steps if needed[s.name] and s.name in alive)
         parts.append(Part(reads, steps, results, names))
         start += function.size
@@ -140,12 +140,19 @@ def _behind(names: Iterable[str], reading: Mapping[str, Iterable[str]]) -> set[s
     return found
 
 
-def _symbols(operation: Operation) -> Iterator[str]:
+def alive_in(function: Function | Stage, part: Part, steps: Iterable[Assignment]) -> set[str]:
+    """Return the names that a function of several needs for its results and guards."""
+    guarded = (part.names.get(g.quantity.name, g.quantity.name) for g in function.guards)
+    reading = {step.name: {*symbols_in(step.value)} for step in steps}
+    return _behind([*chain(*map(symbols_in, part.results)), *guarded], reading)
+
+
+def symbols_in(operation: Operation) -> Iterator[str]:
     """Yield the names of the symbols in an operation."""
     if operation.kind == "symbol":
         yield operation.of.name
     for operand in operation.operands:
-        yield from _symbols(operand)
+        yield from symbols_in(operand)
 
 
 @dataclass

@@ -8,6 +8,8 @@ from __future__ import annotations
 import textwrap
 from typing import TYPE_CHECKING
 
+import sympy as sp
+
 from ....equations import following
 from ...program.floors import ROUNDING
 from ..schedule import schedule
@@ -17,20 +19,27 @@ from ..text import text_of, written, written_values
 from ..words import FORMULA, blocks_of, reads_given
 from .common import ARGUMENTS, WIDTH, CText, unbroken
 from .iteration import call_of, once
+from .pieces import LONG, cut, length_of, steps_of
 from .statements import declared, in_all_lanes, printed, wrapped
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Mapping, Sequence
 
-    import sympy as sp
-
     from ...program.function import Block, Function, Stage
     from ...program.steps import Guard
-    from ..sharing import Part
+    from ..sharing import Part, Together
+    from .pieces import Cut, Piece
 
 COMPUTE = (
     "/* All functions of this file: the steps, each once, and the results of the one wanted. */"
 )
+
+NOT_INLINED = """/* In pieces: what a compiler does to a function grows with its length squared. */
+#ifdef __GNUC__
+#define NOT_INLINED __attribute__((noinline))
+#else
+#define NOT_INLINED
+#endif"""
 
 
 class Source(CText):
@@ -165,11 +174,16 @@ class Source(CText):
 
     def _functions(self, functions: Sequence[Function | Stage]) -> list[str]:
         """Print functions: what they compute, each step once, and each of them as a call of it."""
+        own = {f"given_{e.name}" for e in self.derivation.relative}
+        own.update(self.derivation.by_parameters.weights("inputs"))
+        whole = together(functions, self.derivation.order, own)
+        if length_of(whole) > LONG:
+            return self._in_pieces(functions, whole)
         given = any(map(reads_given, functions))
         wanted = ", ".join(map(self._wanted, functions))
         return [
             "\n".join(wrapped(f"enum {self.prefix}_function {{ {wanted} }};", 0)),
-            self._compute(functions, given=given),
+            self._compute(functions, whole, given=given),
             *(self._call(f, given=given) for f in functions if f.name in self._in_lanes),
             *_plain(
                 [self._call(f, given=given) for f in functions if f.name not in self._in_lanes]
@@ -186,13 +200,48 @@ class Source(CText):
         call = f"compute({', '.join(arguments)}, out)"
         return f"{self.signature(function, 'status_word')}\n{{\n    return {call};\n}}"
 
-    def _compute(self, functions: Sequence[Function | Stage], *, given: bool) -> str:
+    def _in_pieces(self, functions: Sequence[Function | Stage], whole: Together) -> list[str]:
+        """Print long functions, each by itself, as calls of its pieces."""
+        simulated, others = [], []
+        for function, part in zip(functions, whole.parts, strict=True):
+            texts = self._cut(function, part, whole)
+            (simulated if function.name in self._in_lanes else others).extend(texts)
+        return [NOT_INLINED, *simulated, *_plain(others)]
+
+    def _cut(self, function: Function | Stage, part: Part, whole: Together) -> list[str]:
+        """Print the pieces of a function, and what calls them."""
+        steps, guards = steps_of(function, part, whole), self._guards_of(function, part)
+        sizes = {block.name: len(block.results) for block in blocks_of([function])}
+        of_blocks = {s.name: s.value.of for s in steps if s.value.kind == "iterate"}
+        wide = {name: sizes[block] for name, block in of_blocks.items()}
+        read = [frozenset(s.name for s in (q, *f.free_symbols)) for _, q, f in guards]
+        found = cut(steps, part.results, read, wide)
+        printer = _Pieces(self, function, part, found, of_blocks, wide, _free("c", whole.names))
+        where = {step.name: k for k, p in enumerate(found.pieces) for step in p.steps}
+        bits: list[list[str]] = [[] for _ in found.pieces]
+        for (name, quantity, floor), names in zip(guards, read, strict=True):
+            at = max((where[n] for n in names if n in where), default=0)
+            bits[at].append(printer.guard(name, quantity, floor))
+        return [*(printer.piece(k, bits[k]) for k in range(len(bits))), printer.caller()]
+
+    def _guards_of(
+        self, function: Function | Stage, part: Part
+    ) -> list[tuple[str, sp.Symbol, sp.Expr]]:
+        """Return names of the guards that act, with what they compare."""
+        acting = {guard.name: guard for guard in function.guards}
+        return [
+            (g.name, sp.Symbol(part.names.get(q.name, q.name)), acting[g.name].floor)
+            for g in self.derivation.guards
+            if g.name in acting
+            for q in (acting[g.name].quantity,)
+        ]
+
+    def _compute(
+        self, functions: Sequence[Function | Stage], whole: Together, *, given: bool
+    ) -> str:
         """Print what all functions compute, each step once."""
-        own = {f"given_{e.name}" for e in self.derivation.relative}
-        own.update(self.derivation.by_parameters.weights("inputs"))
-        whole = together(functions, self.derivation.order, own)
         c = _free("c", whole.names)
-        names = self._constants(c)
+        names = self.constants_in(c)
         start = "INLINED status_word compute("
         indent, more = " " * len(start), " const double *restrict given," * given
         lines = [
@@ -201,8 +250,8 @@ class Source(CText):
             f"{indent}{ARGUMENTS}",
             f"{indent}const double *restrict inputs,{more} double *restrict out)",
             "{",
-            *self._pointer(c, whole.reads),
-            *self._loads(whole.reads),
+            *self.pointer(c, whole.reads),
+            *self.loads(whole.reads),
             *printed(whole.steps, names),
             "",
             "    status_word status = {0};",
@@ -217,7 +266,7 @@ class Source(CText):
             ]
         return "\n".join([*lines, "    return status;", "}"])
 
-    def _constants(self, c: str) -> dict[str, str]:
+    def constants_in(self, c: str) -> dict[str, str]:
         """Return how constants are read, and their directions, which stand behind them."""
         labels = self.derivation.prepare.labels
         names = {name: f"{c}->{name}" for name in labels}
@@ -229,14 +278,14 @@ class Source(CText):
         behind = self.derivation.by_parameters.places(array)
         return {name: i for i, name in enumerate(names)} | behind
 
-    def _pointer(self, c: str, read: Collection[str]) -> list[str]:
+    def pointer(self, c: str, read: Collection[str]) -> list[str]:
         """Return the declaration of the constants; mark what is not read."""
         lines = [
             f"    (void){array};"
             for array, places in self._arrays().items()
             if array != "given" and not places.keys() & {*read}
         ]
-        if not self._constants(c).keys() & {*read}:
+        if not self.constants_in(c).keys() & {*read}:
             return ["    (void)constants;", *lines]
         pointer = f"    const struct {self.prefix}_constants *const {c} = (const void *)constants;"
         return [pointer, *lines]
@@ -250,7 +299,7 @@ class Source(CText):
         }
         return {array: self._places(array, names) for array, names in arrays.items()}
 
-    def _loads(self, read: Collection[str]) -> list[str]:
+    def loads(self, read: Collection[str]) -> list[str]:
         """Return the declarations of what is read of state, inputs and given coordinates."""
         return declared(
             [
@@ -263,7 +312,7 @@ class Source(CText):
 
     def _part(self, function: Function | Stage, part: Part, names: Mapping[str, str]) -> list[str]:
         """Print the results of a function, and the steps that it alone has."""
-        lines = [*self._loads(part.reads), *printed(part.steps, names)]
+        lines = [*self.loads(part.reads), *printed(part.steps, names)]
         texts, start = written_values(part.results, FORMULA, names), 0
         for member in function.members:
             lines += self._results(member, texts[start : start + member.size], start)
@@ -318,6 +367,108 @@ class Source(CText):
         finite = self.enumerator("status", "not_finite")
         bits.append(f"finite_bit(out, {function.size}, {finite})")
         return [f"    status |= {bit};" for bit in bits]
+
+
+class _Pieces:
+    """Prints the pieces of one function, and what calls them."""
+
+    def __init__(
+        self,
+        source: Source,
+        function: Function | Stage,
+        part: Part,
+        found: Cut,
+        of_blocks: Mapping[str, str],
+        wide: Mapping[str, int],
+        c: str,
+    ) -> None:
+        self._source, self._function, self._part, self._found = source, function, part, found
+        self._of_blocks, self._wide, self._c = of_blocks, wide, c
+        self._names = source.constants_in(c)
+        taken = {s.name for p in found.pieces for s in p.steps}
+        self._kept = next(n for n in ("kept", "kept_", "kept__") if n not in taken)
+
+    def guard(self, name: str, quantity: sp.Symbol, floor: sp.Expr) -> str:
+        """Print the comparison of a guard."""
+        names = self._names
+        text = text_of(schedule(floor), FORMULA, lambda s: names.get(s.name, s.name))
+        value = names.get(quantity.name, quantity.name)
+        return f"status |= guard_bit({value}, {text}, {self._source.enumerator('status', name)});"
+
+    def piece(self, number: int, bits: Sequence[str]) -> str:
+        """Print one piece: what it reads, its steps, what it hands over, its results."""
+        piece, kept = self._found.pieces[number], self._kept
+        start = f"NOT_INLINED static status_word {self._function.name}_{number + 1}("
+        indent = " " * len(start)
+        given = " const double *restrict given," * reads_given(self._function)
+        lines = [
+            f"{start}{ARGUMENTS}",
+            f"{indent}const double *restrict inputs,{given}",
+            f"{indent}double *restrict {kept}, double *restrict out)",
+            "{",
+            *self._source.pointer(self._c, piece.reads),
+            *(["    (void)given;"] if given else []),
+            f"    (void){kept};",
+            "    (void)out;",
+            *self._source.loads(piece.reads),
+            *declared([f"{n} = {kept}[{self._found.kept[n]}]" for n in self._handed(piece)]),
+            *(line for n in sorted(piece.reads & self._wide.keys()) for line in self._block(n)),
+            *printed(piece.steps, self._names),
+            "",
+            *(f"    {line}" for step in piece.steps for line in self._hands_over(step.name)),
+            *self._results(piece),
+            "    status_word status = {0};",
+            *(f"    {bit}" for bit in bits),
+            "    return status;",
+            "}",
+        ]
+        return "\n".join(lines)
+
+    def _handed(self, piece: Piece) -> list[str]:
+        """Return the numbers that a piece takes over, in the order of their places."""
+        names = (piece.reads & self._found.kept.keys()) - self._wide.keys()
+        return sorted(names, key=self._found.kept.__getitem__)
+
+    def _block(self, name: str) -> list[str]:
+        place = self._found.kept[name]
+        return [
+            f"    struct {self._of_blocks[name]} {name};",
+            f"    memcpy({name}.at, {self._kept} + {place}, sizeof {name}.at);",
+        ]
+
+    def _hands_over(self, name: str) -> list[str]:
+        place = self._found.kept.get(name)
+        if place is None:
+            return []
+        if name in self._wide:
+            return [f"memcpy({self._kept} + {place}, {name}.at, sizeof {name}.at);"]
+        return [f"{self._kept}[{place}] = {name};"]
+
+    def _results(self, piece: Piece) -> list[str]:
+        values = [self._part.results[i] for i in piece.results]
+        texts = written_values(values, FORMULA, self._names)
+        return [
+            line
+            for i, text in zip(piece.results, texts, strict=True)
+            for line in wrapped(f"out[{i}] = {in_all_lanes(text)};", 4)
+        ]
+
+    def caller(self) -> str:
+        """Print the function itself."""
+        source, function, kept = self._source, self._function, self._kept
+        given = " given," * reads_given(function)
+        lines = [
+            source.signature(function, "status_word"),
+            "{",
+            f"    double {kept}[{max(1, self._found.size)}];",
+            "    status_word status = {0};",
+        ]
+        for number in range(1, len(self._found.pieces) + 1):
+            call = f"{function.name}_{number}(constants, state, inputs,{given} {kept}, out)"
+            lines.append(f"    status |= {call};")
+        finite = source.enumerator("status", "not_finite")
+        lines.append(f"    status |= finite_bit(out, {function.size}, {finite});")
+        return "\n".join([*lines, "    return status;", "}"])
 
 
 def _plain(texts: Sequence[str]) -> list[str]:

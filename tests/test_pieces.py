@@ -1,0 +1,40 @@
+"""Long functions are compiled in pieces: the same bits as in one."""
+
+import numpy as np
+from kintrafo import System
+from kintrafo.generator.backends.c import source
+from kintrafo.generator.equations.outputs import generate
+from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
+from kintrafo.systems.compile.build import build
+from kintrafo.systems.compile.compiler import find_compiler
+from kintrafo.systems.compile.loader import load
+
+FUNCTIONS = ("rhs", "rhs_jacobian", "margins", "poses", "jacobians")
+
+
+def test_pieces_return_the_bits_of_the_whole(tmp_path, monkeypatch):
+    model = n_four_bar(8)
+    derived = generate(model)
+    results = []
+    for number, long in enumerate((10**9, 0)):
+        monkeypatch.setattr(source, "LONG", long)
+        folder = tmp_path / f"{model.name}-pieces{number}"
+        folder.mkdir()
+        build(derived, folder, find_compiler())
+        text = (folder / f"{model.name}.c").read_text(encoding="utf-8")
+        assert ("NOT_INLINED" in text) == (long == 0)
+        module = load(folder)
+        constants = System(module).constants
+        states = np.random.default_rng(3).uniform(-0.4, 0.4, (50, 2))
+        values = [getattr(module, name)(states, None, constants) for name in FUNCTIONS]
+        results.append([np.asarray(v) for group in values for v in _arrays(group)])
+    for one, other in zip(*results, strict=True):
+        assert one.tobytes() == other.tobytes()
+
+
+def _arrays(found):
+    return found if isinstance(found, tuple) else (found,)
+
+
+def test_short_functions_stay_in_one_piece():
+    assert "NOT_INLINED" not in source.Source(generate(n_four_bar(8))).text()
