@@ -202,7 +202,8 @@ class Source(CText):
 
     def _in_pieces(self, functions: Sequence[Function | Stage], whole: Together) -> list[str]:
         """Print long functions, each by itself, as calls of its pieces."""
-        simulated, others = [], []
+        simulated: list[str] = []
+        others: list[str] = []
         for function, part in zip(functions, whole.parts, strict=True):
             texts = self._cut(function, part, whole)
             (simulated if function.name in self._in_lanes else others).extend(texts)

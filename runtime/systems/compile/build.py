@@ -112,10 +112,18 @@ def compile_mechanism(
             report("deriving the equations")
             with translated_errors(model):
                 derived = generate(model, parameter_derivatives=parameter_derivatives)
-            report("compiling" if compiler else "writing the functions")
+            size = _operations_of(derived)
+            report(f"{'compiling' if compiler else 'writing the functions'}: {size:,} operations")
             build(derived, temporary, compiler, name=target.name)
         refuse_damaged(target)
     return load(target)
+
+
+def _operations_of(derived: "Derivation") -> int:
+    """Return how many operations are emitted, all functions together."""
+    from ...generator.backends.counting import operations_of
+
+    return sum(operations_of(function).total() for function in derived.emitted.values())
 
 
 def require_generator() -> None:
