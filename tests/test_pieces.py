@@ -1,9 +1,11 @@
 """Long functions are compiled in pieces: the same bits as in one."""
 
 import numpy as np
+import pytest
 from kintrafo import System
 from kintrafo.generator.backends.c import source
 from kintrafo.generator.equations.outputs import generate
+from kintrafo.generator.mechanisms.held_by_rods import MODELS
 from kintrafo.generator.mechanisms.n_four_bar import n_four_bar
 from kintrafo.systems.compile.build import build
 from kintrafo.systems.compile.compiler import find_compiler
@@ -12,8 +14,8 @@ from kintrafo.systems.compile.loader import load
 FUNCTIONS = ("rhs", "rhs_jacobian", "margins", "poses", "jacobians")
 
 
-def test_pieces_return_the_bits_of_the_whole(tmp_path, monkeypatch):
-    model = n_four_bar(8)
+@pytest.mark.parametrize("model", [n_four_bar(8), MODELS[0]], ids=["closed", "iterated"])
+def test_pieces_return_the_bits_of_the_whole(tmp_path, monkeypatch, model):
     derived = generate(model)
     results = []
     for number, long in enumerate((10**9, 0)):
@@ -24,8 +26,9 @@ def test_pieces_return_the_bits_of_the_whole(tmp_path, monkeypatch):
         text = (folder / f"{model.name}.c").read_text(encoding="utf-8")
         assert ("NOT_INLINED" in text) == (long == 0)
         module = load(folder)
-        constants = System(module).constants
-        states = np.random.default_rng(3).uniform(-0.4, 0.4, (50, 2))
+        system, random = System(module), np.random.default_rng(3)
+        constants, size = system.constants, system.design_state.size
+        states = system.design_state + random.uniform(-0.3, 0.3, (50, size))
         values = [getattr(module, name)(states, None, constants) for name in FUNCTIONS]
         results.append([np.asarray(v) for group in values for v in _arrays(group)])
     for one, other in zip(*results, strict=True):
