@@ -51,6 +51,7 @@ WRITING = {
     ),
     "simulate --loads of a rigid axle": (["simulate", "rigid_axle", "--loads", "a.csv"], "a.csv"),
     "loads --plot": (["loads", CAR, "--case", "brake", "--plot", "a.png"], "a_brake.png"),
+    "animate": (["animate", CAR, "a.gif"], "a.gif"),
     "sheet": (["sheet", CAR, "-o", "a.csv"], "a.csv"),
     "compliance": (["compliance", CAR, str(STUDIES / "bushes.toml"), "--plot", "a.svg"], "a.svg"),
     "deflection": (["deflection", CAR, str(STUDIES / "bushes.toml"), "--plot", "a.svg"], "a.svg"),

@@ -32,7 +32,8 @@ sqrt sin cos asin atan2 copysign isfinite fabs abs at_least is_positive number
 guard_bit finite_bit either first_not_finite failed status_word
 parameters constants state inputs given out status wanted compute i np design_state prepare found
 results follow follow_turns square fmax GUARD_FLOOR ROUNDING ITERATIONS CONVERGED STALLED LONGEST
-TURNED INLINED NO_EFFECT NULL CLOSE SHORTEST CLOSED FULL_TURN UNKNOWNS ELEMENTS DRIVEN ADDRESSES
+TURNED INLINED NOT_INLINED NO_EFFECT NULL CLOSE SHORTEST CLOSED FULL_TURN UNKNOWNS ELEMENTS DRIVEN
+ADDRESSES kept
 """
 _WORDS = frozenset(
     [
