@@ -190,3 +190,17 @@ def test_page_moves_in_a_browser(tmp_path):
         assert page.inner_text("#play") == "Pause"
         browser.close()
     assert not said
+
+
+def test_where_it_does_not_stay_is_told(tmp_path):
+    """The excavator rests where modes grow; a four-bar swings about its lowest position."""
+    grows = "It does not stay there"
+    for module, told in ((excavator, True), (four_bar, False)):
+        page = kintrafo.report.write(kintrafo.System(module), tmp_path / f"{told}.html")
+        assert (grows in page.read_text(encoding="utf-8")) == told
+
+
+def test_a_motion_of_another_mechanism_is_refused(spun, tmp_path):
+    with pytest.raises(kintrafo.InputError, match="not one of this mechanism"):
+        kintrafo.report.write(kintrafo.System(excavator), tmp_path / "a.html", motion=spun)
+    assert not [*tmp_path.iterdir()]

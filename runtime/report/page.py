@@ -16,6 +16,7 @@ from ..core.files import Paths, refuse, replacing
 from ..core.legible import legible
 from ..simulation.result import Simulation
 from ..study.characteristics.groups import ORDER
+from ..study.loads.along import is_motion_of
 from ..study.paper import SPIN_RATE
 from ..suspension.input.section import Section
 from ..suspension.model import Model
@@ -113,6 +114,8 @@ def write(
             given.kind("motion", motion, Simulation, "what kintrafo.simulate returns is needed")
             if isinstance(model, Model):
                 given.refuse("motion: the report of a suspension has a simulated second of its own")
+            elif not given.refused and not is_motion_of(model, motion):
+                given.refuse(f"motion: it is not one of this mechanism, {model!r}.")
         if not isinstance(model, Model) and (chapters or without):
             given.refuse("chapters, without: only the report of a suspension has them")
     text = _text(model, title, chapters, without, motion, tell)

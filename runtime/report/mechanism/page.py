@@ -15,10 +15,14 @@ from ...core.legible import legible
 from ...simulation.result import Simulation, SimulationError
 from ...simulation.simulate import simulate
 from ...systems.linearisation import linearise
+from ...systems.modes import Mode
 from ...systems.rest import rest
 from ...systems.skeleton import Skeleton
 from ...systems.system import System
 from .scenes import Scene, by_hand, extent, of_motion
+
+# Of eigenvalues that are zero twice, the root of that of doubles is left, and some powers of ten.
+_ROUNDING = 1e-6
 
 SECONDS = 1.0
 """How long a mechanism is left to itself, where no motion of it is given."""
@@ -109,10 +113,17 @@ def _modes(system: System) -> dict[str, Any]:
     at = zip(system.state_names[:half], np.asarray(found)[:half], strict=True)
     units = system.equations.STATE
     return {
-        "words": "Found by Newton's method from the design position, without inputs.",
+        "words": "Found by Newton's method from the design position, without inputs."
+        + " It does not stay there: a mode grows." * _grows(modes),
         "rest": [(name, f"{value:.6g}", units[name]["unit"]) for name, value in at],
         "modes": [(m.text, m.eigenvalues_text) for m in modes],
     }
+
+
+def _grows(modes: Sequence[Mode]) -> bool:
+    """Tell whether a mode grows, by more than the rounding of the fastest one."""
+    values = np.array([value for mode in modes for value in mode.eigenvalues])
+    return bool((values.real > _ROUNDING * np.abs(values).max(initial=0.0)).any())
 
 
 def _data(skeleton: Skeleton, scenes: Sequence[Scene]) -> str:
