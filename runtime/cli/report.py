@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from ..report import Chapter
     from ..suspension.axle import Axle
     from ..suspension.model import Model
+    from ..suspension.rigid import RigidAxle
 
 EXAMPLES = (
     "kintrafo report reference_car",
@@ -87,7 +88,7 @@ def command(
         axles.refuse_options("the file of one suspension", {"--goals": goals})
     if rigid.is_rigid_axle(file):
         with problems.status("report"):
-            further = [*_of_loads(file, cases, wanted=loads), *_of_sheet(file, None)]
+            further = [*_of_loads(file, cases, wanted=loads), *_of_sheet(described_by(file), None)]
             written = rigid.report(
                 file, target, title, further, {"--bushes": bushes}, force=force, inputs=inputs
             )
@@ -100,7 +101,7 @@ def command(
 
         chapters = [*_of_axle(axle), *_of_loads(file, cases, wanted=loads)]
         chapters += [*_of_bushes(model, bushes, axle), *_of_goals(model, goals)]
-        chapters += _of_sheet(file, bushes)
+        chapters += _of_sheet(axle or model, bushes)
         written = write(
             model,
             target,
@@ -185,10 +186,10 @@ def _of_bushes(model: "Model", bushes: Path | None, axle: "Axle | None") -> "lis
     ]
 
 
-def _of_sheet(file: str, bushes: Path | None) -> "list[Chapter]":
+def _of_sheet(of: "Model | Axle | RigidAxle", bushes: Path | None) -> "list[Chapter]":
     from ..report import sheet_chapter
     from ..study.loads import read_bushes
     from ..study.sheet import sheet
 
     described = None if bushes is None else read_bushes(bushes)
-    return [sheet_chapter(sheet(described_by(file), described))]
+    return [sheet_chapter(sheet(of, described))]
