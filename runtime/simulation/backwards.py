@@ -123,13 +123,9 @@ def motion_gradient(
     """
     with Arguments("motion_gradient") as given:
         directions = checked_directions(given, system)
-        span = span_of(given, t_span)
-        if span[1] < span[0]:
-            given.refuse(f"t_span = {shown(t_span)}: the last time must be the later one.")
+        span = forward_span(given, t_span)
         if not given.refused:
-            times = outputs_of(
-                given, np.linspace(*span, OUTPUTS) if t_eval is None else t_eval, span
-            )
+            times = told_at(given, t_eval, span)
             asked = _asked(given, system, of, times)
             given.array("y0", y0, dimensions=[1], last=len(system.state_names), empty=True)
             accuracy = accuracy_of(
@@ -142,6 +138,19 @@ def motion_gradient(
     value, weights = _judged(system, asked, times, *steps.point(*steps.places(times)))
     swept = _Sweep(system, directions, steps).backwards(times, weights)
     return MotionGradient(value, _named(system, directions, courses, *swept), motion)
+
+
+def forward_span(given: Arguments, t_span: Any) -> tuple[float, float]:
+    """Check first and last time, which must be the later one [s]."""
+    span = span_of(given, t_span)
+    if span[1] < span[0]:
+        given.refuse(f"t_span = {shown(t_span)}: the last time must be the later one.")
+    return span
+
+
+def told_at(given: Arguments, t_eval: Any, span: tuple[float, float]) -> Array:
+    """Check the times at which a motion is looked at, `OUTPUTS` of them by default [s]."""
+    return outputs_of(given, np.linspace(*span, OUTPUTS) if t_eval is None else t_eval, span)
 
 
 def followed(

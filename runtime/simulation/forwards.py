@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..core.arguments import Arguments, shown
+from ..core.arguments import Arguments
 from ..systems.derivatives import checked_directions, direction_of, kept_together
 from ..systems.state import inputs_of
 from ..systems.system import System
-from .accuracy import accuracy_of, outputs_of, span_of
-from .backwards import MOST_STEPS, OUTPUTS, followed
+from .accuracy import accuracy_of
+from .backwards import MOST_STEPS, followed, forward_span, told_at
 from .courses import Signal
 from .result import Simulation
 from .retraced import NODES, STAGES, Steps, weights_within
@@ -109,13 +109,9 @@ def motion_sensitivity(
     """
     with Arguments("motion_sensitivity") as given:
         checked_directions(given, system)
-        span = span_of(given, t_span)
-        if span[1] < span[0]:
-            given.refuse(f"t_span = {shown(t_span)}: the last time must be the later one.")
+        span = forward_span(given, t_span)
         if not given.refused:
-            times = outputs_of(
-                given, np.linspace(*span, OUTPUTS) if t_eval is None else t_eval, span
-            )
+            times = told_at(given, t_eval, span)
             along = _along(given, system, by)
             chosen = system.signal_names
             if signals is not None:
