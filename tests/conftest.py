@@ -93,7 +93,16 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 def pytest_collection_finish() -> None:
-    """Let Python's search for circles of objects pass over what was imported: it stays."""
+    """Let Python's search for circles of objects rest: it goes through all that was derived."""
+    gc.disable()
+    gc.freeze()
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _circles_of_a_file_are_freed() -> Iterator[None]:
+    """Look for circles once behind each file, and pass over what stays from then on."""
+    yield
+    gc.collect()
     gc.freeze()
 
 

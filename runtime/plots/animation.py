@@ -4,14 +4,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.animation import FuncAnimation, PillowWriter
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
+from PIL import Image
 
 from ..systems.skeleton import Skeleton
 
 if TYPE_CHECKING:
-    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
 Array = NDArray[np.float64]
@@ -27,6 +27,7 @@ COLOURS = (
     "#666600",
 )
 _INK, _GREY = "#222222", "#8a8a8a"
+_DPI = 90.0
 _TURN, _TILT = 35.0, 18.0  # degrees: from the front, above
 
 
@@ -47,14 +48,39 @@ def write_gif(
         Frames that are shown per second.
     """
     drawer = _Drawer(skeleton, places)
+    canvas = FigureCanvasAgg(drawer.figure)
+    canvas.figure.set_dpi(_DPI)
+    frames: list[Image.Image] = []
+    palette: Image.Image | None = None
+    for index, time in enumerate(times):
+        drawer.draw(index, f"t = {time:.3f} s")
+        canvas.draw()
+        drawer.figure.set_layout_engine("none")  # as the first is laid out: all are alike
+        shown = Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
+        palette = palette or _palette(shown)
+        frames.append(shown.quantize(palette=palette, dither=Image.Dither.NONE))
+    frames[0].save(
+        path,
+        format="GIF",
+        save_all=True,
+        append_images=frames[1:],
+        duration=round(1000.0 / fps),  # ms
+        loop=0,
+    )
 
-    def frame(index: int) -> list["Artist"]:
-        drawer.draw(index, f"t = {times[index]:.3f} s")
-        return []  # all is drawn anew
 
-    made = FuncAnimation(drawer.figure, frame, frames=len(times), init_func=list, blit=False)
-    writer = PillowWriter(fps=fps)  # type: ignore[arg-type]  # a delay is 1/fps, whole or not
-    made.save(str(path), writer=writer, dpi=90)
+def _palette(shown: Image.Image) -> Image.Image:
+    """Return the colours that a frame has most of, so that they stay as they are.
+
+    Of those that differ by less than 8 of 256 levels the most frequent: Pillow takes colours as
+    near each other for the same.
+    """
+    colours, counts = np.unique(np.asarray(shown).reshape(-1, 3), axis=0, return_counts=True)
+    colours = colours[np.argsort(-counts, kind="stable")]
+    _, first = np.unique(colours // 8, axis=0, return_index=True)
+    palette = Image.new("P", (1, 1))
+    palette.putpalette(colours[np.sort(first)[:256]].tobytes())
+    return palette
 
 
 def still(skeleton: Skeleton, places: dict[str, Array], index: int, words: str) -> Figure:
