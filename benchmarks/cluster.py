@@ -76,14 +76,12 @@ def timed(client: Client, cars: int, **where: Any) -> Time:
     return Time(clock, of_all() - before)
 
 
-def pairs(cars: int, number: int) -> Iterator[Pair]:
+def pairs(client: Client, cars: int, number: int) -> Iterator[Pair]:
     """Yield pairs, of workers that have been started, and have loaded what they need."""
-    there = {"n_workers": WORKERS, "threads_per_worker": 1, "dashboard_address": "127.0.0.1:0"}
-    with LocalCluster(**there) as cluster, Client(cluster) as client:
-        simulate(max(1, cars // 10), cluster=client)
-        for _ in range(number):
-            threads = timed(client, cars, threads=WORKERS)
-            yield Pair(threads, timed(client, cars, cluster=client))
+    simulate(max(1, cars // 10), cluster=client)
+    for _ in range(number):
+        threads = timed(client, cars, threads=WORKERS)
+        yield Pair(threads, timed(client, cars, cluster=client))
 
 
 def start_and_end() -> float:
@@ -132,7 +130,9 @@ def run(
 ) -> None:
     """Measure threads and workers in turns."""
     cars, number = (2_000, 1) if quick else (CARS, PAIRS)
-    found = list(pairs(cars, number))
+    there = {"n_workers": WORKERS, "threads_per_worker": 1, "dashboard_address": "127.0.0.1:0"}
+    with LocalCluster(**there) as cluster, Client(cluster) as client:
+        found = list(pairs(client, cars, number))
     started = statistics.median(start_and_end() for _ in range(min(3, number)))
     blocks = {
         "cluster": table(found, cars),

@@ -169,18 +169,6 @@ def test_what_is_kept_of_stiff_cars_is_measured(tmp_path):
     assert keep in page.read_text()
 
 
-@pytest.mark.skipif(not widths(), reason="built without lanes")
-def test_workers_are_measured_beside_threads(tmp_path):
-    page = tmp_path / "ensembles.md"
-    names = ("cluster", "cluster sentence", "machine cluster")
-    page.write_text("".join(f"<!-- begin {n} -->\n<!-- end {n} -->\n" for n in names))
-    command = [sys.executable, "-m", "benchmarks.cluster", "--quick", "--page", page]
-    subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
-    text = page.read_text()
-    assert "| 2 workers with a thread each |" in text
-    assert "For 2 000 cars, 2 local workers take" in text
-
-
 @NEEDS_SUNDIALS
 def test_steps_of_one_length_are_measured(tmp_path):
     page = tmp_path / "real-time.md"

@@ -29,6 +29,8 @@ from kintrafo.study.ensembles.pieces import cutting, piece, queue, versions, who
 from kintrafo.systems.compile.shipped import shipped
 from many_cars import SPAN, of_all_kinds, same, some_cars
 
+from benchmarks import cluster as benchmark
+
 distributed = pytest.importorskip("distributed")
 
 ensembles = import_module("kintrafo.study.ensembles.ensemble")
@@ -102,6 +104,13 @@ def test_local_workers_share_the_threads(car: Model, start: Any) -> None:
 
 
 @pytest.mark.usefixtures("small")
+def test_workers_are_measured_beside_threads(client: Any) -> None:
+    found = [*benchmark.pairs(client, 100, 2)]
+    assert all(time.cores > 0 for pair in found for time in (pair.threads, pair.workers))
+    assert "| 2 workers with a thread each |" in benchmark.table(found, 100)
+    assert "For 100 cars, 2 local workers take" in benchmark.sentence(found, 100, 3.0)
+
+
 def test_rows_and_grids(client: Any, car: Model, start: Any, tmp_path: Path) -> None:
     """A row of states for each, and combinations along dimensions; by threads, kept, as well."""
     states = np.array(start) + 1e-3 * np.arange(20)[:, None]

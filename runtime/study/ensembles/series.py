@@ -6,7 +6,6 @@ depend on the series beside it.
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import welch
 
 Array = NDArray[np.float64]
 
@@ -54,6 +53,8 @@ def spectra(series: Array, times: Array, segment: int) -> Array:
         The square of the unit of the series over Hz. Its integral over the frequencies is the
         variance within the segments.
     """
+    from scipy.signal import welch  # noqa: PLC0415 (slow to import)
+
     rate = 1.0 / (uniform_step(times) or np.nan)
     found = np.empty((len(series), segment // 2 + 1))
     together = np.zeros((_TOGETHER, times.size))
