@@ -9,6 +9,7 @@ from __future__ import annotations
 import gc
 import os
 import signal
+import sys
 from functools import cache
 from typing import TYPE_CHECKING
 
@@ -27,8 +28,8 @@ if TYPE_CHECKING:
     """Groups of curves by name, with their variables."""
 
 # SymPy reads it when it is imported, which some tests do before `kintrafo.generator.memory` can say
-# so. It is bounded, since a process derives dozens of models.
-os.environ.setdefault("SYMPY_CACHE_SIZE", "20000")
+# so.
+os.environ.setdefault("SYMPY_CACHE_SIZE", "None")
 
 # As many processes as cores run tests: threads of theirs would only wait for each other.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -102,6 +103,8 @@ def pytest_collection_finish() -> None:
 def _circles_of_a_file_are_freed() -> Iterator[None]:
     """Look for circles once behind each file, and pass over what stays from then on."""
     yield
+    if "sympy" in sys.modules:
+        sys.modules["sympy.core.cache"].clear_cache()
     gc.collect()
     gc.freeze()
 
