@@ -218,11 +218,13 @@ class _Values:
 
     def _number(self, operation: Operation, values: dict[str, int]) -> int:
         """Return the number of a value; a name of a step is that of the value it has."""
-        if operation.kind == "symbol" and operation.of.name in values:
-            return values[operation.of.name]
-        operands = tuple(self._number(operand, values) for operand in operation.operands)
-        ordered_ = tuple(sorted(operands)) if operation.kind in _COMMUTATIVE else operands
-        key = (operation.kind, operation.of, ordered_)
+        kind, of = operation.kind, operation.of
+        if kind == "symbol":
+            of = of.name  # hashed faster than the symbol
+            if of in values:
+                return values[of]
+        operands = tuple([self._number(operand, values) for operand in operation.operands])
+        key = (kind, of, tuple(sorted(operands)) if kind in _COMMUTATIVE else operands)
         if key not in self.found:
             self.found[key] = len(self.operations)
             self.operations.append((operation, operands))
@@ -243,6 +245,7 @@ class _Values:
 
     def _written(self, steps: Iterable[tuple[int, Assignment]], results: Sequence[int]) -> Schedule:
         assignments: dict[int, Assignment] = {}
+        by_name: dict[int, Operation] = {}
         repeated, numbers = self._repeated(results), count(1)
 
         def place(value: int, section: str) -> Operation:
@@ -250,15 +253,17 @@ class _Values:
             operation, operands = self.operations[value]
             if operation.kind in _LEAVES:
                 return operation
-            if value not in assignments:
-                parts = tuple(place(operand, section) for operand in operands)
+            if value not in by_name:
+                parts = tuple([place(operand, section) for operand in operands])
                 operation = Operation(operation.kind, parts, operation.of, operation.ready)
                 if value in repeated and value not in self.named:
                     self._name(value, f"{LOCAL}{next(numbers)}")
                 if value not in self.named:
                     return operation
-                assignments[value] = Assignment(self.named[value], operation, section)
-            return Operation("symbol", of=sp.Symbol(self.named[value]), ready=operation.ready)
+                name = self.named[value]
+                assignments[value] = Assignment(name, operation, section)
+                by_name[value] = Operation("symbol", of=sp.Symbol(name), ready=operation.ready)
+            return by_name[value]
 
         for value, step in steps:
             if value in self.named or value in repeated:
