@@ -538,8 +538,11 @@ def test_each_rod_has_a_row_with_its_sign() -> None:
     assert "reason" in loads.table(found)
 
 
-@pytest.mark.parametrize("axle", [STOPPED, LOPSIDED], ids=["stopped", "lopsided"])
-@pytest.mark.parametrize("case", ["brake", "corner", "trail_brake"])
+@pytest.mark.parametrize(
+    ("axle", "case"),
+    [(STOPPED, "brake"), (STOPPED, "corner"), (LOPSIDED, "trail_brake")],
+    ids=["stopped brake", "stopped corner", "lopsided trail brake"],
+)
 def test_labels_of_free_bodies_do_not_overlap(axle: RigidAxle, case: str) -> None:
     usual = {name: found for name, found in rigid_axles.standard_cases(axle).items()
              if name == case}  # fmt: skip
