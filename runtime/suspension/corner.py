@@ -168,8 +168,8 @@ class Vehicle:
 
 
 @dataclass(frozen=True)
-class Corner:
-    """A wheel, its steering axis and its first motions, at many positions.
+class RoadWheel:
+    """A wheel at many positions.
 
     Attributes
     ----------
@@ -182,6 +182,23 @@ class Corner:
         Unit vector along the spin axis, pointing outboard.
     design_axis : ndarray, shape (3,)
         The same at design.
+    """
+
+    vehicle: Vehicle
+    center: Array
+    design_center: Array
+    axis: Array
+    design_axis: Array
+
+
+@dataclass(frozen=True)
+class Corner(RoadWheel):
+    """A wheel, its steering axis and its first motions, at many positions.
+
+    Attributes
+    ----------
+    vehicle, center, design_center, axis, design_axis
+        As of `RoadWheel`.
     steering_axis : SteeringAxis or None
         About which it is steered; None where nothing steers it.
     travel : Motion
@@ -202,11 +219,6 @@ class Corner:
         Of the lower link, zero at design, positive with the wheel up [rad].
     """
 
-    vehicle: Vehicle
-    center: Array
-    design_center: Array
-    axis: Array
-    design_axis: Array
     steering_axis: SteeringAxis | None
     travel: Motion
     steering: Motion | None

@@ -261,7 +261,7 @@ class Line:
     Attributes
     ----------
     name : str
-        What it is called: 'spring'.
+        What it is called: 'spring', 'damper', or with a side behind that.
     signals : tuple of str
         The signals of the equations, or inputs, that are its force, positive when it pushes; those
         that the equations have not are zero.
@@ -277,6 +277,11 @@ class Line:
     second: str
     at: tuple[str, str]
 
+    @property
+    def is_spring(self) -> bool:
+        """Whether a spring acts along it; otherwise it is a damper, with its stops."""
+        return self.name.startswith("spring")
+
     def direction(self, points: Points) -> Array:
         """Return the unit vector from the first to the second point, (..., 3)."""
         return _unit(points[self.at[1]] - points[self.at[0]])
@@ -290,7 +295,7 @@ class Structure:
     ----------
     joints : sequence of Joint
     lines : sequence of Line
-        That of the spring, and that of the damper.
+        Those of springs and dampers.
     """
 
     joints: Sequence[Joint]
@@ -301,6 +306,16 @@ class Structure:
         """The parts that move."""
         found = dict.fromkeys(part for j in self.joints for part in (j.first, j.second))
         return tuple(part for part in found if part not in GROUND)
+
+    @property
+    def springs(self) -> tuple[str, ...]:
+        """The lines of its springs."""
+        return tuple(line.name for line in self.lines if line.is_spring)
+
+    @property
+    def dampers(self) -> tuple[str, ...]:
+        """The lines of its dampers, with their stops."""
+        return tuple(line.name for line in self.lines if not line.is_spring)
 
     @property
     def rules(self) -> tuple[str, ...]:

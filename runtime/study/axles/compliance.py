@@ -1,6 +1,6 @@
 """How both wheels of an axle give way together: on their bushes, a soft rack, the anti-roll bar."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -20,14 +20,14 @@ from ...suspension.bushes import (
     refuse_rigid,
     softness_of_rack,
 )
-from ...suspension.corner import Array
+from ...suspension.corner import Array, RoadWheel
 from ...suspension.positions import arm_angles, design_height
 from ...suspension.reach import at_rest
 from ..characteristics.datasets import TRAVEL
 from ..characteristics.from_model import corner
 from ..loads.compliance import LOADED, MOVED, RIG_LOADS, RigLoad, load_at_contact, told
-from ..loads.flexibility import HELD, Held, Wheel, flexibility
-from ..loads.poses import Poses
+from ..loads.flexibility import HELD, Held, Side, flexibility, soft_lines
+from ..loads.poses import Poses, wheel_axes
 from . import motions
 from .between import SIDES, pull_of_bar
 from .motions import Extent
@@ -146,9 +146,11 @@ def compliance(
             if any(side.tyre_radius() is None for side in axle.sides.values()):
                 given.refuse("[tyre] radius_mm is needed: where the road touches the wheel.")
     travels = motions.travels(axle, Extent()) if travel is None else np.asarray(travel)
-    wheels = [_wheel(axle, side, travels, rack_position, bushes[side]) for side in SIDES]
+    sides = [_side(axle, side, travels, rack_position, bushes[side], held) for side in SIDES]
     bar = 1.0 / axle.bar.rate() if axle.bar else 0.0
-    found = _dataset(wheels, flexibility(wheels, held, rack=rack, bar=bar), travels, held)
+    wheels = [side.poses.wheels["wheel"] for side in sides]
+    flexible = flexibility(sides, held, rack=rack, bar=bar)
+    found = dataset_of_both(wheels, flexible, travels, held)
     return found.assign_attrs(left_out=left_out([*bushes[LEFT], *bushes[RIGHT]]))
 
 
@@ -170,30 +172,65 @@ def described_of(given: Arguments, axle: Axle, bushings: Any) -> dict[str, dict[
     return {one: described, other: {} if with_one.refused else mirrored_bushings(described)}
 
 
-def _wheel(axle: Axle, side: str, travels: Array, rack: float, bushes: list[Bush]) -> Wheel:
+def _side(
+    axle: Axle, side: str, travels: Array, rack: float, bushes: list[Bush], held: Held
+) -> Side:
     model = axle.models[side]
     angles = arm_angles(model, design_height(model) + travels, rack)
     poses = Poses.of(model, *at_rest(model, angles, rack))
     bar = pull_of_bar(axle, side, poses) if axle.halves else None
-    return Wheel(poses, corner(model, angles, rack), bushes, bar)
+    lines = None if held == "locked" else soft_lines(corner(model, angles, rack))
+    return Side(poses, bushes, lines, bar)
 
 
-def _dataset(wheels: list[Wheel], flexible: Array, travels: Array, held: Held) -> xr.Dataset:
-    found: dict[Any, Any] = {}
-    loads = {
-        test.name: [load_at_contact(test, w.poses, w.there) for w in wheels] for test in RIG_LOADS
-    }
+def under_loads(
+    wheels: Sequence[RoadWheel], flexible: Array
+) -> Iterator[tuple[RigLoad, Together, tuple[Array, Array]]]:
+    """Yield how both wheels move under each load of a rig, the left one first.
+
+    Parameters
+    ----------
+    wheels : sequence of RoadWheel
+        The left and the right one, over n positions.
+    flexible : ndarray, shape (n, 12, 12)
+
+    Yields
+    ------
+    test : RigLoad
+    how : Together
+    moved : tuple of ndarray, each of shape (n, 6)
+        Displacement and rotation of the contact, chassis axes [m], [rad].
+    """
     for test in RIG_LOADS:
+        loads = [load_at_contact(test, wheel) for wheel in wheels]
         for how in LOADINGS[test.name]:
-            parts = zip(how.parts, loads[test.name], strict=True)
+            parts = zip(how.parts, loads, strict=True)
             load = np.concatenate([part * one for part, one in parts], axis=-1)
-            moved = np.split(np.einsum("nab,nb->na", flexible, load), 2, axis=-1)
-            for side, one, its in zip(SIDES, wheels, moved, strict=True):
-                found |= _variables(test, how, side, one, its)
+            left, right = np.split(np.einsum("nab,nb->na", flexible, load), 2, axis=-1)
+            yield test, how, (left, right)
+
+
+def dataset_of_both(
+    wheels: Sequence[RoadWheel], flexible: Array, travels: Array, held: Held
+) -> xr.Dataset:
+    """Return what both wheels do under loads, over parallel wheel travel.
+
+    Parameters
+    ----------
+    wheels, flexible
+        As of `under_loads`.
+    travels : ndarray, shape (n,)
+        [m].
+    held : {'height', 'spring', 'locked'}
+    """
+    found: dict[Any, Any] = {}
+    for test, how, moved in under_loads(wheels, flexible):
+        for side, one, its in zip(SIDES, wheels, moved, strict=True):
+            found |= _variables(test, how, side, one, its)
     axes = np.zeros((len(travels), 12, 12))
     for i, one in enumerate(wheels):
         for begin in (6 * i, 6 * i + 3):
-            axes[:, begin : begin + 3, begin : begin + 3] = one.poses.wheel_axes()
+            axes[:, begin : begin + 3, begin : begin + 3] = wheel_axes(one)
     words = "displacement and rotation of the contacts by forces and moments there, tyre axes"
     found["flexibility"] = variable(
         (TRAVEL.name, "moved", "by"), axes @ flexible @ axes.mT, words, "SI"
@@ -207,12 +244,12 @@ def _dataset(wheels: list[Wheel], flexible: Array, travels: Array, held: Held) -
 
 
 def _variables(
-    test: RigLoad, how: Together, side: str, one: Wheel, moved: Array
+    test: RigLoad, how: Together, side: str, one: RoadWheel, moved: Array
 ) -> dict[str, xr.Variable]:
     """Return what a wheel does under loads on both."""
     named = replace(test, name=f"{test.name}_{how.name}", words=WORDS[test.name])
     words = f"{how.words}, {side}"
     return {
         f"{quantity.name}_{side}": xr.Variable(TRAVEL.name, values, quantity.attributes())
-        for quantity, values in told(named, one.poses, one.there, moved, how=words)
+        for quantity, values in told(named, one, moved, how=words)
     }

@@ -122,15 +122,15 @@ def deflection(
     pair = Pair.at(axle, at, at, rack)
     suspension = axle_on(pair, rack, softs)
     base = at_height(suspension, at)
-    of_each = zip(parts, suspension.poses, SIDES, strict=True)
-    unit = [part * unit_load(load, poses, pair.corners[side]) for part, poses, side in of_each]
+    of_each = zip(parts, suspension.wheels, strict=True)
+    unit = [part * unit_load(load, wheel) for part, wheel in of_each]
     states = under_amounts(suspension, base, np.stack(unit, axis=1), held, load, wanted)
     linear = None
     if any(gives_way(soft) for soft in softs.values()):
         linear = compliance(axle, bushings, at, rack_position=rack_position, held=held)
     data: dict[str, xr.Variable] = {}
     for which, side in enumerate(SIDES):
-        changed = changes(suspension, pair.corners[side], base, states, load, which)
+        changed = changes(suspension, base, states, load, which)
         straight = {k: _slope(linear, load, k, side, parts) * wanted for k in changed}
         data |= beside(changed, straight, side)
     for which, side in enumerate(SIDES):

@@ -11,7 +11,8 @@ from ...core.arguments import Arguments
 from ...core.quantities import variable
 from ...suspension.axle import Axle
 from ...suspension.axle.axle import LEFT, RIGHT
-from ...suspension.corner import Array, Corner
+from ...suspension.corner import Array, RoadWheel
+from ..characteristics import wheel
 from ..characteristics.catalogue import Quantity
 from ..characteristics.datasets import DATA_SET, KNOWN, RACK, TRAVEL
 from ..loads.elastic.connections import Soft
@@ -172,16 +173,13 @@ def _over(
     both = [axle_on(pair, racks, each) for each in (dict.fromkeys(SIDES, RIGID), softs)]
     states = [at_height(suspension, values, over) for suspension in both]
     data: dict[str, xr.Variable] = {}
-    curves: dict[Quantity, Callable[[Corner], Array]]
+    curves: dict[Quantity, Callable[[RoadWheel], Array]]
     curves = {KNOWN["travel"][name]: formula for name, formula in CURVES.items()}
     if motion == "steer":
-        steered = KNOWN["rack"]["steer"]
-        assert steered.formula is not None
-        curves |= {steered: steered.formula}
+        curves |= {KNOWN["rack"]["steer"]: wheel.steer}
     for quantity, formula in curves.items():
         for which, side in enumerate(SIDES):
-            there = pair.corners[side]
-            moved = on_bushes(both[1], there, states[1], which)
+            there, moved = both[0].wheels[which], on_bushes(both[1], states[1], which)
             told = np.stack([formula(there), formula(moved)])
             named = of_side(quantity, side)
             data[named.name] = xr.Variable(dims, told, named.attributes())

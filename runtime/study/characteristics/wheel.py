@@ -1,51 +1,59 @@
 """Characteristics of one wheel: the formulas.
 
-Each function takes a `Corner` and returns an array over its positions, SI units. Signs are those
-of docs/characteristics.md. A quantity that grows without bound (the length of a swing arm about an
-instant centre far away) becomes infinite there.
+Each function takes a `Corner`, or a `RoadWheel` where it needs no more, and returns an array over
+its positions, SI units. Signs are those of docs/characteristics.md. A quantity that grows without
+bound (the length of a swing arm about an instant centre far away) becomes infinite there.
 """
 
 import numpy as np
 
 from ...core.vectors import cross
-from ...suspension.corner import UP, Array, Corner, Motion, SteeringAxis
+from ...suspension.corner import UP, Array, Corner, Motion, RoadWheel, SteeringAxis
 
 # -- angles of the wheel --------------------------------------------------------------------------
 
 
-def camber(corner: Corner) -> Array:
+def camber(corner: RoadWheel) -> Array:
     """Return the camber [rad], positive with the top outboard."""
     return np.arctan2(*_camber_sides(corner, corner.axis))
 
 
-def toe(corner: Corner) -> Array:
+def toe(corner: RoadWheel) -> Array:
     """Return the toe angle [rad], positive toe-in."""
     return np.arctan2(*_toe_sides(corner, corner.axis))
 
 
-def steer(corner: Corner) -> Array:
+def steer(corner: RoadWheel) -> Array:
     """Return the steer angle [rad], positive to the left on both sides."""
     return -corner.vehicle.side * toe(corner)
 
 
 def camber_gradient(corner: Corner) -> Array:
     """Return the derivative of camber by wheel travel [rad/m]."""
-    turned = _turned_axis(corner, corner.travel)
-    return _angle_rate(_camber_sides(corner, corner.axis), _camber_sides(corner, turned))
+    return camber_rate(corner, corner.travel)
 
 
 def bump_steer(corner: Corner) -> Array:
     """Return the derivative of toe by wheel travel [rad/m], positive toe-in in bump."""
-    turned = _turned_axis(corner, corner.travel)
-    return _angle_rate(_toe_sides(corner, corner.axis), _toe_sides(corner, turned))
+    return toe_rate(corner, corner.travel)
 
 
 def steer_gradient(corner: Corner) -> Array:
     """Return the derivative of the steer angle by rack travel, wheel height held [rad/m]."""
     assert corner.steering is not None
-    turned = _turned_axis(corner, corner.steering)
-    rate = _angle_rate(_toe_sides(corner, corner.axis), _toe_sides(corner, turned))
-    return -corner.vehicle.side * rate
+    return -corner.vehicle.side * toe_rate(corner, corner.steering)
+
+
+def camber_rate(corner: RoadWheel, motion: Motion) -> Array:
+    """Return how fast the camber changes in a motion [rad]."""
+    turned = _turned_axis(corner, motion)
+    return _angle_rate(_camber_sides(corner, corner.axis), _camber_sides(corner, turned))
+
+
+def toe_rate(corner: RoadWheel, motion: Motion) -> Array:
+    """Return how fast the toe angle changes in a motion [rad]."""
+    turned = _turned_axis(corner, motion)
+    return _angle_rate(_toe_sides(corner, corner.axis), _toe_sides(corner, turned))
 
 
 # -- steering axis --------------------------------------------------------------------------------
@@ -96,19 +104,19 @@ def spindle_offset(corner: Corner) -> Array:
 # -- path of the wheel ----------------------------------------------------------------------------
 
 
-def contact(corner: Corner) -> Array:
+def contact(corner: RoadWheel) -> Array:
     """Return the contact point: the lowest point of the wheel as a thin disc [m]."""
     return lowest_point(corner.center, corner.axis, _radius(corner))
 
 
-def half_track_change(corner: Corner) -> Array:
+def half_track_change(corner: RoadWheel) -> Array:
     """Return how much farther outboard the contact is than at design [m]."""
     design = lowest_point(corner.design_center, corner.design_axis, _radius(corner))
     change: Array = corner.vehicle.side * (contact(corner)[..., 1] - design[..., 1])
     return change
 
 
-def wheelbase_change(corner: Corner) -> Array:
+def wheelbase_change(corner: RoadWheel) -> Array:
     """Return how much farther forward the wheel centre is than at design [m]."""
     change: Array = corner.center[..., 0] - corner.design_center[..., 0]
     return change
@@ -233,11 +241,11 @@ def _quotient(numerator: Array, denominator: Array) -> Array:
         return numerator / denominator
 
 
-def _camber_sides(corner: Corner, axis: Array) -> tuple[Array, Array]:
+def _camber_sides(corner: RoadWheel, axis: Array) -> tuple[Array, Array]:
     return -axis[..., 2], corner.vehicle.side * axis[..., 1]
 
 
-def _toe_sides(corner: Corner, axis: Array) -> tuple[Array, Array]:
+def _toe_sides(corner: RoadWheel, axis: Array) -> tuple[Array, Array]:
     return axis[..., 0], corner.vehicle.side * axis[..., 1]
 
 
@@ -251,7 +259,7 @@ def _angle_rate(sides: tuple[Array, Array], rates: tuple[Array, Array]) -> Array
     return (q * p_rate - p * q_rate) / (p**2 + q**2)
 
 
-def _turned_axis(corner: Corner, motion: Motion) -> Array:
+def _turned_axis(corner: RoadWheel, motion: Motion) -> Array:
     return cross(motion.turning, corner.axis)
 
 
@@ -323,7 +331,7 @@ def _trace(point: Array, normal: Array, x: Array) -> tuple[Array, Array, Array]:
     return normal[..., 1], normal[..., 2], level
 
 
-def _radius(corner: Corner) -> float:
+def _radius(corner: RoadWheel) -> float:
     if corner.vehicle.tyre_radius is None:
         raise _missing("tyre_radius")
     return corner.vehicle.tyre_radius

@@ -1,7 +1,7 @@
 """Compliance of the wheel by the unit-load theorem: what bushes do under loads, to first order."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ from ...core.arguments import Arguments
 from ...core.quantities import Display, display_of, variable
 from ...core.vectors import cross
 from ...suspension.bushes import described_bushings, left_out, refuse_rigid, softness_of_rack
-from ...suspension.corner import Corner, Motion
+from ...suspension.corner import Motion, RoadWheel
 from ...suspension.model import Model
 from ...suspension.positions import arm_angles, design_height
 from ...suspension.reach import at_rest
@@ -21,8 +21,8 @@ from ..characteristics.catalogue import Quantity
 from ..characteristics.datasets import TRAVEL
 from ..characteristics.from_model import corner
 from ..sweep import usual_travel
-from .flexibility import HELD, Held, Wheel, flexibility
-from .poses import CENTER, CONTACT, Poses, rotated
+from .flexibility import HELD, Held, Side, flexibility, soft_lines
+from .poses import CENTER, CONTACT, Poses, rotated, touching, wheel_axes
 
 Array = NDArray[np.float64]
 Vector = tuple[float, float, float]
@@ -156,23 +156,21 @@ def compliance(
     travels = usual_travel(model, rack=rack_position) if travel is None else travel
     angles = arm_angles(model, design_height(model) + travels, rack_position)
     poses = Poses.of(model, *at_rest(model, angles, rack_position))
-    there = corner(model, angles, rack_position)
-    flexible = flexibility([Wheel(poses, there, bushes)], held, rack=rack)
-    found = _dataset(poses, there, flexible, np.asarray(travels), held)
+    lines = None if held == "locked" else soft_lines(corner(model, angles, rack_position))
+    flexible = flexibility([Side(poses, bushes, lines)], held, rack=rack)
+    found = _dataset(poses.wheels["wheel"], flexible, np.asarray(travels), held)
     return found.assign_attrs(left_out=left_out(bushes))
 
 
 # -- results --------------------------------------------------------------------------------------
 
 
-def _dataset(
-    poses: Poses, there: Corner, flexible: Array, travels: Array, held: Held
-) -> xr.Dataset:
-    axes = poses.wheel_axes()
+def _dataset(on_road: RoadWheel, flexible: Array, travels: Array, held: Held) -> xr.Dataset:
+    axes = wheel_axes(on_road)
     found: dict[Any, Any] = {}
     for test in RIG_LOADS:
-        moved = np.einsum("nab,nb->na", flexible, load_at_contact(test, poses, there))
-        for quantity, values in told(test, poses, there, moved):
+        moved = np.einsum("nab,nb->na", flexible, load_at_contact(test, on_road))
+        for quantity, values in told(test, on_road, moved):
             found[quantity.name] = xr.Variable(TRAVEL.name, values, quantity.attributes())
     words = "displacement and rotation of the contact by force and moment there, tyre axes"
     found["flexibility"] = variable(
@@ -186,49 +184,53 @@ def _dataset(
     return xr.Dataset(found, coordinates, {"title": "compliance", "held": HELD[held]})
 
 
-def load_at_contact(test: RigLoad, poses: Poses, there: Corner) -> Array:
+def load_at_contact(test: RigLoad, on_road: RoadWheel) -> Array:
     """Return the load of a rig on a wheel, as force and moment at its contact, (n, 6).
 
     On a right wheel it is the mirror image of that on a left one. Chassis axes [N], [N m].
     """
-    axes, side = poses.wheel_axes(), there.vehicle.side
+    axes, side = wheel_axes(on_road), on_road.vehicle.side
     force, moment = (
         np.einsum("nij,i->nj", axes, vector)
         for vector in (_mirror(side) * test.force, side * _mirror(side) * test.moment)
     )
-    arm = poses.points[test.at] - poses.points[CONTACT]
+    arm = _where(test, on_road) - touching(on_road)
     return np.concatenate([force, moment + cross(arm, force)], axis=-1)
 
 
-def sense_of(test: RigLoad, poses: Poses, there: Corner) -> Array:
+def _where(test: RigLoad, on_road: RoadWheel) -> Array:
+    """Return where a load acts, (n, 3) [m]."""
+    return on_road.center if test.at == CENTER else touching(on_road)
+
+
+def sense_of(test: RigLoad, on_road: RoadWheel) -> Array:
     """Return the direction in which displacements under a load are told, (n, 3)."""
-    sense = _mirror(there.vehicle.side) * test.sense
-    along: Array = np.einsum("nij,i->nj", poses.wheel_axes(), sense)
+    sense = _mirror(on_road.vehicle.side) * test.sense
+    along: Array = np.einsum("nij,i->nj", wheel_axes(on_road), sense)
     return along
 
 
 def told(
-    test: RigLoad, poses: Poses, there: Corner, moved: Array, *, how: str = ""
+    test: RigLoad, on_road: RoadWheel, moved: Array, *, how: str = ""
 ) -> Iterator[tuple[Quantity, Array]]:
     """Yield what the wheel does under a load, by the formulas of the characteristics.
 
     Parameters
     ----------
     test : RigLoad
-    poses : Poses
-    there : Corner
+    on_road : RoadWheel
     moved : ndarray, shape (n, 6)
         Displacement and rotation of the contact, chassis axes [m], [rad].
     how : str, optional
         How both wheels of an axle are loaded.
     """
     turn = moved[:, 3:]
-    shift = moved[:, :3] + cross(turn, poses.points[test.at] - poses.points[CONTACT])
-    as_motion = replace(there, travel=Motion(shift, turn))
+    shift = moved[:, :3] + cross(turn, _where(test, on_road) - touching(on_road))
+    motion = Motion(shift, turn)
     values = {
-        "toe": wheel.bump_steer(as_motion),
-        "camber": wheel.camber_gradient(as_motion),
-        "displacement": (sense_of(test, poses, there) * shift).sum(axis=-1),
+        "toe": wheel.toe_rate(on_road, motion),
+        "camber": wheel.camber_rate(on_road, motion),
+        "displacement": (sense_of(test, on_road) * shift).sum(axis=-1),
     }
     for kind, quantity in _quantities(test, how).items():
         yield quantity, values[kind]

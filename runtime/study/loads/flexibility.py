@@ -13,12 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.errors import InputError
-from ...core.vectors import unit_vector
 from ...suspension.bushes import Bush
 from ...suspension.corner import Corner
 from ...suspension.structure import GROUND, Joint
 from ..characteristics import wheel
-from .poses import CONTACT, Poses, rotated
+from .poses import CONTACT, Assembled, rotated, touching
 from .reactions import Equations, Load
 
 Array = NDArray[np.float64]
@@ -35,33 +34,49 @@ _VERTICAL, _COMPONENTS = 2, 6
 
 
 @dataclass(frozen=True)
-class Wheel:
-    """A wheel and what is soft about its suspension; arrays over n positions.
+class SoftLines:
+    """How springs and stops give way along their lines; arrays over n positions.
 
     Attributes
     ----------
-    poses : Poses
-    there : Corner
-    bushes : sequence of Bush
-    bar : Load or None
-        What an anti-roll bar does on the suspension for a unit torque of it.
+    springs : ndarray, shape (n, springs, springs)
+        By how much each spring becomes shorter by a unit force along each [m/N].
+    stops : ndarray, shape (n, dampers)
+        The same of the stops beside each damper by themselves; infinite where none acts. None of
+        them, where a file has no stops.
     """
 
-    poses: Poses
-    there: Corner
+    springs: Array
+    stops: Array
+
+
+@dataclass(frozen=True)
+class Side:
+    """A suspension, or a rigid axle, and what is soft about it; arrays over n positions.
+
+    Attributes
+    ----------
+    poses : Assembled
+    bushes : sequence of Bush
+    lines : SoftLines or None
+        None with locked springs.
+    bar : Load or None
+        What an anti-roll bar does on it for a unit torque.
+    """
+
+    poses: Assembled
     bushes: Sequence[Bush]
+    lines: SoftLines | None
     bar: Load | None = field(default=None)
 
 
-def flexibility(
-    wheels: Sequence[Wheel], held: Held, *, rack: float = 0.0, bar: float = 0.0
-) -> Array:
+def flexibility(sides: Sequence[Side], held: Held, *, rack: float = 0.0, bar: float = 0.0) -> Array:
     """Return displacement and rotation of the contacts by loads on them.
 
     Parameters
     ----------
-    wheels : sequence of Wheel
-        One, or both of an axle.
+    sides : sequence of Side
+        A suspension, both of an axle, or a rigid axle.
     held : {'height', 'spring', 'locked'}
         What holds each wheel.
     rack : float, optional
@@ -74,66 +89,68 @@ def flexibility(
     ndarray, shape (n, 6 wheels, 6 wheels)
         Chassis axes; force and moment on each wheel in turn.
     """
-    sides = [_Side(w, held) for w in wheels]
-    applied = _COMPONENTS * len(wheels)
-    has_bar = any(w.bar for w in wheels)
-    size = applied + has_bar + sum(side.tensions for side in sides)
-    energy = np.zeros((len(wheels[0].poses.states), size, size))
-    on_rack, begin = np.zeros((*energy.shape[:1], 1, size)), applied + has_bar
-    for i, side in enumerate(sides):
+    energies = [_Energy(side) for side in sides]
+    wheels = sum(len(side.poses.wheels) for side in sides)
+    applied = _COMPONENTS * wheels
+    has_bar = any(side.bar for side in sides)
+    size = applied + has_bar + sum(each.tensions for each in energies)
+    energy = np.zeros((len(sides[0].poses.states), size, size))
+    on_rack, first, begin = np.zeros((*energy.shape[:1], 1, size)), 0, applied + has_bar
+    for side, each in zip(sides, energies, strict=True):
         # which of all unknowns those of this side are
-        own = [*range(_COMPONENTS * i, _COMPONENTS * (i + 1)), *[applied][: int(has_bar)]]
-        own += range(begin, begin + side.tensions)
-        begin += side.tensions
-        energy[:, np.array(own)[:, None], own] += side.energy
-        on_rack[..., own] += side.on_rack
+        count = _COMPONENTS * len(side.poses.wheels)
+        own = [*range(first, first + count), *[applied][: int(has_bar)]]
+        own += range(begin, begin + each.tensions)
+        first, begin = first + count, begin + each.tensions
+        energy[:, np.array(own)[:, None], own] += each.energy
+        on_rack[..., own] += each.on_rack
     energy += _energy(on_rack, rack)
     if has_bar:
         energy[:, applied, applied] += bar
     total = _released(energy, list(range(applied, size)))
     if held != "height":
         return total
-    return _released(total, [_COMPONENTS * i + _VERTICAL for i in range(len(wheels))], keep=True)
+    return _released(total, [_COMPONENTS * i + _VERTICAL for i in range(wheels)], keep=True)
 
 
-class _Side:
-    """The energy of one wheel's suspension under unit loads.
+class _Energy:
+    """The energy of what is soft about a suspension, or a rigid axle, under unit loads.
 
     Attributes
     ----------
     tensions : int
-        How many states of tension there are by themselves, that between spring and stops the last.
+        How many states of tension there are by themselves, those between springs and stops the
+        last.
     energy : ndarray, shape (n, unknowns, unknowns)
-        By unit forces and moments at the contact, a unit torque of the bar where there is one, and
+        By unit forces and moments at the contacts, a unit torque of the bar where there is one, and
         the tensions.
     on_rack : ndarray, shape (n, 1, unknowns)
         The force on the rack along its axis.
     """
 
-    def __init__(self, wheel: Wheel, held: Held) -> None:
-        poses, there = wheel.poses, wheel.there
-        forces = _Forces(wheel, stopped=bool(there.stops) and held != "locked")
+    def __init__(self, side: Side) -> None:
+        poses, lines = side.poses, side.lines
+        stops = np.zeros((len(poses.states), 0)) if lines is None else lines.stops
+        forces = _Forces(side, poses.structure.dampers[: stops.shape[-1]])
         self.tensions = forces.tensions
         self.energy = np.zeros((len(poses.states), *2 * forces.spring.shape[-1:]))
-        self.on_rack = np.zeros_like(forces.spring)
-        if held != "locked":
-            spring, stops = _compliance_of_lines(there)
-            self.energy += _energy(forces.spring, spring[:, None, None])
-        by_point = {bush.point: bush for bush in wheel.bushes}
-        structure = poses.model.suspension.structure()
-        for joint, carried in zip(structure.joints, forces.carried, strict=True):
+        self.on_rack = np.zeros_like(forces.spring[:, :1])
+        if lines is not None:
+            self.energy += _energy(forces.spring, lines.springs)
+        by_point = {bush.point: bush for bush in side.bushes}
+        for joint, carried in zip(poses.structure.joints, forces.carried, strict=True):
             if joint.first == "rack":
-                axis = unit_vector(poses.model.suspension.rack.axis)
-                self.on_rack -= np.einsum("c,nkcu->nku", axis, carried[:, :, :3])
+                assert poses.rack_axis is not None  # where there is a rack
+                self.on_rack -= np.einsum("c,nkcu->nku", poses.rack_axis, carried[:, :, :3])
             self.energy += _of_joint(joint, carried, by_point, poses)
-        if forces.stopped:
-            acting = np.isfinite(stops)
-            self.energy[acting, -1, -1] += stops[acting]
-            self.energy[~acting, -1, :] = self.energy[~acting, :, -1] = 0.0
-            self.on_rack[~acting, :, -1] = 0.0
+        for which in range(-stops.shape[-1], 0):
+            acting = np.isfinite(stops[:, which])
+            self.energy[acting, which, which] += stops[acting, which]
+            self.energy[~acting, which, :] = self.energy[~acting, :, which] = 0.0
+            self.on_rack[~acting, :, which] = 0.0
 
 
-def _of_joint(joint: Joint, carried: Array, bushes: Mapping[str, Bush], poses: Poses) -> Array:
+def _of_joint(joint: Joint, carried: Array, bushes: Mapping[str, Bush], poses: Assembled) -> Array:
     """Return the energy of the bushes of a joint."""
     total = np.zeros((*carried.shape[:1], *2 * carried.shape[-1:]))
     for i, point in enumerate(joint.at):
@@ -155,36 +172,39 @@ class _Forces:
 
     Parameters
     ----------
-    wheel : Wheel
-    stopped : bool
-        Whether stops carry besides the spring.
+    side : Side
+    stopped : sequence of str
+        Beside which dampers stops carry, too.
 
     Attributes
     ----------
     carried : list of ndarray, each of shape (n, touching points, 6, loads + tensions)
         Of each joint: under unit forces and moments in chassis axes and that of the bar, the
-        suspension held by its spring; then in each state of tension, that between spring and stops
-        the last.
-    spring : ndarray, shape (n, 1, loads + tensions)
-        The force of the spring.
+        suspension held by its springs; then in each state of tension, those between springs and
+        stops the last.
+    spring : ndarray, shape (n, springs, loads + tensions)
+        The force of each spring.
     tensions : int
     """
 
-    def __init__(self, wheel: Wheel, *, stopped: bool) -> None:
-        poses, self.stopped = wheel.poses, stopped
-        equations = Equations(poses, "spring")
-        still, at = np.zeros(3), poses.points[CONTACT]
-        loads = [Load("wheel", CONTACT, "road", axis, still, at) for axis in np.eye(3)]
-        loads += [Load("wheel", CONTACT, "road", still, axis, at) for axis in np.eye(3)]
-        loads += [wheel.bar] if wheel.bar else []
+    def __init__(self, side: Side, stopped: Sequence[str]) -> None:
+        poses, springs = side.poses, side.poses.structure.springs
+        equations, still = Equations(poses, springs), np.zeros(3)
+        loads = []
+        for part, on_road in poses.wheels.items():
+            at = touching(on_road)
+            loads += [Load(part, CONTACT, "road", axis, still, at) for axis in np.eye(3)]
+            loads += [Load(part, CONTACT, "road", still, axis, at) for axis in np.eye(3)]
+        loads += [side.bar] if side.bar else []
         applied = [equations.applied([load]) for load in loads]
-        if stopped:
-            applied.append(equations.applied(equations.pushed("damper")))
+        applied += [equations.applied(equations.pushed(line)) for line in stopped]
         unknowns = equations.solve(np.stack(applied, axis=-1))
         tensions = [joint.tensions(poses.points) for joint in equations.joints]
         count, begin = sum(t.shape[-1] for t in tensions), len(loads)
-        self.tensions = count + stopped
-        self.spring = np.insert(unknowns[:, -1:], begin, np.zeros((count, 1, 1)), axis=-1)
+        self.tensions = count + len(stopped)
+        nothing = np.zeros((len(poses.states), len(springs), count))
+        by_loads, by_stops = np.split(unknowns[:, -len(springs) :], [begin], axis=-1)
+        self.spring = np.concatenate([by_loads, nothing, by_stops], axis=-1)
         self.carried = []
         after = len(loads) + count
         for at_joint, own in zip(equations.at_joints(unknowns), tensions, strict=True):
@@ -217,8 +237,8 @@ def _released(flexibility: Array, held: list[int], *, keep: bool = False) -> Arr
     return result[:, others][:, :, others]
 
 
-def _compliance_of_lines(there: Corner) -> tuple[Array, Array]:
-    """Return how far spring and stops give way for a unit force along each, (n,) [m/N].
+def soft_lines(there: Corner) -> SoftLines:
+    """Return how spring and stops of a suspension give way for a unit force along each.
 
     With what their own force does as their direction changes.
     """
@@ -230,6 +250,9 @@ def _compliance_of_lines(there: Corner) -> tuple[Array, Array]:
             "the wheel: nothing holds it. Enter a rate, or another travel."
         )
         raise InputError([problem], "compliance")
-    stops = wheel.wheel_rate(there) - rates
+    spring = (there.spring.stroke.slope**2 / rates)[:, None, None]
+    if not there.stops:
+        return SoftLines(spring, np.zeros((len(rates), 0)))
     with np.errstate(divide="ignore"):
-        return there.spring.stroke.slope**2 / rates, there.damper.slope**2 / stops
+        stops = there.damper.slope**2 / (wheel.wheel_rate(there) - rates)
+    return SoftLines(spring, stops[:, None])

@@ -1,14 +1,20 @@
 """Where the parts of a suspension are, and what acts on them from outside."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.vectors import cross
-from ...suspension.corner import UP
+from ...core.vectors import cross, unit_vector
+from ...suspension.corner import UP, RoadWheel
 from ...suspension.model import Model
 from ...suspension.points import hardpoints
+from ...suspension.structure import Line, Structure
+from ...systems.allowed import Allowed
+from ...systems.system import System
 from ..characteristics.from_model import design_axis, vehicle
 from ..characteristics.wheel import lowest_point, upward_across
 
@@ -16,6 +22,70 @@ Array = NDArray[np.float64]
 
 CONTACT, CENTER = "contact", "wheel_center"
 """Where loads act on a wheel: at its lowest point, and at its centre."""
+
+
+class Assembled(Protocol):
+    """The parts of a suspension, or of a rigid axle, in n positions, and what acts by itself.
+
+    Attributes
+    ----------
+    model : Any
+        Its equations.
+    states, inputs : ndarray
+        As in the compiled module.
+    points : mapping of str to ndarray
+        Hardpoints, (n, 3) [m].
+    centers, turned : mapping of str to ndarray
+        Of each part a point that it carries, its centre of mass if it has one, (n, 3) [m]; and its
+        rotation from design, (n, 3, 3).
+    structure : Structure
+        What holds the parts together.
+    design : mapping of str to ndarray
+        The hardpoints at design, (3,) [m].
+    wheels : mapping of str to RoadWheel
+        By the part that each is.
+    rack_axis : ndarray or None
+        Along which a rack slides.
+    """
+
+    @property
+    def model(self) -> Any: ...  # noqa: D102 (attributes stand above)
+    @property
+    def states(self) -> Array: ...  # noqa: D102
+    @property
+    def inputs(self) -> Array: ...  # noqa: D102
+    @property
+    def points(self) -> Mapping[str, Array]: ...  # noqa: D102
+    @property
+    def centers(self) -> Mapping[str, Array]: ...  # noqa: D102
+    @property
+    def turned(self) -> Mapping[str, Array]: ...  # noqa: D102
+    @property
+    def structure(self) -> Structure: ...  # noqa: D102
+    @property
+    def design(self) -> Mapping[str, Array]: ...  # noqa: D102
+    @property
+    def wheels(self) -> Mapping[str, RoadWheel]: ...  # noqa: D102
+    @property
+    def rack_axis(self) -> Array | None: ...  # noqa: D102
+
+    def weights(self) -> Mapping[str, Array]:
+        """Return the weight of each part that has one, (3,) [N]."""
+
+    def forces_along_lines(self) -> Mapping[str, Array]:
+        """Return the force of each line of the structure, positive when it pushes, (n,) [N]."""
+
+    def signals(self) -> Mapping[str, Array]:
+        """Return the signals of the equations, (n,)."""
+
+    def parameters_of(self, line: Line) -> Mapping[str, float]:
+        """Return the parameters of the spring or the stops on a line, as one wheel has them."""
+
+    def counted_by(self, line: Line) -> str:
+        """Return the signal by which the stops on a line count: a length."""
+
+    def allowed_lengths(self) -> Sequence[Allowed]:
+        """Return the lengths that the file allows, of these signals."""
 
 
 @dataclass(frozen=True)
@@ -70,6 +140,45 @@ class Poses:
         """The hardpoints at design [m]."""
         return self.model.suspension.hardpoints.at_design()
 
+    @property
+    def structure(self) -> Structure:
+        """What holds the parts together."""
+        return self.model.suspension.structure()
+
+    @cached_property
+    def wheels(self) -> dict[str, RoadWheel]:
+        """The wheel."""
+        suspension = self.model.suspension
+        at_design = suspension.hardpoints.metres(CENTER)
+        wheel = RoadWheel(
+            vehicle(suspension), self.points[CENTER], at_design, self.axis, design_axis(suspension)
+        )
+        return {"wheel": wheel}
+
+    @property
+    def rack_axis(self) -> Array | None:
+        """Along which the rack slides; None where nothing is steered."""
+        suspension = self.model.suspension
+        return unit_vector(suspension.rack.axis) if suspension.steered() else None
+
+    def parameters_of(self, line: Line) -> Mapping[str, float]:
+        """Return the parameters of the spring or the stops on a line."""
+        del line
+        return self.model.parameters
+
+    def counted_by(self, line: Line) -> str:
+        """Return the signal by which the stops on a line count: a length."""
+        del line
+        return f"{self.model.suspension.STOPPED}_length"
+
+    def signals(self) -> dict[str, Array]:
+        """Return the signals of the equations, (n,)."""
+        return self.model.signals(self.states, self.inputs)
+
+    def allowed_lengths(self) -> Sequence[Allowed]:
+        """Return the lengths that the file allows."""
+        return self.model.suspension.allowed_lengths()
+
     def weights(self) -> dict[str, Array]:
         """Return the weight of each part, (3,) [N]."""
         model = self.model
@@ -78,13 +187,7 @@ class Poses:
 
     def forces_along_lines(self) -> dict[str, Array]:
         """Return the force of each line of the structure, positive when it pushes, (n,) [N]."""
-        values = self.model.signals(self.states, self.inputs)
-        values |= dict(zip(self.model.input_names, np.moveaxis(self.inputs, -1, 0), strict=True))
-        nothing = np.zeros(self.states.shape[:-1])
-        return {
-            line.name: sum((values[name] for name in line.signals if name in values), nothing)
-            for line in self.model.suspension.structure().lines
-        }
+        return forces_along(self.structure, self.model, self.states, self.inputs)
 
     def push_of_tyre(self) -> Array:
         """Return the force of the tyre, in the plane of the wheel, (n, 3) [N]."""
@@ -97,7 +200,31 @@ class Poses:
 
         Forward is horizontal in the plane of the wheel, as in the tyre axes of ISO 8855.
         """
-        return road_axes(self.model.suspension.vehicle.sign * self.axis)
+        return wheel_axes(self.wheels["wheel"])
+
+
+def forces_along(
+    structure: Structure, model: System, states: Array, inputs: Array
+) -> dict[str, Array]:
+    """Return the force of each line of a structure in some states, (n,) [N]."""
+    values = model.signals(states, inputs)
+    values |= dict(zip(model.input_names, np.moveaxis(inputs, -1, 0), strict=True))
+    nothing = np.zeros(states.shape[:-1])
+    return {
+        line.name: sum((values[name] for name in line.signals if name in values), nothing)
+        for line in structure.lines
+    }
+
+
+def wheel_axes(wheel: RoadWheel) -> Array:
+    """Return the axes of a wheel on the road as rows, see `Poses.wheel_axes`."""
+    return road_axes(wheel.vehicle.side * wheel.axis)
+
+
+def touching(wheel: RoadWheel) -> Array:
+    """Return where the road touches a wheel: its lowest point, or its centre without a radius."""
+    radius = wheel.vehicle.tyre_radius
+    return wheel.center if radius is None else lowest_point(wheel.center, wheel.axis, radius)
 
 
 def road_axes(left: Array) -> Array:

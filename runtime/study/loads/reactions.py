@@ -1,8 +1,7 @@
 """The forces in the joints: Newton and Euler for every part, linear in what the joints carry."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +11,7 @@ from ...core.vectors import cross
 from ...suspension.corner import UP
 from ...suspension.structure import GROUND, Joint, Line
 from .balance import DEAD_POINT, balanced
-from .poses import CENTER, CONTACT, Poses, wrench_about
+from .poses import CONTACT, Assembled, touching, wrench_about
 
 Array = NDArray[np.float64]
 
@@ -44,39 +43,41 @@ class Equations:
 
     Parameters
     ----------
-    poses : Poses
-    holding : {'road', 'spring'}, optional
-        What holds the suspension where it is: a vertical force on the wheel at its contact, or a
-        force along its spring.
+    poses : Assembled
+    holding : sequence of str, optional
+        The lines of what holds the suspension where it is, by a force along each: its springs. By
+        default a vertical force on each wheel at its contact does.
 
     Notes
     -----
-    The unknowns are what the joints carry and, last, the force that holds the suspension; it is
+    The unknowns are what the joints carry and, last, the forces that hold the suspension; they are
     zero where the loads are in equilibrium.
     """
 
-    def __init__(self, poses: Poses, holding: Literal["road", "spring"] = "road") -> None:
+    def __init__(self, poses: Assembled, holding: Sequence[str] = ()) -> None:
         self.poses = poses
-        structure = poses.model.suspension.structure()
+        structure = poses.structure
         self.joints, self.lines, self.parts = structure.joints, structure.lines, structure.parts
         self._rows = {part: slice(6 * i, 6 * i + 6) for i, part in enumerate(self.parts)}
         self._units = [
             joint.unit_loads(poses.points, poses.turned, poses.design) for joint in self.joints
         ]
-        self._matrix = self._of_joints()
-        held = self._upward() if holding == "road" else self.pushed("spring")
-        self._matrix[..., -1] = self.applied(held)
+        held = [self.pushed(line) for line in holding] or self._upward()
+        self._matrix = np.concatenate(
+            [self._of_joints(), np.stack([self.applied(loads) for loads in held], axis=-1)], axis=-1
+        )
 
-    def _upward(self) -> list[Load]:
-        """Return a vertical force of 1 N on the wheel at its contact, or else at its centre."""
-        points = self.poses.points
-        at = points.get(CONTACT, points[CENTER])
-        return [Load("wheel", CONTACT, "road", UP, np.zeros(3), at)]
+    def _upward(self) -> list[list[Load]]:
+        """Return a vertical force of 1 N on each wheel at its contact, or else at its centre."""
+        return [
+            [Load(part, CONTACT, "road", UP, np.zeros(3), touching(wheel))]
+            for part, wheel in self.poses.wheels.items()
+        ]
 
     def _of_joints(self) -> Array:
-        """Return what the joints carry as columns, and room for one more."""
-        size = 6 * len(self.parts)
-        matrix = np.zeros((*self.poses.states.shape[:-1], size, size))
+        """Return what a unit of all that the joints carry does, as columns."""
+        count = sum(units.shape[-1] for units in self._units)
+        matrix = np.zeros((*self.poses.states.shape[:-1], 6 * len(self.parts), count))
         column = 0
         for joint, units in zip(self.joints, self._units, strict=True):
             columns = slice(column, column + units.shape[-1])
@@ -103,8 +104,9 @@ class Equations:
         """
         found, sound = self.solved(applied)
         if not sound.all():
-            height = 1e3 * float(self.poses.points[CENTER][~sound][0, 2])
-            raise InputError([f"at a wheel height of {height:.6g} mm: {DEAD_POINT}"], "loads")
+            centers = [wheel.center[~sound][0, 2] for wheel in self.poses.wheels.values()]
+            height = " and ".join(f"{1e3 * float(center):.6g} mm" for center in centers)
+            raise InputError([f"at a wheel height of {height}: {DEAD_POINT}"], "loads")
         return found
 
     def solved(self, applied: Array) -> tuple[Array, NDArray[np.bool_]]:
@@ -156,21 +158,21 @@ class Equations:
             yield np.einsum("npru,nuc->nprc", units, carried)
 
 
-def known(poses: Poses) -> list[Load]:
+def known(poses: Assembled) -> list[Load]:
     """Return what acts without anybody's doing: weights, spring, damper and stops."""
-    structure, still = poses.model.suspension.structure(), np.zeros(3)
+    structure, still = poses.structure, np.zeros(3)
     weights, forces = poses.weights(), poses.forces_along_lines()
     loads = [
         Load(part, "mass", "gravity", weights[part], still, poses.centers[part])
         for part in structure.parts
-        if weights[part].any()
+        if part in weights and weights[part].any()
     ]
     for line in structure.lines:
         loads += _along(poses, line, forces[line.name])
     return loads
 
 
-def _along(poses: Poses, line: Line, force: Array) -> list[Load]:
+def _along(poses: Assembled, line: Line, force: Array) -> list[Load]:
     points = poses.points
     push = force[..., None] * line.direction(points)
     ends = ((line.first, line.at[0], -push), (line.second, line.at[1], push))
@@ -188,7 +190,7 @@ def _on_both(joint: Joint, point: str, wrench: Array, at: Array) -> list[Load]:
     ]
 
 
-def _about(poses: Poses, part: str, point: str, units: Array) -> Array:
+def _about(poses: Assembled, part: str, point: str, units: Array) -> Array:
     """Return unit loads at a point as columns of forces and moments about a centre of mass."""
     arm = poses.points[point] - poses.centers[part]
     forces, moments = units[..., :3, :], units[..., 3:, :]

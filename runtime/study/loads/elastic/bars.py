@@ -1,4 +1,7 @@
-"""How far drop links twist an anti-roll bar between two bodies that move freely."""
+"""How far an anti-roll bar is twisted between bodies that move freely.
+
+By the drop links of two suspensions, or by the inclination of a rigid axle.
+"""
 
 from dataclasses import dataclass
 
@@ -7,7 +10,8 @@ from numpy.typing import NDArray
 
 from ....core.vectors import cross
 from ....suspension.axle.bar import HalfBar
-from .places import Measured, Places, cross_matrix, second_by_rotation
+from ....suspension.corner import UP
+from .places import Angles, Measured, Places, cross_matrix, second_by_rotation
 
 Array = NDArray[np.float64]
 
@@ -54,6 +58,34 @@ class Bars:
             np.concatenate([first, -second], axis=-1)[:, None],
             bend,
         )
+
+
+@dataclass(frozen=True)
+class Inclinations:
+    """The angle between a direction of a body and the level, positive with its end up.
+
+    Attributes
+    ----------
+    body : int
+    direction : ndarray, shape (n, 3)
+        A unit vector.
+    """
+
+    body: int
+    direction: Array
+
+    def at(self, places: Places) -> Measured:
+        """Return it somewhere [rad]."""
+        upward = np.broadcast_to(UP, self.direction.shape)
+        pair = np.array([[0, self.body]])
+        sine = Angles(pair, upward[:, None], self.direction[:, None]).at(places)
+        # by the chain rule, with the derivatives of asin
+        square = 1.0 - sine.value**2
+        slope = sine.slope / np.sqrt(square)[..., None]
+        outer = slope[..., :, None] * slope[..., None, :]
+        bend = sine.bend + sine.value[..., None, None] * outer
+        bend /= np.sqrt(square)[..., None, None]
+        return Measured(pair, np.arcsin(sine.value), slope, bend)
 
 
 def _turned(foot: Foot, places: Places) -> tuple[Array, Array, Array]:

@@ -10,14 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.vectors import cross, unit_vector
+from ....core.vectors import cross
 from ....suspension.axle.bar import HalfBar
 from ....suspension.bushes import RACK, Bush
 from ....suspension.points import carried as placed
 from ....suspension.structure import Fixed, Joint, Line, frame
-from ...characteristics.from_model import design_axis
-from ..poses import Poses
-from .bars import Bars, Foot
+from ..poses import Assembled
+from .bars import Bars, Foot, Inclinations
 from .laws import Bent, Coil, Law, Stops, Straight
 from .places import Angles, Distances, Lengths, Measured, Places, Radii, Twists
 
@@ -74,16 +73,32 @@ class Bar:
     free_twist: float
 
 
+@dataclass(frozen=True)
+class RollBar:
+    """An anti-roll bar, by what it does to a rigid axle.
+
+    Attributes
+    ----------
+    body : str
+        The axle.
+    rate : float
+        Moment by the inclination of what points left at design [N m/rad].
+    """
+
+    body: str
+    rate: float
+
+
 class Connections:
     """Everything that is measured between the bodies of a suspension, or of both of an axle.
 
     Parameters
     ----------
-    sides : sequence of tuple of Poses and Soft
+    sides : sequence of tuple of Assembled and Soft
         Each in as many positions, with rigid joints. They have one rack: what it gives way and
         carries is that of the first.
-    bar : Bar, optional
-        Between the two sides.
+    bar : Bar or RollBar, optional
+        Between the two sides, or on a rigid axle.
 
     Attributes
     ----------
@@ -92,19 +107,21 @@ class Connections:
     laws : list of Law or None
         What each measure has of a force; None for a condition.
     springs : list of int
-        Which measures are the lengths of the springs, by side.
+        Which measures are the lengths of the springs, by wheel.
     bar : int or None
         Which measure is the twist of the bar.
     wheels : list of int
-        Which bodies are the wheels, by side.
+        Which bodies are the wheels.
     """
 
-    def __init__(self, sides: Sequence[tuple[Poses, Soft]], bar: Bar | None = None) -> None:
+    def __init__(
+        self, sides: Sequence[tuple[Assembled, Soft]], bar: Bar | RollBar | None = None
+    ) -> None:
         self._sides: list[_Side] = []
-        centers = [np.zeros_like(sides[0][0].axis)]
+        centers = [np.zeros((len(sides[0][0].states), 3))]
         for poses, soft in sides:
             begin = len(centers)
-            parts = poses.model.suspension.structure().parts
+            parts = poses.structure.parts
             self._sides.append(_Side(poses, soft, {p: begin + i for i, p in enumerate(parts)}))
             centers += [poses.centers[part] for part in parts]
         if sides[0][1].rack:
@@ -115,7 +132,7 @@ class Connections:
         self.start = Places.at(np.stack(centers, axis=1))
         for side in self._sides:
             side.centers = self.start.centers
-        self.wheels = [side.bodies["wheel"] for side in self._sides]
+        self.wheels = [side.bodies[part] for side in self._sides for part in side.poses.wheels]
         self._groups: list[Any] = []
         self.laws: list[Law | None] = []
         for kind, name in _KINDS:
@@ -126,14 +143,18 @@ class Connections:
             of_each = (np.stack(same, axis=1) for same in zip(*vectors, strict=True))
             self._groups.append(kind(np.array(bodies), *of_each))
             self.laws += laws
-        # the lines are the last; the first one of each side is its spring
-        counts = [len(side.lines) for side in self._sides]
-        self.springs = [len(self.laws) - sum(counts[i:]) for i in range(len(counts))]
+        # the lines are the last
+        lines = [line for side in self._sides for line in side.lines]
+        begin = len(self.laws) - len(lines)
+        self.springs = [begin + i for i, line in enumerate(lines) if line.is_spring]
         self.bar = None if bar is None else len(self.laws)
-        if bar is not None:
+        if isinstance(bar, Bar):
             feet = (side.foot(half) for side, half in zip(self._sides, bar.halves, strict=True))
             self._groups.append(Bars(*feet))
             self.laws.append(Straight(bar.rate, -bar.rate * bar.free_twist))
+        elif bar is not None:
+            self._groups.append(self._sides[0].inclination(bar.body))
+            self.laws.append(Straight(bar.rate))
 
     def index(self, side: int, body: str) -> int:
         """Return which body it is; what does not move is the ground."""
@@ -143,13 +164,21 @@ class Connections:
         """Return all that is measured somewhere."""
         return Measured.together([group.at(places) for group in self._groups])
 
-    def strokes(self, places: Places) -> list[Array]:
-        """Return what the stops count by somewhere, the length of damper or strut, by side [m]."""
+    def strokes(self, places: Places) -> list[dict[str, Array]]:
+        """Return what the stops of each side count by somewhere, by their signals [m]."""
         value = self.at(places).value
-        return [
+        strokes = (
             law.stroke + value[:, which] - law.length
             for which, law in enumerate(self.laws)
             if isinstance(law, Stops)
+        )
+        return [
+            {
+                side.poses.counted_by(line): next(strokes)
+                for line in side.lines
+                if not line.is_spring
+            }
+            for side in self._sides
         ]
 
 
@@ -158,6 +187,7 @@ class _Side:
 
     Attributes
     ----------
+    poses : Assembled
     bodies : dict of str to int
         Those that move.
     joints : list of Joint
@@ -168,10 +198,9 @@ class _Side:
 
     centers: Array
 
-    def __init__(self, poses: Poses, soft: Soft, bodies: dict[str, int]) -> None:
-        self._poses, self._soft, self.bodies = poses, soft, bodies
-        structure = poses.model.suspension.structure()
-        self.joints, self.lines = list(structure.joints), structure.lines
+    def __init__(self, poses: Assembled, soft: Soft, bodies: dict[str, int]) -> None:
+        self.poses, self._soft, self.bodies = poses, soft, bodies
+        self.joints, self.lines = list(poses.structure.joints), poses.structure.lines
 
     def index(self, body: str) -> int:
         """Return which body it is; what does not move is the ground."""
@@ -184,11 +213,15 @@ class _Side:
 
     def foot(self, half: HalfBar) -> Foot:
         """Return where the drop link of half a bar is joined to its part."""
-        poses = self._poses
+        poses = self.poses
         places = {"foot": (half.body, half.foot)}
         at = placed(poses.model, places, poses.states, poses.inputs)["foot"]
         which = self.index(half.body)
         return Foot(half, which, at - self.centers[:, which])
+
+    def inclination(self, body: str) -> Inclinations:
+        """Return how far what points left of a body at design has its end up."""
+        return Inclinations(self.index(body), self.poses.turned[body][..., 1])
 
     # -- what is measured: bodies, vectors, and the law ------------------------------------------
 
@@ -196,7 +229,7 @@ class _Side:
         self, joint: Joint
     ) -> Iterator[tuple[Pair, tuple[Array, Array, Array], Law | None]]:
         parts = joint.first, joint.second
-        kept = joint.directions(self._poses.points)
+        kept = joint.directions(self.poses.points)
         for point in joint.at:
             bush, rows = self._bush(joint, point), kept
             laws: list[Law | None] = [None] * kept.shape[-2]
@@ -226,8 +259,10 @@ class _Side:
             yield parts, (rows[:, 1], rows[:, 2], *arms, before), Bent(curve)
 
     def angles(self, joint: Joint) -> Iterator[tuple[Pair, tuple[Array, Array], Law | None]]:
-        poses = self._poses
-        spin = design_axis(poses.model.suspension)
+        poses = self.poses
+        wheels = poses.wheels
+        # what else is held in every direction needs no axis of its own
+        spin = wheels.get(joint.second, next(iter(wheels.values()))).design_axis
         pairs = joint.right_angles(poses.points, poses.turned, poses.design, spin)
         bush = self._bush(joint, joint.at[0])
         carried = self._soft.carried.get((joint.first, joint.second, joint.at[0]), np.zeros(6))
@@ -265,15 +300,15 @@ class _Side:
 
     def lengths(self, line: Line) -> Iterator[tuple[Pair, tuple[Array, Array], Law]]:
         """Yield the length of a spring, or of what is beside it."""
-        poses, model = self._poses, self._poses.model
+        poses = self.poses
         first, second = (poses.points[point] for point in line.at)
         length = np.linalg.norm(second - first, axis=-1)
-        force = poses.forces_along_lines()[line.name]
-        law: Law = Coil(length, force, model.parameters["spring_rate"])
-        if line.name != "spring":
-            name = f"{model.suspension.STOPPED}_length"
-            stroke = model.signals(poses.states, poses.inputs)[name]
-            law = Stops(length, force, stroke, model.parameters)
+        force, parameters = poses.forces_along_lines()[line.name], poses.parameters_of(line)
+        law: Law
+        if line.is_spring:
+            law = Coil(length, force, parameters["spring_rate"])
+        else:
+            law = Stops(length, force, poses.signals()[poses.counted_by(line)], parameters)
         ends = self._arm(line.first, line.at[0]), self._arm(line.second, line.at[1])
         yield self._indices(line.first, line.second), ends, law
 
@@ -283,7 +318,8 @@ class _Side:
         """Return what gives way at a point of a joint, if anything does."""
         if joint is not _RACK_IN_ITS_GUIDE:
             return self._soft.bushes.get(point)
-        axis = unit_vector(self._poses.model.suspension.rack.axis)
+        axis = self.poses.rack_axis
+        assert axis is not None  # where there is a rack
         soft = np.array([self._soft.rack, 0.0, 0.0])
         return Bush(point, np.stack(frame(axis)), soft, 0.0, (0.0, 0.0), axis, (None, None, None))
 
@@ -293,9 +329,9 @@ class _Side:
 
     def _axes(self, bush: Bush, part: str) -> Array:
         """Return the axes of a bush as rows, which turn with a part, (n, 3, 3)."""
-        turned = self._poses.turned.get(part, np.eye(3))
+        turned = self.poses.turned.get(part, np.eye(3))
         rows = bush.axes @ np.swapaxes(turned, -1, -2)
-        return np.broadcast_to(rows, (len(self._poses.axis), 3, 3))
+        return np.broadcast_to(rows, (len(self.poses.states), 3, 3))
 
     def _laws(self, bush: Bush, joint: Joint) -> list[Law | None]:
         """Return the force of a bush along each of its axes; none where it is rigid."""
@@ -313,7 +349,7 @@ class _Side:
 
     def _arm(self, body: str, point: str) -> Array:
         """Return a hardpoint from the centre of a body, (n, 3) [m]."""
-        arm: Array = self._poses.points[point] - self.centers[:, self.index(body)]
+        arm: Array = self.poses.points[point] - self.centers[:, self.index(body)]
         return arm
 
     def _indices(self, first: str, second: str) -> Pair:

@@ -11,13 +11,13 @@ from numpy.typing import ArrayLike, NDArray
 from ....core.arguments import Arguments
 from ....core.errors import InputError
 from ....core.quantities import attributes, variable
-from ....suspension.corner import Corner
+from ....suspension.corner import RoadWheel
 from ....suspension.model import Model
 from ...characteristics import wheel
 from ...characteristics.datasets import DATA_SET
 from ..compliance import RIG_LOADS, RigLoad, compliance, load_at_contact, sense_of
 from ..flexibility import HELD, Held
-from ..poses import CENTER, CONTACT, Poses
+from ..poses import CENTER, CONTACT
 from .equilibrium import Equilibrium, State
 from .held import (
     HARDPOINTS,
@@ -118,11 +118,11 @@ def deflection(
         wanted = amounts_of(given, amounts)
         soft = soft_of(given, model, bushings, hardpoints)
     load = BY_NAME[under]
-    suspension, there = suspension_on(model, np.array([travel]), rack_position, soft)
+    suspension = suspension_on(model, np.array([travel]), rack_position, soft)
     base = at_height(suspension, np.array([travel]))
-    unit = unit_load(load, suspension.poses[0], there)[:, None]
+    unit = unit_load(load, suspension.wheels[0])[:, None]
     states = under_amounts(suspension, base, unit, held, load, wanted)
-    changed = changes(suspension, there, base, states, load)
+    changed = changes(suspension, base, states, load)
     straight = {kind: np.zeros_like(wanted) for kind in changed}
     if gives_way(soft):
         linear = compliance(model, bushings, [travel], rack_position=rack_position, held=held)
@@ -143,9 +143,9 @@ def amounts_of(given: Arguments, amounts: ArrayLike) -> Array:
     return wanted
 
 
-def unit_load(load: RigLoad, poses: Poses, there: Corner) -> Array:
+def unit_load(load: RigLoad, on_road: RoadWheel) -> Array:
     """Return a load of 1 N or 1 N m as an equilibrium takes it, (n, 9)."""
-    at_contact = load_at_contact(load, poses, there)
+    at_contact = load_at_contact(load, on_road)
     force, still = at_contact[:, :3], np.zeros((len(at_contact), 3))
     if load.at == CENTER:
         return np.concatenate([still, still, force], axis=1)
@@ -212,20 +212,13 @@ def _refuse_beyond(
 
 
 def changes(
-    suspension: Equilibrium,
-    there: Corner,
-    base: State,
-    states: list[State],
-    load: RigLoad,
-    side: int = 0,
+    suspension: Equilibrium, base: State, states: list[State], load: RigLoad, side: int = 0
 ) -> dict[str, Array]:
     """Return what a wheel does under some amounts of a load, by the kind of it.
 
     Parameters
     ----------
     suspension : Equilibrium
-    there : Corner
-        With rigid joints.
     base : State
         Without the load.
     states : list of State
@@ -234,9 +227,9 @@ def changes(
     side : int, optional
         Which wheel.
     """
-    before = on_bushes(suspension, there, base, side)
+    before = on_bushes(suspension, base, side)
     point = suspension.contact(base.places, side) if load.at == CONTACT else before.center
-    along = sense_of(load, suspension.poses[side], there)
+    along = sense_of(load, suspension.wheels[side])
     found: dict[str, list[Array]] = {"toe": [], "camber": [], "displacement": []}
     for state in states:
         after = replace(before, axis=suspension.axis(state.places, side))

@@ -9,7 +9,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from ....core.arguments import Arguments
 from ....core.quantities import variable
-from ....suspension.corner import Corner
 from ....suspension.model import Model
 from ...characteristics import wheel
 from ...characteristics.datasets import DATA_SET, KNOWN, TRAVEL
@@ -94,14 +93,14 @@ def elastokinematics(
     parts = [travels[begin : begin + _TOGETHER] for begin in range(0, travels.size, _TOGETHER)]
     found = []
     for some in parts:
-        suspension, there = suspension_on(model, some, rack_position, soft)
-        found.append(_over_travel(suspension, there, at_height(suspension, some), some))
+        suspension = suspension_on(model, some, rack_position, soft)
+        found.append(_over_travel(suspension, at_height(suspension, some), some))
     whole = xr.concat(found, TRAVEL.name, join="override", combine_attrs="override")
     return whole.assign_attrs(title="elastokinematics", hardpoints=HARDPOINTS[hardpoints])
 
 
-def _over_travel(suspension: Equilibrium, there: Corner, base: State, travels: Array) -> xr.Dataset:
-    moved = on_bushes(suspension, there, base)
+def _over_travel(suspension: Equilibrium, base: State, travels: Array) -> xr.Dataset:
+    there, moved = suspension.wheels[0], on_bushes(suspension, base)
     dims = (DATA_SET, TRAVEL.name)
     data = {
         name: xr.Variable(

@@ -15,8 +15,8 @@ from ....core.vectors import cross
 from ....suspension.corner import UP
 from ...characteristics.wheel import lowest_point
 from ..flexibility import Held
-from ..poses import CENTER, Poses
-from .connections import Bar, Connections, Soft
+from ..poses import Assembled
+from .connections import Bar, Connections, RollBar, Soft
 from .places import Measured, Places, cross_matrix
 
 Array = NDArray[np.float64]
@@ -66,21 +66,27 @@ class Equilibrium:
 
     Parameters
     ----------
-    sides : sequence of tuple of Poses and Soft
-        With rigid joints, and what gives way: of a suspension, or of both of an axle.
-    bar : Bar, optional
-        An anti-roll bar between both.
+    sides : sequence of tuple of Assembled and Soft
+        With rigid joints, and what gives way: of a suspension, of both of an axle, or of a rigid
+        axle.
+    bar : Bar or RollBar, optional
+        An anti-roll bar between both, or on a rigid axle.
 
     Attributes
     ----------
-    poses : list of Poses
+    poses : list of Assembled
         By side.
+    wheels : list of RoadWheel
+        With rigid joints.
     start : State
         With rigid joints: no equilibrium.
     """
 
-    def __init__(self, sides: Sequence[tuple[Poses, Soft]], bar: Bar | None = None) -> None:
+    def __init__(
+        self, sides: Sequence[tuple[Assembled, Soft]], bar: Bar | RollBar | None = None
+    ) -> None:
         self.poses, self._connections = [poses for poses, _ in sides], Connections(sides, bar)
+        self.wheels = [wheel for poses in self.poses for wheel in poses.wheels.values()]
         connections = self._connections
         self._count = connections.start.centers.shape[1]
         measured = connections.at(connections.start)
@@ -89,8 +95,8 @@ class Equilibrium:
             [which for which, law in enumerate(connections.laws) if law is None],
         )
         self._soft = [which for which, law in enumerate(connections.laws) if law is not None]
-        n, wheels = len(self.poses[0].axis), len(sides)
-        nothing = np.zeros((n, wheels))
+        n = len(self.poses[0].states)
+        nothing = np.zeros((n, len(self.wheels)))
         forces = np.zeros((n, len(self._rigid)))
         never = np.zeros(n, dtype=bool)
         self.start = State(connections.start, forces, nothing, nothing, never)
@@ -100,8 +106,8 @@ class Equilibrium:
             for body, weight in poses.weights().items()
         }
         self._spokes = [
-            poses.points[CENTER] - connections.start.centers[:, wheel]
-            for poses, wheel in zip(self.poses, connections.wheels, strict=True)
+            wheel.center - connections.start.centers[:, body]
+            for wheel, body in zip(self.wheels, connections.wheels, strict=True)
         ]
         self._heights = self._contact_heights(connections.start)
 
@@ -110,7 +116,7 @@ class Equilibrium:
     def axis(self, places: Places, side: int = 0) -> Array:
         """Return the spin axis of a wheel, pointing outboard, (n, 3)."""
         wheel = np.array([self._connections.wheels[side]])
-        return places.of(wheel, self.poses[side].axis[:, None])[:, 0]
+        return places.of(wheel, self.wheels[side].axis[:, None])[:, 0]
 
     def center(self, places: Places, side: int = 0) -> Array:
         """Return the centre of a wheel, (n, 3) [m]."""
@@ -145,19 +151,18 @@ class Equilibrium:
         strokes = self._connections.strokes(state.places)
         return [
             allowed.beyond
-            for poses, stroke in zip(self.poses, strokes, strict=True)
-            for suspension in [poses.model.suspension]
-            for allowed in suspension.allowed_lengths()
-            if (allowed.left({f"{suspension.STOPPED}_length": stroke}) < 0.0).any()
+            for poses, own in zip(self.poses, strokes, strict=True)
+            for allowed in poses.allowed_lengths()
+            if (allowed.left(own) < 0.0).any()
         ]
 
     def _radius(self, side: int) -> float:
-        radius = self.poses[side].model.suspension.tyre_radius()
+        radius = self.wheels[side].vehicle.tyre_radius
         assert radius is not None  # callers have seen to it
         return radius
 
     def _contact_heights(self, places: Places) -> Array:
-        heights = [self.contact(places, side)[:, 2] for side in range(len(self.poses))]
+        heights = [self.contact(places, side)[:, 2] for side in range(len(self.wheels))]
         return np.stack(heights, axis=1)
 
     # -- equilibrium ------------------------------------------------------------------------------

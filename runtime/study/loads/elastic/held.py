@@ -11,14 +11,13 @@ from ....core.arguments import Arguments
 from ....core.errors import InputError
 from ....core.quantities import display_of
 from ....suspension.bushes import RACK, described_bushings, softness_of_rack
-from ....suspension.corner import Corner
+from ....suspension.corner import RoadWheel
 from ....suspension.model import Model
 from ....suspension.positions import arm_angles, design_height
 from ....suspension.reach import at_rest
 from ...characteristics.catalogue import Quantity
 from ...characteristics.datasets import TRAVEL
-from ...characteristics.from_model import corner
-from ..poses import Poses
+from ..poses import Assembled, Poses
 from ..reactions import Equations, Load, known
 from .connections import GUIDE, Carried, Soft
 from .equilibrium import LOADS, Equilibrium, State
@@ -59,12 +58,12 @@ def at_design(model: Model) -> Poses:
     return Poses.of(model, *at_rest(model, arm_angles(model, [design_height(model)])))
 
 
-def carried_at(poses: Poses, pulled: Sequence[Load] = ()) -> Carried:
+def carried_at(poses: Assembled, pulled: Sequence[Load] = ()) -> Carried:
     """Return what the joints carry in the first position, the wheel held by the road.
 
     Parameters
     ----------
-    poses : Poses
+    poses : Assembled
     pulled : sequence of Load, optional
         What else acts on the parts.
     """
@@ -77,27 +76,22 @@ def carried_at(poses: Poses, pulled: Sequence[Load] = ()) -> Carried:
         )
         for which, point in enumerate(joint.at)
     }
-    if not poses.model.suspension.steered():
+    if poses.rack_axis is None:
         return found
     # the guide of the rack holds what the tie rod does to it
     return found | {GUIDE: found[RACK, "tie_rod", "tie_rod_inner"]}
 
 
-def suspension_on(
-    model: Model, travels: Array, rack: float, soft: Soft
-) -> tuple[Equilibrium, Corner]:
-    """Return a suspension on its bushes at some travels, and its corner with rigid joints."""
+def suspension_on(model: Model, travels: Array, rack: float, soft: Soft) -> Equilibrium:
+    """Return a suspension on its bushes at some travels."""
     angles = arm_angles(model, design_height(model) + travels, rack)
-    poses = Poses.of(model, *at_rest(model, angles, rack))
-    return Equilibrium([(poses, soft)]), corner(model, angles, rack)
+    return Equilibrium([(Poses.of(model, *at_rest(model, angles, rack)), soft)])
 
 
-def on_bushes(suspension: Equilibrium, there: Corner, state: State, side: int = 0) -> Corner:
-    """Return a corner with rigid joints with its wheel where it is on the bushes."""
-    places = state.places
-    return replace(
-        there, center=suspension.center(places, side), axis=suspension.axis(places, side)
-    )
+def on_bushes(suspension: Equilibrium, state: State, side: int = 0) -> RoadWheel:
+    """Return a wheel where it is on the bushes."""
+    center, axis = suspension.center(state.places, side), suspension.axis(state.places, side)
+    return replace(suspension.wheels[side], center=center, axis=axis)
 
 
 def at_height(suspension: Equilibrium, along: Array, over: Quantity = TRAVEL) -> State:
