@@ -628,8 +628,6 @@ def test_other_doors_refuse_it_by_name() -> None:
 @pytest.mark.parametrize(
     "line",
     [
-        "compliance rigid_axle",
-        "deflection rigid_axle",
         "kinematics rigid_axle",
         "sensitivity rigid_axle",
         "sweep rigid_axle wheel.toe_deg=0,1",
@@ -642,7 +640,6 @@ def test_other_doors_refuse_it_by_name() -> None:
         "characteristics rigid_axle --motion steer",
         "characteristics rigid_axle --rack 5",
         "compare rigid_axle rigid_axle --over travel",
-        "report rigid_axle --bushes a.csv",
         "new a.toml --rigid-axle --axle",
         "new a.toml --rigid-axle --template reference_car",
     ],
@@ -736,9 +733,10 @@ def test_two_axles_are_compared_over_the_same_positions() -> None:
 def test_the_commands_of_the_page_run(kintrafo: Any) -> None:  # noqa: F811
     page = PAGE.read_text(encoding="utf-8")
     commands = commands_of(page)
-    assert len(commands) == 11
-    (cases,) = re.findall(r"```toml\n# rear_cases\.toml\n(.*?)```", page, flags=re.DOTALL)
-    Path("rear_cases.toml").write_text(cases, encoding="utf-8")
+    assert len(commands) == 16
+    for name in ("rear_cases", "axle_bushes"):
+        (text,) = re.findall(rf"```toml\n# {name}\.toml\n(.*?)```", page, flags=re.DOTALL)
+        Path(f"{name}.toml").write_text(text, encoding="utf-8")
     for line in commands:
         program, *arguments = shlex.split(line)
         assert program == "kintrafo"
@@ -748,6 +746,9 @@ def test_the_commands_of_the_page_run(kintrafo: Any) -> None:  # noqa: F811
     assert "[rods.panhard_rod]" in report
     assert "roll-centre height" in report
     assert not re.search(r'(src|href)="(?!data:|#)', report)
+    soft = Path("with_bushes.html").read_text(encoding="utf-8")
+    assert ">Compliance<" in soft
+    assert ">Elastokinematics<" in soft
 
 
 def test_every_characteristic_is_on_the_page() -> None:

@@ -592,9 +592,9 @@ def test_the_report_has_the_load_cases(kintrafo: Any, tmp_path: Path) -> None:  
     assert "Load cases" in page
     assert "Free bodies in the load case stop" in page
     assert "panhard_rod, pull" in page
-    code, _, err = kintrafo(*["report", "rigid_axle", "two.html", "--bushes", "cases.toml"])
+    code, _, err = kintrafo(*["report", "rigid_axle", "two.html", "--goals", "cases.toml"])
     assert code != 0
-    assert "not for the file of a rigid axle" in err
+    assert "only for the file of one suspension" in err
 
 
 def test_a_ride_has_its_loads() -> None:

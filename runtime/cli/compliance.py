@@ -6,20 +6,26 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
 import typer
 
-from .axles import is_axle
+from .axles import refuse_options
 from .console import print_json, print_table, say
-from .options import Bump, File, Force, Json, Rebound, load, metres
+from .options import Bump, File, Force, Json, Rebound, metres
 from .outputs import Out, Outputs, Plot, name_files
+from .subject import described_by
 from .variation_options import At, with_position
 
 if TYPE_CHECKING:
     from xarray import Dataset
+
+    from ..suspension.axle import Axle
+    from ..suspension.model import Model
+    from ..suspension.rigid import RigidAxle
 
 EXAMPLES = (
     "kintrafo compliance my_car.toml",
     "kintrafo compliance my_car.toml bushes.toml",
     "kintrafo compliance my_car.toml bushes.toml --held spring --plot curves.png -o curves.csv",
     "kintrafo compliance reference_axle bushes.toml",
+    "kintrafo compliance rigid_axle axle_bushes.toml",
 )
 
 Held = Literal["height", "spring", "locked"]
@@ -67,19 +73,21 @@ def command(
     """
     from ..study import export
     from ..study.axles import by_side
-    from ..study.loads.sheets import compliances
+    from ..study.loads.sheets import compliances, compliances_of_axle
+    from ..suspension.model import Model
 
     inputs: list[str | Path] = [file, *([] if bushes is None else [bushes])]
     outputs = Outputs.of(out, plot, force=force, inputs=inputs)
     where = _Where(at, rack / 1e3, metres(rebound), metres(bump), held)
-    found = (_of_axle if is_axle(file) else _of_wheel)(file, described(file, bushes), where)
+    of = described_by(file)
+    found = _found(of, described(file, bushes), where)
     curves = found.drop_dims(["moved", "by"])
     written = outputs.write_data(found, rows=curves)
     if outputs.pages:
         from ..plots import curves as plots
 
         title = f"{file}: compliance, {found.attrs['held']}"
-        drawn = by_side(curves) if is_axle(file) else curves
+        drawn = curves if isinstance(of, Model) else by_side(curves)
         written += [
             plots.write_overview(drawn, path, (), title, force=force, inputs=inputs)
             for path in outputs.pages
@@ -89,6 +97,8 @@ def command(
         return
     title = f"{file}: compliance, at {at:g} mm of wheel travel"
     print_table(compliances(curves, title, at / 1e3))
+    for table in compliances_of_axle(curves, f"{title}, the axle", at / 1e3):
+        print_table(table)
     without = found.attrs["left_out"]
     say(f"{found.attrs['held']}; relaxed bushes, linear{without and f'; without {without}'}.")
     name_files(written)
@@ -104,21 +114,24 @@ def described(file: str, bushes: Path | None) -> dict[str, Any] | None:
     return read_bushes(bushes)
 
 
-def _of_wheel(file: str, bushes: Mapping[str, Any] | None, where: _Where) -> "Dataset":
-    from ..study import sweep
-    from ..study.loads import compliance
-
-    model = load(file)
-    usual = sweep.usual_travel(model, rebound=where.rebound, bump=where.bump, rack=where.rack)
-    travels = with_position(usual, where.at)
-    return compliance(model, bushes, travels, rack_position=where.rack, held=where.held)
-
-
-def _of_axle(file: str, bushes: Mapping[str, Any] | None, where: _Where) -> "Dataset":
-    from ..study.axles import Extent, compliance, motions
+def _found(
+    of: "Model | Axle | RigidAxle", bushes: Mapping[str, Any] | None, where: _Where
+) -> "Dataset":
+    """Return the compliance of what a file describes."""
+    from ..study import axles, loads, rigid, sweep
+    from ..study.axles.motions import Extent, travels
+    from ..study.rigid.datasets import usual
     from ..suspension.axle import Axle
+    from ..suspension.rigid import RigidAxle
 
-    axle = Axle.load(file)
     extent = Extent(rebound=where.rebound, bump=where.bump)
-    travels = with_position(motions.travels(axle, extent), where.at)
-    return compliance(axle, bushes, travels, rack_position=where.rack, held=where.held)
+    if isinstance(of, RigidAxle):
+        refuse_options("files with a rack", {"--rack": where.rack or None})
+        usually = usual(of, "bump", extent)
+        return rigid.compliance(of, bushes, with_position(usually, where.at), held=where.held)
+    if isinstance(of, Axle):
+        usually = with_position(travels(of, extent), where.at)
+        return axles.compliance(of, bushes, usually, rack_position=where.rack, held=where.held)
+    usually = sweep.usual_travel(of, rebound=where.rebound, bump=where.bump, rack=where.rack)
+    usually = with_position(usually, where.at)
+    return loads.compliance(of, bushes, usually, rack_position=where.rack, held=where.held)

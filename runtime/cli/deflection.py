@@ -1,15 +1,15 @@
 """``kintrafo deflection``: how far wheels give way on their bushes, by any amount."""
 
-from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from .axles import is_axle, refuse_options
+from .axles import refuse_options
 from .compliance import Bushes, Held, described
 from .console import print_json, print_table, say
-from .options import Bump, File, Force, Json, Rebound, load
+from .options import Bump, File, Force, Json, Rebound
 from .outputs import Out, Outputs, Plot, name_files
+from .subject import described_by
 from .variation_options import At, with_position
 
 if TYPE_CHECKING:
@@ -18,11 +18,16 @@ if TYPE_CHECKING:
 
     from xarray import Dataset
 
+    from ..suspension.axle import Axle
+    from ..suspension.model import Model
+    from ..suspension.rigid import RigidAxle
+
 EXAMPLES = (
     "kintrafo deflection my_car.toml bushes.toml --plot curves.png",
     "kintrafo deflection my_car.toml bushes.toml --under lateral --most 6000 --plot lateral.png",
     "kintrafo deflection reference_axle bushes.toml --motion roll --plot roll.png",
     "kintrafo deflection reference_axle bushes.toml --under braking --wheels opposed",
+    "kintrafo deflection rigid_axle axle_bushes.toml --motion roll --plot roll.png",
 )
 
 # Loads that a suspension meets, N and N m.
@@ -78,18 +83,21 @@ def command(
     from ..plots import curves as plots
     from ..study import export
     from ..study.loads.sheets import deflections, deflections_of_axle
+    from ..suspension.model import Model
 
     inputs: list[str | Path] = [file, *([] if bushes is None else [bushes])]
     outputs = Outputs.of(out, plot, force=force, inputs=inputs)
-    on_axle = is_axle(file)
+    of = described_by(file)
+    on_axle = not isinstance(of, Model)
     if not on_axle:
         refuse_options("the file of an axle", {"--wheels": wheels, "--motion": motion})
     if under is None:
         if most is not None or held != "height" or wheels is not None:
             raise typer.BadParameter("--most, --held and --wheels go with --under")
         extent = {"rebound": rebound, "bump": bump}
-        over: Any = partial(_axle_over, motion=motion or "bump") if on_axle else _over_travel
-        found = over(file, described(file, bushes), (at, rack), extent, hardpoints)
+        found = _over(
+            of, described(file, bushes), (at, rack), extent, (motion or "bump", hardpoints)
+        )
     else:
         if rebound is not None or bump is not None or motion is not None:
             raise typer.BadParameter("--rebound, --bump and --motion are for curves over a motion")
@@ -98,7 +106,7 @@ def command(
         how: Any = {"held": held, "hardpoints": hardpoints}
         if on_axle:
             how["wheels"] = wheels or "parallel"
-        found = _under(file, described(file, bushes), (at, rack), (under, size), how)
+        found = _under(of, described(file, bushes), (at, rack), (under, size), how)
     title = f"{file}: {found.attrs['title']}"
     written = outputs.write_data(found, rows=found)
     written += [
@@ -116,65 +124,62 @@ def command(
     name_files(written)
 
 
-def _over_travel(
-    file: str,
+def _over(
+    of: "Model | Axle | RigidAxle",
     bushings: "Mapping[str, Any] | None",
     where: tuple[float, float],
     extent: dict[str, float | None],
-    hardpoints: Any,
+    how: tuple[str, Any],
 ) -> "Dataset":
-    from ..study import sweep
-    from ..study.loads import elastokinematics
+    """Return what bushes do over a motion; lengths in mm."""
+    from ..study import axles, loads, rigid, sweep
+    from ..suspension.axle import Axle
+    from ..suspension.rigid import RigidAxle
 
-    model, (at, rack) = load(file), where
+    (at, rack), (motion, hardpoints) = where, how
+    if motion in ("roll", "steer"):
+        far = {f"--{name}": end for name, end in extent.items()}
+        refuse_options("curves over wheel travel", far)
     ends: Any = {name: None if end is None else end / 1e3 for name, end in extent.items()}
-    travels = with_position(sweep.usual_travel(model, rack=rack / 1e3, **ends), at)
-    return elastokinematics(
-        model, bushings, travels, rack_position=rack / 1e3, hardpoints=hardpoints
+    if isinstance(of, RigidAxle):
+        refuse_options("files with a rack", {"--rack": rack or None})
+        refuse_options("the file of one suspension, or a load", {"--at": at or None})
+        reach = axles.Extent(**ends)
+        return rigid.elastokinematics(of, bushings, motion, extent=reach, hardpoints=hardpoints)
+    if isinstance(of, Axle):
+        return axles.elastokinematics(
+            of, bushings, motion, extent=axles.Extent(**ends),
+            travel=at / 1e3, rack_position=rack / 1e3, hardpoints=hardpoints,
+        )  # fmt: skip
+    travels = with_position(sweep.usual_travel(of, rack=rack / 1e3, **ends), at)
+    return loads.elastokinematics(
+        of, bushings, travels, rack_position=rack / 1e3, hardpoints=hardpoints
     )
 
 
-def _axle_over(
-    file: str,
-    bushings: "Mapping[str, Any] | None",
-    where: tuple[float, float],
-    extent: dict[str, float | None],
-    hardpoints: Any,
-    *,
-    motion: str,
-) -> "Dataset":
-    from ..study.axles import Extent, elastokinematics
-    from ..suspension.axle import Axle
-
-    (at, rack), far = where, {f"--{name}": end for name, end in extent.items()}
-    if motion in ("roll", "steer"):
-        refuse_options("curves over wheel travel", far)
-    ends: Any = {name: None if end is None else end / 1e3 for name, end in extent.items()}
-    return elastokinematics(
-        Axle.load(file), bushings, motion, extent=Extent(**ends),
-        travel=at / 1e3, rack_position=rack / 1e3, hardpoints=hardpoints,
-    )  # fmt: skip
-
-
 def _under(
-    file: str,
+    of: "Model | Axle | RigidAxle",
     bushings: "Mapping[str, Any] | None",
     where: tuple[float, float],
     load_on_it: tuple[Any, float],
     how: "Mapping[str, Any]",
 ) -> "Dataset":
+    """Return how far loads move what a file describes; lengths in mm."""
     import numpy as np
 
     from ..core.errors import InputError
-    from ..study import axles, loads
+    from ..study import axles, loads, rigid
+    from ..suspension.axle import Axle
+    from ..suspension.rigid import RigidAxle
 
     (at, rack), (under, most) = where, load_on_it
     if not 0.0 < most < np.inf:
         raise InputError([f"--most {most}: a load of more than 0 is needed."], "deflection")
     amounts = np.linspace(-most, most, _STEPS)
+    if isinstance(of, RigidAxle):
+        refuse_options("files with a rack", {"--rack": rack or None})
+        return rigid.deflection(of, bushings, under, amounts, travel=at / 1e3, **how)
     where_it_is: Any = {"travel": at / 1e3, "rack_position": rack / 1e3}
-    if is_axle(file):
-        from ..suspension.axle import Axle
-
-        return axles.deflection(Axle.load(file), bushings, under, amounts, **where_it_is, **how)
-    return loads.deflection(load(file), bushings, under, amounts, **where_it_is, **how)
+    if isinstance(of, Axle):
+        return axles.deflection(of, bushings, under, amounts, **where_it_is, **how)
+    return loads.deflection(of, bushings, under, amounts, **where_it_is, **how)

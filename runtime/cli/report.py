@@ -1,7 +1,7 @@
 """``kintrafo report``: one file to send to a colleague."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -10,7 +10,7 @@ from . import goals as wanted
 from .console import problems, say
 from .loads import subject
 from .options import File, Force, load, system_of
-from .sheet import described_by
+from .subject import described_by
 
 if TYPE_CHECKING:
     from ..report import Chapter
@@ -88,10 +88,10 @@ def command(
         axles.refuse_options("the file of one suspension", {"--goals": goals})
     if rigid.is_rigid_axle(file):
         with problems.status("report"):
-            further = [*_of_loads(file, cases, wanted=loads), *_of_sheet(described_by(file), None)]
-            written = rigid.report(
-                file, target, title, further, {"--bushes": bushes}, force=force, inputs=inputs
-            )
+            of = described_by(file)
+            further = _of_loads(file, cases, wanted=loads)
+            further += [*_of_bushes(of, bushes), *_of_sheet(of, bushes)]
+            written = rigid.report(file, target, title, further, force=force, inputs=inputs)
         say(f"  {written}")
         return
     model, title, axle = _subject(file, title)
@@ -100,7 +100,7 @@ def command(
         from ..report import write
 
         chapters = [*_of_axle(axle), *_of_loads(file, cases, wanted=loads)]
-        chapters += [*_of_bushes(model, bushes, axle), *_of_goals(model, goals)]
+        chapters += [*_of_bushes(axle or model, bushes), *_of_goals(model, goals)]
         chapters += _of_sheet(axle or model, bushes)
         written = write(
             model,
@@ -165,24 +165,27 @@ def _of_goals(model: "Model", goals: Path | None) -> "list[Chapter]":
     return [goals_chapter(model, wanted.read(goals, ways))]
 
 
-def _of_bushes(model: "Model", bushes: Path | None, axle: "Axle | None") -> "list[Chapter]":
+def _of_bushes(of: "Model | Axle | RigidAxle", bushes: Path | None) -> "list[Chapter]":
     from ..report import compliance_chapter, elastokinematics_chapter
-    from ..study import axles
+    from ..study import axles, rigid
     from ..study import loads as study
+    from ..study.sheet import has_bushes
+    from ..suspension.model import Model
+    from ..suspension.rigid import RigidAxle
 
-    suspensions = [model.suspension] if axle is None else [*axle.sides.values()]
-    if bushes is None and not any(suspension.bushings for suspension in suspensions):
+    if bushes is None and not has_bushes(of):
         return []
     described = None if bushes is None else study.read_bushes(bushes)
-    if axle is not None:
-        soft = (axles.elastokinematics(axle, described, motion) for motion in ("bump", "roll"))
+    if isinstance(of, Model):
         return [
-            compliance_chapter(axles.compliance(axle, described)),
-            elastokinematics_chapter(*soft),
+            compliance_chapter(study.compliance(of, described)),
+            elastokinematics_chapter(study.elastokinematics(of, described)),
         ]
+    over: Any = rigid if isinstance(of, RigidAxle) else axles
+    soft = (over.elastokinematics(of, described, motion) for motion in ("bump", "roll"))
     return [
-        compliance_chapter(study.compliance(model, described)),
-        elastokinematics_chapter(study.elastokinematics(model, described)),
+        compliance_chapter(over.compliance(of, described)),
+        elastokinematics_chapter(*soft),
     ]
 
 

@@ -173,7 +173,6 @@ def report(
     target: Path,
     title: str | None,
     further: "Sequence[Chapter]",
-    refused: Mapping[str, Any],
     *,
     force: bool,
     inputs: list[str | Path],
@@ -185,7 +184,6 @@ def report(
     from ..report import rigid_axle_chapters, write_chapters
     from ..suspension.rigid import RigidAxle
 
-    _refuse(refused)
     axle = RigidAxle.load(file)
     heading = axle.heading()
     heading = title or f"{heading[:1].upper()}{heading[1:]}"

@@ -1,25 +1,20 @@
 """``kintrafo sheet``: the K&C sheet of a suspension or an axle, at design."""
 
 from pathlib import Path  # noqa: TC003 (typer reads it)
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from . import axles, rigid
 from .compliance import Bushes, Held, described
 from .console import print_json, print_table, say
-from .options import File, Force, Json, load
+from .options import File, Force, Json
 from .outputs import Out, Outputs, name_files
-
-if TYPE_CHECKING:
-    from ..suspension.axle import Axle
-    from ..suspension.model import Model
-    from ..suspension.rigid import RigidAxle
+from .subject import described_by
 
 EXAMPLES = (
     "kintrafo sheet my_car.toml bushes.toml",
     "kintrafo sheet my_axle.toml -o sheet.csv",
-    "kintrafo sheet rigid_axle",
+    "kintrafo sheet rigid_axle axle_bushes.toml",
 )
 
 
@@ -51,16 +46,3 @@ def command(
         print_table(table)
     say("At design. SAE J670 with its z axis down; definitions are in data files (-o).")
     name_files(written)
-
-
-def described_by(file: str) -> "Model | Axle | RigidAxle":
-    """Return what the file describes."""
-    if rigid.is_rigid_axle(file):
-        from ..suspension.rigid import RigidAxle
-
-        return RigidAxle.load(file)
-    if axles.is_axle(file):
-        from ..suspension.axle import Axle
-
-        return Axle.load(file)
-    return load(file)

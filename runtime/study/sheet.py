@@ -78,7 +78,7 @@ def sheet(
     Raises
     ------
     InputError
-        If an argument cannot be used; bushes for a rigid axle are refused.
+        If an argument cannot be used.
 
     Notes
     -----
@@ -96,10 +96,8 @@ def sheet(
     with Arguments("sheet") as given:
         given.kind("subject", subject, (Model, Axle, RigidAxle), _NEEDED)
         given.among("held", held, HELD)
-        if bushings is not None and isinstance(subject, RigidAxle):
-            given.refuse("bushings: the rods of a rigid axle are rigid here. Leave them out.")
     found = dict(_kinematic(subject))
-    if not isinstance(subject, RigidAxle) and (bushings is not None or _has_bushes(subject)):
+    if bushings is not None or has_bushes(subject):
         found |= _compliant(subject, bushings, held)
     return _dataset(found, held)
 
@@ -173,16 +171,20 @@ def _curves(subject: Model | Axle | RigidAxle) -> list[xr.Dataset]:
     return [over_travel, characteristics.steering(subject, here)]
 
 
-def _has_bushes(subject: Model | Axle) -> bool:
-    sides = [subject.suspension] if isinstance(subject, Model) else subject.sides.values()
-    return any(side.bushings for side in sides)
+def has_bushes(subject: Model | Axle | RigidAxle) -> bool:
+    """Tell whether the files of a suspension or an axle have bushes."""
+    if isinstance(subject, Axle):
+        return any(side.bushings for side in subject.sides.values())
+    return bool((subject if isinstance(subject, RigidAxle) else subject.suspension).bushings)
 
 
 def _compliant(
-    subject: Model | Axle, bushings: Mapping[str, Any] | None, held: Held
+    subject: Model | Axle | RigidAxle, bushings: Mapping[str, Any] | None, held: Held
 ) -> dict[str, tuple[str, xr.DataArray]]:
     """Return the compliances at design, by their names."""
-    if isinstance(subject, Axle):
+    if isinstance(subject, RigidAxle):
+        found = rigid.compliance(subject, bushings, [0.0], held=held)
+    elif isinstance(subject, Axle):
         found = axles.compliance(subject, bushings, [0.0], held=held)
     else:
         found = loads.compliance(subject, bushings, [0.0], held=held)

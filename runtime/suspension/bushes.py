@@ -1,7 +1,7 @@
 """Bushes: how far joints give way, as a file or a caller describes them."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -15,7 +15,7 @@ from ..core.vectors import cross, unit_vector
 from .bush_curve import Curve, curve_of
 from .input.toml_file import read_sections
 from .input.units import unit_of
-from .structure import Joint, Points, Structure, Telescope
+from .structure import Fixed, Joint, Points, Structure, Telescope
 
 Array = NDArray[np.float64]
 
@@ -40,7 +40,6 @@ _PER_MM, _PER_DEG = 1e3, 180.0 / np.pi
 _LARGEST = 1e300
 # No bush is softer or stiffer than this, in its units for people.
 _SOFTEST, _STIFFEST = 1e-3, 1e12
-_CENTER = "wheel_center"
 _NO_DAMPING = (
     "Nothing here moves so fast that the damping of a bush is felt: loads and compliance are at "
     "rest, and motions have rigid joints. Leave it out."
@@ -85,6 +84,11 @@ class Bush:
     def gives_way(self) -> bool:
         """Whether anything moves in it that a rigid joint holds."""
         return bool(self.soft.any() or self.tilt)
+
+    def mirrored(self, point: str) -> "Bush":
+        """Return its image in the plane y = 0, at another hardpoint."""
+        image = np.array([1.0, -1.0, 1.0])
+        return replace(self, point=point, axes=self.axes * image, spin=self.spin * image)
 
     @property
     def compliance(self) -> Array:
@@ -225,10 +229,10 @@ def bushes_of(
             given.refuse(f"{title} {key} is not known. {meant}")
         if not any(key in table for key in _STIFFNESSES):
             given.refuse(f"{title}: one of {', '.join(_STIFFNESSES)} is needed, or it is rigid.")
-        if "torsion_Nm_per_deg" in table and point == _CENTER:
+        is_bearing = isinstance(joints[point], Fixed)
+        if "torsion_Nm_per_deg" in table and is_bearing:
             given.refuse(f"{title} torsion_Nm_per_deg: the brake holds the wheel about its axis.")
         torsion, tilt = (_turning(given, title, table, which) for which in ("torsion", "tilt"))
-        is_bearing = point == _CENTER
         soft = _translations(given, title, table)
         axial, radial = (_curve(given, title, table, which) for which in ("axial", "radial"))
         curves = (axial, radial, radial)
@@ -323,7 +327,7 @@ def _axes(
     spin: Array,
 ) -> Array:
     """Return the axes of a bush as rows: its own, and the two across it."""
-    usual_axis = spin if joint.at == (_CENTER,) else joint.axis(design)
+    usual_axis = spin if isinstance(joint, Fixed) else joint.axis(design)
     if usual_axis is None and "axis" not in table:
         given.refuse(f"{title} axis is needed: no direction there is that of a bush by itself.")
         return np.eye(3)

@@ -7,7 +7,7 @@ from ...core.arguments import Arguments
 from ...plots.curves import figure, grouped
 from ...plots.figures import STYLE
 from ...study.axles import by_side
-from ...study.loads.sheets import compliances
+from ...study.loads.sheets import compliances, compliances_of_axle
 from .chapter import Chapter, Picture
 
 
@@ -17,7 +17,8 @@ def compliance_chapter(found: xr.Dataset) -> Chapter:
     Parameters
     ----------
     found : xarray.Dataset
-        From `kintrafo.loads.compliance`, or `kintrafo.axles.compliance`.
+        From `kintrafo.loads.compliance`, `kintrafo.axles.compliance` or
+        `kintrafo.rigid_axles.compliance`.
 
     Returns
     -------
@@ -31,5 +32,5 @@ def compliance_chapter(found: xr.Dataset) -> Chapter:
         drawn = figure(curves, names, title="Compliance over wheel travel", alone=False)
         picture = Picture.of(drawn, "Compliances over wheel travel")
     words = f"By the unit-load theorem, linear, bushes relaxed: {found.attrs['held']}."
-    sheet = compliances(found, "At design")
-    return Chapter("Compliance", (words,), (sheet,), (picture,))
+    sheets = compliances(found, "At design"), *compliances_of_axle(found, "At design, the axle")
+    return Chapter("Compliance", (words,), sheets, (picture,))

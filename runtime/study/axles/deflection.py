@@ -1,6 +1,6 @@
 """How far both wheels of an axle give way under loads of any size, beside first order."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from ...core.arguments import Arguments
 from ...core.quantities import variable
 from ...suspension.axle import Axle
+from ...suspension.corner import Array
 from ..loads.compliance import RigLoad
 from ..loads.elastic.deflection import (
     BY_NAME,
@@ -22,6 +23,7 @@ from ..loads.elastic.deflection import (
     under_amounts,
     unit_load,
 )
+from ..loads.elastic.equilibrium import Equilibrium, State
 from ..loads.elastic.held import HARDPOINTS, Hardpoints, at_height, gives_way
 from ..loads.flexibility import HELD, Held
 from .between import SIDES
@@ -112,30 +114,21 @@ def deflection(
         given.among("under", under, BY_NAME)
         given.among("held", held, HELD)
         given.among("hardpoints", hardpoints, HARDPOINTS)
-        parts = _parts(given, under, wheels)
+        parts = parts_of(given, under, wheels)
         travel = given.number("travel", travel, "m")
         rack_position = given.number("rack_position", rack_position, "m")
         wanted = amounts_of(given, amounts)
         softs = softs_of(given, axle, bushings, hardpoints)
-    load = replace(BY_NAME[under], words=_words(under, wheels, parts))
+    load = replace(BY_NAME[under], words=words_of(under, wheels, parts))
     at, rack = np.array([travel]), np.array([rack_position])
     pair = Pair.at(axle, at, at, rack)
     suspension = axle_on(pair, rack, softs)
     base = at_height(suspension, at)
-    of_each = zip(parts, suspension.wheels, strict=True)
-    unit = [part * unit_load(load, wheel) for part, wheel in of_each]
-    states = under_amounts(suspension, base, np.stack(unit, axis=1), held, load, wanted)
+    states = under_amounts(suspension, base, of_both(suspension, load, parts), held, load, wanted)
     linear = None
     if any(gives_way(soft) for soft in softs.values()):
         linear = compliance(axle, bushings, at, rack_position=rack_position, held=held)
-    data: dict[str, xr.Variable] = {}
-    for which, side in enumerate(SIDES):
-        changed = changes(suspension, base, states, load, which)
-        straight = {k: _slope(linear, load, k, side, parts) * wanted for k in changed}
-        data |= beside(changed, straight, side)
-    for which, side in enumerate(SIDES):
-        road = np.concatenate([state.road[:, which] for state in states])
-        data[f"wheel_load_{side}"] = variable(LOAD, road, f"wheel load, {side}", "N")
+    data = deflected(suspension, base, states, load, straight(linear, load, parts, wanted))
     if axle.halves:
         torque = np.concatenate([suspension.torque_of_bar(state) for state in states])
         words = "torque of the anti-roll bar, positive with the left half turned the farther"
@@ -145,7 +138,60 @@ def deflection(
     return xr.Dataset(data, coordinates_of(load, wanted), {"title": title} | how)
 
 
-def _parts(given: Arguments, under: str, wheels: Any) -> tuple[float, float]:
+def of_both(suspension: Equilibrium, load: RigLoad, parts: tuple[float, float]) -> Array:
+    """Return a unit of a load of which both wheels have parts, (n, 2, 9)."""
+    of_each = zip(parts, suspension.wheels, strict=True)
+    return np.stack([part * unit_load(load, wheel) for part, wheel in of_each], axis=1)
+
+
+def deflected(
+    suspension: Equilibrium,
+    base: State,
+    states: list[State],
+    load: RigLoad,
+    linear: Callable[[str, str], Array],
+) -> dict[str, xr.Variable]:
+    """Return what both wheels do under some amounts of a load, and what they carry.
+
+    Parameters
+    ----------
+    suspension : Equilibrium
+        Of both wheels, the left one first.
+    base : State
+        Without the load.
+    states : list of State
+        Under each amount.
+    load : RigLoad
+    linear : callable
+        Returns what is told to first order, by the kind and the side.
+    """
+    data: dict[str, xr.Variable] = {}
+    for which, side in enumerate(SIDES):
+        changed = changes(suspension, base, states, load, which)
+        data |= beside(changed, {kind: linear(kind, side) for kind in changed}, side)
+    for which, side in enumerate(SIDES):
+        road = np.concatenate([state.road[:, which] for state in states])
+        data[f"wheel_load_{side}"] = variable(LOAD, road, f"wheel load, {side}", "N")
+    return data
+
+
+def straight(
+    linear: xr.Dataset | None, load: RigLoad, parts: tuple[float, float], wanted: Array
+) -> Callable[[str, str], Array]:
+    """Return what tells what loads do to first order, as the sum of what is alike and opposed."""
+    ways = LOADINGS[load.name]
+    shares = np.linalg.solve(np.transpose([how.parts for how in ways]), parts)
+
+    def told(kind: str, side: str) -> Array:
+        if linear is None:
+            return np.zeros_like(wanted)
+        stems = (f"{kind}_by_{load.name}_{how.name}{side and f'_{side}'}" for how in ways)
+        return wanted * float(shares @ [float(linear[stem][0]) for stem in stems])
+
+    return told
+
+
+def parts_of(given: Arguments, under: str, wheels: Any) -> tuple[float, float]:
     """Return the parts of a load that the left and the right wheel have."""
     if given.refused:
         return 0.0, 0.0
@@ -161,7 +207,7 @@ def _parts(given: Arguments, under: str, wheels: Any) -> tuple[float, float]:
     return left, right
 
 
-def _words(under: str, wheels: str | Sequence[float], parts: tuple[float, float]) -> str:
+def words_of(under: str, wheels: str | Sequence[float], parts: tuple[float, float]) -> str:
     """Return a load of both wheels in words."""
     for how in LOADINGS[under]:
         if how.name == wheels:
@@ -169,15 +215,3 @@ def _words(under: str, wheels: str | Sequence[float], parts: tuple[float, float]
     if isinstance(wheels, str):
         return f"{BY_NAME[under].words} of {WHEELS[wheels]}"
     return f"{BY_NAME[under].words}, {parts[0]:g} of it left and {parts[1]:g} right"
-
-
-def _slope(
-    linear: xr.Dataset | None, load: RigLoad, kind: str, side: str, parts: tuple[float, float]
-) -> float:
-    """Return what a unit of a load does to first order, as the sum of what is alike and opposed."""
-    if linear is None:
-        return 0.0
-    ways = LOADINGS[load.name]
-    shares = np.linalg.solve(np.transpose([how.parts for how in ways]), parts)
-    each = [float(linear[f"{kind}_by_{load.name}_{how.name}_{side}"][0]) for how in ways]
-    return float(shares @ each)

@@ -1,6 +1,6 @@
 """How both wheels of an axle move over the motions of a rig on their bushes, and without any."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,6 @@ from ...suspension.corner import Array, RoadWheel
 from ..characteristics import wheel
 from ..characteristics.catalogue import Quantity
 from ..characteristics.datasets import DATA_SET, KNOWN, RACK, TRAVEL
-from ..loads.elastic.connections import Soft
 from ..loads.elastic.elastokinematics import CURVES
 from ..loads.elastic.equilibrium import LOADS, Equilibrium, State
 from ..loads.elastic.held import HARDPOINTS, Hardpoints, at_height, on_bushes
@@ -123,7 +122,13 @@ def elastokinematics(
     for begin in range(0, values.size, _TOGETHER):
         some = slice(begin, begin + _TOGETHER)
         pair = Pair.at(axle, left[some], right[some], racks[some])
-        found.append(_over(pair, racks[some], softs, over, values[some], motion))
+        both = [axle_on(pair, racks[some], each) for each in (dict.fromkeys(SIDES, RIGID), softs)]
+        states = [at_height(suspension, values[some], over) for suspension in both]
+        further = {KNOWN["rack"]["steer"]: wheel.steer} if motion == "steer" else {}
+        data = over_motion(both, states, over, further)
+        if axle.halves:
+            data |= _torque_of_bar(both, states, over)
+        found.append(on_both(data, over, values[some]))
     whole = xr.concat(found, over.name, join="override", combine_attrs="override")
     if axle.steered():
         whole = whole.assign_coords(
@@ -160,43 +165,58 @@ def _where(
     return left, right, still
 
 
-def _over(
-    pair: Pair,
-    racks: Array,
-    softs: dict[str, Soft],
+def on_both(data: Mapping[str, xr.Variable], over: Quantity, values: Array) -> xr.Dataset:
+    """Return what is told with rigid joints and on bushes over some positions."""
+    coordinates = {
+        DATA_SET: list(_KINDS),
+        over.name: xr.Variable(over.name, values, over.attributes()),
+    }
+    return xr.Dataset(dict(data), coordinates)
+
+
+def over_motion(
+    both: Sequence[Equilibrium],
+    states: Sequence[State],
     over: Quantity,
-    values: Array,
-    motion: str,
-) -> xr.Dataset:
-    """Return what both wheels do with rigid joints and on bushes, over some positions."""
+    further: Mapping[Quantity, Callable[[RoadWheel], Array]],
+) -> dict[str, xr.Variable]:
+    """Return what both wheels do with rigid joints and on bushes, and what they carry.
+
+    Parameters
+    ----------
+    both : sequence of Equilibrium
+        Of both wheels, the left one first: with rigid joints, and on bushes.
+    states : sequence of State
+        Of each.
+    over : Quantity
+        What varies.
+    further : mapping
+        Formulas of a wheel beside the usual ones.
+    """
     dims = (DATA_SET, over.name)
-    both = [axle_on(pair, racks, each) for each in (dict.fromkeys(SIDES, RIGID), softs)]
-    states = [at_height(suspension, values, over) for suspension in both]
     data: dict[str, xr.Variable] = {}
     curves: dict[Quantity, Callable[[RoadWheel], Array]]
     curves = {KNOWN["travel"][name]: formula for name, formula in CURVES.items()}
-    if motion == "steer":
-        curves |= {KNOWN["rack"]["steer"]: wheel.steer}
-    for quantity, formula in curves.items():
+    for quantity, formula in (curves | dict(further)).items():
         for which, side in enumerate(SIDES):
             there, moved = both[0].wheels[which], on_bushes(both[1], states[1], which)
             told = np.stack([formula(there), formula(moved)])
             named = of_side(quantity, side)
             data[named.name] = xr.Variable(dims, told, named.attributes())
-    data |= _forces(both, states, dims)
-    if pair.axle.halves:
-        torque = [one.torque_of_bar(state) for one, state in zip(both, states, strict=True)]
-        words = "torque of the anti-roll bar, positive with the left half turned the farther"
-        data["bar_torque"] = variable(dims, np.stack(torque), words, "N m")
-    coordinates = {
-        DATA_SET: list(_KINDS),
-        over.name: xr.Variable(over.name, values, over.attributes()),
-    }
-    return xr.Dataset(data, coordinates)
+    return data | _forces(both, states, dims)
+
+
+def _torque_of_bar(
+    both: Sequence[Equilibrium], states: Sequence[State], over: Quantity
+) -> dict[str, xr.Variable]:
+    """Return the torque of the bar with rigid joints and on bushes."""
+    torque = [one.torque_of_bar(state) for one, state in zip(both, states, strict=True)]
+    words = "torque of the anti-roll bar, positive with the left half turned the farther"
+    return {"bar_torque": variable((DATA_SET, over.name), np.stack(torque), words, "N m")}
 
 
 def _forces(
-    both: list[Equilibrium], states: list[State], dims: tuple[str, str]
+    both: Sequence[Equilibrium], states: Sequence[State], dims: tuple[str, str]
 ) -> dict[str, xr.Variable]:
     """Return what the wheels carry, and how stiff the axle is, of two equilibria."""
     rates, stiffness = [], []

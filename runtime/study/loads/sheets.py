@@ -11,7 +11,8 @@ from ...core.tabulated import Tabulated, significant, whole
 # What stands in tables of deflections, and what the other curve is called there.
 _IN_TABLES = (
     "toe", "toe_change", "camber", "camber_change", "displacement", "wheel_rate", "roll_stiffness",
-    "bar_torque",
+    "bar_torque", "axle_steer", "axle_lateral", "axle_steer_change", "axle_lateral_change",
+    "axle_longitudinal_change",
 )  # fmt: skip
 _BESIDE = {"elastokinematic": "on bushes", "linear": "linear"}
 
@@ -116,6 +117,29 @@ def compliances(found: xr.Dataset, title: str, at: float = 0.0) -> Tabulated:
     first = ("by", "wheel", "per") if on_axle else ("by", "per")
     columns = (*first, "toe-in [deg]", "camber [deg]", "inward, rearward [mm]")
     return Tabulated(title, columns, tuple(rows), frozenset(range(len(first))))
+
+
+def compliances_of_axle(found: xr.Dataset, title: str, at: float = 0.0) -> list[Tabulated]:
+    """Return what loads do to a rigid axle itself, as a table; none of others.
+
+    Parameters
+    ----------
+    found : xarray.Dataset
+        From `kintrafo.rigid_axles.compliance`, or of another kind.
+    title : str
+    at : float, optional
+        Wheel travel [m].
+    """
+    here = found.sel(wheel_travel=at, method="nearest")
+    kinds = ("axle_steer", "axle_lateral", "axle_longitudinal")
+    rows = []
+    for name in (n for n in map(str, here) if n.startswith(f"{kinds[0]}_by_")):
+        load = name.removeprefix(f"{kinds[0]}_by_")
+        cells = [significant(float(displayed(here[f"{kind}_by_{load}"]))) for kind in kinds]
+        per = display_of(here[name].attrs).units.partition("/")[2]
+        rows.append((long_name(here[name]).partition(" by ")[2], per, *cells))
+    columns = ("by", "per, each wheel", "steer [deg]", "to the left [mm]", "forward [mm]")
+    return [Tabulated(title, columns, tuple(rows), frozenset({0, 1}))] if rows else []
 
 
 def deflections(found: xr.Dataset, title: str, most: int = 11) -> Tabulated:

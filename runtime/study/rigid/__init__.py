@@ -11,6 +11,10 @@
     `standing`  where both wheels stand under load cases
     `loads`     what every part carries in load cases
     `along`     the same along a motion
+    `compliance` how bushes give way under loads on the wheels, to first order
+    `on_bushes` the axle on its bushes
+    `elastokinematics` the motions of a rig on bushes
+    `deflection` loads of any size
 
 Definitions and signs: docs/rigid-axle.md.
 """
@@ -18,7 +22,10 @@ Definitions and signs: docs/rigid-axle.md.
 from ...suspension.rigid.model import equilibrium
 from .along import loads_along
 from .checkup import checkup
+from .compliance import compliance
 from .datasets import MOTIONS, bump, compare, over, roll, single
+from .deflection import deflection
+from .elastokinematics import elastokinematics
 from .loads import standard_cases, static_loads
 from .ride import run
 
@@ -27,6 +34,9 @@ __all__ = [
     "bump",
     "checkup",
     "compare",
+    "compliance",
+    "deflection",
+    "elastokinematics",
     "equilibrium",
     "loads_along",
     "over",

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from ...core.arguments import Arguments
 from ...simulation.result import Simulation
 from ...suspension.rigid.model import RigidAxleModel
+from ...suspension.rigid.structure import BEAM
 from ..loads.along import is_motion_of, over_time
 from ..loads.inertia import Twists, tensor_of_part, tensor_of_wheel
 from ..loads.poses import CENTER
@@ -17,7 +18,7 @@ from ..recording import TIME
 from .balance import Balance
 from .beam import SENSE, SIDES
 from .loads import dataset_of_parts
-from .parts import BEAM, MASSIVE, PARAMETERS, Parts
+from .parts import MASSIVE, PARAMETERS, Parts
 
 Array = NDArray[np.float64]
 

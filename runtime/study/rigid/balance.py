@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 
 from ...core.errors import InputError
 from ...suspension.corner import UP
+from ...suspension.rigid.structure import BEAM, CHASSIS
 from ..loads.balance import DEAD_POINT, balanced
 from ..loads.poses import CENTER, CONTACT, wrench_about
 from ..loads.reactions import Load
 from .beam import SIDES
-from .parts import BEAM, CHASSIS, Parts
+from .parts import Parts
 
 Array = NDArray[np.float64]
 

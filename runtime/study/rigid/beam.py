@@ -161,15 +161,23 @@ class Beam:
             np.diag([0.0, -rate]), (roll.size, 2, 2)
         )
 
+    def growth(self, path: str) -> Array:
+        """Return how the length of a spring or a damper grows in heave and in roll, (n, 2)."""
+        return np.stack([self._at_unit_rate[by][0][f"{path}_velocity"] for by in COORDINATES], -1)
+
+    def rate_of_stops(self, side: str) -> Array:
+        """Return the rate of the stops beside a damper, along it, (n,) [N/m]."""
+        path = f"{side}_damper"
+        growth, slopes = self.growth(path), self._at_unit_rate[HEAVE][1]
+        changes = slopes[f"{path}_bump_stop_force"] + slopes[f"{path}_rebound_stop_force"]
+        rate: Array = -(changes * growth).sum(-1) / (growth * growth).sum(-1)
+        return rate
+
     def _virtual_work(self, path: str, force: str) -> tuple[Array, Array]:
         """Return what a force along a path does in heave and roll, and its derivatives by them."""
-        acting = self._signals[force]
-        grows, bends = [], []
-        for by in COORDINATES:
-            signals, slopes = self._at_unit_rate[by]
-            grows.append(signals[f"{path}_velocity"])
-            bends.append(slopes[f"{path}_velocity"])
-        growth, changes = np.stack(grows, -1), self._at_unit_rate[HEAVE][1][force]
+        acting, growth = self._signals[force], self.growth(path)
+        bends = [self._at_unit_rate[by][1][f"{path}_velocity"] for by in COORDINATES]
+        changes = self._at_unit_rate[HEAVE][1][force]
         work = acting[:, None] * growth
         slopes_of_work = growth[..., :, None] * changes[..., None, :]
         return work, slopes_of_work + acting[:, None, None] * np.stack(bends, -2)

@@ -204,13 +204,13 @@ def _ends(axle: RigidAxle, motion: str, most: float) -> list[float]:
     model = RigidAxleModel(axle)
     ends = []
     for value in (-most, most):
-        left, right = _travels(axle, motion, np.array(value))
+        left, right = travels_along(axle, motion, np.array(value))
         part = model.farthest(float(left), float(right))
         ends.append(value if part == 1.0 else (1.0 - _CLEARANCE) * part * value)
     return ends
 
 
-def _travels(axle: RigidAxle, motion: str, values: Array) -> tuple[Array, Array]:
+def travels_along(axle: RigidAxle, motion: str, values: Array) -> tuple[Array, Array]:
     """Return the travels of the left and the right wheel along a motion [m]."""
     if motion == "roll":
         half = axle.half_track * np.sin(values)
@@ -233,7 +233,7 @@ def _curves(axle: RigidAxle, motion: str, values: Array | None) -> xr.Dataset:
         message = f"roll of {worst:.4g} deg: less than 45 deg is needed; Python's unit is rad."
         raise PositionError(message)
     model = RigidAxleModel(axle)
-    beam = Beam(model, model.states_at(*_travels(axle, motion, along)))
+    beam = Beam(model, model.states_at(*travels_along(axle, motion, along)))
     over = ROLL if motion == "roll" else TRAVEL
     data = {m.quantity: m.formula(beam) for m in MEASURES if m.known_to(axle)}
     coordinates = {over.name: _variable(over, over, along)}

@@ -4,23 +4,28 @@ The parts are the beam, both wheels and the rods; names of points and of what th
 ``_left`` and ``_right``, as those of other axles do.
 """
 
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...suspension.corner import UP
+from ...suspension.axle.axle import RIGHT
+from ...suspension.corner import UP, RoadWheel, Vehicle
 from ...suspension.rigid.axle import RigidAxle
 from ...suspension.rigid.model import RigidAxleModel
-from ...suspension.structure import FORCES_OF_A_DAMPER
+from ...suspension.rigid.structure import BEAM, CHASSIS
+from ...suspension.structure import Line, Structure
+from ...systems.allowed import Allowed
 from ..characteristics.wheel import lowest_point, upward_across
-from ..loads.poses import CENTER, CONTACT, road_axes
-from ..loads.reactions import Load
+from ..loads.poses import CENTER, CONTACT, forces_along, road_axes
+from ..loads.reactions import Load, known
 from .beam import SENSE, SIDES
 
 Array = NDArray[np.float64]
 
-BEAM, BAR, CHASSIS = "beam", "bar", "chassis"
+BAR = "bar"
 MIDDLE = "axle_middle"
 """The point between the wheel centres."""
 
@@ -31,11 +36,6 @@ MASSIVE = {BEAM: "beam", "wheel_left": "left_wheel", "wheel_right": "right_wheel
 """What they are called in the equations."""
 
 _LEFTWARD = np.array([0.0, 1.0, 0.0])
-# The signals and inputs of a side that are the force of a spring or a damper.
-_FORCES = {
-    "spring": ("spring_spring_force", "spring_actuator"),
-    "damper": tuple(f"damper_{name}" for name in FORCES_OF_A_DAMPER),
-}
 
 
 @dataclass(frozen=True)
@@ -82,6 +82,58 @@ class Parts:
         """The axle."""
         return self.model.axle
 
+    @property
+    def structure(self) -> Structure:
+        """What holds the parts together."""
+        return self.axle.structure()
+
+    @cached_property
+    def design(self) -> dict[str, Array]:
+        """The points at design, (3,) [m]."""
+        begin = self.axle.bodies.beam.centre_of_mass(self.axle.hardpoints)
+        at_design = _points(self.axle, np.array([begin]), np.eye(3)[None])
+        return {name: point[0] for name, point in at_design.items()}
+
+    @cached_property
+    def wheels(self) -> dict[str, RoadWheel]:
+        """Both wheels, the left one first, by their parts."""
+        radius = self.axle.tyre_radius()
+        return {
+            f"wheel_{side}": RoadWheel(
+                Vehicle(SENSE[side], radius),
+                self.points[f"{CENTER}_{side}"],
+                self.design[f"{CENTER}_{side}"],
+                SENSE[side] * self.wheel_axis(side),
+                SENSE[side] * self.axle.wheel.spin_axis(SENSE[side]),
+            )
+            for side in SIDES
+        }
+
+    @property
+    def rack_axis(self) -> Array | None:
+        """No rack steers it."""
+        return None
+
+    def parameters_of(self, line: Line) -> Mapping[str, float]:
+        """Return the parameters of the spring or the stops on a line, as the right side's are."""
+        values = self.model.parameters
+        if line.name.endswith(RIGHT):
+            return values
+        return {n.removeprefix("left_"): v for n, v in values.items() if n.startswith("left_")}
+
+    def signals(self) -> dict[str, Array]:
+        """Return the signals of the equations, (n,)."""
+        return self.model.signals(self.states, self.inputs)
+
+    def counted_by(self, line: Line) -> str:
+        """Return the signal by which the stops beside a damper count: its length."""
+        name, _, side = line.name.rpartition("_")
+        return f"{side}_{name}_length"
+
+    def allowed_lengths(self) -> Sequence[Allowed]:
+        """Return the lengths of the dampers that the file allows."""
+        return self.model.allowed_lengths()
+
     def mass(self, part: str) -> float:
         """Return the mass of a part [kg]."""
         return self.model.parameters[f"{PARAMETERS[part]}_mass"]
@@ -111,7 +163,7 @@ class Parts:
         fine = np.ones(len(self.states), dtype=bool)
         for side in SIDES:
             design = self.axle.points(side)
-            for name in _FORCES:
+            for name in ("spring", "damper"):
                 way = self.points[f"{name}_top_{side}"] - self.points[f"{name}_seat_{side}"]
                 fine &= way @ (design[f"{name}_top"] - design[f"{name}_seat"]) > 0.0
         return fine
@@ -132,42 +184,30 @@ class Parts:
 
     def acting(self) -> list[Load]:
         """Return what acts without anybody's doing: weights, springs, dampers, stops, the bar."""
-        return [*self._weights(), *self._along_lines(), *self._of_bar()]
+        return [*known(self), *self._of_bar()]
 
-    def _weights(self) -> list[Load]:
-        gravity, still = self.model.parameters["gravity"], np.zeros(3)
-        return [
-            Load(part, "mass", "gravity", -mass * gravity * UP, still, self.centers[part])
-            for part in MASSIVE
-            if (mass := self.mass(part)) * gravity != 0.0
-        ]
+    def weights(self) -> dict[str, Array]:
+        """Return the weight of each part that has a mass, (3,) [N]."""
+        gravity = self.model.parameters["gravity"]
+        return {part: -self.mass(part) * gravity * UP for part in MASSIVE}
 
-    def _along_lines(self) -> list[Load]:
-        """Return what springs and dampers with their stops do, at both of their ends."""
-        values = self.model.signals(self.states, self.inputs)
-        values |= dict(zip(self.model.input_names, self.inputs.T, strict=True))
-        loads = []
-        for name, forces in _FORCES.items():
-            for side in SIDES:
-                force = np.sum([values[f"{side}_{one}"] for one in forces], axis=0)
-                top, seat = (f"{name}_{end}_{side}" for end in ("top", "seat"))
-                way = self.points[seat] - self.points[top]
-                push = force[:, None] * way / np.linalg.norm(way, axis=-1, keepdims=True)
-                loads += [
-                    Load(part, point, f"{name}_{side}", end, np.zeros(3), self.points[point])
-                    for part, point, end in ((CHASSIS, top, -push), (BEAM, seat, push))
-                ]
-        return loads
+    def forces_along_lines(self) -> dict[str, Array]:
+        """Return the force of each spring and damper, positive when it pushes, (n,) [N]."""
+        return forces_along(self.structure, self.model, self.states, self.inputs)
+
+    def bar_by_torque(self) -> Load:
+        """Return what a unit torque of the anti-roll bar does on the axle: against its roll."""
+        # the line through the wheels points left, and what is forward of it is level
+        forward = road_axes(self.turned[BEAM][:, :, 1])[:, 0]
+        return Load(BEAM, MIDDLE, BAR, np.zeros(3), -forward, self.points[MIDDLE])
 
     def _of_bar(self) -> list[Load]:
         """Return the couple of the anti-roll bar, about the axle's axis forward."""
         if self.axle.anti_roll_bar is None:
             return []
-        # the line through the wheels points left, and what is forward of it is level
-        forward = road_axes(self.turned[BEAM][:, :, 1])[:, 0]
-        couple, at = -self.torque_of_bar()[:, None] * forward, self.points[MIDDLE]
+        unit, torque = self.bar_by_torque(), self.torque_of_bar()[:, None]
         return [
-            Load(part, MIDDLE, BAR, np.zeros(3), sign * couple, at)
+            replace(unit, part=part, moment=sign * torque * unit.moment)
             for part, sign in ((BEAM, 1.0), (CHASSIS, -1.0))
         ]
 

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, ClassVar, Self
 
@@ -13,6 +14,7 @@ from ...core.errors import InputError
 from ...core.vectors import components
 from ..axle.axle import LEFT, RIGHT
 from ..axle.file import Brakes, End
+from ..bushes import Bush, Bushings, bushes_of
 from ..coil_sprung import Spring
 from ..corner import Array
 from ..data import data_sets, find
@@ -25,6 +27,7 @@ from ..input.units import in_metres
 from ..input.vehicle import Gravity, Tyre, Wheel
 from ..places import put
 from ..starter import RIGID_AXLE, RIGID_AXLES
+from ..structure import Structure
 from .file import (
     AxleDamper,
     AxleDrive,
@@ -36,6 +39,7 @@ from .file import (
     RollBar,
 )
 from .rods import Ends, Hold
+from .structure import CENTER, CHASSIS, of_a_file, structure_of
 
 SIDES = (LEFT, RIGHT)
 # A wheel centre nearer to the vehicle's centre plane than this is on neither side [m].
@@ -104,6 +108,9 @@ class RigidAxle(Section):
     bodies: RigidAxleBodies = Field(description="masses and inertia")
     brakes: Brakes = Field(default=Brakes(), description="what holds the torque of the brakes")
     drive: AxleDrive | None = Field(default=None, description="what drives the axle")
+    bushings: Bushings | None = Field(
+        default=None, description="what gives way at hardpoints, for compliance: see Loads"
+    )
 
     def __init__(self, /, **data: Any) -> None:
         try:
@@ -113,6 +120,9 @@ class RigidAxle(Section):
         problems = self._problems_of_points() or self._problems_of_rods() or self._lengths_refused()
         if problems:
             raise InputError(problems)
+        if self.bushings is not None:
+            with Arguments("bushings") as given:
+                self.bushes(given, self.bushings)
 
     # -- making one -----------------------------------------------------------------------------
 
@@ -251,6 +261,37 @@ class RigidAxle(Section):
             return in_metres(self.tyre.radius_mm, "mm")
         height = float(self.center[2])
         return height if height >= _SMALLEST_WHEEL_RADIUS else None
+
+    def structure(self) -> Structure:
+        """Return what holds its parts together."""
+        return structure_of(self.rods)
+
+    def bushes(self, given: Arguments, described: Mapping[str, Any]) -> list[Bush]:
+        """Return bushes as they are described by their hardpoints; see `docs/rigid-axle.md`.
+
+        Parameters
+        ----------
+        given : Arguments
+            Gets what is wrong.
+        described : mapping
+            By the name of a rod with ``_chassis`` or ``_axle`` behind it, and ``wheel_center`` for
+            the bearings of both wheels.
+        """
+        points = {CENTER: self.hardpoints.metres(CENTER)}
+        for name, (inner, outer) in self.ends().items():
+            points |= {f"{name}_{CHASSIS}": inner, f"{name}_axle": outer}
+        spin = -self.wheel.spin_axis(-1.0)
+        found = bushes_of(given, described, of_a_file(self.rods), points, spin)
+        sides = [
+            bush
+            for bearing in found
+            if bearing.point == CENTER
+            for bush in (
+                bearing.mirrored(f"{CENTER}_{LEFT}"),
+                replace(bearing, point=f"{CENTER}_{RIGHT}"),
+            )
+        ]
+        return [*(bush for bush in found if bush.point != CENTER), *sides]
 
     def parameters(self) -> dict[str, float]:
         """Return everything that the equations of motion need, by their names, in SI units."""
