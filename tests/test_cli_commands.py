@@ -330,7 +330,7 @@ def test_topology_needs_no_sympy(kintrafo, monkeypatch):
         (["kinematics", CAR, "--bump", "-4"], 2, "without a sign"),
         (["kinematics", CAR, "--step", "0"], 2, "step"),
         (["kinematics", CAR, "--step", "1e-9"], 2, "larger step"),
-        (["kinematics", CAR, "-o", "curves.xlsx"], 2, "Use .csv"),
+        (["kinematics", CAR, "-o", "curves.ods"], 2, "Use .csv"),
         (["kinematics", CAR, "--plot", "curves.bmp"], 2, ".png"),
         (["kinematics", CAR, "--rack", "900"], 1, "rack"),
         (["kinematics", CAR, "--travel", "x"], 2, "number"),

@@ -107,7 +107,7 @@ def test_csv_is_in_the_units_of_people(tmp_path):
     assert camber == pytest.approx(np.degrees(GRID["camber"].values.ravel()), rel=1e-8, abs=1e-11)
 
 
-@pytest.mark.parametrize("name", ["a.csv", "a.nc", "a.parquet"])
+@pytest.mark.parametrize("name", ["a.csv", "a.nc", "a.parquet", "a.xlsx"])
 def test_same_data_same_bytes(tmp_path, name):
     first = export.write(GRID, tmp_path / "1" / name).read_bytes()
     assert export.write(GRID, tmp_path / "2" / name).read_bytes() == first
@@ -130,7 +130,7 @@ def test_a_file_that_fails_leaves_the_old_one(tmp_path):
 
 def test_unknown_endings_are_refused(tmp_path):
     with pytest.raises(InputError, match=r"Use \.csv"):
-        export.write(LINE, tmp_path / "a.xlsx")
+        export.write(LINE, tmp_path / "a.ods")
     with pytest.raises(InputError, match="no ending"):
         export.write(LINE, tmp_path / "a")
 

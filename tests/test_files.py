@@ -107,7 +107,7 @@ def test_several_are_refused_together(tmp_path):
     assert len(caught.value.problems) == 2
 
 
-@pytest.mark.parametrize("name", ["a.csv", "a.nc", "a.parquet"])
+@pytest.mark.parametrize("name", ["a.csv", "a.nc", "a.parquet", "a.xlsx"])
 def test_data_files(tmp_path, name):
     path = tmp_path / name
     path.write_text("mine")
@@ -256,11 +256,11 @@ def full(tmp_path, monkeypatch):
     return tmp_path
 
 
-NAMES = ("a.csv", "a.nc", "a.parquet", "a.pdf", "a.png", "a.svg", "a.html", "a.toml")
+NAMES = ("a.csv", "a.nc", "a.parquet", "a.xlsx", "a.pdf", "a.png", "a.svg", "a.html", "a.toml")
 
 
 def fill(path):
-    if path.suffix in (".csv", ".nc", ".parquet"):
+    if path.suffix in (".csv", ".nc", ".parquet", ".xlsx"):
         # more than the buffers of all the writers
         many = np.arange(100_000.0)
         export.write(xr.Dataset({"camber": ("wheel_travel", many)}), path)
@@ -311,7 +311,7 @@ def test_legible_texts_stay_what_they_are():
 
 
 @pytest.mark.filterwarnings("ignore:Glyph")  # the font of the figures has no Japanese
-@pytest.mark.parametrize("ending", [*plots.FORMATS, "csv", "nc", "parquet"])
+@pytest.mark.parametrize("ending", [*plots.FORMATS, "csv", "nc", "parquet", "xlsx"])
 def test_strange_names_in_every_format(tmp_path, ending):
     values = np.arange(2.0 * len(STRANGE)).reshape(len(STRANGE), 2)
     family = xr.Dataset(

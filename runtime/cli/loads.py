@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 EXAMPLES = (
     "kintrafo loads reference_car",
     "kintrafo loads my_car.toml --cases cases.toml -o loads.csv",
+    "kintrafo loads my_car.toml --out loads.xlsx",
     "kintrafo loads my_car.toml --case brake --part knuckle --plot knuckle.pdf",
     "kintrafo loads reference_axle --case corner",
     "kintrafo loads rigid_axle --case brake --part beam --plot beam.png",
@@ -90,7 +91,7 @@ def command(
     pages = Outputs.of(None, plot, force=force, inputs=inputs, suffixes=suffixes)
     found = carried(named, static_load=described.get("static_load_N"))
     parts = among(part, [*dict.fromkeys(found["part"].values)], "--part") if part else None
-    written = outputs.write_data(found, rows=study.table(found))
+    written = outputs.write_data(found, rows=study.table(found), sheets=study.workbook(found))
     if pages.pages:
         from ..plots import loads as plots
 

@@ -21,7 +21,7 @@ Out = Annotated[
         "--out",
         "-o",
         metavar="PATH",
-        help="Write the data: .csv (mm, deg), .nc or .parquet (SI). May be repeated.",
+        help="Write the data: .csv or .xlsx (mm, deg), .nc or .parquet (SI). May be repeated.",
         rich_help_panel="Output",
     ),
 ]
@@ -143,16 +143,27 @@ class Outputs:
         return written
 
     def write_data(
-        self, dataset: "Dataset", suffix: str = "", *, rows: "Dataset | None" = None
+        self,
+        dataset: "Dataset",
+        suffix: str = "",
+        *,
+        rows: "Dataset | None" = None,
+        sheets: "Mapping[str, Dataset] | None" = None,
     ) -> list[Path]:
-        """Write the data files alone and return them; formats of rows may have less."""
+        """Write the data files alone and return them.
+
+        Formats of rows may have less, and workbooks sheets of their own.
+        """
         from ..study import export
 
         rule: _Rule = {"force": self.force, "inputs": self.inputs}
         flat = dataset if rows is None else rows
         return [
             export.write(
-                dataset if path.suffix.lower() == ".nc" else flat, _named(path, suffix), **rule
+                dataset if path.suffix.lower() == ".nc" else flat,
+                _named(path, suffix),
+                sheets=sheets,
+                **rule,
             )
             for path in self.data
         ]

@@ -102,7 +102,8 @@ def command(
         list[Path] | None,
         typer.Option(
             metavar="PATH",
-            help="Write the loads on every part: .csv (mm), .nc or .parquet. May be repeated.",
+            help="Write the loads on every part: .csv or .xlsx (mm), .nc or .parquet. "
+            "May be repeated.",
             rich_help_panel="Output",
         ),
     ] = None,
@@ -161,7 +162,7 @@ def command(
         from ..study import loads as study
 
         found = ride.loads(ride.model, result)
-        written += on_parts.write_data(found, rows=study.table(found))
+        written += on_parts.write_data(found, rows=study.table(found), sheets=study.workbook(found))
     left = result.validity
     if json:
         print_json(_summary(result, motion, ride.wheels))

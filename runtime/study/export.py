@@ -1,22 +1,25 @@
-"""Datasets as files: CSV for people, netCDF and Parquet for programs.
+"""Datasets as files: CSV and Excel for people, netCDF and Parquet for programs.
 
-CSV has one line of names with units, such as ``camber [deg]``, and values in the units that people
-read. netCDF and Parquet keep SI units, all digits, and the description of every variable.
+CSV and Excel have one line of names with units, such as ``camber [deg]``, and values in the units
+that people read. netCDF and Parquet keep SI units, all digits, and the description of every
+variable.
 """
 
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from ..core.arguments import Arguments
+from ..core.arguments import Arguments, shown
 from ..core.errors import InputError
 from ..core.files import Paths, replacing
 from ..core.legible import legible
 from ..core.optional import require
 from ..core.quantities import bracketed, display_of
+from . import workbook
 
 # Enough for a micrometre in a kilometre, and still short enough to read.
 _CSV_DIGITS = "%.9g"
@@ -24,10 +27,18 @@ _CSV_DIGITS = "%.9g"
 _FORMULAS = ("=", "+", "-", "@", "\t", "\r")
 # What is smaller than this part of its column is a rounding error, and a zero for people.
 _ROUNDING = 1e-12
+# Names of sheets that Excel opens.
+_SHEET = re.compile(r"[^][:*?/\\'\x00-\x1f]{1,31}")
+_NAMED = "1 to 31 characters are needed, and none of [ ] : * ? / \\ '"
 
 
 def write(
-    dataset: xr.Dataset, path: str | Path, *, force: bool = False, inputs: Paths = ()
+    dataset: xr.Dataset,
+    path: str | Path,
+    *,
+    force: bool = False,
+    inputs: Paths = (),
+    sheets: Mapping[str, xr.Dataset] | None = None,
 ) -> Path:
     """Write a dataset; the ending of the file's name is its format.
 
@@ -36,11 +47,13 @@ def write(
     dataset : xarray.Dataset
         Variables over one dimension or more.
     path : str or pathlib.Path
-        ``.csv``, ``.nc`` (netCDF) or ``.parquet``.
+        ``.csv``, ``.xlsx`` (Excel), ``.nc`` (netCDF) or ``.parquet``.
     force : bool, optional
         Whether a file that somebody else wrote is replaced, see `kintrafo.core.files`.
     inputs : iterable of str or pathlib.Path, optional
         Files that are never replaced.
+    sheets : mapping of str to xarray.Dataset, optional
+        What is on the sheets of an Excel workbook, by their names; by default `dataset` alone.
 
     Returns
     -------
@@ -50,7 +63,8 @@ def write(
     Raises
     ------
     InputError
-        If the ending is not known, or the file must not or cannot be written.
+        If the ending is not known, or the file must not or cannot be written; if a sheet of Excel
+        cannot hold so many rows.
     MissingPackageError
         If the format needs a package that is not installed.
     """
@@ -60,9 +74,19 @@ def write(
             given.refuse("dataset: it has no variables.")
         given.flag("force", force)
         given.paths("inputs", inputs)
-    writer = _WRITERS[check_format(path)]
+        sheets = {"data": dataset} if sheets is None else sheets
+        for name, sheet in given.mapping("sheets", sheets, "names and datasets").items():
+            given.kind(f"sheets[{name!r}]", sheet, xr.Dataset, "an xarray.Dataset is needed")
+            if not _SHEET.fullmatch(str(name)):
+                given.refuse(f"sheets: {shown(name)} is no name of a sheet: {_NAMED}.")
+        if sheets == {}:
+            given.refuse("sheets: one or more are needed.")
+    ending = check_format(path)
     with replacing(path, force=force, inputs=inputs) as temporary:
-        writer(_legible(dataset), temporary)
+        if ending == ".xlsx":
+            _write_excel(sheets, temporary)
+        else:
+            _WRITERS[ending](_legible(dataset), temporary)
     return Path(path)
 
 
@@ -71,12 +95,14 @@ def check_format(path: str | Path) -> str:
     with Arguments("export") as given:
         given.path("path", path)
     ending = Path(path).suffix.lower()
-    if ending not in _WRITERS:
+    if ending not in _FORMATS:
         found = f"{ending} is no format" if ending else "the name has no ending"
-        problem = f"{found} of data files. Use .csv, .nc (netCDF) or .parquet."
+        problem = f"{found} of data files. Use .csv, .xlsx (Excel), .nc (netCDF) or .parquet."
         raise InputError([problem], str(path))
     if ending == ".parquet":
         require("pyarrow.parquet", purpose="Writing Parquet", extra="parquet")
+    if ending == ".xlsx":
+        require("openpyxl", purpose="Writing Excel files", extra="excel")
     return ending
 
 
@@ -113,17 +139,28 @@ def _flat(dataset: xr.Dataset) -> Any:
     return frame[[*dataset.sizes, *scalars, *dataset.data_vars]]
 
 
-def _write_csv(dataset: xr.Dataset, path: Path) -> None:
+def _for_people(dataset: xr.Dataset) -> Any:
+    """Return a data frame in the units that people read, with names that say them."""
     frame = _flat(dataset)
     for name in frame.select_dtypes("number").columns:
         values = frame[name] * display_of(dataset[name].attrs).factor
         greatest = values[np.isfinite(values)].abs().max()
         # what is no number stays none, and what is infinite says nothing about rounding
         frame[name] = values.mask(values.abs() <= _ROUNDING * greatest, 0.0)
+    frame.columns = [bracketed(name, dataset[name].attrs) for name in frame.columns]
+    return frame
+
+
+def _write_csv(dataset: xr.Dataset, path: Path) -> None:
+    frame = _for_people(dataset)
     for name in frame.select_dtypes(exclude="number").columns:
         frame[name] = [_harmless(str(text)) for text in frame[name]]
-    frame.columns = [_harmless(bracketed(name, dataset[name].attrs)) for name in frame.columns]
+    frame.columns = [_harmless(name) for name in frame.columns]
     frame.to_csv(path, index=False, float_format=_CSV_DIGITS, lineterminator="\n")
+
+
+def _write_excel(sheets: Mapping[str, xr.Dataset], path: Path) -> None:
+    workbook.write({name: _for_people(_legible(sheet)) for name, sheet in sheets.items()}, path)
 
 
 def _harmless(text: str) -> str:
@@ -174,3 +211,4 @@ _WRITERS: dict[str, Callable[[xr.Dataset, Path], None]] = {
     ".nc": _write_netcdf,
     ".parquet": _write_parquet,
 }
+_FORMATS = (*_WRITERS, ".xlsx")

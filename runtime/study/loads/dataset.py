@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 import xarray as xr
@@ -20,6 +21,7 @@ Array = NDArray[np.float64]
 CASE, LOAD, AXIS, PART = "case", "load", "axis", "part"
 """Dimensions of the loads."""
 
+_ENDS = "min", "min_case", "max", "max_case"
 _NEEDED = "what kintrafo.loads.static or along returns is needed"
 
 
@@ -227,6 +229,31 @@ def table(dataset: xr.Dataset) -> xr.Dataset:
     if "reason" in dataset:
         columns["reason"] = dataset["reason"]
     return xr.Dataset(columns, attrs=dataset.attrs)
+
+
+def workbook(dataset: xr.Dataset) -> dict[str, xr.Dataset]:
+    """Return loads as the sheets of an Excel workbook, see `kintrafo.export.write`.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        From `static` or `along`.
+
+    Returns
+    -------
+    dict of str to xarray.Dataset
+        ``loads``, as of `table`, and in load cases ``envelope``: a row for each load on each part,
+        with the least and the greatest of every component, and the case in which it is.
+    """
+    found = {"loads": table(dataset)}
+    if CASE not in dataset.dims:
+        return found
+    ends = envelope(dataset)
+    columns = {
+        f"{name}_{axis}_{end}": ends[f"{name}_{end}"].sel({AXIS: axis}, drop=True)
+        for name, axis, end in product(("force", "moment"), "xyz", _ENDS)
+    }
+    return found | {"envelope": xr.Dataset(columns, attrs=ends.attrs)}
 
 
 def _check(given: Arguments, dataset: xr.Dataset, *further: str) -> None:

@@ -37,7 +37,7 @@ STEMS = (
 )  # fmt: skip
 ENDINGS = (
     ".toml", ".toml", ".csv", ".sub", ".nc", ".parquet", ".html", ".json", ".pdf", ".png", ".svg",
-    ".py", "", ".",
+    ".xlsx", ".py", "", ".",
 )  # fmt: skip
 PLACES = ("", "", "", "", "sub/", "missing/", "file/", "link/", "circle/", "/proc/", "../")
 NUMBERS = (
