@@ -5,6 +5,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.elimination import Entries, eliminated
 from ...core.threads import in_one_thread
 
 Array = NDArray[np.float64]
@@ -40,15 +41,54 @@ def balanced(matrix: Array, applied: Array) -> tuple[Array, NDArray[np.bool_]]:
     sound : ndarray of bool, shape (...)
     """
     several = applied.ndim == matrix.ndim
-    vectors = -applied if several else -applied[..., None]
-    # what enlarges any of these enlarges rounding, too
-    probes = np.broadcast_to(_probes(vectors.shape[-2]), (*vectors.shape[:-1], _PROBES))
-    found = _solution(matrix, np.concatenate([vectors, probes], axis=-1))
-    size = np.abs(matrix).sum(-2).max(-1)
-    enlarged = size * np.abs(found[..., -_PROBES:]).max((-2, -1))
-    sound: NDArray[np.bool_] = enlarged < _WORST_CONDITION
-    found[~sound] = np.nan
+    found = _solution(matrix, _with_probes(applied if several else applied[..., None]))
+    sound = _sound(np.abs(matrix).sum(-2).max(-1), found)
     return found[..., :-_PROBES] if several else found[..., 0], sound
+
+
+def balanced_at_many(entries: Entries, applied: Array) -> tuple[Array, NDArray[np.bool_]]:
+    """Return the same as `balanced`, of equations with few entries at many positions.
+
+    Parameters
+    ----------
+    entries : mapping
+        Of the matrix, those that are not zero at all of n positions, each of shape (n,).
+    applied : ndarray, shape (n, m) or (n, m, cases)
+        Loads.
+    """
+    several = applied.ndim == 3
+    right = _with_probes(applied if several else applied[..., None])
+    columns, accurate = eliminated(entries, np.ascontiguousarray(np.moveaxis(right, 0, -1)))
+    found = np.moveaxis(columns, -1, 0)
+    if not accurate.all():
+        found[~accurate] = _solution(dense(entries, right.shape[-2], ~accurate), right[~accurate])
+    sums = np.zeros((right.shape[-2], len(right)))
+    for (_, column), values in entries.items():
+        sums[column] += np.abs(values)
+    sound = _sound(sums.max(axis=0), found)
+    return found[..., :-_PROBES] if several else found[..., 0], sound
+
+
+def dense(entries: Entries, size: int, where: NDArray[np.bool_] | slice = slice(None)) -> Array:
+    """Return matrices, (positions, size, size), of their entries."""
+    count = len(next(iter(entries.values()))[where])
+    matrix = np.zeros((count, size, size))
+    for (row, column), values in entries.items():
+        matrix[:, row, column] = values[where]
+    return matrix
+
+
+def _with_probes(applied: Array) -> Array:
+    """Return right sides, (..., m, cases), and behind them what is enlarged as rounding is."""
+    probes = np.broadcast_to(_probes(applied.shape[-2]), (*applied.shape[:-1], _PROBES))
+    return np.concatenate([-applied, probes], axis=-1)
+
+
+def _sound(size: Array, found: Array) -> NDArray[np.bool_]:
+    """Tell where equations of some norm mean something; elsewhere solutions become no numbers."""
+    sound: NDArray[np.bool_] = size * np.abs(found[..., -_PROBES:]).max((-2, -1)) < _WORST_CONDITION
+    found[~sound] = np.nan
+    return sound
 
 
 @cache

@@ -95,33 +95,27 @@ def dataset_of(over: str, loads: Sequence[Load], places: Mapping[str, Place]) ->
         The parts that are in equilibrium.
     """
     count = max(len(place.center) for place in places.values())
-    fields = {
-        name: _stacked([getattr(load, name) for load in loads], count)
-        for name in ("force", "moment", "at")
-    }
-    still = np.broadcast_to(np.eye(3), (count, 3, 3))
-    turned = np.stack(
-        [places[load.part].turned if load.part in places else still for load in loads], axis=1
-    )
-    dims = (over, LOAD, AXIS)
-    data = {
-        "force": variable(dims, fields["force"], "force on the part, chassis axes", "N"),
-        "moment": variable(dims, fields["moment"], "moment about the point, chassis axes", "N m"),
-        "at": variable(dims, fields["at"], "where it acts, chassis axes", "m"),
-    }
-    for name in ("force", "moment"):
-        inside = np.einsum("nlij,nli->nlj", turned, fields[name])
-        meaning = f"{name} on the part, in the axes that the part had at design"
-        data[f"{name}_in_part"] = variable(dims, inside, meaning, data[name].attrs["units"])
+    fields = {name: _columns(loads, name, count) for name in ("force", "moment", "at")}
     parts = [load.part for load in loads]
     moving = [part for part in places if part in parts]
-    left = [_sum(fields, [p == part for p in parts], places[part].center) for part in moving]
+    rows = {part: [i for i, other in enumerate(parts) if other == part] for part in moving}
+    data = {
+        "force": (fields["force"], "force on the part, chassis axes", "N"),
+        "moment": (fields["moment"], "moment about the point, chassis axes", "N m"),
+        "at": (fields["at"], "where it acts, chassis axes", "m"),
+    }
+    for name in ("force", "moment"):
+        inside = _in_parts(fields[name], {part: places[part].turned for part in moving}, rows)
+        meaning = f"{name} on the part, in the axes that the part had at design"
+        data[f"{name}_in_part"] = (inside, meaning, data[name][2])
+    left = [_sum(fields, rows[part], places[part].center) for part in moving]
+    residuals = {}
     for name, unit, sums in zip(
         ("", "_moment"), ("N", "N m"), zip(*left, strict=True), strict=True
     ):
         meaning = f"what is left of the sum of the {'moments' if name else 'forces'} on a part"
-        sizes = np.linalg.norm(sums, axis=-1).T
-        data[f"residual{name}"] = variable((over, "moving_part"), sizes, meaning, unit)
+        sizes = np.linalg.norm(sums, axis=1)
+        residuals[f"residual{name}"] = variable((over, "moving_part"), sizes.T, meaning, unit)
     coordinates = {
         LOAD: [f"{load.part} at {load.point} by {load.by}" for load in loads],
         PART: (LOAD, parts),
@@ -130,7 +124,11 @@ def dataset_of(over: str, loads: Sequence[Load], places: Mapping[str, Place]) ->
         AXIS: ["x", "y", "z"],
         "moving_part": moving,
     }
-    return xr.Dataset(data, coordinates)
+    described = {
+        name: variable((over, LOAD, AXIS), np.moveaxis(columns, -1, 0), meaning, unit)
+        for name, (columns, meaning, unit) in data.items()
+    }
+    return xr.Dataset(described | residuals, coordinates)
 
 
 def over_cases(
@@ -167,11 +165,11 @@ def refuse_if_none(names: Sequence[str], carried: Sequence[int], reasons: Sequen
         raise InputError(["none of the cases can be carried", *told[:3]], "loads")
 
 
-def _sum(fields: dict[str, Array], rows: list[bool], about: Array) -> tuple[Array, Array]:
-    """Return the sum of some loads, and of their moments about a point, (count, 3)."""
-    force, moment, at = (fields[name][:, rows] for name in ("force", "moment", "at"))
-    turning = moment + cross(at - about[:, None], force)
-    return force.sum(axis=1), turning.sum(axis=1)
+def _sum(fields: dict[str, Array], rows: list[int], about: Array) -> tuple[Array, Array]:
+    """Return the sum of some loads, and of their moments about a point, (3, count)."""
+    force, moment, at = (fields[name][rows] for name in ("force", "moment", "at"))
+    turning = cross(np.moveaxis(at - about.T, 1, -1), np.moveaxis(force, 1, -1))
+    return force.sum(axis=0), moment.sum(axis=0) + turning.sum(axis=0).T
 
 
 def envelope(dataset: xr.Dataset) -> xr.Dataset:
@@ -265,6 +263,20 @@ def _check(given: Arguments, dataset: xr.Dataset, *further: str) -> None:
         given.refuse(f"dataset: {_NEEDED}, over {', '.join((*further, LOAD, AXIS))}.")
 
 
-def _stacked(values: Sequence[Array], count: int) -> Array:
-    """Return vectors behind each other, (count, loads, 3)."""
-    return np.stack([np.broadcast_to(value, (count, 3)) for value in values], axis=1)
+def _columns(loads: Sequence[Load], name: str, count: int) -> Array:
+    """Return a vector of each load by components, (loads, 3, count): so sums run over columns."""
+    found = np.empty((len(loads), 3, count))
+    for columns, load in zip(found, loads, strict=True):
+        columns.T[...] = getattr(load, name)
+    return found
+
+
+def _in_parts(
+    columns: Array, turned: Mapping[str, Array], rows: Mapping[str, Sequence[int]]
+) -> Array:
+    """Return vectors, (loads, 3, count), in the axes that each part had at design."""
+    found = columns.copy()
+    for part, rotation in turned.items():
+        own = np.ascontiguousarray(np.moveaxis(rotation, 0, -1))
+        found[rows[part]] = np.einsum("ijn,lin->ljn", own, columns[rows[part]])
+    return found

@@ -79,9 +79,12 @@ class Twists:
         """
         which = self.bodies.index(body)
         turning, rate = self.twists[:, which, :3], self.rates[:, which]
-        inertia = turned @ tensor @ turned.mT
-        momentum = np.einsum("nij,nj->ni", inertia, turning)
-        moment = np.einsum("nij,nj->ni", inertia, rate[:, :3]) + cross(turning, momentum)
+        momentum, its_rate = (
+            # there and back: the tensor belongs to the axes of the part
+            np.einsum("nij,nj->ni", turned, np.einsum("nji,nj->ni", turned, vector) @ tensor)
+            for vector in (turning, rate[:, :3])
+        )
+        moment = its_rate + cross(turning, momentum)
         return Load(part, "mass", "inertia", -mass * rate[:, 3:], -moment, center)
 
 

@@ -121,7 +121,7 @@ class Poses:
         rotations = model.evaluate("orientations", states, inputs)
         turned = {name: rotations[..., i, :, :] for i, name in enumerate(bodies)}
         axis = turned[model.suspension.carrier] @ design_axis(model.suspension)
-        points = hardpoints(model, states, inputs)
+        points = hardpoints(model, states, inputs, poses=(centers, rotations))
         radius = vehicle(model.suspension).tyre_radius
         if radius is not None:
             points[CONTACT] = lowest_point(points[CENTER], axis, radius)

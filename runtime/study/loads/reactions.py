@@ -10,10 +10,13 @@ from ...core.errors import InputError
 from ...core.vectors import cross
 from ...suspension.corner import UP
 from ...suspension.structure import GROUND, Joint, Line
-from .balance import DEAD_POINT, balanced
+from .balance import DEAD_POINT, balanced, balanced_at_many, dense
 from .poses import CONTACT, Assembled, touching, wrench_about
 
 Array = NDArray[np.float64]
+
+# From so many positions on, one elimination for all of them takes less time than one for each.
+_MANY = 200
 
 
 @dataclass(frozen=True)
@@ -63,9 +66,8 @@ class Equations:
             joint.unit_loads(poses.points, poses.turned, poses.design) for joint in self.joints
         ]
         held = [self.pushed(line) for line in holding] or self._upward()
-        self._matrix = np.concatenate(
-            [self._of_joints(), np.stack([self.applied(loads) for loads in held], axis=-1)], axis=-1
-        )
+        self._size = 6 * len(self.parts)
+        self._entries = self._of_joints() | self._last([self.applied(loads) for loads in held])
 
     def _upward(self) -> list[list[Load]]:
         """Return a vertical force of 1 N on each wheel at its contact, or else at its centre."""
@@ -74,20 +76,32 @@ class Equations:
             for part, wheel in self.poses.wheels.items()
         ]
 
-    def _of_joints(self) -> Array:
-        """Return what a unit of all that the joints carry does, as columns."""
-        count = sum(units.shape[-1] for units in self._units)
-        matrix = np.zeros((*self.poses.states.shape[:-1], 6 * len(self.parts), count))
-        column = 0
+    def _of_joints(self) -> dict[tuple[int, int], Array]:
+        """Return what a unit of what each joint carries does: the entries that are not zero."""
+        found: dict[tuple[int, int], Array] = {}
+        first = 0
         for joint, units in zip(self.joints, self._units, strict=True):
-            columns = slice(column, column + units.shape[-1])
             for i, point in enumerate(joint.at):
+                at_point = np.ascontiguousarray(np.moveaxis(units[:, i], 0, -1))
                 for part, sign in ((joint.second, 1.0), (joint.first, -1.0)):
-                    if part not in GROUND:
-                        moved = _about(self.poses, part, point, units[..., i, :, :])
-                        matrix[..., self._rows[part], columns] += sign * moved
-            column = columns.stop
-        return matrix
+                    if part in GROUND:
+                        continue
+                    moved = sign * _about(self.poses, part, point, at_point)
+                    begin = self._rows[part].start
+                    for row, column in np.argwhere(moved.any(axis=-1)).tolist():
+                        at, values = (begin + row, first + column), moved[row, column]
+                        found[at] = found[at] + values if at in found else values
+            first += units.shape[-1]
+        return found
+
+    def _last(self, held: list[Array]) -> dict[tuple[int, int], Array]:
+        """Return the entries of the last columns, of loads that hold what is loaded."""
+        first = self._size - len(held)
+        return {
+            (int(row), first + place): loads[:, row]
+            for place, loads in enumerate(held)
+            for row in np.flatnonzero(loads.any(axis=0))
+        }
 
     def solve(self, applied: Array) -> Array:
         """Return the unknowns under loads on the parts.
@@ -114,7 +128,9 @@ class Equations:
 
         Where they do not is a dead point: there they are no numbers.
         """
-        return balanced(self._matrix, applied)
+        if len(applied) < _MANY:
+            return balanced(dense(self._entries, self._size), applied)
+        return balanced_at_many(self._entries, applied)
 
     def applied(self, loads: list[Load]) -> Array:
         """Return loads as a vector, (n, 6 parts)."""
@@ -191,8 +207,8 @@ def _on_both(joint: Joint, point: str, wrench: Array, at: Array) -> list[Load]:
 
 
 def _about(poses: Assembled, part: str, point: str, units: Array) -> Array:
-    """Return unit loads at a point as columns of forces and moments about a centre of mass."""
+    """Return unit loads at a point, (6, units, n), as forces and moments about a centre of mass."""
     arm = poses.points[point] - poses.centers[part]
-    forces, moments = units[..., :3, :], units[..., 3:, :]
-    turning = cross(arm[..., None, :], forces.swapaxes(-1, -2)).swapaxes(-1, -2)
-    return np.concatenate([forces, moments + turning], -2)
+    forces, moments = units[:3], units[3:]
+    turning = cross(arm, np.moveaxis(forces, 0, -1))
+    return np.concatenate([forces, moments + np.moveaxis(turning, -1, 0)])
